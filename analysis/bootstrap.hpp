@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+/// Error bars for means over correlated windows: moving blocks of consecutive windows (Kuensch
+/// 1989) and, where there are several, whole runs are drawn with replacement. What is drawn is how
+/// often each window counts, so a statistic made of sums over windows costs one matrix product.
+namespace grseg {
+
+/// Windows per run. A series lists the windows of all runs, one run after the other.
+using RunLengths = std::vector<std::size_t>;
+
+/// How far the windows of a series are from independent.
+struct Dependence {
+  double time = 1;               // integrated autocorrelation time in windows, at least 1
+  std::size_t block = 1;         // windows drawn together
+  double effective_windows = 0;  // (sum b)^2 / sum b^2 of the windows' weights b
+};
+
+/// 1 + 2 sum of the autocorrelation function; each run about its own mean, all runs together. The
+/// larger of the sum up to the first lag >= 5 times the result (Madras & Sokal 1988), corrected for
+/// the subtracted mean (Wolff 2004), and of (1 + rho)/(1 - rho) with rho the correlation of
+/// neighbours, corrected for its bias (Kendall 1954). Never below 1.
+double autocorrelation_time(const Eigen::VectorXd& series, const RunLengths& runs);
+
+/// The block length with the least error of the variance for an AR(1) series of the same
+/// autocorrelation time tau: (sqrt(6) rho/(1 - rho^2))^(2/3) n^(1/3), rho = (tau - 1)/(tau + 1), n
+/// windows per run (Carlstein 1986), at least 1, and short enough to leave two blocks per degree
+/// of freedom.
+std::size_t block_length(double time, const RunLengths& runs);
+
+/// Of `influence`, the windows' shares in the deviation of a statistic (they add up to 0), and
+/// their `weight` in it.
+Dependence dependence(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight,
+                      const RunLengths& runs);
+
+/// Of the two the one that leads to the wider interval.
+Dependence worse(const Dependence& a, const Dependence& b);
+
+/// 95 % interval; NaN where there are too few windows to tell.
+struct Interval {
+  double low, high;
+};
+
+class Bootstrap {
+ public:
+  /// samples = 0: no intervals. The same seed draws the same samples in any order of calls.
+  Bootstrap(RunLengths runs, std::size_t samples, unsigned long seed);
+
+  const RunLengths& runs() const { return runs_; }
+  std::size_t samples() const { return samples_; }
+  std::size_t windows() const;
+
+  /// Row = sample, column = window: how often the window counts when blocks of `length`
+  /// consecutive windows are drawn inside each run.
+  const Eigen::MatrixXd& blocks(std::size_t length) const;
+  /// The same where whole runs are drawn; no rows for a single run.
+  const Eigen::MatrixXd& whole_runs() const;
+
+  /// estimate -+ t SE, where SE^2 is the variance of the statistic over the two kinds of samples,
+  /// each freed of what it is known to miss:
+  ///   blocks: times m/(m - R), m = effective windows/block, R runs, for the means that were
+  ///     fitted; over 1 - (tau - 1/tau)/(2 block), what AR(1) blocks lose at their cuts;
+  ///   runs: times R/(R - 1).
+  /// t is Student's quantile, its degrees of freedom m - R and R - 1 joined after Satterthwaite
+  /// (1946). Runs scatter by what scatters inside them too, so that with several runs the interval
+  /// is rather too wide than too narrow.
+  ///
+  /// How often it holds the truth, for the mean of AR(1) series (1000 series each): 120 windows
+  /// 95 % for rho <= 0.7, 93 % for 0.9; 16 windows 97 % for rho = 0, 92 % for 0.5, 85 % for 0.9;
+  /// four runs 94 to 99 %.
+  Interval interval(double estimate, const Eigen::VectorXd& from_blocks,
+                    const Eigen::VectorXd& from_runs, const Dependence& dependence) const;
+
+ private:
+  RunLengths runs_;
+  std::size_t samples_;
+  unsigned long seed_;
+  mutable std::map<std::size_t, Eigen::MatrixXd> blocks_;
+  mutable Eigen::MatrixXd whole_runs_;
+};
+
+}  // namespace grseg

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/composition.hpp"
+
+#include <numbers>
+
+namespace grseg {
+
+void Composition::add(const Grains& grains, const Frame& frame)
+{
+  ++frames_;
+  const std::size_t count = std::max(sums_.size(), layers_.count(grains, frame));
+  sums_.resize(count);
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    const auto species = static_cast<std::size_t>(grains.species[g]);
+    const double y = frame.position[g].y(), radius = grains.radius[g];
+    if (rule_ == GrainArea::centre)
+      sums_[layers_.at(y)][species] += std::numbers::pi * radius * radius;
+    else
+      layers_.share_disc(y, radius, count,
+                         [&](std::size_t n, double area) { sums_[n][species] += area; });
+  }
+}
+
+Composition::Areas Composition::mean(std::size_t layer) const
+{
+  const auto frames = static_cast<double>(frames_);
+  return {sums_[layer][0] / frames, sums_[layer][1] / frames};
+}
+
+Composition::Areas Composition::mean() const
+{
+  Areas all;
+  for (std::size_t n = 0; n < layers(); ++n) {
+    all.small += mean(n).small;
+    all.large += mean(n).large;
+  }
+  return all;
+}
+
+}  // namespace grseg

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit_report.hpp"
+
+#include "formats/table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace grseg {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string rule_name(const FitReport& report, const RuleFit& fit)
+{
+  return report.quantity == Quantity::kinetic ? "kinetic" : fit.rule.name();
+}
+
+const char* word(Quantity quantity)
+{
+  return quantity == Quantity::contact ? "contact" : "kinetic";
+}
+const char* word(Component component)
+{
+  return component == Component::yy ? "yy" : "pressure";
+}
+
+std::string header_lines(const FitReport& report)
+{
+  std::string text;
+  for (const auto& [key, value] : report.header) text += fmt::format("# {}: {}\n", key, value);
+  for (const auto& input : report.inputs) text += fmt::format("# input: {}\n", input);
+  for (const auto& line : report.history) text += fmt::format("# history: {}\n", line);
+  return text;
+}
+
+std::string row(const std::vector<double>& numbers)
+{
+  std::vector<std::string> cells;
+  for (const double number : numbers) cells.push_back(format_number(number));
+  return fmt::format("{}\n", fmt::join(cells, "\t"));
+}
+
+std::string rule_table(const FitReport& report)
+{
+  std::string text = "rule\tpoints";
+  for (const auto& [name, place] : estimator_names)
+    text += fmt::format("\t{0}\t{0}_low\t{0}_high", name);
+  text +=
+      "\tneutral\tminus_size\tminus_size_low\tminus_size_high\tnot_positive"
+      "\tautocorrelation_time[windows]\tblock_length[windows]\teffective_windows\n";
+  for (const auto& fit : report.rules) {
+    std::vector<double> numbers{static_cast<double>(fit.points)};
+    for (const auto& [name, place] : estimator_names)
+      numbers.insert(numbers.end(), {fit.value.*place, fit.low.*place, fit.high.*place});
+    numbers.insert(
+        numbers.end(),
+        {fit.neutral, fit.minus_size, fit.minus_size_interval.low, fit.minus_size_interval.high,
+         static_cast<double>(fit.not_positive), fit.dependence.time,
+         static_cast<double>(fit.dependence.block), fit.dependence.effective_windows});
+    text += rule_name(report, fit) + '\t' + row(numbers);
+  }
+  return text;
+}
+
+std::string scan_table(const PartitionScan& scan)
+{
+  std::string text;
+  for (const auto& [key, value] : {std::pair{"p_zero", scan.p_zero},
+                                   {"p_zero_low", scan.p_low},
+                                   {"p_zero_high", scan.p_high},
+                                   {"dB_dp", scan.dB_dp}})
+    text += fmt::format("# {}: {}\n", key, format_number(value));
+  text += "p\tB\tlow\thigh\tB_direct\tB_direct_low\tB_direct_high\tneutral\n";
+  for (const auto& fit : scan.fits)
+    text += row({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half,
+                 fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral});
+  return text;
+}
+
+Json rule_object(const FitReport& report, const RuleFit& fit)
+{
+  Json estimators = Json::object();
+  for (const auto& [name, place] : estimator_names)
+    estimators[name] = {{"value", fit.value.*place},
+                        {"interval", {fit.low.*place, fit.high.*place}}};
+  return {{"rule", rule_name(report, fit)},
+          {"component", word(report.component)},
+          {"quantity", word(report.quantity)},
+          {"slope", fit.value.slope},
+          {"slope_interval", {fit.low.slope, fit.high.slope}},
+          {"exponent", fit.value.exponent},
+          {"B_half", fit.value.B_half},
+          {"B_mean", fit.value.B_mean},
+          {"B_direct", fit.value.B_direct},
+          {"B_interval", {fit.low.B_half, fit.high.B_half}},
+          {"neutral", fit.neutral},
+          {"minus_size", fit.minus_size},
+          {"minus_size_interval", {fit.minus_size_interval.low, fit.minus_size_interval.high}},
+          {"points", fit.points},
+          {"not_positive", fit.not_positive},
+          {"autocorrelation_time", fit.dependence.time},
+          {"block_length", fit.dependence.block},
+          {"effective_windows", fit.dependence.effective_windows},
+          {"estimators", estimators}};
+}
+
+}  // namespace
+
+std::string to_tsv(const FitReport& report)
+{
+  return header_lines(report) + (report.scan ? scan_table(*report.scan) : rule_table(report));
+}
+
+std::string to_json(const FitReport& report)
+{
+  Json all;
+  all["rules"] = Json::array();
+  for (const auto& fit : report.rules) all["rules"].push_back(rule_object(report, fit));
+  if (report.scan) {
+    all["scan"] = Json::array();
+    for (const auto& fit : report.scan->fits)
+      all["scan"].push_back(
+          Json::array({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half}));
+    all["p_zero"] = report.scan->p_zero;
+    all["p_zero_interval"] = {report.scan->p_low, report.scan->p_high};
+    all["dB_dp"] = report.scan->dB_dp;
+  }
+  for (const auto& [key, value] : report.header) all["settings"][key] = value;
+  all["inputs"] = report.inputs;
+  all["history"] = report.history;
+  return all.dump(2) + '\n';
+}
+
+}  // namespace grseg

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frame_loop.hpp"
+
+#include "formats/digest.hpp"
+#include "formats/errors.hpp"
+#include "formats/length.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+std::string the_run(const po::variables_map& values)
+{
+  if (values.count("input") == 0)
+    throw UsageError("no run given; name a trajectory file, e.g. run.h5");
+  const auto& inputs = values["input"].as<std::vector<std::string>>();
+  if (inputs.size() != 1)
+    throw UsageError(fmt::format("{} runs given; one table is made of one run", inputs.size()));
+  return inputs[0];
+}
+
+Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
+{
+  const LengthUnits units{run.small_diameter(), run.large_diameter()};
+  return {parse_length(options.layer, "--layer", units), run.box().length_x};
+}
+
+RunTimes times_of(const TrajectoryReader& run)
+{
+  const auto& numbers = run.parameters().numbers;
+  const auto interval = numbers.find("frame_interval");
+  const bool known = interval != numbers.end() && interval->second.size() == 1;
+  return {run.steps(), run.step(), known ? interval->second[0] : 0};
+}
+
+}  // namespace
+
+void FrameOptions::add_to(po::options_description& options)
+{
+  const auto time = [](std::optional<double>& place) {
+    return po::value<double>()->value_name("s")->notifier([&place](double t) { place = t; });
+  };
+  options.add_options()("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
+                        "thickness of the layers: 4dS, 2dL, 20mm, or metres");
+  options.add_options()("window",
+                        po::value(&windows.length)->default_value(windows.length)->value_name("s"),
+                        "time that is averaged over; windows that the run does not fill are left "
+                        "out");
+  options.add_options()("begin", time(windows.begin), "first window begins here (default: t = 0)");
+  options.add_options()("end", time(windows.end), "no window ends after this (default: the run)");
+  options.add_options()("stride", po::value(&windows.stride)->default_value(1)->value_name("N"),
+                        "use one frame in N");
+  options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
+  options.add_options()("output,o", po::value(&output)->value_name("FILE"),
+                        "instead of standard output");
+}
+
+std::size_t choose(const std::string& word, const char* option,
+                   const std::vector<std::string>& words)
+{
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end())
+    throw UsageError(fmt::format("{}: there is no '{}'; it is one of: {}", option, word,
+                                 fmt::join(words, ", ")));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
+                     const FrameOptions& options)
+    : info_(info),
+      options_(options),
+      run_(the_run(values)),
+      layers_(layers_of(run_, options)),
+      windows_(cut_into_windows(times_of(run_), options.windows)),
+      progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
+{
+}
+
+FrameLoop::~FrameLoop()
+{
+  if (progress_) fmt::print(stderr, "\r\033[K");
+}
+
+void FrameLoop::report_progress(const Window& window)
+{
+  if (!progress_) return;
+  fmt::print(stderr, "\r{}: {} of {} windows", info_.name, &window - windows_.data() + 1,
+             windows_.size());
+  std::fflush(stderr);
+}
+
+Table FrameLoop::make_table(const std::string& command,
+                            const std::vector<std::pair<std::string, std::string>>& settings,
+                            const std::vector<std::string>& columns) const
+{
+  Table table;
+  auto& header = table.header;
+  header.emplace_back("program", fmt::format("{} {}", info_.name, version()));
+  std::istringstream history(run_.parameters().text("history"));
+  for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
+  header.emplace_back("history", command);
+  header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run_.digest())));
+
+  const auto& first = windows_.front();
+  for (const auto& [key, value] : {std::pair{"small_diameter", run_.small_diameter()},
+                                   {"large_diameter", run_.large_diameter()},
+                                   {"gravity_x", run_.gravity().x()},
+                                   {"gravity_y", run_.gravity().y()},
+                                   {"step", run_.step()},
+                                   {"length", layers_.length()},
+                                   {"layer", layers_.thickness()},
+                                   {"window", first.end - first.begin},
+                                   {"stride", static_cast<double>(options_.windows.stride)}})
+    header.emplace_back(key, format_number(value));
+  const auto origin = run_.parameters().text("origin");
+  header.emplace_back("origin", origin.empty() ? "unknown" : origin);
+  header.insert(header.end(), settings.begin(), settings.end());
+
+  table.columns = {"t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames", "V[m^2]"};
+  table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+  return table;
+}
+
+std::vector<double> FrameLoop::row(const Window& window, std::size_t layer,
+                                   const std::vector<double>& values) const
+{
+  std::vector<double> row{window.begin,
+                          window.end,
+                          layers_.bottom(layer),
+                          layers_.top(layer),
+                          static_cast<double>(window.frames.size()),
+                          layers_.volume()};
+  row.insert(row.end(), values.begin(), values.end());
+  return row;
+}
+
+std::vector<double> FrameLoop::bed_row(const Window& window, double height,
+                                       const std::vector<double>& values) const
+{
+  auto whole = row(window, 0, values);
+  whole[2] = whole[3] = std::numeric_limits<double>::quiet_NaN();
+  whole[5] = layers_.length() * height;
+  return whole;
+}
+
+void FrameLoop::write(const Table& table) const
+{
+  write_whole(options_.output, table.to_text());
+}
+
+}  // namespace grseg

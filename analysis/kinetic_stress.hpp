@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/layers.hpp"
+#include "analysis/mean_velocity.hpp"
+#include "formats/frame.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// Kinetic stress by layer and species, sigma^kappa = (1/V) sum m dv (x) dv (Staron & Phillips
+/// 2015, kinetic stress), dv = velocity less the mean velocity at the grain's own height. A grain
+/// is booked, whole, in the layer of its centre. J, not divided by V, means per frame.
+///
+/// All frames of a window are added twice: first to the mean flow, then to the fluctuations.
+class KineticStress {
+ public:
+  /// Of one species in one layer.
+  struct Mean {
+    double mass = 0;                    // kg
+    Tensor2 kinetic = Tensor2::Zero();  // J, sum m dv (x) dv, without a factor 1/2
+    double rotational = 0;              // J, sum m r^2/2 dw^2, likewise; w is the spin
+  };
+  /// Of all mobile grains in one layer, weighted by mass; NaN where there are none.
+  struct Flow {
+    double u, v;   // m/s
+    double du_dy;  // 1/s, slope of the least-squares line u(y); NaN for less than two heights
+  };
+
+  /// Bins of the profile no thicker than `bin`, m.
+  KineticStress(const Layers& layers, MeanFlow flow, double bin);
+
+  void add_to_mean(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame& frame);
+
+  std::size_t layers() const { return sums_.size(); }
+  Mean mean(std::size_t layer, Species species) const;
+  Flow flow(std::size_t layer) const;
+
+  /// The columns of grseg-kinetic from mass_S on, and a layer's numbers under them.
+  static std::vector<std::string> columns();
+  std::vector<double> row(std::size_t layer) const;
+
+ private:
+  struct Sums {
+    std::array<Mean, 2> species;
+    double mass = 0, my = 0, myy = 0, mu = 0, mv = 0, muy = 0;  // y from the layer's bottom
+  };
+
+  Layers layers_;
+  MeanVelocity mean_velocity_;
+  bool mean_is_known_ = false;
+  std::size_t frames_ = 0;
+  std::vector<Sums> sums_;
+};
+
+}  // namespace grseg

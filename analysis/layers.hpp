@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/frame.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace grseg {
+
+/// Whether a grain belongs to the flow: boundary grains are in the file, but not in phi.
+inline bool is_mobile(const Grains& grains, std::size_t grain)
+{
+  return grains.fixed[grain] == 0 && grains.species[grain] != Species::boundary;
+}
+
+/// Area (m^2) of the part of a disc that lies below a line `height` (m) above its centre; exact,
+/// 0 below the disc and pi r^2 above it.
+double disc_area_below(double radius, double height);
+
+/// Layers parallel to the base: layer n is [n h, (n+1) h), of volume V = Lx h. The first also takes
+/// all that is below y = 0, and the last all that is above it. There are as many as the highest
+/// mobile grain reaches; the last one keeps its full thickness and volume.
+class Layers {
+ public:
+  /// Thickness h and length Lx of the cell, m. UsageError unless both are positive.
+  Layers(double thickness, double length);
+
+  double thickness() const { return thickness_; }
+  double volume() const { return thickness_ * length_; }  // m^2
+  double length() const { return length_; }               // m
+  // Multiplying, not adding up: edges are the same in every tool and stay exact.
+  double bottom(std::size_t layer) const { return static_cast<double>(layer) * thickness_; }
+  double top(std::size_t layer) const { return bottom(layer + 1); }
+
+  /// The layer that holds the height y, m.
+  std::size_t at(double y) const;
+  /// Layers up to the top of the highest mobile grain, at least 1. RunError where that would be
+  /// more than a bed can have, which means that a grain is lost.
+  std::size_t count(const Grains& grains, const Frame& frame) const;
+
+  /// Calls book(layer, share) with the shares of its length that a straight segment between two
+  /// heights has in each of `count` layers; the shares add up to 1.
+  template <class Book>
+  void share_segment(double from, double to, std::size_t count, const Book& book) const;
+
+  /// Calls book(layer, area) with the areas (m^2) that a disc has in each of `count` layers; they
+  /// add up to pi r^2.
+  template <class Book>
+  void share_disc(double y, double radius, std::size_t count, const Book& book) const;
+
+ private:
+  double thickness_, length_;
+};
+
+template <class Book>
+void Layers::share_segment(double from, double to, std::size_t count, const Book& book) const
+{
+  const double low = std::min(from, to), high = std::max(from, to);
+  const std::size_t first = std::min(at(low), count - 1), last = std::min(at(high), count - 1);
+  if (first == last) {
+    book(first, 1.0);
+    return;
+  }
+  for (std::size_t n = first; n <= last; ++n) {
+    const double begin = n == first ? low : bottom(n);
+    const double end = n == last ? high : top(n);
+    book(n, (end - begin) / (high - low));
+  }
+}
+
+template <class Book>
+void Layers::share_disc(double y, double radius, std::size_t count, const Book& book) const
+{
+  const std::size_t first = std::min(at(y - radius), count - 1);
+  const std::size_t last = std::min(at(y + radius), count - 1);
+  double below = 0;
+  for (std::size_t n = first; n <= last; ++n) {
+    const double up_to_here = disc_area_below(radius, n == last ? radius : top(n) - y);
+    book(n, up_to_here - below);
+    below = up_to_here;
+  }
+}
+
+}  // namespace grseg

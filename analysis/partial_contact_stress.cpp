@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/partial_contact_stress.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+struct TensorColumn {
+  const char* name;
+  Tensor2 ContactSums::*member;
+};
+
+constexpr std::array<TensorColumn, 9> tensor_columns{{{"A_SS", &ContactSums::ss},
+                                                      {"A_LL", &ContactSums::ll},
+                                                      {"M", &ContactSums::mixed},
+                                                      {"Msize", &ContactSums::mixed_size},
+                                                      {"Mcp", &ContactSums::mixed_contact},
+                                                      {"A_Sb", &ContactSums::base_small},
+                                                      {"A_Lb", &ContactSums::base_large},
+                                                      {"F_Sb", &ContactSums::whole_small},
+                                                      {"F_Lb", &ContactSums::whole_large}}};
+
+void append_names(std::vector<std::string>& names, const std::string& tensor)
+{
+  for (const char* component : {"xx", "xy", "yx", "yy"})
+    names.push_back(fmt::format("{}_{}[N m]", tensor, component));
+}
+
+void append(std::vector<double>& row, const Tensor2& t)
+{
+  row.insert(row.end(), {t(0, 0), t(0, 1), t(1, 0), t(1, 1)});
+}
+
+}  // namespace
+
+PartialContactStress::PartialContactStress(const Layers& layers, Assignment assignment,
+                                           std::optional<double> power)
+    : layers_(layers), assignment_(assignment), power_(power)
+{
+}
+
+void PartialContactStress::book(Part part, const Contact& contact, const Stretch& stretch)
+{
+  if (assignment_ == Assignment::contact_point) {
+    sums_[contact.layer].tensor[part] += stretch.weight * contact.stress;
+  } else if (assignment_ == Assignment::grain) {
+    const std::size_t layer = std::min(layers_.at(stretch.from), sums_.size() - 1);
+    sums_[layer].tensor[part] += stretch.weight * contact.stress;
+  } else {
+    layers_.share_segment(stretch.from, stretch.to, sums_.size(),
+                          [&](std::size_t layer, double share) {
+                            sums_[layer].tensor[part] += share * stretch.weight * contact.stress;
+                          });
+  }
+}
+
+void PartialContactStress::add_equal(Part part, const Contact& contact, double y_i, double y_j,
+                                     double share_i)
+{
+  if (assignment_ != Assignment::grain) return book(part, contact, {y_i, y_j, 1});
+  book(part, contact, {y_i, y_j, share_i});
+  book(part, contact, {y_j, y_i, 1 - share_i});
+}
+
+void PartialContactStress::add_mixed(const Contact& contact, double y_large, double y_small,
+                                     double by_size, double by_contact)
+{
+  const auto along = [&](double share) { return y_large + share * (y_small - y_large); };
+  book(Msize, contact, {y_large, along(by_size), by_size});
+  book(Mcp, contact, {y_large, along(by_contact), by_contact});
+  if (assignment_ != Assignment::grain) return book(M, contact, {y_large, y_small, 1});
+  book(M, contact, {y_large, y_small, by_size});
+  book(M, contact, {y_small, y_large, 1 - by_size});
+  book(ML, contact, {y_large, y_small, 1});
+  book(MS, contact, {y_small, y_large, 1});
+}
+
+void PartialContactStress::add(const Grains& grains, const Frame& frame)
+{
+  ++frames_;
+  sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));
+  const auto& list = frame.contacts;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Vec2& force = list.force[k];
+    if (force.x() == 0 && force.y() == 0) continue;
+    const auto type = pair_type(grains, frame, k);
+    const auto i = static_cast<std::size_t>(list.i[k]);
+    const double share_i = share_of_first(grains, list, k);
+    const double y_i = frame.position[i].y(), y_j = y_i - list.branch[k].y();
+    const double y_contact = y_i - share_i * list.branch[k].y();
+    const Contact contact{force * list.branch[k].transpose(),
+                          std::min(layers_.at(y_contact), sums_.size() - 1)};
+    sums_[contact.layer].contacts[static_cast<std::size_t>(type)] += 1;
+
+    if (type == PairType::SS || type == PairType::LL) {
+      add_equal(type == PairType::SS ? A_SS : A_LL, contact, y_i, y_j, share_i);
+    } else if (type == PairType::LS) {
+      const bool i_large = grains.species[i] == Species::large;
+      const double r_i = grains.radius[i], r_j = grains.radius[static_cast<std::size_t>(list.j[k])];
+      const double r_large = i_large ? r_i : r_j, r_small = i_large ? r_j : r_i;
+      const double y_large = i_large ? y_i : y_j, y_small = i_large ? y_j : y_i;
+      add_mixed(contact, y_large, y_small, r_large / (r_large + r_small),
+                i_large ? share_i : 1 - share_i);
+      if (power_)
+        book(Mpower, contact, {y_large, y_small, 1 / (1 + std::pow(r_small / r_large, *power_))});
+    } else {
+      const bool large = type == PairType::Lb;
+      book(large ? A_Lb : A_Sb, contact, {y_i, y_contact, share_i});
+      book(large ? F_Lb : F_Sb, contact, {y_i, y_j, 1});
+    }
+  }
+}
+
+PartialContactStress::Mean PartialContactStress::mean(std::size_t layer) const
+{
+  const auto& sums = sums_[layer];
+  const auto frames = static_cast<double>(frames_);
+  Mean mean;
+  for (std::size_t type = 0; type < pair_types; ++type)
+    mean.contacts[type] = sums.contacts[type] / frames;
+  mean.sums.ss = sums.tensor[A_SS] / frames;
+  mean.sums.ll = sums.tensor[A_LL] / frames;
+  mean.sums.mixed = sums.tensor[M] / frames;
+  mean.sums.mixed_size = sums.tensor[Msize] / frames;
+  mean.sums.mixed_contact = sums.tensor[Mcp] / frames;
+  mean.sums.mixed_power = sums.tensor[Mpower] / frames;
+  mean.sums.base_small = sums.tensor[A_Sb] / frames;
+  mean.sums.base_large = sums.tensor[A_Lb] / frames;
+  mean.sums.whole_small = sums.tensor[F_Sb] / frames;
+  mean.sums.whole_large = sums.tensor[F_Lb] / frames;
+  mean.mixed_at_large = sums.tensor[ML] / frames;
+  mean.mixed_at_small = sums.tensor[MS] / frames;
+  return mean;
+}
+
+std::vector<std::string> PartialContactStress::columns() const
+{
+  std::vector<std::string> names;
+  for (const char* type : pair_type_names) names.push_back(fmt::format("n_{}", type));
+  for (const auto& column : tensor_columns) append_names(names, column.name);
+  if (assignment_ == Assignment::grain) {
+    append_names(names, "ML");
+    append_names(names, "MS");
+  }
+  if (power_) append_names(names, "Mpower");
+  return names;
+}
+
+std::vector<double> PartialContactStress::row(std::size_t layer) const
+{
+  const auto mean_here = mean(layer);
+  std::vector<double> row(mean_here.contacts.begin(), mean_here.contacts.end());
+  for (const auto& column : tensor_columns) append(row, mean_here.sums.*column.member);
+  if (assignment_ == Assignment::grain) {
+    append(row, mean_here.mixed_at_large);
+    append(row, mean_here.mixed_at_small);
+  }
+  if (power_) append(row, mean_here.sums.mixed_power);
+  return row;
+}
+
+}  // namespace grseg

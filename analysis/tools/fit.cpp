@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit_data.hpp"
+#include "analysis/fit_report.hpp"
+#include "analysis/partition.hpp"
+#include "analysis/partition_scan.hpp"
+#include "analysis/segregation_fit.hpp"
+#include "formats/errors.hpp"
+#include "formats/table.hpp"
+#include "formats/tool.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <vector>
+
+using namespace grseg;
+
+namespace {
+
+constexpr ToolInfo info{
+    "grseg-fit", "the segregation strength B, with its interval, from tables of sums.",
+    "grseg-fit sums.tsv ... | - [options]",
+    "  grseg-fit sums.tsv                               B by size, the default\n"
+    "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
+    "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
+    "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
+    "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n"};
+
+struct Settings {
+  std::vector<std::string> partition;
+  std::string component, quantity, base, scan, ratio_range, preset, output;
+  int bootstrap = 0;
+  long seed = 0;
+  FitFilters filters;
+};
+
+po::options_description options_into(Settings& s)
+{
+  po::options_description options("Options");
+  const auto text = [](std::string& place, const char* name) {
+    return po::value(&place)->value_name(name);
+  };
+  const auto number = [](auto& place, const char* name) {
+    return po::value(&place)->value_name(name);
+  };
+  auto add = options.add_options();
+  add("partition", po::value(&s.partition)->composing()->value_name("RULE,..."),
+      "share of a mixed contact that goes to its large grain: size (default), contact-point, half, "
+      "drop, uniform:P or power:Q; several give a row each");
+  add("component", text(s.component, "NAME")->default_value("yy"),
+      "yy or pressure (half the trace)");
+  add("quantity", text(s.quantity, "NAME")->default_value("contact"), "contact or kinetic stress");
+  add("base", text(s.base, "NAME"),
+      "part of contacts with base and walls: contact-point, half or none (default: what the table "
+      "says)");
+  add("scan", text(s.scan, "p0:p1:dp"), "print B over the share p instead of the rules");
+  add("bootstrap", number(s.bootstrap, "N")->default_value(1000),
+      "samples for the 95 % intervals; 0: no intervals");
+  add("seed", number(s.seed, "N")->default_value(1), "seed of the samples");
+  add("ratio-range", text(s.ratio_range, "a:b")->default_value("0.01:100"),
+      "phi_S/phi_L of the layers that take part");
+  add("min-solid", number(s.filters.min_solid, "X")->default_value(0.5, "0.5"),
+      "least solid fraction of a layer, in units of the run's median");
+  add("begin", number(s.filters.begin, "s"), "first time of the windows that take part");
+  add("end", number(s.filters.end, "s"), "last time of the windows that take part");
+  add("preset", text(s.preset, "NAME"),
+      "paper (the nominal two thirds, uniform:0.66667) or rigorous (size)");
+  add("json", "print JSON instead of a table");
+  add("quiet", "no remarks on standard error");
+  add("output,o", text(s.output, "FILE"), "write there instead of to standard output");
+  return options;
+}
+
+/// One of two words, or a sentence that names both.
+bool is_second(const std::string& word, const char* option, const char* first, const char* second)
+{
+  if (word != first && word != second)
+    throw UsageError(
+        fmt::format("--{}: there is no '{}'; it is {} or {}", option, word, first, second));
+  return word == second;
+}
+
+void parse_ratio_range(const std::string& text, FitFilters& filters)
+{
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%lf:%lf%n", &filters.ratio_low, &filters.ratio_high, &used) != 2 ||
+      static_cast<std::size_t>(used) != text.size() ||
+      !(filters.ratio_low > 0 && filters.ratio_low <= filters.ratio_high))
+    throw UsageError(
+        fmt::format("--ratio-range {}: write low:high, 0 < low <= high, e.g. 0.01:100", text));
+}
+
+/// Refuses what cannot be meant, before any table is read.
+void check(const Settings& s, const po::variables_map& values)
+{
+  if (!values.contains("input"))
+    throw UsageError("no table given; name tables of grseg-stress, or - for standard input");
+  const auto& inputs = values["input"].as<std::vector<std::string>>();
+  if (std::count(inputs.begin(), inputs.end(), "-") > 1)
+    throw UsageError("standard input, -, can be read only once");
+  if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))
+    throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", s.bootstrap));
+  if (s.seed < 0) throw UsageError("--seed must not be negative");
+  if (std::isnan(s.filters.begin) || std::isnan(s.filters.end))
+    throw UsageError("--begin and --end are times in seconds");
+  if (!(s.filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
+  parse_rules(s.partition);
+  if (!s.scan.empty()) parse_scan(s.scan);
+  if (!s.preset.empty()) is_second(s.preset, "preset", "paper", "rigorous");
+  if (s.quantity == "kinetic")
+    for (const char* option : {"partition", "scan", "base"})
+      if (values.contains(option))
+        throw UsageError(
+            fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));
+}
+
+std::string header_or(const Table& table, const std::string& key, const std::string& otherwise)
+{
+  for (const auto& [known, value] : table.header)
+    if (known == key) return value;
+  return otherwise;
+}
+
+std::vector<PartitionRule> rules_of(const Settings& s, const Table& first)
+{
+  if (!s.partition.empty()) return parse_rules(s.partition);
+  if (s.preset == "paper") return {parse_rule("uniform:0.66667")};
+  if (s.preset == "rigorous" || s.quantity == "kinetic") return {PartitionRule{}};
+  return {parse_rule(header_or(first, "partition", "size"))};
+}
+
+void collect(const std::vector<Table>& tables, const char* key, std::vector<std::string>& lines)
+{
+  for (const auto& table : tables)
+    for (const auto& [known, value] : table.header)
+      if (known == key && std::find(lines.begin(), lines.end(), value) == lines.end())
+        lines.push_back(value);
+}
+
+/// Says on standard error what a reader of the numbers should know.
+void remark(const std::vector<Table>& tables, const FitReport& report, bool bootstrap)
+{
+  for (const char* key : {"assign", "layer", "window", "base", "partition", "step"})
+    for (const auto& table : tables)
+      if (header_or(table, key, "") != header_or(tables[0], key, ""))
+        std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name, tables[0].name,
+                                 table.name, key);
+  for (const auto& fit : report.rules)
+    if (bootstrap && std::isnan(fit.low.slope))
+      std::cerr << fmt::format("{}: {}: too few windows for an interval ({:.3g} effective ones)\n",
+                               info.name, fit.rule.name(), fit.dependence.effective_windows);
+}
+
+FitReport make_report(const Settings& s, const std::vector<Table>& tables)
+{
+  const auto base = s.base.empty() ? header_or(tables[0], "base", "contact-point") : s.base;
+  FitReport report;
+  report.quantity = is_second(s.quantity, "quantity", "contact", "kinetic") ? Quantity::kinetic
+                                                                            : Quantity::contact;
+  report.component =
+      is_second(s.component, "component", "yy", "pressure") ? Component::pressure : Component::yy;
+  const FitSettings settings{report.component, parse_base(base)};
+  const auto rules = rules_of(s, tables[0]);
+  const auto data = read_fit_data(tables, report.quantity, s.filters, rules);
+  const Bootstrap bootstrap(data.runs, static_cast<std::size_t>(s.bootstrap),
+                            static_cast<unsigned long>(s.seed));
+  for (const auto& rule : rules) report.rules.push_back(fit_rule(data, rule, settings, bootstrap));
+  if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
+
+  report.header = {{"program", fmt::format("grseg-fit {}", version())},
+                   {"quantity", s.quantity},
+                   {"component", s.component},
+                   {"ratio_range", s.ratio_range},
+                   {"min_solid", format_number(s.filters.min_solid)},
+                   {"rows", data.count.sentence()},
+                   {"runs", fmt::format("{}", data.runs.size())},
+                   {"windows", fmt::format("{}", bootstrap.windows())},
+                   {"bootstrap", fmt::format("{}", s.bootstrap)},
+                   {"seed", fmt::format("{}", s.seed)},
+                   {"interval", "95 %"}};
+  if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
+  collect(tables, "input", report.inputs);
+  collect(tables, "history", report.history);
+  return report;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Settings settings;
+  const auto options = options_into(settings);
+  return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
+    check(settings, values);
+    parse_ratio_range(settings.ratio_range, settings.filters);
+    std::vector<Table> tables;
+    for (const auto& path : values["input"].as<std::vector<std::string>>())
+      tables.push_back(Table::read(path));
+
+    auto report = make_report(settings, tables);
+    report.history.push_back(command_line(argc, argv));
+    if (!values.contains("quiet")) remark(tables, report, settings.bootstrap > 0);
+    write_whole(settings.output, values.contains("json") ? to_json(report) : to_tsv(report));
+  });
+}

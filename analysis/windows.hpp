@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace grseg {
+
+/// Frames that are averaged together.
+struct Window {
+  double begin = 0, end = 0;        // s
+  std::vector<std::size_t> frames;  // numbers of the frames in the file, never empty
+};
+
+/// What part of a run is cut into windows, and how.
+struct WindowSettings {
+  double length = 1.25;              // s
+  std::optional<double> begin = {};  // s; by default t = 0, or the first frame if that is later
+  std::optional<double> end = {};    // s; by default the end of the run
+  int stride = 1;                    // use one frame in `stride`
+};
+
+/// The times of a run as its file has them.
+struct RunTimes {
+  std::vector<std::int64_t> steps;  // of the frames, increasing
+  double step = 0;                  // s
+  double frame_interval = 0;        // s, used where there is a single frame only; 0: unknown
+};
+
+/// Window n holds the frames with n W <= t - begin < (n+1) W. Times are compared in whole steps, so
+/// that no rounding moves a frame into the next window; a length W that is no whole number of steps
+/// is rounded to one. Windows that the run does not fill, mostly the last, are dropped: frame k
+/// stands for the time up to frame k+1. RunError where nothing is left, UsageError where a window
+/// would be shorter than the time between the frames that are used.
+std::vector<Window> cut_into_windows(const RunTimes& run, const WindowSettings& settings);
+
+}  // namespace grseg

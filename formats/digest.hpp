@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/frame.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace grseg {
+
+/// xxh3 (64 bit) of a frame as it is stored, chained with the digest of the frame before (0 for the
+/// first). The bytes are, little endian and in this order: step, time, position, image, velocity,
+/// angular_velocity, force, then i, j, force, branch, gap of the contacts. With `float32` the
+/// floating-point arrays (not `time`) are rounded to 4 bytes first, as in the file.
+std::uint64_t frame_digest(const Frame& frame, std::uint64_t before, bool float32);
+
+/// 16 hexadecimal digits.
+std::string format_digest(std::uint64_t digest);
+
+}  // namespace grseg

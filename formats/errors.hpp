@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace grseg {
+
+/// What a tool hands back to the shell; the same numbers for every tool.
+enum ExitCode {
+  exit_done = 0,           ///< done, also when a tolerance was missed (the summary says so)
+  exit_trouble = 1,        ///< run-time trouble: disk full, no usable data, run out of bounds
+  exit_usage = 2,          ///< command line wrong or input file missing
+  exit_content = 3,        ///< content of a file wrong: unknown key, truncated, NaN, corrupt
+  exit_check = 4,          ///< a check failed, or a tolerance missed with --strict
+  exit_interrupted = 130,  ///< SIGINT; what was committed is kept
+  exit_terminated = 143,   ///< SIGTERM; what was committed is kept
+};
+
+/// The reason a tool stops: one sentence for the user and an exit code.
+/// The sentence names the file, the place and the remedy.
+class ToolError : public std::runtime_error {
+ public:
+  ToolError(ExitCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code)
+  {
+  }
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+/// Wrong command line, or an input that is not there.
+struct UsageError : ToolError {
+  explicit UsageError(const std::string& sentence) : ToolError(exit_usage, sentence) {}
+};
+
+/// A file that is there but does not hold what it should.
+struct FormatError : ToolError {
+  explicit FormatError(const std::string& sentence) : ToolError(exit_content, sentence) {}
+};
+
+/// Trouble while running: the disk, no usable data, a run out of bounds.
+struct RunError : ToolError {
+  explicit RunError(const std::string& sentence) : ToolError(exit_trouble, sentence) {}
+};
+
+/// A stated check or tolerance was not met.
+struct CheckError : ToolError {
+  explicit CheckError(const std::string& sentence) : ToolError(exit_check, sentence) {}
+};
+
+}  // namespace grseg

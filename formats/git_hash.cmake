@@ -1,0 +1,9 @@
+# Writes OUTPUT, a header with the short git hash of SOURCE, and leaves it alone when it is right.
+execute_process(
+  COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10 --exclude *
+  OUTPUT_VARIABLE hash
+  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(NOT hash)
+  set(hash "no git")
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#pragma once\n#define GRSEG_GIT_HASH \"@hash@\"\n" @ONLY)

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace grseg {
+
+/// Nominal diameters, m, in which lengths may be given. 0: not known here.
+struct LengthUnits {
+  double small_diameter = 0;
+  double large_diameter = 0;
+};
+
+/// Metres from "0.02", "20mm", "2cm", "0.02m", "4dS" or "35dL". UsageError with `option`'s name
+/// and the accepted units where the text is no length.
+double parse_length(const std::string& text, const std::string& option, LengthUnits units);
+
+}  // namespace grseg

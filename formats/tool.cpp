@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/tool.hpp"
+
+#include "git_hash.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <numeric>
+
+namespace grseg {
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replace = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replace});
+    }
+  }
+  return row[b.size()];
+}
+
+std::vector<std::string> names_of(const po::options_description& options)
+{
+  std::vector<std::string> names;
+  for (const auto& option : options.options()) names.push_back("--" + option->long_name());
+  return names;
+}
+
+po::variables_map parse(int argc, char** argv, const po::options_description& options)
+{
+  namespace style = po::command_line_style;
+  po::options_description all;
+  all.add(options);
+  all.add_options()("input", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("input", -1);
+
+  po::variables_map values;
+  try {
+    po::store(po::command_line_parser(argc, argv)
+                  .options(all)
+                  .positional(positional)
+                  .style(style::unix_style & ~style::allow_guessing)
+                  .run(),
+              values);
+    po::notify(values);
+  } catch (const po::unknown_option& unknown) {
+    const auto& option = unknown.get_option_name();
+    const auto suggestion = nearest(option, names_of(options));
+    throw UsageError(
+        fmt::format("unknown option {}{}; --help lists all", option,
+                    suggestion.empty() ? "" : fmt::format(", did you mean {}?", suggestion)));
+  } catch (const po::error& wrong) {
+    throw UsageError(fmt::format("{}; --help lists all options", wrong.what()));
+  }
+  return values;
+}
+
+void print_help(const ToolInfo& info, const po::options_description& options)
+{
+  std::cout << fmt::format("{}: {}\n\nUsage: {}\n\nExamples:\n{}\n", info.name, info.summary,
+                           info.usage, info.examples)
+            << options
+            << "\nExit codes: 0 done; 1 trouble while running; 2 command line wrong or input "
+               "missing;\n3 content of a file wrong; 4 a check or tolerance missed; 130/143 "
+               "interrupted.\n";
+}
+
+}  // namespace
+
+int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
+             const std::function<void(const po::variables_map&)>& body)
+{
+  po::options_description all = options;
+  all.add_options()("version", "print the version and stop")("help,h", "print this text and stop");
+  try {
+    const auto values = parse(argc, argv, all);
+    if (values.count("help") > 0) {
+      print_help(info, all);
+    } else if (values.count("version") > 0) {
+      std::cout << info.name << ' ' << version_with_hash() << '\n';
+    } else {
+      body(values);
+    }
+    std::cout.flush();
+    if (!std::cout) throw RunError("cannot write to standard output");
+    return exit_done;
+  } catch (const ToolError& error) {
+    std::cerr << info.name << ": " << error.what() << '\n';
+    return error.code();
+  } catch (const std::bad_alloc&) {
+    std::cerr << info.name << ": out of memory; use fewer frames or a smaller scene\n";
+  } catch (const std::exception& error) {
+    std::cerr << info.name << ": " << error.what() << '\n';
+  }
+  return exit_trouble;
+}
+
+std::string command_line(int argc, char** argv)
+{
+  std::string line = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "";
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$*") == std::string::npos;
+    line += plain ? " " + word : " '" + word + "'";
+  }
+  return line;
+}
+
+std::string version()
+{
+  return GRSEG_VERSION;
+}
+
+std::string version_with_hash()
+{
+  return fmt::format("{} ({})", GRSEG_VERSION, GRSEG_GIT_HASH);
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known)
+{
+  std::string best;
+  std::size_t least = std::max<std::size_t>(3, word.size() / 2);
+  for (const auto& candidate : known) {
+    const auto distance = edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+void write_whole(const std::string& path, std::string_view text)
+{
+  if (path.empty() || path == "-") {
+    std::cout << text;
+    return;
+  }
+  const std::string beside = fmt::format("{}.tmp.{}", path, getpid());
+  const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const auto fail = [&](const char* what) {
+    const std::string why = std::strerror(errno);
+    if (file >= 0) {
+      close(file);
+      unlink(beside.c_str());
+    }
+    throw RunError(fmt::format("cannot {} {}: {}", what, path, why));
+  };
+  if (file < 0) fail("create");
+  for (std::size_t done = 0; done < text.size();) {
+    const auto count = write(file, text.data() + done, text.size() - done);
+    if (count < 0) fail("write");
+    done += static_cast<std::size_t>(count);
+  }
+  if (fsync(file) != 0) fail("write");
+  if (rename(beside.c_str(), path.c_str()) != 0) fail("rename to");
+  close(file);
+}
+
+void require_file(const std::string& path)
+{
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw UsageError(fmt::format("{}: there is no such file", path));
+  if (std::filesystem::is_directory(path, error))
+    throw UsageError(fmt::format("{}: is a folder, not a file", path));
+  if (access(path.c_str(), R_OK) != 0)
+    throw UsageError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+}
+
+}  // namespace grseg

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/errors.hpp"
+
+#include <boost/program_options.hpp>
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace grseg {
+
+namespace po = boost::program_options;
+
+struct ToolInfo {
+  const char* name;      // "grseg-stress"
+  const char* summary;   // one sentence
+  const char* usage;     // "grseg-stress run.h5 [options]"
+  const char* examples;  // shown first by --help
+};
+
+/// What every program of the suite does alike: parse the command line (an unknown option is
+/// refused with the nearest known one), --help and --version, and turn what `body` throws into one
+/// sentence on standard error and an exit code (errors.hpp). Arguments that are no options come as
+/// "input". `body` gets the parsed options.
+int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
+             const std::function<void(const po::variables_map&)>& body);
+
+/// The command line as typed, but with the program's bare name: a line of a history chain.
+std::string command_line(int argc, char** argv);
+
+/// "0.1.0"; with the git hash: "0.1.0 (1a2b3c4)".
+std::string version();
+std::string version_with_hash();
+
+/// The known word nearest to `word`, or "" where none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+/// Writes `text` to `path`, whole or not at all (write beside, fsync, rename); "-" or "" is
+/// standard output. RunError where that fails.
+void write_whole(const std::string& path, std::string_view text);
+
+/// Refuses a path that is no readable file (UsageError).
+void require_file(const std::string& path);
+
+}  // namespace grseg

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/frame.hpp"
+#include "formats/parameters.hpp"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// One number that is stored with every frame under /observables.
+struct Observable {
+  std::string name;
+  std::string unit;  // H5MD style, e.g. "kg m s-1"; "" for a pure number
+};
+
+/// What a trajectory file says once.
+struct RunDescription {
+  Grains grains;
+  Box box;
+  Parameters parameters;
+  std::vector<Observable> observables;
+};
+
+struct StorageSettings {
+  int compression = 1;   ///< deflate level, 0 stores plainly
+  bool float32 = false;  ///< halves the file; contact balances then close to 1e-6 only
+};
+
+/// Writes a trajectory file (formats/README.md) frame by frame. A frame counts once its end is
+/// entered in /grseg/contacts/offset, which is done last and after all else is on its way to the
+/// file; until then readers do not see it. Throws RunError when the file cannot be written.
+class TrajectoryWriter {
+ public:
+  TrajectoryWriter(const std::string& path, const RunDescription& run,
+                   const StorageSettings& storage = {});
+  ~TrajectoryWriter();
+
+  /// `observables` holds one value per entry of RunDescription::observables.
+  void append(const Frame& frame, std::span<const double> observables);
+
+  /// Adds to /parameters what is known only at the end (summary of the run).
+  void add_parameters(const Parameters& parameters);
+
+  /// Flushes to disk and closes; errors that a destructor must swallow are thrown here.
+  void close();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grseg

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/deposition.hpp"
+
+#include "formats/errors.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+constexpr double depth_tolerance = 0.02;
+constexpr double usual_solid_fraction = 0.81;  // of a deposit, physics of the first guess only
+constexpr int most_attempts = 8;
+constexpr double loose = 1.12;  // lattice spacing of the falling grains, in largest diameters
+
+using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+
+Random random_numbers(std::uint64_t seed)
+{
+  Random random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+  gsl_rng_set(random.get(), seed);
+  return random;
+}
+
+struct Packing {
+  World world;
+  std::vector<Vec2> position;
+};
+
+void add_grain(Packing& packing, Species species, double radius, double density, const Vec2& at)
+{
+  auto& grains = packing.world.grains;
+  grains.id.push_back(static_cast<std::int32_t>(grains.size()));
+  grains.species.push_back(species);
+  grains.radius.push_back(radius);
+  grains.mass.push_back(density * std::numbers::pi * radius * radius);
+  grains.fixed.push_back(species == Species::boundary);
+  packing.position.push_back(at);
+}
+
+/// Rows of jittered grains from height `y` up; returns the height above the last row.
+double add_layer(Packing& packing, const Scene& scene, Species species, long count, double y,
+                 gsl_rng* random)
+{
+  const double nominal = species == Species::large ? scene.large_diameter : scene.small_diameter;
+  const double largest = nominal * (1 + scene.spread / 2);
+  const double row_height = loose * largest;
+  const long per_row = std::max(1L, static_cast<long>(scene.length / row_height));
+  const double spacing = scene.length / static_cast<double>(per_row);
+  const double slack = spacing - largest;
+  for (long k = 0; k < count; ++k) {
+    if (k > 0 && k % per_row == 0) y += row_height;
+    const double diameter = nominal * (1 + scene.spread * (gsl_rng_uniform(random) - 0.5));
+    const double x = (static_cast<double>(k % per_row) + 0.5) * spacing +
+                     slack * (gsl_rng_uniform(random) - 0.5);
+    const double jitter = (row_height - largest) * (gsl_rng_uniform(random) - 0.5);
+    add_grain(packing, species, diameter / 2, scene.density, {x, y + row_height / 2 + jitter});
+  }
+  return count > 0 ? y + row_height : y;
+}
+
+void add_base(Packing& packing, const Scene& scene)
+{
+  if (scene.base == Scene::Base::wall) {
+    packing.world.walls.push_back({{0, 0}, {0, 1}});
+  } else {
+    const long beads = std::lround(std::floor(scene.length / scene.large_diameter + 1e-9));
+    const double spacing = scene.length / static_cast<double>(beads);
+    const double y = scene.origin == Scene::Origin::top ? -scene.large_diameter / 2 : 0;
+    for (long k = 0; k < beads; ++k)
+      add_grain(packing, Species::boundary, scene.large_diameter / 2, scene.density,
+                {(static_cast<double>(k) + 0.5) * spacing, y});
+  }
+  if (scene.lateral == Scene::Lateral::walls) {
+    packing.world.walls.push_back({{0, 0}, {1, 0}});
+    packing.world.walls.push_back({{scene.length, 0}, {-1, 0}});
+  }
+}
+
+/// The grains of a bed whose mobile grains cover `area` (m^2), in the air above their base.
+Packing loose_packing(const Scene& scene, double area, gsl_rng* random)
+{
+  Packing packing;
+  auto& world = packing.world;
+  const double quarter_pi = std::numbers::pi / 4;
+  const long large = std::lround(scene.phi_large * area /
+                                 (quarter_pi * scene.large_diameter * scene.large_diameter));
+  const long small = std::lround((1 - scene.phi_large) * area /
+                                 (quarter_pi * scene.small_diameter * scene.small_diameter));
+  const double top_of_base = scene.origin == Scene::Origin::top || scene.base == Scene::Base::wall
+                                 ? 0
+                                 : scene.large_diameter / 2;
+  double y = add_layer(packing, scene, Species::large, large, top_of_base, random);
+  y = add_layer(packing, scene, Species::small, small, y, random);
+  add_base(packing, scene);
+
+  world.box = {scene.length, 1.5 * y, scene.lateral == Scene::Lateral::periodic};
+  world.material = {scene.friction, scene.restitution};
+  world.rotation = scene.rotation;
+  world.gravity = {0, -scene.gravity};
+  world.step = scene.step;
+  world.solver = scene.solver;
+  return packing;
+}
+
+/// A falling bed with the random velocities that keep it from landing as a lattice.
+Simulation falling(const Packing& packing, const Scene& scene, gsl_rng* random)
+{
+  Simulation simulation(packing.world, packing.position);
+  const double speed = 0.5 * std::sqrt(scene.gravity * scene.small_diameter);
+  for (std::size_t g = 0; g < packing.position.size(); ++g) {
+    const double vx = gsl_ran_gaussian(random, speed), vy = gsl_ran_gaussian(random, speed);
+    if (!packing.world.grains.fixed[g]) simulation.set_velocity(g, {vx, vy});
+  }
+  return simulation;
+}
+
+double mobile_mass(const Grains& grains)
+{
+  double mass = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (!grains.fixed[g]) mass += grains.mass[g];
+  return mass;
+}
+
+/// Lets the bed fall until it rests; returns the number of steps, whole frame intervals.
+std::int64_t settle(Simulation& simulation, const Scene& scene)
+{
+  const double at_rest =
+      2e-3 * mobile_mass(simulation.world().grains) * scene.gravity * scene.small_diameter;
+  const double patience = 20 * std::sqrt(2 * scene.depth / scene.gravity);
+  // The free fall is never mistaken for rest: the first look comes after it.
+  const double first_look = std::sqrt(2 * 0.2 * scene.depth / scene.gravity);
+  while (simulation.time() < patience) {
+    for (std::int64_t k = 0; k < scene.steps_per_frame(); ++k) simulation.advance();
+    const double energy = simulation.translational_energy() + simulation.rotational_energy();
+    if (simulation.time() > first_look && energy < at_rest) return simulation.steps_done();
+  }
+  throw RunError(fmt::format(
+      "the bed has not come to rest {:.3g} s after its release; use a smaller step or tolerance",
+      patience));
+}
+
+}  // namespace
+
+double bed_height(const Simulation& simulation)
+{
+  const auto& grains = simulation.world().grains;
+  double area = 0, moment = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (grains.fixed[g]) continue;
+    const double own = grains.radius[g] * grains.radius[g];
+    area += own;
+    moment += own * simulation.position(g).y();
+  }
+  return area > 0 ? 2 * moment / area : 0;
+}
+
+Simulation deposit(const Scene& scene, const FrameCallback& frame)
+{
+  double area = usual_solid_fraction * scene.depth * scene.length;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    const auto random = random_numbers(scene.seed);
+    const auto packing = loose_packing(scene, area, random.get());
+    auto simulation = falling(packing, scene, random.get());
+    const auto start = simulation;
+    const auto steps = settle(simulation, scene);
+    const double height = bed_height(simulation);
+    if (std::abs(height - scene.depth) > depth_tolerance * scene.depth) {
+      area *= scene.depth / height;
+      continue;
+    }
+    if (frame) {
+      simulation = start;
+      simulation.set_clock(-steps);
+      Frame record;
+      for (std::int64_t k = 0; k < steps; ++k) {
+        const bool due = k % scene.steps_per_frame() == 0;
+        const auto report = due ? simulation.advance(record) : simulation.advance();
+        if (due) frame(report, simulation, record);
+      }
+    }
+    simulation.set_clock(0);
+    return simulation;
+  }
+  throw RunError(fmt::format(
+      "no bed of depth {:.4g} m could be deposited in {} attempts; is it only a few grains deep?",
+      scene.depth, most_attempts));
+}
+
+}  // namespace grseg

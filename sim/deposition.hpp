@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/scene.hpp"
+#include "sim/simulation.hpp"
+
+#include <functional>
+
+namespace grseg {
+
+/// A bed of large grains under small ones, at rest on its base at slope 0, made by letting a loose
+/// random packing fall (Staron & Phillips 2015, section II). Its height, twice the area-weighted
+/// mean height of its mobile grains above y = 0, lies within 2 % of scene.depth: grains are added
+/// or left out, at constant phi_L, and the deposition is repeated until it does. RunError where
+/// that cannot be reached.
+///
+/// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
+/// gravity points straight down; tilting is up to the caller.
+///
+/// `frame` is called for every frame interval of the final deposition if it is set; the frames
+/// then have step and time < 0.
+using FrameCallback = std::function<void(const StepReport&, const Simulation&, Frame&)>;
+Simulation deposit(const Scene& scene, const FrameCallback& frame = nullptr);
+
+/// Twice the area-weighted mean height of the mobile grains above y = 0, m.
+double bed_height(const Simulation& simulation);
+
+}  // namespace grseg

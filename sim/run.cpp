@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run.hpp"
+
+#include "formats/errors.hpp"
+#include "formats/tool.hpp"
+#include "sim/deposition.hpp"
+#include "sim/recorder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+namespace grseg {
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void remember_signal(int signal)
+{
+  stop_signal = signal;
+}
+
+double seconds_now()
+{
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+/// Says on a terminal how far the run is.
+class Progress {
+ public:
+  Progress(double duration, bool quiet) : duration_(duration), shown_(!quiet && isatty(2) != 0) {}
+  ~Progress()
+  {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+  void say(const std::string& words) const
+  {
+    if (shown_) fmt::print(stderr, "\r\033[K{}", words);
+  }
+  void at(double time)
+  {
+    const double now = seconds_now();
+    if (!shown_ || now - last_ < 0.2) return;
+    last_ = now;
+    const double left = time > 0 ? (now - begin_) * (duration_ - time) / time : 0;
+    say(fmt::format("t = {:.2f} of {:g} s, {:.0f}:{:02.0f} left", time, duration_,
+                    std::floor(left / 60), std::floor(std::fmod(left, 60))));
+  }
+
+ private:
+  double duration_;
+  bool shown_;
+  double begin_ = seconds_now(), last_ = 0;
+};
+
+Parameters describe(const Scene& scene, const RunOptions& options)
+{
+  auto parameters = to_parameters(scene);
+  parameters.texts["program"] = "grseg-sim " + version_with_hash();
+  parameters.texts["command_line"] = options.command_line;
+  parameters.texts["history"] = options.command_line;
+  return parameters;
+}
+
+struct Cost {
+  double simulated = 0, wall = 0;  // s
+};
+
+void summarise(const Scene& scene, const StepTotals& t, const Cost& cost, double height, bool quiet,
+               TrajectoryWriter& writer)
+{
+  const double d = scene.small_diameter;
+  const double missed = t.per_step(static_cast<double>(t.missed));
+  Parameters summary;
+  summary.numbers["summary_sweeps_per_step"] = {t.per_step(t.sweeps)};
+  summary.numbers["summary_contacts_per_step"] = {t.per_step(t.force_bearing)};
+  summary.numbers["summary_missed_share"] = {missed};
+  summary.numbers["summary_largest_residual"] = {t.largest_residual};
+  summary.numbers["summary_mean_overlap"] = {t.mean_overlap()};
+  summary.numbers["summary_largest_overlap"] = {t.largest_overlap};
+  summary.numbers["summary_mean_gap"] = {t.mean_gap_bearing()};
+  summary.numbers["summary_deposited_height"] = {height};
+  writer.add_parameters(summary);
+  if (quiet) return;
+  fmt::print(stderr,
+             "grseg-sim: {:g} s simulated in {:.1f} s: {:.3g} s per second\n"
+             "  accuracy {}: step {:.4g} s, tolerance {:g}; {:.1f} sweeps and {:.0f} contacts per "
+             "step; tolerance missed in {:.3g} % of steps\n"
+             "  mean overlap {:.2e} d_S, largest {:.2e} d_S, mean |gap| under force {:.2e} d_S; "
+             "deposited height {:.2f} d_S\n",
+             cost.simulated, cost.wall, cost.wall > 0 ? cost.simulated / cost.wall : 0,
+             scene.accuracy, scene.step, scene.solver.tolerance, t.per_step(t.sweeps),
+             t.per_step(t.force_bearing), 100 * missed, t.mean_overlap() / d, t.largest_overlap / d,
+             t.mean_gap_bearing() / d, height / d);
+}
+
+/// A whole file under its own name, on the disk.
+void publish(const std::string& part, const std::string& output)
+{
+  const int file = open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file >= 0) {
+    fsync(file);
+    close(file);
+  }
+  std::error_code error;
+  std::filesystem::rename(part, output, error);
+  if (error)
+    throw RunError(fmt::format("cannot rename {} to {}: {}", part, output, error.message()));
+}
+
+void refuse_to_overwrite(const std::string& path, const RunOptions& options)
+{
+  if (!options.overwrite && std::filesystem::exists(path))
+    throw UsageError(fmt::format(
+        "{} is there already; choose another name, remove it, or say --overwrite", path));
+}
+
+/// Writes frames until the end or a signal.
+void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Progress& progress)
+{
+  const auto every = scene.steps_per_frame(), steps = scene.steps_in_all();
+  Frame frame;
+  for (std::int64_t step = 0; step < steps && stop_signal == 0; ++step) {
+    const bool due = step % every == 0;
+    recorder.add(due ? simulation.advance(frame) : simulation.advance());
+    if (!due) continue;
+    recorder.write(frame, simulation);
+    progress.at(simulation.time());
+  }
+}
+
+Vec2 gravity_of(const Parameters& parameters)
+{
+  const auto& g = parameters.numbers.at("gravity");
+  return {g[0], g[1]};
+}
+
+}  // namespace
+
+void simulate(const Scene& scene, const RunOptions& options)
+{
+  const std::string part = options.output + ".part";
+  refuse_to_overwrite(options.output, options);
+  refuse_to_overwrite(part, options);
+  stop_signal = 0;
+  std::signal(SIGINT, remember_signal);
+  std::signal(SIGTERM, remember_signal);
+
+  Progress progress(scene.duration, options.quiet);
+  progress.say("depositing the bed");
+  const auto parameters = describe(scene, options);
+  auto simulation = deposit(scene);
+  const double height = bed_height(simulation);
+  TrajectoryWriter writer(
+      part,
+      {simulation.world().grains, simulation.world().box, parameters, Recorder::observables()},
+      {scene.compression, scene.float32});
+  Recorder recorder(writer, scene.small_diameter);
+  if (scene.keep_deposition) {
+    deposit(scene, [&](const StepReport& report, const Simulation& now, Frame& frame) {
+      recorder.add(report);
+      recorder.write(frame, now);
+    });
+  }
+
+  simulation.tilt(gravity_of(parameters));
+  const double begin = seconds_now();
+  flow(scene, simulation, recorder, progress);
+  summarise(scene, recorder.totals(), {simulation.time(), seconds_now() - begin}, height,
+            options.quiet, writer);
+  writer.close();
+  if (stop_signal != 0)
+    throw ToolError(stop_signal == SIGINT ? exit_interrupted : exit_terminated,
+                    fmt::format("interrupted at t = {:.6g} s; the frames so far are in {}",
+                                simulation.time(), part));
+  publish(part, options.output);
+  if (options.strict && recorder.totals().missed > 0)
+    throw CheckError(fmt::format(
+        "the tolerance was missed in {} of {} steps; allow more sweeps or a smaller step",
+        recorder.totals().missed, recorder.totals().steps));
+}
+
+}  // namespace grseg

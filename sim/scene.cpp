@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/scene.hpp"
+
+#include "formats/length.hpp"
+#include "formats/tool.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+/// What an accuracy stands for: the step in units of sqrt(d_S/g) and the solver's stop.
+struct Accuracy {
+  const char* name;
+  double step;
+  double tolerance;
+  int max_sweeps;
+};
+
+constexpr std::array<Accuracy, 3> accuracies{{
+    {"draft", 0.0111, 0.5, 50},
+    {"standard", 0.00443, 0.5, 200},
+    {"reference", 0.00222, 0.01, 5000},
+}};
+
+// Restitution and geometry err by O(h); beyond this step a scene is a different one.
+constexpr double largest_step = 0.05;  // in sqrt(d_S/g)
+
+bool parse_switch(const std::string& text, const std::string& key)
+{
+  if (text == "on") return true;
+  if (text == "off") return false;
+  throw UsageError(fmt::format("{} is '{}': it is on or off", key, text));
+}
+
+template <class Choice, std::size_t N>
+Choice parse_choice(const std::string& text, const std::string& key,
+                    const std::array<std::pair<const char*, Choice>, N>& choices)
+{
+  std::string all;
+  for (const auto& [name, choice] : choices) {
+    if (text == name) return choice;
+    all += all.empty() ? name : fmt::format(", {}", name);
+  }
+  throw UsageError(fmt::format("{} is '{}': choose one of {}", key, text, all));
+}
+
+constexpr std::array<std::pair<const char*, Scene::Base>, 2> bases{
+    {{"grains", Scene::Base::grains}, {"wall", Scene::Base::wall}}};
+constexpr std::array<std::pair<const char*, Scene::Lateral>, 2> laterals{
+    {{"periodic", Scene::Lateral::periodic}, {"walls", Scene::Lateral::walls}}};
+constexpr std::array<std::pair<const char*, Scene::Origin>, 2> origins{
+    {{"top", Scene::Origin::top}, {"centre", Scene::Origin::centre}}};
+constexpr std::array<std::pair<const char*, bool>, 2> stores{
+    {{"float64", false}, {"float32", true}}};
+
+/// Reads keys from `values` and checks ranges; one place for the wording.
+class Keys {
+ public:
+  explicit Keys(const po::variables_map& values) : values_(values) {}
+
+  std::string text(const std::string& key) const { return values_[key].as<std::string>(); }
+  bool given(const std::string& key) const { return values_.count(key) > 0; }
+  double number(const std::string& key, double low, double high) const
+  {
+    return within(values_[key].as<double>(), key, low, high);
+  }
+  double length(const std::string& key, LengthUnits units, double low, double high) const
+  {
+    return within(parse_length(text(key), key, units), key, low, high);
+  }
+
+ private:
+  static double within(double value, const std::string& key, double low, double high)
+  {
+    if (!(value >= low && value <= high))
+      throw UsageError(fmt::format("{} is {:.6g}: it must lie between {:.6g} and {:.6g}", key,
+                                   value, low, high));
+    return value;
+  }
+  const po::variables_map& values_;
+};
+
+void resolve_grains(const Keys& keys, Scene& scene)
+{
+  scene.small_diameter = keys.length("small-diameter", {}, 1e-9, 1e6);
+  scene.large_diameter = scene.small_diameter * keys.number("size-ratio", 1, 100);
+  scene.spread = keys.number("spread", 0, 0.9);
+  scene.density = keys.number("density", 1e-9, 1e12);
+  scene.phi_large = keys.number("phi-large", 0, 1);
+  scene.friction = keys.number("friction", 0, 1e3);
+  scene.restitution = keys.number("restitution", 0, 1);
+  scene.rotation = parse_switch(keys.text("rotation"), "rotation");
+}
+
+void resolve_geometry(const Keys& keys, Scene& scene)
+{
+  const LengthUnits units{scene.small_diameter, scene.large_diameter};
+  scene.depth = keys.length("depth", units, scene.small_diameter, 1e6 * scene.small_diameter);
+  scene.length = keys.length("length", units, 3 * scene.large_diameter, 1e6 * scene.large_diameter);
+  scene.slope = keys.number("slope", -90, 90);
+  scene.gravity = keys.number("gravity", 1e-9, 1e9);
+  scene.base = parse_choice(keys.text("base"), "base", bases);
+  scene.lateral = parse_choice(keys.text("lateral"), "lateral", laterals);
+  scene.origin = parse_choice(keys.text("origin"), "origin", origins);
+}
+
+void resolve_accuracy(const Keys& keys, Scene& scene)
+{
+  scene.accuracy = keys.text("accuracy");
+  const Accuracy* preset = nullptr;
+  for (const auto& accuracy : accuracies)
+    if (scene.accuracy == accuracy.name) preset = &accuracy;
+  if (preset == nullptr)
+    throw UsageError(
+        fmt::format("accuracy is '{}': choose draft, standard or reference", scene.accuracy));
+
+  const double natural = std::sqrt(scene.small_diameter / scene.gravity);
+  scene.frame_interval = keys.number("frame-interval", 1e-12, 1e12);
+  scene.duration = keys.number("duration", 0, 1e12);
+  if (keys.given("step")) {
+    scene.step = keys.number("step", 1e-15, largest_step * natural);
+    const double steps = scene.frame_interval / scene.step;
+    if (std::abs(steps - std::round(steps)) > 1e-6 * steps || steps < 0.5)
+      throw UsageError(fmt::format(
+          "frame-interval {:.9g} s is no whole number of steps of {:.9g} s; change one of them",
+          scene.frame_interval, scene.step));
+  } else {
+    scene.step = scene.frame_interval / std::ceil(scene.frame_interval / (preset->step * natural));
+  }
+  scene.solver.tolerance =
+      keys.given("tolerance") ? keys.number("tolerance", 1e-15, 1e3) : preset->tolerance;
+  scene.solver.max_sweeps = keys.given("max-sweeps")
+                                ? static_cast<int>(keys.number("max-sweeps", 1, 1e9))
+                                : preset->max_sweeps;
+}
+
+/// "file:12" of the line that sets `key`, or "file" where none does.
+std::string place_of(const std::string& path, const std::string& key)
+{
+  std::ifstream file(path);
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const auto begin = line.find_first_not_of(" \t");
+    const auto end = line.find_first_of(" \t=", begin);
+    if (begin != std::string::npos && line.substr(begin, end - begin) == key)
+      return fmt::format("{}:{}", path, number);
+  }
+  return path;
+}
+
+std::string bare(std::string option)
+{
+  option.erase(0, option.find_first_not_of('-'));
+  return option;
+}
+
+}  // namespace
+
+std::int64_t Scene::steps_per_frame() const
+{
+  return std::llround(frame_interval / step);
+}
+
+std::int64_t Scene::steps_in_all() const
+{
+  return std::llround(duration / step);
+}
+
+po::options_description scene_options()
+{
+  const auto text = [](const char* standard) {
+    return po::value<std::string>()->default_value(standard);
+  };
+  const auto number = [](double standard) {
+    return po::value<double>()->default_value(standard, fmt::format("{}", standard));
+  };
+  po::options_description keys(
+      "Keys of a scene file, and options (the command line wins).\nLengths are metres or carry a "
+      "unit: 5mm, 60dS, 35dL");
+  keys.add_options()("small-diameter", text("5mm"), "nominal diameter d_S of the small grains")(
+      "size-ratio", number(2), "nominal d_L/d_S")("spread", number(0.08),
+                                                  "(d_max - d_min)/d within a species, uniform")(
+      "density", number(1), "of the grains, kg/m^2")(
+      "phi-large", number(0.3), "share of the large grains in the area of all grains")(
+      "depth", text("60dS"), "height of the deposited bed, within 2 %")(
+      "length", text("35dL"), "of the cell")("slope", number(23), "degrees")(
+      "gravity", number(9.8), "m/s^2")("friction", number(0.5),
+                                       "Coulomb's coefficient, all contacts")(
+      "restitution", number(0.25), "Newton's coefficient, all contacts")(
+      "rotation", text("on"), "on or off: whether grains rotate")(
+      "base", text("grains"), "grains (a row of fixed large grains) or wall (straight)")(
+      "lateral", text("periodic"), "periodic or walls: what bounds the cell along x")(
+      "origin", text("top"), "y = 0 at the top or at the centre of the base grains")(
+      "duration", number(150), "simulated time after the tilt, s")(
+      "frame-interval", number(0.05), "s between frames")("keep-deposition", po::bool_switch(),
+                                                          "write the deposition too, at t < 0")(
+      "seed", po::value<std::uint64_t>()->default_value(1), "of the random numbers")(
+      "accuracy", text("standard"), "draft, standard or reference: sets the three below")(
+      "step", po::value<double>(), "time step, s")(
+      "tolerance", po::value<double>(),
+      "of the solver: largest change of a relative velocity in "
+      "the last sweep, over the mean one that forces make")("max-sweeps", po::value<double>(),
+                                                            "of the solver, per step")(
+      "compression", po::value<int>()->default_value(1), "deflate level of the file, 0 to 9")(
+      "store", text("float64"), "float64 or float32, of the file");
+  return keys;
+}
+
+void read_scene_file(const std::string& path, po::variables_map& values)
+{
+  require_file(path);
+  std::ifstream file(path);
+  const auto keys = scene_options();
+  try {
+    po::store(po::parse_config_file(file, keys), values);
+    po::notify(values);
+  } catch (const po::unknown_option& unknown) {
+    const auto key = bare(unknown.get_option_name());
+    std::vector<std::string> known;
+    for (const auto& option : keys.options()) known.push_back(option->long_name());
+    const auto suggestion = nearest(key, known);
+    throw FormatError(fmt::format("{}: unknown key '{}'{}", place_of(path, key), key,
+                                  suggestion.empty()
+                                      ? "; grseg-sim --help lists all"
+                                      : fmt::format(", did you mean '{}'?", suggestion)));
+  } catch (const po::error_with_option_name& wrong) {
+    throw FormatError(
+        fmt::format("{}: {}", place_of(path, bare(wrong.get_option_name())), wrong.what()));
+  } catch (const po::error& wrong) {
+    throw FormatError(
+        fmt::format("{}: {}; lines are 'key = value' or '# comment'", path, wrong.what()));
+  }
+}
+
+Scene resolve_scene(const po::variables_map& values)
+{
+  const Keys keys(values);
+  Scene scene;
+  resolve_grains(keys, scene);
+  resolve_geometry(keys, scene);
+  resolve_accuracy(keys, scene);
+  scene.keep_deposition = values["keep-deposition"].as<bool>();
+  scene.seed = values["seed"].as<std::uint64_t>();
+  scene.compression = values["compression"].as<int>();
+  if (scene.compression < 0 || scene.compression > 9)
+    throw UsageError("compression is a deflate level from 0 (none) to 9");
+  scene.float32 = parse_choice(keys.text("store"), "store", stores);
+  return scene;
+}
+
+std::string to_text(const Scene& scene)
+{
+  std::string text;
+  const auto add = [&](const char* key, const auto& value) {
+    text += fmt::format("{} = {}\n", key, value);
+  };
+  add("small-diameter", scene.small_diameter);
+  add("size-ratio", scene.large_diameter / scene.small_diameter);
+  add("spread", scene.spread);
+  add("density", scene.density);
+  add("phi-large", scene.phi_large);
+  add("depth", scene.depth);
+  add("length", scene.length);
+  add("slope", scene.slope);
+  add("gravity", scene.gravity);
+  add("friction", scene.friction);
+  add("restitution", scene.restitution);
+  add("rotation", scene.rotation ? "on" : "off");
+  add("base", bases[static_cast<std::size_t>(scene.base)].first);
+  add("lateral", laterals[static_cast<std::size_t>(scene.lateral)].first);
+  add("origin", origins[static_cast<std::size_t>(scene.origin)].first);
+  add("duration", scene.duration);
+  add("frame-interval", scene.frame_interval);
+  add("keep-deposition", scene.keep_deposition ? "on" : "off");
+  add("seed", scene.seed);
+  add("accuracy", scene.accuracy);
+  add("step", scene.step);
+  add("tolerance", scene.solver.tolerance);
+  add("max-sweeps", scene.solver.max_sweeps);
+  add("compression", scene.compression);
+  add("store", scene.float32 ? "float32" : "float64");
+  return text;
+}
+
+Parameters to_parameters(const Scene& scene)
+{
+  Parameters parameters;
+  auto& n = parameters.numbers;
+  const double slope = scene.slope * std::numbers::pi / 180;
+  n["gravity"] = {scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)};
+  n["slope"] = {scene.slope};
+  n["step"] = {scene.step};
+  n["frame_interval"] = {scene.frame_interval};
+  n["small_diameter"] = {scene.small_diameter};
+  n["large_diameter"] = {scene.large_diameter};
+  n["spread"] = {scene.spread};
+  n["density"] = {scene.density};
+  n["phi_large"] = {scene.phi_large};
+  n["friction"] = {scene.friction};
+  n["restitution"] = {scene.restitution};
+  n["rotation"] = {scene.rotation ? 1.0 : 0.0};
+  n["tolerance"] = {scene.solver.tolerance};
+  n["max_sweeps"] = {static_cast<double>(scene.solver.max_sweeps)};
+  n["seed"] = {static_cast<double>(scene.seed)};
+  parameters.texts["scene"] = to_text(scene);
+  parameters.texts["accuracy"] = scene.accuracy;
+  parameters.texts["origin"] = origins[static_cast<std::size_t>(scene.origin)].first;
+  return parameters;
+}
+
+}  // namespace grseg

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/parameters.hpp"
+#include "sim/solver.hpp"
+
+#include <boost/program_options.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace grseg {
+
+/// A chute of two species as the user asks for it, in SI. Defaults are the flow of Staron &
+/// Phillips (2015). Every member is a key of a scene file and an option of the same name.
+struct Scene {
+  double small_diameter = 0;  // m, nominal
+  double large_diameter = 0;  // m, nominal: size-ratio times the small one
+  double spread = 0;          // (d_max - d_min)/d of each species, uniform
+  double density = 0;         // kg/m^2, of the grains
+  double phi_large = 0;       // share of the large grains in the area of all grains
+  double depth = 0;           // m, height H0 of the deposited bed above y = 0
+  double length = 0;          // m, of the cell
+  double slope = 0;           // degrees
+  double gravity = 0;         // m/s^2
+  double friction = 0;
+  double restitution = 0;  // Newton's e
+  bool rotation = true;
+  enum class Base { grains, wall } base = Base::grains;
+  enum class Lateral { periodic, walls } lateral = Lateral::periodic;
+  enum class Origin { top, centre } origin = Origin::top;
+
+  double duration = 0;        // s after the tilt
+  double frame_interval = 0;  // s
+  bool keep_deposition = false;
+  std::uint64_t seed = 1;
+
+  std::string accuracy;  // draft, standard, reference
+  double step = 0;       // s
+  SolverSettings solver;
+
+  int compression = 1;
+  bool float32 = false;
+
+  std::int64_t steps_per_frame() const;
+  std::int64_t steps_in_all() const;
+};
+
+/// The keys of a scene, for Boost.ProgramOptions, with their defaults.
+boost::program_options::options_description scene_options();
+
+/// Adds the keys of the file at `path` to `values`; what is there already wins. UsageError where
+/// the file is missing, FormatError naming file, line and remedy where a key is unknown or wrong.
+void read_scene_file(const std::string& path, boost::program_options::variables_map& values);
+
+/// Resolves `values` (lengths, presets, step) and checks every range; UsageError says which key is
+/// out of which bounds.
+Scene resolve_scene(const boost::program_options::variables_map& values);
+
+/// The scene as a file that gives the same run: every key in SI.
+std::string to_text(const Scene& scene);
+
+/// What a trajectory says of the scene under /parameters.
+Parameters to_parameters(const Scene& scene);
+
+}  // namespace grseg

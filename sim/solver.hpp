@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/contact_law.hpp"
+
+#include <vector>
+
+namespace grseg {
+
+struct SolverSettings {
+  double tolerance = 1e-2;  ///< on SolverReport::residual
+  int max_sweeps = 500;
+};
+
+/// How a step's solve went. Not converging is a result: it is stored and reported, not thrown.
+struct SolverReport {
+  int sweeps = 0;
+  double residual = 0;      ///< largest change of the last sweep / reference velocity
+  double residual_rms = 0;  ///< the same in the quadratic mean, which hides newcomers
+  bool converged = true;
+};
+
+/// Projected Gauss-Seidel: sweeps over the contacts, each solved exactly while the others hold
+/// still, until no contact's relative velocity changes by more than `tolerance` times the
+/// reference velocity: the quadratic mean of W p over the contacts, at least `floor` (m/s), so
+/// that a motionless bed stops at once. Normal and tangential parts both count, and the largest
+/// rather than the mean change decides, so that a contact which has just closed is not hidden by
+/// thousands of settled ones.
+///
+/// Impulses in `contacts` are the first guess; they are applied to `motion` here.
+SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
+                            double friction, Effects effects, const SolverSettings& settings,
+                            double floor);
+
+/// The largest violation (m/s) of Signorini's and Coulomb's conditions by any state, whichever
+/// solver made it: the change that relaxing a contact alone would make.
+double contact_residual(const std::vector<Contact>& contacts, const std::vector<Motion>& motion,
+                        double friction, Effects effects);
+
+}  // namespace grseg

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// grseg-stress, grseg-kinetic and grseg-micro as programs, on a run known by heart.
+#include "formats/digest.hpp"
+#include "formats/table.hpp"
+#include "formats/trajectory_reader.hpp"
+#include "tests/three_grains.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code;
+  std::string out;
+};
+
+/// Runs a shell command; its standard output and exit code.
+Outcome run(const std::string& command)
+{
+  Outcome outcome{-1, ""};
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return outcome;
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    outcome.out.append(buffer.data(), n);
+  outcome.code = WEXITSTATUS(pclose(pipe));
+  return outcome;
+}
+
+class FrameTools : public testing::Test {
+ protected:
+  fs::path folder = fs::temp_directory_path() / ("grseg_frame_tools_" + std::to_string(getpid()));
+  std::string file = (folder / "run.h5").string();
+
+  void SetUp() override
+  {
+    fs::create_directories(folder);
+    three_grains::write(file, 60);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  Table table(const std::string& tool, const std::string& options = "")
+  {
+    const auto outcome = run(tool + " " + file + " " + options);
+    EXPECT_EQ(outcome.code, 0) << tool << options;
+    return Table::parse(outcome.out, tool);
+  }
+  static double cell(const Table& table, std::size_t row, const std::string& column)
+  {
+    return table.rows.at(row).at(table.column(column));
+  }
+};
+
+const std::string stress = GRSEG_STRESS, kinetic = GRSEG_KINETIC, micro = GRSEG_MICRO;
+
+TEST_F(FrameTools, RowsOfAllToolsHaveTheSameKeys)
+{
+  const std::string options = "--layer 6mm --window 0.4 --begin 0.3 --stride 3";
+  const auto a = table(stress, options), b = table(kinetic, options), c = table(micro, options);
+  ASSERT_EQ(a.rows.size(), 6 * 3u);
+  ASSERT_EQ(b.rows.size(), a.rows.size());
+  ASSERT_EQ(c.rows.size(), 6 * 4u);
+  for (std::size_t row = 0; row < a.rows.size(); ++row)
+    for (std::size_t key = 0; key < 6; ++key) {
+      EXPECT_EQ(a.rows[row][key], b.rows[row][key]);
+      EXPECT_EQ(a.rows[row][key], c.rows[row + row / 3][key]);
+    }
+}
+
+// The mixed contact lies at y = 10 mm, that with the base at 0.
+TEST_F(FrameTools, StressHasTheSumsOfTheThreeGrains)
+{
+  const auto t = table(stress, "--layer 6mm");
+  ASSERT_EQ(t.rows.size(), 2 * 3u);
+  EXPECT_EQ(cell(t, 3, "t0"), 1.25);
+  EXPECT_EQ(cell(t, 3, "t1"), 2.5);
+  EXPECT_EQ(cell(t, 3, "frames"), 25);
+  EXPECT_NEAR(cell(t, 1, "y0"), 0.006, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "V"), 0.35 * 0.006, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "n_LS"), 1, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "M_yy"), 1.5e-6, 1e-18);
+  EXPECT_NEAR(cell(t, 1, "M_xy"), -7.5e-7, 1e-18);
+  EXPECT_NEAR(cell(t, 1, "M_yx"), 0, 1e-18);
+  EXPECT_NEAR(cell(t, 1, "Msize_yy"), 1e-6, 1e-18);
+  EXPECT_NEAR(cell(t, 0, "A_Lb_yy"), 5e-6, 1e-18);
+  EXPECT_NEAR(cell(t, 0, "F_Lb_xy"), -3e-6, 1e-18);
+  EXPECT_NEAR(cell(t, 2, "area_S"), std::numbers::pi * 0.0025 * 0.0025 - cell(t, 1, "area_S"),
+              1e-18);
+}
+
+TEST_F(FrameTools, AssignmentsGiveTheSameTotals)
+{
+  const auto a = table(stress, "--layer 6mm"), b = table(stress, "--layer 6mm --assign branch"),
+             c = table(stress, "--layer 6mm --assign grain");
+  for (const char* column : {"M_yy", "Msize_yy", "Mcp_xy", "A_Lb_yy", "F_Lb_yy", "area_L"}) {
+    const auto total = [&](const Table& t) {
+      return cell(t, 0, column) + cell(t, 1, column) + cell(t, 2, column);
+    };
+    EXPECT_NEAR(total(b), total(a), 1e-18) << column;
+    EXPECT_NEAR(total(c), total(a), 1e-18) << column;
+  }
+  EXPECT_NEAR(cell(c, 0, "ML_yy"), 1.5e-6, 1e-18);
+  EXPECT_NEAR(cell(c, 2, "MS_yy"), 1.5e-6, 1e-18);
+}
+
+TEST_F(FrameTools, KineticHasMassesAndFlow)
+{
+  const auto t = table(kinetic);
+  ASSERT_EQ(t.rows.size(), 2u);
+  EXPECT_NEAR(cell(t, 0, "mass_L"), std::numbers::pi * 25e-6, 1e-18);
+  EXPECT_NEAR(cell(t, 0, "u"), (4 * 0.1 + 0.3) / 5, 1e-15);
+  EXPECT_NEAR(cell(t, 0, "du_dy"), 0.2 / 0.0075, 1e-9);
+  EXPECT_NEAR(cell(t, 0, "K_S_yy"), 0, 1e-25);
+  const auto by_layer = table(kinetic, "--mean layer");
+  EXPECT_NEAR(cell(by_layer, 0, "K_S_xx"), std::numbers::pi * 6.25e-6 * 0.16 * 0.16, 1e-18);
+}
+
+TEST_F(FrameTools, MicroHasTheWholeBedLast)
+{
+  const auto t = table(micro);
+  ASSERT_EQ(t.rows.size(), 2 * 2u);
+  EXPECT_TRUE(std::isnan(cell(t, 0, "yL")));
+  EXPECT_TRUE(std::isnan(cell(t, 1, "y0")));
+  EXPECT_NEAR(cell(t, 1, "yL"), 0.005, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "z_L"), 2, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "height"), 2 * (4 * 0.005 + 0.0125) / 5, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "V"), 0.35 * 0.013, 1e-15);
+}
+
+TEST_F(FrameTools, TheHeaderTellsWhatLaterToolsNeed)
+{
+  const auto t = table(stress, "--partition power:2 --base half --volume solid");
+  EXPECT_EQ(t.header_number("small_diameter"), 0.005);
+  EXPECT_EQ(t.header_number("large_diameter"), 0.01);
+  EXPECT_EQ(t.header_number("gravity_y"), -9);
+  EXPECT_EQ(t.header_number("step"), 1e-4);
+  EXPECT_EQ(t.header_number("layer"), 0.02);
+  EXPECT_EQ(t.header_number("window"), 1.25);
+  EXPECT_EQ(t.header_number("power"), 2);
+  EXPECT_EQ(t.header_text("partition"), "power:2");
+  EXPECT_EQ(t.header_text("base"), "half");
+  EXPECT_EQ(t.header_text("volume"), "solid");
+  EXPECT_EQ(t.header_text("history"), "three grains by hand");
+  EXPECT_EQ(t.header_text("input"), "xxh3 " + format_digest(TrajectoryReader(file).digest()));
+  EXPECT_TRUE(t.has_column("Mpower_yy"));
+}
+
+TEST_F(FrameTools, TheSameInputGivesTheSameBytesToFileAndPipe)
+{
+  const auto once = run(stress + " " + file), again = run(stress + " " + file);
+  EXPECT_EQ(once.out, again.out);
+  const auto to_file = (folder / "sums.tsv").string();
+  EXPECT_EQ(run(stress + " " + file + " -o " + to_file).out, "");
+  const auto stored = Table::read(to_file), piped = Table::parse(once.out, "pipe");
+  EXPECT_EQ(stored.columns, piped.columns);
+  EXPECT_EQ(stored.rows, piped.rows);
+}
+
+TEST_F(FrameTools, TroubleHasItsExitCodeAndASentence)
+{
+  const auto code = [&](const std::string& arguments) {
+    const auto outcome = run(stress + " " + arguments + " 2>&1");
+    EXPECT_NE(outcome.out.find("grseg-stress: "), std::string::npos) << arguments;
+    return outcome.code;
+  };
+  EXPECT_EQ(code(""), 2);
+  EXPECT_EQ(code(file + " " + file), 2);
+  EXPECT_EQ(code((folder / "absent.h5").string()), 2);
+  EXPECT_EQ(code(file + " --assign gauss"), 2);
+  EXPECT_EQ(code(file + " --layer 4dX"), 2);
+  EXPECT_EQ(code(file + " --layer 0"), 2);
+  EXPECT_EQ(code(file + " --partition thirds"), 2);
+  EXPECT_EQ(code(file + " --base all"), 2);
+  EXPECT_EQ(code(file + " --volume wet"), 2);
+  EXPECT_EQ(code(file + " --windows 2"), 2);
+  EXPECT_EQ(code(file + " --window 1e-3"), 2);
+  EXPECT_EQ(code(file + " --stride 0"), 2);
+  EXPECT_EQ(code(file + " --begin nan"), 2);
+  EXPECT_EQ(code(file + " --window 4"), 1);
+  EXPECT_EQ(code(file + " -o " + (folder / "absent" / "sums.tsv").string()), 1);
+  std::ofstream(folder / "no.h5") << "no trajectory\n";
+  EXPECT_EQ(code((folder / "no.h5").string()), 3);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/frame.hpp"
+
+#include <cstdint>
+#include <numbers>
+
+namespace grseg {
+
+/// Grains and one frame, written by hand.
+struct Scene {
+  Grains grains;
+  Frame frame;
+
+  /// Adds a grain of density 1 kg/m^2; its row.
+  std::int32_t grain(Species species, double radius, const Vec2& position,
+                     const Vec2& velocity = {0, 0}, double spin = 0)
+  {
+    const auto row = static_cast<std::int32_t>(grains.size());
+    grains.id.push_back(row);
+    grains.species.push_back(species);
+    grains.radius.push_back(radius);
+    grains.mass.push_back(std::numbers::pi * radius * radius);
+    grains.fixed.push_back(species == Species::boundary ? 1 : 0);
+    frame.position.push_back(position);
+    frame.velocity.push_back(velocity);
+    frame.angular_velocity.push_back(spin);
+    return row;
+  }
+
+  /// Adds a contact between two grains that touch, with the force on i from j.
+  void contact(std::int32_t i, std::int32_t j, const Vec2& force)
+  {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const Vec2 branch = frame.position[a] - frame.position[b];
+    add(i, j, force, branch, branch.norm() - grains.radius[a] - grains.radius[b]);
+  }
+
+  /// Adds a contact with straight wall number `wall`.
+  void wall_contact(std::int32_t i, int wall, const Vec2& force, const Vec2& branch)
+  {
+    add(i, -wall - 1, force, branch, branch.norm() - grains.radius[static_cast<std::size_t>(i)]);
+  }
+
+ private:
+  void add(std::int32_t i, std::int32_t j, const Vec2& force, const Vec2& branch, double gap)
+  {
+    frame.contacts.i.push_back(i);
+    frame.contacts.j.push_back(j);
+    frame.contacts.force.push_back(force);
+    frame.contacts.branch.push_back(branch);
+    frame.contacts.gap.push_back(gap);
+  }
+};
+
+/// All components alike to round-off.
+inline bool same(const Tensor2& a, const Tensor2& b, double tolerance = 1e-14)
+{
+  return (a - b).cwiseAbs().maxCoeff() <= tolerance;
+}
+
+}  // namespace grseg

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/kinetic_stress.hpp"
+
+#include "tests/analysis/grain_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace grseg {
+namespace {
+
+using std::numbers::pi;
+
+const Layers unit_layers(1, 10);
+constexpr double bin = 0.125;
+
+KineticStress kinetic(const std::vector<Scene>& frames, MeanFlow flow)
+{
+  KineticStress stress(unit_layers, flow, bin);
+  for (const auto& scene : frames) stress.add_to_mean(scene.grains, scene.frame);
+  for (const auto& scene : frames) stress.add(scene.grains, scene.frame);
+  return stress;
+}
+
+/// 300 grains at random heights up to 3; velocity and spin are functions of height alone.
+template <class Velocity>
+Scene column(const Velocity& velocity, double noise = 0)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> height(0, 3);
+  std::normal_distribution<double> kick(0, 1);
+  Scene scene;
+  for (int g = 0; g < 300; ++g) {
+    const double y = height(random);
+    const Vec2 extra{noise * kick(random), noise * kick(random)};
+    scene.grain(g % 3 == 0 ? Species::large : Species::small, g % 3 == 0 ? 0.04 : 0.02,
+                {0.01 * g, y}, velocity(y) + extra, -0.5 * velocity(y).x());
+  }
+  return scene;
+}
+
+double largest(const KineticStress& stress)
+{
+  double most = 0;
+  for (std::size_t n = 0; n < stress.layers(); ++n)
+    for (const auto species : {Species::small, Species::large}) {
+      const auto mean = stress.mean(n, species);
+      most = std::max({most, mean.kinetic.cwiseAbs().maxCoeff(), mean.rotational});
+    }
+  return most;
+}
+
+// However the grains lie in their bins.
+TEST(KineticStress, ALinearShearHasNoFluctuationsAboutItsProfile)
+{
+  const Scene shear = column([](double y) { return Vec2{5 + 2 * y, 0.1 - 0.3 * y}; });
+  EXPECT_LT(largest(kinetic({shear}, MeanFlow::profile)), 1e-28);
+  EXPECT_GT(largest(kinetic({shear}, MeanFlow::layer)), 1e-3);
+}
+
+TEST(KineticStress, APlugHasNoFluctuationsAboutAnyMean)
+{
+  const Scene plug = column([](double) { return Vec2{3, -1}; });
+  for (const auto flow : {MeanFlow::profile, MeanFlow::layer, MeanFlow::species})
+    EXPECT_LT(largest(kinetic({plug}, flow)), 1e-28);
+}
+
+// N equal grains at equal distances over the thickness h: sum m (du)^2 = M (du/dy h)^2 (1 -
+// 1/N^2)/12, the bias nu rho (du/dy h)^2/12 of a mean over the layer.
+TEST(KineticStress, TheLayerMeanLeavesTheShearInside)
+{
+  constexpr int count = 40;
+  constexpr double shear = 3, radius = 0.01;
+  Scene scene;
+  for (int k = 0; k < count; ++k) {
+    const double y = (k + 0.5) / count;
+    scene.grain(Species::small, radius, {0.1 * k, y}, {shear * y, 0});
+  }
+  const double mass = count * pi * radius * radius;
+  const auto stress = kinetic({scene}, MeanFlow::layer);
+  const auto mean = stress.mean(0, Species::small);
+  EXPECT_NEAR(mean.kinetic(0, 0), mass * shear * shear * (1 - 1.0 / (count * count)) / 12, 1e-15);
+  EXPECT_NEAR(mean.kinetic(1, 1), 0, 1e-28);
+  EXPECT_NEAR(stress.flow(0).du_dy, shear, 1e-10);
+  EXPECT_NEAR(stress.flow(0).u, shear / 2, 1e-12);
+}
+
+TEST(KineticStress, TwoGrainsThatPartCarryTheirFluctuations)
+{
+  Scene scene;
+  scene.grain(Species::small, 0.1, {1, 0.5}, {2 + 0.3, 0.4}, 7);
+  scene.grain(Species::small, 0.1, {2, 0.5}, {2 - 0.3, -0.4}, 3);
+  const double mass = pi * 0.01;
+  for (const auto flow : {MeanFlow::profile, MeanFlow::layer, MeanFlow::species}) {
+    const auto stress = kinetic({scene}, flow);
+    const auto mean = stress.mean(0, Species::small);
+    Tensor2 expected;
+    expected << 0.09, 0.12, 0.12, 0.16;
+    EXPECT_TRUE(same(mean.kinetic, 2 * mass * expected));
+    EXPECT_NEAR(mean.rotational, 2 * mass * 0.01 / 2 * 4, 1e-15);
+    EXPECT_NEAR(mean.mass, 2 * mass, 1e-15);
+    EXPECT_TRUE(std::isnan(stress.flow(0).du_dy));
+  }
+}
+
+TEST(KineticStress, SpeciesThatSlideThroughEachOtherAreQuietAboutTheirOwnMeans)
+{
+  Scene scene;
+  scene.grain(Species::large, 0.2, {1, 0.5}, {1, 0});
+  scene.grain(Species::small, 0.1, {2, 0.5}, {6, 0});
+  const double mass = pi * 0.01;  // of the small one; the large one has four times that
+  EXPECT_LT(largest(kinetic({scene}, MeanFlow::species)), 1e-28);
+  for (const auto flow : {MeanFlow::profile, MeanFlow::layer}) {
+    const auto stress = kinetic({scene}, flow);  // about the mean of mass, u = 2
+    EXPECT_NEAR(stress.flow(0).u, 2, 1e-14);
+    EXPECT_NEAR(stress.mean(0, Species::small).kinetic(0, 0), mass * 16, 1e-14);
+    EXPECT_NEAR(stress.mean(0, Species::large).kinetic(0, 0), 4 * mass, 1e-14);
+  }
+}
+
+TEST(KineticStress, TheMeanIsThatOfTheWindowNotOfTheInstant)
+{
+  const Scene forth = column([](double) { return Vec2{1, 0}; });
+  const Scene back = column([](double) { return Vec2{-1, 0}; });
+  const auto stress = kinetic({forth, back}, MeanFlow::profile);
+  for (std::size_t n = 0; n < 3; ++n) {
+    const auto mean = stress.mean(n, Species::large);
+    EXPECT_NEAR(mean.kinetic(0, 0), mean.mass, 1e-14);
+  }
+}
+
+TEST(KineticStress, AnObserverWhoMovesAlongSeesTheSameFluctuations)
+{
+  const auto flow_at = [](double y) { return Vec2{y * (6 - y), 0}; };
+  const Scene scene = column(flow_at, 0.3);
+  Scene seen = scene;
+  for (auto& velocity : seen.frame.velocity) velocity += Vec2{40, -7};
+  for (const auto flow : {MeanFlow::profile, MeanFlow::layer, MeanFlow::species}) {
+    const auto here = kinetic({scene}, flow), there = kinetic({seen}, flow);
+    for (std::size_t n = 0; n < 3; ++n) {
+      EXPECT_TRUE(
+          same(here.mean(n, Species::small).kinetic, there.mean(n, Species::small).kinetic, 1e-13));
+      EXPECT_NEAR(there.flow(n).u, here.flow(n).u + 40, 1e-12);
+      EXPECT_NEAR(there.flow(n).du_dy, here.flow(n).du_dy, 1e-9);
+    }
+  }
+}
+
+TEST(KineticStress, ACurvedProfileIsFollowedAndFluctuationsAreFound)
+{
+  const auto curve = [](double y) { return Vec2{y * (6 - y), 0}; };
+  // The line through bins 1/8 thick misses a parabola of curvature 2 by about (1/8)^2/4.
+  const auto quiet = kinetic({column(curve)}, MeanFlow::profile);
+  EXPECT_LT(quiet.mean(1, Species::small).kinetic(0, 0),
+            0.01 * 0.01 * quiet.mean(1, Species::small).mass);
+  const auto noisy = kinetic(std::vector<Scene>{column(curve, 0.3)}, MeanFlow::profile);
+  double mass = 0, energy = 0;
+  for (std::size_t n = 0; n < noisy.layers(); ++n)
+    for (const auto species : {Species::small, Species::large}) {
+      mass += noisy.mean(n, species).mass;
+      energy += noisy.mean(n, species).kinetic.trace();
+    }
+  // 24 bins of about 12 grains take a twelfth of the variance out.
+  EXPECT_NEAR(energy / mass, 2 * 0.09, 0.05);
+}
+
+TEST(KineticStress, AGrainIsBookedWholeAtItsCentreAndBoundaryGrainsNowhere)
+{
+  Scene scene;
+  scene.grain(Species::large, 0.4, {1, 0.99}, {1, 0});
+  scene.grain(Species::boundary, 0.4, {1, 0}, {5, 0});
+  const auto stress = kinetic({scene}, MeanFlow::profile);
+  ASSERT_EQ(stress.layers(), 2u);
+  EXPECT_NEAR(stress.mean(0, Species::large).mass, pi * 0.16, 1e-15);
+  EXPECT_EQ(stress.mean(1, Species::large).mass, 0);
+  EXPECT_EQ(stress.flow(0).u, 1);
+  EXPECT_TRUE(std::isnan(stress.flow(1).u));
+}
+
+TEST(KineticStress, AProfilePassesOverEmptyHeights)
+{
+  Scene scene;
+  for (const double y : {0.05, 0.1, 0.3, 2.4, 2.45, 2.9, 2.95})
+    scene.grain(Species::small, 0.02, {1, y}, {4 * y, 0});
+  EXPECT_LT(largest(kinetic({scene}, MeanFlow::profile)), 1e-28);
+}
+
+TEST(KineticStress, ColumnsAndNumbersAgreeInCount)
+{
+  const auto stress = kinetic({column([](double) { return Vec2{1, 0}; })}, MeanFlow::layer);
+  EXPECT_EQ(KineticStress::columns().size(), stress.row(0).size());
+}
+
+}  // namespace
+}  // namespace grseg

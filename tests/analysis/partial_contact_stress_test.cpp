@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/partial_contact_stress.hpp"
+
+#include "analysis/composition.hpp"
+#include "formats/errors.hpp"
+#include "tests/analysis/grain_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace grseg {
+namespace {
+
+const Layers unit_layers(1, 10);
+const Vec2 push{-0.5, 3};
+
+/// force (x) branch by hand.
+Tensor2 dyad(const Vec2& f, const Vec2& b)
+{
+  Tensor2 t;
+  t << f.x() * b.x(), f.x() * b.y(), f.y() * b.x(), f.y() * b.y();
+  return t;
+}
+
+PartialContactStress stress_of(const Scene& scene, Assignment assignment,
+                               std::optional<double> power = std::nullopt)
+{
+  PartialContactStress stress(unit_layers, assignment, power);
+  stress.add(scene.grains, scene.frame);
+  return stress;
+}
+
+/// A large grain at height 2.75 on a small one at height 1.25, touching at 1.75: the large grain's
+/// part is two thirds, the branch is (0, 1.5).
+Scene large_on_small()
+{
+  Scene scene;
+  const auto large = scene.grain(Species::large, 1, {5, 2.75});
+  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
+  scene.contact(large, small, push);
+  return scene;
+}
+const Tensor2 mixed = dyad(push, {0, 1.5});
+
+TEST(PartialContactStress, PushingGrainsApartIsPositiveWhoeverComesFirst)
+{
+  Scene scene = large_on_small();
+  EXPECT_GT(stress_of(scene, Assignment::contact_point).mean(1).sums.mixed(1, 1), 0);
+  std::swap(scene.frame.contacts.i[0], scene.frame.contacts.j[0]);
+  scene.frame.contacts.force[0] *= -1;
+  scene.frame.contacts.branch[0] *= -1;
+  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain}) {
+    const auto here = stress_of(scene, assignment), there = stress_of(large_on_small(), assignment);
+    for (std::size_t n = 0; n < here.layers(); ++n) {
+      EXPECT_TRUE(same(here.mean(n).sums.mixed, there.mean(n).sums.mixed));
+      EXPECT_TRUE(same(here.mean(n).sums.mixed_size, there.mean(n).sums.mixed_size));
+      EXPECT_TRUE(same(here.mean(n).sums.mixed_contact, there.mean(n).sums.mixed_contact));
+      EXPECT_TRUE(same(here.mean(n).mixed_at_large, there.mean(n).mixed_at_large));
+    }
+  }
+}
+
+TEST(PartialContactStress, AContactIsBookedWholeWhereItTouches)
+{
+  const auto stress = stress_of(large_on_small(), Assignment::contact_point);
+  ASSERT_EQ(stress.layers(), 4u);
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed, mixed));
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed_size, mixed * 2 / 3));
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed_contact, mixed * 2 / 3));
+  EXPECT_EQ(stress.mean(1).contacts, (std::array<double, 5>{0, 1, 0, 0, 0}));
+  for (const std::size_t n : {0, 2, 3}) EXPECT_TRUE(same(stress.mean(n).sums.mixed, mixed * 0));
+}
+
+// The branch runs from 1.25 to 2.75: half in layer 1, half in layer 2. The large grain's part is
+// 1.75 to 2.75: 0.25 of 1.5 in layer 1 and 0.75 of 1.5 in layer 2.
+TEST(PartialContactStress, AlongTheBranchEveryLayerGetsItsLength)
+{
+  const auto stress = stress_of(large_on_small(), Assignment::branch, 0);
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed, mixed / 2));
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed, mixed / 2));
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed_size, mixed / 6));
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed_size, mixed / 2));
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed_contact, mixed / 6));
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed_contact, mixed / 2));
+  // A weight, not a cut: power:0 is one half of what lies in the layer.
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed_power, mixed / 4));
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed_power, mixed / 4));
+}
+
+TEST(PartialContactStress, EachGrainsPartIsBookedAtItsOwnCentre)
+{
+  const auto stress = stress_of(large_on_small(), Assignment::grain);
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed_size, mixed * 2 / 3));
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed_contact, mixed * 2 / 3));
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed, mixed * 2 / 3));
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed, mixed / 3));
+  EXPECT_TRUE(same(stress.mean(2).mixed_at_large, mixed));
+  EXPECT_TRUE(same(stress.mean(1).mixed_at_large, mixed * 0));
+  EXPECT_TRUE(same(stress.mean(1).mixed_at_small, mixed));
+  EXPECT_TRUE(same(stress.mean(2).mixed_at_small, mixed * 0));
+}
+
+// Radii 1 and 0.5 overlapping by 0.3: the contact point halves the overlap, 0.85 from the large
+// centre and 0.35 from the small one, while by size it is still two to one.
+TEST(PartialContactStress, OverlapMovesTheContactPointButNotTheShareBySize)
+{
+  Scene scene = large_on_small();
+  scene.frame.position[1].y() = 1.55;
+  scene.frame.contacts = {};
+  scene.contact(0, 1, push);
+  const Tensor2 whole = dyad(push, {0, 1.2});
+  const auto sums = stress_of(scene, Assignment::contact_point).mean(1).sums;
+  EXPECT_TRUE(same(sums.mixed, whole));
+  EXPECT_TRUE(same(sums.mixed_size, whole * 2 / 3));
+  EXPECT_TRUE(same(sums.mixed_contact, whole * 0.85 / 1.2));
+}
+
+TEST(PartialContactStress, APowerOfTwoGivesTheLargeGrainFourFifths)
+{
+  const auto stress = stress_of(large_on_small(), Assignment::contact_point, 2);
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed_power, mixed * 0.8));
+}
+
+TEST(PartialContactStress, EqualGrainsAreKeptApartBySpecies)
+{
+  for (const auto species : {Species::small, Species::large}) {
+    Scene scene;
+    const auto a = scene.grain(species, 0.5, {5, 1.25}), b = scene.grain(species, 1, {5, 2.75});
+    scene.contact(b, a, push);
+    const bool small = species == Species::small;
+    const auto own = [&](const PartialContactStress& stress, std::size_t n) {
+      return small ? stress.mean(n).sums.ss : stress.mean(n).sums.ll;
+    };
+    EXPECT_TRUE(same(own(stress_of(scene, Assignment::contact_point), 1), mixed));
+    EXPECT_TRUE(same(own(stress_of(scene, Assignment::branch), 1), mixed / 2));
+    EXPECT_TRUE(same(own(stress_of(scene, Assignment::branch), 2), mixed / 2));
+    EXPECT_TRUE(same(own(stress_of(scene, Assignment::grain), 1), mixed / 3));
+    EXPECT_TRUE(same(own(stress_of(scene, Assignment::grain), 2), mixed * 2 / 3));
+    const auto counts = stress_of(scene, Assignment::contact_point).mean(1).contacts;
+    EXPECT_EQ(counts[small ? 0 : 2], 1);
+    EXPECT_EQ(stress_of(scene, Assignment::branch).mean(1).contacts, counts);
+  }
+}
+
+// A small grain of radius 0.5 at height 1.25 on a base grain of radius 1 at -0.25, touching at
+// 0.75.
+TEST(PartialContactStress, TheBaseBranchIsCutAtTheContactPointAndAlsoGivenWhole)
+{
+  Scene scene;
+  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
+  const auto base = scene.grain(Species::boundary, 1, {5, -0.25});
+  scene.contact(small, base, push);
+
+  const auto at_point = stress_of(scene, Assignment::contact_point);
+  EXPECT_TRUE(same(at_point.mean(0).sums.base_small, mixed / 3));
+  EXPECT_TRUE(same(at_point.mean(0).sums.whole_small, mixed));
+  EXPECT_EQ(at_point.mean(0).contacts, (std::array<double, 5>{0, 0, 0, 1, 0}));
+
+  const auto along = stress_of(scene, Assignment::branch);
+  EXPECT_TRUE(same(along.mean(0).sums.base_small, mixed / 6));
+  EXPECT_TRUE(same(along.mean(1).sums.base_small, mixed / 6));
+  EXPECT_TRUE(same(along.mean(0).sums.whole_small, mixed * 1.25 / 1.5));
+  EXPECT_TRUE(same(along.mean(1).sums.whole_small, mixed * 0.25 / 1.5));
+
+  const auto at_centre = stress_of(scene, Assignment::grain);
+  EXPECT_TRUE(same(at_centre.mean(1).sums.base_small, mixed / 3));
+  EXPECT_TRUE(same(at_centre.mean(1).sums.whole_small, mixed));
+}
+
+TEST(PartialContactStress, AtAStraightWallBothBasePartsAreTheSame)
+{
+  Scene scene;
+  const auto large = scene.grain(Species::large, 1, {5, 1});
+  scene.wall_contact(large, 0, push, {0, 1});
+  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain}) {
+    const auto stress = stress_of(scene, assignment);
+    Tensor2 cut = Tensor2::Zero(), whole = Tensor2::Zero();
+    for (std::size_t n = 0; n < stress.layers(); ++n) {
+      cut += stress.mean(n).sums.base_large;
+      whole += stress.mean(n).sums.whole_large;
+    }
+    EXPECT_TRUE(same(cut, dyad(push, {0, 1})));
+    EXPECT_TRUE(same(whole, cut));
+  }
+}
+
+TEST(PartialContactStress, ContactsWithoutForceDoNotCount)
+{
+  Scene scene = large_on_small();
+  scene.frame.contacts.force[0] = {0, 0};
+  EXPECT_EQ(stress_of(scene, Assignment::contact_point).mean(1).contacts[1], 0);
+}
+
+TEST(PartialContactStress, ResultsAreMeansPerFrame)
+{
+  const Scene scene = large_on_small();
+  Scene idle = scene;
+  idle.frame.contacts = {};
+  PartialContactStress stress(unit_layers, Assignment::contact_point);
+  stress.add(scene.grains, scene.frame);
+  stress.add(idle.grains, idle.frame);
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed, mixed / 2));
+  EXPECT_EQ(stress.mean(1).contacts[1], 0.5);
+}
+
+TEST(PartialContactStress, ABoundaryGrainNamedFirstIsRefused)
+{
+  Scene scene;
+  const auto base = scene.grain(Species::boundary, 1, {5, 0});
+  const auto small = scene.grain(Species::small, 0.5, {5, 1.5});
+  scene.contact(base, small, push);
+  EXPECT_THROW(stress_of(scene, Assignment::contact_point), FormatError);
+}
+
+/// A heap of grains in a cell of 10 x 5 with forces at random contacts; nothing is in balance,
+/// which sums do not mind.
+Scene heap()
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(0, 1);
+  Scene scene;
+  for (int g = 0; g < 60; ++g) {
+    const auto species = g % 3 == 0    ? Species::large
+                         : g % 10 == 1 ? Species::boundary
+                                       : Species::small;
+    scene.grain(species, 0.2 + 0.5 * number(random), {10 * number(random), 5 * number(random)});
+  }
+  for (std::int32_t i = 0; i < 60; ++i)
+    for (std::int32_t j = 0; j < 60; j += 7)
+      if (i != j && scene.grains.fixed[static_cast<std::size_t>(i)] == 0)
+        scene.contact(i, j, {number(random) - 0.5, number(random) - 0.5});
+  return scene;
+}
+
+std::vector<double> total(const PartialContactStress& stress)
+{
+  std::vector<double> sum(stress.row(0).size());
+  for (std::size_t n = 0; n < stress.layers(); ++n)
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += stress.row(n)[c];
+  return sum;
+}
+
+TEST(PartialContactStress, WhereAContactIsBookedDoesNotChangeTheTotal)
+{
+  const Scene scene = heap();
+  const auto at_points = total(stress_of(scene, Assignment::contact_point));
+  const auto along = total(stress_of(scene, Assignment::branch));
+  const auto at_centres = total(stress_of(scene, Assignment::grain));
+  for (std::size_t c = 0; c < at_points.size(); ++c) {
+    EXPECT_NEAR(along[c], at_points[c], 1e-12);
+    EXPECT_NEAR(at_centres[c], at_points[c], 1e-12);
+  }
+}
+
+TEST(PartialContactStress, TheTotalIsTheSumOverContacts)
+{
+  const Scene scene = heap();
+  Tensor2 direct = Tensor2::Zero(), sums = Tensor2::Zero();
+  for (std::size_t k = 0; k < scene.frame.contacts.size(); ++k)
+    direct += dyad(scene.frame.contacts.force[k], scene.frame.contacts.branch[k]);
+  const auto stress = stress_of(scene, Assignment::branch);
+  for (std::size_t n = 0; n < stress.layers(); ++n) {
+    const auto& s = stress.mean(n).sums;
+    sums += s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
+  }
+  EXPECT_TRUE(same(sums, direct, 1e-12));
+}
+
+TEST(PartialContactStress, MovingTheBedAlongThePeriodChangesNothing)
+{
+  const Scene scene = heap();
+  Scene moved = scene;
+  for (auto& position : moved.frame.position)
+    position.x() = std::fmod(position.x() + 3.7, 10.0);  // branches stay, as in a periodic run
+  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain}) {
+    const auto here = stress_of(scene, assignment), there = stress_of(moved, assignment);
+    for (std::size_t n = 0; n < here.layers(); ++n) EXPECT_EQ(here.row(n), there.row(n));
+  }
+}
+
+TEST(PartialContactStress, MovingTheBedByAWholeLayerMovesTheRows)
+{
+  const Scene scene = heap();
+  Scene moved = scene;
+  for (auto& position : moved.frame.position) position.y() += 1;
+  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain}) {
+    const auto here = stress_of(scene, assignment), there = stress_of(moved, assignment);
+    ASSERT_EQ(there.layers(), here.layers() + 1);
+    for (std::size_t n = 1; n < here.layers(); ++n)
+      for (std::size_t c = 0; c < here.row(n).size(); ++c)
+        EXPECT_NEAR(there.row(n + 1)[c], here.row(n)[c], 1e-12);
+  }
+}
+
+TEST(PartialContactStress, ColumnsAndNumbersAgreeInCount)
+{
+  const Scene scene = large_on_small();
+  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain})
+    for (const auto power : {std::optional<double>{}, std::optional<double>{2}}) {
+      const auto stress = stress_of(scene, assignment, power);
+      EXPECT_EQ(stress.columns().size(), stress.row(0).size());
+    }
+  EXPECT_EQ(stress_of(scene, Assignment::branch).columns().front(), "n_SS");
+  EXPECT_EQ(stress_of(scene, Assignment::branch).columns().back(), "F_Lb_yy[N m]");
+  EXPECT_EQ(stress_of(scene, Assignment::grain).columns().back(), "MS_yy[N m]");
+}
+
+// Sums and rules against the same stress added up contact by contact.
+TEST(PartialContactStress, RecombinedSumsAreTheDirectPartition)
+{
+  const Scene scene = heap();
+  const auto stress = stress_of(scene, Assignment::contact_point, 3);
+  for (const auto& rule :
+       parse_rules({"size", "contact-point", "half", "drop", "uniform:0.8", "power:3"})) {
+    std::vector<Tensor2> large(stress.layers(), Tensor2::Zero()), small = large;
+    const auto& list = scene.frame.contacts;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const auto i = static_cast<std::size_t>(list.i[k]), j = static_cast<std::size_t>(list.j[k]);
+      const double r_i = scene.grains.radius[i], r_j = scene.grains.radius[j];
+      const double point = share_of_first(scene.grains, list, k);
+      const Tensor2 t = dyad(list.force[k], list.branch[k]);
+      const std::size_t n = std::min(
+          unit_layers.at(contact_point(scene.grains, scene.frame, k).y()), stress.layers() - 1);
+      auto& own = scene.grains.species[i] == Species::large ? large[n] : small[n];
+      auto& other = scene.grains.species[j] == Species::large ? large[n] : small[n];
+      double share = 1;
+      if (scene.grains.species[j] == Species::boundary) {
+        own += point * t;
+        continue;
+      }
+      using Kind = PartitionRule::Kind;
+      const bool is_mixed = scene.grains.species[i] != scene.grains.species[j];
+      const bool i_large = scene.grains.species[i] == Species::large;
+      if (rule.kind == Kind::drop && is_mixed) continue;
+      if (rule.kind == Kind::size) share = r_i / (r_i + r_j);
+      if (rule.kind == Kind::contact_point) share = point;
+      if (rule.kind == Kind::half) share = 0.5;
+      if (rule.kind == Kind::uniform) share = i_large ? 0.8 : 1 - 0.8;
+      if (rule.kind == Kind::power)
+        share = std::pow(r_i, 3) / (std::pow(r_i, 3) + std::pow(r_j, 3));
+      own += share * t;
+      other += (1 - share) * t;
+    }
+    for (std::size_t n = 0; n < stress.layers(); ++n) {
+      auto sums = stress.mean(n).sums;
+      sums.volume = unit_layers.volume();
+      const auto partial = partial_stress(sums, rule);
+      EXPECT_TRUE(same(partial.large, large[n] / 10, 1e-12)) << rule.name();
+      EXPECT_TRUE(same(partial.small, small[n] / 10, 1e-12)) << rule.name();
+    }
+  }
+}
+
+TEST(Composition, ClippedAreasAddUpToTheGrainsAndCentresBookThemWhole)
+{
+  Scene scene;
+  scene.grain(Species::large, 1, {5, 1.5});
+  scene.grain(Species::small, 0.25, {5, 0.5});
+  scene.grain(Species::boundary, 1, {5, 0});
+  const double pi = std::numbers::pi;
+
+  Composition clipped(unit_layers, GrainArea::clipped);
+  clipped.add(scene.grains, scene.frame);
+  const double cap = pi / 3 - std::sqrt(3) / 4;
+  EXPECT_NEAR(clipped.mean(0).large, cap, 1e-14);
+  EXPECT_NEAR(clipped.mean(1).large, pi - 2 * cap, 1e-14);
+  EXPECT_NEAR(clipped.mean(0).small, pi / 16, 1e-14);
+  EXPECT_NEAR(clipped.mean().large, pi, 1e-14);
+  EXPECT_NEAR(clipped.mean().phi_large(), 16.0 / 17, 1e-14);
+
+  Composition whole(unit_layers, GrainArea::centre);
+  whole.add(scene.grains, scene.frame);
+  whole.add(scene.grains, scene.frame);
+  EXPECT_NEAR(whole.mean(1).large, pi, 1e-14);
+  EXPECT_EQ(whole.mean(0).large, 0);
+  EXPECT_TRUE(std::isnan(whole.mean(2).phi_large()));
+}
+
+}  // namespace
+}  // namespace grseg

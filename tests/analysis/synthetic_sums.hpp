@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/partition.hpp"
+#include "formats/table.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Sums of force (x) branch made by algebra instead of by a simulation.
+namespace grseg::synthetic {
+
+/// A stress of no symmetry, so that no component can stand for another.
+inline Tensor2 any_tensor()
+{
+  Tensor2 tensor;
+  tensor << 0.8, -0.41, -0.39, 1.1;
+  return tensor;
+}
+
+/// The neutral contact model: a share x_L = phi_L/(phi_L + r phi_S) of the contact ends belongs to
+/// large grains (perimeter), ends pair at random, and forces are blind to type. A contact then
+/// carries stress in proportion to its branch: 2 r, 1 + r and 2 for LL, LS and SS.
+inline ContactSums neutral_sums(double phi_large, double r, double solid = 0.8, double volume = 2)
+{
+  const double large = phi_large / (phi_large + r * (1 - phi_large)), small = 1 - large;
+  ContactSums sums;
+  sums.volume = volume;
+  sums.area_large = phi_large * solid * volume;
+  sums.area_small = (1 - phi_large) * solid * volume;
+  sums.ll = large * large * 2 * r * any_tensor();
+  sums.ss = small * small * 2 * any_tensor();
+  sums.mixed = 2 * large * small * (1 + r) * any_tensor();
+  sums.mixed_size = r / (1 + r) * sums.mixed;
+  sums.mixed_contact = sums.mixed_size;
+  return sums;
+}
+
+/// Two species whose stresses are what they are, without any mixed contact.
+inline ContactSums separate_sums(double phi_large, const Tensor2& small, const Tensor2& large)
+{
+  ContactSums sums;
+  sums.volume = 1;
+  sums.area_large = 0.8 * phi_large;
+  sums.area_small = 0.8 * (1 - phi_large);
+  sums.ss = small;
+  sums.ll = large;
+  return sums;
+}
+
+struct TableRow {
+  double begin, end, frames;
+  ContactSums sums;
+};
+
+inline const std::vector<std::pair<std::string, Tensor2 ContactSums::*>>& tensors()
+{
+  static const std::vector<std::pair<std::string, Tensor2 ContactSums::*>> all{
+      {"A_SS", &ContactSums::ss},           {"A_LL", &ContactSums::ll},
+      {"M", &ContactSums::mixed},           {"Msize", &ContactSums::mixed_size},
+      {"Mcp", &ContactSums::mixed_contact}, {"A_Sb", &ContactSums::base_small},
+      {"A_Lb", &ContactSums::base_large},   {"F_Sb", &ContactSums::whole_small},
+      {"F_Lb", &ContactSums::whole_large},  {"Mpower", &ContactSums::mixed_power}};
+  return all;
+}
+
+/// As grseg-stress --partition power:2 would write it.
+inline Table stress_table(const std::vector<TableRow>& rows, double small_diameter = 0.005,
+                          double large_diameter = 0.01)
+{
+  Table table;
+  table.name = "sums.tsv";
+  table.header = {{"program", "grseg-stress"},
+                  {"small_diameter", format_number(small_diameter)},
+                  {"large_diameter", format_number(large_diameter)},
+                  {"power", "2"}};
+  table.columns = {"t0[s]", "t1[s]", "frames", "V[m^2]", "area_S[m^2]", "area_L[m^2]"};
+  for (const auto& [name, place] : tensors())
+    for (const char* component : {"_xx[N m]", "_xy[N m]", "_yx[N m]", "_yy[N m]"})
+      table.columns.push_back(name + component);
+  for (const auto& row : rows) {
+    const auto& sums = row.sums;
+    table.rows.push_back(
+        {row.begin, row.end, row.frames, sums.volume, sums.area_small, sums.area_large});
+    for (const auto& [name, place] : tensors())
+      for (const auto& [i, j] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}})
+        table.rows.back().push_back((sums.*place)(i, j));
+  }
+  return table;
+}
+
+}  // namespace grseg::synthetic

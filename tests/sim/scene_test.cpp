@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/scene.hpp"
+
+#include "formats/errors.hpp"
+#include "formats/tool.hpp"
+#include "sim/deposition.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+
+po::variables_map parse(const std::vector<std::string>& words)
+{
+  po::variables_map values;
+  po::store(po::command_line_parser(words).options(scene_options()).run(), values);
+  po::notify(values);
+  return values;
+}
+
+Scene scene_from(const std::vector<std::string>& words)
+{
+  return resolve_scene(parse(words));
+}
+
+class SceneFile : public testing::Test {
+ protected:
+  std::string path =
+      (fs::temp_directory_path() / ("grseg_scene_test_" + std::to_string(getpid()) + ".ini"))
+          .string();
+  void TearDown() override { fs::remove(path); }
+  std::string complaint(const std::string& content)
+  {
+    std::ofstream(path) << content;
+    auto values = parse({});
+    try {
+      read_scene_file(path, values);
+    } catch (const FormatError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+};
+
+TEST(Scene, DefaultsAreThePapersFlow)
+{
+  const auto scene = scene_from({});
+  EXPECT_DOUBLE_EQ(scene.small_diameter, 0.005);
+  EXPECT_DOUBLE_EQ(scene.large_diameter, 0.01);
+  EXPECT_DOUBLE_EQ(scene.depth, 0.3);
+  EXPECT_DOUBLE_EQ(scene.length, 0.35);
+  EXPECT_EQ(scene.slope, 23);
+  EXPECT_EQ(scene.friction, 0.5);
+  EXPECT_EQ(scene.restitution, 0.25);
+  EXPECT_EQ(scene.duration, 150);
+}
+
+TEST(Scene, AWholeNumberOfStepsFitsIntoAFrameInterval)
+{
+  for (const auto* accuracy : {"draft", "standard", "reference"}) {
+    const auto scene = scene_from({"--accuracy", accuracy, "--frame-interval", "0.0123"});
+    const double steps = scene.frame_interval / scene.step;
+    EXPECT_NEAR(steps, std::round(steps), 1e-9);
+  }
+  EXPECT_THROW(scene_from({"--step", "0.0003"}), UsageError);
+}
+
+TEST(Scene, GravityPointsDownTheSlopeAndIntoTheBase)
+{
+  const auto gravity = to_parameters(scene_from({"--slope", "30"})).numbers.at("gravity");
+  EXPECT_NEAR(gravity[0], 4.9, 1e-12);
+  EXPECT_NEAR(gravity[1], -9.8 * std::sqrt(3.0) / 2, 1e-12);
+}
+
+TEST(Scene, ItsTextMakesTheSameScene)
+{
+  const auto scene = scene_from({"--phi-large", "0.45", "--slope", "21.5", "--rotation", "off"});
+  const auto path =
+      (fs::temp_directory_path() / ("grseg_scene_" + std::to_string(getpid()) + ".ini")).string();
+  std::ofstream(path) << to_text(scene);
+  auto values = parse({});
+  read_scene_file(path, values);
+  fs::remove(path);
+  EXPECT_EQ(to_text(resolve_scene(values)), to_text(scene));
+}
+
+TEST(Scene, ValuesOutOfRangeAreRefusedByName)
+{
+  for (const auto& [key, value] :
+       std::vector<std::pair<std::string, std::string>>{{"phi-large", "1.5"},
+                                                        {"restitution", "-0.1"},
+                                                        {"friction", "nan"},
+                                                        {"depth", "0"},
+                                                        {"length", "2dL"},
+                                                        {"slope", "91"},
+                                                        {"step", "0.1"},
+                                                        {"rotation", "maybe"},
+                                                        {"accuracy", "best"},
+                                                        {"base", "sand"}}) {
+    try {
+      scene_from({"--" + key, value});
+      FAIL() << key;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLineAndTheNearestKnownOne)
+{
+  EXPECT_EQ(complaint("# a chute\nslope = 23\nfrction = 0.5\n"),
+            path + ":3: unknown key 'frction', did you mean 'friction'?");
+}
+
+TEST_F(SceneFile, AValueThatIsNoNumberIsNamedWithItsLine)
+{
+  EXPECT_EQ(complaint("slope = steep\n").substr(0, path.size() + 3), path + ":1:");
+}
+
+TEST_F(SceneFile, TheCommandLineWins)
+{
+  std::ofstream(path) << "slope = 21\nfriction = 0.3\n";
+  auto values = parse({"--slope", "26"});
+  read_scene_file(path, values);
+  const auto scene = resolve_scene(values);
+  EXPECT_EQ(scene.slope, 26);
+  EXPECT_EQ(scene.friction, 0.3);
+}
+
+TEST_F(SceneFile, ThatIsMissingIsAUsageError)
+{
+  auto values = parse({});
+  EXPECT_THROW(read_scene_file("/nowhere/chute.ini", values), UsageError);
+}
+
+TEST(Deposition, MakesABedOfTheAskedDepthAndComposition)
+{
+  const auto scene = scene_from(
+      {"--depth", "12dS", "--length", "15dL", "--phi-large", "0.4", "--accuracy", "draft"});
+  const auto simulation = deposit(scene);
+  EXPECT_NEAR(bed_height(simulation), scene.depth, 0.02 * scene.depth);
+  const auto& grains = simulation.world().grains;
+  double large = 0, all = 0, y_large = 0, y_small = 0;
+  int count_large = 0, count_small = 0, base = 0;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    base += grains.species[k] == Species::boundary;
+    if (grains.fixed[k]) continue;
+    const double area = std::numbers::pi * grains.radius[k] * grains.radius[k];
+    const bool is_large = grains.species[k] == Species::large;
+    all += area;
+    large += is_large ? area : 0;
+    (is_large ? y_large : y_small) += simulation.position(k).y();
+    ++(is_large ? count_large : count_small);
+    EXPECT_NEAR(2 * grains.radius[k], is_large ? 0.01 : 0.005, 0.04 * (is_large ? 0.01 : 0.005));
+    EXPECT_GT(simulation.position(k).y(), 0);
+  }
+  EXPECT_EQ(base, 15);
+  EXPECT_NEAR(large / all, 0.4, 0.02);
+  EXPECT_LT(y_large / count_large, 0.6 * y_small / count_small);
+}
+
+TEST(Deposition, AnotherSeedMakesAnotherBedAndTheSameSeedTheSame)
+{
+  const auto bed = [](const char* seed) {
+    return deposit(
+        scene_from({"--depth", "6dS", "--length", "6dL", "--accuracy", "draft", "--seed", seed}));
+  };
+  const auto first = bed("1"), again = bed("1"), other = bed("2");
+  EXPECT_EQ(first.position(3), again.position(3));
+  EXPECT_NE(first.position(3), other.position(3));
+}
+
+TEST(Deposition, StandsOnAStraightWallBetweenWallsToo)
+{
+  const auto simulation = deposit(scene_from({"--depth", "8dS", "--length", "8dL", "--base", "wall",
+                                              "--lateral", "walls", "--accuracy", "draft"}));
+  for (std::size_t k = 0; k < simulation.world().grains.size(); ++k) {
+    EXPECT_FALSE(simulation.world().grains.fixed[k]);
+    const double r = simulation.world().grains.radius[k];
+    const auto at = simulation.position(k);
+    EXPECT_GT(at.y(), 0.9 * r);
+    EXPECT_GT(at.x(), 0.9 * r);
+    EXPECT_LT(at.x(), simulation.world().box.length_x - 0.9 * r);
+  }
+}
+
+}  // namespace
+}  // namespace grseg

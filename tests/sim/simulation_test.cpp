@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/simulation.hpp"
+
+#include "formats/errors.hpp"
+#include "sim/recorder.hpp"
+#include "tests/sim/worlds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+using worlds::Disc;
+using worlds::floor_at;
+using worlds::positions_of;
+using worlds::world_of;
+
+constexpr double g = 9.8;
+
+void run(Simulation& simulation, double duration)
+{
+  const auto steps = std::llround(duration / simulation.world().step);
+  for (std::int64_t k = 0; k < steps; ++k) simulation.advance();
+}
+
+TEST(Simulation, FreeFallIsExactForAnyStep)
+{
+  const std::vector<Disc> discs{{{0, 100}, 0.5}};
+  auto world = world_of(discs);
+  world.gravity = {0, -g};
+  world.step = 0.01;
+  Simulation simulation(world, positions_of(discs));
+  run(simulation, 2);
+  EXPECT_NEAR(simulation.position(0).y(), 100 - g * 2 * 2 / 2, 1e-11);
+  EXPECT_NEAR(simulation.velocity(0).y(), -2 * g, 1e-12);
+}
+
+TEST(Simulation, TwoDiscsReboundWithRestitutionEAtEveryPhaseOfTheStep)
+{
+  for (int phase = 0; phase < 50; ++phase) {
+    const double gap = 0.02 + 1e-3 * phase / 50 * 3;
+    const std::vector<Disc> discs{{{0, 0}, 0.5}, {{1 + gap, 0}, 0.25}};
+    const std::vector<Vec2> at{{0, 0}, {0.75 + gap, 0}};
+    auto world = world_of(discs);
+    world.material = {0.5, 0.25};
+    Simulation simulation(world, at);
+    simulation.set_velocity(0, {1, 0});
+    simulation.set_velocity(1, {-2, 0});
+    run(simulation, 0.1);
+    EXPECT_NEAR(simulation.velocity(1).x() - simulation.velocity(0).x(), 0.25 * 3, 1e-13);
+    const double m0 = world.grains.mass[0], m1 = world.grains.mass[1];
+    EXPECT_NEAR(m0 * simulation.velocity(0).x() + m1 * simulation.velocity(1).x(), m0 - 2 * m1,
+                1e-13);
+  }
+}
+
+TEST(Simulation, ADiscRollsDownAnInclineAtTwoThirdsOfGSin)
+{
+  const double slope = 0.4;  // tan = 0.42 < 3 mu
+  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
+  auto world = world_of(discs);
+  world.walls = {floor_at(0)};
+  world.gravity = {g * std::sin(slope), -g * std::cos(slope)};
+  Simulation simulation(world, positions_of(discs));
+  run(simulation, 1);
+  EXPECT_NEAR(simulation.velocity(0).x(), 2.0 / 3 * g * std::sin(slope), 1e-10);
+  EXPECT_NEAR(simulation.angular_velocity(0) * 0.5, -simulation.velocity(0).x(), 1e-10);
+  EXPECT_NEAR(simulation.position(0).x(), g * std::sin(slope) / 3, 1e-10);
+  EXPECT_NEAR(simulation.position(0).y(), 0.5, 1e-12);
+}
+
+TEST(Simulation, ADiscSlidesOnAnInclineSteeperThanThreeTimesFriction)
+{
+  const double mu = 0.1, slope = 0.4;  // tan = 0.42 > 0.3
+  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
+  auto world = world_of(discs);
+  world.material.friction = mu;
+  world.walls = {floor_at(0)};
+  world.gravity = {g * std::sin(slope), -g * std::cos(slope)};
+  Simulation simulation(world, positions_of(discs));
+  run(simulation, 1);
+  EXPECT_NEAR(simulation.velocity(0).x(), g * (std::sin(slope) - mu * std::cos(slope)), 1e-10);
+  EXPECT_NEAR(-simulation.angular_velocity(0) * 0.5, 2 * mu * g * std::cos(slope), 1e-10);
+}
+
+TEST(Simulation, RollingTurnsToSlidingAtTanEqualToThreeTimesFriction)
+{
+  const double slope = 0.4;
+  for (const double part : {0.999, 1.001}) {
+    const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
+    auto world = world_of(discs);
+    world.material.friction = part * std::tan(slope) / 3;
+    world.walls = {floor_at(0)};
+    world.gravity = {g * std::sin(slope), -g * std::cos(slope)};
+    Simulation simulation(world, positions_of(discs));
+    run(simulation, 1);
+    const double slip = simulation.velocity(0).x() + 0.5 * simulation.angular_velocity(0);
+    if (part < 1)
+      EXPECT_GT(slip, 1e-4);
+    else
+      EXPECT_NEAR(slip, 0, 1e-10);
+  }
+}
+
+TEST(Simulation, WithoutRotationADiscSlidesLikeABlock)
+{
+  const double slope = 0.4, mu = 0.1;
+  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
+  auto world = world_of(discs);
+  world.rotation = false;
+  world.material.friction = mu;
+  world.walls = {floor_at(0)};
+  world.gravity = {g * std::sin(slope), -g * std::cos(slope)};
+  Simulation simulation(world, positions_of(discs));
+  run(simulation, 1);
+  EXPECT_NEAR(simulation.velocity(0).x(), g * (std::sin(slope) - mu * std::cos(slope)), 1e-10);
+  EXPECT_EQ(simulation.angular_velocity(0), 0);
+}
+
+TEST(Simulation, ASlidingDiscRollsAfterVOverThreeMuG)
+{
+  const double v = 3, mu = 0.2;
+  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
+  auto world = world_of(discs);
+  world.material.friction = mu;
+  world.walls = {floor_at(0)};
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  simulation.set_velocity(0, {v, 0});
+  run(simulation, 2);
+  EXPECT_NEAR(simulation.velocity(0).x(), 2 * v / 3, 1e-10);
+}
+
+TEST(Simulation, TheKthDiscOfAColumnCarriesTheWeightOfKDiscs)
+{
+  const int count = 20;
+  std::vector<Disc> discs;
+  for (int k = 0; k < count; ++k) discs.push_back({{0, 0.5 + k}, 0.5});
+  auto world = world_of(discs);
+  world.walls = {floor_at(0)};
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  Frame frame;
+  simulation.advance(frame);
+  ASSERT_EQ(frame.contacts.size(), static_cast<std::size_t>(count));
+  const double weight = world.grains.mass[0] * g;
+  for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+    // The contact joins a disc to the one below it or to the floor; above it stand `carried` discs.
+    const int lower =
+        frame.contacts.j[c] < 0 ? -1 : std::min(frame.contacts.i[c], frame.contacts.j[c]);
+    const int carried = count - 1 - lower;
+    const double on_upper = frame.contacts.i[c] > frame.contacts.j[c]
+                                ? frame.contacts.force[c].y()
+                                : -frame.contacts.force[c].y();
+    EXPECT_NEAR(on_upper, carried * weight, 1e-8 * weight);
+    EXPECT_EQ(frame.contacts.force[c].x(), 0);
+  }
+  for (int k = 0; k < count; ++k)
+    EXPECT_EQ(simulation.position(static_cast<std::size_t>(k)).x(), 0);
+}
+
+/// A few dozen discs of several sizes poured onto a floor between walls, at rest.
+Simulation settled_heap(double tolerance)
+{
+  std::vector<Disc> discs;
+  for (int row = 0; row < 8; ++row)
+    for (int k = 0; k < 6; ++k)
+      discs.push_back({{0.75 + 1.2 * k + 0.05 * (row % 3), 0.7 + 1.2 * row},
+                       0.4 + 0.02 * ((5 * row + 3 * k) % 10)});
+  auto world = world_of(discs);
+  world.walls = {floor_at(0), {{0, 0}, {1, 0}}, {{7.5, 0}, {-1, 0}}};
+  world.gravity = {0, -g};
+  world.solver = {tolerance, 20000};
+  Simulation simulation(world, positions_of(discs));
+  run(simulation, 6);
+  return simulation;
+}
+
+TEST(Simulation, ASettledBedPressesOnItsBaseWithItsWeightAtEveryStep)
+{
+  auto simulation = settled_heap(1e-9);
+  double weight = 0;
+  for (const double m : simulation.world().grains.mass) weight += m * g;
+  Frame frame;
+  for (int k = 0; k < 20; ++k) {
+    simulation.advance(frame);
+    double base = 0;
+    for (std::size_t c = 0; c < frame.contacts.size(); ++c)
+      if (frame.contacts.j[c] < 0) base += frame.contacts.force[c].y();
+    EXPECT_NEAR(base, weight, 1e-6 * weight);
+  }
+  EXPECT_LT(simulation.translational_energy(), 1e-8 * weight);
+}
+
+TEST(Simulation, ContactForcesAndWeightMakeUpTheForceOfEveryGrainToRoundOff)
+{
+  auto simulation = settled_heap(1e-2);
+  simulation.tilt({g * std::sin(0.5), -g * std::cos(0.5)});
+  Frame frame;
+  for (int k = 0; k < 100; ++k) {
+    simulation.advance(frame);
+    EXPECT_LT(momentum_defect(simulation.world().grains, frame, simulation.world().gravity), 1e-12);
+  }
+}
+
+TEST(Simulation, AFrameIsTheMiddleOfItsStep)
+{
+  const std::vector<Disc> discs{{{9.9995, 5}, 0.5}, {{2, 2}, 0.5}};
+  auto world = world_of(discs);
+  world.box = {10, 10, true};
+  Simulation simulation(world, positions_of(discs));
+  simulation.set_velocity(0, {1, 0});
+  Frame frame;
+  simulation.advance(frame);
+  EXPECT_EQ(frame.step, 0);
+  EXPECT_DOUBLE_EQ(frame.time, 0.5e-3);
+  EXPECT_NEAR(frame.position[0].x(), 0, 1e-12);
+  EXPECT_EQ(frame.image[0][0], 1);
+  EXPECT_NEAR(simulation.position(0).x(), 10.0005, 1e-12);
+}
+
+TEST(Simulation, WritingFramesChangesNothing)
+{
+  auto watched = settled_heap(1e-2), alone = watched;
+  Frame frame;
+  for (int k = 0; k < 50; ++k) {
+    watched.advance(frame);
+    alone.advance();
+  }
+  for (std::size_t d = 0; d < watched.world().grains.size(); ++d)
+    EXPECT_EQ(watched.position(d), alone.position(d));
+}
+
+TEST(Simulation, AShiftAlongThePeriodChangesNoForce)
+{
+  // A row of discs on a floor, one of them leaning on two: contacts across the period and not.
+  const auto forces = [](double shift) {
+    std::vector<Disc> discs{
+        {{0.5, 0.5}, 0.5}, {{1.5, 0.5}, 0.5}, {{1.0, 1.3}, 0.5}, {{3.5, 0.5}, 0.5}};
+    for (auto& d : discs) d.position.x() += shift - 4 * std::floor((d.position.x() + shift) / 4);
+    auto world = world_of(discs);
+    world.box = {4, 10, true};
+    world.walls = {floor_at(0)};
+    world.gravity = {1, -g};
+    Simulation simulation(world, positions_of(discs));
+    Frame frame;
+    for (int k = 0; k < 100; ++k) simulation.advance(frame);
+    std::vector<Vec2> on(discs.size(), Vec2::Zero());
+    for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+      on[static_cast<std::size_t>(frame.contacts.i[c])] += frame.contacts.force[c];
+      if (frame.contacts.j[c] >= 0)
+        on[static_cast<std::size_t>(frame.contacts.j[c])] -= frame.contacts.force[c];
+    }
+    return on;
+  };
+  const auto here = forces(0);
+  for (const double shift : {0.3, 2.0, 3.2}) {
+    const auto there = forces(shift);
+    for (std::size_t d = 0; d < here.size(); ++d) EXPECT_NEAR((here[d] - there[d]).norm(), 0, 1e-9);
+  }
+}
+
+TEST(Simulation, ABeadOnTheBaseStaysOnTheBase)
+{
+  // Boundary grains do not move, whatever falls on them.
+  const std::vector<Disc> discs{{{0, 3}, 0.5}, {{-0.5, 0}, 0.5, true}, {{0.5, 0}, 0.5, true}};
+  auto world = world_of(discs);
+  world.material.restitution = 0.25;
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  run(simulation, 2);
+  EXPECT_EQ(simulation.position(1), Vec2(-0.5, 0));
+  EXPECT_EQ(simulation.velocity(2), Vec2(0, 0));
+  EXPECT_NEAR(simulation.position(0).y(), std::sqrt(0.75), 1e-2);
+}
+
+TEST(Simulation, CoincidentCentresAreNamedAndStopTheRun)
+{
+  const std::vector<Disc> discs{{{1, 1}, 0.5}, {{1, 1}, 0.5}};
+  Simulation simulation(world_of(discs), positions_of(discs));
+  try {
+    simulation.advance();
+    FAIL();
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("grains 0 and 1 coincide"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace grseg
