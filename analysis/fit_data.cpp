@@ -2,6 +2,7 @@
 #include "analysis/fit_data.hpp"
 
 #include "formats/errors.hpp"
+#include "formats/length.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_statistics.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -17,7 +19,7 @@ namespace {
 
 /// One row before the filters.
 struct Row {
-  double begin, end, frames;
+  double begin, end, bottom, top, frames;
   ContactSums sums;
 
   double solid() const { return (sums.area_small + sums.area_large) / sums.volume; }
@@ -64,11 +66,14 @@ std::vector<Row> read_rows(const Table& table, Quantity quantity,
   const std::string remedy = "a table of grseg-stress or grseg-kinetic has it";
   const auto begin = find_column(table, "t0", remedy);
   const auto end = find_column(table, "t1", remedy);
+  const auto bottom = find_column(table, "y0", remedy);
+  const auto top = find_column(table, "y1", remedy);
   const auto frames = find_column(table, "frames", remedy);
   std::vector<Row> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     rows.push_back({finite_cell(table, row, begin), finite_cell(table, row, end),
+                    finite_cell(table, row, bottom), finite_cell(table, row, top),
                     finite_cell(table, row, frames), sums(row)});
   return rows;
 }
@@ -81,8 +86,29 @@ double median_solid_fraction(const std::vector<Row>& rows)
   return solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
 }
 
+/// Heights between which layers take part, m.
+struct Heights {
+  double lowest = -std::numeric_limits<double>::infinity();
+  double highest = std::numeric_limits<double>::infinity();
+
+  bool hold(const Row& row) const
+  {
+    const double slack = 1e-9 * (row.top - row.bottom);
+    return row.bottom >= lowest - slack && row.top <= highest + slack;
+  }
+};
+
+Heights heights_of(const FitFilters& filters, LengthUnits units)
+{
+  Heights heights;
+  if (!filters.lowest.empty()) heights.lowest = parse_length(filters.lowest, "--heights", units);
+  if (!filters.highest.empty()) heights.highest = parse_length(filters.highest, "--heights", units);
+  return heights;
+}
+
 /// Counts a row where it goes; true if it becomes a point.
-bool passes(const Row& row, const FitFilters& filters, double median_solid, FilterCount& count)
+bool passes(const Row& row, const FitFilters& filters, const Heights& heights, double median_solid,
+            FilterCount& count)
 {
   const double small = row.sums.area_small, large = row.sums.area_large;
   const double ratio = small / large;
@@ -94,6 +120,7 @@ bool passes(const Row& row, const FitFilters& filters, double median_solid, Filt
   ++count.rows;
   if (row.begin < filters.begin - slack || row.end > filters.end + slack)
     return goes_to(count.outside_times);
+  if (!heights.hold(row)) return goes_to(count.outside_heights);
   if (!(small + large > 0) || !(row.frames > 0)) return goes_to(count.without_grains);
   if (!(small > 0)) return goes_to(count.without_small);
   if (!(large > 0)) return goes_to(count.without_large);
@@ -108,7 +135,9 @@ void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filter
   const double small_diameter = table.header_number("small_diameter");
   const double large_diameter = table.header_number("large_diameter");
   const double median = median_solid_fraction(rows);
-  std::erase_if(rows, [&](const Row& row) { return !passes(row, filters, median, data.count); });
+  const auto heights = heights_of(filters, {small_diameter, large_diameter});
+  std::erase_if(rows,
+                [&](const Row& row) { return !passes(row, filters, heights, median, data.count); });
 
   std::map<double, std::size_t> window_at;
   for (const auto& row : rows) window_at[row.begin] = 0;
@@ -159,6 +188,7 @@ std::string FilterCount::sentence() const
     if (n > 0) text += fmt::format(", {} {}", n, why);
   };
   add(outside_times, "outside --begin and --end");
+  add(outside_heights, "outside --heights");
   add(without_grains, "without grains");
   add(without_small, "without small grains");
   add(without_large, "without large grains");

@@ -20,6 +20,8 @@ struct FitFilters {
   double min_solid = 0.5;                                   // of the run's median solid fraction
   double begin = -std::numeric_limits<double>::infinity();  // s, windows lie in [begin, end]
   double end = std::numeric_limits<double>::infinity();
+  // Layers lie in [lowest, highest]: lengths as on the command line (4dS), "" where open.
+  std::string lowest{}, highest{};
 };
 
 /// One layer in one window.
@@ -34,7 +36,7 @@ struct LayerSample {
 /// Where the rows went.
 struct FilterCount {
   std::size_t rows = 0, outside_times = 0, without_grains = 0, without_small = 0, without_large = 0,
-              outside_ratio = 0, below_solid = 0, used = 0;
+              outside_ratio = 0, below_solid = 0, outside_heights = 0, used = 0;
 
   /// "320 rows, of which 20 hold no grains, ...": names the options that removed them.
   std::string sentence() const;

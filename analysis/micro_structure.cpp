@@ -48,6 +48,7 @@ MicroSums& MicroSums::operator+=(const MicroSums& other)
   add_up(contacts, other.contacts);
   add_up(force, other.force);
   add_up(normal, other.normal);
+  base_force += other.base_force;
   return *this;
 }
 
@@ -59,6 +60,7 @@ MicroSums MicroSums::operator/(double number) const
   divide(result.contacts, number);
   divide(result.force, number);
   divide(result.normal, number);
+  result.base_force /= number;
   return result;
 }
 
@@ -125,11 +127,13 @@ void MicroStructure::add(const Grains& grains, const Frame& frame)
     const double modulus = list.force[k].norm();
     if (modulus == 0) continue;
     const auto type = at(pair_type(grains, frame, k));
+    const bool base = type == at(PairType::Sb) || type == at(PairType::Lb);
     const double y = contact_point(grains, frame, k).y();
     auto& sums = sums_[std::min(layers_.at(y), sums_.size() - 1)];
     ++sums.contacts[type];
     sums.force[type] += modulus;
     sums.normal[type] += list.force[k].dot(list.branch[k]) / list.branch[k].norm();
+    if (base) sums.base_force += list.force[k];
     add_end(list.i[k]);
     add_end(list.j[k]);
   }
@@ -177,10 +181,10 @@ std::vector<std::string> MicroStructure::columns()
   for (const char* type : pair_type_names)
     for (const char* name : {"n_{}", "sum_f_{}[N]", "sum_fn_{}[N]"})
       names.push_back(fmt::format(fmt::runtime(name), type));
-  names.insert(names.end(),
-               {"yL[m]", "yS[m]", "height[m]", "phi_L", "z_S", "z_L", "f_S[N]", "f_L[N]",
-                "mixed_share", "neutral_share", "Pi[N/m]", "Pi_S[N/m]", "Pi_L[N/m]",
-                "Pi_printed[N/m]", "Pi_S_printed[N/m]", "Pi_L_printed[N/m]"});
+  names.insert(names.end(), {"yL[m]", "yS[m]", "height[m]", "phi_L", "z_S", "z_L", "f_S[N]",
+                             "f_L[N]", "mixed_share", "neutral_share", "Pi[N/m]", "Pi_S[N/m]",
+                             "Pi_L[N/m]", "Pi_printed[N/m]", "Pi_S_printed[N/m]",
+                             "Pi_L_printed[N/m]", "base_fx[N]", "base_fy[N]"});
   return names;
 }
 
@@ -196,7 +200,8 @@ std::vector<double> MicroStructure::row(const MicroSums& sums, double phi_large,
               sums.coordination(Species::small), sums.coordination(Species::large),
               sums.mean_force(Species::small), sums.mean_force(Species::large), sums.mixed_share(),
               neutral_mixed_share(phi_large, large_diameter_ / small_diameter_), pi.total(),
-              pi.small, pi.large, 2 * pi.total(), 2 * pi.small, 2 * pi.large});
+              pi.small, pi.large, 2 * pi.total(), 2 * pi.small, 2 * pi.large, sums.base_force.x(),
+              sums.base_force.y()});
   return row;
 }
 

@@ -25,6 +25,7 @@ struct MicroSums {
   std::array<double, pair_types> contacts{};
   std::array<double, pair_types> force{};   // N, sum of moduli
   std::array<double, pair_types> normal{};  // N, sum of normal parts, repulsion positive
+  Vec2 base_force = Vec2::Zero();           // N, of boundary grains and walls on the mobile grains
 
   MicroSums& operator+=(const MicroSums& other);
   MicroSums operator/(double number) const;

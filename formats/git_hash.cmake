@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.25)
 # Writes OUTPUT, a header with the short git hash of SOURCE, and leaves it alone when it is right.
 execute_process(
   COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10 --exclude *

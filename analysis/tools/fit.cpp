@@ -32,7 +32,7 @@ constexpr ToolInfo info{
 
 struct Settings {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range, preset, output;
+  std::string component, quantity, base, scan, ratio_range, heights, preset, output;
   int bootstrap = 0;
   long seed = 0;
   FitFilters filters;
@@ -63,6 +63,8 @@ po::options_description options_into(Settings& s)
   add("seed", number(s.seed, "N")->default_value(1), "seed of the samples");
   add("ratio-range", text(s.ratio_range, "a:b")->default_value("0.01:100"),
       "phi_S/phi_L of the layers that take part");
+  add("heights", text(s.heights, "y0:y1"),
+      "layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
   add("min-solid", number(s.filters.min_solid, "X")->default_value(0.5, "0.5"),
       "least solid fraction of a layer, in units of the run's median");
   add("begin", number(s.filters.begin, "s"), "first time of the windows that take part");
@@ -92,6 +94,15 @@ void parse_ratio_range(const std::string& text, FitFilters& filters)
       !(filters.ratio_low > 0 && filters.ratio_low <= filters.ratio_high))
     throw UsageError(
         fmt::format("--ratio-range {}: write low:high, 0 < low <= high, e.g. 0.01:100", text));
+}
+
+void parse_heights(const std::string& text, FitFilters& filters)
+{
+  const auto colon = text.find(':');
+  if (!text.empty() && colon == std::string::npos)
+    throw UsageError(fmt::format("--heights {}: write low:high, e.g. 4dS:56dS or 4dS:", text));
+  filters.lowest = text.substr(0, colon);
+  filters.highest = text.empty() ? "" : text.substr(colon + 1);
 }
 
 /// Refuses what cannot be meant, before any table is read.
@@ -175,6 +186,7 @@ FitReport make_report(const Settings& s, const std::vector<Table>& tables)
                    {"quantity", s.quantity},
                    {"component", s.component},
                    {"ratio_range", s.ratio_range},
+                   {"heights", s.heights.empty() ? "all" : s.heights},
                    {"min_solid", format_number(s.filters.min_solid)},
                    {"rows", data.count.sentence()},
                    {"runs", fmt::format("{}", data.runs.size())},
@@ -197,6 +209,7 @@ int main(int argc, char** argv)
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
     check(settings, values);
     parse_ratio_range(settings.ratio_range, settings.filters);
+    parse_heights(settings.heights, settings.filters);
     std::vector<Table> tables;
     for (const auto& path : values["input"].as<std::vector<std::string>>())
       tables.push_back(Table::read(path));

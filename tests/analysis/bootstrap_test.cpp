@@ -168,6 +168,28 @@ TEST(Bootstrap, IndependentWindowsGiveStudentsIntervalOfTheMean)
   EXPECT_NEAR(interval.low + interval.high, 2 * series.mean(), 1e-12);
 }
 
+// Samples at +-1: variance 100/99. tau = 3, blocks of 4, 40 effective windows: m = 10 blocks, so
+// 10/9 for the fitted mean, 1/(1 - (3 - 1/3)/8) = 3/2 for the cuts, and t of 9 degrees of freedom.
+TEST(Bootstrap, AnIntervalByHand)
+{
+  Eigen::VectorXd samples(100);
+  for (Eigen::Index k = 0; k < 100; ++k) samples[k] = k % 2 == 0 ? 1 : -1;
+  const auto interval = Bootstrap({40}, 100, 1).interval(5, samples, {}, {3, 4, 40});
+  EXPECT_NEAR(half_width(interval), 2.262157 * std::sqrt(100. / 99 * 10 / 9 * 3 / 2), 1e-6);
+  EXPECT_NEAR(interval.low + interval.high, 10, 1e-12);
+}
+
+// Two sources of equal variance, 9 and 1 degrees of freedom: Satterthwaite's 4/(1/9 + 1) = 3.6.
+TEST(Bootstrap, RunsAndWindowsAddTheirVariances)
+{
+  Eigen::VectorXd samples(100);
+  for (Eigen::Index k = 0; k < 100; ++k) samples[k] = k % 2 == 0 ? 1 : -1;
+  const double variance = 100. / 99 * 2;  // times R/(R - 1) = 2 for two runs
+  const Eigen::VectorXd blocks = samples * std::sqrt(2 * 9. / 11);  // 11 windows: m/(m - 2) = 11/9
+  const auto interval = Bootstrap({6, 5}, 100, 1).interval(0, blocks, samples, {1, 1, 11});
+  EXPECT_NEAR(half_width(interval), gsl_cdf_tdist_Pinv(0.975, 3.6) * std::sqrt(2 * variance), 1e-9);
+}
+
 // 400 series: a coverage of 0.95 is seen as 0.95 -+ 0.011; allowed are three times that.
 TEST(Bootstrap, IntervalsOfIndependentWindowsHoldTheTruthNineteenTimesInTwenty)
 {

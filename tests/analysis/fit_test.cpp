@@ -232,6 +232,15 @@ TEST(NeutralContacts, SharedOtherwiseShowExactlyTheClosedForm)
   EXPECT_EQ(fit(data, "half").neutral, fit(data, "uniform:0.5").neutral);
 }
 
+TEST(NeutralContacts, DisturbedOnesShowInTheDifferenceToSizeWhatTheRuleAdds)
+{
+  const auto data = neutral_data(0.1);
+  const auto size = fit(data, "size"), other = fit(data, "uniform:0.8");
+  EXPECT_GT(std::abs(size.value.B_direct), 1e-4);
+  EXPECT_NEAR(other.minus_size, other.value.B_direct - size.value.B_direct, 1e-15);
+  EXPECT_EQ(size.minus_size, 0);
+}
+
 // r = 2: (0.8 - 2/3) 3/(1 + phi_S) with the weights w (phi_L phi_S)^2 of two layers, where w is the
 // number of the rarer grains: phi_L/4 of large ones at 0.2, at 0.8 phi_S = 0.2 of small against
 // 0.8/4 of large, i.e. four times as many.
@@ -315,6 +324,7 @@ TEST(PartitionScan, SharesAreExactAndIncludeTheLast)
   ASSERT_EQ(shares.size(), 101u);
   EXPECT_EQ(shares[40], 0.6);
   EXPECT_EQ(shares[100], 0.9);
+  EXPECT_EQ(parse_scan("0:0.3:0.1").shares().size(), 4u);  // 0.3/0.1 is below 3 in binary
   for (const char* wrong : {"0.4:0.9", "0.4:0.9:0", "0.9:0.4:0.1", "0:1.1:0.1", "a:b:c", "0:1:0.1x",
                             "0:1:1e-9", "nan:1:0.1"})
     EXPECT_THROW(parse_scan(wrong), UsageError) << wrong;
@@ -365,6 +375,23 @@ TEST(FitData, EachFilterCountsWhatItRemoves)
   EXPECT_EQ(data.samples.size(), 6u);
 }
 
+TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
+{
+  std::vector<TableRow> rows;
+  for (int layer = 0; layer < 4; ++layer)
+    rows.push_back({0, 1, 9, neutral_sums(0.5, 2), 0.02 * layer, 0.02 * (layer + 1)});
+  const auto used = [&](const char* lowest, const char* highest) {
+    return read({stress_table(rows)}, {.lowest = lowest, .highest = highest}).count.used;
+  };
+  EXPECT_EQ(used("", ""), 4u);
+  EXPECT_EQ(used("4dS", ""), 3u);
+  EXPECT_EQ(used("4dS", "12dS"), 2u);
+  EXPECT_EQ(used("", "0.059"), 2u);
+  const auto sentence = sentence_of<RunError>({stress_table(rows)}, {.lowest = "1"});
+  EXPECT_TRUE(holds(sentence, "4 outside --heights"));
+  EXPECT_THROW(used("4", "five"), UsageError);
+}
+
 TEST(FitData, WhereNothingIsLeftTheSentenceNamesTheFilter)
 {
   const auto table = stress_table(neutral_rows(0));
@@ -399,10 +426,11 @@ Table kinetic_table(double slope)
   Table table;
   table.name = "kinetic.tsv";
   table.header = {{"small_diameter", "0.005"}, {"large_diameter", "0.01"}};
-  table.columns = {"t0[s]",      "t1[s]",     "frames",    "V[m^2]",    "mass_S[kg]",
-                   "mass_L[kg]", "K_S_xx[J]", "K_S_yy[J]", "K_L_xx[J]", "K_L_yy[J]"};
+  table.columns = {"t0[s]",      "t1[s]",      "y0[m]",     "y1[m]",     "frames",    "V[m^2]",
+                   "mass_S[kg]", "mass_L[kg]", "K_S_xx[J]", "K_S_yy[J]", "K_L_xx[J]", "K_L_yy[J]"};
   for (const double phi : compositions)
-    table.rows.push_back({0, 1, 25, 2, 1 - phi, phi, 9 * (1 - phi), slope * (1 - phi), phi, phi});
+    table.rows.push_back(
+        {0, 1, 0, 0.02, 25, 2, 1 - phi, phi, 9 * (1 - phi), slope * (1 - phi), phi, phi});
   return table;
 }
 

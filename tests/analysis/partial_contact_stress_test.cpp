@@ -270,6 +270,29 @@ TEST(PartialContactStress, TheTotalIsTheSumOverContacts)
   EXPECT_TRUE(same(sums, direct, 1e-12));
 }
 
+// Momentum balance: what flows down through a level is the net contact force on all that is above
+// it, and the sum over a layer is h times its mean over the levels in the layer.
+TEST(PartialContactStress, AlongTheBranchTheSumIsTheForceThroughTheLayer)
+{
+  const Scene scene = heap();
+  const auto& list = scene.frame.contacts;
+  std::vector<Vec2> net(scene.grains.size(), Vec2::Zero());
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    net[static_cast<std::size_t>(list.i[k])] += list.force[k];
+    net[static_cast<std::size_t>(list.j[k])] -= list.force[k];
+  }
+  const auto stress = stress_of(scene, Assignment::branch);
+  for (std::size_t n = 0; n + 1 < stress.layers(); ++n) {
+    Vec2 through = Vec2::Zero();
+    for (std::size_t g = 0; g < net.size(); ++g)
+      through += net[g] * std::clamp(scene.frame.position[g].y() - unit_layers.bottom(n), 0.0, 1.0);
+    const auto s = stress.mean(n).sums;
+    const Tensor2 sum = s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
+    EXPECT_NEAR(sum(0, 1), through.x(), 1e-12);
+    EXPECT_NEAR(sum(1, 1), through.y(), 1e-12);
+  }
+}
+
 TEST(PartialContactStress, MovingTheBedAlongThePeriodChangesNothing)
 {
   const Scene scene = heap();

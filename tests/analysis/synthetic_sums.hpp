@@ -52,6 +52,7 @@ inline ContactSums separate_sums(double phi_large, const Tensor2& small, const T
 struct TableRow {
   double begin, end, frames;
   ContactSums sums;
+  double bottom = 0, top = 0.02;
 };
 
 inline const std::vector<std::pair<std::string, Tensor2 ContactSums::*>>& tensors()
@@ -75,14 +76,15 @@ inline Table stress_table(const std::vector<TableRow>& rows, double small_diamet
                   {"small_diameter", format_number(small_diameter)},
                   {"large_diameter", format_number(large_diameter)},
                   {"power", "2"}};
-  table.columns = {"t0[s]", "t1[s]", "frames", "V[m^2]", "area_S[m^2]", "area_L[m^2]"};
+  table.columns = {"t0[s]",  "t1[s]",  "y0[m]",       "y1[m]",
+                   "frames", "V[m^2]", "area_S[m^2]", "area_L[m^2]"};
   for (const auto& [name, place] : tensors())
     for (const char* component : {"_xx[N m]", "_xy[N m]", "_yx[N m]", "_yy[N m]"})
       table.columns.push_back(name + component);
   for (const auto& row : rows) {
     const auto& sums = row.sums;
-    table.rows.push_back(
-        {row.begin, row.end, row.frames, sums.volume, sums.area_small, sums.area_large});
+    table.rows.push_back({row.begin, row.end, row.bottom, row.top, row.frames, sums.volume,
+                          sums.area_small, sums.area_large});
     for (const auto& [name, place] : tensors())
       for (const auto& [i, j] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}})
         table.rows.back().push_back((sums.*place)(i, j));

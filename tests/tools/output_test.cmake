@@ -1,5 +1,5 @@
 # Runs COMMAND (a ;-list) in FOLDER and compares exit code, standard output with the file EXPECTED (or
-# nothing), and standard error with the regular expression ERROR (or nothing).
+# with nothing), and standard error with the regular expression ERROR (or nothing).
 execute_process(
   COMMAND ${COMMAND}
   WORKING_DIRECTORY ${FOLDER}
@@ -9,13 +9,15 @@ execute_process(
 if(NOT code STREQUAL "${EXIT}")
   message(FATAL_ERROR "exit code ${code} where ${EXIT} is expected\n${error}")
 endif()
-set(expected "")
 if(EXPECTED)
-  file(READ ${EXPECTED} expected)
-endif()
-if(NOT output STREQUAL expected)
   file(WRITE ${ACTUAL} "${output}")
-  message(FATAL_ERROR "standard output differs from ${EXPECTED}; see ${ACTUAL}")
+  execute_process(COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/same_output.py ${ACTUAL} ${EXPECTED}
+                  RESULT_VARIABLE differs ERROR_VARIABLE difference)
+  if(differs)
+    message(FATAL_ERROR "standard output differs from ${EXPECTED}; see ${ACTUAL}\n${difference}")
+  endif()
+elseif(NOT output STREQUAL "")
+  message(FATAL_ERROR "standard output is not empty:\n${output}")
 endif()
 if(ERROR)
   if(NOT error MATCHES "^${ERROR}\n$")

@@ -1,0 +1,59 @@
+#!/bin/sh
+# The whole line on a small chute: scene, run, sums, B; the same input gives the same bytes; an
+# interrupted run keeps its frames. Usage: pipeline_test.sh SOURCE BIN
+set -eu
+source=$1 bin=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "$1" >&2; exit 1; }
+small="$source/sim/scenes/chute.ini --depth 10dS --length 10dL --phi-large 0.5 --accuracy draft --quiet"
+
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --duration 3 -o a.h5
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --duration 3 -o b.h5
+$bin/grseg-stress a.h5 --window 0.5 --quiet | grep -v '^# history' >a.tsv
+$bin/grseg-stress b.h5 --window 0.5 --quiet | grep -v '^# history' >b.tsv
+cmp a.tsv b.tsv || fail "the same scene gave another run"
+grep -q '^# input: xxh3 [0-9a-f]\{16\}$' a.tsv || fail "no content digest"
+
+# Standard input and a file give the same B.
+$bin/grseg-stress a.h5 --window 0.5 -o sums.tsv --quiet
+$bin/grseg-fit sums.tsv --bootstrap 0 --quiet | grep -v '^#' >file.txt
+$bin/grseg-stress a.h5 --window 0.5 --quiet | $bin/grseg-fit - --bootstrap 0 --quiet | grep -v '^#' >pipe.txt
+cmp file.txt pipe.txt || fail "a pipe and a file differ"
+
+# Keys of the tables join.
+$bin/grseg-kinetic a.h5 --window 0.5 --quiet | grep -v '^#' | cut -f 1-6 >keys-kinetic
+grep -v '^#' a.tsv | cut -f 1-6 >keys-stress
+cmp keys-kinetic keys-stress || fail "the tools' rows do not join"
+
+# SIGINT: exit code 130, the frames so far readable under NAME.part, NAME itself absent.
+# (A background job of a script ignores SIGINT, so `timeout` sends it.)
+code=0
+# shellcheck disable=SC2086
+timeout --preserve-status -s INT 2 $bin/grseg-sim $small --duration 1000 -o long.h5 2>words || code=$?
+[ "$code" = 130 ] || fail "exit code $code after SIGINT"
+grep -q 'interrupted at t = .*; the frames so far are in long.h5.part' words || fail "$(cat words)"
+[ ! -e long.h5 ] || fail "an unfinished run has the name of a finished one"
+$bin/grseg-stress long.h5.part --window 0.1 --quiet >/dev/null
+code=0
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --duration 1 -o long.h5 2>words || code=$?
+[ "$code" = 2 ] || fail "the frames of an interrupted run were overwritten"
+
+# A tolerance that cannot be met: stated and exit code 0; 4 with --strict, and the file is there.
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --duration 0.2 --tolerance 1e-9 --max-sweeps 2 -o loose.h5
+code=0
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --duration 0.2 --tolerance 1e-9 --max-sweeps 2 --strict -o strict.h5 2>words || code=$?
+[ "$code" = 4 ] || fail "exit code $code where --strict missed its tolerance"
+$bin/grseg-stress strict.h5 --window 0.1 --quiet >/dev/null
+
+# The deposition, on request, lies before the tilt.
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --duration 0.2 --keep-deposition -o deposition.h5
+first=$(h5dump -d /particles/grains/position/time -s 0 -c 1 deposition.h5 | sed -n 's/.*(0): //p')
+case $first in -*) ;; *) fail "the first frame of the deposition is at t = $first" ;; esac

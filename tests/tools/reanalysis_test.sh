@@ -1,0 +1,29 @@
+#!/bin/sh
+# make -C scripts reanalysis: a changed partition redoes the fits alone, a changed layer or window the
+# sums, and the run is never touched. Usage: reanalysis_test.sh SOURCE BIN
+set -eu
+source=$1 bin=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "$1" >&2; exit 1; }
+$bin/grseg-sim "$source/sim/scenes/chute.ini" --depth 10dS --length 10dL --phi-large 0.5 \
+  --accuracy draft --quiet --duration 3 -o run.h5
+cp run.h5 twin.h5
+digest=$(cksum run.h5)
+
+again() { PWD=$folder make --no-print-directory -C "$source/scripts" reanalysis BIN="$bin" WINDOW=0.5 BOOTSTRAP=0 RUNS=run.h5 "$@"; }
+again >log
+[ -s reanalysis/fit.tsv ] && [ -s reanalysis/run.stress.tsv ] || fail "$(cat log)"
+again >log
+grep -q 'bin/grseg' log && fail "nothing changed, yet: $(cat log)"
+again PARTITION=uniform:0.8 >log
+[ "$(grep -c 'bin/grseg-' log)" = 1 ] && grep -q 'grseg-fit.*uniform:0.8' log ||
+  fail "another partition: $(cat log)"
+again PARTITION=uniform:0.8 LAYER=5dS >log
+[ "$(grep -c 'grseg-stress\|grseg-kinetic\|grseg-micro' log)" = 3 ] || fail "another layer: $(cat log)"
+grep -q grseg-sim log && fail "simulated again"
+[ "$(cksum run.h5)" = "$digest" ] || fail "the run was touched"
+code=0
+again RUNS="run.h5 $folder/other/run.h5" >log 2>&1 || code=$?
+[ "$code" != 0 ] && grep -q 'the same name' log || fail "two runs of one name: $(cat log)"
