@@ -72,12 +72,14 @@ using Correlation = std::function<double(std::size_t)>;
 /// windows has lowered each term, hence the last factor (Wolff 2004).
 double time_by_summing(const Correlation& correlation, double n)
 {
-  double time = 1, lag = 1;
-  for (; lag < n; ++lag) {
-    time += 2 * correlation(static_cast<std::size_t>(lag));
-    if (lag >= 5 * time) break;
+  const auto windows = static_cast<std::size_t>(n);
+  double time = 1;
+  std::size_t lag = 1;
+  for (; lag < windows; ++lag) {
+    time += 2 * correlation(lag);
+    if (static_cast<double>(lag) >= 5 * time) break;
   }
-  return time * (1 + (2 * lag + 1) / n);
+  return time * (1 + (2 * static_cast<double>(lag) + 1) / n);
 }
 
 /// Of the AR(1) series with the same correlation of neighbours, freed of its bias -(1 + 3 rho)/n

@@ -38,6 +38,7 @@ std::string header_lines(const FitReport& report)
 std::string row(const std::vector<double>& numbers)
 {
   std::vector<std::string> cells;
+  cells.reserve(numbers.size());
   for (const double number : numbers) cells.push_back(format_number(number));
   return fmt::format("{}\n", fmt::join(cells, "\t"));
 }

@@ -139,6 +139,7 @@ PartialContactStress::Mean PartialContactStress::mean(std::size_t layer) const
 std::vector<std::string> PartialContactStress::columns() const
 {
   std::vector<std::string> names;
+  names.reserve(pair_types);
   for (const char* type : pair_type_names) names.push_back(fmt::format("n_{}", type));
   for (const auto& column : tensor_columns) append_names(names, column.name);
   if (assignment_ == Assignment::grain) {

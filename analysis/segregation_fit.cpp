@@ -219,13 +219,13 @@ Eigen::MatrixXd window_sums(const std::vector<FitPoint>& points, const RunLength
 
 Estimates estimate_from_sums(const Eigen::RowVectorXd& sums)
 {
-  const double w = sums[sum_w], wX = sums[sum_wX], wY = sums[sum_wY];
+  const double w = sums[sum_w], w_x = sums[sum_wX], w_y = sums[sum_wY];
   double prefactor = Estimates::nan, exponent = Estimates::nan;
-  if (spread_out(w, wX, sums[sum_wXX])) {
-    exponent = (w * sums[sum_wXY] - wX * wY) / (w * sums[sum_wXX] - wX * wX);
-    prefactor = std::exp((wY - exponent * wX) / w);
+  if (spread_out(w, w_x, sums[sum_wXX])) {
+    exponent = (w * sums[sum_wXY] - w_x * w_y) / (w * sums[sum_wXX] - w_x * w_x);
+    prefactor = std::exp((w_y - exponent * w_x) / w);
   }
-  return with_all_b((wY - wX) / w, sums[sum_xy] / sums[sum_xx], prefactor, exponent,
+  return with_all_b((w_y - w_x) / w, sums[sum_xy] / sums[sum_xx], prefactor, exponent,
                     sums[sum_wQD] / sums[sum_wQQ]);
 }
 

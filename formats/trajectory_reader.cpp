@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace grseg {
@@ -180,7 +181,8 @@ void TrajectoryReader::Impl::read_parameters()
       if (H5Tget_size(type) > most_text) fail(at + " is too long");
       std::string content(H5Tget_size(type), '\0');
       text.read_all(type, content.data());
-      parameters.texts[name] = content.c_str();
+      content.erase(std::min(content.find('\0'), content.size()));  // padding
+      parameters.texts[name] = content;
     } else {
       const auto numbers = open(at, H5T_FLOAT, rank == 0 ? 0 : 1);
       const hsize_t count = rank == 0 ? 1 : numbers.dims()[0];

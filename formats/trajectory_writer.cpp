@@ -115,8 +115,8 @@ void TrajectoryWriter::Impl::create_grains(const Grains& all)
 void TrajectoryWriter::Impl::link_times(const std::string& element)
 {
   for (const std::string name : {"step", "time"})
-    H5Lcreate_hard(file, ("/particles/grains/position/" + name).c_str(), file,
-                   (element + "/" + name).c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_hard(file, fmt::format("/particles/grains/position/{}", name).c_str(), file,
+                   fmt::format("{}/{}", element, name).c_str(), H5P_DEFAULT, H5P_DEFAULT);
 }
 
 Series TrajectoryWriter::Impl::create_element(const std::string& name, const std::string& unit,

@@ -90,6 +90,12 @@ std::int32_t PairList::cell_x(double x) const
   return std::clamp(static_cast<std::int32_t>(along / column_width_), 0, columns_ - 1);
 }
 
+std::size_t PairList::cell(std::int32_t column, std::int32_t row) const
+{
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+         static_cast<std::size_t>(column);
+}
+
 std::int32_t PairList::band(double y) const
 {
   return static_cast<std::int32_t>(std::min((y - bottom_) / cell_, bands_ - 1.0));
@@ -112,11 +118,11 @@ void PairList::sort_into_cells(const std::vector<Vec2>& position)
       static_cast<std::int32_t>(std::clamp(std::ceil(height / cell_), 1.0, most / columns_ + 1));
 
   band_of_.resize(position.size());
-  cell_begin_.assign(static_cast<std::size_t>(columns_ * bands_) + 1, 0);
+  cell_begin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(bands_) + 1, 0);
   std::vector<std::size_t> cell_of(position.size());
   for (std::size_t g = 0; g < position.size(); ++g) {
     band_of_[g] = band(position[g].y());
-    cell_of[g] = static_cast<std::size_t>(band_of_[g] * columns_ + cell_x(position[g].x()));
+    cell_of[g] = cell(cell_x(position[g].x()), band_of_[g]);
     ++cell_begin_[cell_of[g] + 1];
   }
   for (std::size_t c = 1; c < cell_begin_.size(); ++c) cell_begin_[c] += cell_begin_[c - 1];
@@ -129,9 +135,9 @@ void PairList::sort_into_cells(const std::vector<Vec2>& position)
 void PairList::find_grain_pairs(const Grains& grains, const std::vector<Vec2>& position)
 {
   const auto try_cell = [&](std::int32_t g, std::int32_t column, std::int32_t row) {
-    const auto cell = static_cast<std::size_t>(row * columns_ + column);
     const auto here = static_cast<std::size_t>(g);
-    for (auto k = cell_begin_[cell]; k < cell_begin_[cell + 1]; ++k) {
+    const auto first = cell_begin_[cell(column, row)], last = cell_begin_[cell(column, row) + 1];
+    for (auto k = first; k < last; ++k) {
       const auto other = in_cell_[static_cast<std::size_t>(k)];
       const auto there = static_cast<std::size_t>(other);
       if (other <= g || (grains.fixed[here] && grains.fixed[there])) continue;

@@ -53,6 +53,7 @@ class PairList {
   double nearest_shift(double difference) const;
   std::int32_t cell_x(double x) const;
   std::int32_t band(double y) const;
+  std::size_t cell(std::int32_t column, std::int32_t row) const;
 
   std::vector<Wall> walls_;
   double length_, inverse_length_;  // 0 and 0 where nothing is periodic

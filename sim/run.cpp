@@ -10,9 +10,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 
@@ -122,6 +124,14 @@ void refuse_to_overwrite(const std::string& path, const RunOptions& options)
         "{} is there already; choose another name, remove it, or say --overwrite", path));
 }
 
+/// Finds out before the bed is made, rather than after, that the file cannot be.
+void require_writable(const std::string& path)
+{
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) throw RunError(fmt::format("cannot create {}: {}", path, std::strerror(errno)));
+  close(file);
+}
+
 /// Writes frames until the end or a signal.
 void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Progress& progress)
 {
@@ -149,6 +159,7 @@ void simulate(const Scene& scene, const RunOptions& options)
   const std::string part = options.output + ".part";
   refuse_to_overwrite(options.output, options);
   refuse_to_overwrite(part, options);
+  require_writable(part);
   stop_signal = 0;
   std::signal(SIGINT, remember_signal);
   std::signal(SIGTERM, remember_signal);
@@ -156,7 +167,14 @@ void simulate(const Scene& scene, const RunOptions& options)
   Progress progress(scene.duration, options.quiet);
   progress.say("depositing the bed");
   const auto parameters = describe(scene, options);
-  auto simulation = deposit(scene);
+  std::optional<Simulation> deposited;
+  try {
+    deposited.emplace(deposit(scene));
+  } catch (...) {
+    std::filesystem::remove(part);  // still empty
+    throw;
+  }
+  auto& simulation = *deposited;
   const double height = bed_height(simulation);
   TrajectoryWriter writer(
       part,
