@@ -34,6 +34,7 @@ void StepTotals::add(const StepReport& report)
   largest_residual = std::max(largest_residual, report.solver.residual);
   largest_overlap = std::max(largest_overlap, report.largest_overlap);
   fastest_approach = std::max(fastest_approach, report.fastest_approach);
+  base_impulse += report.base_impulse;
 }
 
 void StepTotals::add(const StepTotals& other)
@@ -49,6 +50,7 @@ void StepTotals::add(const StepTotals& other)
   largest_residual = std::max(largest_residual, other.largest_residual);
   largest_overlap = std::max(largest_overlap, other.largest_overlap);
   fastest_approach = std::max(fastest_approach, other.fastest_approach);
+  base_impulse += other.base_impulse;
 }
 
 std::vector<Observable> Recorder::observables()
@@ -67,7 +69,9 @@ std::vector<Observable> Recorder::observables()
           {"mean_overlap", "m"},
           {"largest_overlap", "m"},
           {"mean_gap", "m"},
-          {"fastest_approach", "m s-1"}};
+          {"fastest_approach", "m s-1"},
+          {"base_force_x", "N"},
+          {"base_force_y", "N"}};
 }
 
 Recorder::Recorder(TrajectoryWriter& writer, double small_diameter)
@@ -94,7 +98,9 @@ void Recorder::write(const Frame& frame, const Simulation& simulation)
       t.mean_overlap(),
       t.largest_overlap,
       t.mean_gap_bearing(),
-      t.fastest_approach};
+      t.fastest_approach,
+      t.per_step(t.base_impulse.x()) / simulation.world().step,
+      t.per_step(t.base_impulse.y()) / simulation.world().step};
   writer_.append(frame, values);
   totals_.add(since_frame_);
   since_frame_ = {};

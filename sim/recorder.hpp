@@ -16,6 +16,7 @@ struct StepTotals {
   double sweeps = 0, residual_rms = 0, touching = 0, force_bearing = 0;
   double sum_overlap = 0, sum_gap_bearing = 0;
   double largest_residual = 0, largest_overlap = 0, fastest_approach = 0;
+  Vec2 base_impulse = Vec2::Zero();  ///< kg m/s
 
   void add(const StepReport& report);
   void add(const StepTotals& other);

@@ -159,11 +159,15 @@ void Simulation::keep_impulses(StepReport& report)
   std::fill(pairs_.impulse_n.begin(), pairs_.impulse_n.end(), 0.0);
   std::fill(pairs_.impulse_t.begin(), pairs_.impulse_t.end(), 0.0);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    pairs_.impulse_n[pair_of_contact_[c]] = contacts_[c].impulse_n;
-    pairs_.impulse_t[pair_of_contact_[c]] = contacts_[c].impulse_t;
-    if (contacts_[c].impulse_n == 0) continue;
+    const auto& contact = contacts_[c];
+    pairs_.impulse_n[pair_of_contact_[c]] = contact.impulse_n;
+    pairs_.impulse_t[pair_of_contact_[c]] = contact.impulse_t;
+    if (contact.impulse_n == 0) continue;
     ++report.force_bearing;
     report.sum_gap_bearing += std::abs(gap_[c]);
+    if (motion_[static_cast<std::size_t>(contact.j)].inverse_mass > 0) continue;
+    report.base_impulse.x() += contact.impulse_n * contact.nx - contact.impulse_t * contact.ny;
+    report.base_impulse.y() += contact.impulse_n * contact.ny + contact.impulse_t * contact.nx;
   }
 }
 

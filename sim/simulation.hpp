@@ -26,12 +26,13 @@ struct World {
 /// What one step did.
 struct StepReport {
   SolverReport solver;
-  std::size_t touching = 0;       ///< pairs with gap <= 0 at mid-step
-  std::size_t force_bearing = 0;  ///< contacts that carry an impulse
-  double sum_overlap = 0;         ///< m, of -gap over the touching pairs
-  double largest_overlap = 0;     ///< m
-  double sum_gap_bearing = 0;     ///< m, of |gap| over force-bearing contacts
-  double fastest_approach = 0;    ///< m/s, of a touching pair at the beginning of the step
+  std::size_t touching = 0;          ///< pairs with gap <= 0 at mid-step
+  std::size_t force_bearing = 0;     ///< contacts that carry an impulse
+  double sum_overlap = 0;            ///< m, of -gap over the touching pairs
+  double largest_overlap = 0;        ///< m
+  double sum_gap_bearing = 0;        ///< m, of |gap| over force-bearing contacts
+  double fastest_approach = 0;       ///< m/s, of a touching pair at the beginning of the step
+  Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
 };
 
 /// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2): contacts are looked
