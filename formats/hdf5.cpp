@@ -101,7 +101,8 @@ Dataset create_growing(hid_t parent, const std::string& path, hid_t type,
     H5Pset_shuffle(create);
     H5Pset_deflate(create, static_cast<unsigned>(storage.compression));
   }
-  H5Pset_fletcher32(create);
+  if (storage.compression > 0 || storage.checksum) H5Pset_fletcher32(create);
+  H5Pset_obj_track_times(create, 0);  // the same run gives the same bytes
   return opened<Dataset>(
       H5Dcreate2(parent, path.c_str(), type, space, with_parents(), create, H5P_DEFAULT), path);
 }
@@ -110,8 +111,10 @@ void write_fixed(hid_t parent, const std::string& path, hid_t file_type, hid_t m
                  const std::vector<hsize_t>& shape, const void* data)
 {
   const auto space = space_of(shape);
+  const Properties create(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_obj_track_times(create, 0);
   const auto dataset = opened<Dataset>(
-      H5Dcreate2(parent, path.c_str(), file_type, space, with_parents(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Dcreate2(parent, path.c_str(), file_type, space, with_parents(), create, H5P_DEFAULT),
       path);
   check_written(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), path);
 }

@@ -58,7 +58,8 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<in
 /// How a growing dataset is stored.
 struct Storage {
   hsize_t chunk_rows = 1;
-  int compression = 0;  // deflate level; shuffle and fletcher32 come with any chunked dataset
+  int compression = 0;    // deflate level, with shuffle and fletcher32; 0: none
+  bool checksum = false;  // fletcher32 also without compression
 };
 
 /// A dataset whose first dimension grows, `shape` being the others. RunError on failure.

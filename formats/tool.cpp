@@ -13,6 +13,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <numeric>
 
@@ -150,6 +151,16 @@ void write_whole(const std::string& path, std::string_view text)
 {
   if (path.empty() || path == "-") {
     std::cout << text;
+    return;
+  }
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+      !std::filesystem::is_directory(status)) {
+    // A device or a pipe is written to, never replaced.
+    std::ofstream out(path, std::ios::binary);
+    out << text << std::flush;
+    if (!out) throw RunError(fmt::format("cannot write {}", path));
     return;
   }
   const std::string beside = fmt::format("{}.tmp.{}", path, getpid());

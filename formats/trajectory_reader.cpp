@@ -5,9 +5,13 @@
 #include "formats/hdf5.hpp"
 #include "formats/tool.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 
 namespace grseg {
@@ -36,6 +40,16 @@ std::vector<std::string> read_strings(hid_t object, const std::string& name)
   for (std::size_t k = 0; k < count; ++k)
     texts.emplace_back(packed.substr(k * length, length).c_str());
   return texts;
+}
+
+/// A file that does not open is damaged, or a running simulation holds HDF5's lock on it.
+std::string why_it_does_not_open(const std::string& path)
+{
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (file >= 0) close(file);
+  return locked ? "is being written by a run; read it when the run has ended, or a copy of it now"
+                : "is no HDF5 file, or is truncated or damaged";
 }
 
 }  // namespace
@@ -88,6 +102,7 @@ struct TrajectoryReader::Impl {
   }
 
   std::size_t size() const { return offset.size() - 1; }
+  void require_version(const std::string& module) const;
   void read_offset();
   void read_grains();
   void read_box();
@@ -99,6 +114,20 @@ struct TrajectoryReader::Impl {
                     std::size_t frame) const;
   void read_contacts(std::size_t index, ContactList& contacts) const;
 };
+
+void TrajectoryReader::Impl::require_version(const std::string& module) const
+{
+  int version[2] = {0, 0};
+  if (exists(file, module)) {
+    const Group group(H5Gopen2(file, module.c_str(), H5P_DEFAULT));
+    const Attribute attribute(H5Aopen(group, "version", H5P_DEFAULT));
+    if (attribute.valid() && H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute))) == 2)
+      H5Aread(attribute, H5T_NATIVE_INT, version);
+  }
+  if (version[0] != 1)
+    fail(fmt::format("{} is of version {}.{}, and this grseg reads versions 1.x", module,
+                     version[0], version[1]));
+}
 
 void TrajectoryReader::Impl::read_offset()
 {
@@ -247,7 +276,9 @@ TrajectoryReader::TrajectoryReader(const std::string& path) : impl_(std::make_un
   auto& my = *impl_;
   my.path = path;
   my.file = File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!my.file.valid()) my.fail("is no HDF5 file, or is truncated or damaged");
+  if (!my.file.valid()) my.fail(why_it_does_not_open(path));
+  my.require_version("/h5md");
+  my.require_version("/h5md/modules/grseg");
   my.read_offset();
   my.read_grains();
   my.read_box();

@@ -51,11 +51,21 @@ struct TrajectoryWriter::Impl {
 
   hid_t real_type() const { return storage.float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
 
+  /// How rows of a kind are stored so that a kill at any moment leaves the committed ones whole: a
+  /// chunk that belongs to one frame is written once; one that fills up over many frames is
+  /// rewritten in place, where a checksum would be wrong half-way; and where compression moves it,
+  /// the space it leaves is not used again.
+  Storage storage_of(hsize_t chunk_rows) const
+  {
+    if (chunk_rows == 1) return {chunk_rows, storage.compression, true};
+    if (chunk_rows == contact_chunk) return {chunk_rows, storage.compression, false};
+    return {chunk_rows, 0, false};
+  }
   Series grow(const std::string& name, hid_t file_type, hid_t memory_type,
               const std::vector<hsize_t>& shape, hsize_t chunk_rows)
   {
-    return {create_growing(file, name, file_type, shape, {chunk_rows, storage.compression}),
-            memory_type, path + ": " + name};
+    return {create_growing(file, name, file_type, shape, storage_of(chunk_rows)), memory_type,
+            path + ": " + name};
   }
 
   void create_metadata(const RunDescription& run);
@@ -115,8 +125,9 @@ void TrajectoryWriter::Impl::create_grains(const Grains& all)
 void TrajectoryWriter::Impl::link_times(const std::string& element)
 {
   for (const std::string name : {"step", "time"})
-    H5Lcreate_hard(file, fmt::format("/particles/grains/position/{}", name).c_str(), file,
-                   fmt::format("{}/{}", element, name).c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    if (H5Lcreate_hard(file, fmt::format("/particles/grains/position/{}", name).c_str(), file,
+                       fmt::format("{}/{}", element, name).c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+      throw RunError(fmt::format("cannot write {}: is the disk full?", path));
 }
 
 Series TrajectoryWriter::Impl::create_element(const std::string& name, const std::string& unit,
@@ -176,7 +187,9 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
   my.path = path;
   my.storage = storage;
   my.grains = run.grains.size();
-  my.file = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  const Properties create(H5Pcreate(H5P_FILE_CREATE));
+  H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
+  my.file = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, H5P_DEFAULT));
   if (!my.file.valid())
     throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
   my.create_metadata(run);

@@ -26,7 +26,7 @@ struct RunDescription {
 };
 
 struct StorageSettings {
-  int compression = 1;   ///< deflate level, 0 stores plainly
+  int compression = 0;   ///< deflate level, 0 stores plainly
   bool float32 = false;  ///< halves the file; contact balances then close to 1e-6 only
 };
 

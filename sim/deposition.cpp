@@ -93,6 +93,8 @@ Packing loose_packing(const Scene& scene, double area, gsl_rng* random)
                                  (quarter_pi * scene.large_diameter * scene.large_diameter));
   const long small = std::lround((1 - scene.phi_large) * area /
                                  (quarter_pi * scene.small_diameter * scene.small_diameter));
+  if (large + small == 0)
+    throw UsageError("the bed holds no grain; choose a larger depth or length, or smaller grains");
   const double top_of_base = scene.origin == Scene::Origin::top || scene.base == Scene::Base::wall
                                  ? 0
                                  : scene.large_diameter / 2;
@@ -129,22 +131,41 @@ double mobile_mass(const Grains& grains)
   return mass;
 }
 
-/// Lets the bed fall until it rests; returns the number of steps, whole frame intervals.
-std::int64_t settle(Simulation& simulation, const Scene& scene)
+/// Lets the bed fall until it rests; returns the number of steps.
+std::int64_t settle(Simulation& simulation, const Scene& scene, const DepositionHooks& hooks)
 {
   const double at_rest =
       2e-3 * mobile_mass(simulation.world().grains) * scene.gravity * scene.small_diameter;
   const double patience = 20 * std::sqrt(2 * scene.depth / scene.gravity);
   // The free fall is never mistaken for rest: the first look comes after it.
   const double first_look = std::sqrt(2 * 0.2 * scene.depth / scene.gravity);
+  const auto steps_between_looks = static_cast<std::int64_t>(
+      std::ceil(2 * std::sqrt(scene.small_diameter / scene.gravity) / scene.step));
   while (simulation.time() < patience) {
-    for (std::int64_t k = 0; k < scene.steps_per_frame(); ++k) simulation.advance();
+    for (std::int64_t k = 0; k < steps_between_looks; ++k) {
+      simulation.advance();
+      if (hooks.each_step) hooks.each_step();
+    }
     const double energy = simulation.translational_energy() + simulation.rotational_energy();
     if (simulation.time() > first_look && energy < at_rest) return simulation.steps_done();
   }
   throw RunError(fmt::format(
       "the bed has not come to rest {:.3g} s after its release; use a smaller step or tolerance",
       patience));
+}
+
+/// Runs `simulation` through `steps` steps that end at time 0, for the record.
+void replay(Simulation& simulation, std::int64_t steps, const Scene& scene,
+            const DepositionHooks& hooks)
+{
+  Frame frame;
+  simulation.set_clock(-steps);
+  while (simulation.steps_done() < 0) {
+    const bool due = simulation.steps_done() % scene.steps_per_frame() == 0;
+    const auto report = due ? simulation.advance(frame) : simulation.advance();
+    hooks.record(report, simulation, due ? &frame : nullptr);
+    if (hooks.each_step) hooks.each_step();
+  }
 }
 
 }  // namespace
@@ -162,32 +183,28 @@ double bed_height(const Simulation& simulation)
   return area > 0 ? 2 * moment / area : 0;
 }
 
-Simulation deposit(const Scene& scene, const FrameCallback& frame)
+Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
 {
   double area = usual_solid_fraction * scene.depth * scene.length;
+  double too_little = 0, too_much = 0;  // m^2, areas that made a bed too low and too high
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     const auto random = random_numbers(scene.seed);
     const auto packing = loose_packing(scene, area, random.get());
     auto simulation = falling(packing, scene, random.get());
     const auto start = simulation;
-    const auto steps = settle(simulation, scene);
+    const auto steps = settle(simulation, scene, hooks);
     const double height = bed_height(simulation);
-    if (std::abs(height - scene.depth) > depth_tolerance * scene.depth) {
-      area *= scene.depth / height;
-      continue;
-    }
-    if (frame) {
-      simulation = start;
-      simulation.set_clock(-steps);
-      Frame record;
-      for (std::int64_t k = 0; k < steps; ++k) {
-        const bool due = k % scene.steps_per_frame() == 0;
-        const auto report = due ? simulation.advance(record) : simulation.advance();
-        if (due) frame(report, simulation, record);
+    if (std::abs(height - scene.depth) <= depth_tolerance * scene.depth) {
+      if (hooks.record) {
+        simulation = start;
+        replay(simulation, steps, scene, hooks);
       }
+      simulation.set_clock(0);
+      return simulation;
     }
-    simulation.set_clock(0);
-    return simulation;
+    (height < scene.depth ? too_little : too_much) = area;
+    area =
+        too_little > 0 && too_much > 0 ? (too_little + too_much) / 2 : area * scene.depth / height;
   }
   throw RunError(fmt::format(
       "no bed of depth {:.4g} m could be deposited in {} attempts; is it only a few grains deep?",

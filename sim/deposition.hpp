@@ -17,10 +17,15 @@ namespace grseg {
 /// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
 /// gravity points straight down; tilting is up to the caller.
 ///
-/// `frame` is called for every frame interval of the final deposition if it is set; the frames
-/// then have step and time < 0.
-using FrameCallback = std::function<void(const StepReport&, const Simulation&, Frame&)>;
-Simulation deposit(const Scene& scene, const FrameCallback& frame = nullptr);
+/// Of use to whoever waits for it.
+struct DepositionHooks {
+  /// Called after every step; what it throws ends the deposition.
+  std::function<void()> each_step;
+  /// Where set, the accepted deposition is run once more with the clock below 0, and this is called
+  /// after every step of it, with the frame where one is due and null otherwise.
+  std::function<void(const StepReport&, const Simulation&, const Frame*)> record;
+};
+Simulation deposit(const Scene& scene, const DepositionHooks& hooks = {});
 
 /// Twice the area-weighted mean height of the mobile grains above y = 0, m.
 double bed_height(const Simulation& simulation);

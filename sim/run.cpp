@@ -38,7 +38,8 @@ double seconds_now()
 class Progress {
  public:
   Progress(double duration, bool quiet) : duration_(duration), shown_(!quiet && isatty(2) != 0) {}
-  ~Progress()
+  ~Progress() { clear(); }
+  void clear() const
   {
     if (shown_) fmt::print(stderr, "\r\033[K");
   }
@@ -107,10 +108,10 @@ void summarise(const Scene& scene, const StepTotals& t, const Cost& cost, double
 void publish(const std::string& part, const std::string& output)
 {
   const int file = open(part.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file >= 0) {
-    fsync(file);
-    close(file);
-  }
+  const bool on_disk = file >= 0 && fsync(file) == 0;
+  if (file >= 0) close(file);
+  if (!on_disk)
+    throw RunError(fmt::format("cannot bring {} to the disk: {}", part, std::strerror(errno)));
   std::error_code error;
   std::filesystem::rename(part, output, error);
   if (error)
@@ -119,6 +120,8 @@ void publish(const std::string& part, const std::string& output)
 
 void refuse_to_overwrite(const std::string& path, const RunOptions& options)
 {
+  if (std::filesystem::is_directory(path))
+    throw UsageError(fmt::format("{} is a folder; name a file in it", path));
   if (!options.overwrite && std::filesystem::exists(path))
     throw UsageError(fmt::format(
         "{} is there already; choose another name, remove it, or say --overwrite", path));
@@ -130,6 +133,27 @@ void require_writable(const std::string& path)
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (file < 0) throw RunError(fmt::format("cannot create {}: {}", path, std::strerror(errno)));
   close(file);
+}
+
+/// What a signal asks for, as an exit code and a sentence.
+ToolError interruption(const std::string& sentence)
+{
+  return {stop_signal == SIGINT ? exit_interrupted : exit_terminated, sentence};
+}
+
+/// The bed; whatever keeps it from being made leaves no empty file behind.
+Simulation deposit_or_clean_up(const Scene& scene, const std::string& part)
+{
+  const auto listen = [] {
+    if (stop_signal != 0) throw interruption("interrupted while the bed was deposited");
+  };
+  try {
+    return deposit(scene, {.each_step = listen, .record = {}});
+  } catch (...) {
+    std::error_code ignored;
+    if (std::filesystem::file_size(part, ignored) == 0) std::filesystem::remove(part, ignored);
+    throw;
+  }
 }
 
 /// Writes frames until the end or a signal.
@@ -167,14 +191,7 @@ void simulate(const Scene& scene, const RunOptions& options)
   Progress progress(scene.duration, options.quiet);
   progress.say("depositing the bed");
   const auto parameters = describe(scene, options);
-  std::optional<Simulation> deposited;
-  try {
-    deposited.emplace(deposit(scene));
-  } catch (...) {
-    std::filesystem::remove(part);  // still empty
-    throw;
-  }
-  auto& simulation = *deposited;
+  auto simulation = deposit_or_clean_up(scene, part);
   const double height = bed_height(simulation);
   TrajectoryWriter writer(
       part,
@@ -182,22 +199,24 @@ void simulate(const Scene& scene, const RunOptions& options)
       {scene.compression, scene.float32});
   Recorder recorder(writer, scene.small_diameter);
   if (scene.keep_deposition) {
-    deposit(scene, [&](const StepReport& report, const Simulation& now, Frame& frame) {
-      recorder.add(report);
-      recorder.write(frame, now);
-    });
+    Recorder of_deposition(writer, scene.small_diameter);
+    const auto record = [&](const StepReport& report, const Simulation& now, const Frame* frame) {
+      of_deposition.add(report);
+      if (frame != nullptr) of_deposition.write(*frame, now);
+    };
+    deposit(scene, {.each_step = {}, .record = record});
   }
 
   simulation.tilt(gravity_of(parameters));
   const double begin = seconds_now();
   flow(scene, simulation, recorder, progress);
+  progress.clear();
   summarise(scene, recorder.totals(), {simulation.time(), seconds_now() - begin}, height,
             options.quiet, writer);
   writer.close();
   if (stop_signal != 0)
-    throw ToolError(stop_signal == SIGINT ? exit_interrupted : exit_terminated,
-                    fmt::format("interrupted at t = {:.6g} s; the frames so far are in {}",
-                                simulation.time(), part));
+    throw interruption(fmt::format("interrupted at t = {:.6g} s; the frames so far are in {}",
+                                   simulation.time(), part));
   publish(part, options.output);
   if (options.strict && recorder.totals().missed > 0)
     throw CheckError(fmt::format(

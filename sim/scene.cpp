@@ -71,6 +71,12 @@ class Keys {
   {
     return within(values_[key].as<double>(), key, low, high);
   }
+  long whole_number(const std::string& key, long low, long high) const
+  {
+    const long value = values_[key].as<long>();
+    within(static_cast<double>(value), key, static_cast<double>(low), static_cast<double>(high));
+    return value;
+  }
   double length(const std::string& key, LengthUnits units, double low, double high) const
   {
     return within(parse_length(text(key), key, units), key, low, high);
@@ -103,7 +109,7 @@ void resolve_geometry(const Keys& keys, Scene& scene)
 {
   const LengthUnits units{scene.small_diameter, scene.large_diameter};
   scene.depth = keys.length("depth", units, scene.small_diameter, 1e6 * scene.small_diameter);
-  scene.length = keys.length("length", units, 3 * scene.large_diameter, 1e6 * scene.large_diameter);
+  scene.length = keys.length("length", units, 4 * scene.large_diameter, 1e6 * scene.large_diameter);
   scene.slope = keys.number("slope", -90, 90);
   scene.gravity = keys.number("gravity", 1e-9, 1e9);
   scene.base = parse_choice(keys.text("base"), "base", bases);
@@ -137,7 +143,7 @@ void resolve_accuracy(const Keys& keys, Scene& scene)
   scene.solver.tolerance =
       keys.given("tolerance") ? keys.number("tolerance", 1e-15, 1e3) : preset->tolerance;
   scene.solver.max_sweeps = keys.given("max-sweeps")
-                                ? static_cast<int>(keys.number("max-sweeps", 1, 1e9))
+                                ? static_cast<int>(keys.whole_number("max-sweeps", 1, 1000000000))
                                 : preset->max_sweeps;
 }
 
@@ -185,32 +191,35 @@ po::options_description scene_options()
   po::options_description keys(
       "Keys of a scene file, and options (the command line wins).\nLengths are metres or carry a "
       "unit: 5mm, 60dS, 35dL");
-  keys.add_options()("small-diameter", text("5mm"), "nominal diameter d_S of the small grains")(
-      "size-ratio", number(2), "nominal d_L/d_S")("spread", number(0.08),
-                                                  "(d_max - d_min)/d within a species, uniform")(
-      "density", number(1), "of the grains, kg/m^2")(
-      "phi-large", number(0.3), "share of the large grains in the area of all grains")(
-      "depth", text("60dS"), "height of the deposited bed, within 2 %")(
-      "length", text("35dL"), "of the cell")("slope", number(23), "degrees")(
-      "gravity", number(9.8), "m/s^2")("friction", number(0.5),
-                                       "Coulomb's coefficient, all contacts")(
-      "restitution", number(0.25), "Newton's coefficient, all contacts")(
-      "rotation", text("on"), "on or off: whether grains rotate")(
-      "base", text("grains"), "grains (a row of fixed large grains) or wall (straight)")(
-      "lateral", text("periodic"), "periodic or walls: what bounds the cell along x")(
-      "origin", text("top"), "y = 0 at the top or at the centre of the base grains")(
-      "duration", number(150), "simulated time after the tilt, s")(
-      "frame-interval", number(0.05), "s between frames")("keep-deposition", po::bool_switch(),
-                                                          "write the deposition too, at t < 0")(
-      "seed", po::value<std::uint64_t>()->default_value(1), "of the random numbers")(
-      "accuracy", text("standard"), "draft, standard or reference: sets the three below")(
-      "step", po::value<double>(), "time step, s")(
-      "tolerance", po::value<double>(),
-      "of the solver: largest change of a relative velocity in "
-      "the last sweep, over the mean one that forces make")("max-sweeps", po::value<double>(),
-                                                            "of the solver, per step")(
-      "compression", po::value<int>()->default_value(1), "deflate level of the file, 0 to 9")(
-      "store", text("float64"), "float64 or float32, of the file");
+  auto add = keys.add_options();
+  add("small-diameter", text("5mm"), "nominal diameter d_S of the small grains");
+  add("size-ratio", number(2), "nominal d_L/d_S");
+  add("spread", number(0.08), "(d_max - d_min)/d within a species, uniform");
+  add("density", number(1), "of the grains, kg/m^2");
+  add("phi-large", number(0.3), "share of the large grains in the area of all grains");
+  add("depth", text("60dS"), "height of the deposited bed, within 2 %");
+  add("length", text("35dL"), "of the cell");
+  add("slope", number(23), "degrees");
+  add("gravity", number(9.8), "m/s^2");
+  add("friction", number(0.5), "Coulomb's coefficient, all contacts");
+  add("restitution", number(0.25), "Newton's coefficient, all contacts");
+  add("rotation", text("on"), "on or off: whether grains rotate");
+  add("base", text("grains"), "grains (a row of fixed large grains) or wall (straight)");
+  add("lateral", text("periodic"), "periodic or walls: what bounds the cell along x");
+  add("origin", text("top"), "y = 0 at the top or at the centre of the base grains");
+  add("duration", number(150), "simulated time after the tilt, s");
+  add("frame-interval", number(0.05), "s between frames");
+  add("keep-deposition", po::bool_switch(), "write the deposition too, at t < 0");
+  add("seed", po::value<long>()->default_value(1), "of the random numbers");
+  add("accuracy", text("standard"), "draft, standard or reference: sets the three below");
+  add("step", po::value<double>(), "time step, s");
+  add("tolerance", po::value<double>(),
+      "of the solver: largest change of a relative velocity in the last sweep, over the mean one "
+      "that forces make");
+  add("max-sweeps", po::value<long>(), "of the solver, per step");
+  add("compression", po::value<int>()->default_value(0),
+      "deflate level of the file, 0 (none) to 9");
+  add("store", text("float64"), "float64 or float32, of the file");
   return keys;
 }
 
@@ -248,7 +257,7 @@ Scene resolve_scene(const po::variables_map& values)
   resolve_geometry(keys, scene);
   resolve_accuracy(keys, scene);
   scene.keep_deposition = values["keep-deposition"].as<bool>();
-  scene.seed = values["seed"].as<std::uint64_t>();
+  scene.seed = static_cast<std::uint64_t>(keys.whole_number("seed", 1, 4294967295));
   scene.compression = values["compression"].as<int>();
   if (scene.compression < 0 || scene.compression > 9)
     throw UsageError("compression is a deflate level from 0 (none) to 9");

@@ -39,7 +39,7 @@ struct Scene {
   double step = 0;       // s
   SolverSettings solver;
 
-  int compression = 1;
+  int compression = 0;
   bool float32 = false;
 
   std::int64_t steps_per_frame() const;

@@ -188,9 +188,12 @@ void Simulation::write_down_positions(Frame& frame) const
   const double length = world_.box.length_x;
   for (std::size_t g = 0; g < position_.size(); ++g) {
     double& x = frame.position[g].x();
-    const double periods = std::floor(x / length);
+    double periods = std::floor(x / length);
     x -= periods * length;
-    if (x >= length) x = 0;  // a tiny negative x rounds up to the period itself
+    if (x >= length) {  // a tiny negative x rounds up to the period itself
+      x = 0;
+      ++periods;
+    }
     frame.image[g][0] += static_cast<std::int32_t>(periods);
   }
 }
