@@ -16,7 +16,7 @@ namespace {
 
 constexpr double depth_tolerance = 0.02;
 constexpr double usual_solid_fraction = 0.81;  // of a deposit, physics of the first guess only
-constexpr int most_attempts = 8;
+constexpr int most_attempts = 20;
 constexpr double loose = 1.12;  // lattice spacing of the falling grains, in largest diameters
 
 using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
@@ -186,9 +186,9 @@ double bed_height(const Simulation& simulation)
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
 {
   double area = usual_solid_fraction * scene.depth * scene.length;
-  double too_little = 0, too_much = 0;  // m^2, areas that made a bed too low and too high
+  // One stream for all attempts: a shallow bed scatters by more than 2 %, and must get another draw.
+  const auto random = random_numbers(scene.seed);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    const auto random = random_numbers(scene.seed);
     const auto packing = loose_packing(scene, area, random.get());
     auto simulation = falling(packing, scene, random.get());
     const auto start = simulation;
@@ -202,9 +202,7 @@ Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
       simulation.set_clock(0);
       return simulation;
     }
-    (height < scene.depth ? too_little : too_much) = area;
-    area =
-        too_little > 0 && too_much > 0 ? (too_little + too_much) / 2 : area * scene.depth / height;
+    area *= scene.depth / height;
   }
   throw RunError(fmt::format(
       "no bed of depth {:.4g} m could be deposited in {} attempts; is it only a few grains deep?",

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -169,6 +170,80 @@ TEST_F(Trajectory, AWriterKilledAtAnyMomentLeavesWholeFrames)
       expect_same(frame, three_grains::frame(static_cast<std::int64_t>(k)));
     }
   }
+}
+
+TEST_F(Trajectory, AWriterKilledInTheMiddleOfAFrameLosesAtMostThatFrame)
+{
+  for (int trial = 0; trial < 20; ++trial) {
+    const int compression = trial % 2;
+    int done[2];
+    ASSERT_EQ(pipe(done), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      TrajectoryWriter writer(path, three_grains::description(), {.compression = compression});
+      for (std::int64_t k = 0;; ++k) {
+        writer.append(three_grains::frame(k), std::vector<double>{0});
+        if (write(done[1], "x", 1) != 1) _exit(1);
+      }
+    }
+    close(done[1]);
+    char byte = 0;
+    ASSERT_EQ(read(done[0], &byte, 1), 1);
+    usleep(static_cast<useconds_t>(1000 + 1371 * trial));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    std::size_t appended = 1;
+    while (read(done[0], &byte, 1) == 1) ++appended;
+    close(done[0]);
+    const TrajectoryReader reader(path);
+    EXPECT_GE(reader.size() + 1, appended);
+    Frame frame;
+    for (std::size_t k = 0; k < reader.size(); ++k) {
+      reader.read(k, frame, {.velocity = true, .contacts = true, .force = true});
+      expect_same(frame, three_grains::frame(static_cast<std::int64_t>(k)));
+    }
+  }
+}
+
+TEST_F(Trajectory, AFileOfANewerMajorVersionIsRefused)
+{
+  three_grains::write(path, 1);
+  tamper([](hid_t file) {
+    const hid_t group = H5Gopen2(file, "/h5md/modules/grseg", H5P_DEFAULT);
+    const hid_t attribute = H5Aopen(group, "version", H5P_DEFAULT);
+    const int version[2] = {2, 0};
+    H5Awrite(attribute, H5T_NATIVE_INT, version);
+    H5Aclose(attribute);
+    H5Gclose(group);
+  });
+  EXPECT_EQ(complaint(), path +
+                             ": /h5md/modules/grseg is of version 2.0, and this grseg reads "
+                             "versions 1.x");
+}
+
+TEST_F(Trajectory, TheSameRunGivesTheSameBytes)
+{
+  const auto bytes = [&] {
+    three_grains::write(path, 3);
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const auto first = bytes();
+  usleep(1100000);  // object times would be in whole seconds
+  EXPECT_EQ(bytes(), first);
+}
+
+TEST_F(Trajectory, ARunThatIsBeingWrittenIsSaidToBe)
+{
+  three_grains::write(path, 1);
+  const int file = open(path.c_str(), O_RDWR);
+  ASSERT_EQ(flock(file, LOCK_EX), 0);  // as HDF5 does while it writes
+  EXPECT_EQ(complaint(), path +
+                             ": is being written by a run; read it when the run has ended, or a "
+                             "copy of it now");
+  close(file);
+  EXPECT_EQ(complaint(), "no complaint");
 }
 
 TEST_F(Trajectory, AFrameWithoutContactsIsAFrame)

@@ -151,5 +151,54 @@ TEST(PairList, AWallIsMetByWhoeverComesNear)
   EXPECT_FALSE(list.complete(position));
 }
 
+TEST(PairList, LayersInNeighbouringBandsThatSlideOverEachOtherRenewIt)
+{
+  // d_max + skin = 1.2: y = 0 and y = 1.25 lie in neighbouring bands, each of which moves as a
+  // block.
+  World world;
+  std::vector<Vec2> position;
+  for (const double y : {0.0, 1.25})
+    for (const double x : {0.0, 2.0, 4.0}) {
+      position.push_back({x, y});
+      worlds::add(world, {position.back(), 0.5});
+    }
+  world.box = {100, 100, false};
+  PairList list(world.grains, {}, world.box, 0.2);
+  list.renew(world.grains, position);
+  for (int k = 3; k < 6; ++k) position[static_cast<std::size_t>(k)].x() += 0.19;
+  EXPECT_TRUE(list.complete(position));
+  for (int k = 3; k < 6; ++k) position[static_cast<std::size_t>(k)].x() += 0.02;
+  EXPECT_FALSE(list.complete(position));
+}
+
+TEST(PairList, NamesNoPairTwiceInACellOfTwoColumns)
+{
+  World world;
+  std::vector<Vec2> position{{1, 1}, {1.9, 1}, {3.4, 1}};
+  for (const auto& x : position) worlds::add(world, {x, 0.5});
+  worlds::add(world, {{4.4, 3}, 0.5});
+  position.push_back({4.4, 3});
+  world.box = {2.5, 10, true};  // two columns of d + skin = 1.2
+  PairList list(world.grains, {}, world.box, 0.2);
+  list.renew(world.grains, position);
+  std::set<std::pair<int, int>> seen;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    EXPECT_TRUE(seen.insert({list[k].i, list[k].j}).second);
+}
+
+TEST(PairList, AGrainThatFallsAloneToAWallRenewsTheList)
+{
+  World world;
+  worlds::add(world, {{5, 3}, 0.5});
+  world.box = {100, 100, false};
+  std::vector<Vec2> position{{5, 3}};
+  PairList list(world.grains, {worlds::floor_at(0)}, world.box, 0.1);
+  list.renew(world.grains, position);
+  position[0].y() = 4;
+  EXPECT_TRUE(list.complete(position));
+  position[0].y() = 0.5;
+  EXPECT_FALSE(list.complete(position));
+}
+
 }  // namespace
 }  // namespace grseg

@@ -73,6 +73,12 @@ TEST(Scene, AWholeNumberOfStepsFitsIntoAFrameInterval)
   EXPECT_THROW(scene_from({"--step", "0.0003"}), UsageError);
 }
 
+TEST(Scene, StorageIsAsAsked)
+{
+  EXPECT_TRUE(scene_from({"--store", "float32"}).float32);
+  EXPECT_EQ(scene_from({"--compression", "4"}).compression, 4);
+}
+
 TEST(Scene, GravityPointsDownTheSlopeAndIntoTheBase)
 {
   const auto gravity = to_parameters(scene_from({"--slope", "30"})).numbers.at("gravity");
@@ -99,11 +105,12 @@ TEST(Scene, ValuesOutOfRangeAreRefusedByName)
                                                         {"restitution", "-0.1"},
                                                         {"friction", "nan"},
                                                         {"depth", "0"},
-                                                        {"length", "2dL"},
+                                                        {"length", "3dL"},
                                                         {"slope", "91"},
                                                         {"step", "0.1"},
                                                         {"rotation", "maybe"},
                                                         {"accuracy", "best"},
+                                                        {"seed", "-1"},
                                                         {"base", "sand"}}) {
     try {
       scene_from({"--" + key, value});
@@ -165,6 +172,62 @@ TEST(Deposition, MakesABedOfTheAskedDepthAndComposition)
   EXPECT_EQ(base, 15);
   EXPECT_NEAR(large / all, 0.4, 0.02);
   EXPECT_LT(y_large / count_large, 0.6 * y_small / count_small);
+}
+
+TEST(Deposition, GivesTheWorldWhatTheSceneSays)
+{
+  const auto scene =
+      scene_from({"--depth", "6dS", "--length", "6dL", "--origin", "centre", "--rotation", "off",
+                  "--density", "3", "--tolerance", "0.3", "--max-sweeps", "77"});
+  const auto simulation = deposit(scene);
+  const auto& world = simulation.world();
+  EXPECT_FALSE(world.rotation);
+  EXPECT_EQ(world.solver.tolerance, 0.3);
+  EXPECT_EQ(world.solver.max_sweeps, 77);
+  EXPECT_EQ(simulation.time(), 0);
+  for (std::size_t k = 0; k < world.grains.size(); ++k) {
+    const double r = world.grains.radius[k];
+    EXPECT_DOUBLE_EQ(world.grains.mass[k], 3 * std::numbers::pi * r * r);
+    if (world.grains.fixed[k]) {
+      EXPECT_EQ(simulation.position(k).y(), 0);
+    }
+  }
+}
+
+TEST(Deposition, IsRecordedBeforeTheTiltWithoutChangingTheBed)
+{
+  const auto scene = scene_from({"--depth", "6dS", "--length", "6dL", "--accuracy", "draft"});
+  std::int64_t steps = 0;
+  std::vector<double> times;
+  const auto recorded = deposit(
+      scene,
+      {.each_step = {}, .record = [&](const StepReport&, const Simulation&, const Frame* frame) {
+         ++steps;
+         if (frame != nullptr) times.push_back(frame->time);
+       }});
+  ASSERT_GE(times.size(), 2u);
+  EXPECT_GE(times.front(), -static_cast<double>(steps) * scene.step);
+  EXPECT_LT(times.back(), 0);
+  EXPECT_NEAR(times[1] - times[0], scene.frame_interval, 1e-12);
+  EXPECT_EQ(recorded.position(3), deposit(scene).position(3));
+}
+
+TEST(Deposition, EndsWhenItIsAskedTo)
+{
+  const auto scene = scene_from({"--accuracy", "draft"});
+  int steps = 0;
+  const auto listen = [&] {
+    if (++steps == 10) throw ToolError(exit_interrupted, "interrupted");
+  };
+  EXPECT_THROW(deposit(scene, {.each_step = listen, .record = {}}), ToolError);
+  EXPECT_EQ(steps, 10);
+}
+
+TEST(Deposition, WithoutGrainsIsRefused)
+{
+  EXPECT_THROW(deposit(scene_from({"--size-ratio", "100", "--phi-large", "1", "--depth", "1dS",
+                                   "--length", "4dL", "--base", "wall"})),
+               UsageError);
 }
 
 TEST(Deposition, AnotherSeedMakesAnotherBedAndTheSameSeedTheSame)

@@ -288,5 +288,81 @@ TEST(Simulation, CoincidentCentresAreNamedAndStopTheRun)
   }
 }
 
+TEST(Simulation, ARestingDiscWithRestitutionCarriesItsWeightAndDoesNotRattle)
+{
+  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
+  auto world = world_of(discs);
+  world.material.restitution = 0.25;
+  world.walls = {floor_at(0)};
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  Frame frame;
+  for (int k = 0; k < 10; ++k) {
+    simulation.advance(frame);
+    ASSERT_EQ(frame.contacts.size(), 1u);
+    EXPECT_NEAR(frame.contacts.force[0].y(), world.grains.mass[0] * g, 1e-12);
+  }
+}
+
+TEST(Simulation, EnergiesAreThoseOfADiscThatFliesAndSpins)
+{
+  const std::vector<Disc> discs{{{1, 3}, 0.25}, {{9, 9}, 0.5, true}};
+  auto world = world_of(discs);
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  simulation.set_velocity(0, {3, 4}, 8);
+  const double m = world.grains.mass[0];
+  EXPECT_EQ(simulation.angular_velocity(0), 8);
+  EXPECT_NEAR(simulation.translational_energy(), m * 25 / 2, 1e-14);
+  EXPECT_NEAR(simulation.rotational_energy(), m * 0.25 * 0.25 / 2 * 8 * 8 / 2, 1e-14);
+  EXPECT_NEAR(simulation.potential_energy(), m * g * 3, 1e-13);
+}
+
+TEST(Simulation, BranchIsTheDistanceOfTheCentresAndGapNegativeWhereDiscsOverlap)
+{
+  const std::vector<Disc> discs{{{0, 5}, 0.5}, {{0.59, 5.0}, 0.1}, {{0, 0.49}, 0.5}};
+  auto world = world_of(discs);
+  world.walls = {floor_at(0)};
+  Simulation simulation(world, positions_of(discs));
+  Frame frame;
+  simulation.advance(frame);
+  ASSERT_EQ(frame.contacts.size(), 2u);
+  EXPECT_NEAR((frame.contacts.branch[0] - Vec2(-0.59, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR(frame.contacts.gap[0], -0.01, 1e-15);
+  EXPECT_NEAR((frame.contacts.branch[1] - Vec2(0, 0.49)).norm(), 0, 1e-15);
+  EXPECT_NEAR(frame.contacts.gap[1], -0.01, 1e-15);
+}
+
+TEST(Simulation, AFrameUnwrapsToTheTrueWayWhateverTheListRemembers)
+{
+  // The list is made at x > 0; the disc then crosses x = 0 by less than the skin, also by 1e-18.
+  for (const double x : {-1e-3, -1e-18}) {
+    const std::vector<Disc> discs{{{1e-3, 5}, 0.5}};
+    auto world = world_of(discs);
+    world.box = {10, 10, true};
+    Simulation simulation(world, positions_of(discs));
+    Frame frame;
+    simulation.advance(frame);
+    simulation.set_velocity(0, {(x - 1e-3) / (world.step / 2), 0});
+    simulation.advance(frame);
+    EXPECT_GE(frame.position[0].x(), 0);
+    EXPECT_LT(frame.position[0].x(), 10);
+    EXPECT_NEAR(frame.position[0].x() + 10 * frame.image[0][0], x, 1e-12);
+  }
+}
+
+TEST(Simulation, ASlowRiseUnderGravityEndsAtRestNotInTheFloor)
+{
+  const std::vector<Disc> discs{{{0, 0.499}, 0.5}};
+  auto world = world_of(discs);
+  world.material.restitution = 0.25;
+  world.walls = {floor_at(0)};
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  simulation.set_velocity(0, {0, 0.005});  // less than g h = 0.0098
+  simulation.advance();
+  EXPECT_NEAR(simulation.velocity(0).y(), 0, 1e-14);
+}
+
 }  // namespace
 }  // namespace grseg
