@@ -186,7 +186,8 @@ double bed_height(const Simulation& simulation)
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
 {
   double area = usual_solid_fraction * scene.depth * scene.length;
-  // One stream for all attempts: a shallow bed scatters by more than 2 %, and must get another draw.
+  // One stream for all attempts: a shallow bed scatters by more than 2 %, and must get another
+  // draw.
   const auto random = random_numbers(scene.seed);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     const auto packing = loose_packing(scene, area, random.get());

@@ -26,8 +26,6 @@ int main(int argc, char** argv)
     if (inputs.size() != 1)
       throw UsageError("name one scene file, such as sim/scenes/chute.ini; --help shows examples");
     if (run.output.empty()) throw UsageError("name the trajectory to write: -o run.h5");
-    auto values = given;
-    read_scene_file(inputs[0], values);
-    simulate(resolve_scene(values), run);
+    simulate(resolve_scene(inputs[0], given), run);
   });
 }

@@ -36,7 +36,7 @@ bool parse_switch(const std::string& text, const std::string& key)
 {
   if (text == "on") return true;
   if (text == "off") return false;
-  throw UsageError(fmt::format("{} is '{}': it is on or off", key, text));
+  throw SceneError(key, fmt::format("{} is '{}': it is on or off", key, text));
 }
 
 template <class Choice, std::size_t N>
@@ -48,7 +48,7 @@ Choice parse_choice(const std::string& text, const std::string& key,
     if (text == name) return choice;
     all += all.empty() ? name : fmt::format(", {}", name);
   }
-  throw UsageError(fmt::format("{} is '{}': choose one of {}", key, text, all));
+  throw SceneError(key, fmt::format("{} is '{}': choose one of {}", key, text, all));
 }
 
 constexpr std::array<std::pair<const char*, Scene::Base>, 2> bases{
@@ -79,15 +79,21 @@ class Keys {
   }
   double length(const std::string& key, LengthUnits units, double low, double high) const
   {
-    return within(parse_length(text(key), key, units), key, low, high);
+    double value = 0;
+    try {
+      value = parse_length(text(key), key, units);
+    } catch (const UsageError& wrong) {
+      throw SceneError(key, wrong.what());
+    }
+    return within(value, key, low, high);
   }
 
  private:
   static double within(double value, const std::string& key, double low, double high)
   {
     if (!(value >= low && value <= high))
-      throw UsageError(fmt::format("{} is {:.6g}: it must lie between {:.6g} and {:.6g}", key,
-                                   value, low, high));
+      throw SceneError(key, fmt::format("{} is {:.6g}: it must lie between {:.6g} and {:.6g}", key,
+                                        value, low, high));
     return value;
   }
   const po::variables_map& values_;
@@ -124,7 +130,8 @@ void resolve_accuracy(const Keys& keys, Scene& scene)
   for (const auto& accuracy : accuracies)
     if (scene.accuracy == accuracy.name) preset = &accuracy;
   if (preset == nullptr)
-    throw UsageError(
+    throw SceneError(
+        "accuracy",
         fmt::format("accuracy is '{}': choose draft, standard or reference", scene.accuracy));
 
   const double natural = std::sqrt(scene.small_diameter / scene.gravity);
@@ -134,9 +141,11 @@ void resolve_accuracy(const Keys& keys, Scene& scene)
     scene.step = keys.number("step", 1e-15, largest_step * natural);
     const double steps = scene.frame_interval / scene.step;
     if (std::abs(steps - std::round(steps)) > 1e-6 * steps || steps < 0.5)
-      throw UsageError(fmt::format(
-          "frame-interval {:.9g} s is no whole number of steps of {:.9g} s; change one of them",
-          scene.frame_interval, scene.step));
+      throw SceneError(
+          "step",
+          fmt::format(
+              "frame-interval {:.9g} s is no whole number of steps of {:.9g} s; change one of them",
+              scene.frame_interval, scene.step));
   } else {
     scene.step = scene.frame_interval / std::ceil(scene.frame_interval / (preset->step * natural));
   }
@@ -249,6 +258,20 @@ void read_scene_file(const std::string& path, po::variables_map& values)
   }
 }
 
+Scene resolve_scene(const std::string& path, const po::variables_map& given)
+{
+  auto values = given;
+  read_scene_file(path, values);
+  try {
+    return resolve_scene(values);
+  } catch (const SceneError& wrong) {
+    const bool from_command_line = given.count(wrong.key) > 0 && !given[wrong.key].defaulted();
+    const auto place = place_of(path, wrong.key);
+    if (from_command_line || place == path) throw;
+    throw FormatError(fmt::format("{}: {}", place, wrong.what()));
+  }
+}
+
 Scene resolve_scene(const po::variables_map& values)
 {
   const Keys keys(values);
@@ -260,7 +283,7 @@ Scene resolve_scene(const po::variables_map& values)
   scene.seed = static_cast<std::uint64_t>(keys.whole_number("seed", 1, 4294967295));
   scene.compression = values["compression"].as<int>();
   if (scene.compression < 0 || scene.compression > 9)
-    throw UsageError("compression is a deflate level from 0 (none) to 9");
+    throw SceneError("compression", "compression is a deflate level from 0 (none) to 9");
   scene.float32 = parse_choice(keys.text("store"), "store", stores);
   return scene;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/errors.hpp"
 #include "formats/parameters.hpp"
 #include "sim/solver.hpp"
 
@@ -53,9 +54,18 @@ boost::program_options::options_description scene_options();
 /// the file is missing, FormatError naming file, line and remedy where a key is unknown or wrong.
 void read_scene_file(const std::string& path, boost::program_options::variables_map& values);
 
-/// Resolves `values` (lengths, presets, step) and checks every range; UsageError says which key is
+/// A key whose value cannot be.
+struct SceneError : UsageError {
+  SceneError(const std::string& of, const std::string& sentence) : UsageError(sentence), key(of) {}
+  std::string key;
+};
+
+/// Resolves `values` (lengths, presets, step) and checks every range; SceneError says which key is
 /// out of which bounds.
 Scene resolve_scene(const boost::program_options::variables_map& values);
+/// The scene of the file at `path` where `given`, the command line, does not say otherwise; what is
+/// wrong in the file is a FormatError with its line.
+Scene resolve_scene(const std::string& path, const boost::program_options::variables_map& given);
 
 /// The scene as a file that gives the same run: every key in SI.
 std::string to_text(const Scene& scene);

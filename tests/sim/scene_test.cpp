@@ -132,6 +132,20 @@ TEST_F(SceneFile, AValueThatIsNoNumberIsNamedWithItsLine)
   EXPECT_EQ(complaint("slope = steep\n").substr(0, path.size() + 3), path + ":1:");
 }
 
+TEST_F(SceneFile, AValueOutOfRangeIsTheFilesFaultUnlessTheCommandLineGaveIt)
+{
+  std::ofstream(path) << "# a chute\nphi-large = 1.5\n";
+  try {
+    resolve_scene(path, parse({}));
+    FAIL();
+  } catch (const FormatError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              path + ":2: phi-large is 1.5: it must lie between 0 and 1");
+  }
+  EXPECT_NO_THROW(resolve_scene(path, parse({"--phi-large", "0.5"})));
+  EXPECT_THROW(resolve_scene(path, parse({"--phi-large", "2"})), UsageError);
+}
+
 TEST_F(SceneFile, TheCommandLineWins)
 {
   std::ofstream(path) << "slope = 21\nfriction = 0.3\n";
