@@ -1,0 +1,16 @@
+# Share of mixed contacts against composition, for every layer and window of FOLDER/micro.tsv, and the
+# neutral model's curve (Staron & Phillips 2015, figure 2c):
+#   gnuplot -c scripts/figures/mixed-share.gp FOLDER
+folder = ARG1
+set datafile separator tab
+set terminal pngcairo size 900,700 font "DejaVu Sans,13"
+set output folder."/mixed-share.png"
+set xlabel "φ_L"
+set ylabel "N_{LS} / (N_{LL} + N_{LS} + N_{SS})"
+set xrange [0:1]
+set yrange [0:0.7]
+set key top left
+r = 2.0
+plot folder."/micro.tsv" using (column("y0[m]") == column("y0[m]") ? column("phi_L") : NaN):"mixed_share" \
+       with points pt 7 ps 0.4 lc rgb "#801f77b4" title "a layer in a window", \
+     2 * r * x * (1 - x) / (x + r * (1 - x))**2 with lines lw 2 lc rgb "black" title "neutral contacts"
