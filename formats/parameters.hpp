@@ -22,4 +22,10 @@ struct Parameters {
   std::string text(const std::string& name) const;
 };
 
+/// One number that is stored with every frame under /observables.
+struct Observable {
+  std::string name;
+  std::string unit;  // H5MD style, e.g. "kg m s-1"; "" for a pure number
+};
+
 }  // namespace grseg

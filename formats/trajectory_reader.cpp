@@ -382,6 +382,18 @@ bool TrajectoryReader::has_observable(const std::string& name) const
   return exists(impl_->file, "/observables/" + name + "/value");
 }
 
+std::vector<Observable> TrajectoryReader::observables() const
+{
+  std::vector<Observable> all;
+  for (const auto& name : names_in(impl_->file, "/observables")) {
+    if (!has_observable(name)) continue;
+    const auto value = impl_->open("/observables/" + name + "/value", H5T_FLOAT, 1);
+    const auto unit = read_strings(value.id(), "unit");
+    all.push_back({name, unit.empty() ? "" : unit[0]});
+  }
+  return all;
+}
+
 std::vector<double> TrajectoryReader::observable(const std::string& name) const
 {
   const auto dataset = impl_->open("/observables/" + name + "/value", H5T_FLOAT, 1);

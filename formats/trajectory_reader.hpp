@@ -47,6 +47,8 @@ class TrajectoryReader {
   void read(std::size_t index, Frame& frame, Fields fields) const;
   void read(std::size_t index, Frame& frame) const { read(index, frame, Fields{}); }
 
+  /// What /observables holds, in alphabetical order.
+  std::vector<Observable> observables() const;
   /// One number per committed frame from /observables.
   std::vector<double> observable(const std::string& name) const;
   bool has_observable(const std::string& name) const;

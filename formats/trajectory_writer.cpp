@@ -51,15 +51,13 @@ struct TrajectoryWriter::Impl {
 
   hid_t real_type() const { return storage.float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
 
-  /// How rows of a kind are stored so that a kill at any moment leaves the committed ones whole: a
-  /// chunk that belongs to one frame is written once; one that fills up over many frames is
-  /// rewritten in place, where a checksum would be wrong half-way; and where compression moves it,
-  /// the space it leaves is not used again.
+  /// A chunk that belongs to one frame is written once and carries a checksum. One that fills up
+  /// over many frames is rewritten in place while the run goes on, where a checksum would be wrong
+  /// half-way, and where compression would move it: such chunks are filtered in compressed files
+  /// only.
   Storage storage_of(hsize_t chunk_rows) const
   {
-    if (chunk_rows == 1) return {chunk_rows, storage.compression, true};
-    if (chunk_rows == contact_chunk) return {chunk_rows, storage.compression, false};
-    return {chunk_rows, 0, false};
+    return {chunk_rows, storage.compression, chunk_rows == 1};
   }
   Series grow(const std::string& name, hid_t file_type, hid_t memory_type,
               const std::vector<hsize_t>& shape, hsize_t chunk_rows)
@@ -187,9 +185,7 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
   my.path = path;
   my.storage = storage;
   my.grains = run.grains.size();
-  const Properties create(H5Pcreate(H5P_FILE_CREATE));
-  H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
-  my.file = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, H5P_DEFAULT));
+  my.file = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   if (!my.file.valid())
     throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
   my.create_metadata(run);
@@ -243,7 +239,7 @@ void TrajectoryWriter::append(const Frame& frame, std::span<const double> observ
   my.time.append(1, &frame.time);
   my.digest_so_far = frame_digest(frame, my.digest_so_far, my.storage.float32);
   my.digest.append(1, &my.digest_so_far);
-  my.flush();
+  if (my.storage.compression == 0) my.flush();
   my.contacts_so_far += contacts.size();
   my.offset.append(1, &my.contacts_so_far);
 }

@@ -11,12 +11,6 @@
 
 namespace grseg {
 
-/// One number that is stored with every frame under /observables.
-struct Observable {
-  std::string name;
-  std::string unit;  // H5MD style, e.g. "kg m s-1"; "" for a pure number
-};
-
 /// What a trajectory file says once.
 struct RunDescription {
   Grains grains;
@@ -26,7 +20,10 @@ struct RunDescription {
 };
 
 struct StorageSettings {
-  int compression = 0;   ///< deflate level, 0 stores plainly
+  /// Deflate level; 0 stores plainly, and then a kill at any moment leaves the committed frames
+  /// readable. A compressed file is whole only once it is closed: runs are compressed when they
+  /// have ended (repack.hpp).
+  int compression = 0;
   bool float32 = false;  ///< halves the file; contact balances then close to 1e-6 only
 };
 

@@ -2,6 +2,7 @@
 #include "sim/run.hpp"
 
 #include "formats/errors.hpp"
+#include "formats/repack.hpp"
 #include "formats/tool.hpp"
 #include "sim/deposition.hpp"
 #include "sim/recorder.hpp"
@@ -104,18 +105,29 @@ void summarise(const Scene& scene, const StepTotals& t, const Cost& cost, double
              t.mean_gap_bearing() / d, height / d);
 }
 
-/// A whole file under its own name, on the disk.
-void publish(const std::string& part, const std::string& output)
+void bring_to_disk(const std::string& path)
 {
-  const int file = open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool on_disk = file >= 0 && fsync(file) == 0;
   if (file >= 0) close(file);
   if (!on_disk)
-    throw RunError(fmt::format("cannot bring {} to the disk: {}", part, std::strerror(errno)));
+    throw RunError(fmt::format("cannot bring {} to the disk: {}", path, std::strerror(errno)));
+}
+
+/// The finished run under its own name, compressed if that is asked for.
+void publish(const std::string& part, const std::string& output, const StorageSettings& storage)
+{
+  std::string whole = part;
+  if (storage.compression > 0) {
+    whole = fmt::format("{}.tmp.{}", output, getpid());
+    repack(part, whole, storage);
+  }
+  bring_to_disk(whole);
   std::error_code error;
-  std::filesystem::rename(part, output, error);
+  std::filesystem::rename(whole, output, error);
   if (error)
-    throw RunError(fmt::format("cannot rename {} to {}: {}", part, output, error.message()));
+    throw RunError(fmt::format("cannot rename {} to {}: {}", whole, output, error.message()));
+  if (whole != part) std::filesystem::remove(part, error);
 }
 
 void refuse_to_overwrite(const std::string& path, const RunOptions& options)
@@ -217,7 +229,7 @@ void simulate(const Scene& scene, const RunOptions& options)
   if (stop_signal != 0)
     throw interruption(fmt::format("interrupted at t = {:.6g} s; the frames so far are in {}",
                                    simulation.time(), part));
-  publish(part, options.output);
+  publish(part, options.output, {scene.compression, scene.float32});
   if (options.strict && recorder.totals().missed > 0)
     throw CheckError(fmt::format(
         "the tolerance was missed in {} of {} steps; allow more sweeps or a smaller step",
