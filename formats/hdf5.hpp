@@ -85,6 +85,7 @@ class CheckedDataset {
   const std::vector<hsize_t>& dims() const { return dims_; }
   const std::string& path() const { return path_; }
   hid_t id() const { return dataset_; }
+  bool stores_float32() const { return H5Tget_size(Type(H5Dget_type(dataset_))) == 4; }
 
   /// FormatError unless dimension `axis` has `size` entries (or, at_least, no fewer).
   void require(std::size_t axis, hsize_t size, bool at_least = false) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/trajectory_reader.hpp"
 
+#include "formats/digest.hpp"
 #include "formats/errors.hpp"
 #include "formats/hdf5.hpp"
 #include "formats/tool.hpp"
@@ -296,6 +297,33 @@ TrajectoryReader::TrajectoryReader(const std::string& path) : impl_(std::make_un
   my.contact_force = my.rows("force", H5T_FLOAT, 2);
   my.contact_branch = my.rows("branch", H5T_FLOAT, 2);
   my.contact_gap = my.rows("gap", H5T_FLOAT, 1);
+  drop_damaged_end();
+}
+
+/// A kill in the middle of a write can leave the last frame committed but not whole; its digest
+/// tells. A file that was closed has no such end.
+void TrajectoryReader::drop_damaged_end()
+{
+  auto& my = *impl_;
+  if (my.parameters.numbers.contains("complete") || !exists(my.file, "/grseg/digest")) return;
+  const auto stored = my.open("/grseg/digest", H5T_INTEGER, 1);
+  stored.require(0, size(), true);
+  std::vector<std::uint64_t> digests(size() + 1, 0);
+  stored.read_rows(H5T_NATIVE_UINT64, 0, size(), digests.data() + 1);
+  Frame frame;
+  const auto whole = [&](std::size_t last) {
+    try {
+      read(last, frame, {.velocity = true, .contacts = true, .force = true});
+    } catch (const FormatError&) {
+      return false;
+    }
+    return frame_digest(frame, digests[last], my.position.stores_float32()) == digests[last + 1];
+  };
+  while (size() > 0 && !whole(size() - 1)) {
+    my.offset.pop_back();
+    my.steps.pop_back();
+    my.times.pop_back();
+  }
 }
 
 TrajectoryReader::~TrajectoryReader() = default;

@@ -57,6 +57,7 @@ class TrajectoryReader {
   std::uint64_t digest() const;
 
  private:
+  void drop_damaged_end();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -185,7 +185,11 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
   my.path = path;
   my.storage = storage;
   my.grains = run.grains.size();
-  my.file = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  const Properties create(H5Pcreate(H5P_FILE_CREATE));
+  // Space that the library frees while a run goes on is not used again: a kill may come before the
+  // index on the disk knows.
+  if (storage.compression == 0) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
+  my.file = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, H5P_DEFAULT));
   if (!my.file.valid())
     throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
   my.create_metadata(run);
@@ -252,6 +256,7 @@ void TrajectoryWriter::add_parameters(const Parameters& parameters)
 void TrajectoryWriter::close()
 {
   auto& my = *impl_;
+  my.write_parameters({{{"complete", {1}}}, {}});
   my.flush();
   const std::string path = my.path;
   File file = std::move(my.file);
