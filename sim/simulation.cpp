@@ -52,8 +52,8 @@ StepReport Simulation::step(Frame* frame)
   find_contacts(report);
   apply_gravity(world_.step);
   report.solver =
-      solve_contacts(contacts_, motion_, world_.material.friction, effects_, world_.solver,
-                     floor_of_reference * world_.gravity.norm() * world_.step);
+      solver_.solve(contacts_, motion_, world_.material.friction, effects_, world_.solver,
+                    floor_of_reference * world_.gravity.norm() * world_.step);
   keep_impulses(report);
   if (frame != nullptr) write_down(*frame);
   move_grains(world_.step / 2);

@@ -97,6 +97,7 @@ class Simulation {
   std::vector<Motion> motion_;  // one per grain, then one that stands for all walls
   std::vector<Motion> before_;  // at the beginning of a step that is written down
   std::vector<Contact> contacts_;
+  ContactSolver solver_;
   std::vector<std::size_t> pair_of_contact_;
   std::vector<double> gap_;  // m, per contact
   std::int64_t steps_done_ = 0;

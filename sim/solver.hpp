@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "sim/contact_law.hpp"
+#include "sim/contact_blocks.hpp"
+#include "sim/sweep.hpp"
 
 #include <vector>
 
@@ -27,7 +28,19 @@ struct SolverReport {
 /// rather than the mean change decides, so that a contact which has just closed is not hidden by
 /// thousands of settled ones.
 ///
-/// Impulses in `contacts` are the first guess; they are applied to `motion` here.
+/// Contacts are swept in the order of their colours (ContactBlocks), many at a time.
+class ContactSolver {
+ public:
+  /// Impulses in `contacts` are the first guess; they are applied to `motion` here. The floor is
+  /// in m/s.
+  SolverReport solve(std::vector<Contact>& contacts, std::vector<Motion>& motion, double friction,
+                     Effects effects, const SolverSettings& settings, double floor);
+
+ private:
+  ContactBlocks blocks_;  // kept for its memory
+};
+
+/// The same for a single problem.
 SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
                             double friction, Effects effects, const SolverSettings& settings,
                             double floor);

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/sweep.hpp"
+
+#include "formats/errors.hpp"
+
+#include <algorithm>
+
+// Highway compiles what follows once per instruction set.
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/sweep.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace grseg {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, block_lanes>;
+using Vector = hn::Vec<D>;
+using Lanes = ContactBlock::Lanes;
+
+/// All bodies as one row of doubles.
+HWY_INLINE double* members(Motion* motion)
+{
+  return reinterpret_cast<double*>(motion);
+}
+
+/// Entries of Motion, one member per vector.
+struct Bodies {
+  Vector vx, vy, rim_speed, inverse_mass;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_INLINE Bodies load_bodies(D d, const double* motion, const std::uint32_t* at)
+{
+  const double* body = motion + *at;
+  return {hn::Load(d, body), hn::Load(d, body + 1), hn::Load(d, body + 2), hn::Load(d, body + 3)};
+}
+
+HWY_INLINE void store_bodies(D d, const Bodies& b, double* motion, const std::uint32_t* at)
+{
+  double* body = motion + *at;
+  hn::Store(b.vx, d, body);
+  hn::Store(b.vy, d, body + 1);
+  hn::Store(b.rim_speed, d, body + 2);
+}
+
+#else
+
+/// Whole bodies are loaded and their members sorted into vectors, since that takes fewer operations
+/// than gathering member by member.
+template <class Tag>
+HWY_INLINE Bodies load_bodies(Tag d, const double* motion, const std::uint32_t* at)
+{
+  if constexpr (hn::MaxLanes(d) == 8) {
+    const hn::Half<Tag> h;
+    const auto body = [&](int k) HWY_ATTR { return hn::Load(h, motion + at[k]); };
+    const auto r01 = hn::Combine(d, body(1), body(0)), r23 = hn::Combine(d, body(3), body(2));
+    const auto r45 = hn::Combine(d, body(5), body(4)), r67 = hn::Combine(d, body(7), body(6));
+    const auto even03 = hn::ConcatEven(d, r23, r01), odd03 = hn::ConcatOdd(d, r23, r01);
+    const auto even47 = hn::ConcatEven(d, r67, r45), odd47 = hn::ConcatOdd(d, r67, r45);
+    return {hn::ConcatEven(d, even47, even03), hn::ConcatEven(d, odd47, odd03),
+            hn::ConcatOdd(d, even47, even03), hn::ConcatOdd(d, odd47, odd03)};
+  } else if constexpr (hn::MaxLanes(d) == 4) {
+    const auto r0 = hn::Load(d, motion + at[0]), r1 = hn::Load(d, motion + at[1]);
+    const auto r2 = hn::Load(d, motion + at[2]), r3 = hn::Load(d, motion + at[3]);
+    const auto low01 = hn::InterleaveLower(d, r0, r1), high01 = hn::InterleaveUpper(d, r0, r1);
+    const auto low23 = hn::InterleaveLower(d, r2, r3), high23 = hn::InterleaveUpper(d, r2, r3);
+    return {hn::ConcatLowerLower(d, low23, low01), hn::ConcatLowerLower(d, high23, high01),
+            hn::ConcatUpperUpper(d, low23, low01), hn::ConcatUpperUpper(d, high23, high01)};
+  } else {
+    static_assert(hn::MaxLanes(d) == 2);
+    const auto v0 = hn::Load(d, motion + at[0]), s0 = hn::Load(d, motion + at[0] + 2);
+    const auto v1 = hn::Load(d, motion + at[1]), s1 = hn::Load(d, motion + at[1] + 2);
+    return {hn::InterleaveLower(d, v0, v1), hn::InterleaveUpper(d, v0, v1),
+            hn::InterleaveLower(d, s0, s1), hn::InterleaveUpper(d, s0, s1)};
+  }
+}
+
+/// The way back. Two lanes with the same immobile body write the same.
+template <class Tag>
+HWY_INLINE void store_bodies(Tag d, const Bodies& b, double* motion, const std::uint32_t* at)
+{
+  const auto v_low = hn::InterleaveLower(d, b.vx, b.vy);
+  const auto v_high = hn::InterleaveUpper(d, b.vx, b.vy);
+  const auto s_low = hn::InterleaveLower(d, b.rim_speed, b.inverse_mass);
+  const auto s_high = hn::InterleaveUpper(d, b.rim_speed, b.inverse_mass);
+  if constexpr (hn::MaxLanes(d) == 8) {
+    const hn::Half<Tag> h;
+    const auto r04 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(s_low), v_low);
+    const auto r15 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(s_high), v_high);
+    const auto r26 = hn::OddEvenBlocks(s_low, hn::SwapAdjacentBlocks(v_low));
+    const auto r37 = hn::OddEvenBlocks(s_high, hn::SwapAdjacentBlocks(v_high));
+    hn::Store(hn::LowerHalf(h, r04), h, motion + at[0]);
+    hn::Store(hn::LowerHalf(h, r15), h, motion + at[1]);
+    hn::Store(hn::LowerHalf(h, r26), h, motion + at[2]);
+    hn::Store(hn::LowerHalf(h, r37), h, motion + at[3]);
+    hn::Store(hn::UpperHalf(h, r04), h, motion + at[4]);
+    hn::Store(hn::UpperHalf(h, r15), h, motion + at[5]);
+    hn::Store(hn::UpperHalf(h, r26), h, motion + at[6]);
+    hn::Store(hn::UpperHalf(h, r37), h, motion + at[7]);
+  } else if constexpr (hn::MaxLanes(d) == 4) {
+    hn::Store(hn::ConcatLowerLower(d, s_low, v_low), d, motion + at[0]);
+    hn::Store(hn::ConcatLowerLower(d, s_high, v_high), d, motion + at[1]);
+    hn::Store(hn::ConcatUpperUpper(d, s_low, v_low), d, motion + at[2]);
+    hn::Store(hn::ConcatUpperUpper(d, s_high, v_high), d, motion + at[3]);
+  } else {
+    hn::Store(v_low, d, motion + at[0]);
+    hn::Store(s_low, d, motion + at[0] + 2);
+    hn::Store(v_high, d, motion + at[1]);
+    hn::Store(s_high, d, motion + at[1] + 2);
+  }
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+/// Adds the impulse (px, py) to a and takes it from b, and the spin from both.
+template <Effects with>
+HWY_INLINE void push(Bodies& a, Bodies& b, Vector px, Vector py, Vector spin)
+{
+  if constexpr (with.friction && with.rotation) {
+    a.rim_speed = hn::Sub(a.rim_speed, hn::Mul(a.inverse_mass, spin));
+    b.rim_speed = hn::Sub(b.rim_speed, hn::Mul(b.inverse_mass, spin));
+  }
+  a.vx = hn::Add(a.vx, hn::Mul(a.inverse_mass, px));
+  a.vy = hn::Add(a.vy, hn::Mul(a.inverse_mass, py));
+  b.vx = hn::Sub(b.vx, hn::Mul(b.inverse_mass, px));
+  b.vy = hn::Sub(b.vy, hn::Mul(b.inverse_mass, py));
+}
+
+/// SweepResult, lane by lane.
+struct alignas(64) LaneResults {
+  Lanes largest{}, squares{}, reference{};
+
+  HWY_INLINE void add(std::size_t lane, Vector change, Vector level)
+  {
+    const D d;
+    hn::Store(hn::Max(hn::Load(d, &largest[lane]), change), d, &largest[lane]);
+    hn::Store(hn::Add(hn::Load(d, &squares[lane]), hn::Mul(change, change)), d, &squares[lane]);
+    hn::Store(hn::Add(hn::Load(d, &reference[lane]), hn::Mul(level, level)), d, &reference[lane]);
+  }
+  HWY_INLINE SweepResult total() const
+  {
+    static_assert(block_lanes == 8);
+    const auto sum = [](const Lanes& s) {
+      return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+    };
+    return {*std::max_element(largest.begin(), largest.end()), sum(squares), sum(reference)};
+  }
+};
+
+/// relax() on the lanes that begin at `lane`; the same operations in the same order.
+template <Effects with>
+HWY_INLINE void relax_lanes(ContactBlock& c, std::size_t lane, double* motion, Vector friction,
+                            LaneResults& results)
+{
+  const D d;
+  auto a = load_bodies(d, motion, &c.i[lane]), b = load_bodies(d, motion, &c.j[lane]);
+  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
+  const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
+  const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
+
+  auto excess = hn::Add(hn::Mul(dvx, nx), hn::Mul(dvy, ny));
+  if constexpr (with.restitution) excess = hn::Sub(excess, hn::Load(d, &c.rebound[lane]));
+  const auto before_n = hn::Load(d, &c.impulse_n[lane]);
+  const auto impulse_n =
+      hn::Max(hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess)), hn::Zero(d));
+  hn::Store(impulse_n, d, &c.impulse_n[lane]);
+  const auto change_n = hn::Sub(impulse_n, before_n);
+  results.add(lane, hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn));
+
+  auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
+  if constexpr (with.friction) {
+    auto sliding = hn::Sub(hn::Mul(dvy, nx), hn::Mul(dvx, ny));
+    auto w_tt = w_nn;
+    const auto kappa = hn::Load(d, &c.kappa[lane]);
+    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), kappa);
+    if constexpr (with.rotation) {
+      sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
+      w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, 1.0), hn::Mul(lever, kappa)));
+    }
+    const auto limit = hn::Mul(friction, impulse_n);
+    const auto before_t = hn::Load(d, &c.impulse_t[lane]);
+    const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_t[lane]), sliding));
+    const auto impulse_t = hn::Min(hn::Max(sticking, hn::Neg(limit)), limit);
+    hn::Store(impulse_t, d, &c.impulse_t[lane]);
+    const auto change_t = hn::Sub(impulse_t, before_t);
+    px = hn::Sub(px, hn::Mul(change_t, ny));
+    py = hn::Add(py, hn::Mul(change_t, nx));
+    if constexpr (with.rotation) spin = hn::Mul(lever, change_t);
+    results.add(lane, hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt));
+  }
+  push<with>(a, b, px, py, spin);
+  store_bodies(d, a, motion, &c.i[lane]);
+  store_bodies(d, b, motion, &c.j[lane]);
+}
+
+template <Effects with>
+SweepResult sweep(std::span<ContactBlock> blocks, Motion* motion, double friction)
+{
+  const D d;
+  LaneResults results;
+  const auto coefficient = hn::Set(d, friction);
+  for (auto& block : blocks)
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d))
+      relax_lanes<with>(block, lane, members(motion), coefficient, results);
+  return results.total();
+}
+
+template <Effects with>
+void apply(std::span<const ContactBlock> blocks, Motion* motion)
+{
+  const D d;
+  for (const auto& c : blocks) {
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+      auto a = load_bodies(d, members(motion), &c.i[lane]),
+           b = load_bodies(d, members(motion), &c.j[lane]);
+      const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
+      const auto normal = hn::Load(d, &c.impulse_n[lane]);
+      auto px = hn::Mul(normal, nx), py = hn::Mul(normal, ny), spin = hn::Zero(d);
+      if constexpr (with.friction) {
+        const auto tangential = hn::Load(d, &c.impulse_t[lane]);
+        px = hn::Sub(px, hn::Mul(tangential, ny));
+        py = hn::Add(py, hn::Mul(tangential, nx));
+        const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), hn::Load(d, &c.kappa[lane]));
+        spin = hn::Mul(lever, tangential);
+      }
+      push<with>(a, b, px, py, spin);
+      store_bodies(d, a, members(motion), &c.i[lane]);
+      store_bodies(d, b, members(motion), &c.j[lane]);
+    }
+  }
+}
+
+/// The only place where a scene's effects become a compile-time choice.
+Sweep sweep_for(Effects e)
+{
+  // [friction][rotation][restitution]
+  static constexpr Sweep table[2][2][2] = {
+      {{sweep<Effects{false, false, false}>, sweep<Effects{false, false, true}>},
+       {sweep<Effects{false, true, false}>, sweep<Effects{false, true, true}>}},
+      {{sweep<Effects{true, false, false}>, sweep<Effects{true, false, true}>},
+       {sweep<Effects{true, true, false}>, sweep<Effects{true, true, true}>}}};
+  return table[e.friction][e.rotation][e.restitution];
+}
+
+void apply_for(std::span<const ContactBlock> blocks, Motion* motion, Effects e)
+{
+  if (!e.friction)
+    apply<Effects{false, false, false}>(blocks, motion);
+  else if (!e.rotation)
+    apply<Effects{true, false, false}>(blocks, motion);
+  else
+    apply<Effects{true, true, false}>(blocks, motion);
+}
+
+std::int64_t target()
+{
+  return HWY_TARGET;
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace grseg
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grseg {
+namespace {
+
+HWY_EXPORT(sweep_for);
+HWY_EXPORT(apply_for);
+HWY_EXPORT(target);
+
+std::string name_of(std::int64_t target)
+{
+  switch (target) {
+    case HWY_AVX3:
+      return "avx512";
+    case HWY_AVX2:
+      return "avx2";
+    case HWY_SSE4:
+      return "sse4";
+    case HWY_SCALAR:
+    case HWY_EMU128:
+      return "scalar";
+    default:
+      return hwy::TargetName(target);
+  }
+}
+
+}  // namespace
+
+Sweep choose_sweep(Effects effects)
+{
+  return HWY_DYNAMIC_DISPATCH(sweep_for)(effects);
+}
+
+void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects)
+{
+  HWY_DYNAMIC_DISPATCH(apply_for)(blocks, motion, effects);
+}
+
+std::vector<std::string> instruction_sets()
+{
+  std::vector<std::string> names;
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) names.push_back(name_of(target));
+  return names;
+}
+
+std::string instruction_set()
+{
+  return name_of(HWY_DYNAMIC_DISPATCH(target)());
+}
+
+void use_instruction_set(const std::string& name)
+{
+  hwy::SetSupportedTargetsForTest(0);
+  std::int64_t chosen = 0;
+  for (const auto target : hwy::SupportedAndGeneratedTargets())
+    if (name == name_of(target)) chosen = target;
+  if (chosen == 0 && !name.empty()) throw RunError("no instruction set '" + name + "' here");
+  hwy::SetSupportedTargetsForTest(chosen);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace grseg
+#endif  // HWY_ONCE

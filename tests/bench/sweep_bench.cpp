@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/contact_blocks.hpp"
+#include "sim/sweep.hpp"
+#include "tests/frozen_problem.hpp"
+
+#include <benchmark/benchmark.h>
+
+/// Contact updates per second on one step's contacts of the chute, per instruction set, and what a
+/// step's colouring, packing and warm start cost beside them.
+namespace grseg {
+namespace {
+
+/// The frozen problem, with the entry that lanes left over act on.
+FrozenProblem problem()
+{
+  static const auto read = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
+  auto copy = read;
+  copy.motion.emplace_back();
+  return copy;
+}
+
+void count_contacts(benchmark::State& state, const FrozenProblem& p)
+{
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(p.contacts.size()));
+}
+
+void sweep(benchmark::State& state, const std::string& instructions, Effects effects)
+{
+  use_instruction_set(instructions);
+  auto p = problem();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  const auto one_sweep = choose_sweep(effects);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(one_sweep(packed.blocks(), p.motion.data(), p.friction));
+  count_contacts(state, p);
+}
+
+void scalar_relax_in_list_order(benchmark::State& state)
+{
+  auto p = problem();
+  for (auto _ : state) {
+    double largest = 0;
+    for (auto& c : p.contacts) {
+      const auto change = relax<Effects{}>(c, p.motion[static_cast<std::size_t>(c.i)],
+                                           p.motion[static_cast<std::size_t>(c.j)], p.friction);
+      largest = std::max({largest, change.normal, change.tangential});
+    }
+    benchmark::DoNotOptimize(largest);
+  }
+  count_contacts(state, p);
+}
+
+void colour_and_pack(benchmark::State& state)
+{
+  const auto p = problem();
+  ContactBlocks packed;
+  for (auto _ : state) packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  count_contacts(state, p);
+}
+
+void unpack(benchmark::State& state)
+{
+  auto p = problem();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  for (auto _ : state) packed.unpack(p.contacts);
+  count_contacts(state, p);
+}
+
+void warm_start(benchmark::State& state)
+{
+  use_instruction_set("");
+  auto p = problem();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  for (auto _ : state) apply_impulses(packed.blocks(), p.motion.data(), {});
+  count_contacts(state, p);
+}
+
+BENCHMARK(scalar_relax_in_list_order);
+BENCHMARK(colour_and_pack);
+BENCHMARK(unpack);
+BENCHMARK(warm_start);
+
+void add_sweeps()
+{
+  for (const auto& name : instruction_sets()) {
+    const auto add = [&](const char* effects_name, Effects effects) {
+      benchmark::RegisterBenchmark(("sweep/" + name + effects_name).c_str(), sweep, name, effects);
+    };
+    add("", {});
+    add("/no_restitution", {.restitution = false});
+    add("/no_rotation", {.rotation = false});
+    add("/no_friction", {.friction = false});
+  }
+}
+
+}  // namespace
+}  // namespace grseg
+
+int main(int argc, char** argv)
+{
+  grseg::add_sweeps();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

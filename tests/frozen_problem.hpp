@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/contact_law.hpp"
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// One step's contact problem out of a developed chute flow (tests/inputs/README.md).
+struct FrozenProblem {
+  std::vector<Motion> motion;  // gravity applied, no contact impulse yet
+  std::vector<Contact> contacts;
+  static constexpr double friction = 0.5;
+};
+
+inline FrozenProblem read_frozen_problem(const std::string& path)
+{
+  std::ifstream file(path);
+  std::size_t bodies = 0, count = 0;
+  file >> bodies >> count;
+  FrozenProblem problem;
+  problem.motion.resize(bodies);
+  problem.contacts.resize(count);
+  std::vector<double> omega(bodies);
+  for (std::size_t b = 0; b < bodies; ++b)
+    file >> problem.motion[b].vx >> problem.motion[b].vy >> omega[b];
+  for (auto& c : problem.contacts) {
+    double ri = 0, rj = 0, bias = 0, wi = 0, wj = 0, ignored = 0;
+    // The file's normal points from its i to its j, and impulses are those on j: the names change.
+    file >> c.j >> c.i >> c.nx >> c.ny >> rj >> ri >> c.mass_n >> c.mass_t >> bias >> wj >> wi >>
+        ignored >> ignored;
+    c.kappa = 1;
+    c.rebound = -bias;
+    c.impulse_n = c.impulse_t = 0;
+    auto& a = problem.motion.at(static_cast<std::size_t>(c.i));
+    auto& b = problem.motion.at(static_cast<std::size_t>(c.j));
+    a.inverse_mass = wi;
+    b.inverse_mass = wj;
+    a.rim_speed = ri * omega[static_cast<std::size_t>(c.i)];
+    b.rim_speed = rj * omega[static_cast<std::size_t>(c.j)];
+    c.mass_n = 1 / (wi + wj);  // the file's nine digits would not match the bodies
+    c.mass_t = c.mass_n / 3;
+  }
+  if (!file) throw std::runtime_error("cannot read " + path);
+  return problem;
+}
+
+}  // namespace grseg
