@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/contact_blocks.hpp"
+#include "sim/sweep.hpp"
+#include "tests/frozen_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+/// Error of the velocity change against the number of sweeps from a cold start, on one step's
+/// contacts of the chute: plain sweeps, over-relaxed ones, and Nesterov's extrapolation of the
+/// impulses with restart. Over-relaxation by omega is a sweep with omega times the effective mass.
+namespace grseg {
+namespace {
+
+/// Impulses and velocities, linear in one another.
+struct State {
+  std::vector<ContactBlock> blocks;
+  std::vector<Motion> motion;
+};
+
+State cold_start(double omega)
+{
+  auto p = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
+  p.motion.emplace_back();
+  for (auto& c : p.contacts) c.mass_n *= omega, c.mass_t *= omega;
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  return {{packed.blocks().begin(), packed.blocks().end()}, p.motion};
+}
+
+void sweep(State& s)
+{
+  choose_sweep({})(s.blocks, s.motion.data(), FrozenProblem::friction);
+}
+
+/// Distance of velocities, square root of twice the kinetic energy (a disc's I omega^2 is
+/// m rim_speed^2 / 2).
+double distance(const std::vector<Motion>& a, const std::vector<Motion>& b)
+{
+  double sum = 0;
+  for (std::size_t g = 0; g < a.size(); ++g) {
+    if (a[g].inverse_mass == 0) continue;
+    const double x = a[g].vx - b[g].vx, y = a[g].vy - b[g].vy, s = a[g].rim_speed - b[g].rim_speed;
+    sum += (x * x + y * y + s * s / 2) / a[g].inverse_mass;
+  }
+  return std::sqrt(sum);
+}
+
+/// to + factor (to - from), impulses and velocities alike.
+State extrapolate(const State& from, const State& to, double factor)
+{
+  State result = to;
+  const auto go_on = [&](double a, double b) { return b + factor * (b - a); };
+  for (std::size_t b = 0; b < to.blocks.size(); ++b)
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+      result.blocks[b].impulse_n[lane] =
+          go_on(from.blocks[b].impulse_n[lane], to.blocks[b].impulse_n[lane]);
+      result.blocks[b].impulse_t[lane] =
+          go_on(from.blocks[b].impulse_t[lane], to.blocks[b].impulse_t[lane]);
+    }
+  for (std::size_t g = 0; g < to.motion.size(); ++g) {
+    result.motion[g].vx = go_on(from.motion[g].vx, to.motion[g].vx);
+    result.motion[g].vy = go_on(from.motion[g].vy, to.motion[g].vy);
+    result.motion[g].rim_speed = go_on(from.motion[g].rim_speed, to.motion[g].rim_speed);
+  }
+  return result;
+}
+
+/// Whether the last step went against what the sweep from `start` asked for: (start - now) and
+/// (now - before), impulses over effective masses.
+bool turned_back(const State& start, const State& now, const State& before)
+{
+  double product = 0;
+  for (std::size_t b = 0; b < now.blocks.size(); ++b)
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+      const auto &s = start.blocks[b], &n = now.blocks[b], &o = before.blocks[b];
+      if (n.mass_n[lane] == 0) continue;
+      product += (s.impulse_n[lane] - n.impulse_n[lane]) * (n.impulse_n[lane] - o.impulse_n[lane]) /
+                 n.mass_n[lane];
+      product += (s.impulse_t[lane] - n.impulse_t[lane]) * (n.impulse_t[lane] - o.impulse_t[lane]) /
+                 n.mass_t[lane];
+    }
+  return product > 0;
+}
+
+using EachSweep = std::function<void(int, const State&)>;
+
+void run_plain(double omega, int sweeps, const EachSweep& report)
+{
+  auto state = cold_start(omega);
+  for (int k = 1; k <= sweeps; ++k) {
+    sweep(state);
+    report(k, state);
+  }
+}
+
+void run_nesterov(double omega, int sweeps, const EachSweep& report)
+{
+  auto before = cold_start(omega), start = before;
+  double t = 1;
+  for (int k = 1; k <= sweeps; ++k) {
+    auto now = start;
+    sweep(now);
+    if (turned_back(start, now, before)) t = 1;
+    const double next_t = (1 + std::sqrt(1 + 4 * t * t)) / 2;
+    start = extrapolate(before, now, (t - 1) / next_t);
+    t = next_t;
+    before = now;
+    report(k, now);
+  }
+}
+
+void print(const char* name, double omega, bool nesterov, const State& exact)
+{
+  const auto free = cold_start(1).motion;
+  const double change = distance(exact.motion, free);
+  fmt::print("{:<10} {:>5}", name, omega);
+  const EachSweep report = [&](int k, const State& s) {
+    for (const int shown : {10, 20, 40, 80, 100, 160, 320, 640, 1280})
+      if (k == shown) fmt::print(" {:9.3g}", distance(s.motion, exact.motion) / change);
+  };
+  (nesterov ? run_nesterov : run_plain)(omega, 1280, report);
+  fmt::print("\n");
+}
+
+void print_all()
+{
+  State exact, other;
+  run_nesterov(1, 20000, [&](int, const State& s) { exact = s; });
+  run_plain(1, 100000, [&](int k, const State& s) {
+    if (k == 100000) other = s;
+  });
+  const auto free = cold_start(1).motion;
+  fmt::print("# reference: 20000 accelerated sweeps; 100000 plain ones differ by {:.2g}\n",
+             distance(exact.motion, other.motion) / distance(exact.motion, free));
+  fmt::print(
+      "# method     omega, error of the velocity change (energy norm) after 10 20 40 80 100 "
+      "160 320 640 1280 sweeps\n");
+  for (const double omega : {1.0, 1.2, 1.3, 1.4, 1.5, 1.6}) print("plain", omega, false, exact);
+  for (const double omega : {0.8, 1.0, 1.2, 1.3}) print("nesterov", omega, true, exact);
+}
+
+}  // namespace
+}  // namespace grseg
+
+int main()
+{
+  grseg::print_all();
+}
