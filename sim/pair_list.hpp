@@ -2,8 +2,12 @@
 #pragma once
 
 #include "formats/frame.hpp"
+#include "sim/grain_state.hpp"
+#include "sim/neighbours.hpp"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace grseg {
@@ -15,56 +19,118 @@ struct Wall {
   Vec2 normal;
 };
 
-/// The pairs that may touch until the list is renewed, and what the solver remembers of them.
-///
-/// A list made at some instant holds every pair nearer than `skin`. It stays complete as long as no
-/// two grains that could meet have moved by more than `skin` relative to each other. Grains that
-/// can meet lie in the same or in neighbouring bands of height d_max + skin across y, so relative
-/// displacement is bounded band by band: a layer that slides as a block, however fast, renews
-/// nothing.
-class PairList {
- public:
-  struct Pair {
-    std::int32_t i, j;  ///< rows of Grains, i mobile; j < 0 is wall -j-1
-    double shift;       ///< m, to add to x_i - x_j for the nearest periodic image
-    double reach;       ///< m, distance of the centres (of the centre, at a wall) that touches
+/// Listed pairs, class by class. In a class no mobile body appears twice, unless its pairs stand
+/// alone. Members of a pair lie side by side where they are read for single pairs.
+struct Pairs {
+  struct Geometry {
+    double shift;  ///< m, to add to x_i - x_j for the nearest periodic image
+    double reach;  ///< m, distance of the centres (of the centre, at a wall) that touches
+  };
+  struct Inertia {
+    double inverse_reach;  ///< 1/m
+    double mass;           ///< kg, effective along the normal
+  };
+  struct Impulse {
+    double n, t;  ///< kg m/s of the last step, 0 for a pair that did not touch
+  };
+  struct Class {
+    std::uint32_t begin, end;  ///< multiples of 8
+    std::int32_t wall;         ///< number of the wall, or -1 for pairs of grains
+    bool alone;                ///< without a colour: a body has more pairs than there are colours
+    bool on_base;              ///< the partners j do not move
   };
 
-  PairList(const Grains& grains, const std::vector<Wall>& walls, const Box& box, double skin);
+  /// Twice the body's index, that is where its position begins, counted in doubles. i is mobile.
+  std::vector<std::uint32_t> i, j;
+  std::vector<Geometry> geometry;
+  std::vector<Inertia> inertia;
+  std::vector<Impulse> impulse;
+  /// Grains among grains first, then those on the base, then those at walls. What fills the last
+  /// eight of a class up has reach NaN. Behind the last pair stands a neutral one, of the body that
+  /// never moves with itself.
+  std::vector<Class> classes;
 
-  /// Whether the list still holds every pair that may touch at `position` (m, not wrapped since
-  /// the list was made, since a pair remembers which periodic image of j it means).
-  bool complete(const std::vector<Vec2>& position) const;
-  /// Makes the list anew; impulses of pairs that stay are kept.
-  void renew(const Grains& grains, const std::vector<Vec2>& position);
+  /// Number of entries, the neutral one left out.
+  std::size_t size() const { return i.empty() ? 0 : i.size() - 1; }
+  bool listed(std::size_t k) const { return geometry[k].reach > 0; }
+};
 
-  std::size_t size() const { return pairs_.size(); }
-  const Pair& operator[](std::size_t k) const { return pairs_[k]; }
+/// Makes the list of pairs that may touch, and says when a new one is needed.
+///
+/// A list made at some instant holds every pair nearer than `skin`. It stays complete as long as no
+/// two grains that could meet have moved by more than that relative to each other, less `margin`.
+/// Grains are grouped by where they were when the list was made, in pieces of bands of height d_max
+/// + skin across y; only those of neighbouring groups can meet, so relative displacement is bounded
+/// group by group: a layer that slides as a block, however fast, renews nothing.
+///
+/// Pairs get colours, first fit in the order of space, and are sorted by them, so that contacts
+/// come out ready for the solver; immobile bodies take no colour.
+class PairList {
+ public:
+  /// Lists pairs nearer than `skin` and promises those nearer than `margin`, in m.
+  PairList(const std::vector<Wall>& walls, const Box& box, double largest_radius, double skin,
+           double margin = 0);
+
+  /// Whether the list still holds every pair that may touch at `position` (m, in the order of the
+  /// state, not wrapped since the list was made: a pair remembers which periodic image of j it
+  /// means).
+  bool complete(const std::vector<Vec2>& position);
+  /// Makes the list anew for grains at `position`, in m; impulses of pairs that stay are kept.
+  /// Sorts `grains` along the cells.
+  void renew(GrainState& grains, const std::vector<Vec2>& position);
+
+  const Pairs& pairs() const { return pairs_; }
+  std::span<Pairs::Impulse> impulses() { return pairs_.impulse; }
   std::size_t renewals() const { return renewals_; }
 
-  /// Impulses (kg m/s) of the last step, 0 for pairs that did not touch.
-  std::vector<double> impulse_n, impulse_t;
-
  private:
-  void sort_into_cells(const std::vector<Vec2>& position);
-  void find_grain_pairs(const Grains& grains, const std::vector<Vec2>& position);
-  void find_wall_pairs(const Grains& grains, const std::vector<Vec2>& position);
-  void carry_impulses(const std::vector<Pair>& old_pairs);
+  struct Taken {
+    std::uint64_t among_grains = 0, on_base = 0;  // a bit per colour
+  };
+
+  void lay_grid(std::span<const Vec2> position);
+  void sort_into_cells(GrainState& grains, const std::vector<Vec2>& position);
+  void make_groups();
+  void find_pairs(const GrainState& grains);
+  void colour_pairs(const GrainState& grains);
+  void lay_out_classes();
+  void fill_in(const GrainState& grains);
+  void find_wall_pairs(const GrainState& grains);
+  void carry_impulses(const Pairs& old);
+  void carry_wall_impulse(std::uint32_t body, std::int32_t wall, const Pairs::Impulse& impulse);
+  bool grains_stay_apart() const;
+  bool bands_stay_apart() const;
+  bool walls_stay_away() const;
   double nearest_shift(double difference) const;
-  std::int32_t cell_x(double x) const;
+  std::int32_t column(double x) const;
   std::int32_t band(double y) const;
-  std::size_t cell(std::int32_t column, std::int32_t row) const;
+  std::size_t cell(std::int32_t column, std::int32_t band) const;
 
   std::vector<Wall> walls_;
   double length_, inverse_length_;  // 0 and 0 where nothing is periodic
-  double skin_, cell_;              // m
-  std::vector<Pair> pairs_;
-  std::vector<Vec2> made_at_;          // positions when the list was made
-  std::vector<std::int32_t> band_of_;  // per grain, when the list was made
-  std::vector<std::int32_t> cell_begin_, in_cell_;
+  double skin_, slack_, cell_;      // m; slack is what skin leaves beside margin
+  Pairs pairs_;
+  std::size_t renewals_ = 0;
+
   std::int32_t columns_ = 1, bands_ = 1;
   double left_ = 0, bottom_ = 0, column_width_ = 1;
-  std::size_t renewals_ = 0;
+  std::vector<std::uint32_t> cell_begin_;
+
+  std::int32_t group_columns_ = 1;        // groups per band
+  std::int32_t least_columns_ = 1;        // cells across the narrowest group
+  std::vector<Range> groups_;             // of bodies, band by band
+  std::vector<Vec2> made_at_;             // positions when the list was made
+  std::vector<Extent> moved_;             // per group, since the list was made
+  std::vector<double> unlisted_nearest_;  // m, per wall and group, to grains that are not listed
+
+  // For the renewal alone.
+  Discs discs_;
+  FoundPairs found_;
+  std::vector<std::uint32_t> order_, place_;  // old index of each body; new index of each old one
+  std::vector<std::uint32_t> cell_of_;
+  std::vector<Taken> taken_;
+  std::vector<std::uint8_t> class_of_;      // per found pair
+  std::vector<std::uint32_t> position_of_;  // per found pair, in pairs_
 };
 
 }  // namespace grseg

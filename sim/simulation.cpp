@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <stdexcept>
 
 namespace grseg {
 namespace {
@@ -19,19 +21,27 @@ double default_skin(const Grains& grains)
   return 0.8 * *std::min_element(grains.radius.begin(), grains.radius.end());
 }
 
+/// A grain's contacts as the file tells them: i before j, unless i does not move.
+struct Named {
+  std::int32_t i, j;
+  std::uint32_t slot;
+  bool turned;
+
+  bool operator<(const Named& other) const { return i != other.i ? i < other.i : j < other.j; }
+};
+
 }  // namespace
 
 Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
     : world_(world),
       effects_{world.material.friction > 0, world.rotation, world.material.restitution > 0},
-      pairs_(world.grains, world.walls, world.box,
-             world.skin > 0 ? world.skin : default_skin(world.grains)),
-      position_(position),
-      image_(position.size(), {0, 0}),
-      motion_(position.size() + 1)
+      pairs_(world.walls, world.box,
+             *std::max_element(world.grains.radius.begin(), world.grains.radius.end()),
+             world.skin > 0 ? world.skin : default_skin(world.grains), world.margin),
+      state_(make_state(world.grains, position)),
+      body_of_(position.size())
 {
-  for (std::size_t g = 0; g < position_.size(); ++g)
-    motion_[g].inverse_mass = world_.grains.fixed[g] ? 0 : 1 / world_.grains.mass[g];
+  std::iota(body_of_.begin(), body_of_.end(), 0);
 }
 
 StepReport Simulation::advance()
@@ -47,13 +57,16 @@ StepReport Simulation::advance(Frame& frame)
 StepReport Simulation::step(Frame* frame)
 {
   StepReport report;
-  if (frame != nullptr) before_ = motion_;
+  if (frame != nullptr) {
+    before_.clear();
+    for (const auto body : body_of_) before_.push_back(state_.motion[body]);
+  }
   move_grains(world_.step / 2);
   find_contacts(report);
   apply_gravity(world_.step);
-  report.solver =
-      solver_.solve(contacts_, motion_, world_.material.friction, effects_, world_.solver,
-                    floor_of_reference * world_.gravity.norm() * world_.step);
+  report.solver = solve_contacts(contacts_.used(), contacts_.count, state_.motion.data(),
+                                 world_.material.friction, effects_, world_.solver,
+                                 floor_of_reference * world_.gravity.norm() * world_.step);
   keep_impulses(report);
   if (frame != nullptr) write_down(*frame);
   move_grains(world_.step / 2);
@@ -63,18 +76,18 @@ StepReport Simulation::step(Frame* frame)
 
 void Simulation::move_grains(double duration)
 {
-  for (std::size_t g = 0; g < position_.size(); ++g) {
-    position_[g].x() += duration * motion_[g].vx;
-    position_[g].y() += duration * motion_[g].vy;
+  for (std::size_t b = 0; b < state_.size(); ++b) {
+    state_.position[b].x() += duration * state_.motion[b].vx;
+    state_.position[b].y() += duration * state_.motion[b].vy;
   }
 }
 
 void Simulation::apply_gravity(double duration)
 {
-  for (std::size_t g = 0; g < position_.size(); ++g) {
-    if (world_.grains.fixed[g]) continue;
-    motion_[g].vx += duration * world_.gravity.x();
-    motion_[g].vy += duration * world_.gravity.y();
+  for (std::size_t b = 0; b < state_.size(); ++b) {
+    if (!(state_.motion[b].inverse_mass > 0)) continue;
+    state_.motion[b].vx += duration * world_.gravity.x();
+    state_.motion[b].vy += duration * world_.gravity.y();
   }
 }
 
@@ -82,93 +95,81 @@ void Simulation::wrap_positions()
 {
   if (!world_.box.periodic_x) return;
   const double length = world_.box.length_x;
-  for (std::size_t g = 0; g < position_.size(); ++g) {
-    const double periods = std::floor(position_[g].x() / length);
-    position_[g].x() -= periods * length;
-    image_[g][0] += static_cast<std::int32_t>(periods);
+  for (std::size_t b = 0; b < state_.size(); ++b) {
+    const double periods = std::floor(state_.position[b].x() / length);
+    state_.position[b].x() -= periods * length;
+    state_.image[b] += static_cast<std::int32_t>(periods);
   }
+}
+
+const std::vector<Vec2>& Simulation::look_ahead()
+{
+  if (world_.forecast == 0) return state_.position;
+  const double duration = world_.forecast * world_.step;
+  ahead_ = state_.position;
+  for (std::size_t b = 0; b < state_.size(); ++b)
+    ahead_[b] += duration * Vec2(state_.motion[b].vx, state_.motion[b].vy);
+  return ahead_;
+}
+
+void Simulation::renew_pairs()
+{
+  wrap_positions();
+  pairs_.renew(state_, look_ahead());
+  for (std::size_t b = 0; b < state_.size(); ++b)
+    body_of_[static_cast<std::size_t>(state_.row[b])] = static_cast<std::uint32_t>(b);
 }
 
 void Simulation::find_contacts(StepReport& report)
 {
-  if (!pairs_.complete(position_)) {
-    wrap_positions();
-    pairs_.renew(world_.grains, position_);
-  }
-  contacts_.clear();
-  pair_of_contact_.clear();
-  gap_.clear();
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const auto& pair = pairs_[k];
-    const auto& at_i = position_[static_cast<std::size_t>(pair.i)];
-    if (pair.j < 0) {
-      const auto& wall = world_.walls[static_cast<std::size_t>(-pair.j - 1)];
-      const double gap = (at_i - wall.point).dot(wall.normal) - pair.reach;
-      if (gap <= 0) add_contact(k, wall.normal.x(), wall.normal.y(), 1, gap, report);
-      continue;
-    }
-    // Component by component: a vector whose x alone is changed stalls on its way through memory.
-    const auto& at_j = position_[static_cast<std::size_t>(pair.j)];
-    const double x = at_i.x() - at_j.x() + pair.shift, y = at_i.y() - at_j.y();
-    const double squared = x * x + y * y;
-    if (squared > pair.reach * pair.reach) continue;
-    const double distance = std::sqrt(squared);
-    if (!(distance > 0)) stop_at_coincidence(pair);
-    add_contact(k, x / distance, y / distance, distance / pair.reach, distance - pair.reach,
-                report);
-  }
+  const bool renew = !pairs_.complete(look_ahead());
+  if (renew) renew_pairs();
+  DetectionRule rule;
+  rule.looked_at = look_ahead();
+  rule.middle = state_.position;
+  rule.motion = state_.motion;
+  rule.walls = world_.walls;
+  rule.margin = world_.margin;
+  rule.restitution = world_.material.restitution;
+  rule.rim_factor = world_.rotation ? disc_rim_factor : 0;
+  rule.periodic = world_.box.periodic_x;
+  const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_);
+  if (sums.coincident) stop_at_coincidence();
+  const auto impulses = pairs_.impulses();
+  if (renew)
+    std::fill(impulses.begin(), impulses.end(), Pairs::Impulse{0, 0});
+  else
+    forget_impulses(contacts_, impulses);
+  report.touching = sums.touching;
+  report.sum_overlap = sums.overlap;
+  report.largest_overlap = sums.largest_overlap;
+  report.fastest_approach = sums.fastest_approach;
 }
 
-void Simulation::stop_at_coincidence(const PairList::Pair& pair) const
+void Simulation::stop_at_coincidence() const
 {
   const auto& id = world_.grains.id;
-  throw RunError(fmt::format(
-      "the centres of grains {} and {} coincide at t = {:.6g} s, so their contact has no "
-      "direction; start from separate positions or use a smaller step",
-      id[static_cast<std::size_t>(pair.i)], id[static_cast<std::size_t>(pair.j)], time()));
-}
-
-void Simulation::add_contact(std::size_t pair, double nx, double ny, double kappa, double gap,
-                             StepReport& report)
-{
-  auto& contact = contacts_.emplace_back();
-  contact.i = pairs_[pair].i;
-  contact.j = pairs_[pair].j < 0 ? static_cast<std::int32_t>(position_.size()) : pairs_[pair].j;
-  contact.nx = nx;
-  contact.ny = ny;
-  contact.kappa = kappa;
-  const auto& a = motion_[static_cast<std::size_t>(contact.i)];
-  const auto& b = motion_[static_cast<std::size_t>(contact.j)];
-  const double w_nn = a.inverse_mass + b.inverse_mass;
-  contact.mass_n = 1 / w_nn;
-  contact.mass_t = 1 / (w_nn * (1 + (world_.rotation ? disc_rim_factor : 0) * kappa * kappa));
-  const double approach = std::max(-((a.vx - b.vx) * nx + (a.vy - b.vy) * ny), 0.0);
-  contact.rebound = world_.material.restitution * approach;
-  contact.impulse_n = pairs_.impulse_n[pair];
-  contact.impulse_t = pairs_.impulse_t[pair];
-  pair_of_contact_.push_back(pair);
-  gap_.push_back(gap);
-  ++report.touching;
-  report.sum_overlap -= gap;
-  report.largest_overlap = std::max(report.largest_overlap, -gap);
-  report.fastest_approach = std::max(report.fastest_approach, approach);
+  const auto& pairs = pairs_.pairs();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const std::size_t i = pairs.i[k] / 2, j = pairs.j[k] / 2;
+    if (j >= state_.size()) continue;
+    const Vec2 apart = state_.position[i] - state_.position[j] + Vec2(pairs.geometry[k].shift, 0);
+    if (apart.norm() > 0) continue;
+    const auto [first, second] = std::minmax(state_.row[i], state_.row[j]);
+    throw RunError(fmt::format(
+        "the centres of grains {} and {} coincide at t = {:.6g} s, so their contact has no "
+        "direction; start from separate positions or use a smaller step",
+        id[static_cast<std::size_t>(first)], id[static_cast<std::size_t>(second)], time()));
+  }
+  throw std::logic_error("no pair of centres coincides");
 }
 
 void Simulation::keep_impulses(StepReport& report)
 {
-  std::fill(pairs_.impulse_n.begin(), pairs_.impulse_n.end(), 0.0);
-  std::fill(pairs_.impulse_t.begin(), pairs_.impulse_t.end(), 0.0);
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const auto& contact = contacts_[c];
-    pairs_.impulse_n[pair_of_contact_[c]] = contact.impulse_n;
-    pairs_.impulse_t[pair_of_contact_[c]] = contact.impulse_t;
-    if (contact.impulse_n == 0) continue;
-    ++report.force_bearing;
-    report.sum_gap_bearing += std::abs(gap_[c]);
-    if (motion_[static_cast<std::size_t>(contact.j)].inverse_mass > 0) continue;
-    report.base_impulse.x() += contact.impulse_n * contact.nx - contact.impulse_t * contact.ny;
-    report.base_impulse.y() += contact.impulse_n * contact.ny + contact.impulse_t * contact.nx;
-  }
+  const auto sums = grseg::keep_impulses(contacts_, pairs_.impulses());
+  report.force_bearing = sums.force_bearing;
+  report.sum_gap_bearing = sums.gap_bearing;
+  report.base_impulse = sums.on_base_side;
 }
 
 void Simulation::write_down(Frame& frame) const
@@ -180,13 +181,18 @@ void Simulation::write_down(Frame& frame) const
 
 void Simulation::write_down_positions(Frame& frame) const
 {
+  const std::size_t count = state_.size();
   frame.step = steps_done_;
+  frame.position.resize(count);
+  frame.image.resize(count);
   frame.time = (static_cast<double>(frame.step) + 0.5) * world_.step;
-  frame.position = position_;
-  frame.image = image_;
+  for (std::size_t g = 0; g < count; ++g) {
+    frame.position[g] = state_.position[body_of_[g]];
+    frame.image[g] = {state_.image[body_of_[g]], 0};
+  }
   if (!world_.box.periodic_x) return;
   const double length = world_.box.length_x;
-  for (std::size_t g = 0; g < position_.size(); ++g) {
+  for (std::size_t g = 0; g < count; ++g) {
     double& x = frame.position[g].x();
     double periods = std::floor(x / length);
     x -= periods * length;
@@ -200,23 +206,47 @@ void Simulation::write_down_positions(Frame& frame) const
 
 void Simulation::write_down_contacts(ContactList& list) const
 {
-  list.clear();
-  list.reserve(contacts_.size());
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const auto& contact = contacts_[c];
-    const auto& pair = pairs_[pair_of_contact_[c]];
-    const Vec2 normal{contact.nx, contact.ny}, tangent{-contact.ny, contact.nx};
-    list.i.push_back(pair.i);
-    list.j.push_back(pair.j);
-    list.force.push_back((contact.impulse_n * normal + contact.impulse_t * tangent) / world_.step);
-    list.branch.push_back((pair.reach + gap_[c]) * normal);
-    list.gap.push_back(gap_[c]);
+  const auto& pairs = pairs_.pairs();
+  const auto row_of = [&](std::uint32_t twice) { return state_.row[twice / 2]; };
+  std::vector<Named> names;
+  for (std::uint32_t slot = 0; slot < contacts_.size * block_lanes; ++slot) {
+    const auto k = contacts_.origins[slot / block_lanes].pair[slot % block_lanes];
+    if (k == pairs.size()) continue;
+    const bool at_wall = pairs.j[k] / 2 == state_.still();
+    const std::int32_t i = row_of(pairs.i[k]), j = at_wall ? wall_name(k) : row_of(pairs.j[k]);
+    const bool turned = !at_wall && j < i && !world_.grains.fixed[static_cast<std::size_t>(j)];
+    names.push_back({turned ? j : i, turned ? i : j, slot, turned});
   }
+  std::sort(names.begin(), names.end());
+  list.clear();
+  list.reserve(names.size());
+  for (const auto& name : names) {
+    const auto& block = contacts_.blocks[name.slot / block_lanes];
+    const auto& origin = contacts_.origins[name.slot / block_lanes];
+    const std::size_t lane = name.slot % block_lanes;
+    const double sign = name.turned ? -1 : 1;
+    const Vec2 normal{sign * block.nx[lane], sign * block.ny[lane]};
+    const Vec2 tangent{-normal.y(), normal.x()};
+    const double gap = origin.gap[lane];
+    list.i.push_back(name.i);
+    list.j.push_back(name.j);
+    list.force.push_back((block.impulse_n[lane] * normal + block.impulse_t[lane] * tangent) /
+                         world_.step);
+    list.branch.push_back((pairs.geometry[origin.pair[lane]].reach + gap) * normal);
+    list.gap.push_back(gap);
+  }
+}
+
+std::int32_t Simulation::wall_name(std::size_t pair) const
+{
+  for (const auto& c : pairs_.pairs().classes)
+    if (c.begin <= pair && pair < c.end) return -c.wall - 1;
+  return -1;
 }
 
 void Simulation::write_down_motion(Frame& frame) const
 {
-  const std::size_t count = position_.size();
+  const std::size_t count = state_.size();
   frame.velocity.resize(count);
   frame.angular_velocity.resize(count);
   frame.force.resize(count);
@@ -230,20 +260,22 @@ void Simulation::write_down_motion(Frame& frame) const
 
 Vec2 Simulation::position(std::size_t g) const
 {
-  return position_[g] + Vec2(image_[g][0] * world_.box.length_x, 0);
+  const auto body = body_of_[g];
+  return state_.position[body] + Vec2(state_.image[body] * world_.box.length_x, 0);
 }
 
 void Simulation::set_velocity(std::size_t g, const Vec2& velocity, double angular_velocity)
 {
-  motion_[g].vx = velocity.x();
-  motion_[g].vy = velocity.y();
-  motion_[g].rim_speed = angular_velocity * world_.grains.radius[g];
+  auto& motion = state_.motion[body_of_[g]];
+  motion.vx = velocity.x();
+  motion.vy = velocity.y();
+  motion.rim_speed = angular_velocity * world_.grains.radius[g];
 }
 
 double Simulation::translational_energy() const
 {
   double energy = 0;
-  for (std::size_t g = 0; g < position_.size(); ++g)
+  for (std::size_t g = 0; g < state_.size(); ++g)
     if (!world_.grains.fixed[g]) energy += world_.grains.mass[g] * velocity(g).squaredNorm() / 2;
   return energy;
 }
@@ -251,8 +283,8 @@ double Simulation::translational_energy() const
 double Simulation::rotational_energy() const
 {
   double energy = 0;
-  for (std::size_t g = 0; g < position_.size(); ++g) {
-    const double speed = motion_[g].rim_speed;
+  for (std::size_t g = 0; g < state_.size(); ++g) {
+    const double speed = motion(g).rim_speed;
     if (!world_.grains.fixed[g]) energy += world_.grains.mass[g] * speed * speed / 4;
   }
   return energy;
@@ -261,7 +293,7 @@ double Simulation::rotational_energy() const
 double Simulation::potential_energy() const
 {
   double energy = 0;
-  for (std::size_t g = 0; g < position_.size(); ++g)
+  for (std::size_t g = 0; g < state_.size(); ++g)
     if (!world_.grains.fixed[g]) energy -= world_.grains.mass[g] * world_.gravity.dot(position(g));
   return energy;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "formats/frame.hpp"
+#include "sim/detection.hpp"
+#include "sim/grain_state.hpp"
 #include "sim/pair_list.hpp"
 #include "sim/solver.hpp"
 
@@ -20,7 +22,11 @@ struct World {
   Vec2 gravity = Vec2::Zero();  // m/s^2
   double step = 0;              // h, s
   SolverSettings solver;
-  double skin = 0;  // m, of the pair list; 0 chooses 0.4 of the smallest diameter
+  /// Where along its free flight, in steps from mid-step on, a pair must touch to act in a step: 0
+  /// where it is at mid-step, 1/2 at the end of the step. Geometry is that of mid-step in any case.
+  double forecast = 0;
+  double margin = 0;  // m, within which a pair counts as touching there
+  double skin = 0;  // m, more than margin, of the pair list; 0 chooses 0.4 of the smallest diameter
 };
 
 /// What one step did.
@@ -59,10 +65,10 @@ class Simulation {
 
   /// Position of grain g, unwrapped: where it would be were nothing periodic.
   Vec2 position(std::size_t g) const;
-  Vec2 velocity(std::size_t g) const { return {motion_[g].vx, motion_[g].vy}; }
+  Vec2 velocity(std::size_t g) const { return {motion(g).vx, motion(g).vy}; }
   double angular_velocity(std::size_t g) const
   {
-    return motion_[g].rim_speed / world_.grains.radius[g];
+    return motion(g).rim_speed / world_.grains.radius[g];
   }
   void set_velocity(std::size_t g, const Vec2& velocity, double angular_velocity = 0);
 
@@ -75,31 +81,30 @@ class Simulation {
   std::size_t pair_list_renewals() const { return pairs_.renewals(); }
 
  private:
+  const Motion& motion(std::size_t g) const { return state_.motion[body_of_[g]]; }
   StepReport step(Frame* frame);
   void move_grains(double duration);
+  const std::vector<Vec2>& look_ahead();
+  void renew_pairs();
   void find_contacts(StepReport& report);
-  [[noreturn]] void stop_at_coincidence(const PairList::Pair& pair) const;
-  void add_contact(std::size_t pair, double nx, double ny, double kappa, double gap,
-                   StepReport& report);
+  [[noreturn]] void stop_at_coincidence() const;
   void apply_gravity(double duration);
   void keep_impulses(StepReport& report);
   void wrap_positions();
   void write_down(Frame& frame) const;
   void write_down_positions(Frame& frame) const;
   void write_down_contacts(ContactList& list) const;
+  std::int32_t wall_name(std::size_t pair) const;
   void write_down_motion(Frame& frame) const;
 
   World world_;
   Effects effects_;
   PairList pairs_;
-  std::vector<Vec2> position_;  // m
-  std::vector<std::array<std::int32_t, 2>> image_;
-  std::vector<Motion> motion_;  // one per grain, then one that stands for all walls
-  std::vector<Motion> before_;  // at the beginning of a step that is written down
-  std::vector<Contact> contacts_;
-  ContactSolver solver_;
-  std::vector<std::size_t> pair_of_contact_;
-  std::vector<double> gap_;  // m, per contact
+  GrainState state_;
+  std::vector<std::uint32_t> body_of_;  // where in the state each grain is
+  std::vector<Vec2> ahead_;             // m, positions looked at where forecast is not 0
+  std::vector<Motion> before_;          // by row, at the beginning of a step that is written down
+  StepContacts contacts_;
   std::int64_t steps_done_ = 0;
 };
 

@@ -21,29 +21,24 @@ Relax choose_relax(Effects e)
 
 }  // namespace
 
-SolverReport ContactSolver::solve(std::vector<Contact>& contacts, std::vector<Motion>& motion,
-                                  double friction, Effects effects, const SolverSettings& settings,
-                                  double floor)
+SolverReport solve_contacts(std::span<ContactBlock> contacts, std::size_t count, Motion* motion,
+                            double friction, Effects effects, const SolverSettings& settings,
+                            double floor)
 {
   SolverReport report;
-  if (contacts.empty()) return report;
-  if (!effects.friction)
-    for (auto& c : contacts) c.impulse_t = 0;
-  motion.emplace_back();  // what the lanes left over act on
-  blocks_.pack(contacts, motion, motion.size() - 1);
-  apply_impulses(blocks_.blocks(), motion.data(), effects);
+  if (count == 0) return report;
+  apply_impulses(contacts, motion, effects);
   const auto sweep = choose_sweep(effects);
-  const double count = static_cast<double>(contacts.size());
+  const auto contact_count = static_cast<double>(count);
   do {
-    const auto result = sweep(blocks_.blocks(), motion.data(), friction);
-    const double reference = std::max(std::sqrt(result.sum_reference / count), floor);
+    const auto result = sweep(contacts, motion, friction);
+    const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
     ++report.sweeps;
     report.residual = reference > 0 ? result.largest / reference : 0;
-    report.residual_rms = reference > 0 ? std::sqrt(result.sum_squares / count) / reference : 0;
+    report.residual_rms =
+        reference > 0 ? std::sqrt(result.sum_squares / contact_count) / reference : 0;
     report.converged = report.residual <= settings.tolerance;
   } while (!report.converged && report.sweeps < settings.max_sweeps);
-  motion.pop_back();
-  blocks_.unpack(contacts);
   return report;
 }
 
@@ -51,7 +46,16 @@ SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>&
                             double friction, Effects effects, const SolverSettings& settings,
                             double floor)
 {
-  return ContactSolver{}.solve(contacts, motion, friction, effects, settings, floor);
+  if (!effects.friction)
+    for (auto& c : contacts) c.impulse_t = 0;
+  motion.emplace_back();  // what the lanes left over act on
+  ContactBlocks packed;
+  packed.pack(contacts, motion, motion.size() - 1);
+  const auto report = solve_contacts(packed.blocks(), contacts.size(), motion.data(), friction,
+                                     effects, settings, floor);
+  motion.pop_back();
+  packed.unpack(contacts);
+  return report;
 }
 
 double contact_residual(const std::vector<Contact>& contacts, const std::vector<Motion>& motion,

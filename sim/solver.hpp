@@ -4,6 +4,7 @@
 #include "sim/contact_blocks.hpp"
 #include "sim/sweep.hpp"
 
+#include <span>
 #include <vector>
 
 namespace grseg {
@@ -23,24 +24,18 @@ struct SolverReport {
 
 /// Projected Gauss-Seidel: sweeps over the contacts, each solved exactly while the others hold
 /// still, until no contact's relative velocity changes by more than `tolerance` times the
-/// reference velocity: the quadratic mean of W p over the contacts, at least `floor` (m/s), so
-/// that a motionless bed stops at once. Normal and tangential parts both count, and the largest
+/// reference velocity: the quadratic mean of W p over the `count` contacts, at least `floor` (m/s),
+/// so that a motionless bed stops at once. Normal and tangential parts both count, and the largest
 /// rather than the mean change decides, so that a contact which has just closed is not hidden by
 /// thousands of settled ones.
 ///
-/// Contacts are swept in the order of their colours (ContactBlocks), many at a time.
-class ContactSolver {
- public:
-  /// Impulses in `contacts` are the first guess; they are applied to `motion` here. The floor is
-  /// in m/s.
-  SolverReport solve(std::vector<Contact>& contacts, std::vector<Motion>& motion, double friction,
-                     Effects effects, const SolverSettings& settings, double floor);
+/// Impulses in `contacts` are the first guess; they are applied to `motion` here. Contacts are
+/// swept block after block.
+SolverReport solve_contacts(std::span<ContactBlock> contacts, std::size_t count, Motion* motion,
+                            double friction, Effects effects, const SolverSettings& settings,
+                            double floor);
 
- private:
-  ContactBlocks blocks_;  // kept for its memory
-};
-
-/// The same for a single problem.
+/// The same for contacts in any order.
 SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
                             double friction, Effects effects, const SolverSettings& settings,
                             double floor);

@@ -9,115 +9,16 @@
 #define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/sweep.cpp"
+// In this order.
+// clang-format off
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#include "sim/lanes-inl.hpp"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<double, block_lanes>;
-using Vector = hn::Vec<D>;
-using Lanes = ContactBlock::Lanes;
-
-/// All bodies as one row of doubles.
-HWY_INLINE double* members(Motion* motion)
-{
-  return reinterpret_cast<double*>(motion);
-}
-
-/// Entries of Motion, one member per vector.
-struct Bodies {
-  Vector vx, vy, rim_speed, inverse_mass;
-};
-
-#if HWY_TARGET == HWY_SCALAR
-
-HWY_INLINE Bodies load_bodies(D d, const double* motion, const std::uint32_t* at)
-{
-  const double* body = motion + *at;
-  return {hn::Load(d, body), hn::Load(d, body + 1), hn::Load(d, body + 2), hn::Load(d, body + 3)};
-}
-
-HWY_INLINE void store_bodies(D d, const Bodies& b, double* motion, const std::uint32_t* at)
-{
-  double* body = motion + *at;
-  hn::Store(b.vx, d, body);
-  hn::Store(b.vy, d, body + 1);
-  hn::Store(b.rim_speed, d, body + 2);
-}
-
-#else
-
-/// Whole bodies are loaded and their members sorted into vectors, since that takes fewer operations
-/// than gathering member by member.
-template <class Tag>
-HWY_INLINE Bodies load_bodies(Tag d, const double* motion, const std::uint32_t* at)
-{
-  if constexpr (hn::MaxLanes(d) == 8) {
-    const hn::Half<Tag> h;
-    const auto body = [&](int k) HWY_ATTR { return hn::Load(h, motion + at[k]); };
-    const auto r01 = hn::Combine(d, body(1), body(0)), r23 = hn::Combine(d, body(3), body(2));
-    const auto r45 = hn::Combine(d, body(5), body(4)), r67 = hn::Combine(d, body(7), body(6));
-    const auto even03 = hn::ConcatEven(d, r23, r01), odd03 = hn::ConcatOdd(d, r23, r01);
-    const auto even47 = hn::ConcatEven(d, r67, r45), odd47 = hn::ConcatOdd(d, r67, r45);
-    return {hn::ConcatEven(d, even47, even03), hn::ConcatEven(d, odd47, odd03),
-            hn::ConcatOdd(d, even47, even03), hn::ConcatOdd(d, odd47, odd03)};
-  } else if constexpr (hn::MaxLanes(d) == 4) {
-    const auto r0 = hn::Load(d, motion + at[0]), r1 = hn::Load(d, motion + at[1]);
-    const auto r2 = hn::Load(d, motion + at[2]), r3 = hn::Load(d, motion + at[3]);
-    const auto low01 = hn::InterleaveLower(d, r0, r1), high01 = hn::InterleaveUpper(d, r0, r1);
-    const auto low23 = hn::InterleaveLower(d, r2, r3), high23 = hn::InterleaveUpper(d, r2, r3);
-    return {hn::ConcatLowerLower(d, low23, low01), hn::ConcatLowerLower(d, high23, high01),
-            hn::ConcatUpperUpper(d, low23, low01), hn::ConcatUpperUpper(d, high23, high01)};
-  } else {
-    static_assert(hn::MaxLanes(d) == 2);
-    const auto v0 = hn::Load(d, motion + at[0]), s0 = hn::Load(d, motion + at[0] + 2);
-    const auto v1 = hn::Load(d, motion + at[1]), s1 = hn::Load(d, motion + at[1] + 2);
-    return {hn::InterleaveLower(d, v0, v1), hn::InterleaveUpper(d, v0, v1),
-            hn::InterleaveLower(d, s0, s1), hn::InterleaveUpper(d, s0, s1)};
-  }
-}
-
-/// The way back. Two lanes with the same immobile body write the same.
-template <class Tag>
-HWY_INLINE void store_bodies(Tag d, const Bodies& b, double* motion, const std::uint32_t* at)
-{
-  const auto v_low = hn::InterleaveLower(d, b.vx, b.vy);
-  const auto v_high = hn::InterleaveUpper(d, b.vx, b.vy);
-  const auto s_low = hn::InterleaveLower(d, b.rim_speed, b.inverse_mass);
-  const auto s_high = hn::InterleaveUpper(d, b.rim_speed, b.inverse_mass);
-  if constexpr (hn::MaxLanes(d) == 8) {
-    const hn::Half<Tag> h;
-    const auto r04 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(s_low), v_low);
-    const auto r15 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(s_high), v_high);
-    const auto r26 = hn::OddEvenBlocks(s_low, hn::SwapAdjacentBlocks(v_low));
-    const auto r37 = hn::OddEvenBlocks(s_high, hn::SwapAdjacentBlocks(v_high));
-    hn::Store(hn::LowerHalf(h, r04), h, motion + at[0]);
-    hn::Store(hn::LowerHalf(h, r15), h, motion + at[1]);
-    hn::Store(hn::LowerHalf(h, r26), h, motion + at[2]);
-    hn::Store(hn::LowerHalf(h, r37), h, motion + at[3]);
-    hn::Store(hn::UpperHalf(h, r04), h, motion + at[4]);
-    hn::Store(hn::UpperHalf(h, r15), h, motion + at[5]);
-    hn::Store(hn::UpperHalf(h, r26), h, motion + at[6]);
-    hn::Store(hn::UpperHalf(h, r37), h, motion + at[7]);
-  } else if constexpr (hn::MaxLanes(d) == 4) {
-    hn::Store(hn::ConcatLowerLower(d, s_low, v_low), d, motion + at[0]);
-    hn::Store(hn::ConcatLowerLower(d, s_high, v_high), d, motion + at[1]);
-    hn::Store(hn::ConcatUpperUpper(d, s_low, v_low), d, motion + at[2]);
-    hn::Store(hn::ConcatUpperUpper(d, s_high, v_high), d, motion + at[3]);
-  } else {
-    hn::Store(v_low, d, motion + at[0]);
-    hn::Store(s_low, d, motion + at[0] + 2);
-    hn::Store(v_high, d, motion + at[1]);
-    hn::Store(s_high, d, motion + at[1] + 2);
-  }
-}
-
-#endif  // HWY_TARGET == HWY_SCALAR
 
 /// Adds the impulse (px, py) to a and takes it from b, and the spin from both.
 template <Effects with>
@@ -146,23 +47,9 @@ struct alignas(64) LaneResults {
   }
   HWY_INLINE SweepResult total() const
   {
-    static_assert(block_lanes == 8);
-    const auto sum = [](const Lanes& s) {
-      return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-    };
     return {*std::max_element(largest.begin(), largest.end()), sum(squares), sum(reference)};
   }
 };
-
-/// Clears the upper halves of vector registers, which would slow down all code outside that uses
-/// their lower halves: left dirty, they made the whole program a quarter slower. Compilers see to
-/// it as a rule, but g++ 12 did not where the last thing a sweep did was a call.
-HWY_INLINE void leave_vectors()
-{
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-  _mm256_zeroupper();
-#endif
-}
 
 /// relax() on the lanes that begin at `lane`; the same operations in the same order.
 template <Effects with>

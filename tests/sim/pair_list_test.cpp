@@ -6,13 +6,62 @@
 #include <gsl/gsl_rng.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 namespace grseg {
 namespace {
 
-using Pairs = std::set<std::pair<int, int>>;
+using Named = std::set<std::pair<int, int>>;
+
+/// Grains at rest as the list wants them, and where each is now.
+struct Listed {
+  GrainState state;
+  PairList list;
+
+  Listed(const World& world, const std::vector<Vec2>& at, const std::vector<Wall>& walls,
+         double skin)
+      : state(make_state(world.grains, at)),
+        list(walls, world.box,
+             *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), skin)
+  {
+  }
+
+  void move_to(const std::vector<Vec2>& at)
+  {
+    for (std::size_t b = 0; b < state.size(); ++b)
+      state.position[b] = at[static_cast<std::size_t>(state.row[b])];
+  }
+  bool complete(const std::vector<Vec2>& at)
+  {
+    move_to(at);
+    return list.complete(state.position);
+  }
+  void renew(const std::vector<Vec2>& at)
+  {
+    move_to(at);
+    list.renew(state, state.position);
+  }
+
+  struct Pair {
+    int i, j;
+    double shift, reach;
+    std::size_t entry;
+  };
+  /// Names grains by their rows, and walls from -1 down.
+  std::vector<Pair> pairs() const
+  {
+    std::vector<Pair> found;
+    const auto& p = list.pairs();
+    for (const auto& c : p.classes)
+      for (std::size_t k = c.begin; k < c.end; ++k)
+        if (p.listed(k))
+          found.push_back({state.row[p.i[k] / 2], c.wall < 0 ? state.row[p.j[k] / 2] : -c.wall - 1,
+                           p.geometry[k].shift, p.geometry[k].reach, k});
+    return found;
+  }
+};
 
 /// Discs of two sizes scattered over a strip, 40 % of its area.
 struct Scattered {
@@ -33,9 +82,9 @@ struct Scattered {
   }
   ~Scattered() { gsl_rng_free(random); }
 
-  Pairs touching_by_brute_force() const
+  Named touching_by_brute_force() const
   {
-    Pairs found;
+    Named found;
     const double length = world.box.length_x;
     for (std::size_t i = 0; i < position.size(); ++i) {
       for (std::size_t j = i + 1; j < position.size(); ++j) {
@@ -48,11 +97,10 @@ struct Scattered {
     }
     return found;
   }
-  Pairs touching_by(const PairList& list) const
+  Named touching_by(const Listed& list) const
   {
-    Pairs found;
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      const auto [i, j, shift, reach] = list[k];
+    Named found;
+    for (const auto& [i, j, shift, reach, entry] : list.pairs()) {
       EXPECT_FALSE(world.grains.fixed[static_cast<std::size_t>(i)]);
       Vec2 apart = position[static_cast<std::size_t>(i)] - position[static_cast<std::size_t>(j)];
       apart.x() += shift;
@@ -68,40 +116,40 @@ TEST(PairList, HoldsEveryTouchingPairHoweverTheGrainsMove)
 {
   for (const bool periodic : {true, false}) {
     Scattered s(30, 20, periodic, 1);
-    PairList list(s.world.grains, {}, s.world.box, 0.2);
+    Listed list(s.world, s.position, {}, 0.2);
     for (int step = 0; step < 200; ++step) {
       for (auto& x : s.position) {
         x.x() += 0.01 * x.y() + 0.04 * (gsl_rng_uniform(s.random) - 0.5);
         x.y() += 0.04 * (gsl_rng_uniform(s.random) - 0.5);
       }
-      if (!list.complete(s.position)) list.renew(s.world.grains, s.position);
+      if (!list.complete(s.position)) list.renew(s.position);
       ASSERT_EQ(s.touching_by(list), s.touching_by_brute_force()) << "step " << step;
     }
-    EXPECT_LT(list.renewals(), 100u);
+    EXPECT_LT(list.list.renewals(), 100u);
   }
 }
 
 TEST(PairList, HoldsEveryPairAtSizeRatioOneHundred)
 {
   Scattered s(400, 300, true, 50);
-  PairList list(s.world.grains, {}, s.world.box, 0.2);
-  list.renew(s.world.grains, s.position);
+  Listed list(s.world, s.position, {}, 0.2);
+  list.renew(s.position);
   EXPECT_EQ(s.touching_by(list), s.touching_by_brute_force());
 }
 
 TEST(PairList, HoldsEveryPairInACellOfThreeDiameters)
 {
   Scattered s(6.5, 60, true, 1);
-  PairList list(s.world.grains, {}, s.world.box, 0.2);
-  list.renew(s.world.grains, s.position);
+  Listed list(s.world, s.position, {}, 0.2);
+  list.renew(s.position);
   EXPECT_EQ(s.touching_by(list), s.touching_by_brute_force());
 }
 
 TEST(PairList, ABlockThatSlidesRenewsNothing)
 {
   Scattered s(30, 20, true, 1);
-  PairList list(s.world.grains, {}, s.world.box, 0.2);
-  list.renew(s.world.grains, s.position);
+  Listed list(s.world, s.position, {}, 0.2);
+  list.renew(s.position);
   for (auto& x : s.position) x.x() += 12.3;
   EXPECT_TRUE(list.complete(s.position));
   s.position[5].x() += 0.3;
@@ -112,8 +160,8 @@ TEST(PairList, FarFlyingGrainsCostNoMemory)
 {
   Scattered s(30, 20, true, 1);
   s.position[1].y() = 1e9;
-  PairList list(s.world.grains, {}, s.world.box, 0.2);
-  list.renew(s.world.grains, s.position);
+  Listed list(s.world, s.position, {}, 0.2);
+  list.renew(s.position);
   EXPECT_EQ(s.touching_by(list), s.touching_by_brute_force());
 }
 
@@ -123,16 +171,17 @@ TEST(PairList, ImpulsesOfPairsThatStaySurviveARenewal)
   for (const double x : {0.0, 1.0, 2.0}) worlds::add(world, {{x, 0}, 0.5});
   world.box = {100, 100, false};
   std::vector<Vec2> position{{0, 0}, {1, 0}, {2, 0}};
-  PairList list(world.grains, {}, world.box, 0.1);
-  list.renew(world.grains, position);
-  ASSERT_EQ(list.size(), 2u);
-  list.impulse_n = {3, 4};
-  list.impulse_t = {-1, 1};
+  Listed list(world, position, {}, 0.1);
+  list.renew(position);
+  ASSERT_EQ(list.pairs().size(), 2u);
+  for (const auto& pair : list.pairs())
+    list.list.impulses()[pair.entry] = pair.i == 0 ? Pairs::Impulse{3, -1} : Pairs::Impulse{4, 1};
   position[2].x() = 5;  // the second pair ends
-  list.renew(world.grains, position);
-  ASSERT_EQ(list.size(), 1u);
-  EXPECT_EQ(list.impulse_n[0], 3);
-  EXPECT_EQ(list.impulse_t[0], -1);
+  list.renew(position);
+  ASSERT_EQ(list.pairs().size(), 1u);
+  const auto impulse = list.list.impulses()[list.pairs()[0].entry];
+  EXPECT_EQ(impulse.n, 3);
+  EXPECT_EQ(impulse.t, -1);
 }
 
 TEST(PairList, AWallIsMetByWhoeverComesNear)
@@ -143,10 +192,10 @@ TEST(PairList, AWallIsMetByWhoeverComesNear)
   world.box = {100, 100, false};
   const std::vector<Wall> walls{worlds::floor_at(0)};
   std::vector<Vec2> position{{0, 0.55}, {5, 3}};
-  PairList list(world.grains, walls, world.box, 0.1);
-  list.renew(world.grains, position);
-  ASSERT_EQ(list.size(), 1u);
-  EXPECT_EQ(list[0].j, -1);
+  Listed list(world, position, walls, 0.1);
+  list.renew(position);
+  ASSERT_EQ(list.pairs().size(), 1u);
+  EXPECT_EQ(list.pairs()[0].j, -1);
   position[1].y() = 0.5;
   EXPECT_FALSE(list.complete(position));
 }
@@ -163,8 +212,8 @@ TEST(PairList, LayersInNeighbouringBandsThatSlideOverEachOtherRenewIt)
       worlds::add(world, {position.back(), 0.5});
     }
   world.box = {100, 100, false};
-  PairList list(world.grains, {}, world.box, 0.2);
-  list.renew(world.grains, position);
+  Listed list(world, position, {}, 0.2);
+  list.renew(position);
   for (int k = 3; k < 6; ++k) position[static_cast<std::size_t>(k)].x() += 0.19;
   EXPECT_TRUE(list.complete(position));
   for (int k = 3; k < 6; ++k) position[static_cast<std::size_t>(k)].x() += 0.02;
@@ -179,11 +228,11 @@ TEST(PairList, NamesNoPairTwiceInACellOfTwoColumns)
   worlds::add(world, {{4.4, 3}, 0.5});
   position.push_back({4.4, 3});
   world.box = {2.5, 10, true};  // two columns of d + skin = 1.2
-  PairList list(world.grains, {}, world.box, 0.2);
-  list.renew(world.grains, position);
+  Listed list(world, position, {}, 0.2);
+  list.renew(position);
   std::set<std::pair<int, int>> seen;
-  for (std::size_t k = 0; k < list.size(); ++k)
-    EXPECT_TRUE(seen.insert({list[k].i, list[k].j}).second);
+  for (const auto& pair : list.pairs())
+    EXPECT_TRUE(seen.insert(std::minmax(pair.i, pair.j)).second);
 }
 
 TEST(PairList, AGrainThatFallsAloneToAWallRenewsTheList)
@@ -192,8 +241,8 @@ TEST(PairList, AGrainThatFallsAloneToAWallRenewsTheList)
   worlds::add(world, {{5, 3}, 0.5});
   world.box = {100, 100, false};
   std::vector<Vec2> position{{5, 3}};
-  PairList list(world.grains, {worlds::floor_at(0)}, world.box, 0.1);
-  list.renew(world.grains, position);
+  Listed list(world, position, {worlds::floor_at(0)}, 0.1);
+  list.renew(position);
   position[0].y() = 4;
   EXPECT_TRUE(list.complete(position));
   position[0].y() = 0.5;

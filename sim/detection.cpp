@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/detection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+// Highway compiles what follows once per instruction set.
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/detection.cpp"
+// In this order.
+// clang-format off
+#include <hwy/foreach_target.h>
+#include "sim/lanes-inl.hpp"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace grseg {
+namespace HWY_NAMESPACE {
+namespace {
+
+using Mask = hn::Mask<D>;
+
+/// What a scene's detection has to see to; what it has not costs nothing.
+struct Variant {
+  bool periodic, rotation, restitution;
+};
+
+/// DetectionSums, lane by lane.
+struct alignas(64) LaneSums {
+  Lanes overlap{}, largest_overlap{}, fastest_approach{};
+  std::size_t touching = 0;
+  bool coincident = false;
+};
+
+/// Impulse, geometry and inertia of pairs as rows of doubles.
+HWY_INLINE const double* rows(const Pairs::Geometry* g)
+{
+  return &g->shift;
+}
+HWY_INLINE const double* rows(const Pairs::Inertia* g)
+{
+  return &g->inverse_reach;
+}
+HWY_INLINE const double* rows(const Pairs::Impulse* g)
+{
+  return &g->n;
+}
+
+/// Writes the pairs of grains that are closer than reach + margin to `near`; returns their number.
+template <bool periodic>
+HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c,
+                                       const DetectionRule& rule, std::uint32_t* near)
+{
+  const D d;
+  const auto* position = rule.looked_at.data()->data();
+  const auto margin = hn::Set(d, rule.margin);
+  std::size_t count = 0;
+  for (std::size_t k = c.begin; k < c.end; k += block_lanes) {
+    std::uint32_t bits = 0;
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+      const std::size_t at = k + lane;
+      auto [x, y] = load_differences<1>(d, position, &pairs.i[at], &pairs.j[at]);
+      const auto [shift, reach] = load_next_rows(d, rows(&pairs.geometry[at]));
+      if constexpr (periodic) x = hn::Add(x, shift);
+      const auto squared = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+      const auto limit = hn::Add(reach, margin);
+      bits |= bits_of(d, hn::Le(squared, hn::Mul(limit, limit))) << lane;
+    }
+    count = append_set_bits(bits, k, near, count);
+  }
+  return count;
+}
+
+std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const DetectionRule& rule,
+                           std::uint32_t* near)
+{
+  const auto& wall = rule.walls[static_cast<std::size_t>(c.wall)];
+  std::size_t count = 0;
+  for (auto k = c.begin; k < c.end; ++k) {
+    const auto& x = rule.looked_at[pairs.i[k] / 2];
+    const double distance = (x - wall.point).dot(wall.normal);
+    if (distance <= pairs.geometry[k].reach + rule.margin) near[count++] = k;
+  }
+  return count;
+}
+
+/// What a contact asks for: the least separation velocity after the step, by Newton's restitution.
+template <Variant with>
+HWY_INLINE Vector rebound_of(Vector approach, const DetectionRule& rule)
+{
+  const D d;
+  return with.restitution ? hn::Mul(hn::Set(d, rule.restitution), approach) : hn::Zero(d);
+}
+
+struct Normals {
+  Vector nx, ny, distance;
+};
+
+template <Variant with>
+HWY_INLINE Normals normals_of_grains(const DetectionRule& rule, const std::uint32_t* i,
+                                     const std::uint32_t* j, Vector shift, Mask used,
+                                     LaneSums& sums)
+{
+  const D d;
+  auto [x, y] = load_differences<1>(d, rule.middle.data()->data(), i, j);
+  if constexpr (with.periodic) x = hn::Add(x, shift);
+  const auto distance = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+  const auto one = hn::Set(d, 1.0);
+  sums.coincident |= !hn::AllFalse(d, hn::And(used, hn::Eq(distance, hn::Zero(d))));
+  const auto inverse = hn::Div(one, hn::IfThenElse(used, distance, one));
+  return {hn::Mul(x, inverse), hn::Mul(y, inverse), distance};
+}
+
+HWY_INLINE Normals normals_of_wall(const DetectionRule& rule, const Wall& wall,
+                                   const std::uint32_t* i)
+{
+  const D d;
+  const auto [x, y] = load_rows(d, rule.middle.data()->data(), i);
+  const auto nx = hn::Set(d, wall.normal.x()), ny = hn::Set(d, wall.normal.y());
+  const auto across_x = hn::Mul(hn::Sub(x, hn::Set(d, wall.point.x())), nx);
+  const auto across_y = hn::Mul(hn::Sub(y, hn::Set(d, wall.point.y())), ny);
+  return {nx, ny, hn::Add(across_x, across_y)};
+}
+
+HWY_INLINE void add_up(Vector gap, Vector approach, Mask used, std::size_t lane, LaneSums& sums)
+{
+  const D d;
+  const auto add = [&](Lanes& to, Vector what)
+                       HWY_ATTR { hn::Store(hn::Add(hn::Load(d, &to[lane]), what), d, &to[lane]); };
+  const auto keep_most = [&](Lanes& of, Vector what) HWY_ATTR {
+    hn::Store(hn::Max(hn::Load(d, &of[lane]), what), d, &of[lane]);
+  };
+  const auto touching = hn::And(used, hn::Le(gap, hn::Zero(d)));
+  const auto overlap = hn::IfThenElseZero(touching, hn::Neg(gap));
+  sums.touching += hn::CountTrue(d, touching);
+  add(sums.overlap, overlap);
+  keep_most(sums.largest_overlap, overlap);
+  keep_most(sums.fastest_approach, approach);
+}
+
+/// Makes contacts of up to eight pairs of a class; what `pair` has behind the first `count` of them
+/// is the neutral pair.
+template <Variant with>
+HWY_INLINE void make_block(const Pairs& pairs, const Pairs::Class& c, const std::uint32_t* pair,
+                           std::size_t count, const DetectionRule& rule, ContactBlock& block,
+                           BlockOrigin& origin, LaneSums& sums)
+{
+  const D d;
+  alignas(64) std::array<std::uint32_t, block_lanes> row, i, j;
+  for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+    const auto k = pair[lane];
+    origin.pair[lane] = k;
+    row[lane] = 2 * k;
+    i[lane] = pairs.i[k];
+    j[lane] = pairs.j[k];
+  }
+  for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+    block.i[lane] = 2 * i[lane];
+    block.j[lane] = 2 * j[lane];
+  }
+  const auto* velocity = reinterpret_cast<const double*>(rule.motion.data());
+  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+    const auto used = hn::FirstN(d, count > lane ? count - lane : 0);
+    const auto [shift, reach] = load_rows(d, rows(pairs.geometry.data()), &row[lane]);
+    const auto n =
+        c.wall < 0 ? normals_of_grains<with>(rule, &i[lane], &j[lane], shift, used, sums)
+                   : normals_of_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], &i[lane]);
+    const auto [inverse_reach, mass] = load_rows(d, rows(pairs.inertia.data()), &row[lane]);
+    const auto one = hn::Set(d, 1.0);
+    const auto kappa = c.wall < 0 ? hn::Mul(n.distance, inverse_reach) : one;
+    const auto gap = hn::Sub(n.distance, reach);
+    auto mass_t = mass;
+    if constexpr (with.rotation) {
+      const auto lever = hn::Mul(hn::Set(d, rule.rim_factor), hn::Mul(kappa, kappa));
+      mass_t = hn::Div(mass, hn::Add(one, lever));
+    }
+    const auto [vx, vy] = load_differences<2>(d, velocity, &i[lane], &j[lane]);
+    const auto separation = hn::Add(hn::Mul(vx, n.nx), hn::Mul(vy, n.ny));
+    const auto approach = hn::Max(hn::Neg(separation), hn::Zero(d));
+    const auto [impulse_n, impulse_t] = load_rows(d, rows(pairs.impulse.data()), &row[lane]);
+    hn::Store(n.nx, d, &block.nx[lane]);
+    hn::Store(n.ny, d, &block.ny[lane]);
+    hn::Store(kappa, d, &block.kappa[lane]);
+    hn::Store(mass, d, &block.mass_n[lane]);
+    hn::Store(mass_t, d, &block.mass_t[lane]);
+    hn::Store(rebound_of<with>(approach, rule), d, &block.rebound[lane]);
+    hn::Store(impulse_n, d, &block.impulse_n[lane]);
+    hn::Store(impulse_t, d, &block.impulse_t[lane]);
+    hn::Store(gap, d, &origin.gap[lane]);
+    add_up(gap, approach, used, lane, sums);
+  }
+}
+
+template <Variant with>
+HWY_INLINE void make_blocks(const Pairs& pairs, const Pairs::Class& c, std::uint32_t* near,
+                            std::size_t count, const DetectionRule& rule, StepContacts& contacts,
+                            LaneSums& sums)
+{
+  const auto neutral = static_cast<std::uint32_t>(pairs.size());
+  const std::size_t most = c.alone ? 1 : block_lanes;
+  std::array<std::uint32_t, block_lanes> single;
+  single.fill(neutral);
+  for (std::size_t lane = 0; lane < block_lanes; ++lane) near[count + lane] = neutral;
+  for (std::size_t k = 0; k < count; k += most) {
+    single[0] = near[k];
+    make_block<with>(pairs, c, c.alone ? single.data() : near + k, std::min(most, count - k), rule,
+                     contacts.blocks[contacts.size], contacts.origins[contacts.size], sums);
+    ++contacts.size;
+  }
+  contacts.count += count;
+}
+
+template <Variant with>
+void find(const Pairs& pairs, const DetectionRule& rule, std::uint32_t* near,
+          StepContacts& contacts, DetectionSums& total)
+{
+  LaneSums sums;
+  bool base_seen = false;
+  for (const auto& c : pairs.classes) {
+    if (c.on_base && !base_seen) contacts.on_base = contacts.size;
+    base_seen |= c.on_base;
+    const auto count = c.wall < 0 ? find_near_pairs<with.periodic>(pairs, c, rule, near)
+                                  : find_near_wall(pairs, c, rule, near);
+    make_blocks<with>(pairs, c, near, count, rule, contacts, sums);
+  }
+  if (!base_seen) contacts.on_base = contacts.size;
+  const auto most = [](const Lanes& l) { return *std::max_element(l.begin(), l.end()); };
+  total = {sums.touching, sum(sums.overlap), most(sums.largest_overlap),
+           most(sums.fastest_approach), sums.coincident};
+  leave_vectors();
+}
+
+/// The only place where a scene's effects become a compile-time choice.
+void find_for(const Pairs& pairs, const DetectionRule& rule, std::uint32_t* near,
+              StepContacts& contacts, DetectionSums& total)
+{
+  using Find =
+      void (*)(const Pairs&, const DetectionRule&, std::uint32_t*, StepContacts&, DetectionSums&);
+  // [periodic][rotation][restitution]
+  static constexpr Find table[2][2][2] = {
+      {{find<Variant{false, false, false}>, find<Variant{false, false, true}>},
+       {find<Variant{false, true, false}>, find<Variant{false, true, true}>}},
+      {{find<Variant{true, false, false}>, find<Variant{true, false, true}>},
+       {find<Variant{true, true, false}>, find<Variant{true, true, true}>}}};
+  table[rule.periodic][rule.rim_factor > 0][rule.restitution > 0](pairs, rule, near, contacts,
+                                                                  total);
+}
+
+void keep(const StepContacts& contacts, Pairs::Impulse* impulses, ImpulseSums& total)
+{
+  const D d;
+  alignas(64) Lanes gaps{}, base_x{}, base_y{};
+  alignas(64) std::array<std::uint32_t, block_lanes> row;
+  for (std::size_t b = 0; b < contacts.size; ++b) {
+    const auto& block = contacts.blocks[b];
+    const auto& origin = contacts.origins[b];
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = 2 * origin.pair[lane];
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+      const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
+      store_rows(d, {n, t}, &impulses->n, &row[lane]);
+      const auto bearing = hn::Gt(n, hn::Zero(d));
+      const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
+      const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
+      hn::Store(sum_gap, d, &gaps[lane]);
+      total.force_bearing += hn::CountTrue(d, bearing);
+      if (b < contacts.on_base) continue;
+      const auto nx = hn::Load(d, &block.nx[lane]), ny = hn::Load(d, &block.ny[lane]);
+      const auto px = hn::Sub(hn::Mul(n, nx), hn::Mul(t, ny));
+      const auto py = hn::Add(hn::Mul(n, ny), hn::Mul(t, nx));
+      hn::Store(hn::Add(hn::Load(d, &base_x[lane]), px), d, &base_x[lane]);
+      hn::Store(hn::Add(hn::Load(d, &base_y[lane]), py), d, &base_y[lane]);
+    }
+  }
+  total.gap_bearing = sum(gaps);
+  total.on_base_side = {sum(base_x), sum(base_y)};
+  leave_vectors();
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace grseg
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grseg {
+namespace {
+
+HWY_EXPORT(find_for);
+HWY_EXPORT(keep);
+
+}  // namespace
+
+DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule, StepContacts& contacts)
+{
+  std::size_t most = 0, largest_class = 0;
+  for (const auto& c : pairs.classes) {
+    const std::size_t size = c.end - c.begin;
+    most += c.alone ? size : size / block_lanes;
+    largest_class = std::max(largest_class, size);
+  }
+  std::swap(contacts.origins, contacts.previous_origins);
+  contacts.previous_size = contacts.size;
+  if (contacts.blocks.size() < most) contacts.blocks.resize(most);
+  if (contacts.origins.size() < most) contacts.origins.resize(most);
+  contacts.near.resize(largest_class + block_lanes);
+  contacts.size = contacts.count = 0;
+  DetectionSums sums;
+  HWY_DYNAMIC_DISPATCH(find_for)(pairs, rule, contacts.near.data(), contacts, sums);
+  return sums;
+}
+
+ImpulseSums keep_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses)
+{
+  ImpulseSums sums;
+  HWY_DYNAMIC_DISPATCH(keep)(contacts, impulses.data(), sums);
+  return sums;
+}
+
+void forget_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses)
+{
+  for (std::size_t b = 0; b < contacts.previous_size; ++b)
+    for (const auto pair : contacts.previous_origins[b].pair) impulses[pair] = {0, 0};
+}
+
+}  // namespace grseg
+#endif  // HWY_ONCE
