@@ -106,8 +106,7 @@ Packing loose_packing(const Scene& scene, double area, gsl_rng* random)
   world.material = {scene.friction, scene.restitution};
   world.rotation = scene.rotation;
   world.gravity = {0, -scene.gravity};
-  world.step = scene.step;
-  world.solver = scene.solver;
+  set_numerics(world, scene);
   return packing;
 }
 
@@ -169,6 +168,28 @@ void replay(Simulation& simulation, std::int64_t steps, const Scene& scene,
 }
 
 }  // namespace
+
+void set_numerics(World& world, const Scene& scene)
+{
+  world.step = scene.step;
+  world.solver = scene.solver;
+  world.forecast = world.horizon = world.margin = 0;
+  switch (scene.law) {
+    case Scene::Law::touch:
+      break;
+    case Scene::Law::centred:
+      world.forecast = 0.5;
+      break;
+    case Scene::Law::predictive:
+      world.forecast = 1;
+      break;
+    case Scene::Law::speculative:
+      world.horizon = world.forecast = scene.horizon;
+      // What neighbours may add to an approach within a step.
+      world.margin =
+          scene.horizon * scene.step * std::sqrt(scene.gravity * scene.small_diameter);
+  }
+}
 
 double bed_height(const Simulation& simulation)
 {

@@ -23,7 +23,7 @@ using Mask = hn::Mask<D>;
 
 /// What a scene's detection has to see to; what it has not costs nothing.
 struct Variant {
-  bool periodic, rotation, restitution;
+  bool periodic, rotation, restitution, foresight;
 };
 
 /// DetectionSums, lane by lane.
@@ -85,12 +85,31 @@ std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const Dete
   return count;
 }
 
-/// What a contact asks for: the least separation velocity after the step, by Newton's restitution.
+/// What a contact asks for, and what it has to remember until the next step.
+struct Demand {
+  Vector rebound;   // m/s, the least separation velocity after the step
+  Vector approach;  // m/s
+};
+
+/// Newton's restitution for a pair that touches or was slowed down in the step before; for one that
+/// is still apart, that it does not get beyond touching within the horizon.
 template <Variant with>
-HWY_INLINE Vector rebound_of(Vector approach, const DetectionRule& rule)
+HWY_INLINE Demand demand_of(Vector gap, Vector separation, Vector impulse_n, Vector remembered,
+                            const DetectionRule& rule)
 {
   const D d;
-  return with.restitution ? hn::Mul(hn::Set(d, rule.restitution), approach) : hn::Zero(d);
+  const auto zero = hn::Zero(d);
+  auto approach = hn::Max(hn::Neg(separation), zero);
+  if constexpr (with.foresight) approach = hn::Max(approach, remembered);
+  const auto newton =
+      with.restitution ? hn::Mul(hn::Set(d, rule.restitution), approach) : zero;
+  if constexpr (!with.foresight) return {newton, zero};
+  const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, rule.horizon));
+  const auto apart = hn::AndNot(hn::Gt(remembered, zero), hn::Gt(gap, zero));
+  // A pair under load has been slowed down before; only a newcomer has a velocity to lose.
+  const auto newcomer = hn::And(hn::Eq(impulse_n, zero), hn::Lt(separation, closing));
+  return {hn::IfThenElse(apart, closing, newton),
+          hn::IfThenElseZero(hn::And(apart, newcomer), approach)};
 }
 
 struct Normals {
@@ -147,11 +166,12 @@ HWY_INLINE void make_block(const Pairs& pairs, const Pairs::Class& c, const std:
                            BlockOrigin& origin, LaneSums& sums)
 {
   const D d;
-  alignas(64) std::array<std::uint32_t, block_lanes> row, i, j;
+  alignas(64) std::array<std::uint32_t, block_lanes> row, impulse_row, i, j;
   for (std::size_t lane = 0; lane < block_lanes; ++lane) {
     const auto k = pair[lane];
     origin.pair[lane] = k;
     row[lane] = 2 * k;
+    impulse_row[lane] = 4 * k;
     i[lane] = pairs.i[k];
     j[lane] = pairs.j[k];
   }
@@ -178,13 +198,19 @@ HWY_INLINE void make_block(const Pairs& pairs, const Pairs::Class& c, const std:
     const auto [vx, vy] = load_differences<2>(d, velocity, &i[lane], &j[lane]);
     const auto separation = hn::Add(hn::Mul(vx, n.nx), hn::Mul(vy, n.ny));
     const auto approach = hn::Max(hn::Neg(separation), hn::Zero(d));
-    const auto [impulse_n, impulse_t] = load_rows(d, rows(pairs.impulse.data()), &row[lane]);
+    const auto* impulses = rows(pairs.impulse.data());
+    const auto [impulse_n, impulse_t] = load_rows(d, impulses, &impulse_row[lane]);
+    auto remembered = hn::Zero(d);
+    if constexpr (with.foresight)
+      remembered = load_rows(d, impulses + 2, &impulse_row[lane]).first;
+    const auto demand = demand_of<with>(gap, separation, impulse_n, remembered, rule);
     hn::Store(n.nx, d, &block.nx[lane]);
     hn::Store(n.ny, d, &block.ny[lane]);
     hn::Store(kappa, d, &block.kappa[lane]);
     hn::Store(mass, d, &block.mass_n[lane]);
     hn::Store(mass_t, d, &block.mass_t[lane]);
-    hn::Store(rebound_of<with>(approach, rule), d, &block.rebound[lane]);
+    hn::Store(demand.rebound, d, &block.rebound[lane]);
+    hn::Store(demand.approach, d, &origin.approach[lane]);
     hn::Store(impulse_n, d, &block.impulse_n[lane]);
     hn::Store(impulse_t, d, &block.impulse_t[lane]);
     hn::Store(gap, d, &origin.gap[lane]);
@@ -237,29 +263,36 @@ void find_for(const Pairs& pairs, const DetectionRule& rule, std::uint32_t* near
 {
   using Find =
       void (*)(const Pairs&, const DetectionRule&, std::uint32_t*, StepContacts&, DetectionSums&);
-  // [periodic][rotation][restitution]
-  static constexpr Find table[2][2][2] = {
-      {{find<Variant{false, false, false}>, find<Variant{false, false, true}>},
-       {find<Variant{false, true, false}>, find<Variant{false, true, true}>}},
-      {{find<Variant{true, false, false}>, find<Variant{true, false, true}>},
-       {find<Variant{true, true, false}>, find<Variant{true, true, true}>}}};
-  table[rule.periodic][rule.rim_factor > 0][rule.restitution > 0](pairs, rule, near, contacts,
-                                                                  total);
+  // [periodic][rotation][restitution][foresight]
+  static constexpr Find table[2][2][2][2] = {
+      {{{find<Variant{false, false, false, false}>, find<Variant{false, false, false, true}>},
+        {find<Variant{false, false, true, false}>, find<Variant{false, false, true, true}>}},
+       {{find<Variant{false, true, false, false}>, find<Variant{false, true, false, true}>},
+        {find<Variant{false, true, true, false}>, find<Variant{false, true, true, true}>}}},
+      {{{find<Variant{true, false, false, false}>, find<Variant{true, false, false, true}>},
+        {find<Variant{true, false, true, false}>, find<Variant{true, false, true, true}>}},
+       {{find<Variant{true, true, false, false}>, find<Variant{true, true, false, true}>},
+        {find<Variant{true, true, true, false}>, find<Variant{true, true, true, true}>}}}};
+  table[rule.periodic][rule.rim_factor > 0][rule.restitution > 0][rule.horizon > 0](
+      pairs, rule, near, contacts, total);
 }
 
 void keep(const StepContacts& contacts, Pairs::Impulse* impulses, ImpulseSums& total)
 {
   const D d;
+  auto* memory = reinterpret_cast<double*>(impulses);
   alignas(64) Lanes gaps{}, base_x{}, base_y{};
   alignas(64) std::array<std::uint32_t, block_lanes> row;
   for (std::size_t b = 0; b < contacts.size; ++b) {
     const auto& block = contacts.blocks[b];
     const auto& origin = contacts.origins[b];
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = 2 * origin.pair[lane];
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = 4 * origin.pair[lane];
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
-      store_rows(d, {n, t}, &impulses->n, &row[lane]);
       const auto bearing = hn::Gt(n, hn::Zero(d));
+      const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
+      store_rows(d, {n, t}, memory, &row[lane]);
+      store_rows(d, {approach, hn::Zero(d)}, memory + 2, &row[lane]);
       const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
       const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
       hn::Store(sum_gap, d, &gaps[lane]);
@@ -320,7 +353,7 @@ ImpulseSums keep_impulses(const StepContacts& contacts, std::span<Pairs::Impulse
 void forget_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses)
 {
   for (std::size_t b = 0; b < contacts.previous_size; ++b)
-    for (const auto pair : contacts.previous_origins[b].pair) impulses[pair] = {0, 0};
+    for (const auto pair : contacts.previous_origins[b].pair) impulses[pair] = {};
 }
 
 }  // namespace grseg

@@ -14,6 +14,7 @@ namespace grseg {
 /// Where the contacts of a block come from, and their gaps at mid-step.
 struct alignas(64) BlockOrigin {
   ContactBlock::Lanes gap;                      // m
+  ContactBlock::Lanes approach;                 // m/s, to be remembered; see Pairs::Impulse
   std::array<std::uint32_t, block_lanes> pair;  // the neutral pair for lanes left over
 };
 
@@ -39,6 +40,7 @@ struct DetectionRule {
   std::span<const Wall> walls;
   double margin = 0;  // m
   double restitution = 0;
+  double horizon = 0;     // s, World::horizon times the step
   double rim_factor = 0;  // disc_rim_factor, or 0 where nothing rotates
   bool periodic = false;
 };

@@ -393,7 +393,7 @@ void PairList::carry_wall_impulse(std::uint32_t body, std::int32_t wall,
 
 void PairList::carry_impulses(const Pairs& old)
 {
-  pairs_.impulse.assign(pairs_.i.size(), {0, 0});
+  pairs_.impulse.assign(pairs_.i.size(), {});
   const auto still = static_cast<std::uint32_t>(place_.size() - 1);
   for (const auto& c : old.classes) {
     for (auto k = c.begin; k < c.end; ++k) {

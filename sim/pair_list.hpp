@@ -31,7 +31,9 @@ struct Pairs {
     double mass;           ///< kg, effective along the normal
   };
   struct Impulse {
-    double n, t;  ///< kg m/s of the last step, 0 for a pair that did not touch
+    double n, t;      ///< kg m/s of the last step, 0 for a pair that did not touch
+    double approach;  ///< m/s, at which a pair closed before it was slowed down short of touching
+    double spare;
   };
   struct Class {
     std::uint32_t begin, end;  ///< multiples of 8

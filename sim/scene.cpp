@@ -57,6 +57,11 @@ constexpr std::array<std::pair<const char*, Scene::Lateral>, 2> laterals{
     {{"periodic", Scene::Lateral::periodic}, {"walls", Scene::Lateral::walls}}};
 constexpr std::array<std::pair<const char*, Scene::Origin>, 2> origins{
     {{"top", Scene::Origin::top}, {"centre", Scene::Origin::centre}}};
+constexpr std::array<std::pair<const char*, Scene::Law>, 4> laws{
+    {{"speculative", Scene::Law::speculative},
+     {"touch", Scene::Law::touch},
+     {"centred", Scene::Law::centred},
+     {"predictive", Scene::Law::predictive}}};
 constexpr std::array<std::pair<const char*, bool>, 2> stores{
     {{"float64", false}, {"float32", true}}};
 
@@ -109,6 +114,8 @@ void resolve_grains(const Keys& keys, Scene& scene)
   scene.friction = keys.number("friction", 0, 1e3);
   scene.restitution = keys.number("restitution", 0, 1);
   scene.rotation = parse_switch(keys.text("rotation"), "rotation");
+  scene.law = parse_choice(keys.text("contact-law"), "contact-law", laws);
+  scene.horizon = keys.number("horizon", 1e-3, 1);
 }
 
 void resolve_geometry(const Keys& keys, Scene& scene)
@@ -213,6 +220,11 @@ po::options_description scene_options()
   add("friction", number(0.5), "Coulomb's coefficient, all contacts");
   add("restitution", number(0.25), "Newton's coefficient, all contacts");
   add("rotation", text("on"), "on or off: whether grains rotate");
+  add("contact-law", text("speculative"),
+      "when a pair acts: speculative (slowed down short of overlap, rebounds in the step after), "
+      "touch (where it touches at mid-step), centred (at the end of the step), predictive (half a "
+      "step later)");
+  add("horizon", number(0.5), "steps ahead that the speculative law looks, at most 1");
   add("base", text("grains"), "grains (a row of fixed large grains) or wall (straight)");
   add("lateral", text("periodic"), "periodic or walls: what bounds the cell along x");
   add("origin", text("top"), "y = 0 at the top or at the centre of the base grains");
@@ -305,6 +317,8 @@ std::string to_text(const Scene& scene)
   add("gravity", scene.gravity);
   add("friction", scene.friction);
   add("restitution", scene.restitution);
+  add("contact-law", laws[static_cast<std::size_t>(scene.law)].first);
+  add("horizon", scene.horizon);
   add("rotation", scene.rotation ? "on" : "off");
   add("base", bases[static_cast<std::size_t>(scene.base)].first);
   add("lateral", laterals[static_cast<std::size_t>(scene.lateral)].first);
@@ -339,11 +353,13 @@ Parameters to_parameters(const Scene& scene)
   n["friction"] = {scene.friction};
   n["restitution"] = {scene.restitution};
   n["rotation"] = {scene.rotation ? 1.0 : 0.0};
+  n["horizon"] = {scene.horizon};
   n["tolerance"] = {scene.solver.tolerance};
   n["max_sweeps"] = {static_cast<double>(scene.solver.max_sweeps)};
   n["seed"] = {static_cast<double>(scene.seed)};
   parameters.texts["scene"] = to_text(scene);
   parameters.texts["accuracy"] = scene.accuracy;
+  parameters.texts["contact_law"] = laws[static_cast<std::size_t>(scene.law)].first;
   parameters.texts["origin"] = origins[static_cast<std::size_t>(scene.origin)].first;
   return parameters;
 }

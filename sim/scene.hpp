@@ -27,6 +27,8 @@ struct Scene {
   double friction = 0;
   double restitution = 0;  // Newton's e
   bool rotation = true;
+  enum class Law { speculative, touch, centred, predictive } law = Law::speculative;
+  double horizon = 0;  // steps, of the speculative law
   enum class Base { grains, wall } base = Base::grains;
   enum class Lateral { periodic, walls } lateral = Lateral::periodic;
   enum class Origin { top, centre } origin = Origin::top;

@@ -34,7 +34,8 @@ struct Named {
 
 Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
     : world_(world),
-      effects_{world.material.friction > 0, world.rotation, world.material.restitution > 0},
+      effects_{world.material.friction > 0, world.rotation,
+               world.material.restitution > 0 || world.horizon > 0},
       pairs_(world.walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()),
              world.skin > 0 ? world.skin : default_skin(world.grains), world.margin),
@@ -131,13 +132,14 @@ void Simulation::find_contacts(StepReport& report)
   rule.walls = world_.walls;
   rule.margin = world_.margin;
   rule.restitution = world_.material.restitution;
+  rule.horizon = world_.horizon * world_.step;
   rule.rim_factor = world_.rotation ? disc_rim_factor : 0;
   rule.periodic = world_.box.periodic_x;
   const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_);
   if (sums.coincident) stop_at_coincidence();
   const auto impulses = pairs_.impulses();
   if (renew)
-    std::fill(impulses.begin(), impulses.end(), Pairs::Impulse{0, 0});
+    std::fill(impulses.begin(), impulses.end(), Pairs::Impulse{});
   else
     forget_impulses(contacts_, impulses);
   report.touching = sums.touching;

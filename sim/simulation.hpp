@@ -26,6 +26,9 @@ struct World {
   /// where it is at mid-step, 1/2 at the end of the step. Geometry is that of mid-step in any case.
   double forecast = 0;
   double margin = 0;  // m, within which a pair counts as touching there
+  /// Steps within which a pair that is still apart may at most close its gap; 0 lets it overlap
+  /// first. Newton's restitution then follows a step later, from the velocity that was lost.
+  double horizon = 0;
   double skin = 0;  // m, more than margin, of the pair list; 0 chooses 0.4 of the smallest diameter
 };
 
