@@ -67,6 +67,13 @@ std::uint64_t frame_digest(const Frame& frame, std::uint64_t before, bool float3
   return hash.digest();
 }
 
+std::uint64_t chain_digest(const void* data, std::size_t bytes, std::uint64_t before)
+{
+  Hasher hash(before, false);
+  hash.add(data, bytes);
+  return hash.digest();
+}
+
 std::string format_digest(std::uint64_t digest)
 {
   return fmt::format("{:016x}", digest);

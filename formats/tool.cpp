@@ -147,6 +147,24 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   return best;
 }
 
+void bring_to_disk(const std::string& path)
+{
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool on_disk = file >= 0 && fsync(file) == 0;
+  const std::string why = std::strerror(errno);
+  if (file >= 0) close(file);
+  if (!on_disk) throw RunError(fmt::format("cannot bring {} to the disk: {}", path, why));
+}
+
+void publish_file(const std::string& beside, const std::string& path)
+{
+  bring_to_disk(beside);
+  std::error_code error;
+  std::filesystem::rename(beside, path, error);
+  if (error)
+    throw RunError(fmt::format("cannot rename {} to {}: {}", beside, path, error.message()));
+}
+
 void write_whole(const std::string& path, std::string_view text)
 {
   if (path.empty() || path == "-") {

@@ -38,6 +38,13 @@ std::string version_with_hash();
 /// The known word nearest to `word`, or "" where none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
+/// Has the system write what it keeps of `path` to the disk. RunError where that fails.
+void bring_to_disk(const std::string& path);
+
+/// Brings the closed file `beside` to the disk and renames it to `path`, so that `path` is whole or
+/// not there. RunError where that fails; `beside` is then still there.
+void publish_file(const std::string& beside, const std::string& path);
+
 /// Writes `text` to `path`, whole or not at all (write beside, fsync, rename); "-" or "" is
 /// standard output. RunError where that fails.
 void write_whole(const std::string& path, std::string_view text);

@@ -46,6 +46,7 @@ struct TrajectoryWriter::Impl {
   Series position, image, velocity, angular_velocity, force;
   Series offset, contact_i, contact_j, contact_force, contact_branch, contact_gap, digest;
   std::vector<Series> observables;
+  std::size_t frames_so_far = 0;
   std::uint64_t contacts_so_far = 0;
   std::uint64_t digest_so_far = 0;
 
@@ -219,6 +220,7 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
 }
 
 TrajectoryWriter::~TrajectoryWriter() = default;
+TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
 
 void TrajectoryWriter::append(const Frame& frame, std::span<const double> observables)
 {
@@ -246,6 +248,22 @@ void TrajectoryWriter::append(const Frame& frame, std::span<const double> observ
   if (my.storage.compression == 0) my.flush();
   my.contacts_so_far += contacts.size();
   my.offset.append(1, &my.contacts_so_far);
+  ++my.frames_so_far;
+}
+
+void TrajectoryWriter::flush()
+{
+  impl_->flush();
+}
+
+std::size_t TrajectoryWriter::frames() const
+{
+  return impl_->frames_so_far;
+}
+
+std::uint64_t TrajectoryWriter::digest() const
+{
+  return impl_->digest_so_far;
 }
 
 void TrajectoryWriter::add_parameters(const Parameters& parameters)

@@ -4,6 +4,7 @@
 #include "formats/frame.hpp"
 #include "formats/parameters.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,9 +36,16 @@ class TrajectoryWriter {
   TrajectoryWriter(const std::string& path, const RunDescription& run,
                    const StorageSettings& storage = {});
   ~TrajectoryWriter();
+  TrajectoryWriter(TrajectoryWriter&&) noexcept;
 
   /// `observables` holds one value per entry of RunDescription::observables.
   void append(const Frame& frame, std::span<const double> observables);
+
+  /// Hands all frames appended so far to the system, where a kill cannot lose them.
+  void flush();
+
+  std::size_t frames() const;    ///< appended so far
+  std::uint64_t digest() const;  ///< xxh3 chain up to the last of them, as in TrajectoryReader
 
   /// Adds to /parameters what is known only at the end (summary of the run).
   void add_parameters(const Parameters& parameters);

@@ -103,10 +103,7 @@ Packing loose_packing(const Scene& scene, double area, gsl_rng* random)
   add_base(packing, scene);
 
   world.box = {scene.length, 1.5 * y, scene.lateral == Scene::Lateral::periodic};
-  world.material = {scene.friction, scene.restitution};
-  world.rotation = scene.rotation;
-  world.gravity = {0, -scene.gravity};
-  set_numerics(world, scene);
+  set_conditions(world, scene);
   return packing;
 }
 
@@ -169,8 +166,11 @@ void replay(Simulation& simulation, std::int64_t steps, const Scene& scene,
 
 }  // namespace
 
-void set_numerics(World& world, const Scene& scene)
+void set_conditions(World& world, const Scene& scene)
 {
+  world.material = {scene.friction, scene.restitution};
+  world.rotation = scene.rotation;
+  world.gravity = {0, -scene.gravity};
   world.step = scene.step;
   world.solver = scene.solver;
   world.forecast = world.horizon = world.margin = 0;

@@ -27,8 +27,9 @@ struct DepositionHooks {
 };
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks = {});
 
-/// Gives the world the scene's step, solver settings and contact law.
-void set_numerics(World& world, const Scene& scene);
+/// Sets what `scene` says of a world beside its grains, walls and box; gravity points straight
+/// down.
+void set_conditions(World& world, const Scene& scene);
 
 /// Twice the area-weighted mean height of the mobile grains above y = 0, m.
 double bed_height(const Simulation& simulation);

@@ -2,30 +2,77 @@
 #include "formats/tool.hpp"
 #include "sim/run.hpp"
 
+#include <fmt/format.h>
+
+namespace grseg {
+namespace {
+
+po::options_description run_options(RunOptions& run)
+{
+  po::options_description options;
+  auto add = options.add_options();
+  add("output,o", po::value(&run.output)->value_name("FILE"), "the trajectory to write");
+  add("overwrite", po::bool_switch(&run.overwrite), "replace files that are there already");
+  add("strict", po::bool_switch(&run.strict), "exit code 4 when a step missed the tolerance");
+  add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
+  add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
+      "write the state there, at the end, on SIGINT and SIGTERM, and while the run goes on");
+  add("checkpoint-every", po::value(&run.checkpoint_every)->default_value(60),
+      "s of wall time between checkpoints");
+  add("restart", po::value(&run.restart)->value_name("FILE"),
+      "go on from this checkpoint, bit for bit; SCENE.ini may be left out. Other keys than the "
+      "checkpoint's begin a new trajectory; those of the bed cannot change");
+  add("perturb", po::value(&run.perturbation.size),
+      "at a restart, displace every mobile grain at random by up to this many d_S, such as 1e-6");
+  add("seed-perturbation", po::value(&run.perturbation.seed), "of --perturb; else that of the run");
+  return options;
+}
+
+void check(const RunOptions& run, const po::variables_map& given)
+{
+  if (run.checkpoint_every < 0)
+    throw UsageError("checkpoint-every is a time in seconds, 0 or more");
+  if (run.restart.empty() && (given.count("perturb") > 0 || given.count("seed-perturbation") > 0))
+    throw UsageError("--perturb displaces the grains of a checkpoint; name one by --restart");
+  if (!(run.perturbation.size >= 0 && run.perturbation.size <= largest_perturbation))
+    throw UsageError(fmt::format("perturb is {:g}: it must lie between 0 and {:g} d_S",
+                                 run.perturbation.size, largest_perturbation));
+}
+
+}  // namespace
+}  // namespace grseg
+
 int main(int argc, char** argv)
 {
   using namespace grseg;
   const ToolInfo info{
       "grseg-sim", "contact dynamics of a two-dimensional chute of small and large rigid discs.",
-      "grseg-sim SCENE.ini [--key value ...] -o run.h5",
+      "grseg-sim SCENE.ini [--key value ...] -o run.h5\n"
+      "       grseg-sim --restart run.chk [--key value ...] -o run.h5",
       "  grseg-sim sim/scenes/chute.ini -o run.h5            the paper's flow, 150 s\n"
       "  grseg-sim chute.ini --phi-large 0.45 --slope 21 --duration 60 -o slow.h5\n"
-      "  grseg-sim chute.ini --accuracy draft --duration 20 -o quick.h5\n"};
+      "  grseg-sim chute.ini --accuracy draft --duration 20 -o quick.h5\n"
+      "  grseg-sim chute.ini --checkpoint run.chk -o run.h5\n"
+      "  grseg-sim --restart run.chk -o run.h5               goes on after an interruption\n"
+      "  grseg-sim --restart run.chk --duration 300 -o more.h5\n"
+      "  grseg-sim --restart run.chk --perturb 1e-6 --seed-perturbation 2 -o twin.h5\n"};
   RunOptions run;
   po::options_description options("Options");
-  options.add_options()("output,o", po::value(&run.output)->value_name("FILE"),
-                        "the trajectory to write")("overwrite", po::bool_switch(&run.overwrite),
-                                                   "replace a trajectory that is there already")(
-      "strict", po::bool_switch(&run.strict), "exit code 4 when a step missed the tolerance")(
-      "quiet", po::bool_switch(&run.quiet), "no progress, no summary");
+  options.add(run_options(run));
   options.add(scene_options());
   run.command_line = command_line(argc, argv);
   return run_tool(argc, argv, info, options, [&](const po::variables_map& given) {
     const auto inputs = given.count("input") > 0 ? given["input"].as<std::vector<std::string>>()
                                                  : std::vector<std::string>{};
-    if (inputs.size() != 1)
+    check(run, given);
+    if (inputs.size() > 1 || (inputs.empty() && run.restart.empty()))
       throw UsageError("name one scene file, such as sim/scenes/chute.ini; --help shows examples");
     if (run.output.empty()) throw UsageError("name the trajectory to write: -o run.h5");
-    simulate(resolve_scene(inputs[0], given), run);
+    if (run.restart.empty()) return simulate(resolve_scene(inputs[0], given), run);
+    const auto checkpoint = read_checkpoint(run.restart);
+    const auto scene =
+        inputs.empty() ? scene_of(checkpoint, run.restart, given) : resolve_scene(inputs[0], given);
+    if (given.count("seed-perturbation") == 0) run.perturbation.seed = scene.seed;
+    resume(checkpoint, scene, run);
   });
 }

@@ -2,6 +2,7 @@
 #include "sim/pair_list.hpp"
 
 #include "sim/contact_blocks.hpp"
+#include "formats/errors.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -155,6 +156,34 @@ void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
   fill_in(grains);
   find_wall_pairs(grains);
   carry_impulses(old);
+}
+
+PairList::State PairList::state() const
+{
+  State state;
+  state.made_at = made_at_;
+  state.renewals = renewals_;
+  state.i = pairs_.i;
+  state.j = pairs_.j;
+  for (const auto& impulse : pairs_.impulse) {
+    state.impulse_n.push_back(impulse.n);
+    state.impulse_t.push_back(impulse.t);
+    state.approach.push_back(impulse.approach);
+  }
+  return state;
+}
+
+void PairList::restore(GrainState& grains, const State& state)
+{
+  if (!state.made_at.empty()) renew(grains, state.made_at);
+  const auto now = this->state();
+  if (now.i != state.i || now.j != state.j)
+    throw FormatError(
+        "this grseg-sim finds other pairs than the one that wrote the checkpoint; go on with the "
+        "program that wrote it");
+  for (std::size_t k = 0; k < pairs_.impulse.size(); ++k)
+    pairs_.impulse[k] = {state.impulse_n[k], state.impulse_t[k], state.approach[k], 0};
+  renewals_ = state.renewals;
 }
 
 std::int32_t PairList::column(double x) const

@@ -85,6 +85,17 @@ class PairList {
   std::span<Pairs::Impulse> impulses() { return pairs_.impulse; }
   std::size_t renewals() const { return renewals_; }
 
+  /// All that a list must have to be made again as it is.
+  struct State {
+    std::vector<Vec2> made_at;        // m, as in GrainState; empty before the first renewal
+    std::vector<std::uint32_t> i, j;  // as in Pairs, and with the same neutral pair
+    std::vector<double> impulse_n, impulse_t, approach;
+    std::uint64_t renewals = 0;
+  };
+  State state() const;
+  /// Makes the list again. FormatError where one made at the same positions holds other pairs.
+  void restore(GrainState& grains, const State& state);
+
  private:
   struct Taken {
     std::uint64_t among_grains = 0, on_base = 0;  // a bit per colour

@@ -74,15 +74,15 @@ std::vector<Observable> Recorder::observables()
           {"base_force_y", "N"}};
 }
 
-Recorder::Recorder(TrajectoryWriter& writer, double small_diameter)
-    : writer_(writer), small_diameter_(small_diameter)
+Recorder::Recorder(TrajectoryWriter& writer, double small_diameter, const State& state)
+    : writer_(writer), small_diameter_(small_diameter), state_(state)
 {
 }
 
 void Recorder::write(const Frame& frame, const Simulation& simulation)
 {
   check_bounds(frame, simulation);
-  const auto& t = since_frame_;
+  const auto& t = state_.since_frame;
   const std::vector<double> values{
       simulation.translational_energy(),
       simulation.rotational_energy(),
@@ -102,8 +102,8 @@ void Recorder::write(const Frame& frame, const Simulation& simulation)
       t.per_step(t.base_impulse.x()) / simulation.world().step,
       t.per_step(t.base_impulse.y()) / simulation.world().step};
   writer_.append(frame, values);
-  totals_.add(since_frame_);
-  since_frame_ = {};
+  state_.totals.add(state_.since_frame);
+  state_.since_frame = {};
 }
 
 void Recorder::check_bounds(const Frame& frame, const Simulation& simulation) const
@@ -111,13 +111,14 @@ void Recorder::check_bounds(const Frame& frame, const Simulation& simulation) co
   if (!all_finite(frame.position) || !all_finite(frame.velocity))
     throw RunError(fmt::format(
         "a position or velocity is not finite at t = {:.6g} s; use a smaller step", frame.time));
-  const double overlap = since_frame_.mean_overlap() / small_diameter_;
+  const double overlap = state_.since_frame.mean_overlap() / small_diameter_;
   if (overlap > most_overlap)
     throw RunError(
         fmt::format("the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S; use a "
                     "smaller step or tolerance",
                     overlap, frame.time, most_overlap));
-  const double crossing = since_frame_.fastest_approach * simulation.world().step / small_diameter_;
+  const double crossing =
+      state_.since_frame.fastest_approach * simulation.world().step / small_diameter_;
   if (crossing > most_approach)
     throw RunError(fmt::format(
         "grains approach each other by {:.2g} d_S per step at t = {:.6g} s, above {} d_S; use a "

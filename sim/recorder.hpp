@@ -35,22 +35,33 @@ class Recorder {
  public:
   static std::vector<Observable> observables();
 
-  Recorder(TrajectoryWriter& writer, double small_diameter);
+  /// What the recorder knows between two steps.
+  struct State {
+    StepTotals since_frame;  ///< of the steps that no frame tells of yet
+    StepTotals totals;       ///< of the steps before
+  };
 
-  void add(const StepReport& report) { since_frame_.add(report); }
+  Recorder(TrajectoryWriter& writer, double small_diameter) : Recorder(writer, small_diameter, {})
+  {
+  }
+  /// Goes on from `state`.
+  Recorder(TrajectoryWriter& writer, double small_diameter, const State& state);
+
+  void add(const StepReport& report) { state_.since_frame.add(report); }
   /// Writes `frame`; its own step must have been added. RunError where the mean overlap since the
   /// last frame is above 1 % of d_S, a grain crosses more than half of d_S per step towards
   /// its neighbour, or a number is not finite.
   void write(const Frame& frame, const Simulation& simulation);
 
-  const StepTotals& totals() const { return totals_; }
+  const StepTotals& totals() const { return state_.totals; }
+  const State& state() const { return state_; }
 
  private:
   void check_bounds(const Frame& frame, const Simulation& simulation) const;
 
   TrajectoryWriter& writer_;
   double small_diameter_;
-  StepTotals since_frame_, totals_;
+  State state_;
 };
 
 /// Largest |sum of contact forces + m g - force| of a mobile grain over the largest |contact

@@ -4,6 +4,7 @@
 #include "formats/errors.hpp"
 #include "formats/repack.hpp"
 #include "formats/tool.hpp"
+#include "sim/cut_back.hpp"
 #include "sim/deposition.hpp"
 #include "sim/recorder.hpp"
 
@@ -17,7 +18,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <optional>
+#include <limits>
 
 namespace grseg {
 namespace {
@@ -38,7 +39,11 @@ double seconds_now()
 /// Says on a terminal how far the run is.
 class Progress {
  public:
-  Progress(double duration, bool quiet) : duration_(duration), shown_(!quiet && isatty(2) != 0) {}
+  /// Of a run that goes from `from` to `duration`, s.
+  Progress(double from, double duration, bool quiet)
+      : from_(from), duration_(duration), shown_(!quiet && isatty(2) != 0)
+  {
+  }
   ~Progress() { clear(); }
   void clear() const
   {
@@ -53,13 +58,13 @@ class Progress {
     const double now = seconds_now();
     if (!shown_ || now - last_ < 0.2) return;
     last_ = now;
-    const double left = time > 0 ? (now - begin_) * (duration_ - time) / time : 0;
+    const double left = time > from_ ? (now - begin_) * (duration_ - time) / (time - from_) : 0;
     say(fmt::format("t = {:.2f} of {:g} s, {:.0f}:{:02.0f} left", time, duration_,
                     std::floor(left / 60), std::floor(std::fmod(left, 60))));
   }
 
  private:
-  double duration_;
+  double from_, duration_;
   bool shown_;
   double begin_ = seconds_now(), last_ = 0;
 };
@@ -105,15 +110,6 @@ void summarise(const Scene& scene, const StepTotals& t, const Cost& cost, double
              t.mean_gap_bearing() / d, height / d);
 }
 
-void bring_to_disk(const std::string& path)
-{
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool on_disk = file >= 0 && fsync(file) == 0;
-  if (file >= 0) close(file);
-  if (!on_disk)
-    throw RunError(fmt::format("cannot bring {} to the disk: {}", path, std::strerror(errno)));
-}
-
 /// The finished run under its own name, compressed if that is asked for.
 void publish(const std::string& part, const std::string& output, const StorageSettings& storage)
 {
@@ -122,12 +118,9 @@ void publish(const std::string& part, const std::string& output, const StorageSe
     whole = fmt::format("{}.tmp.{}", output, getpid());
     repack(part, whole, storage);
   }
-  bring_to_disk(whole);
-  std::error_code error;
-  std::filesystem::rename(whole, output, error);
-  if (error)
-    throw RunError(fmt::format("cannot rename {} to {}: {}", whole, output, error.message()));
-  if (whole != part) std::filesystem::remove(part, error);
+  publish_file(whole, output);
+  std::error_code ignored;
+  if (whole != part) std::filesystem::remove(part, ignored);
 }
 
 void refuse_to_overwrite(const std::string& path, const RunOptions& options)
@@ -153,33 +146,143 @@ ToolError interruption(const std::string& sentence)
   return {stop_signal == SIGINT ? exit_interrupted : exit_terminated, sentence};
 }
 
-/// The bed; whatever keeps it from being made leaves no empty file behind.
-Simulation deposit_or_clean_up(const Scene& scene, const std::string& part)
-{
-  const auto listen = [] {
-    if (stop_signal != 0) throw interruption("interrupted while the bed was deposited");
-  };
-  try {
-    return deposit(scene, {.each_step = listen, .record = {}});
-  } catch (...) {
+/// A trajectory that nothing has been written to is not left behind.
+class RemoveIfEmpty {
+ public:
+  explicit RemoveIfEmpty(std::string path) : path_(std::move(path)) {}
+  RemoveIfEmpty(const RemoveIfEmpty&) = delete;
+  RemoveIfEmpty& operator=(const RemoveIfEmpty&) = delete;
+  ~RemoveIfEmpty()
+  {
     std::error_code ignored;
-    if (std::filesystem::file_size(part, ignored) == 0) std::filesystem::remove(part, ignored);
-    throw;
+    if (std::filesystem::file_size(path_, ignored) == 0) std::filesystem::remove(path_, ignored);
   }
+
+ private:
+  std::string path_;
+};
+
+/// What must hold before time is spent on a run.
+void check_outputs(const RunOptions& options)
+{
+  refuse_to_overwrite(options.output, options);
+  if (options.checkpoint.empty()) return;
+  if (options.checkpoint == options.output)
+    throw UsageError("checkpoint and trajectory cannot be one file; name another for --checkpoint");
+  if (options.checkpoint != options.restart) refuse_to_overwrite(options.checkpoint, options);
+  const RemoveIfEmpty trial(options.checkpoint + ".part");
+  require_writable(options.checkpoint + ".part");
 }
 
-/// Writes frames until the end or a signal.
-void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Progress& progress)
+void listen_to_signals()
 {
-  const auto every = scene.steps_per_frame(), steps = scene.steps_in_all();
+  stop_signal = 0;
+  std::signal(SIGINT, remember_signal);
+  std::signal(SIGTERM, remember_signal);
+}
+
+/// A run that is ready to go on, with the file that its frames go to.
+struct Run {
+  Simulation simulation;
+  TrajectoryWriter writer;
+  TrajectoryProgress progress;
+  double deposited_height;  // m
+  std::string history;
+};
+
+/// While a run goes on nothing is compressed (formats/README.md).
+StorageSettings storage_while_running(const Scene& scene)
+{
+  return {.compression = 0, .float32 = scene.float32};
+}
+
+/// Writes checkpoints of `run` when they are due.
+class Checkpoints {
+ public:
+  Checkpoints(const Scene& scene, const RunOptions& options, Run& run, const Recorder& recorder)
+      : scene_(scene), options_(options), run_(run), recorder_(recorder)
+  {
+  }
+  bool due() const
+  {
+    return !options_.checkpoint.empty() && seconds_now() - last_ >= options_.checkpoint_every;
+  }
+  /// The trajectory is on the disk before the checkpoint that counts its frames.
+  void write()
+  {
+    last_ = seconds_now();
+    run_.writer.flush();
+    bring_to_disk(options_.output + ".part");
+    const auto& world = run_.simulation.world();
+    write_checkpoint(options_.checkpoint,
+                     {to_text(scene_),
+                      "grseg-sim " + version_with_hash(),
+                      run_.history,
+                      world.grains,
+                      world.walls,
+                      world.box,
+                      run_.deposited_height,
+                      run_.simulation.state(),
+                      {run_.writer.frames(), run_.writer.digest(), recorder_.state(),
+                       run_.progress.begin, run_.progress.wall + last_ - begin_}});
+  }
+  void write_if_asked_for()
+  {
+    if (!options_.checkpoint.empty()) write();
+  }
+
+ private:
+  const Scene& scene_;
+  const RunOptions& options_;
+  Run& run_;
+  const Recorder& recorder_;
+  double begin_ = seconds_now();
+  double last_ = -std::numeric_limits<double>::infinity();
+};
+
+/// Writes frames and checkpoints until the end or a signal. Checkpoints lie just before a frame, so
+/// that a later run may go on with another step, but for that of a signal, which does not wait.
+void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
+          Progress& progress)
+{
+  const auto every = scene.steps_per_frame(), end = scene.steps_in_all();
   Frame frame;
-  for (std::int64_t step = 0; step < steps && stop_signal == 0; ++step) {
-    const bool due = step % every == 0;
+  while (simulation.steps_done() < end && stop_signal == 0) {
+    const bool due = simulation.steps_done() % every == 0;
+    if (due && checkpoints.due()) checkpoints.write();
     recorder.add(due ? simulation.advance(frame) : simulation.advance());
     if (!due) continue;
     recorder.write(frame, simulation);
     progress.at(simulation.time());
   }
+  checkpoints.write_if_asked_for();
+}
+
+/// Lets `run` flow to its end and publishes what it wrote.
+void finish(const Scene& scene, const RunOptions& options, Run& run)
+{
+  const std::string part = options.output + ".part";
+  auto& simulation = run.simulation;
+  Recorder recorder(run.writer, scene.small_diameter, run.progress.recorder);
+  Checkpoints checkpoints(scene, options, run, recorder);
+  Progress progress(simulation.time(), scene.duration, options.quiet);
+  const double begin = seconds_now();
+  flow(scene, simulation, recorder, checkpoints, progress);
+  progress.clear();
+  const double wall = run.progress.wall + seconds_now() - begin;
+  summarise(scene, recorder.totals(), {simulation.time() - run.progress.begin, wall},
+            run.deposited_height, options.quiet, run.writer);
+  run.writer.close();
+  if (stop_signal != 0)
+    throw interruption(fmt::format(
+        "interrupted at t = {:.6g} s; the frames so far are in {}{}", simulation.time(), part,
+        options.checkpoint.empty() ? ""
+                                   : fmt::format(", --restart {} goes on", options.checkpoint)));
+  publish(part, options.output, {scene.compression, scene.float32});
+  if (options.strict && recorder.totals().missed > 0)
+    throw CheckError(fmt::format(
+        "the tolerance was missed in {} of {} steps; allow more sweeps or a smaller step",
+        recorder.totals().missed, recorder.totals().steps));
 }
 
 Vec2 gravity_of(const Parameters& parameters)
@@ -188,52 +291,107 @@ Vec2 gravity_of(const Parameters& parameters)
   return {g[0], g[1]};
 }
 
+TrajectoryWriter new_trajectory(const Scene& scene, const Simulation& simulation,
+                                const Parameters& parameters, const std::string& part)
+{
+  return {part,
+          {simulation.world().grains, simulation.world().box, parameters, Recorder::observables()},
+          storage_while_running(scene)};
+}
+
+void record_deposition(const Scene& scene, TrajectoryWriter& writer)
+{
+  Recorder recorder(writer, scene.small_diameter);
+  const auto record = [&](const StepReport& report, const Simulation& now, const Frame* frame) {
+    recorder.add(report);
+    if (frame != nullptr) recorder.write(*frame, now);
+  };
+  deposit(scene, {.each_step = {}, .record = record});
+}
+
+/// What a trajectory that begins with a restart says of how it came about.
+Parameters describe_restart(const Scene& scene, const RunOptions& options, double time,
+                            const std::string& history)
+{
+  auto parameters = describe(scene, options);
+  parameters.texts["history"] = history;
+  parameters.numbers["restart_time"] = {time};
+  if (options.perturbation.size > 0) {
+    parameters.numbers["perturb"] = {options.perturbation.size};
+    parameters.numbers["seed_perturbation"] = {static_cast<double>(options.perturbation.seed)};
+  }
+  return parameters;
+}
+
+bool holds_something(const std::string& path)
+{
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  return !none && size > 0;
+}
+
 }  // namespace
 
 void simulate(const Scene& scene, const RunOptions& options)
 {
   const std::string part = options.output + ".part";
-  refuse_to_overwrite(options.output, options);
+  check_outputs(options);
   refuse_to_overwrite(part, options);
   require_writable(part);
-  stop_signal = 0;
-  std::signal(SIGINT, remember_signal);
-  std::signal(SIGTERM, remember_signal);
+  const RemoveIfEmpty clean_up(part);
+  listen_to_signals();
 
-  Progress progress(scene.duration, options.quiet);
-  progress.say("depositing the bed");
+  Progress(0, scene.duration, options.quiet).say("depositing the bed");
   const auto parameters = describe(scene, options);
-  auto simulation = deposit_or_clean_up(scene, part);
-  const double height = bed_height(simulation);
-  TrajectoryWriter writer(
-      part,
-      {simulation.world().grains, simulation.world().box, parameters, Recorder::observables()},
-      {scene.compression, scene.float32});
-  Recorder recorder(writer, scene.small_diameter);
-  if (scene.keep_deposition) {
-    Recorder of_deposition(writer, scene.small_diameter);
-    const auto record = [&](const StepReport& report, const Simulation& now, const Frame* frame) {
-      of_deposition.add(report);
-      if (frame != nullptr) of_deposition.write(*frame, now);
-    };
-    deposit(scene, {.each_step = {}, .record = record});
-  }
+  const auto listen = [] {
+    if (stop_signal != 0) throw interruption("interrupted while the bed was deposited");
+  };
+  auto simulation = deposit(scene, {.each_step = listen, .record = {}});
+  Run run{simulation,
+          new_trajectory(scene, simulation, parameters, part),
+          {},
+          bed_height(simulation),
+          parameters.text("history")};
+  if (scene.keep_deposition) record_deposition(scene, run.writer);
+  run.simulation.tilt(gravity_of(parameters));
+  finish(scene, options, run);
+}
 
+void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& options)
+{
+  const std::string part = options.output + ".part";
+  const auto then = scene_of(checkpoint, options.restart);
+  require_same_bed(then, scene);
+  const bool perturbed = options.perturbation.size > 0;
+  const bool unchanged = !perturbed && to_text(scene) == to_text(then);
+  const bool in_place = unchanged && holds_something(part);
+  check_outputs(options);
+  auto simulation = go_on(checkpoint, then, scene, options.perturbation);
+  if (!in_place && simulation.steps_done() >= scene.steps_in_all())
+    throw UsageError(
+        fmt::format("{} is at t = {:g} s, where the run ends; a larger --duration "
+                    "prolongs it",
+                    options.restart, simulation.time()));
+  if (!in_place && holds_something(part)) refuse_to_overwrite(part, options);
+  require_writable(part);
+  const RemoveIfEmpty clean_up(part);
+  listen_to_signals();
+
+  const auto history = fmt::format("{}\n{} (from t = {:g} s)", checkpoint.history,
+                                   options.command_line, simulation.time());
+  const auto parameters = describe_restart(scene, options, simulation.time(), history);
+  TrajectoryProgress progress;
+  progress.begin = simulation.time();
+  if (!perturbed && moves_alike(then, scene))
+    progress.recorder.since_frame = checkpoint.trajectory.recorder.since_frame;
+  if (in_place) progress = checkpoint.trajectory;
   simulation.tilt(gravity_of(parameters));
-  const double begin = seconds_now();
-  flow(scene, simulation, recorder, progress);
-  progress.clear();
-  summarise(scene, recorder.totals(), {simulation.time(), seconds_now() - begin}, height,
-            options.quiet, writer);
-  writer.close();
-  if (stop_signal != 0)
-    throw interruption(fmt::format("interrupted at t = {:.6g} s; the frames so far are in {}",
-                                   simulation.time(), part));
-  publish(part, options.output, {scene.compression, scene.float32});
-  if (options.strict && recorder.totals().missed > 0)
-    throw CheckError(fmt::format(
-        "the tolerance was missed in {} of {} steps; allow more sweeps or a smaller step",
-        recorder.totals().missed, recorder.totals().steps));
+  Run run{simulation,
+          in_place
+              ? cut_back(part, checkpoint, options.restart, history, storage_while_running(scene))
+              : new_trajectory(scene, simulation, parameters, part),
+          progress, checkpoint.deposited_height, history};
+  finish(scene, options, run);
 }
 
 }  // namespace grseg

@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <sstream>
 
@@ -107,7 +109,8 @@ class Keys {
 void resolve_grains(const Keys& keys, Scene& scene)
 {
   scene.small_diameter = keys.length("small-diameter", {}, 1e-9, 1e6);
-  scene.large_diameter = scene.small_diameter * keys.number("size-ratio", 1, 100);
+  scene.size_ratio = keys.number("size-ratio", 1, 100);
+  scene.large_diameter = scene.small_diameter * scene.size_ratio;
   scene.spread = keys.number("spread", 0, 0.9);
   scene.density = keys.number("density", 1e-9, 1e12);
   scene.phi_large = keys.number("phi-large", 0, 1);
@@ -184,6 +187,36 @@ std::string bare(std::string option)
   return option;
 }
 
+/// Stores the keys that `in` sets, but those in `leave_out`. `place` says where a key is set.
+void read_keys(std::istream& in, const std::string& name,
+               const std::function<std::string(const std::string&)>& place,
+               const std::vector<std::string>& leave_out, po::variables_map& values)
+{
+  const auto keys = scene_options();
+  try {
+    auto parsed = po::parse_config_file(in, keys);
+    std::erase_if(parsed.options, [&](const auto& option) {
+      return std::find(leave_out.begin(), leave_out.end(), option.string_key) != leave_out.end();
+    });
+    po::store(parsed, values);
+    po::notify(values);
+  } catch (const po::unknown_option& unknown) {
+    const auto key = bare(unknown.get_option_name());
+    std::vector<std::string> known;
+    for (const auto& option : keys.options()) known.push_back(option->long_name());
+    const auto suggestion = nearest(key, known);
+    throw FormatError(fmt::format("{}: unknown key '{}'{}", place(key), key,
+                                  suggestion.empty()
+                                      ? "; grseg-sim --help lists all"
+                                      : fmt::format(", did you mean '{}'?", suggestion)));
+  } catch (const po::error_with_option_name& wrong) {
+    throw FormatError(fmt::format("{}: {}", place(bare(wrong.get_option_name())), wrong.what()));
+  } catch (const po::error& wrong) {
+    throw FormatError(
+        fmt::format("{}: {}; lines are 'key = value' or '# comment'", name, wrong.what()));
+  }
+}
+
 }  // namespace
 
 std::int64_t Scene::steps_per_frame() const
@@ -248,28 +281,17 @@ void read_scene_file(const std::string& path, po::variables_map& values)
 {
   require_file(path);
   std::ifstream file(path);
-  const auto keys = scene_options();
-  try {
-    po::store(po::parse_config_file(file, keys), values);
-    po::notify(values);
-  } catch (const po::unknown_option& unknown) {
-    const auto key = bare(unknown.get_option_name());
-    std::vector<std::string> known;
-    for (const auto& option : keys.options()) known.push_back(option->long_name());
-    const auto suggestion = nearest(key, known);
-    throw FormatError(fmt::format("{}: unknown key '{}'{}", place_of(path, key), key,
-                                  suggestion.empty()
-                                      ? "; grseg-sim --help lists all"
-                                      : fmt::format(", did you mean '{}'?", suggestion)));
-  } catch (const po::error_with_option_name& wrong) {
-    throw FormatError(
-        fmt::format("{}: {}", place_of(path, bare(wrong.get_option_name())), wrong.what()));
-  } catch (const po::error& wrong) {
-    throw FormatError(
-        fmt::format("{}: {}; lines are 'key = value' or '# comment'", path, wrong.what()));
-  }
+  read_keys(
+      file, path, [&](const std::string& key) { return place_of(path, key); }, {}, values);
 }
 
+void read_scene_text(const std::string& text, const std::string& name,
+                     const std::vector<std::string>& leave_out, po::variables_map& values)
+{
+  std::istringstream in(text);
+  read_keys(
+      in, name, [&](const std::string&) { return name; }, leave_out, values);
+}
 Scene resolve_scene(const std::string& path, const po::variables_map& given)
 {
   auto values = given;
@@ -307,7 +329,7 @@ std::string to_text(const Scene& scene)
     text += fmt::format("{} = {}\n", key, value);
   };
   add("small-diameter", scene.small_diameter);
-  add("size-ratio", scene.large_diameter / scene.small_diameter);
+  add("size-ratio", scene.size_ratio);
   add("spread", scene.spread);
   add("density", scene.density);
   add("phi-large", scene.phi_large);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace grseg {
 
@@ -16,7 +17,8 @@ namespace grseg {
 /// Phillips (2015). Every member is a key of a scene file and an option of the same name.
 struct Scene {
   double small_diameter = 0;  // m, nominal
-  double large_diameter = 0;  // m, nominal: size-ratio times the small one
+  double size_ratio = 0;      // nominal d_L/d_S
+  double large_diameter = 0;  // m, nominal: size_ratio times the small one
   double spread = 0;          // (d_max - d_min)/d of each species, uniform
   double density = 0;         // kg/m^2, of the grains
   double phi_large = 0;       // share of the large grains in the area of all grains
@@ -55,6 +57,12 @@ boost::program_options::options_description scene_options();
 /// Adds the keys of the file at `path` to `values`; what is there already wins. UsageError where
 /// the file is missing, FormatError naming file, line and remedy where a key is unknown or wrong.
 void read_scene_file(const std::string& path, boost::program_options::variables_map& values);
+
+/// The same for a scene given as text, which is called `name` in what is said of it. Keys of `text`
+/// that `leave_out` names are passed over.
+void read_scene_text(const std::string& text, const std::string& name,
+                     const std::vector<std::string>& leave_out,
+                     boost::program_options::variables_map& values);
 
 /// A key whose value cannot be.
 struct SceneError : UsageError {

@@ -50,12 +50,28 @@ struct StepReport {
 /// so no energy enters that way. A pair counts as touching when its gap at mid-step is <= 0.
 class Simulation {
  public:
+  /// All that changes from step to step and that later steps depend on.
+  struct State {
+    std::vector<Vec2> position;       // m, as in the cell
+    std::vector<std::int32_t> image;  // periods to add to x
+    std::vector<Vec2> velocity;       // m/s
+    std::vector<double> rim_speed;    // m/s, radius times angular velocity
+    std::vector<std::int32_t> row;    // of the grains, in the order of memory
+    PairList::State pairs;
+    std::int64_t steps_done = 0;
+  };
+
   /// Grains start at `position` at rest.
   Simulation(const World& world, const std::vector<Vec2>& position);
+  /// Goes on from `state`: with the same world, the steps that follow are the same to the last bit.
+  /// FormatError as in PairList::restore.
+  Simulation(const World& world, const State& state);
 
   StepReport advance();
   /// The same, and writes the step down in `frame`.
   StepReport advance(Frame& frame);
+
+  State state() const;
 
   const World& world() const { return world_; }
   std::int64_t steps_done() const { return steps_done_; }
