@@ -368,10 +368,9 @@ void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& 
   check_outputs(options);
   auto simulation = go_on(checkpoint, then, scene, options.perturbation);
   if (!in_place && simulation.steps_done() >= scene.steps_in_all())
-    throw UsageError(
-        fmt::format("{} is at t = {:g} s, where the run ends; a larger --duration "
-                    "prolongs it",
-                    options.restart, simulation.time()));
+    throw UsageError(fmt::format(
+        "{} is at t = {:g} s and the run ends at {:g} s; a larger --duration prolongs it",
+        options.restart, simulation.time(), scene.duration));
   if (!in_place && holds_something(part)) refuse_to_overwrite(part, options);
   require_writable(part);
   const RemoveIfEmpty clean_up(part);

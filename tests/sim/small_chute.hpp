@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/checkpoint.hpp"
+#include "sim/deposition.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+/// A chute of some fifty grains, deposited in an instant, tilted by 25 degrees.
+namespace grseg::small_chute {
+
+/// `words` win over the chute's own.
+inline Scene scene(const std::vector<std::string>& words = {})
+{
+  namespace po = boost::program_options;
+  const std::vector<std::string> own{"--depth", "8dS",     "--length", "8dL",        "--phi-large",
+                                     "0.5",     "--slope", "25",       "--accuracy", "draft"};
+  po::variables_map values;
+  for (const auto& line : {words, own})
+    po::store(po::command_line_parser(line).options(scene_options()).run(), values);
+  po::notify(values);
+  return resolve_scene(values);
+}
+
+inline Vec2 tilted_gravity(const Scene& scene)
+{
+  const double slope = scene.slope * std::numbers::pi / 180;
+  return scene.gravity * Vec2(std::sin(slope), -std::cos(slope));
+}
+
+inline Simulation bed(const Scene& scene)
+{
+  auto simulation = deposit(scene);
+  simulation.tilt(tilted_gravity(scene));
+  return simulation;
+}
+
+inline Checkpoint checkpoint_of(const Simulation& simulation, const Scene& scene)
+{
+  const auto& world = simulation.world();
+  const StepTotals since_frame{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, {12, 1.0 / 3}};
+  StepTotals totals;
+  totals.largest_residual = 0.1;
+  return {to_text(scene),
+          "a test",
+          "first\nsecond",
+          world.grains,
+          world.walls,
+          world.box,
+          1.0 / 7,
+          simulation.state(),
+          {3, 0xfedcba9876543210, {since_frame, totals}, 0.25, 1.5}};
+}
+
+}  // namespace grseg::small_chute

@@ -1,0 +1,122 @@
+#!/bin/sh
+# A run that is interrupted or killed and goes on ends as the undisturbed one; other runs begin new
+# trajectories; what cannot be is refused in one sentence. Usage: restart_test.sh SOURCE BIN
+set -eu
+bin=$2 chute="$1/sim/scenes/chute.ini --depth 10dS --length 10dL --phi-large 0.5 --accuracy draft --frame-interval 0.02"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "$1" >&2; exit 1; }
+# Frames and observables, that is all but what the file says of its history.
+content() { h5dump -d /grseg/digest -g /observables "$1" | sed 1d; }
+numbers() { h5dump -y -w 1 -d "$1" "$2" | grep '^ *[0-9.-]' | tr -d ', '; }
+# refused CODE SENTENCE OPTIONS...
+refused() {
+  expected=$1 sentence=$2 code=0
+  shift 2
+  "$bin/grseg-sim" --quiet "$@" 2>words || code=$?
+  [ "$code" = "$expected" ] || fail "exit code $code where $expected is expected: $*: $(cat words)"
+  [ "$(cat words)" = "grseg-sim: $sentence" ] || fail "$* says: $(cat words)"
+}
+
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 20 -o whole.h5
+content whole.h5 >whole
+
+# stopped SIGNAL CHECKPOINT SECONDS OPTIONS...: a run that gets SIGNAL some time after its checkpoint is
+# there; its exit code is left in $code, its words in the file words.
+stopped() {
+  signal=$1 checkpoint=$2 wait=$3 code=0
+  shift 3
+  "$bin/grseg-sim" --quiet --checkpoint "$checkpoint" "$@" 2>words &
+  while [ ! -e "$checkpoint" ] && kill -0 $! 2>/dev/null; do sleep 0.01; done
+  sleep "$wait"
+  kill -s "$signal" $! 2>/dev/null || true
+  wait $! || code=$?
+}
+
+# SIGINT and SIGTERM: the run says how to go on, and does.
+for signal in INT TERM; do
+  # shellcheck disable=SC2086
+  stopped $signal run$signal.chk 0.3 $chute --duration 20 -o $signal.h5
+  [ $code = 130 ] || [ $code = 143 ] || fail "exit code $code after SIG$signal"
+  grep -q "the frames so far are in $signal.h5.part, --restart run$signal.chk goes on$" words || fail "$(cat words)"
+  $bin/grseg-sim --restart run$signal.chk --quiet -o $signal.h5
+  content $signal.h5 | cmp - whole || fail "SIG$signal and a restart changed the run"
+done
+mv runTERM.chk run.chk
+
+# Killed again and again, wherever it is, also while it writes a frame or a checkpoint.
+# shellcheck disable=SC2086
+stopped KILL killed.chk 0.2 $chute --duration 20 --checkpoint-every 0 -o killed.h5
+for wait in 0.31 0.17 0.42 0.23 0.38; do
+  [ ! -e killed.h5 ] || break
+  stopped KILL killed.chk $wait --restart killed.chk --checkpoint-every 0 -o killed.h5
+done
+[ -e killed.h5 ] || $bin/grseg-sim --quiet --restart killed.chk -o killed.h5
+content killed.h5 | cmp - whole || fail "kills and restarts changed the run"
+[ "$(h5dump -d /parameters/history killed.h5 | grep -c 'grseg-sim.*killed.h5')" -ge 2 ] ||
+  fail "the history does not tell of the restarts"
+
+# A run without its .part begins a new trajectory; a finished run is prolonged. Both have the frames
+# of one long run.
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 2 --checkpoint two.chk -o two.h5
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 3 -o three.h5
+$bin/grseg-sim --restart two.chk --duration 3 --quiet -o more.h5
+for of in /particles/grains/position/step /particles/grains/velocity/value /observables/sweeps/value \
+  /observables/base_force_y/value; do
+  numbers $of three.h5 >long
+  numbers $of two.h5 >short
+  numbers $of more.h5 >>short
+  cmp long short || fail "the prolonged run differs in $of"
+done
+# With the same command line again, scene file and all.
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 3 --restart two.chk -o again.h5
+content again.h5 >again
+content more.h5 | cmp - again || fail "the scene file beside --restart changed the run"
+
+# Copies of one state diverge, each its own way, and say how they were made.
+for seed in 1 2; do
+  $bin/grseg-sim --restart two.chk --duration 3 --perturb 1e-6 --seed-perturbation $seed --quiet -o copy$seed.h5
+  content copy$seed.h5 >copy$seed
+done
+cmp -s copy1 copy2 && fail "two seeds gave the same copy"
+cmp -s copy1 again && fail "the perturbation changed nothing"
+h5dump -d /parameters/seed_perturbation copy2.h5 | grep -q '(0): 2' || fail "the seed is not recorded"
+h5dump -d /parameters/restart_time copy2.h5 | grep -q '(0): 2' || fail "the time is not recorded"
+
+# Another step: the time goes on.
+$bin/grseg-sim --restart two.chk --duration 3 --accuracy standard --quiet -o fine.h5
+first=$(numbers /particles/grains/position/time fine.h5 | head -n 1)
+case $first in 2.0000*) ;; *) fail "with another step the run goes on at t = $first" ;; esac
+
+refused 2 "nowhere.chk: there is no such file" --restart nowhere.chk -o x.h5
+refused 3 "whole.h5: is no checkpoint of grseg-sim; name the file that --checkpoint wrote" \
+  --restart whole.h5 -o x.h5
+head -c 20000 two.chk >torn.chk
+refused 3 "torn.chk: is no checkpoint, or is truncated or damaged" --restart torn.chk -o x.h5
+refused 2 "phi-large differs from the checkpoint's: it belongs to the bed, which a restart keeps; leave it out, or begin a new run without --restart" \
+  --restart two.chk --phi-large 0.3 -o x.h5
+refused 2 "two.chk is at t = 2 s and the run ends at 2 s; a larger --duration prolongs it" --restart two.chk -o x.h5
+refused 2 "perturb is 0.5: it must lie between 0 and 0.01 d_S" --restart two.chk --perturb 0.5 -o x.h5
+refused 2 "--perturb displaces the grains of a checkpoint; name one by --restart" --perturb 1e-6 -o x.h5
+refused 2 "two.chk is there already; choose another name, remove it, or say --overwrite" \
+  --restart run.chk --checkpoint two.chk -o x.h5
+refused 2 "checkpoint and trajectory cannot be one file; name another for --checkpoint" \
+  --restart run.chk --checkpoint x.h5 -o x.h5
+
+# A .part that is not of this run stays as it is.
+cp two.h5 x.h5.part
+refused 2 "x.h5.part does not hold the frames of run.chk; move it away to begin a new trajectory, or choose another name for --output" \
+  --restart run.chk -o x.h5
+refused 2 "x.h5.part is there already; choose another name, remove it, or say --overwrite" \
+  --restart run.chk --slope 22 -o x.h5
+cmp two.h5 x.h5.part || fail "the .part of another run was touched"
+head -c 20000 two.h5 >x.h5.part
+refused 3 "x.h5.part: is no HDF5 file, or is truncated or damaged; move it away to begin a new trajectory at the checkpoint" \
+  --restart run.chk -o x.h5
+[ "$(wc -c <x.h5.part)" = 20000 ] || fail "a torn .part was touched"
+for left in *.part.part *.chk.part; do [ ! -e "$left" ] || fail "$left was left behind"; done
