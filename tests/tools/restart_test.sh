@@ -53,7 +53,7 @@ for wait in 0.31 0.17 0.42 0.23 0.38; do
   [ ! -e killed.h5 ] || break
   stopped KILL killed.chk $wait --restart killed.chk --checkpoint-every 0 -o killed.h5
 done
-[ -e killed.h5 ] || $bin/grseg-sim --quiet --restart killed.chk -o killed.h5
+[ -e killed.h5 ] || $bin/grseg-sim --quiet --restart killed.chk --checkpoint killed.chk -o killed.h5
 content killed.h5 | cmp - whole || fail "kills and restarts changed the run"
 [ "$(h5dump -d /parameters/history killed.h5 | grep -c 'grseg-sim.*killed.h5')" -ge 2 ] ||
   fail "the history does not tell of the restarts"
