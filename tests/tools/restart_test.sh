@@ -58,6 +58,15 @@ content killed.h5 | cmp - whole || fail "kills and restarts changed the run"
 [ "$(h5dump -d /parameters/history killed.h5 | grep -c 'grseg-sim.*killed.h5')" -ge 2 ] ||
   fail "the history does not tell of the restarts"
 
+# In single precision, compressed at the end, with the deposition before it.
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 10 --store float32 --compression 1 --keep-deposition -o single.h5
+# shellcheck disable=SC2086
+stopped KILL single.chk 0.2 $chute --duration 10 --store float32 --compression 1 --keep-deposition -o parted.h5
+$bin/grseg-sim --quiet --restart single.chk -o parted.h5
+content single.h5 >single
+content parted.h5 | cmp - single || fail "a restart changed the run in single precision"
+
 # A run without its .part begins a new trajectory; a finished run is prolonged. Both have the frames
 # of one long run.
 # shellcheck disable=SC2086
