@@ -148,20 +148,6 @@ TEST(Restart, AnotherStepKeepsTheTimeAndScalesTheImpulses)
   EXPECT_GT(largest, 0);
 }
 
-// A bed at rest under steps half as long: with impulses of the old length the first sweep would
-// begin with twice the weight.
-TEST(Restart, AShorterStepNeedsNoMoreSweepsThanBefore)
-{
-  auto chute = scene({"--slope", "0"});
-  auto simulation = bed(chute);
-  for (int k = 0; k < 2000; ++k) simulation.advance();
-  auto finer = chute;
-  finer.step = chute.step / 2;
-  auto again = go_on(checkpoint_of(simulation, chute), chute, finer, {});
-  again.tilt(tilted_gravity(finer));
-  EXPECT_EQ(again.advance().solver.sweeps, simulation.advance().solver.sweeps);
-}
-
 TEST(Restart, AStepThatDoesNotDivideTheTimeIsRefusedWithARemedy)
 {
   const auto chute = scene();
