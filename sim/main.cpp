@@ -7,9 +7,8 @@
 namespace grseg {
 namespace {
 
-po::options_description run_options(RunOptions& run)
+void add_run_options(po::options_description& options, RunOptions& run)
 {
-  po::options_description options;
   auto add = options.add_options();
   add("output,o", po::value(&run.output)->value_name("FILE"), "the trajectory to write");
   add("overwrite", po::bool_switch(&run.overwrite), "replace files that are there already");
@@ -25,7 +24,6 @@ po::options_description run_options(RunOptions& run)
   add("perturb", po::value(&run.perturbation.size),
       "at a restart, displace every mobile grain at random by up to this many d_S, such as 1e-6");
   add("seed-perturbation", po::value(&run.perturbation.seed), "of --perturb; else that of the run");
-  return options;
 }
 
 void check(const RunOptions& run, const po::variables_map& given)
@@ -58,7 +56,7 @@ int main(int argc, char** argv)
       "  grseg-sim --restart run.chk --perturb 1e-6 --seed-perturbation 2 -o twin.h5\n"};
   RunOptions run;
   po::options_description options("Options");
-  options.add(run_options(run));
+  add_run_options(options, run);
   options.add(scene_options());
   run.command_line = command_line(argc, argv);
   return run_tool(argc, argv, info, options, [&](const po::variables_map& given) {

@@ -20,7 +20,7 @@ refused() {
 }
 
 # shellcheck disable=SC2086
-$bin/grseg-sim --quiet $chute --duration 20 -o whole.h5
+$bin/grseg-sim --quiet $chute --duration 10 -o whole.h5
 content whole.h5 >whole
 
 # stopped SIGNAL CHECKPOINT SECONDS OPTIONS...: a run that gets SIGNAL some time after its checkpoint is
@@ -38,7 +38,7 @@ stopped() {
 # SIGINT and SIGTERM: the run says how to go on, and does.
 for signal in INT TERM; do
   # shellcheck disable=SC2086
-  stopped $signal run$signal.chk 0.3 $chute --duration 20 -o $signal.h5
+  stopped $signal run$signal.chk 0.1 $chute --duration 10 -o $signal.h5
   [ $code = 130 ] || [ $code = 143 ] || fail "exit code $code after SIG$signal"
   grep -q "the frames so far are in $signal.h5.part, --restart run$signal.chk goes on$" words || fail "$(cat words)"
   $bin/grseg-sim --restart run$signal.chk --quiet -o $signal.h5
@@ -48,8 +48,8 @@ mv runTERM.chk run.chk
 
 # Killed again and again, wherever it is, also while it writes a frame or a checkpoint.
 # shellcheck disable=SC2086
-stopped KILL killed.chk 0.2 $chute --duration 20 --checkpoint-every 0 -o killed.h5
-for wait in 0.31 0.17 0.42 0.23 0.38; do
+stopped KILL killed.chk 0.12 $chute --duration 10 --checkpoint-every 0 -o killed.h5
+for wait in 0.13 0.07 0.21 0.18; do
   [ ! -e killed.h5 ] || break
   stopped KILL killed.chk $wait --restart killed.chk --checkpoint-every 0 -o killed.h5
 done
@@ -60,9 +60,9 @@ content killed.h5 | cmp - whole || fail "kills and restarts changed the run"
 
 # In single precision, compressed at the end, with the deposition before it.
 # shellcheck disable=SC2086
-$bin/grseg-sim --quiet $chute --duration 10 --store float32 --compression 1 --keep-deposition -o single.h5
+$bin/grseg-sim --quiet $chute --duration 6 --store float32 --compression 1 --keep-deposition -o single.h5
 # shellcheck disable=SC2086
-stopped KILL single.chk 0.2 $chute --duration 10 --store float32 --compression 1 --keep-deposition -o parted.h5
+stopped KILL single.chk 0.1 $chute --duration 6 --store float32 --compression 1 --keep-deposition -o parted.h5
 $bin/grseg-sim --quiet --restart single.chk -o parted.h5
 content single.h5 >single
 content parted.h5 | cmp - single || fail "a restart changed the run in single precision"
