@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/pair_list.hpp"
 
-#include "sim/contact_blocks.hpp"
 #include "formats/errors.hpp"
+#include "sim/contact_blocks.hpp"
 
 #include <algorithm>
 #include <bit>
