@@ -30,9 +30,14 @@ class Sample:
     flow: float           # from the state to the end
 
     @property
-    def rate(self):
-        """Simulated seconds per wall second."""
-        return self.steps * self.step / self.wall
+    def cpu(self):
+        """s of processor time of the timed part, as if the process had its share evenly."""
+        return self.wall * self.cost.cpu_share
+
+    @property
+    def flowed(self):
+        """s of flow in the timed part."""
+        return self.steps * self.step
 
 
 def in_words(command, environment, short):

@@ -17,6 +17,7 @@ from . import process
 from .state import read_run, WRITERS
 
 STATE_STEP = 1e-4  # s; the state's overlaps are then about those of soft discs with kn 1e5
+FRAME_INTERVAL = 0.05  # s, of the scene; grseg-sim fits its step into it, so another is another run
 
 
 def make_state(program, scene, flow, folder, core):
@@ -56,23 +57,23 @@ class RigidDiscs:
     def missing(self):
         return None
 
-    def run(self, folder, data, flow, core, interval=0.05):
+    def run(self, folder, data, flow, core):
         """Flows for `flow` seconds from the state into run.h5 in `folder`; its cost."""
-        return process.run(self.command(data, data["time"] + flow, interval), folder, core)
+        return process.run(self.command(data, data["time"] + flow), folder, core)
 
-    def command(self, data, until, interval):
+    def command(self, data, until):
         """`until` counts from the tilt, s."""
         checkpoint = checkpoint_of(data["folder"])
         start = ["--restart", checkpoint] if os.path.exists(checkpoint) else [self.scene]
         return [self.program, *start, *shlex.split(self.options), "--duration", f"{until:.10g}",
-                "--frame-interval", repr(interval), "-o", "run.h5", "--overwrite"]
+                "-o", "run.h5", "--overwrite"]
 
     def sample(self, folder, data, flow, core):
         """Times `flow` seconds; overlaps are those of their second half."""
         if self.way_to_state is None:
             restarts = os.path.exists(checkpoint_of(data["folder"]))
             self.way_to_state = 0.0 if restarts else self.run(folder, data, 0, core).wall
-        flow = math.ceil(flow / 0.05) * 0.05
+        flow = math.ceil(flow / FRAME_INTERVAL) * FRAME_INTERVAL
         cost = self.run(folder, data, flow, core)
         path = os.path.join(folder, "run.h5")
         seen = observables(path, data["units"], since=data["time"] + flow / 2)
@@ -83,7 +84,7 @@ class RigidDiscs:
             steps=round(flow / seen["step"]), velocity=velocity[-1], flow=flow, **seen)
 
     def command_line(self, data, flow):
-        return process.in_words(self.command(data, data["time"] + flow, 0.05), None,
+        return process.in_words(self.command(data, data["time"] + flow), None,
                                 [(data["folder"], "."), (self.program, "grseg-sim"),
                                  (self.scene, "sim/scenes/chute.ini")])
 

@@ -110,7 +110,8 @@ class SoftDiscs:
 
     def command_line(self, data, plan):
         command, environment = self.command(data, plan)
-        return process.in_words(command, environment, [(data["folder"], "."), (HERE, "scripts/peers")])
+        return process.in_words(command, environment,
+                                [(data["folder"], "."), (HERE, "scripts/peers")])
 
     def run(self, folder, data, plan, core):
         command, environment = self.command(data, plan)
@@ -185,9 +186,8 @@ class Yade(SoftDiscs):
 
     def command(self, data, plan):
         environment = dict(STATE=data["text"], KN=self.kn, EN=restitution_with_pull(),
-                           DT=self.step, VERLET=0.15, GRAVITY=plan.gravity,
-                           WARM=plan.warm, STEPS=plan.timed, EVERY=plan.every,
-                           FRAMES=plan.frames)
+                           DT=self.step, VERLET=0.15, GRAVITY=plan.gravity, WARM=plan.warm,
+                           STEPS=plan.timed, EVERY=plan.every, FRAMES=plan.frames)
         return (["yade", "-x", "-n", "-j1", os.path.join(HERE, "chute_yade.py")],
                 {name: str(value) for name, value in environment.items()})
 

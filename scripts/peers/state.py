@@ -80,8 +80,9 @@ def read_run(path):
 def write_data(state, out):
     """Atom lines: id type diameter density x y z; the same for both programs."""
     low, high = state.position[:, 1].min() - 4, state.position[:, 1].max() + 60
-    out.write(f"state of a grseg run, d_S = g = rho = 1\n\n{len(state.type)} atoms\n3 atom types\n"
-              f"0 {state.length:.17g} xlo xhi\n{low:.17g} {high:.17g} ylo yhi\n-0.5 0.5 zlo zhi\n\nAtoms\n\n")
+    out.write(f"state of a grseg run, d_S = g = rho = 1\n\n"
+              f"{len(state.type)} atoms\n3 atom types\n0 {state.length:.17g} xlo xhi\n"
+              f"{low:.17g} {high:.17g} ylo yhi\n-0.5 0.5 zlo zhi\n\nAtoms\n\n")
     for i, (kind, r, (x, y)) in enumerate(zip(state.type, state.radius, state.position), 1):
         out.write(f"{i} {kind} {2 * r:.17g} 1 {x:.17g} {y:.17g} 0\n")
     out.write("\nVelocities\n\n")
@@ -93,7 +94,8 @@ def write_text(state, out):
     out.write(f"{state.length:.17g} {len(state.type)}\n")
     for kind, r, (x, y), (u, v), w in zip(state.type, state.radius, state.position, state.velocity,
                                           state.spin):
-        out.write(f"{int(kind == BASE)} {kind} {r:.17g} {x:.17g} {y:.17g} {u:.17g} {v:.17g} {w:.17g}\n")
+        numbers = " ".join(f"{value:.17g}" for value in (r, x, y, u, v, w))
+        out.write(f"{int(kind == BASE)} {kind} {numbers}\n")
 
 
 WRITERS = {"data": write_data, "text": write_text}

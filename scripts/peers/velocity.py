@@ -6,7 +6,9 @@ is kept, so that an interrupted comparison goes on where it was.
 import os
 import sys
 
-from .rigid_discs import mean_velocities, RigidDiscs
+import numpy as np
+
+from .rigid_discs import FRAME_INTERVAL, mean_velocities, RigidDiscs
 from .soft_discs import Plan
 
 INTERVAL = 0.5  # s
@@ -15,9 +17,12 @@ INTERVAL = 0.5  # s
 def curve(program, data, seconds, folder, core):
     """Rows (s since the state, mean velocity in sqrt(g d_S))."""
     if isinstance(program, RigidDiscs):
-        program.run(folder, data, seconds + INTERVAL / 10, core, interval=INTERVAL)
+        program.run(folder, data, seconds + FRAME_INTERVAL, core)
         time, velocity = mean_velocities(os.path.join(folder, "run.h5"), data["units"])
-        return [(t - data["time"], v) for t, v in zip(time, velocity) if t > data["time"] - 1e-3]
+        since = time - data["time"]
+        instants = np.arange(0, seconds + INTERVAL / 2, INTERVAL)
+        nearest = [int(np.abs(since - instant).argmin()) for instant in instants]
+        return [(since[k], velocity[k]) for k in nearest]
     step = program.step * data["units"].time
     every = round(INTERVAL / step)
     plan = Plan(warm=0, timed=round(seconds / INTERVAL) * every, every=1, frames=1, slice=every)
@@ -36,7 +41,7 @@ def compare(programs, data, seconds, folder, core):
             rows = curve(program, data, seconds, os.path.join(folder, name), core)
             with open(path + ".part", "w") as out:
                 out.write("time[s]\tvelocity[sqrt(g d_S)]\n")
-                out.writelines(f"{t:.4f}\t{v:.6g}\n" for t, v in rows)
+                out.writelines(f"{max(t, 0):.4f}\t{v:.6g}\n" for t, v in rows)
             os.rename(path + ".part", path)
         with open(path) as lines:
             next(lines)
