@@ -1,7 +1,7 @@
 """grseg-sim: makes the common state and goes on from it.
 
-With a checkpoint beside the state's trajectory, grseg-sim restarts from exactly that state. Without
-one it runs again from the tilt with the same seed, and the cost of the way to the state is taken off.
+With a checkpoint, grseg-sim restarts from exactly that state. A grseg-sim that cannot write one runs
+again from the tilt with the same seed, and the cost of the way to the state is taken off.
 """
 import math
 import os
@@ -21,18 +21,28 @@ FRAME_INTERVAL = 0.05  # s, of the scene; grseg-sim fits its step into it, so an
 
 
 def make_state(program, scene, flow, folder, core):
-    """The state after `flow` seconds, in every form the peers read; what is there is kept."""
+    """The state after `flow` seconds, in every form the programs read; what is there is kept.
+
+    The peers' state is that after the first step beyond the checkpoint, as frames are half steps.
+    """
     run = os.path.join(folder, "state.h5")
+    checkpoint = checkpoint_of(folder)
     if not os.path.exists(run):
-        # One step more than a whole number of frames: the last frame is the last step.
-        command = [program, scene, "--step", repr(STATE_STEP), "--duration", repr(flow + STATE_STEP),
-                   "-o", run]
+        start = [program, scene]
         if "--checkpoint" in subprocess.run([program, "--help"], capture_output=True, text=True,
                                             check=True).stdout:
-            command += ["--checkpoint", checkpoint_of(folder)]
-        process.run(command, os.path.join(folder, "state"), core)
+            way = os.path.join(folder, "way.h5")
+            process.run([*start, "--step", repr(STATE_STEP), "--duration", repr(flow), "--overwrite",
+                         "--checkpoint", checkpoint, "-o", way], os.path.join(folder, "state"), core)
+            os.remove(way)
+            start = [program, "--restart", checkpoint]
+        process.run([*start, "--step", repr(STATE_STEP), "--duration", repr(flow + STATE_STEP),
+                     "-o", run], os.path.join(folder, "state"), core)
     state, units, time = read_run(run)
-    data = {"state": state, "units": units, "time": time, "folder": folder}
+    if abs(time - flow - STATE_STEP) > STATE_STEP / 2:
+        sys.exit(f"compare-peers: {run} is of {time:g} s of flow, not of {flow:g} s; remove it, "
+                 "or choose another folder")
+    data = {"state": state, "units": units, "flow": flow, "folder": folder}
     for form, write in WRITERS.items():
         data[form] = os.path.join(folder, "state." + form)
         with open(data[form], "w") as out:
@@ -59,7 +69,7 @@ class RigidDiscs:
 
     def run(self, folder, data, flow, core):
         """Flows for `flow` seconds from the state into run.h5 in `folder`; its cost."""
-        return process.run(self.command(data, data["time"] + flow), folder, core)
+        return process.run(self.command(data, data["flow"] + flow), folder, core)
 
     def command(self, data, until):
         """`until` counts from the tilt, s."""
@@ -76,7 +86,7 @@ class RigidDiscs:
         flow = math.ceil(flow / FRAME_INTERVAL) * FRAME_INTERVAL
         cost = self.run(folder, data, flow, core)
         path = os.path.join(folder, "run.h5")
-        seen = observables(path, data["units"], since=data["time"] + flow / 2)
+        seen = observables(path, data["units"], since=data["flow"] + flow / 2)
         _, velocity = mean_velocities(path, data["units"])
         os.remove(path)
         return process.Sample(
@@ -84,7 +94,7 @@ class RigidDiscs:
             steps=round(flow / seen["step"]), velocity=velocity[-1], flow=flow, **seen)
 
     def command_line(self, data, flow):
-        return process.in_words(self.command(data, data["time"] + flow), None,
+        return process.in_words(self.command(data, data["flow"] + flow), None,
                                 [(data["folder"], "."), (self.program, "grseg-sim"),
                                  (self.scene, "sim/scenes/chute.ini")])
 

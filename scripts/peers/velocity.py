@@ -19,7 +19,7 @@ def curve(program, data, seconds, folder, core):
     if isinstance(program, RigidDiscs):
         program.run(folder, data, seconds + FRAME_INTERVAL, core)
         time, velocity = mean_velocities(os.path.join(folder, "run.h5"), data["units"])
-        since = time - data["time"]
+        since = time - data["flow"]
         instants = np.arange(0, seconds + INTERVAL / 2, INTERVAL)
         nearest = [int(np.abs(since - instant).argmin()) for instant in instants]
         return [(since[k], velocity[k]) for k in nearest]
