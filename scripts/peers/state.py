@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+"""State of a run at the end of its last frame's step, for other programs.
+
+    scripts/peers/state.py run.h5 --to data|text [-o FILE]
+
+Units of what is written: small nominal diameter = gravity = density (mass per area) = 1. A frame
+holds positions of mid-step and velocities after it; the positions go the other half step, wrapped
+into [0, length). Boundary grains are at rest.
+
+    data    what LAMMPS (atom_style sphere) and LIGGGHTS (granular) read. The density 1 is that of
+            discs: LIGGGHTS takes it so in two dimensions, LAMMPS after `set group all density/disc 1`
+    text    first line: length, number; then fixed(0/1) type radius x y vx vy omega
+
+Types: 1 boundary, 2 large, 3 small. Ids count from 1 in the order of the run.
+"""
+import argparse
+import dataclasses
+import sys
+
+import h5py
+import numpy as np
+
+BASE, LARGE, SMALL = 1, 2, 3
+TYPE_OF_SPECIES = np.array([SMALL, LARGE, BASE])
+
+
+@dataclasses.dataclass
+class State:
+    length: float              # period along x, d_S
+    type: np.ndarray           # BASE, LARGE, SMALL
+    radius: np.ndarray         # d_S
+    position: np.ndarray       # [N][2], d_S
+    velocity: np.ndarray       # [N][2], sqrt(g d_S)
+    spin: np.ndarray           # counter-clockwise, sqrt(g/d_S)
+
+    @property
+    def mass(self):
+        return np.pi * self.radius**2
+
+    @property
+    def mobile(self):
+        return self.type != BASE
+
+
+@dataclasses.dataclass
+class Units:
+    """SI value of one unit."""
+    length: float
+    time: float
+
+    @property
+    def velocity(self):
+        return self.length / self.time
+
+
+def read_run(path):
+    """The state after the last frame's step, its units and its time in s."""
+    with h5py.File(path, "r") as run:
+        grains, parameters = run["particles/grains"], run["parameters"]
+        frames = len(run["grseg/contacts/offset"]) - 1
+        if frames < 1:
+            sys.exit(f"{path}: holds no frame; let the run flow for at least one step")
+        d = float(parameters["small_diameter"][()])
+        g = float(np.hypot(*parameters["gravity"][:]))
+        half = float(parameters["step"][()]) / 2
+        units = Units(d, (d / g)**0.5)
+        length = float(grains["box/edges"][0])
+        velocity = grains["velocity/value"][frames - 1].astype(float)
+        position = grains["position/value"][frames - 1] + half * velocity
+        position[:, 0] %= length
+        spin = grains["angular_velocity/value"][frames - 1].astype(float)
+        type_ = TYPE_OF_SPECIES[grains["species"][:]]
+        velocity[type_ == BASE] = 0
+        spin[type_ == BASE] = 0
+        state = State(length / d, type_, grains["radius"][:] / d, position / d,
+                      velocity / units.velocity, spin * units.time)
+        return state, units, float(grains["position/time"][frames - 1]) + half
+
+
+def write_data(state, out):
+    """Atom lines: id type diameter density x y z; the same for both programs."""
+    low, high = state.position[:, 1].min() - 4, state.position[:, 1].max() + 60
+    out.write(f"state of a grseg run, d_S = g = rho = 1\n\n"
+              f"{len(state.type)} atoms\n3 atom types\n0 {state.length:.17g} xlo xhi\n"
+              f"{low:.17g} {high:.17g} ylo yhi\n-0.5 0.5 zlo zhi\n\nAtoms\n\n")
+    for i, (kind, r, (x, y)) in enumerate(zip(state.type, state.radius, state.position), 1):
+        out.write(f"{i} {kind} {2 * r:.17g} 1 {x:.17g} {y:.17g} 0\n")
+    out.write("\nVelocities\n\n")
+    for i, ((u, v), w) in enumerate(zip(state.velocity, state.spin), 1):
+        out.write(f"{i} {u:.17g} {v:.17g} 0 0 0 {w:.17g}\n")
+
+
+def write_text(state, out):
+    out.write(f"{state.length:.17g} {len(state.type)}\n")
+    for kind, r, (x, y), (u, v), w in zip(state.type, state.radius, state.position, state.velocity,
+                                          state.spin):
+        numbers = " ".join(f"{value:.17g}" for value in (r, x, y, u, v, w))
+        out.write(f"{int(kind == BASE)} {kind} {numbers}\n")
+
+
+WRITERS = {"data": write_data, "text": write_text}
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__,
+                                      formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("run")
+    options.add_argument("--to", choices=WRITERS, required=True)
+    options.add_argument("-o", "--output")
+    given = options.parse_args()
+    state, _, _ = read_run(given.run)
+    if given.output is None:
+        WRITERS[given.to](state, sys.stdout)
+    else:
+        with open(given.output, "w") as out:
+            WRITERS[given.to](state, out)
+
+
+if __name__ == "__main__":
+    main()
