@@ -55,7 +55,7 @@ TEST(Energy, EveryStepOfAFlowAccountsForItsEnergyToRoundOff)
     double largest = 0;
     for (int step = 0; step < 1500; ++step)
       largest = std::max(largest, balance_of_a_step(simulation).defect());
-    EXPECT_LT(largest, 1e-12);  // 2e-15
+    EXPECT_LT(largest, 1e-12);  // 1.3e-15
   }
 }
 

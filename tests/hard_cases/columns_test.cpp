@@ -130,6 +130,7 @@ struct Burdened {
   Burdened(int discs, int sweeps, int steps)
   {
     std::vector<worlds::Disc> column;
+    column.reserve(static_cast<std::size_t>(discs));
     for (int k = 0; k < discs; ++k) column.push_back({{0, 0.5 + k}, 0.5});
     auto world = worlds::world_of(column);
     world.walls = {worlds::floor_at(0)};

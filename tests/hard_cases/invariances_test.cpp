@@ -47,7 +47,7 @@ TEST(Units, LengthsAThousandthAndMassesAMillionTimesGiveTheSameFlow)
   ASSERT_EQ(in_a.contacts.j, in_b.contacts.j);
   const double weight = 9.8 * original.world.grains.mass[0];
   for (std::size_t c = 0; c < in_a.contacts.size(); ++c)
-    EXPECT_NEAR((in_b.contacts.force[c] / mass - in_a.contacts.force[c]).norm() / weight, 0, 1e-7);
+    EXPECT_NEAR((in_b.contacts.force[c] / mass - in_a.contacts.force[c]).norm() / weight, 0, 1e-9);
 }
 
 /// All that the last frame of a flow says, as bits.
