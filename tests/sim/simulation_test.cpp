@@ -25,37 +25,6 @@ void run(Simulation& simulation, double duration)
   for (std::int64_t k = 0; k < steps; ++k) simulation.advance();
 }
 
-TEST(Simulation, FreeFallIsExactForAnyStep)
-{
-  const std::vector<Disc> discs{{{0, 100}, 0.5}};
-  auto world = world_of(discs);
-  world.gravity = {0, -g};
-  world.step = 0.01;
-  Simulation simulation(world, positions_of(discs));
-  run(simulation, 2);
-  EXPECT_NEAR(simulation.position(0).y(), 100 - g * 2 * 2 / 2, 1e-11);
-  EXPECT_NEAR(simulation.velocity(0).y(), -2 * g, 1e-12);
-}
-
-TEST(Simulation, TwoDiscsReboundWithRestitutionEAtEveryPhaseOfTheStep)
-{
-  for (int phase = 0; phase < 50; ++phase) {
-    const double gap = 0.02 + 1e-3 * phase / 50 * 3;
-    const std::vector<Disc> discs{{{0, 0}, 0.5}, {{1 + gap, 0}, 0.25}};
-    const std::vector<Vec2> at{{0, 0}, {0.75 + gap, 0}};
-    auto world = world_of(discs);
-    world.material = {0.5, 0.25};
-    Simulation simulation(world, at);
-    simulation.set_velocity(0, {1, 0});
-    simulation.set_velocity(1, {-2, 0});
-    run(simulation, 0.1);
-    EXPECT_NEAR(simulation.velocity(1).x() - simulation.velocity(0).x(), 0.25 * 3, 1e-13);
-    const double m0 = world.grains.mass[0], m1 = world.grains.mass[1];
-    EXPECT_NEAR(m0 * simulation.velocity(0).x() + m1 * simulation.velocity(1).x(), m0 - 2 * m1,
-                1e-13);
-  }
-}
-
 TEST(Simulation, ADiscRollsDownAnInclineAtTwoThirdsOfGSin)
 {
   const double slope = 0.4;  // tan = 0.42 < 3 mu

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/sweep.hpp"
 
-#include "sim/simulation.hpp"
 #include "tests/frozen_problem.hpp"
-#include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -205,36 +203,6 @@ TEST_P(SweepOn, ImpulsesAppliedMoveTheBodiesAsRelaxingDid)
     EXPECT_NEAR(again[g].vy, p.motion[g].vy, 1e-13);
     EXPECT_NEAR(again[g].rim_speed, p.motion[g].rim_speed, 1e-13);
   }
-}
-
-/// Velocities after 500 steps of a heap that falls on a floor, as bits.
-std::vector<double> after_a_fall()
-{
-  std::vector<worlds::Disc> discs;
-  for (int k = 0; k < 60; ++k)
-    discs.push_back(
-        {{1.1 * (k % 6) + 0.1 * (k / 6 % 2), 0.6 + 1.1 * (k / 6)}, 0.4 + 0.01 * (k % 9)});
-  auto world = worlds::world_of(discs);
-  world.walls = {worlds::floor_at(0)};
-  world.material.restitution = 0.25;
-  world.gravity = {1, -9.8};
-  world.solver = {1e-2, 500};
-  Simulation simulation(world, worlds::positions_of(discs));
-  for (int step = 0; step < 500; ++step) simulation.advance();
-  std::vector<double> velocities;
-  for (std::size_t g = 0; g < discs.size(); ++g) {
-    velocities.push_back(simulation.velocity(g).x());
-    velocities.push_back(simulation.velocity(g).y());
-    velocities.push_back(simulation.angular_velocity(g));
-  }
-  return velocities;
-}
-
-TEST_P(SweepOn, ARunGivesTheBytesOfTheBestInstructionSet)
-{
-  const auto here = after_a_fall();
-  use_instruction_set("");
-  EXPECT_EQ(here, after_a_fall());
 }
 
 TEST(ContactBlocks, NoMobileBodyAppearsTwiceInABlock)

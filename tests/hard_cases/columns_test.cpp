@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/solver.hpp"
+#include "tests/sim/worlds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+/// How fast sweeps find the forces in a column of discs on a floor, where theory has it in closed
+/// form. The contacts of a column form a path, so Gauss-Seidel contracts errors by the square of
+/// what Jacobi does in whatever order it sweeps, by colour too (Young 1954, consistent order).
+namespace grseg::hard_cases {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double gh = 9.8e-3;  // m/s, what gravity adds per step
+
+/// Discs of these masses one above the other, each falling at g h, no impulse known. Contact k
+/// joins disc k to the one below it or to the floor.
+struct Column {
+  std::vector<Motion> motion;
+  std::vector<Contact> contacts;
+
+  explicit Column(const std::vector<double>& masses)
+  {
+    for (const double m : masses) motion.push_back({0, -gh, 0, 1 / m});
+    motion.push_back({});
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      Contact c{};
+      c.i = static_cast<std::int32_t>(k);
+      c.j = static_cast<std::int32_t>(k == 0 ? masses.size() : k - 1);
+      c.ny = c.kappa = 1;
+      c.mass_n = 1 / (motion[k].inverse_mass + (k == 0 ? 0 : motion[k - 1].inverse_mass));
+      c.mass_t = c.mass_n / 3;
+      contacts.push_back(c);
+    }
+  }
+
+  SolverReport solve(double tolerance, int sweeps)
+  {
+    return solve_contacts(contacts, motion, 0.5, {}, {tolerance, sweeps}, 0);
+  }
+
+  /// Largest error of an impulse against the weight above it.
+  double error() const
+  {
+    double largest = 0;
+    for (const auto& c : contacts) {
+      double weight = 0;
+      for (auto k = static_cast<std::size_t>(c.i); k + 1 < motion.size(); ++k)
+        weight += gh / motion[k].inverse_mass;
+      largest = std::max(largest, std::abs(c.impulse_n - weight));
+    }
+    return largest;
+  }
+};
+
+/// What a sweep leaves of the error, over the second half of so many sweeps.
+double contraction(const Column& cold, int sweeps)
+{
+  auto half = cold, whole = cold;
+  half.solve(0, sweeps / 2);
+  whole.solve(0, sweeps);
+  return std::pow(whole.error() / half.error(), 2.0 / sweeps);
+}
+
+TEST(Column, ASweepContractsTheErrorByCosineSquaredOfPiOverTwoNInAnyOrder)
+{
+  // Jacobi's matrix has the eigenvalues cos((2k - 1) pi/2n). Per decade 0.933 n^2 sweeps.
+  for (const std::size_t n : {5u, 20u, 60u}) {
+    Column column(std::vector<double>(n, 1.0));
+    const int sweeps = static_cast<int>(2 * n * n);
+    const double rate = std::pow(std::cos(pi / (2 * static_cast<double>(n))), 2);
+    EXPECT_NEAR(contraction(column, sweeps), rate, 1e-9);
+    std::reverse(column.contacts.begin(), column.contacts.end());
+    EXPECT_NEAR(contraction(column, sweeps), rate, 1e-9);
+    std::shuffle(column.contacts.begin(), column.contacts.end(), std::mt19937(1));
+    EXPECT_NEAR(contraction(column, sweeps), rate, 1e-9);
+  }
+}
+
+TEST(Column, AHeavyDiscOnALightOneConvergesByROverOnePlusRPerSweep)
+{
+  // Sweep k leaves L^k of the impulse's error, L = R/(1 + R), and reports the residual
+  // L^k/(R (1 - L^k)).
+  for (const double ratio : {1.0, 4.0, 100.0, 1e4}) {
+    const double rate = ratio / (1 + ratio);
+    for (const int sweeps : {1, 3, 50}) {
+      Column column({1, ratio});
+      const auto report = column.solve(0, sweeps);
+      const double left = std::pow(rate, sweeps);
+      EXPECT_NEAR(column.contacts[1].impulse_n / (ratio * gh), 1 - left, 1e-12);
+      EXPECT_NEAR(report.residual, left / (ratio * (1 - left)), 1e-12);
+    }
+  }
+}
+
+TEST(Column, AHeavyDiscOnALightOneEndsWithinToleranceAndTellsTheSweeps)
+{
+  // With the residual above, sweeps end when L^k is R tol/(1 + R tol): 231 sweeps per decade at
+  // R = 100. At a tolerance that is not small against 1/R much of the load is still missing.
+  for (const double ratio : {4.0, 100.0, 1e4})
+    for (const double tolerance : {1e-2, 1e-6}) {
+      Column column({1, ratio});
+      const auto report = column.solve(tolerance, 1000000);
+      const double left = ratio * tolerance / (1 + ratio * tolerance);
+      EXPECT_TRUE(report.converged);
+      EXPECT_NEAR(report.sweeps, std::ceil(std::log(left) / std::log(ratio / (1 + ratio))), 1);
+      EXPECT_LE(1 - column.contacts[1].impulse_n / (ratio * gh), left * (1 + 1e-9));
+    }
+}
+
+TEST(Column, AHeavyDiscAtRestOnALightOneNeedsOneSweep)
+{
+  Column column({1, 1e4});
+  column.contacts[0].impulse_n = (1 + 1e4) * gh;
+  column.contacts[1].impulse_n = 1e4 * gh;
+  EXPECT_EQ(column.solve(1e-12, 100).sweeps, 1);
+}
+
+/// A column swept `sweeps` times per step, at rest, that becomes heavier by 5 %.
+struct Burdened {
+  std::vector<double> force;  // on the floor, more than before, over what is to be added
+  std::vector<double> sink;   // of the top disc since then, over 5 % of g h^2
+
+  Burdened(int discs, int sweeps, int steps)
+  {
+    std::vector<worlds::Disc> column;
+    column.reserve(static_cast<std::size_t>(discs));
+    for (int k = 0; k < discs; ++k) column.push_back({{0, 0.5 + k}, 0.5});
+    auto world = worlds::world_of(column);
+    world.walls = {worlds::floor_at(0)};
+    world.gravity = {0, -gh / world.step};
+    world.solver = {0, sweeps};
+    Simulation simulation(world, worlds::positions_of(column));
+    double before = 0;
+    for (int k = 0; k < 4000; ++k) before = simulation.advance().base_impulse.y();
+    const double weight = discs * world.grains.mass[0] * gh;
+    EXPECT_NEAR(before, weight, 1e-3 * weight);
+    const auto top = static_cast<std::size_t>(discs - 1);
+    const double start = simulation.position(top).y();
+    simulation.tilt(1.05 * world.gravity);
+    for (int k = 0; k < steps; ++k) {
+      force.push_back((simulation.advance().base_impulse.y() - before) / (0.05 * weight));
+      sink.push_back((start - simulation.position(top).y()) / (0.05 * gh * world.step));
+    }
+  }
+
+  /// Steps between the first and the `periods`-th later upward passage of the force through 1, per
+  /// period.
+  double period(int periods) const
+  {
+    std::vector<double> passages;
+    for (std::size_t k = 1; k < force.size(); ++k)
+      if (force[k - 1] < 1 && force[k] >= 1)
+        passages.push_back(static_cast<double>(k) - (force[k] - 1) / (force[k] - force[k - 1]));
+    return (passages.at(static_cast<std::size_t>(periods)) - passages[0]) / periods;
+  }
+};
+
+TEST(Column, WithFewSweepsPerStepItRingsLikeAColumnOfSprings)
+{
+  // In a long wave all impulses change by nearly the same, P, from one sweep to the next. When a
+  // contact's turn comes, each neighbour has changed by P once since its last one, whatever the
+  // order, by colour too: so P is -m times the mean relative velocity that a sweep leaves behind,
+  // and N sweeps act like springs N m/h^2. The step is a leap-frog:
+  // sin(pi/T) = sqrt(N) sin(pi/4n), T = 4n/sqrt(N) steps for long waves, but for the part of a
+  // wave that the sweeps of a step damp out. In the end the top has sunk by 1' E (1 - E)^-1 e_1
+  // g h^2, E what the sweeps of a step leave of the relative velocities: near n^2/2N for any order,
+  // ((n^2 - 1)/N - 1)/2 for n even and two colours.
+  const int n = 40;
+  for (const int sweeps : {5, 20, 80}) {
+    const Burdened column(n, sweeps, 3000);
+    const double period = pi / std::asin(std::sqrt(sweeps) * std::sin(pi / (4 * n)));
+    EXPECT_NEAR(column.period(2) / period, 1, 0.02);
+    const double sink = ((n * n - 1.0) / sweeps - 1) / 2;
+    EXPECT_NEAR(column.sink.back() / sink, 1, 0.005);
+    EXPECT_NEAR(column.force.back(), 1, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace grseg::hard_cases

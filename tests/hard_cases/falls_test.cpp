@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/errors.hpp"
+#include "sim/recorder.hpp"
+#include "tests/hard_cases/laws.hpp"
+#include "tests/hard_cases/observed.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+/// A single disc that falls, bounces, stops, or is too fast.
+namespace grseg::hard_cases {
+namespace {
+
+using worlds::Disc;
+using worlds::floor_at;
+using worlds::positions_of;
+
+using Fall = UnderEveryLaw;
+INSTANTIATE_TEST_SUITE_P(Laws, Fall, testing::ValuesIn(laws()), name_of);
+
+constexpr double g = 9.8, r = 0.5;
+
+/// A disc whose lowest point is `height` above a floor.
+Simulation released(World world, double height, double restitution, double step)
+{
+  world.walls = {floor_at(0)};
+  world.material.restitution = restitution;
+  world.gravity = {0, -g};
+  world.step = step;
+  return {world, {{0, r + height}}};
+}
+
+/// Height of the apex to which the disc is on its way, above the one at rest.
+double apex(const Simulation& s)
+{
+  const double v = s.velocity(0).y();
+  return s.position(0).y() - r + v * v / (2 * g);
+}
+
+TEST_P(Fall, FreeFallIsExactForAnyStep)
+{
+  for (const double step : {0.25, 0.01, 1e-4}) {
+    auto world = world_of({{{0, 0}, r}});
+    world.gravity = {0, -g};
+    world.step = step;
+    Simulation simulation(world, {{0, 100}});
+    for (auto k = std::llround(2 / step); k > 0; --k) simulation.advance();
+    EXPECT_NEAR(simulation.position(0).y(), 100 - g * 2 * 2 / 2, 1e-10);
+    EXPECT_NEAR(simulation.velocity(0).y(), -2 * g, 1e-11);
+  }
+}
+
+/// Follows a bouncing disc until 2 t*, when Zeno's bounces have been over for t*.
+struct Bounces {
+  std::vector<double> apexes;
+  double path = 0;      // m
+  double last_run = 0;  // s, when it was last faster than g h
+
+  explicit Bounces(Simulation& simulation, double until)
+  {
+    const double h = simulation.world().step;
+    while (simulation.time() < until) {
+      const double y = simulation.position(0).y(), v = simulation.velocity(0).y();
+      simulation.advance();
+      const double w = simulation.velocity(0).y();
+      if (v < 0 && w > 0) apexes.push_back(apex(simulation));
+      if (std::abs(w) > 1.01 * g * h) last_run = simulation.time();
+      path += std::abs(simulation.position(0).y() - y);
+    }
+  }
+};
+
+TEST_P(Fall, ZenosBouncesEndInFiniteTimeWithAnErrorOfFirstOrder)
+{
+  // An impact at speed v changes e^2 times the apex by at most (1 - e)(1 + 3e/2) v h: the begin of
+  // the step in which it happens lies within that of the ground. With v = e^(n-1) v_0 these add up
+  // to (1 + 3e/2) v_0 h e^(n-1), and over the way up and down to 2 (1 + 3e/2) v_0 h/(1 - e).
+  const double height = 1, v0 = std::sqrt(2 * g * height);
+  for (const double e : {0.25, 0.5, 0.8})
+    for (const double h : {1e-3, 1e-4}) {
+      auto simulation = released(world_of({{{0, 0}, r}}), height, e, h);
+      const double end = std::sqrt(2 * height / g) * (1 + e) / (1 - e);
+      const Bounces seen(simulation, 2 * end);
+      const double unit = 1.1 * (1 + 1.5 * e) * v0 * h;  // 1.1: impacts are faster by up to g h
+      int n = 0;
+      while (v0 * std::pow(e, n) > 10 * g * h) {
+        ++n;
+        EXPECT_NEAR(seen.apexes.at(static_cast<std::size_t>(n - 1)), height * std::pow(e, 2 * n),
+                    unit * std::pow(e, n - 1));
+      }
+      EXPECT_NEAR(seen.path, height * (1 + e * e) / (1 - e * e), 2 * unit / (1 - e));
+      const double bounces = std::log(v0 / (g * h)) / std::log(1 / e);
+      EXPECT_NEAR(seen.last_run, end, 2 * h * bounces * (1 + e) / (1 - e));
+      EXPECT_NEAR(simulation.velocity(0).y(), 0, 1e-15);
+      EXPECT_NEAR(simulation.position(0).y(), r, 2 * g * h * h);
+    }
+}
+
+TEST_P(Fall, AnElasticDiscBouncesToTheSameHeightTenThousandTimes)
+{
+  // An elastic impact turns the velocity round at the position where its step began, so the
+  // discrete motion is reversed exactly.
+  auto simulation = released(world_of({{{0, 0}, r}}), 1, 1, 0.02);
+  double highest = 0, lowest = 2;
+  for (int bounces = 0; bounces < 10000;) {
+    const double before = simulation.velocity(0).y();
+    simulation.advance();
+    bounces += before < 0 && simulation.velocity(0).y() > 0;
+    highest = std::max(highest, apex(simulation));
+    lowest = std::min(lowest, apex(simulation));
+  }
+  EXPECT_NEAR(highest, 1, 1e-11);
+  EXPECT_NEAR(lowest, 1, 1e-11);
+}
+
+TEST_P(Fall, AnElasticDiscInASmoothBoxKeepsItsEnergy)
+{
+  auto world = world_of({{{0, 0}, r}});
+  world.walls = {floor_at(0), {{0, 7}, {0, -1}}, {{0, 0}, {1, 0}}, {{9, 0}, {-1, 0}}};
+  world.material = {0, 1};
+  world.step = 0.1;
+  Simulation simulation(world, {{3, 4}});
+  simulation.set_velocity(0, {1.3, 0.7}, 2);
+  const double start = kinetic_energy(simulation);
+  int impacts = 0;
+  while (impacts < 10000) {
+    const auto before = simulation.velocity(0);
+    simulation.advance();
+    impacts += before != simulation.velocity(0);
+    ASSERT_TRUE(std::abs(simulation.position(0).x() - 4.5) < 4.5);
+  }
+  EXPECT_NEAR(kinetic_energy(simulation) / start, 1, 1e-13);
+}
+
+TEST_P(Fall, AnInelasticDiscStopsAtItsFirstContactAndStays)
+{
+  const double h = 1e-3;
+  for (int phase = 0; phase < 50; ++phase) {
+    auto simulation = released(world_of({{{0, 0}, r}}), 0.1 + 1e-4 * phase, 0, h);
+    double speed = 0;
+    while (simulation.advance().touching == 0) speed = -simulation.velocity(0).y();
+    EXPECT_NEAR(simulation.velocity(0).y(), 0, 1e-15);
+    const double stopped_at = simulation.position(0).y();
+    EXPECT_NEAR(stopped_at, r, speed * h);
+    for (int k = 0; k < 1000; ++k) simulation.advance();
+    EXPECT_NEAR(simulation.velocity(0).y(), 0, 1e-15);
+    EXPECT_NEAR(simulation.position(0).y(), stopped_at, 1e-13);
+  }
+}
+
+/// A row of touching fixed discs along y = 0, and one disc above it that comes down by `per_step`
+/// diameters per step, over a disc (offset 0) or between two (offset 1/2).
+Simulation over_a_row(World world, double offset, double height, double per_step)
+{
+  std::vector<Disc> discs{{{offset, height}, r}};
+  for (int k = -3; k <= 3; ++k) discs.push_back({{static_cast<double>(k), 0}, r, true});
+  world.grains = worlds::world_of(discs).grains;
+  Simulation simulation(world, positions_of(discs));
+  simulation.set_velocity(0, {0, -per_step / world.step});
+  return simulation;
+}
+
+TEST_P(Fall, ADiscAsFastAsARunAllowsDoesNotPassThroughTheBase)
+{
+  // Half a diameter per step, which the recorder refuses to exceed.
+  for (const double offset : {0.0, 0.25, 0.5})
+    for (const double per_step : {0.01, 0.1, 0.3, 0.5})
+      for (int phase = 0; phase < 100; ++phase) {
+        auto simulation = over_a_row(world_of({}), offset, 2 + per_step * phase / 100, per_step);
+        double overlap = 0;
+        for (int k = 0; k < 4 / per_step; ++k)
+          overlap = std::max(overlap, simulation.advance().largest_overlap);
+        EXPECT_LE(overlap, per_step + 1e-12);
+        EXPECT_GT(simulation.position(0).y(), std::sqrt(0.75) - per_step);
+      }
+}
+
+class Tunnelling : public UnderEveryLaw {
+ protected:
+  std::string path = (std::filesystem::temp_directory_path() /
+                      ("grseg_falls_test_" + std::to_string(getpid()) + ".h5"))
+                         .string();
+  void TearDown() override { std::filesystem::remove(path); }
+
+  void run(Simulation simulation)
+  {
+    const auto& world = simulation.world();
+    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
+    Recorder recorder(writer, 2 * r);
+    Frame frame;
+    for (int k = 0; k < 10; ++k) {
+      recorder.add(simulation.advance(frame));
+      recorder.write(frame, simulation);
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Laws, Tunnelling, testing::ValuesIn(laws()), name_of);
+
+TEST_P(Tunnelling, ADiscThatCouldPassAnotherWithinAStepStopsTheRunWithTheStepThatHelps)
+{
+  auto world = world_of({});
+  try {
+    // In the middle of the second step it overlaps by 0.005, too little for another complaint.
+    run(over_a_row(world, 0, 2.495, 1.0));
+    FAIL() << "not refused";
+  } catch (const RunError& error) {
+    // 1 diameter per step: half the step is the limit.
+    EXPECT_NE(std::string(error.what()).find("use a step below 0.0005 s"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace grseg::hard_cases

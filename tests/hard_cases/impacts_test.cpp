@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/hard_cases/laws.hpp"
+#include "tests/hard_cases/observed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+/// Impacts without gravity: two discs, a disc on something fixed, a row of touching discs.
+namespace grseg::hard_cases {
+namespace {
+
+using worlds::Disc;
+using worlds::floor_at;
+using worlds::positions_of;
+
+using Impact = UnderEveryLaw;
+INSTANTIATE_TEST_SUITE_P(Laws, Impact, testing::ValuesIn(laws()), name_of);
+
+constexpr double restitutions[] = {0, 0.25, 0.5, 1};
+
+/// The first step in which something touches.
+struct Encounter {
+  SeenContact contact;
+  Velocities before, after;
+  double lost;  // J, of kinetic energy
+
+  Vec2 u_before() const { return contact.relative(before); }
+  Vec2 u_after() const { return contact.relative(after); }
+};
+
+Encounter encounter(Simulation simulation)
+{
+  Frame frame;
+  for (;;) {
+    const Velocities before(simulation);
+    const double energy = kinetic_energy(simulation);
+    simulation.advance(frame);
+    if (frame.contacts.size() > 0)
+      return {SeenContact(simulation.world(), frame.contacts, 0), before, Velocities(simulation),
+              energy - kinetic_energy(simulation)};
+    if (simulation.steps_done() > 1000) throw std::runtime_error("nothing has touched");
+  }
+}
+
+/// Two discs of masses 1 and `mass` that approach at 3 m/s along x, their centres `offset` sums of
+/// radii apart across it, and touch `steps` steps later.
+Simulation two_discs(World world, double mass, double offset, double steps)
+{
+  const double reach = 0.75, way = std::sqrt(1 - offset * offset) * reach;
+  world.grains.mass = {1, mass};
+  Simulation simulation(world, {{0, 0}, {way + 3 * steps * world.step, offset * reach}});
+  simulation.set_velocity(0, {1, 0}, 2);
+  simulation.set_velocity(1, {-2, 0}, -5);
+  return simulation;
+}
+
+const std::vector<Disc> pair_of_discs{{{0, 0}, 0.5}, {{2, 0}, 0.25}};
+
+TEST_P(Impact, TwoDiscsReboundWithRestitutionEAtEveryPhaseOfTheStep)
+{
+  // Head-on and oblique, rough and spinning. Largest error found: 7e-16.
+  double largest = 0;
+  for (const double mass : {1.0, 4.0, 1e-2, 1e6})
+    for (const double e : restitutions)
+      for (const double offset : {0.0, 0.6})
+        for (int phase = 0; phase < 1000; ++phase) {
+          auto world = world_of(pair_of_discs);
+          world.material.restitution = e;
+          const auto hit = encounter(two_discs(world, mass, offset, 1 + phase / 1000.0));
+          const double approach = -hit.contact.n.dot(hit.u_before());
+          const double separation = hit.contact.n.dot(hit.u_after());
+          const double impulse = (1 + e) * approach / (1 + 1 / mass);
+          largest = std::max({largest, std::abs(separation / approach - e),
+                              std::abs(hit.contact.n.dot(hit.contact.impulse) / impulse - 1)});
+        }
+  EXPECT_LT(largest, 1e-12);
+}
+
+TEST_P(Impact, ASmoothImpactLosesOneMinusESquaredOfItsNormalEnergy)
+{
+  for (const double mass : {1.0, 4.0, 1e-2})
+    for (const double e : restitutions)
+      for (const double offset : {0.0, 0.6}) {
+        auto world = world_of(pair_of_discs);
+        world.material = {0, e};
+        const auto hit = encounter(two_discs(world, mass, offset, 1.3));
+        const double approach = hit.contact.n.dot(hit.u_before());
+        EXPECT_NEAR(hit.lost, (1 - e * e) / 2 / (1 + 1 / mass) * approach * approach, 1e-14);
+      }
+}
+
+/// Checks a disc of velocity -n + slip t and rim speed `spin` that hits something fixed whose
+/// surface at `target` has the normal n: it sticks
+/// iff |u_t| <= (1 + 2 kappa^2) mu (1 + e) |u_n|, which is 3 mu (1 + e) |u_n| at a wall.
+/// Returns whether it stuck.
+bool check_oblique_impact(const World& world, const Vec2& target, const Vec2& n, double slip,
+                          double spin)
+{
+  const Vec2 t{-n.y(), n.x()}, velocity = slip * t - n;
+  Simulation simulation(world, {target + 0.5 * n - 1.7 * world.step * velocity, {0, 0}});
+  simulation.set_velocity(0, velocity, spin / world.grains.radius[0]);
+  const auto hit = encounter(simulation);
+  const auto& c = hit.contact;
+  const double u_n = c.n.dot(hit.u_before()), u_t = c.t.dot(hit.u_before());
+  const double share = 1 + 2 * c.kappa * c.kappa;
+  const double most = world.material.friction * (1 + world.material.restitution) * std::abs(u_n);
+  const bool sticks = std::abs(u_t) <= share * most;
+  const double push = sticks ? -u_t / share : std::copysign(most, -u_t);  // impulse / mass
+  EXPECT_NEAR(c.t.dot(hit.after.velocity[0]), c.t.dot(hit.before.velocity[0]) + push, 1e-13);
+  EXPECT_NEAR(hit.after.rim_speed[0], hit.before.rim_speed[0] - 2 * c.kappa * push, 1e-13);
+  EXPECT_NEAR(c.n.dot(hit.u_after()), -world.material.restitution * u_n, 1e-13);
+  return sticks;
+}
+
+TEST_P(Impact, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
+{
+  // On a floor and on a fixed disc, spinning or not, to either side.
+  const double mu = 0.3;
+  for (const double e : restitutions)
+    for (const double spin : {0.0, 0.7, -2.0})
+      for (const double part : {-4.0, -1.02, -0.98, -0.1, 0.1, 0.98, 1.02, 4.0}) {
+        const double slip = part * 3 * mu * (1 + e) + spin;  // u_t = slip - spin
+        auto floor = world_of({{{0, 0}, 0.5}, {{0, 0}, 0.25, true}});
+        floor.material = {mu, e};
+        auto disc = floor;
+        floor.walls = {floor_at(5)};
+        const Vec2 n{0.6, 0.8};
+        EXPECT_EQ(check_oblique_impact(floor, {0, 5}, {0, 1}, slip, spin), std::abs(part) < 1);
+        EXPECT_EQ(check_oblique_impact(disc, 0.25 * n, n, slip, spin), std::abs(part) < 1);
+      }
+}
+
+/// A row of touching discs along x, one step after they were given these speeds.
+Simulation row_after_a_step(const World& world, const std::vector<Disc>& discs,
+                            const std::vector<double>& speeds)
+{
+  Simulation row(world, positions_of(discs));
+  for (std::size_t k = 0; k < speeds.size(); ++k) row.set_velocity(k, {speeds[k], 0});
+  EXPECT_TRUE(row.advance().solver.converged);
+  return row;
+}
+
+std::vector<Disc> row_of(std::size_t count)
+{
+  std::vector<Disc> discs;
+  for (std::size_t k = 0; k < count; ++k) discs.push_back({{static_cast<double>(k), 0}, 0.5});
+  return discs;
+}
+
+TEST_P(Impact, AHitRowOfTouchingDiscsSharesTheImpulseEqually)
+{
+  // Newton's law for impacts at once, not the cradle: the contacts that did not approach do not
+  // rebound, so all discs but the first move as one.
+  const double v = 2;
+  for (const std::size_t count : {2u, 3u, 5u, 10u})
+    for (const double e : restitutions) {
+      const auto discs = row_of(count);
+      auto world = world_of(discs);
+      world.material.restitution = e;
+      std::vector<double> speeds(count, 0.0);
+      speeds[0] = v;
+      const auto row = row_after_a_step(world, discs, speeds);
+      const double n = static_cast<double>(count);
+      EXPECT_NEAR(row.velocity(0).x(), ((1 + e) / n - e) * v, 1e-9);
+      for (std::size_t k = 1; k < count; ++k)
+        EXPECT_NEAR(row.velocity(k).x(), (1 + e) / n * v, 1e-9);
+      const double before = world.grains.mass[0] * v * v / 2;
+      EXPECT_NEAR(kinetic_energy(row) / before, (1 + e * e * (n - 1)) / n, 1e-9);
+    }
+}
+
+TEST_P(Impact, SimultaneousElasticImpactsMayGainEnergyUnderNewtonsLaw)
+{
+  // (3, 0, 1) becomes (-2, 7, 7)/3: half the squares sum to 17/3 instead of 5. The last disc
+  // overlaps by what it moves in a step, so that it takes part.
+  auto discs = row_of(3);
+  discs[2].position.x() -= 1e-3;
+  auto world = world_of(discs);
+  world.material.restitution = 1;
+  const auto row = row_after_a_step(world, discs, {3, 0, 1});
+  EXPECT_NEAR(row.velocity(0).x(), -2.0 / 3, 1e-11);
+  EXPECT_NEAR(row.velocity(1).x(), 7.0 / 3, 1e-11);
+  EXPECT_NEAR(row.velocity(2).x(), 7.0 / 3, 1e-11);
+  EXPECT_NEAR(kinetic_energy(row) / world.grains.mass[0], 17.0 / 3, 1e-11);
+}
+
+}  // namespace
+}  // namespace grseg::hard_cases
