@@ -13,16 +13,22 @@ namespace grseg {
 
 /// Where the contacts of a block come from, and their gaps at mid-step.
 struct alignas(64) BlockOrigin {
-  ContactBlock::Lanes gap;                      // m
-  std::array<std::uint32_t, block_lanes> pair;  // the neutral pair for lanes left over
+  ContactBlock::Lanes gap;                     // m
+  std::array<std::uint32_t, block_lanes> row;  // twice the pair's index; lanes left over: neutral
+};
+
+/// The pairs of a class that act, while it is looked through.
+struct NearPairs {
+  std::vector<std::uint32_t> row;   // twice the pair's index
+  std::vector<std::uint32_t> i, j;  // as in Pairs
 };
 
 /// The contacts of one step.
 struct StepContacts {
   std::vector<ContactBlock> blocks;  // the first `size` of them; kept for the memory
   std::vector<BlockOrigin> origins, previous_origins;
-  std::vector<std::uint32_t> near;  // pairs of a class, while it is looked through
-  std::size_t size = 0;             // blocks in use
+  NearPairs near;
+  std::size_t size = 0;  // blocks in use
   std::size_t previous_size = 0;
   std::size_t on_base = 0;  // the first of the blocks whose partners j do not move
   std::size_t count = 0;    // contacts
@@ -39,8 +45,11 @@ struct DetectionRule {
   std::span<const Wall> walls;
   double margin = 0;  // m
   double restitution = 0;
-  double rim_factor = 0;  // disc_rim_factor, or 0 where nothing rotates
-  bool periodic = false;
+  double rim_factor = disc_rim_factor;
+  /// What there is to see to. Effects left out equal their neutral coefficients to the last bit:
+  /// restitution 0, rim_factor 0, shifts 0.
+  Effects effects;
+  bool periodic = true;
 };
 
 /// What detection has seen, over the contacts.

@@ -12,7 +12,7 @@ namespace grseg {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::int32_t cells_per_group = 6;
+constexpr std::int32_t cells_per_group = 3;
 
 /// Classes while pairs are coloured: colours among grains and those left over, then the same for
 /// pairs with the base.
@@ -46,11 +46,15 @@ double least_along(const Extent& extent, const Vec2& direction)
          std::min(extent.low.y() * direction.y(), extent.high.y() * direction.y());
 }
 
+/// The first of `values` in a new order; `memory` is for the old ones.
 template <class T>
-void sort_as(std::vector<T>& values, const std::vector<std::uint32_t>& order)
+void sort_as(const std::vector<std::uint32_t>& order, std::vector<T>& values,
+             std::vector<T>& memory)
 {
-  auto old = values;
-  for (std::size_t k = 0; k < order.size(); ++k) values[k] = old[order[k]];
+  memory.resize(values.size());
+  for (std::size_t k = 0; k < order.size(); ++k) memory[k] = values[order[k]];
+  for (std::size_t k = order.size(); k < values.size(); ++k) memory[k] = values[k];
+  std::swap(values, memory);
 }
 
 double distance_to(const Wall& wall, const Vec2& x)
@@ -149,12 +153,11 @@ void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
   make_groups();
   find_pairs(grains);
   colour_pairs(grains);
-  const auto old = std::move(pairs_);
-  pairs_ = {};
+  std::swap(pairs_, old_pairs_);
   lay_out_classes();
   fill_in(grains);
   find_wall_pairs(grains);
-  carry_impulses(old);
+  carry_impulses();
 }
 
 std::int32_t PairList::column(double x) const
@@ -212,12 +215,12 @@ void PairList::sort_into_cells(GrainState& grains, const std::vector<Vec2>& posi
   place_[count] = static_cast<std::uint32_t>(count);
 
   made_at_ = position;
-  sort_as(made_at_, order_);
-  sort_as(grains.position, order_);
-  sort_as(grains.motion, order_);
-  sort_as(grains.radius, order_);
-  sort_as(grains.image, order_);
-  sort_as(grains.row, order_);
+  sort_as(order_, made_at_, memory_.position);
+  sort_as(order_, grains.position, memory_.position);
+  sort_as(order_, grains.motion, memory_.motion);
+  sort_as(order_, grains.radius, memory_.radius);
+  sort_as(order_, grains.image, memory_.image);
+  sort_as(order_, grains.row, memory_.row);
   discs_.x.resize(count + block_lanes);
   discs_.y.resize(count + block_lanes);
   discs_.radius.resize(count + block_lanes);
@@ -303,6 +306,7 @@ void PairList::lay_out_classes()
   std::array<std::uint32_t, 2 * palette> size{}, next{};
   for (std::size_t f = 0; f < found_.size(); ++f) ++size[class_of_[f]];
   std::uint32_t begin = 0;
+  pairs_.classes.clear();
   for (std::size_t c = 0; c < size.size(); ++c) {
     if (size[c] == 0) continue;
     next[c] = begin;
@@ -391,8 +395,9 @@ void PairList::carry_wall_impulse(std::uint32_t body, std::int32_t wall,
   }
 }
 
-void PairList::carry_impulses(const Pairs& old)
+void PairList::carry_impulses()
 {
+  const auto& old = old_pairs_;
   pairs_.impulse.assign(pairs_.i.size(), {0, 0});
   const auto still = static_cast<std::uint32_t>(place_.size() - 1);
   for (const auto& c : old.classes) {

@@ -96,7 +96,7 @@ class PairList {
   void lay_out_classes();
   void fill_in(const GrainState& grains);
   void find_wall_pairs(const GrainState& grains);
-  void carry_impulses(const Pairs& old);
+  void carry_impulses();
   void carry_wall_impulse(std::uint32_t body, std::int32_t wall, const Pairs::Impulse& impulse);
   bool grains_stay_apart() const;
   bool bands_stay_apart() const;
@@ -123,7 +123,9 @@ class PairList {
   std::vector<Extent> moved_;             // per group, since the list was made
   std::vector<double> unlisted_nearest_;  // m, per wall and group, to grains that are not listed
 
-  // For the renewal alone.
+  // For the renewal alone; kept for the memory.
+  Pairs old_pairs_;
+  GrainState memory_;
   Discs discs_;
   FoundPairs found_;
   std::vector<std::uint32_t> order_, place_;  // old index of each body; new index of each old one

@@ -18,7 +18,7 @@ constexpr double floor_of_reference = 1e-3;
 
 double default_skin(const Grains& grains)
 {
-  return 0.8 * *std::min_element(grains.radius.begin(), grains.radius.end());
+  return *std::min_element(grains.radius.begin(), grains.radius.end());
 }
 
 /// A grain's contacts as the file tells them: i before j, unless i does not move.
@@ -130,8 +130,8 @@ void Simulation::find_contacts(StepReport& report)
   rule.motion = state_.motion;
   rule.walls = world_.walls;
   rule.margin = world_.margin;
+  rule.effects = effects_;
   rule.restitution = world_.material.restitution;
-  rule.rim_factor = world_.rotation ? disc_rim_factor : 0;
   rule.periodic = world_.box.periodic_x;
   const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_);
   if (sums.coincident) stop_at_coincidence();
@@ -210,7 +210,7 @@ void Simulation::write_down_contacts(ContactList& list) const
   const auto row_of = [&](std::uint32_t twice) { return state_.row[twice / 2]; };
   std::vector<Named> names;
   for (std::uint32_t slot = 0; slot < contacts_.size * block_lanes; ++slot) {
-    const auto k = contacts_.origins[slot / block_lanes].pair[slot % block_lanes];
+    const auto k = contacts_.origins[slot / block_lanes].row[slot % block_lanes] / 2;
     if (k == pairs.size()) continue;
     const bool at_wall = pairs.j[k] / 2 == state_.still();
     const std::int32_t i = row_of(pairs.i[k]), j = at_wall ? wall_name(k) : row_of(pairs.j[k]);
@@ -232,7 +232,7 @@ void Simulation::write_down_contacts(ContactList& list) const
     list.j.push_back(name.j);
     list.force.push_back((block.impulse_n[lane] * normal + block.impulse_t[lane] * tangent) /
                          world_.step);
-    list.branch.push_back((pairs.geometry[origin.pair[lane]].reach + gap) * normal);
+    list.branch.push_back((pairs.geometry[origin.row[lane] / 2].reach + gap) * normal);
     list.gap.push_back(gap);
   }
 }

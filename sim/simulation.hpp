@@ -26,7 +26,7 @@ struct World {
   /// where it is at mid-step, 1/2 at the end of the step. Geometry is that of mid-step in any case.
   double forecast = 0;
   double margin = 0;  // m, within which a pair counts as touching there
-  double skin = 0;  // m, more than margin, of the pair list; 0 chooses 0.4 of the smallest diameter
+  double skin = 0;    // m, more than margin, of the pair list; 0 chooses half the smallest diameter
 };
 
 /// What one step did.
