@@ -240,9 +240,9 @@ bool consistent(const Checkpoint& c)
   return n > 0 && c.grains.id.size() == n && c.grains.species.size() == n &&
          c.grains.mass.size() == n && c.grains.fixed.size() == n && c.state.position.size() == n &&
          c.state.image.size() == n && c.state.velocity.size() == n &&
-         c.state.rim_speed.size() == n && c.state.row.size() == n && (made_at.empty() || made_at.size() > n) &&
-         c.state.pairs.impulse_n.size() == pairs && c.state.pairs.impulse_t.size() == pairs &&
-         c.state.pairs.approach.size() == pairs;
+         c.state.rim_speed.size() == n && c.state.row.size() == n &&
+         (made_at.empty() || made_at.size() > n) && c.state.pairs.impulse_n.size() == pairs &&
+         c.state.pairs.impulse_t.size() == pairs && c.state.pairs.approach.size() == pairs;
 }
 
 void write_parts(const std::string& path, const Checkpoint& checkpoint)

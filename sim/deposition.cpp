@@ -186,8 +186,7 @@ void set_conditions(World& world, const Scene& scene)
     case Scene::Law::speculative:
       world.horizon = world.forecast = scene.horizon;
       // What neighbours may add to an approach within a step.
-      world.margin =
-          scene.horizon * scene.step * std::sqrt(scene.gravity * scene.small_diameter);
+      world.margin = scene.horizon * scene.step * std::sqrt(scene.gravity * scene.small_diameter);
   }
 }
 

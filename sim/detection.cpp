@@ -42,6 +42,10 @@ HWY_INLINE const double* rows(const Pairs::Inertia* g)
 {
   return &g->inverse_reach;
 }
+HWY_INLINE const double* rows(const Pairs::Memory* g)
+{
+  return &g->approach;
+}
 HWY_INLINE const double* rows(const Pairs::Impulse* g)
 {
   return &g->n;
@@ -50,7 +54,7 @@ HWY_INLINE const double* rows(const Pairs::Impulse* g)
 /// Writes the pairs of grains that are closer than reach + margin to `near`; returns their number.
 template <bool periodic>
 HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c,
-                                       const DetectionRule& rule, std::uint32_t* near)
+                                       const DetectionRule& rule, NearPairs& near)
 {
   const D d;
   const auto* position = rule.looked_at.data()->data();
@@ -67,20 +71,27 @@ HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c
       const auto limit = hn::Add(reach, margin);
       bits |= bits_of(d, hn::Le(squared, hn::Mul(limit, limit))) << lane;
     }
-    count = append_set_bits(bits, k, near, count);
+    store_set_bits<2>(bits, k, &near.row[count]);
+    store_chosen(bits, &pairs.i[k], &near.i[count]);
+    store_chosen(bits, &pairs.j[k], &near.j[count]);
+    count += hwy::PopCount(std::uint64_t{bits});
   }
   return count;
 }
 
 std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const DetectionRule& rule,
-                           std::uint32_t* near)
+                           NearPairs& near)
 {
   const auto& wall = rule.walls[static_cast<std::size_t>(c.wall)];
   std::size_t count = 0;
   for (auto k = c.begin; k < c.end; ++k) {
     const auto& x = rule.looked_at[pairs.i[k] / 2];
     const double distance = (x - wall.point).dot(wall.normal);
-    if (distance <= pairs.geometry[k].reach + rule.margin) near[count++] = k;
+    if (!(distance <= pairs.geometry[k].reach + rule.margin)) continue;
+    near.row[count] = 2 * k;
+    near.i[count] = pairs.i[k];
+    near.j[count] = pairs.j[k];
+    ++count;
   }
   return count;
 }
@@ -101,8 +112,7 @@ HWY_INLINE Demand demand_of(Vector gap, Vector separation, Vector impulse_n, Vec
   const auto zero = hn::Zero(d);
   auto approach = hn::Max(hn::Neg(separation), zero);
   if constexpr (with.foresight) approach = hn::Max(approach, remembered);
-  const auto newton =
-      with.restitution ? hn::Mul(hn::Set(d, rule.restitution), approach) : zero;
+  const auto newton = with.restitution ? hn::Mul(hn::Set(d, rule.restitution), approach) : zero;
   if constexpr (!with.foresight) return {newton, zero};
   const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, rule.horizon));
   const auto apart = hn::AndNot(hn::Gt(remembered, zero), hn::Gt(gap, zero));
@@ -116,14 +126,14 @@ struct Normals {
   Vector nx, ny, distance;
 };
 
-template <Variant with>
+template <bool periodic>
 HWY_INLINE Normals normals_of_grains(const DetectionRule& rule, const std::uint32_t* i,
                                      const std::uint32_t* j, Vector shift, Mask used,
                                      LaneSums& sums)
 {
   const D d;
   auto [x, y] = load_differences<1>(d, rule.middle.data()->data(), i, j);
-  if constexpr (with.periodic) x = hn::Add(x, shift);
+  if constexpr (periodic) x = hn::Add(x, shift);
   const auto distance = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
   const auto one = hn::Set(d, 1.0);
   sums.coincident |= !hn::AllFalse(d, hn::And(used, hn::Eq(distance, hn::Zero(d))));
@@ -142,6 +152,39 @@ HWY_INLINE Normals normals_of_wall(const DetectionRule& rule, const Wall& wall,
   return {nx, ny, hn::Add(across_x, across_y)};
 }
 
+/// Bodies, normals and lever arms of the eight pairs of a class that begin at `near`.
+template <bool periodic>
+HWY_INLINE void set_geometry(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
+                             std::size_t first, const DetectionRule& rule, ContactBlock& block,
+                             BlockOrigin& origin, LaneSums& sums)
+{
+  const D d;
+  const D32 d32;
+  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d32)) {
+    const auto i = hn::LoadU(d32, &near.i[first + lane]);
+    const auto j = hn::LoadU(d32, &near.j[first + lane]);
+    hn::Store(hn::Add(i, i), d32, &block.i[lane]);
+    hn::Store(hn::Add(j, j), d32, &block.j[lane]);
+    hn::Store(hn::LoadU(d32, &near.row[first + lane]), d32, &origin.row[lane]);
+  }
+  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+    const auto *row = &near.row[first + lane], *i = &near.i[first + lane],
+               *j = &near.j[first + lane];
+    const auto [shift, reach] = load_rows(d, rows(pairs.geometry.data()), row);
+    const auto [inverse_reach, mass] = load_rows(d, rows(pairs.inertia.data()), row);
+    const auto used = hn::Gt(mass, hn::Zero(d));
+    const auto n = c.wall < 0
+                       ? normals_of_grains<periodic>(rule, i, j, shift, used, sums)
+                       : normals_of_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], i);
+    const auto kappa = c.wall < 0 ? hn::Mul(n.distance, inverse_reach) : hn::Set(d, 1.0);
+    hn::Store(n.nx, d, &block.nx[lane]);
+    hn::Store(n.ny, d, &block.ny[lane]);
+    hn::Store(kappa, d, &block.kappa[lane]);
+    hn::Store(mass, d, &block.mass_n[lane]);
+    hn::Store(hn::Sub(n.distance, reach), d, &origin.gap[lane]);
+  }
+}
+
 HWY_INLINE void add_up(Vector gap, Vector approach, Mask used, std::size_t lane, LaneSums& sums)
 {
   const D d;
@@ -158,88 +201,65 @@ HWY_INLINE void add_up(Vector gap, Vector approach, Mask used, std::size_t lane,
   keep_most(sums.fastest_approach, approach);
 }
 
-/// Makes contacts of up to eight pairs of a class; what `pair` has behind the first `count` of them
-/// is the neutral pair.
+/// The rest of a contact: how it approaches, what it asks for and the first guess of its impulse.
 template <Variant with>
-HWY_INLINE void make_block(const Pairs& pairs, const Pairs::Class& c, const std::uint32_t* pair,
-                           std::size_t count, const DetectionRule& rule, ContactBlock& block,
-                           BlockOrigin& origin, LaneSums& sums)
+HWY_INLINE void set_dynamics(const Pairs& pairs, const DetectionRule& rule, ContactBlock& block,
+                             BlockOrigin& origin, LaneSums& sums)
 {
   const D d;
-  alignas(64) std::array<std::uint32_t, block_lanes> row, impulse_row, i, j;
-  for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-    const auto k = pair[lane];
-    origin.pair[lane] = k;
-    row[lane] = 2 * k;
-    impulse_row[lane] = 4 * k;
-    i[lane] = pairs.i[k];
-    j[lane] = pairs.j[k];
-  }
-  for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-    block.i[lane] = 2 * i[lane];
-    block.j[lane] = 2 * j[lane];
-  }
   const auto* velocity = reinterpret_cast<const double*>(rule.motion.data());
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto used = hn::FirstN(d, count > lane ? count - lane : 0);
-    const auto [shift, reach] = load_rows(d, rows(pairs.geometry.data()), &row[lane]);
-    const auto n =
-        c.wall < 0 ? normals_of_grains<with>(rule, &i[lane], &j[lane], shift, used, sums)
-                   : normals_of_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], &i[lane]);
-    const auto [inverse_reach, mass] = load_rows(d, rows(pairs.inertia.data()), &row[lane]);
-    const auto one = hn::Set(d, 1.0);
-    const auto kappa = c.wall < 0 ? hn::Mul(n.distance, inverse_reach) : one;
-    const auto gap = hn::Sub(n.distance, reach);
+    const auto mass = hn::Load(d, &block.mass_n[lane]);
     auto mass_t = mass;
     if constexpr (with.rotation) {
+      const auto kappa = hn::Load(d, &block.kappa[lane]);
       const auto lever = hn::Mul(hn::Set(d, rule.rim_factor), hn::Mul(kappa, kappa));
-      mass_t = hn::Div(mass, hn::Add(one, lever));
+      mass_t = hn::Div(mass, hn::Add(hn::Set(d, 1.0), lever));
     }
-    const auto [vx, vy] = load_differences<2>(d, velocity, &i[lane], &j[lane]);
-    const auto separation = hn::Add(hn::Mul(vx, n.nx), hn::Mul(vy, n.ny));
+    hn::Store(mass_t, d, &block.mass_t[lane]);
+    const auto [vx, vy] = load_differences<1>(d, velocity, &block.i[lane], &block.j[lane]);
+    const auto separation = hn::Add(hn::Mul(vx, hn::Load(d, &block.nx[lane])),
+                                    hn::Mul(vy, hn::Load(d, &block.ny[lane])));
     const auto approach = hn::Max(hn::Neg(separation), hn::Zero(d));
-    const auto* impulses = rows(pairs.impulse.data());
-    const auto [impulse_n, impulse_t] = load_rows(d, impulses, &impulse_row[lane]);
+    const auto [n, t] = load_rows(d, rows(pairs.impulse.data()), &origin.row[lane]);
     auto remembered = hn::Zero(d);
     if constexpr (with.foresight)
-      remembered = load_rows(d, impulses + 2, &impulse_row[lane]).first;
-    const auto demand = demand_of<with>(gap, separation, impulse_n, remembered, rule);
-    hn::Store(n.nx, d, &block.nx[lane]);
-    hn::Store(n.ny, d, &block.ny[lane]);
-    hn::Store(kappa, d, &block.kappa[lane]);
-    hn::Store(mass, d, &block.mass_n[lane]);
-    hn::Store(mass_t, d, &block.mass_t[lane]);
+      remembered = load_rows(d, rows(pairs.memory.data()), &origin.row[lane]).first;
+    const auto gap = hn::Load(d, &origin.gap[lane]);
+    const auto demand = demand_of<with>(gap, separation, n, remembered, rule);
     hn::Store(demand.rebound, d, &block.rebound[lane]);
-    hn::Store(demand.approach, d, &origin.approach[lane]);
-    hn::Store(impulse_n, d, &block.impulse_n[lane]);
-    hn::Store(impulse_t, d, &block.impulse_t[lane]);
-    hn::Store(gap, d, &origin.gap[lane]);
+    if constexpr (with.foresight) hn::Store(demand.approach, d, &origin.approach[lane]);
+    hn::Store(n, d, &block.impulse_n[lane]);
+    hn::Store(t, d, &block.impulse_t[lane]);
+    const auto used = hn::Gt(mass, hn::Zero(d));
     add_up(gap, approach, used, lane, sums);
   }
 }
 
-template <Variant with>
-HWY_INLINE void make_blocks(const Pairs& pairs, const Pairs::Class& c, std::uint32_t* near,
-                            std::size_t count, const DetectionRule& rule, StepContacts& contacts,
-                            LaneSums& sums)
+/// Fills the last block of a class up with the neutral pair. Pairs that stand alone get a block
+/// each: they are drawn apart, from the last one on. Returns the number of blocks.
+std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs& near)
 {
-  const auto neutral = static_cast<std::uint32_t>(pairs.size());
-  const std::size_t most = c.alone ? 1 : block_lanes;
-  std::array<std::uint32_t, block_lanes> single;
-  single.fill(neutral);
-  for (std::size_t lane = 0; lane < block_lanes; ++lane) near[count + lane] = neutral;
-  for (std::size_t k = 0; k < count; k += most) {
-    single[0] = near[k];
-    make_block<with>(pairs, c, c.alone ? single.data() : near + k, std::min(most, count - k), rule,
-                     contacts.blocks[contacts.size], contacts.origins[contacts.size], sums);
-    ++contacts.size;
+  const auto neutral = static_cast<std::uint32_t>(2 * pairs.size()), nobody = pairs.i.back();
+  const auto clear = [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k)
+      near.row[k] = neutral, near.i[k] = nobody, near.j[k] = nobody;
+  };
+  if (!alone) {
+    const std::size_t blocks = (count + block_lanes - 1) / block_lanes;
+    clear(count, blocks * block_lanes);
+    return blocks;
   }
-  contacts.count += count;
+  for (std::size_t k = count; k-- > 0;) {
+    for (auto* numbers : {&near.row, &near.i, &near.j}) (*numbers)[k * block_lanes] = (*numbers)[k];
+    clear(k * block_lanes + 1, (k + 1) * block_lanes);
+  }
+  return count;
 }
 
 template <Variant with>
-void find(const Pairs& pairs, const DetectionRule& rule, std::uint32_t* near,
-          StepContacts& contacts, DetectionSums& total)
+void find(const Pairs& pairs, const DetectionRule& rule, NearPairs& near, StepContacts& contacts,
+          DetectionSums& total)
 {
   LaneSums sums;
   bool base_seen = false;
@@ -248,7 +268,15 @@ void find(const Pairs& pairs, const DetectionRule& rule, std::uint32_t* near,
     base_seen |= c.on_base;
     const auto count = c.wall < 0 ? find_near_pairs<with.periodic>(pairs, c, rule, near)
                                   : find_near_wall(pairs, c, rule, near);
-    make_blocks<with>(pairs, c, near, count, rule, contacts, sums);
+    const auto blocks = fill_up(pairs, c.alone, count, near);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      auto& block = contacts.blocks[contacts.size + b];
+      auto& origin = contacts.origins[contacts.size + b];
+      set_geometry<with.periodic>(pairs, c, near, b * block_lanes, rule, block, origin, sums);
+      set_dynamics<with>(pairs, rule, block, origin, sums);
+    }
+    contacts.size += blocks;
+    contacts.count += count;
   }
   if (!base_seen) contacts.on_base = contacts.size;
   const auto most = [](const Lanes& l) { return *std::max_element(l.begin(), l.end()); };
@@ -258,11 +286,11 @@ void find(const Pairs& pairs, const DetectionRule& rule, std::uint32_t* near,
 }
 
 /// The only place where a scene's effects become a compile-time choice.
-void find_for(const Pairs& pairs, const DetectionRule& rule, std::uint32_t* near,
+void find_for(const Pairs& pairs, const DetectionRule& rule, NearPairs& near,
               StepContacts& contacts, DetectionSums& total)
 {
   using Find =
-      void (*)(const Pairs&, const DetectionRule&, std::uint32_t*, StepContacts&, DetectionSums&);
+      void (*)(const Pairs&, const DetectionRule&, NearPairs&, StepContacts&, DetectionSums&);
   // [periodic][rotation][restitution][foresight]
   static constexpr Find table[2][2][2][2] = {
       {{{find<Variant{false, false, false, false}>, find<Variant{false, false, false, true}>},
@@ -273,26 +301,27 @@ void find_for(const Pairs& pairs, const DetectionRule& rule, std::uint32_t* near
         {find<Variant{true, false, true, false}>, find<Variant{true, false, true, true}>}},
        {{find<Variant{true, true, false, false}>, find<Variant{true, true, false, true}>},
         {find<Variant{true, true, true, false}>, find<Variant{true, true, true, true}>}}}};
-  table[rule.periodic][rule.rim_factor > 0][rule.restitution > 0][rule.horizon > 0](
+  table[rule.periodic][rule.effects.rotation][rule.effects.restitution][rule.horizon > 0](
       pairs, rule, near, contacts, total);
 }
 
-void keep(const StepContacts& contacts, Pairs::Impulse* impulses, ImpulseSums& total)
+void keep(const StepContacts& contacts, Pairs::Impulse* impulses, Pairs::Memory* memories,
+          ImpulseSums& total)
 {
   const D d;
-  auto* memory = reinterpret_cast<double*>(impulses);
+  auto* remembered = reinterpret_cast<double*>(memories);
   alignas(64) Lanes gaps{}, base_x{}, base_y{};
-  alignas(64) std::array<std::uint32_t, block_lanes> row;
   for (std::size_t b = 0; b < contacts.size; ++b) {
     const auto& block = contacts.blocks[b];
     const auto& origin = contacts.origins[b];
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = 4 * origin.pair[lane];
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
+      store_rows(d, {n, t}, &impulses->n, &origin.row[lane]);
       const auto bearing = hn::Gt(n, hn::Zero(d));
-      const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
-      store_rows(d, {n, t}, memory, &row[lane]);
-      store_rows(d, {approach, hn::Zero(d)}, memory + 2, &row[lane]);
+      if (remembered != nullptr) {
+        const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
+        store_rows(d, {approach, hn::Zero(d)}, remembered, &origin.row[lane]);
+      }
       const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
       const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
       hn::Store(sum_gap, d, &gaps[lane]);
@@ -330,30 +359,36 @@ DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule, StepC
   for (const auto& c : pairs.classes) {
     const std::size_t size = c.end - c.begin;
     most += c.alone ? size : size / block_lanes;
-    largest_class = std::max(largest_class, size);
+    largest_class = std::max(largest_class, c.alone ? size * block_lanes : size);
   }
   std::swap(contacts.origins, contacts.previous_origins);
   contacts.previous_size = contacts.size;
   if (contacts.blocks.size() < most) contacts.blocks.resize(most);
   if (contacts.origins.size() < most) contacts.origins.resize(most);
-  contacts.near.resize(largest_class + block_lanes);
+  for (auto* numbers : {&contacts.near.row, &contacts.near.i, &contacts.near.j})
+    numbers->resize(largest_class + block_lanes);
   contacts.size = contacts.count = 0;
   DetectionSums sums;
-  HWY_DYNAMIC_DISPATCH(find_for)(pairs, rule, contacts.near.data(), contacts, sums);
+  HWY_DYNAMIC_DISPATCH(find_for)(pairs, rule, contacts.near, contacts, sums);
   return sums;
 }
 
-ImpulseSums keep_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses)
+ImpulseSums keep_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses,
+                          std::span<Pairs::Memory> memories)
 {
   ImpulseSums sums;
-  HWY_DYNAMIC_DISPATCH(keep)(contacts, impulses.data(), sums);
+  HWY_DYNAMIC_DISPATCH(keep)(contacts, impulses.data(), memories.data(), sums);
   return sums;
 }
 
-void forget_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses)
+void forget_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses,
+                     std::span<Pairs::Memory> memories)
 {
   for (std::size_t b = 0; b < contacts.previous_size; ++b)
-    for (const auto pair : contacts.previous_origins[b].pair) impulses[pair] = {};
+    for (const auto row : contacts.previous_origins[b].row) {
+      impulses[row / 2] = {0, 0};
+      if (!memories.empty()) memories[row / 2] = {0, 0};
+    }
 }
 
 }  // namespace grseg

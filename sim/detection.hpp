@@ -13,17 +13,23 @@ namespace grseg {
 
 /// Where the contacts of a block come from, and their gaps at mid-step.
 struct alignas(64) BlockOrigin {
-  ContactBlock::Lanes gap;                      // m
-  ContactBlock::Lanes approach;                 // m/s, to be remembered; see Pairs::Impulse
-  std::array<std::uint32_t, block_lanes> pair;  // the neutral pair for lanes left over
+  ContactBlock::Lanes gap;                     // m
+  ContactBlock::Lanes approach;                // m/s, to be remembered, see Pairs::Memory
+  std::array<std::uint32_t, block_lanes> row;  // twice the pair's index; lanes left over: neutral
+};
+
+/// The pairs of a class that act, while it is looked through.
+struct NearPairs {
+  std::vector<std::uint32_t> row;   // twice the pair's index
+  std::vector<std::uint32_t> i, j;  // as in Pairs
 };
 
 /// The contacts of one step.
 struct StepContacts {
   std::vector<ContactBlock> blocks;  // the first `size` of them; kept for the memory
   std::vector<BlockOrigin> origins, previous_origins;
-  std::vector<std::uint32_t> near;  // pairs of a class, while it is looked through
-  std::size_t size = 0;             // blocks in use
+  NearPairs near;
+  std::size_t size = 0;  // blocks in use
   std::size_t previous_size = 0;
   std::size_t on_base = 0;  // the first of the blocks whose partners j do not move
   std::size_t count = 0;    // contacts
@@ -40,9 +46,12 @@ struct DetectionRule {
   std::span<const Wall> walls;
   double margin = 0;  // m
   double restitution = 0;
-  double horizon = 0;     // s, World::horizon times the step
-  double rim_factor = 0;  // disc_rim_factor, or 0 where nothing rotates
-  bool periodic = false;
+  double horizon = 0;  // s, World::horizon times the step
+  double rim_factor = disc_rim_factor;
+  /// What there is to see to. Effects left out equal their neutral coefficients to the last bit:
+  /// restitution 0, rim_factor 0, shifts 0.
+  Effects effects;
+  bool periodic = true;
 };
 
 /// What detection has seen, over the contacts.
@@ -64,8 +73,10 @@ struct ImpulseSums {
 };
 
 /// Writes the contacts' impulses to their pairs.
-ImpulseSums keep_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses);
+ImpulseSums keep_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses,
+                          std::span<Pairs::Memory> memories);
 /// Sets the impulses of the previous step's contacts to 0.
-void forget_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses);
+void forget_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses,
+                     std::span<Pairs::Memory> memories);
 
 }  // namespace grseg

@@ -243,19 +243,34 @@ constexpr auto set_bits = [] {
   return table;
 }();
 
-/// Appends first + bit for every bit of a byte that is set and returns the new count; writes eight
-/// numbers in any case. (hn::Compress copies its tables to the stack each time with g++ 12.)
-HWY_INLINE std::size_t append_set_bits(std::uint32_t byte, std::size_t first, std::uint32_t* to,
-                                       std::size_t count)
+using D32 = hn::CappedTag<std::uint32_t, block_lanes>;
+
+/// Writes `scale` (first + bit) for every bit of a byte that is set, and then anything, to the
+/// eight entries at `to`. (hn::Compress copies its tables to the stack each time with g++ 12.)
+template <std::uint32_t scale>
+HWY_INLINE void store_set_bits(std::uint32_t byte, std::size_t first, std::uint32_t* to)
 {
-  const hn::CappedTag<std::uint32_t, block_lanes> du;
-  const hn::Rebind<std::uint8_t, decltype(du)> bytes;
-  const auto begin = hn::Set(du, static_cast<std::uint32_t>(first));
-  for (std::size_t k = 0; k < block_lanes; k += hn::MaxLanes(du)) {
-    const auto numbers = hn::PromoteTo(du, hn::LoadU(bytes, &set_bits[byte][k]));
-    hn::StoreU(hn::Add(begin, numbers), du, to + count + k);
+  const D32 d;
+  const hn::Rebind<std::uint8_t, D32> bytes;
+  const auto begin = hn::Set(d, static_cast<std::uint32_t>(scale * first));
+  for (std::size_t k = 0; k < block_lanes; k += hn::MaxLanes(d)) {
+    const auto bits = hn::PromoteTo(d, hn::LoadU(bytes, &set_bits[byte][k]));
+    hn::StoreU(hn::Add(begin, scale == 1 ? bits : hn::Add(bits, bits)), d, to + k);
   }
-  return count + hwy::PopCount(std::uint64_t{byte});
+}
+
+/// Writes those of eight numbers whose bits are set, and then anything, to the eight entries at
+/// `to`.
+HWY_INLINE void store_chosen(std::uint32_t byte, const std::uint32_t* from, std::uint32_t* to)
+{
+  const D32 d;
+  if constexpr (hn::MaxLanes(d) == block_lanes) {
+    const hn::Rebind<std::uint8_t, D32> bytes;
+    const auto bits = hn::PromoteTo(d, hn::LoadU(bytes, set_bits[byte].data()));
+    hn::StoreU(hn::TableLookupLanes(hn::LoadU(d, from), hn::IndicesFromVec(d, bits)), d, to);
+  } else {
+    for (std::size_t k = 0; k < block_lanes; ++k) to[k] = from[set_bits[byte][k]];
+  }
 }
 
 /// Sum over lanes, always in this order.

@@ -98,7 +98,8 @@ HWY_INLINE void find_with(const Discs& discs, std::size_t a, Range range, double
     }
     const std::size_t left = range.end - b;
     if (left < block_lanes) bits &= (1U << left) - 1;
-    count = append_set_bits(bits, b, found, count);
+    store_set_bits<1>(bits, b, found + count);
+    count += hwy::PopCount(std::uint64_t{bits});
   }
 }
 

@@ -13,7 +13,7 @@ namespace grseg {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::int32_t cells_per_group = 6;
+constexpr std::int32_t cells_per_group = 3;
 
 /// Classes while pairs are coloured: colours among grains and those left over, then the same for
 /// pairs with the base.
@@ -47,11 +47,15 @@ double least_along(const Extent& extent, const Vec2& direction)
          std::min(extent.low.y() * direction.y(), extent.high.y() * direction.y());
 }
 
+/// The first of `values` in a new order; `memory` is for the old ones.
 template <class T>
-void sort_as(std::vector<T>& values, const std::vector<std::uint32_t>& order)
+void sort_as(const std::vector<std::uint32_t>& order, std::vector<T>& values,
+             std::vector<T>& memory)
 {
-  auto old = values;
-  for (std::size_t k = 0; k < order.size(); ++k) values[k] = old[order[k]];
+  memory.resize(values.size());
+  for (std::size_t k = 0; k < order.size(); ++k) memory[k] = values[order[k]];
+  for (std::size_t k = order.size(); k < values.size(); ++k) memory[k] = values[k];
+  std::swap(values, memory);
 }
 
 double distance_to(const Wall& wall, const Vec2& x)
@@ -150,12 +154,11 @@ void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
   make_groups();
   find_pairs(grains);
   colour_pairs(grains);
-  const auto old = std::move(pairs_);
-  pairs_ = {};
+  std::swap(pairs_, old_pairs_);
   lay_out_classes();
   fill_in(grains);
   find_wall_pairs(grains);
-  carry_impulses(old);
+  carry_impulses();
 }
 
 PairList::State PairList::state() const
@@ -168,8 +171,8 @@ PairList::State PairList::state() const
   for (const auto& impulse : pairs_.impulse) {
     state.impulse_n.push_back(impulse.n);
     state.impulse_t.push_back(impulse.t);
-    state.approach.push_back(impulse.approach);
   }
+  for (const auto& memory : pairs_.memory) state.approach.push_back(memory.approach);
   return state;
 }
 
@@ -181,8 +184,10 @@ void PairList::restore(GrainState& grains, const State& state)
     throw FormatError(
         "this grseg-sim finds other pairs than the one that wrote the checkpoint; go on with the "
         "program that wrote it");
-  for (std::size_t k = 0; k < pairs_.impulse.size(); ++k)
-    pairs_.impulse[k] = {state.impulse_n[k], state.impulse_t[k], state.approach[k], 0};
+  for (std::size_t k = 0; k < pairs_.impulse.size(); ++k) {
+    pairs_.impulse[k] = {state.impulse_n[k], state.impulse_t[k]};
+    pairs_.memory[k] = {state.approach[k], 0};
+  }
   renewals_ = state.renewals;
 }
 
@@ -241,12 +246,12 @@ void PairList::sort_into_cells(GrainState& grains, const std::vector<Vec2>& posi
   place_[count] = static_cast<std::uint32_t>(count);
 
   made_at_ = position;
-  sort_as(made_at_, order_);
-  sort_as(grains.position, order_);
-  sort_as(grains.motion, order_);
-  sort_as(grains.radius, order_);
-  sort_as(grains.image, order_);
-  sort_as(grains.row, order_);
+  sort_as(order_, made_at_, memory_.position);
+  sort_as(order_, grains.position, memory_.position);
+  sort_as(order_, grains.motion, memory_.motion);
+  sort_as(order_, grains.radius, memory_.radius);
+  sort_as(order_, grains.image, memory_.image);
+  sort_as(order_, grains.row, memory_.row);
   discs_.x.resize(count + block_lanes);
   discs_.y.resize(count + block_lanes);
   discs_.radius.resize(count + block_lanes);
@@ -332,6 +337,7 @@ void PairList::lay_out_classes()
   std::array<std::uint32_t, 2 * palette> size{}, next{};
   for (std::size_t f = 0; f < found_.size(); ++f) ++size[class_of_[f]];
   std::uint32_t begin = 0;
+  pairs_.classes.clear();
   for (std::size_t c = 0; c < size.size(); ++c) {
     if (size[c] == 0) continue;
     next[c] = begin;
@@ -408,33 +414,45 @@ void PairList::find_wall_pairs(const GrainState& grains)
   pairs_.inertia.push_back({1, 0});
 }
 
-void PairList::carry_wall_impulse(std::uint32_t body, std::int32_t wall,
-                                  const Pairs::Impulse& impulse)
+void PairList::forget_impulses()
+{
+  pairs_.impulse.assign(pairs_.i.size(), {0, 0});
+  pairs_.memory.assign(pairs_.i.size(), {0, 0});
+}
+
+void PairList::carry(std::size_t from, std::size_t to)
+{
+  pairs_.impulse[to] = old_pairs_.impulse[from];
+  pairs_.memory[to] = old_pairs_.memory[from];
+}
+
+void PairList::carry_wall_impulse(std::uint32_t body, std::int32_t wall, std::uint32_t from)
 {
   for (const auto& c : pairs_.classes) {
     if (c.wall != wall) continue;
     const auto first = pairs_.i.begin() + c.begin, last = pairs_.i.begin() + c.end;
     const auto found = std::lower_bound(first, last, 2 * body);
     if (found != last && *found == 2 * body)
-      pairs_.impulse[static_cast<std::size_t>(found - pairs_.i.begin())] = impulse;
+      carry(from, static_cast<std::size_t>(found - pairs_.i.begin()));
   }
 }
 
-void PairList::carry_impulses(const Pairs& old)
+void PairList::carry_impulses()
 {
-  pairs_.impulse.assign(pairs_.i.size(), {});
+  const auto& old = old_pairs_;
+  forget_impulses();
   const auto still = static_cast<std::uint32_t>(place_.size() - 1);
   for (const auto& c : old.classes) {
     for (auto k = c.begin; k < c.end; ++k) {
       if (old.impulse[k].n == 0 && old.impulse[k].t == 0) continue;
       const auto i = place_[old.i[k] / 2], j = place_[old.j[k] / 2];
       if (j == still) {
-        carry_wall_impulse(i, c.wall, old.impulse[k]);
+        carry_wall_impulse(i, c.wall, k);
         continue;
       }
       const auto a = std::min(i, j), b = std::max(i, j);
       for (auto f = found_.begin[a]; f < found_.begin[a + 1]; ++f)
-        if (found_.b[f] == b) pairs_.impulse[position_of_[f]] = old.impulse[k];
+        if (found_.b[f] == b) carry(k, position_of_[f]);
     }
   }
 }

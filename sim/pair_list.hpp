@@ -31,8 +31,10 @@ struct Pairs {
     double mass;           ///< kg, effective along the normal
   };
   struct Impulse {
-    double n, t;      ///< kg m/s of the last step, 0 for a pair that did not touch
-    double approach;  ///< m/s, at which a pair closed before it was slowed down short of touching
+    double n, t;  ///< kg m/s of the last step, 0 for a pair that did not touch
+  };
+  struct Memory {
+    double approach;  ///< m/s, of a pair before it was slowed down short of touching
     double spare;
   };
   struct Class {
@@ -47,6 +49,7 @@ struct Pairs {
   std::vector<Geometry> geometry;
   std::vector<Inertia> inertia;
   std::vector<Impulse> impulse;
+  std::vector<Memory> memory;
   /// Grains among grains first, then those on the base, then those at walls. What fills the last
   /// eight of a class up has reach NaN. Behind the last pair stands a neutral one, of the body that
   /// never moves with itself.
@@ -83,6 +86,9 @@ class PairList {
 
   const Pairs& pairs() const { return pairs_; }
   std::span<Pairs::Impulse> impulses() { return pairs_.impulse; }
+  std::span<Pairs::Memory> memories() { return pairs_.memory; }
+  /// As if no pair had ever touched.
+  void forget_impulses();
   std::size_t renewals() const { return renewals_; }
 
   /// All that a list must have to be made again as it is.
@@ -109,8 +115,9 @@ class PairList {
   void lay_out_classes();
   void fill_in(const GrainState& grains);
   void find_wall_pairs(const GrainState& grains);
-  void carry_impulses(const Pairs& old);
-  void carry_wall_impulse(std::uint32_t body, std::int32_t wall, const Pairs::Impulse& impulse);
+  void carry_impulses();
+  void carry(std::size_t from, std::size_t to);
+  void carry_wall_impulse(std::uint32_t body, std::int32_t wall, std::uint32_t from);
   bool grains_stay_apart() const;
   bool bands_stay_apart() const;
   bool walls_stay_away() const;
@@ -136,7 +143,9 @@ class PairList {
   std::vector<Extent> moved_;             // per group, since the list was made
   std::vector<double> unlisted_nearest_;  // m, per wall and group, to grains that are not listed
 
-  // For the renewal alone.
+  // For the renewal alone; kept for the memory.
+  Pairs old_pairs_;
+  GrainState memory_;
   Discs discs_;
   FoundPairs found_;
   std::vector<std::uint32_t> order_, place_;  // old index of each body; new index of each old one

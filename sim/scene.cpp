@@ -253,10 +253,10 @@ po::options_description scene_options()
   add("friction", number(0.5), "Coulomb's coefficient, all contacts");
   add("restitution", number(0.25), "Newton's coefficient, all contacts");
   add("rotation", text("on"), "on or off: whether grains rotate");
-  add("contact-law", text("speculative"),
-      "when a pair acts: speculative (slowed down short of overlap, rebounds in the step after), "
-      "touch (where it touches at mid-step), centred (at the end of the step), predictive (half a "
-      "step later)");
+  add("contact-law", text("centred"),
+      "which pairs act in a step: centred (those that touch by its end), touch (at its middle), "
+      "predictive (half a step after its end) or speculative (slowed down short of overlap, they "
+      "rebound in the step after)");
   add("horizon", number(0.5), "steps ahead that the speculative law looks, at most 1");
   add("base", text("grains"), "grains (a row of fixed large grains) or wall (straight)");
   add("lateral", text("periodic"), "periodic or walls: what bounds the cell along x");

@@ -29,7 +29,7 @@ struct Scene {
   double friction = 0;
   double restitution = 0;  // Newton's e
   bool rotation = true;
-  enum class Law { speculative, touch, centred, predictive } law = Law::speculative;
+  enum class Law { speculative, touch, centred, predictive } law = Law::centred;
   double horizon = 0;  // steps, of the speculative law
   enum class Base { grains, wall } base = Base::grains;
   enum class Lateral { periodic, walls } lateral = Lateral::periodic;

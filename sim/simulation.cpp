@@ -16,9 +16,17 @@ namespace {
 // A motionless bed has converged when no velocity changes by this part of g h times the tolerance.
 constexpr double floor_of_reference = 1e-3;
 
-double default_skin(const Grains& grains)
+// A contact at rest must not be lost, and its load with it, because the last digit of a position
+// makes its gap positive. In smallest diameters.
+constexpr double least_margin = 1e-9;
+
+World with_defaults(World world)
 {
-  return 0.8 * *std::min_element(grains.radius.begin(), grains.radius.end());
+  const double smallest =
+      2 * *std::min_element(world.grains.radius.begin(), world.grains.radius.end());
+  world.margin = std::max(world.margin, least_margin * smallest);
+  if (!(world.skin > 0)) world.skin = 0.5 * smallest;
+  return world;
 }
 
 /// A grain's contacts as the file tells them: i before j, unless i does not move.
@@ -33,12 +41,12 @@ struct Named {
 }  // namespace
 
 Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
-    : world_(world),
+    : world_(with_defaults(world)),
       effects_{world.material.friction > 0, world.rotation,
                world.material.restitution > 0 || world.horizon > 0},
       pairs_(world.walls, world.box,
-             *std::max_element(world.grains.radius.begin(), world.grains.radius.end()),
-             world.skin > 0 ? world.skin : default_skin(world.grains), world.margin),
+             *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world_.skin,
+             world_.margin),
       state_(make_state(world.grains, position)),
       body_of_(position.size())
 {
@@ -59,6 +67,7 @@ Simulation::Simulation(const World& world, const State& state) : Simulation(worl
     body_of_[g] = static_cast<std::uint32_t>(b);
   }
   pairs_.restore(state_, state.pairs);
+  restored_ = true;
   steps_done_ = state.steps_done;
 }
 
@@ -156,29 +165,39 @@ void Simulation::renew_pairs()
 
 void Simulation::find_contacts(StepReport& report)
 {
-  const bool renew = !pairs_.complete(look_ahead());
-  if (renew) renew_pairs();
+  const auto* looked_at = &look_ahead();
+  const bool renew = !pairs_.complete(*looked_at);
+  if (renew) {
+    renew_pairs();
+    looked_at = &look_ahead();
+  }
   DetectionRule rule;
-  rule.looked_at = look_ahead();
+  rule.looked_at = *looked_at;
   rule.middle = state_.position;
   rule.motion = state_.motion;
   rule.walls = world_.walls;
   rule.margin = world_.margin;
+  rule.effects = effects_;
   rule.restitution = world_.material.restitution;
   rule.horizon = world_.horizon * world_.step;
-  rule.rim_factor = world_.rotation ? disc_rim_factor : 0;
   rule.periodic = world_.box.periodic_x;
   const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_);
   if (sums.coincident) stop_at_coincidence();
-  const auto impulses = pairs_.impulses();
-  if (renew)
-    std::fill(impulses.begin(), impulses.end(), Pairs::Impulse{});
+  if (renew || restored_)
+    pairs_.forget_impulses();
   else
-    forget_impulses(contacts_, impulses);
+    forget_impulses(contacts_, pairs_.impulses(), memories());
+  restored_ = false;
   report.touching = sums.touching;
   report.sum_overlap = sums.overlap;
   report.largest_overlap = sums.largest_overlap;
   report.fastest_approach = sums.fastest_approach;
+}
+
+std::span<Pairs::Memory> Simulation::memories()
+{
+  if (world_.horizon > 0) return pairs_.memories();
+  return {};
 }
 
 void Simulation::stop_at_coincidence() const
@@ -201,7 +220,7 @@ void Simulation::stop_at_coincidence() const
 
 void Simulation::keep_impulses(StepReport& report)
 {
-  const auto sums = grseg::keep_impulses(contacts_, pairs_.impulses());
+  const auto sums = grseg::keep_impulses(contacts_, pairs_.impulses(), memories());
   report.force_bearing = sums.force_bearing;
   report.sum_gap_bearing = sums.gap_bearing;
   report.base_impulse = sums.on_base_side;
@@ -245,7 +264,7 @@ void Simulation::write_down_contacts(ContactList& list) const
   const auto row_of = [&](std::uint32_t twice) { return state_.row[twice / 2]; };
   std::vector<Named> names;
   for (std::uint32_t slot = 0; slot < contacts_.size * block_lanes; ++slot) {
-    const auto k = contacts_.origins[slot / block_lanes].pair[slot % block_lanes];
+    const auto k = contacts_.origins[slot / block_lanes].row[slot % block_lanes] / 2;
     if (k == pairs.size()) continue;
     const bool at_wall = pairs.j[k] / 2 == state_.still();
     const std::int32_t i = row_of(pairs.i[k]), j = at_wall ? wall_name(k) : row_of(pairs.j[k]);
@@ -267,7 +286,7 @@ void Simulation::write_down_contacts(ContactList& list) const
     list.j.push_back(name.j);
     list.force.push_back((block.impulse_n[lane] * normal + block.impulse_t[lane] * tangent) /
                          world_.step);
-    list.branch.push_back((pairs.geometry[origin.pair[lane]].reach + gap) * normal);
+    list.branch.push_back((pairs.geometry[origin.row[lane] / 2].reach + gap) * normal);
     list.gap.push_back(gap);
   }
 }

@@ -25,11 +25,12 @@ struct World {
   /// Where along its free flight, in steps from mid-step on, a pair must touch to act in a step: 0
   /// where it is at mid-step, 1/2 at the end of the step. Geometry is that of mid-step in any case.
   double forecast = 0;
-  double margin = 0;  // m, within which a pair counts as touching there
+  /// m, within which a pair counts as touching there; at least 1e-9 of the smallest diameter.
+  double margin = 0;
   /// Steps within which a pair that is still apart may at most close its gap; 0 lets it overlap
   /// first. Newton's restitution then follows a step later, from the velocity that was lost.
   double horizon = 0;
-  double skin = 0;  // m, more than margin, of the pair list; 0 chooses 0.4 of the smallest diameter
+  double skin = 0;  // m, more than margin, of the pair list; 0 chooses half the smallest diameter
 };
 
 /// What one step did.
@@ -104,6 +105,7 @@ class Simulation {
   StepReport step(Frame* frame);
   void move_grains(double duration);
   const std::vector<Vec2>& look_ahead();
+  std::span<Pairs::Memory> memories();
   void renew_pairs();
   void find_contacts(StepReport& report);
   [[noreturn]] void stop_at_coincidence() const;
@@ -125,6 +127,7 @@ class Simulation {
   std::vector<Motion> before_;          // by row, at the beginning of a step that is written down
   StepContacts contacts_;
   std::int64_t steps_done_ = 0;
+  bool restored_ = false;  // the contacts of the step before are not known, only their impulses
 };
 
 }  // namespace grseg

@@ -174,6 +174,7 @@ TEST(Column, WithFewSweepsPerStepItRingsLikeAColumnOfSprings)
   // ((n^2 - 1)/N - 1)/2 for n even and two colours.
   const int n = 40;
   for (const int sweeps : {5, 20, 80}) {
+    SCOPED_TRACE(sweeps);
     const Burdened column(n, sweeps, 3000);
     const double period = pi / std::asin(std::sqrt(sweeps) * std::sin(pi / (4 * n)));
     EXPECT_NEAR(column.period(2) / period, 1, 0.02);

@@ -175,15 +175,13 @@ TEST(PairList, ImpulsesOfPairsThatStaySurviveARenewal)
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 2u);
   for (const auto& pair : list.pairs())
-    list.list.impulses()[pair.entry] =
-        pair.i == 0 ? Pairs::Impulse{3, -1, 0.5, 0} : Pairs::Impulse{4, 1, 0, 0};
+    list.list.impulses()[pair.entry] = pair.i == 0 ? Pairs::Impulse{3, -1} : Pairs::Impulse{4, 1};
   position[2].x() = 5;  // the second pair ends
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 1u);
   const auto impulse = list.list.impulses()[list.pairs()[0].entry];
   EXPECT_EQ(impulse.n, 3);
   EXPECT_EQ(impulse.t, -1);
-  EXPECT_EQ(impulse.approach, 0.5);
 }
 
 TEST(PairList, AWallIsMetByWhoeverComesNear)

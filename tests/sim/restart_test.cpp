@@ -58,7 +58,7 @@ void expect_a_restart_to_change_nothing(const Scene& scene)
   const auto whole = digest_of_steps(second, 1000, half);
   EXPECT_EQ(digest_of_steps(undisturbed, 2000), whole);
   EXPECT_EQ(second.pair_list_renewals(), undisturbed.pair_list_renewals());
-  EXPECT_GT(second.pair_list_renewals(), first.pair_list_renewals());
+  EXPECT_GT(first.pair_list_renewals(), 1u);
   EXPECT_EQ(second.state().pairs.impulse_t, undisturbed.state().pairs.impulse_t);
 }
 

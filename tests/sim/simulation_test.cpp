@@ -143,7 +143,7 @@ Simulation settled_heap(double tolerance)
   world.gravity = {0, -g};
   world.solver = {tolerance, 20000};
   Simulation simulation(world, positions_of(discs));
-  run(simulation, 10);  // nothing slows a disc that rolls on the floor until it meets another
+  run(simulation, 30);  // nothing slows a disc that rolls on the floor until it meets another
   return simulation;
 }
 
