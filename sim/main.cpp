@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/tool.hpp"
 #include "sim/run.hpp"
+#include "sim/sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,9 @@ void add_run_options(po::options_description& options, RunOptions& run)
   auto add = options.add_options();
   add("output,o", po::value(&run.output)->value_name("FILE"), "the trajectory to write");
   add("overwrite", po::bool_switch(&run.overwrite), "replace files that are there already");
+  add("isa", po::value(&run.instruction_set)->value_name("NAME"),
+      "vector instructions to use: avx512, avx2, sse4 or scalar (default: the best there is); the "
+      "bytes are the same");
   add("strict", po::bool_switch(&run.strict), "exit code 4 when a step missed the tolerance");
   add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
@@ -63,6 +67,7 @@ int main(int argc, char** argv)
     const auto inputs = given.count("input") > 0 ? given["input"].as<std::vector<std::string>>()
                                                  : std::vector<std::string>{};
     check(run, given);
+    use_instruction_set(run.instruction_set);
     if (inputs.size() > 1 || (inputs.empty() && run.restart.empty()))
       throw UsageError("name one scene file, such as sim/scenes/chute.ini; --help shows examples");
     if (run.output.empty()) throw UsageError("name the trajectory to write: -o run.h5");

@@ -2,6 +2,7 @@
 #include "sim/recorder.hpp"
 
 #include "formats/errors.hpp"
+#include "sim/energy_balance.hpp"
 
 #include <fmt/format.h>
 
@@ -59,6 +60,8 @@ std::vector<Observable> Recorder::observables()
           {"rotational_energy", "J"},
           {"potential_energy", "J"},
           {"momentum_defect", ""},
+          {"energy_defect", ""},
+          {"work_of_contacts", "J"},
           {"steps", ""},
           {"missed_steps", ""},
           {"sweeps", ""},
@@ -83,11 +86,16 @@ void Recorder::write(const Frame& frame, const Simulation& simulation)
 {
   check_bounds(frame, simulation);
   const auto& t = state_.since_frame;
+  const auto& world = simulation.world();
+  const auto energy =
+      energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
   const std::vector<double> values{
       simulation.translational_energy(),
       simulation.rotational_energy(),
       simulation.potential_energy(),
       momentum_defect(simulation.world().grains, frame, simulation.world().gravity),
+      energy.defect(),
+      energy.work_of_contacts,
       static_cast<double>(t.steps),
       static_cast<double>(t.missed),
       t.per_step(t.sweeps),

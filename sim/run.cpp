@@ -7,6 +7,8 @@
 #include "sim/cut_back.hpp"
 #include "sim/deposition.hpp"
 #include "sim/recorder.hpp"
+#include "sim/summary.hpp"
+#include "sim/sweep.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -73,41 +75,10 @@ Parameters describe(const Scene& scene, const RunOptions& options)
 {
   auto parameters = to_parameters(scene);
   parameters.texts["program"] = "grseg-sim " + version_with_hash();
+  parameters.texts["instruction_set"] = instruction_set();
   parameters.texts["command_line"] = options.command_line;
   parameters.texts["history"] = options.command_line;
   return parameters;
-}
-
-struct Cost {
-  double simulated = 0, wall = 0;  // s
-};
-
-void summarise(const Scene& scene, const StepTotals& t, const Cost& cost, double height, bool quiet,
-               TrajectoryWriter& writer)
-{
-  const double d = scene.small_diameter;
-  const double missed = t.per_step(static_cast<double>(t.missed));
-  Parameters summary;
-  summary.numbers["summary_sweeps_per_step"] = {t.per_step(t.sweeps)};
-  summary.numbers["summary_contacts_per_step"] = {t.per_step(t.force_bearing)};
-  summary.numbers["summary_missed_share"] = {missed};
-  summary.numbers["summary_largest_residual"] = {t.largest_residual};
-  summary.numbers["summary_mean_overlap"] = {t.mean_overlap()};
-  summary.numbers["summary_largest_overlap"] = {t.largest_overlap};
-  summary.numbers["summary_mean_gap"] = {t.mean_gap_bearing()};
-  summary.numbers["summary_deposited_height"] = {height};
-  writer.add_parameters(summary);
-  if (quiet) return;
-  fmt::print(stderr,
-             "grseg-sim: {:g} s simulated in {:.1f} s: {:.3g} s per second\n"
-             "  accuracy {}: step {:.4g} s, tolerance {:g}; {:.1f} sweeps and {:.0f} contacts per "
-             "step; tolerance missed in {:.3g} % of steps\n"
-             "  mean overlap {:.2e} d_S, largest {:.2e} d_S, mean |gap| under force {:.2e} d_S; "
-             "deposited height {:.2f} d_S\n",
-             cost.simulated, cost.wall, cost.wall > 0 ? cost.simulated / cost.wall : 0,
-             scene.accuracy, scene.step, scene.solver.tolerance, t.per_step(t.sweeps),
-             t.per_step(t.force_bearing), 100 * missed, t.mean_overlap() / d, t.largest_overlap / d,
-             t.mean_gap_bearing() / d, height / d);
 }
 
 /// The finished run under its own name, compressed if that is asked for.
@@ -248,8 +219,9 @@ void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkp
   const auto every = scene.steps_per_frame(), end = scene.steps_in_all();
   Frame frame;
   while (simulation.steps_done() < end && stop_signal == 0) {
-    const bool due = simulation.steps_done() % every == 0;
-    if (due && checkpoints.due()) checkpoints.write();
+    const auto since_due = simulation.steps_done() % every;
+    const bool due = since_due < scene.burst;
+    if (since_due == 0 && checkpoints.due()) checkpoints.write();
     recorder.add(due ? simulation.advance(frame) : simulation.advance());
     if (!due) continue;
     recorder.write(frame, simulation);
@@ -270,8 +242,10 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
   flow(scene, simulation, recorder, checkpoints, progress);
   progress.clear();
   const double wall = run.progress.wall + seconds_now() - begin;
-  summarise(scene, recorder.totals(), {simulation.time() - run.progress.begin, wall},
-            run.deposited_height, options.quiet, run.writer);
+  const RunSummary summary{simulation.time() - run.progress.begin, wall, run.deposited_height,
+                           recorder.totals(), stiffness_of(scene, recorder.totals())};
+  run.writer.add_parameters(to_parameters(summary));
+  if (!options.quiet) fmt::print(stderr, "{}", to_text(summary, scene));
   run.writer.close();
   if (stop_signal != 0)
     throw interruption(fmt::format(

@@ -14,6 +14,7 @@ struct RunOptions {
   bool overwrite = false;
   bool strict = false;
   bool quiet = false;
+  std::string instruction_set;   ///< "" for the best
   std::string checkpoint;        ///< file to write, "" for none
   double checkpoint_every = 60;  ///< s of wall time
   std::string restart;           ///< name of the checkpoint that `resume` goes on from

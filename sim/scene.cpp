@@ -159,6 +159,7 @@ void resolve_accuracy(const Keys& keys, Scene& scene)
   } else {
     scene.step = scene.frame_interval / std::ceil(scene.frame_interval / (preset->step * natural));
   }
+  scene.burst = keys.whole_number("burst", 1, scene.steps_per_frame());
   scene.solver.tolerance =
       keys.given("tolerance") ? keys.number("tolerance", 1e-15, 1e3) : preset->tolerance;
   scene.solver.max_sweeps = keys.given("max-sweeps")
@@ -262,7 +263,8 @@ po::options_description scene_options()
   add("lateral", text("periodic"), "periodic or walls: what bounds the cell along x");
   add("origin", text("top"), "y = 0 at the top or at the centre of the base grains");
   add("duration", number(150), "simulated time after the tilt, s");
-  add("frame-interval", number(0.05), "s between frames");
+  add("frame-interval", number(0.05), "s between frames, or between bursts of them");
+  add("burst", po::value<long>()->default_value(1), "frames of consecutive steps at a time");
   add("keep-deposition", po::bool_switch(), "write the deposition too, at t < 0");
   add("seed", po::value<long>()->default_value(1), "of the random numbers");
   add("accuracy", text("standard"), "draft, standard or reference: sets the three below");
@@ -347,6 +349,7 @@ std::string to_text(const Scene& scene)
   add("origin", origins[static_cast<std::size_t>(scene.origin)].first);
   add("duration", scene.duration);
   add("frame-interval", scene.frame_interval);
+  add("burst", scene.burst);
   add("keep-deposition", scene.keep_deposition ? "on" : "off");
   add("seed", scene.seed);
   add("accuracy", scene.accuracy);
@@ -367,6 +370,7 @@ Parameters to_parameters(const Scene& scene)
   n["slope"] = {scene.slope};
   n["step"] = {scene.step};
   n["frame_interval"] = {scene.frame_interval};
+  n["burst"] = {static_cast<double>(scene.burst)};
   n["small_diameter"] = {scene.small_diameter};
   n["large_diameter"] = {scene.large_diameter};
   n["spread"] = {scene.spread};

@@ -37,6 +37,7 @@ struct Scene {
 
   double duration = 0;        // s after the tilt
   double frame_interval = 0;  // s
+  std::int64_t burst = 1;     // consecutive frames, one per step, at each
   bool keep_deposition = false;
   std::uint64_t seed = 1;
 

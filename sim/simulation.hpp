@@ -98,6 +98,9 @@ class Simulation {
   double rotational_energy() const;
   double potential_energy() const;
 
+  /// Motion of each grain at the beginning of the last step that was written down.
+  const std::vector<Motion>& before() const { return before_; }
+
   std::size_t pair_list_renewals() const { return pairs_.renewals(); }
 
  private:

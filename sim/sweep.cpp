@@ -3,6 +3,8 @@
 
 #include "formats/errors.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 // Highway compiles what follows once per instruction set.
@@ -224,7 +226,11 @@ void use_instruction_set(const std::string& name)
   std::int64_t chosen = 0;
   for (const auto target : hwy::SupportedAndGeneratedTargets())
     if (name == name_of(target)) chosen = target;
-  if (chosen == 0 && !name.empty()) throw RunError("no instruction set '" + name + "' here");
+  if (chosen == 0 && !name.empty()) {
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    throw UsageError(fmt::format("there is no instruction set '{}' here; choose one of {}", name,
+                                 fmt::join(instruction_sets(), ", ")));
+  }
   hwy::SetSupportedTargetsForTest(chosen);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }

@@ -57,3 +57,12 @@ $bin/grseg-stress strict.h5 --window 0.1 --quiet >/dev/null
 $bin/grseg-sim $small --duration 0.2 --keep-deposition -o deposition.h5
 first=$(h5dump -d /particles/grains/position/time -s 0 -c 1 deposition.h5 | sed -n 's/.*(0): //p')
 case $first in -*) ;; *) fail "the first frame of the deposition is at t = $first" ;; esac
+
+# A burst is of consecutive steps, and the bytes are those of any instruction set.
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --duration 0.1 --burst 3 --isa scalar -o burst.h5
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --duration 0.1 --burst 3 -o same-burst.h5
+steps=$(h5dump -d /particles/grains/position/step -s 0 -c 3 -y burst.h5 | grep -A1 'DATA {' | tail -1 | tr -d ' ')
+[ "$steps" = 0,1,2 ] || fail "the first burst has the steps $steps"
+h5diff burst.h5 same-burst.h5 /grseg/digest || fail "bytes differ between instruction sets"
