@@ -173,6 +173,7 @@ void set_conditions(World& world, const Scene& scene)
   world.gravity = {0, -scene.gravity};
   world.step = scene.step;
   world.solver = scene.solver;
+  world.threads = scene.threads;
   world.forecast = world.horizon = world.margin = 0;
   switch (scene.law) {
     case Scene::Law::touch:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/detection.hpp"
 
+#include "sim/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -258,12 +260,13 @@ std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs
 }
 
 template <Variant with>
-void find(const Pairs& pairs, const DetectionRule& rule, NearPairs& near, StepContacts& contacts,
+void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, StripContacts& contacts,
           DetectionSums& total)
 {
   LaneSums sums;
+  auto& near = contacts.near;
   bool base_seen = false;
-  for (const auto& c : pairs.classes) {
+  for (const auto& c : pairs.classes_of(strip)) {
     if (c.on_base && !base_seen) contacts.on_base = contacts.size;
     base_seen |= c.on_base;
     const auto count = c.wall < 0 ? find_near_pairs<with.periodic>(pairs, c, rule, near)
@@ -286,11 +289,11 @@ void find(const Pairs& pairs, const DetectionRule& rule, NearPairs& near, StepCo
 }
 
 /// The only place where a scene's effects become a compile-time choice.
-void find_for(const Pairs& pairs, const DetectionRule& rule, NearPairs& near,
-              StepContacts& contacts, DetectionSums& total)
+void find_for(const Pairs& pairs, std::size_t strip, const DetectionRule& rule,
+              StripContacts& contacts, DetectionSums& total)
 {
   using Find =
-      void (*)(const Pairs&, const DetectionRule&, NearPairs&, StepContacts&, DetectionSums&);
+      void (*)(const Pairs&, std::size_t, const DetectionRule&, StripContacts&, DetectionSums&);
   // [periodic][rotation][restitution][foresight]
   static constexpr Find table[2][2][2][2] = {
       {{{find<Variant{false, false, false, false}>, find<Variant{false, false, false, true}>},
@@ -302,10 +305,10 @@ void find_for(const Pairs& pairs, const DetectionRule& rule, NearPairs& near,
        {{find<Variant{true, true, false, false}>, find<Variant{true, true, false, true}>},
         {find<Variant{true, true, true, false}>, find<Variant{true, true, true, true}>}}}};
   table[rule.periodic][rule.effects.rotation][rule.effects.restitution][rule.horizon > 0](
-      pairs, rule, near, contacts, total);
+      pairs, strip, rule, contacts, total);
 }
 
-void keep(const StepContacts& contacts, Pairs::Impulse* impulses, Pairs::Memory* memories,
+void keep(const StripContacts& contacts, Pairs::Impulse* impulses, Pairs::Memory* memories,
           ImpulseSums& total)
 {
   const D d;
@@ -351,44 +354,75 @@ namespace {
 HWY_EXPORT(find_for);
 HWY_EXPORT(keep);
 
-}  // namespace
-
-DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule, StepContacts& contacts)
+/// Room for all pairs of the strip.
+void make_room(std::span<const Pairs::Class> classes, StripContacts& contacts)
 {
   std::size_t most = 0, largest_class = 0;
-  for (const auto& c : pairs.classes) {
+  for (const auto& c : classes) {
     const std::size_t size = c.end - c.begin;
     most += c.alone ? size : size / block_lanes;
     largest_class = std::max(largest_class, c.alone ? size * block_lanes : size);
   }
-  std::swap(contacts.origins, contacts.previous_origins);
-  contacts.previous_size = contacts.size;
   if (contacts.blocks.size() < most) contacts.blocks.resize(most);
   if (contacts.origins.size() < most) contacts.origins.resize(most);
   for (auto* numbers : {&contacts.near.row, &contacts.near.i, &contacts.near.j})
     numbers->resize(largest_class + block_lanes);
-  contacts.size = contacts.count = 0;
-  DetectionSums sums;
-  HWY_DYNAMIC_DISPATCH(find_for)(pairs, rule, contacts.near, contacts, sums);
-  return sums;
 }
 
-ImpulseSums keep_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses,
-                          std::span<Pairs::Memory> memories)
+}  // namespace
+
+DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
+                            std::vector<StripContacts>& contacts, int threads)
 {
-  ImpulseSums sums;
-  HWY_DYNAMIC_DISPATCH(keep)(contacts, impulses.data(), memories.data(), sums);
-  return sums;
+  contacts.resize(pairs.strip_count());
+  std::vector<DetectionSums> sums(contacts.size());
+  for_each_part(threads, contacts.size(), [&](std::size_t s) {
+    auto& strip = contacts[s];
+    std::swap(strip.origins, strip.previous_origins);
+    strip.previous_size = strip.size;
+    strip.size = strip.count = 0;
+    make_room(pairs.classes_of(s), strip);
+    HWY_DYNAMIC_DISPATCH(find_for)(pairs, s, rule, strip, sums[s]);
+  });
+  DetectionSums total;
+  for (const auto& s : sums) {
+    total.touching += s.touching;
+    total.overlap += s.overlap;
+    total.largest_overlap = std::max(total.largest_overlap, s.largest_overlap);
+    total.fastest_approach = std::max(total.fastest_approach, s.fastest_approach);
+    total.coincident |= s.coincident;
+  }
+  return total;
 }
 
-void forget_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses,
-                     std::span<Pairs::Memory> memories)
+ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
+                          std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
+                          int threads)
 {
-  for (std::size_t b = 0; b < contacts.previous_size; ++b)
-    for (const auto row : contacts.previous_origins[b].row) {
-      impulses[row / 2] = {0, 0};
-      if (!memories.empty()) memories[row / 2] = {0, 0};
-    }
+  std::vector<ImpulseSums> sums(contacts.size());
+  for_each_part(threads, contacts.size(), [&](std::size_t s) {
+    HWY_DYNAMIC_DISPATCH(keep)(contacts[s], impulses.data(), memories.data(), sums[s]);
+  });
+  ImpulseSums total;
+  for (const auto& s : sums) {
+    total.force_bearing += s.force_bearing;
+    total.gap_bearing += s.gap_bearing;
+    total.on_base_side += s.on_base_side;
+  }
+  return total;
+}
+
+void forget_impulses(std::span<const StripContacts> contacts, std::span<Pairs::Impulse> impulses,
+                     std::span<Pairs::Memory> memories, int threads)
+{
+  for_each_part(threads, contacts.size(), [&](std::size_t s) {
+    const auto& strip = contacts[s];
+    for (std::size_t b = 0; b < strip.previous_size; ++b)
+      for (const auto row : strip.previous_origins[b].row) {
+        impulses[row / 2] = {0, 0};
+        if (!memories.empty()) memories[row / 2] = {0, 0};
+      }
+  });
 }
 
 }  // namespace grseg

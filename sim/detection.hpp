@@ -24,8 +24,8 @@ struct NearPairs {
   std::vector<std::uint32_t> i, j;  // as in Pairs
 };
 
-/// The contacts of one step.
-struct StepContacts {
+/// The contacts of a strip in one step.
+struct StripContacts {
   std::vector<ContactBlock> blocks;  // the first `size` of them; kept for the memory
   std::vector<BlockOrigin> origins, previous_origins;
   NearPairs near;
@@ -35,7 +35,6 @@ struct StepContacts {
   std::size_t count = 0;    // contacts
 
   std::span<ContactBlock> used() { return std::span(blocks).first(size); }
-  std::span<const ContactBlock> used() const { return std::span(blocks).first(size); }
 };
 
 /// What a step looks for.
@@ -63,7 +62,9 @@ struct DetectionSums {
   bool coincident = false;      // centres of a pair lie upon each other
 };
 
-DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule, StepContacts& contacts);
+/// Finds the contacts of every strip; sums are added strip by strip.
+DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
+                            std::vector<StripContacts>& contacts, int threads = 1);
 
 /// What the solver has made of the contacts.
 struct ImpulseSums {
@@ -73,10 +74,11 @@ struct ImpulseSums {
 };
 
 /// Writes the contacts' impulses to their pairs.
-ImpulseSums keep_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses,
-                          std::span<Pairs::Memory> memories);
-/// Sets the impulses of the previous step's contacts to 0.
-void forget_impulses(const StepContacts& contacts, std::span<Pairs::Impulse> impulses,
-                     std::span<Pairs::Memory> memories);
+ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
+                          std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
+                          int threads = 1);
+/// Sets the impulses of the previous step's contacts to 0; the list must be the same.
+void forget_impulses(std::span<const StripContacts> contacts, std::span<Pairs::Impulse> impulses,
+                     std::span<Pairs::Memory> memories, int threads = 1);
 
 }  // namespace grseg

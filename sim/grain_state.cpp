@@ -5,6 +5,15 @@
 
 namespace grseg {
 
+void GrainState::resize_like(const GrainState& other)
+{
+  position.resize(other.position.size(), Vec2::Zero());
+  motion.resize(other.motion.size());
+  radius.resize(other.radius.size());
+  image.resize(other.image.size());
+  row.resize(other.row.size());
+}
+
 GrainState make_state(const Grains& grains, const std::vector<Vec2>& position)
 {
   const std::size_t count = position.size();

@@ -23,6 +23,8 @@ struct GrainState {
   std::size_t size() const { return row.size(); }
   /// Index of the body that never moves.
   std::size_t still() const { return row.size(); }
+  /// Room for as many grains as `other` has, at rest.
+  void resize_like(const GrainState& other);
 };
 
 /// Grains at rest at `position`, m, in the order of their rows.

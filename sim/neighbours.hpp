@@ -3,7 +3,6 @@
 
 #include "formats/frame.hpp"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,7 +29,16 @@ void measure_displacements(std::span<const Vec2> from, std::span<const Vec2> to,
 /// Bodies, member by member; eight more than there are.
 struct Discs {
   std::vector<double> x, y, radius;  // m
-  std::vector<double> inverse_mass;  // 1/kg
+};
+
+/// The bodies of a cell and where their partners are.
+struct Search {
+  Range cell{};
+  std::uint32_t end = 0;           // in its band from each body on as far as here,
+  Range above{};                   // in the band above,
+  Range across{}, across_above{};  // and beyond the border of the strip, in both bands,
+  double offset = 0;               // m, to add to x of those beyond the border
+  double length = 0;               // m, period of x where that does not say which image is meant
 };
 
 /// Pairs in the order of their first body a: those of a are begin[a] .. begin[a+1]-1.
@@ -40,17 +48,25 @@ struct FoundPairs {
   std::size_t size() const { return begin.empty() ? 0 : begin.back(); }
 };
 
-/// The bodies of a cell and where to look for their partners.
-struct Search {
-  Range cell;
-  std::uint32_t end;               // partners behind a body in its band, as far as here
-  std::array<Range, 3> elsewhere;  // and in these ranges
-  double skin;                     // m
-  double length;                   // m, period of x, 0 without
+/// Adds to `found` the pairs nearer than `skin`, m. `found.begin` must end with the entry of the
+/// first body of the cell; `b` holds more than there are pairs, for the memory.
+void find_near(const Discs& discs, const Search& search, double skin, FoundPairs& found);
+
+/// Puts 1/x in the place of every x.
+void invert(std::span<double> values);
+
+/// What pairs of an old list keep, on its way to the new one: two times two numbers.
+struct Carry {
+  const std::uint32_t *i, *j;      // of the old pairs: twice the bodies' old indices
+  const std::uint32_t* place;      // new index of each old body
+  const FoundPairs* found;         // the new pairs;
+  const std::uint32_t* number;     // what each is in the new list
+  const double *impulse, *memory;  // two per old pair
+  double *to_impulse, *to_memory;  // two per new pair
 };
 
-/// Adds to `found` the pairs nearer than `skin` of which at least one body moves. `found.begin`
-/// must have an entry for the first body of the cell.
-void find_near(const Discs& discs, const Search& search, FoundPairs& found);
+/// Carries what the old pairs first .. last-1, both multiples of 8, keep, where their impulse is
+/// not zero.
+void carry_over(const Carry& task, std::uint32_t first, std::uint32_t last);
 
 }  // namespace grseg

@@ -3,8 +3,10 @@
 
 #include "formats/errors.hpp"
 #include "sim/contact_blocks.hpp"
+#include "sim/parallel.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -13,15 +15,9 @@ namespace grseg {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::int32_t cells_per_group = 3;
-
-/// Classes while pairs are coloured: colours among grains and those left over, then the same for
-/// pairs with the base.
-constexpr std::size_t colours = ContactBlocks::colours;
-constexpr std::size_t palette = colours + 1;
-
-constexpr Pairs::Geometry no_geometry{0, std::numeric_limits<double>::quiet_NaN()};
-constexpr Pairs::Geometry neutral_geometry{0, 1};
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int32_t columns_per_group = 3;
+constexpr std::uint8_t no_class = 255;
 
 void add(Extent& extent, const Extent& other)
 {
@@ -47,15 +43,9 @@ double least_along(const Extent& extent, const Vec2& direction)
          std::min(extent.low.y() * direction.y(), extent.high.y() * direction.y());
 }
 
-/// The first of `values` in a new order; `memory` is for the old ones.
-template <class T>
-void sort_as(const std::vector<std::uint32_t>& order, std::vector<T>& values,
-             std::vector<T>& memory)
+std::uint32_t whole_blocks(std::size_t pairs)
 {
-  memory.resize(values.size());
-  for (std::size_t k = 0; k < order.size(); ++k) memory[k] = values[order[k]];
-  for (std::size_t k = order.size(); k < values.size(); ++k) memory[k] = values[k];
-  std::swap(values, memory);
+  return static_cast<std::uint32_t>((pairs + block_lanes - 1) / block_lanes * block_lanes);
 }
 
 double distance_to(const Wall& wall, const Vec2& x)
@@ -66,13 +56,15 @@ double distance_to(const Wall& wall, const Vec2& x)
 }  // namespace
 
 PairList::PairList(const std::vector<Wall>& walls, const Box& box, double largest_radius,
-                   double skin, double margin)
+                   double skin, double margin, int threads)
     : walls_(walls),
       length_(box.periodic_x ? box.length_x : 0),
       inverse_length_(box.periodic_x ? 1 / box.length_x : 0),
       skin_(skin),
       slack_(skin - margin),
-      cell_(2 * largest_radius + skin)
+      cell_(2 * largest_radius + skin),
+      threads_(threads),
+      grid_(box, cell_, threads)
 {
 }
 
@@ -81,31 +73,32 @@ PairList::PairList(const std::vector<Wall>& walls, const Box& box, double larges
 bool PairList::complete(const std::vector<Vec2>& position)
 {
   if (made_at_.size() != position.size()) return false;
-  measure_displacements(made_at_, position, groups_, moved_);
-  return grains_stay_apart() && bands_stay_apart() && walls_stay_away();
+  const std::size_t across = first_group_.back();
+  for_each_part(threads_, bands_, [&](std::size_t band) {
+    measure_displacements(made_at_, position, std::span(groups_).subspan(band * across, across),
+                          std::span(moved_).subspan(band * across));
+  });
+  std::atomic<bool> apart = true;
+  for_each_part(threads_, bands_, [&](std::size_t band) {
+    if (!grains_stay_apart(band)) apart = false;
+  });
+  return apart && bands_stay_apart() && walls_stay_away();
 }
 
 /// Any two neighbouring groups lie in a square of two by two.
-bool PairList::grains_stay_apart() const
+bool PairList::grains_stay_apart(std::size_t band)
 {
-  const auto across = static_cast<std::size_t>(group_columns_);
-  const auto bands = static_cast<std::size_t>(bands_);
-  const auto pair = [&](std::size_t band, std::size_t g) {
-    auto both = moved_[band * across + g];
-    const std::size_t next = g + 1 < across ? g + 1 : length_ > 0 ? 0 : g;
-    add(both, moved_[band * across + next]);
-    return both;
-  };
+  const std::size_t across = first_group_.back();
+  const auto* here = &moved_[band * across];
+  const auto* above = band + 1 < bands_ ? here + across : here;
+  band_moved_[band] = nothing();
   for (std::size_t g = 0; g < across; ++g) {
-    auto below = nothing();
-    for (std::size_t band = 0; band < bands; ++band) {
-      const auto here = pair(band, g);
-      auto square = here;
-      add(square, below);
-      below = here;
-      if (!empty(square) && !((square.high - square.low).squaredNorm() <= slack_ * slack_))
-        return false;
-    }
+    const std::size_t next = g + 1 < across ? g + 1 : length_ > 0 ? 0 : g;
+    auto square = here[g];
+    add(band_moved_[band], square);
+    for (const auto& other : {here[next], above[g], above[next]}) add(square, other);
+    if (!empty(square) && !((square.high - square.low).squaredNorm() <= slack_ * slack_))
+      return false;
   }
   return true;
 }
@@ -113,17 +106,14 @@ bool PairList::grains_stay_apart() const
 /// Groups that are no neighbours are a band or a group apart: they may move by that much more.
 bool PairList::bands_stay_apart() const
 {
-  const auto across = static_cast<std::size_t>(group_columns_);
-  const double group_width = least_columns_ * column_width_;
-  const bool all_are_neighbours = group_columns_ <= (length_ > 0 ? 3 : 2);
+  const double group_width = least_columns_ * grid_.column_width();
+  const bool all_are_neighbours = first_group_.back() <= (length_ > 0 ? 3 : 2);
   auto below = nothing(), here = nothing();
   double highest = -infinity;  // two bands or more below, less the height in between
-  for (std::int32_t band = 0; band < bands_; ++band) {
+  for (const auto& band : band_moved_) {
     highest = std::max(highest - cell_, below.high.y());
     below = here;
-    here = nothing();
-    for (std::size_t g = 0; g < across; ++g)
-      add(here, moved_[static_cast<std::size_t>(band) * across + g]);
+    here = band;
     if (empty(here)) continue;
     if (!(highest - here.low.y() <= slack_)) return false;
     auto both = here;
@@ -136,10 +126,11 @@ bool PairList::bands_stay_apart() const
 
 bool PairList::walls_stay_away() const
 {
+  const double margin = skin_ - slack_;
   for (std::size_t w = 0; w < walls_.size(); ++w)
     for (std::size_t g = 0; g < groups_.size(); ++g)
       if (!(unlisted_nearest_[w * groups_.size() + g] + least_along(moved_[g], walls_[w].normal) >
-            skin_ - slack_))
+            margin))
         return false;
   return true;
 }
@@ -149,15 +140,20 @@ bool PairList::walls_stay_away() const
 void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
 {
   ++renewals_;
-  lay_grid(std::span(position).first(grains.size()));
-  sort_into_cells(grains, position);
+  sort_along_cells(grains, position);
   make_groups();
-  find_pairs(grains);
-  colour_pairs(grains);
+  const std::size_t strips = grid_.strips();
+  strips_.resize(strips);
+  for_each_part(threads_, strips, [&](std::size_t s) {
+    find_pairs(s);
+    find_wall_pairs(s, grains);
+  });
+  join_found(grains.size());
+  taken_.resize(grains.size());
+  for_alternate_strips(threads_, strips, [&](std::size_t s) { colour_pairs(s, grains); });
   std::swap(pairs_, old_pairs_);
-  lay_out_classes();
-  fill_in(grains);
-  find_wall_pairs(grains);
+  lay_out();
+  for_each_part(threads_, strips, [&](std::size_t s) { fill_in(s, grains); });
   carry_impulses();
 }
 
@@ -191,162 +187,174 @@ void PairList::restore(GrainState& grains, const State& state)
   renewals_ = state.renewals;
 }
 
-std::int32_t PairList::column(double x) const
-{
-  double along = x - left_;
-  if (length_ > 0) along -= length_ * std::floor(along * inverse_length_);
-  return static_cast<std::int32_t>(std::clamp(along / column_width_, 0.0, columns_ - 1.0));
-}
-
-std::int32_t PairList::band(double y) const
-{
-  return static_cast<std::int32_t>(std::clamp((y - bottom_) / cell_, 0.0, bands_ - 1.0));
-}
-
-std::size_t PairList::cell(std::int32_t column, std::int32_t band) const
-{
-  return static_cast<std::size_t>(band) * static_cast<std::size_t>(columns_) +
-         static_cast<std::size_t>(column);
-}
-
-void PairList::lay_grid(std::span<const Vec2> position)
-{
-  auto extent = nothing();
-  for (const auto& x : position) add(extent, {x, x});
-  bottom_ = extent.low.y();
-  left_ = length_ > 0 ? 0 : extent.low.x();
-  const double width = length_ > 0 ? length_ : extent.high.x() - extent.low.x();
-  // A grain that flies far away must not cost memory: what lies beyond shares the last cells.
-  const double most = 4.0 * static_cast<double>(position.size()) + 16;
-  columns_ = static_cast<std::int32_t>(std::clamp(std::floor(width / cell_), 1.0, most));
-  if (length_ > 0 && columns_ < 3) columns_ = 1;
-  column_width_ = std::max(width / columns_, std::numeric_limits<double>::min());
-  const double height = extent.high.y() - extent.low.y();
-  bands_ =
-      static_cast<std::int32_t>(std::clamp(std::ceil(height / cell_), 1.0, most / columns_ + 1));
-}
-
-void PairList::sort_into_cells(GrainState& grains, const std::vector<Vec2>& position)
+void PairList::sort_along_cells(GrainState& grains, const std::vector<Vec2>& position)
 {
   const std::size_t count = grains.size();
-  cell_begin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(bands_) + 1, 0);
-  cell_of_.resize(count);
-  for (std::size_t g = 0; g < count; ++g) {
-    cell_of_[g] = static_cast<std::uint32_t>(cell(column(position[g].x()), band(position[g].y())));
-    ++cell_begin_[cell_of_[g] + 1];
-  }
-  for (std::size_t c = 1; c < cell_begin_.size(); ++c) cell_begin_[c] += cell_begin_[c - 1];
-  auto next = cell_begin_;
-  order_.resize(count);
+  grid_.sort(std::span(position).first(count));
+  const auto& order = grid_.order();
   place_.resize(count + 1);
-  for (std::size_t g = 0; g < count; ++g) {
-    place_[g] = next[cell_of_[g]]++;
-    order_[place_[g]] = static_cast<std::uint32_t>(g);
-  }
   place_[count] = static_cast<std::uint32_t>(count);
-
-  made_at_ = position;
-  sort_as(order_, made_at_, memory_.position);
-  sort_as(order_, grains.position, memory_.position);
-  sort_as(order_, grains.motion, memory_.motion);
-  sort_as(order_, grains.radius, memory_.radius);
-  sort_as(order_, grains.image, memory_.image);
-  sort_as(order_, grains.row, memory_.row);
-  discs_.x.resize(count + block_lanes);
-  discs_.y.resize(count + block_lanes);
-  discs_.radius.resize(count + block_lanes);
-  discs_.inverse_mass.resize(count + block_lanes);
-  for (std::size_t g = 0; g < count; ++g) {
-    discs_.x[g] = made_at_[g].x();
-    discs_.y[g] = made_at_[g].y();
-    discs_.radius[g] = grains.radius[g];
-    discs_.inverse_mass[g] = grains.motion[g].inverse_mass;
-  }
+  made_at_.resize(position.size());
+  made_at_[count] = position[count];
+  for (auto* values : {&discs_.x, &discs_.y, &discs_.radius}) values->resize(count + block_lanes);
+  memory_.resize_like(grains);
+  for_ranges(threads_, count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      const std::size_t old = order[g];
+      place_[old] = static_cast<std::uint32_t>(g);
+      made_at_[g] = position[old];
+      memory_.position[g] = grains.position[old];
+      memory_.motion[g] = grains.motion[old];
+      memory_.radius[g] = grains.radius[old];
+      memory_.image[g] = grains.image[old];
+      memory_.row[g] = grains.row[old];
+      discs_.x[g] = grid_.wrapped(position[old].x());
+      discs_.y[g] = position[old].y();
+      discs_.radius[g] = grains.radius[old];
+    }
+  });
+  std::swap(grains, memory_);
 }
 
 void PairList::make_groups()
 {
-  group_columns_ = std::max(columns_ / cells_per_group, 1);
-  least_columns_ = columns_ / group_columns_;
+  bands_ = static_cast<std::size_t>(grid_.bands());
+  first_group_.assign(1, 0);
+  std::vector<std::int32_t> first_column;
+  least_columns_ = grid_.columns();
+  for (std::size_t s = 0; s < grid_.strips(); ++s) {
+    const auto begin = grid_.first_column(s), columns = grid_.first_column(s + 1) - begin;
+    const auto count = std::max(columns / columns_per_group, 1);
+    for (std::int32_t g = 0; g < count; ++g) first_column.push_back(begin + g * columns / count);
+    first_group_.push_back(first_column.size());
+    least_columns_ = std::min(least_columns_, columns / count);
+  }
+  first_column.push_back(grid_.columns());
   groups_.clear();
-  for (std::int32_t band = 0; band < bands_; ++band) {
-    for (std::int32_t g = 0; g < group_columns_; ++g) {
-      const auto first = cell(g * columns_ / group_columns_, band);
-      const auto last = cell((g + 1) * columns_ / group_columns_ - 1, band);
-      groups_.push_back({cell_begin_[first], cell_begin_[last + 1]});
-    }
-  }
+  for (std::int32_t band = 0; band < grid_.bands(); ++band)
+    for (std::size_t g = 0; g + 1 < first_column.size(); ++g)
+      groups_.push_back(grid_.bodies(first_column[g], first_column[g + 1] - 1, band));
   moved_.resize(groups_.size());
+  band_moved_.resize(bands_);
+  unlisted_nearest_.assign(walls_.size() * groups_.size(), infinity);
 }
 
-void PairList::find_pairs(const GrainState& grains)
+void PairList::find_pairs(std::size_t strip)
 {
-  found_.begin.assign(1, 0);
-  found_.begin.reserve(grains.size() + 1);
-  const auto cells = [&](std::int32_t first, std::int32_t last, std::int32_t band) {
-    return Range{cell_begin_[cell(first, band)], cell_begin_[cell(last, band) + 1]};
-  };
-  for (std::int32_t band = 0; band < bands_; ++band) {
-    for (std::int32_t c = 0; c < columns_; ++c) {
-      Search search{cells(c, c, band), 0, {}, skin_, length_};
-      const bool wraps = length_ > 0 && columns_ > 1;
-      const std::int32_t left = std::max(c - 1, 0), right = std::min(c + 1, columns_ - 1);
-      search.end = cells(c, right, band).end;
-      if (wraps && c == columns_ - 1) search.elsewhere[0] = cells(0, 0, band);
-      if (band + 1 < bands_) {
-        search.elsewhere[1] = cells(left, right, band + 1);
-        if (wraps && c == 0) search.elsewhere[2] = cells(columns_ - 1, columns_ - 1, band + 1);
-        if (wraps && c == columns_ - 1) search.elsewhere[2] = cells(0, 0, band + 1);
+  auto& found = strips_[strip].found;
+  found.begin.assign(1, 0);
+  for (std::int32_t band = 0; band < grid_.bands(); ++band)
+    for (auto c = grid_.first_column(strip); c < grid_.first_column(strip + 1); ++c)
+      find_near(discs_, grid_.search(strip, c, band), skin_, found);
+}
+
+void PairList::find_wall_pairs(std::size_t strip, const GrainState& grains)
+{
+  auto& at_wall = strips_[strip].at_wall;
+  at_wall.resize(walls_.size());
+  const std::size_t across = first_group_.back();
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    at_wall[w].clear();
+    for (std::size_t band = 0; band < bands_; ++band) {
+      for (auto g = first_group_[strip]; g < first_group_[strip + 1]; ++g) {
+        const auto& group = groups_[band * across + g];
+        auto& nearest = unlisted_nearest_[w * groups_.size() + band * across + g];
+        for (auto b = group.begin; b < group.end; ++b) {
+          if (!(grains.motion[b].inverse_mass > 0)) continue;
+          const double gap = distance_to(walls_[w], made_at_[b]) - grains.radius[b];
+          if (gap > skin_)
+            nearest = std::min(nearest, gap);
+          else
+            at_wall[w].push_back(b);
+        }
       }
-      find_near(discs_, search, found_);
     }
   }
 }
 
-void PairList::colour_pairs(const GrainState& grains)
+void PairList::join_found(std::size_t grains)
 {
-  taken_.assign(grains.size(), {});
-  class_of_.resize(found_.size());
-  const auto first_free = [](std::uint64_t taken) {
-    return static_cast<std::size_t>(std::countr_one(taken));
-  };
-  const auto bit = [](std::size_t colour) {
-    return colour < colours ? std::uint64_t{1} << colour : 0;
-  };
-  for (std::size_t a = 0; a < grains.size(); ++a) {
-    const bool a_moves = grains.motion[a].inverse_mass > 0;
+  std::vector<std::uint32_t> first(strips_.size() + 1, 0);
+  for (std::size_t s = 0; s < strips_.size(); ++s)
+    first[s + 1] = first[s] + static_cast<std::uint32_t>(strips_[s].found.size());
+  found_.begin.resize(grains + 1);
+  found_.begin[grains] = first.back();
+  found_.b.resize(first.back() + block_lanes);
+  class_of_.resize(first.back());
+  number_.resize(first.back());
+  for_each_part(threads_, strips_.size(), [&](std::size_t s) {
+    const auto& found = strips_[s].found;
+    const auto bodies = grid_.bodies_of_strip(s);
+    for (auto a = bodies.begin; a < bodies.end; ++a)
+      found_.begin[a] = first[s] + found.begin[a - bodies.begin];
+    std::copy_n(found.b.begin(), found.size(), found_.b.begin() + first[s]);
+  });
+}
+
+std::uint8_t PairList::colour(std::uint32_t a, std::uint32_t b, const GrainState& grains)
+{
+  constexpr std::size_t colours = palette - 1;
+  const auto bit = [](int free) { return free < 64 ? std::uint64_t{1} << free : 0; };
+  static_assert(colours == 64);
+  const bool a_moves = grains.motion[a].inverse_mass > 0;
+  const bool b_moves = grains.motion[b].inverse_mass > 0;
+  if (a_moves && b_moves) {
+    const int free = std::countr_one(taken_[a].among_grains | taken_[b].among_grains);
+    taken_[a].among_grains |= bit(free);
+    taken_[b].among_grains |= bit(free);
+    return static_cast<std::uint8_t>(free);
+  }
+  if (!a_moves && !b_moves) return no_class;
+  auto& taken = taken_[a_moves ? a : b].on_base;
+  const int free = std::countr_one(taken);
+  taken |= bit(free);
+  return static_cast<std::uint8_t>(on_base + static_cast<std::size_t>(free));
+}
+
+void PairList::colour_pairs(std::size_t strip, const GrainState& grains)
+{
+  const auto bodies = grid_.bodies_of_strip(strip);
+  for (auto a = bodies.begin; a < bodies.end; ++a) taken_[a] = {};
+  if (strips_.size() > 1)
+    for (auto f = found_.begin[bodies.begin]; f < found_.begin[bodies.end]; ++f)
+      taken_[found_.b[f]] = {};
+  auto& size = strips_[strip].size;
+  size.fill(0);
+  for (auto a = bodies.begin; a < bodies.end; ++a) {
     for (auto f = found_.begin[a]; f < found_.begin[a + 1]; ++f) {
-      const std::size_t b = found_.b[f];
-      if (a_moves && grains.motion[b].inverse_mass > 0) {
-        const auto colour = first_free(taken_[a].among_grains | taken_[b].among_grains);
-        taken_[a].among_grains |= bit(colour);
-        taken_[b].among_grains |= bit(colour);
-        class_of_[f] = static_cast<std::uint8_t>(colour);
-      } else {
-        auto& taken = taken_[a_moves ? a : b].on_base;
-        const auto colour = first_free(taken);
-        taken |= bit(colour);
-        class_of_[f] = static_cast<std::uint8_t>(palette + colour);
-      }
+      class_of_[f] = colour(a, found_.b[f], grains);
+      if (class_of_[f] != no_class) ++size[class_of_[f]];
     }
   }
 }
 
-void PairList::lay_out_classes()
+void PairList::lay_out()
 {
-  std::array<std::uint32_t, 2 * palette> size{}, next{};
-  for (std::size_t f = 0; f < found_.size(); ++f) ++size[class_of_[f]];
-  std::uint32_t begin = 0;
   pairs_.classes.clear();
-  for (std::size_t c = 0; c < size.size(); ++c) {
-    if (size[c] == 0) continue;
-    next[c] = begin;
-    const std::uint32_t end = begin + (size[c] + block_lanes - 1) / block_lanes * block_lanes;
-    pairs_.classes.push_back({begin, end, -1, c % palette == colours, c >= palette});
-    begin = end;
+  pairs_.strips.assign(1, 0);
+  std::uint32_t begin = 0;
+  const auto add_class = [&](std::size_t size, std::int32_t wall, bool alone, bool base) {
+    if (size == 0) return;
+    pairs_.classes.push_back({begin, begin + whole_blocks(size), wall, alone, base});
+    begin = pairs_.classes.back().end;
+  };
+  for (auto& strip : strips_) {
+    strip.begin = begin;
+    for (std::size_t c = 0; c < all_classes; ++c) {
+      strip.next[c] = begin;
+      add_class(strip.size[c], -1, c % palette == palette - 1, c >= on_base);
+    }
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+      add_class(strip.at_wall[w].size(), static_cast<std::int32_t>(w), false, true);
+    strip.end = begin;
+    pairs_.strips.push_back(static_cast<std::uint32_t>(pairs_.classes.size()));
   }
-  position_of_.resize(found_.size());
-  for (std::size_t f = 0; f < found_.size(); ++f) position_of_[f] = next[class_of_[f]]++;
+  pairs_.i.resize(begin + 1);
+  pairs_.j.resize(begin + 1);
+  pairs_.geometry.resize(begin + 1);
+  pairs_.inertia.resize(begin + 1);
+  pairs_.impulse.resize(begin + 1);
+  pairs_.memory.resize(begin + 1);
 }
 
 double PairList::nearest_shift(double difference) const
@@ -355,63 +363,50 @@ double PairList::nearest_shift(double difference) const
                                              : -length_ * std::round(difference * inverse_length_);
 }
 
-void PairList::fill_in(const GrainState& grains)
+/// Writes the pairs of a strip, behind the last one the neutral pair.
+void PairList::fill_in(std::size_t strip, const GrainState& grains)
 {
-  const std::size_t size = pairs_.classes.empty() ? 0 : pairs_.classes.back().end;
+  auto& s = strips_[strip];
   const auto nobody = static_cast<std::uint32_t>(2 * grains.still());
-  pairs_.i.assign(size, nobody);
-  pairs_.j.assign(size, nobody);
-  pairs_.geometry.assign(size, no_geometry);
-  pairs_.inertia.assign(size, {1, 0});
-  for (std::size_t a = 0; a < grains.size(); ++a) {
+  const auto write = [&](std::size_t k, std::uint32_t i, std::uint32_t j,
+                         const Pairs::Geometry& geometry, double inverse_mass) {
+    pairs_.i[k] = i;
+    pairs_.j[k] = j;
+    pairs_.geometry[k] = geometry;
+    pairs_.inertia[k] = {geometry.reach, inverse_mass};  // inverted below
+  };
+  for (const auto& c : pairs_.classes_of(strip))
+    for (auto k = c.end - block_lanes; k < c.end; ++k)
+      write(k, nobody, nobody, {0, not_a_number}, 1);
+
+  const auto bodies = grid_.bodies_of_strip(strip);
+  for (auto a = bodies.begin; a < bodies.end; ++a) {
     const double w_a = grains.motion[a].inverse_mass;
     for (auto f = found_.begin[a]; f < found_.begin[a + 1]; ++f) {
-      const std::size_t b = found_.b[f], k = position_of_[f];
-      const double reach = grains.radius[a] + grains.radius[b];
-      pairs_.i[k] = static_cast<std::uint32_t>(2 * (w_a > 0 ? a : b));
-      pairs_.j[k] = static_cast<std::uint32_t>(2 * (w_a > 0 ? b : a));
+      if (class_of_[f] == no_class) continue;
+      const auto b = found_.b[f];
       const double shift = nearest_shift(made_at_[a].x() - made_at_[b].x());
-      pairs_.geometry[k] = {w_a > 0 ? shift : -shift, reach};
-      pairs_.inertia[k] = {1 / reach, 1 / (w_a + grains.motion[b].inverse_mass)};
+      const bool first = w_a > 0;
+      const std::size_t k = number_[f] = s.next[class_of_[f]]++;
+      write(k, 2 * (first ? a : b), 2 * (first ? b : a),
+            {first ? shift : -shift, grains.radius[a] + grains.radius[b]},
+            w_a + grains.motion[b].inverse_mass);
     }
   }
-}
-
-void PairList::find_wall_pairs(const GrainState& grains)
-{
-  const auto nobody = static_cast<std::uint32_t>(2 * grains.still());
-  unlisted_nearest_.assign(walls_.size() * groups_.size(), infinity);
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const auto begin = static_cast<std::uint32_t>(pairs_.i.size());
-    for (std::size_t group = 0; group < groups_.size(); ++group) {
-      for (auto g = groups_[group].begin; g < groups_[group].end; ++g) {
-        if (!(grains.motion[g].inverse_mass > 0)) continue;
-        const double gap = distance_to(walls_[w], made_at_[g]) - grains.radius[g];
-        auto& nearest = unlisted_nearest_[w * groups_.size() + group];
-        if (gap > skin_) {
-          nearest = std::min(nearest, gap);
-          continue;
-        }
-        pairs_.i.push_back(2 * g);
-        pairs_.j.push_back(nobody);
-        pairs_.geometry.push_back({0, grains.radius[g]});
-        pairs_.inertia.push_back({1 / grains.radius[g], 1 / grains.motion[g].inverse_mass});
-      }
-    }
-    while (pairs_.i.size() % block_lanes != 0) {
-      pairs_.i.push_back(nobody);
-      pairs_.j.push_back(nobody);
-      pairs_.geometry.push_back(no_geometry);
-      pairs_.inertia.push_back({1, 0});
-    }
-    const auto end = static_cast<std::uint32_t>(pairs_.i.size());
-    if (end > begin)
-      pairs_.classes.push_back({begin, end, static_cast<std::int32_t>(w), false, true});
+  for (const auto& c : pairs_.classes_of(strip)) {
+    if (c.wall < 0) continue;
+    auto k = c.begin;
+    for (const auto b : s.at_wall[static_cast<std::size_t>(c.wall)])
+      write(k++, 2 * b, nobody, {0, grains.radius[b]}, grains.motion[b].inverse_mass);
   }
-  pairs_.i.push_back(nobody);
-  pairs_.j.push_back(nobody);
-  pairs_.geometry.push_back(neutral_geometry);
-  pairs_.inertia.push_back({1, 0});
+  std::fill(pairs_.impulse.begin() + s.begin, pairs_.impulse.begin() + s.end, Pairs::Impulse{});
+  std::fill(pairs_.memory.begin() + s.begin, pairs_.memory.begin() + s.end, Pairs::Memory{});
+  if (s.end > s.begin)
+    invert({&pairs_.inertia[s.begin].inverse_reach, 2 * std::size_t{s.end - s.begin}});
+  if (strip + 1 < strips_.size()) return;
+  write(s.end, nobody, nobody, {0, 1}, 0);
+  pairs_.impulse[s.end] = {};
+  pairs_.memory[s.end] = {};
 }
 
 void PairList::forget_impulses()
@@ -420,40 +415,40 @@ void PairList::forget_impulses()
   pairs_.memory.assign(pairs_.i.size(), {0, 0});
 }
 
-void PairList::carry(std::size_t from, std::size_t to)
-{
-  pairs_.impulse[to] = old_pairs_.impulse[from];
-  pairs_.memory[to] = old_pairs_.memory[from];
-}
-
 void PairList::carry_wall_impulse(std::uint32_t body, std::int32_t wall, std::uint32_t from)
 {
   for (const auto& c : pairs_.classes) {
     if (c.wall != wall) continue;
     const auto first = pairs_.i.begin() + c.begin, last = pairs_.i.begin() + c.end;
     const auto found = std::lower_bound(first, last, 2 * body);
-    if (found != last && *found == 2 * body)
-      carry(from, static_cast<std::size_t>(found - pairs_.i.begin()));
+    if (found == last || *found != 2 * body) continue;
+    const auto to = static_cast<std::size_t>(found - pairs_.i.begin());
+    pairs_.impulse[to] = old_pairs_.impulse[from];
+    pairs_.memory[to] = old_pairs_.memory[from];
   }
 }
 
 void PairList::carry_impulses()
 {
   const auto& old = old_pairs_;
-  forget_impulses();
-  const auto still = static_cast<std::uint32_t>(place_.size() - 1);
+  if (old.classes.empty() || pairs_.classes.empty()) return;
+  const Carry task{old.i.data(),
+                   old.j.data(),
+                   place_.data(),
+                   &found_,
+                   number_.data(),
+                   &old.impulse[0].n,
+                   &old.memory[0].approach,
+                   &pairs_.impulse[0].n,
+                   &pairs_.memory[0].approach};
+  for_each_part(threads_, old.classes.size(), [&](std::size_t n) {
+    if (old.classes[n].wall < 0) carry_over(task, old.classes[n].begin, old.classes[n].end);
+  });
   for (const auto& c : old.classes) {
-    for (auto k = c.begin; k < c.end; ++k) {
-      if (old.impulse[k].n == 0 && old.impulse[k].t == 0) continue;
-      const auto i = place_[old.i[k] / 2], j = place_[old.j[k] / 2];
-      if (j == still) {
-        carry_wall_impulse(i, c.wall, k);
-        continue;
-      }
-      const auto a = std::min(i, j), b = std::max(i, j);
-      for (auto f = found_.begin[a]; f < found_.begin[a + 1]; ++f)
-        if (found_.b[f] == b) carry(k, position_of_[f]);
-    }
+    if (c.wall < 0) continue;
+    for (auto k = c.begin; k < c.end; ++k)
+      if (old.impulse[k].n != 0 || old.impulse[k].t != 0)
+        carry_wall_impulse(place_[old.i[k] / 2], c.wall, k);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/frame.hpp"
+#include "sim/cell_grid.hpp"
 #include "sim/grain_state.hpp"
 #include "sim/neighbours.hpp"
 
@@ -50,10 +51,19 @@ struct Pairs {
   std::vector<Inertia> inertia;
   std::vector<Impulse> impulse;
   std::vector<Memory> memory;
-  /// Grains among grains first, then those on the base, then those at walls. What fills the last
-  /// eight of a class up has reach NaN. Behind the last pair stands a neutral one, of the body that
-  /// never moves with itself.
+  /// Strip by strip; in a strip grains among grains first, then those on the base, then those at
+  /// walls. What fills the last eight of a class up has reach NaN. Behind the last pair stands a
+  /// neutral one, of the body that never moves with itself.
   std::vector<Class> classes;
+  /// Per strip its first class, and the number of classes. Pairs of strips that are no neighbours
+  /// have no mobile body in common.
+  std::vector<std::uint32_t> strips{0, 0};
+
+  std::size_t strip_count() const { return strips.size() - 1; }
+  std::span<const Class> classes_of(std::size_t strip) const
+  {
+    return std::span(classes).subspan(strips[strip], strips[strip + 1] - strips[strip]);
+  }
 
   /// Number of entries, the neutral one left out.
   std::size_t size() const { return i.empty() ? 0 : i.size() - 1; }
@@ -74,7 +84,7 @@ class PairList {
  public:
   /// Lists pairs nearer than `skin` and promises those nearer than `margin`, in m.
   PairList(const std::vector<Wall>& walls, const Box& box, double largest_radius, double skin,
-           double margin = 0);
+           double margin = 0, int threads = 1);
 
   /// Whether the list still holds every pair that may touch at `position` (m, in the order of the
   /// state, not wrapped since the list was made: a pair remembers which periodic image of j it
@@ -103,56 +113,62 @@ class PairList {
   void restore(GrainState& grains, const State& state);
 
  private:
+  /// Colours among grains and a class for pairs that got none; the same for pairs with the base.
+  static constexpr std::size_t palette = 65, on_base = palette, all_classes = 2 * palette;
   struct Taken {
     std::uint64_t among_grains = 0, on_base = 0;  // a bit per colour
   };
+  /// What a renewal knows of a strip.
+  struct Strip {
+    FoundPairs found;
+    std::array<std::uint32_t, all_classes> size, next;  // pairs of each class; where they go
+    std::vector<std::vector<std::uint32_t>> at_wall;    // bodies, per wall
+    std::uint32_t begin, end;                           // in pairs_
+  };
 
-  void lay_grid(std::span<const Vec2> position);
-  void sort_into_cells(GrainState& grains, const std::vector<Vec2>& position);
+  void sort_along_cells(GrainState& grains, const std::vector<Vec2>& position);
   void make_groups();
-  void find_pairs(const GrainState& grains);
-  void colour_pairs(const GrainState& grains);
-  void lay_out_classes();
-  void fill_in(const GrainState& grains);
-  void find_wall_pairs(const GrainState& grains);
+  void find_pairs(std::size_t strip);
+  void find_wall_pairs(std::size_t strip, const GrainState& grains);
+  void join_found(std::size_t grains);
+  void colour_pairs(std::size_t strip, const GrainState& grains);
+  std::uint8_t colour(std::uint32_t a, std::uint32_t b, const GrainState& grains);
+  void lay_out();
+  void fill_in(std::size_t strip, const GrainState& grains);
   void carry_impulses();
-  void carry(std::size_t from, std::size_t to);
   void carry_wall_impulse(std::uint32_t body, std::int32_t wall, std::uint32_t from);
-  bool grains_stay_apart() const;
+  bool grains_stay_apart(std::size_t band);
   bool bands_stay_apart() const;
   bool walls_stay_away() const;
   double nearest_shift(double difference) const;
-  std::int32_t column(double x) const;
-  std::int32_t band(double y) const;
-  std::size_t cell(std::int32_t column, std::int32_t band) const;
 
   std::vector<Wall> walls_;
   double length_, inverse_length_;  // 0 and 0 where nothing is periodic
   double skin_, slack_, cell_;      // m; slack is what skin leaves beside margin
+  int threads_;
+  CellGrid grid_;
   Pairs pairs_;
   std::size_t renewals_ = 0;
 
-  std::int32_t columns_ = 1, bands_ = 1;
-  double left_ = 0, bottom_ = 0, column_width_ = 1;
-  std::vector<std::uint32_t> cell_begin_;
-
-  std::int32_t group_columns_ = 1;        // groups per band
-  std::int32_t least_columns_ = 1;        // cells across the narrowest group
+  std::vector<std::size_t> first_group_;  // in a band, per strip, and behind the last
+  std::size_t bands_ = 0;
+  std::int32_t least_columns_ = 1;        // across the narrowest group
   std::vector<Range> groups_;             // of bodies, band by band
-  std::vector<Vec2> made_at_;             // positions when the list was made
+  std::vector<Vec2> made_at_;             // m, positions when the list was made
   std::vector<Extent> moved_;             // per group, since the list was made
+  std::vector<Extent> band_moved_;        // per band
   std::vector<double> unlisted_nearest_;  // m, per wall and group, to grains that are not listed
 
   // For the renewal alone; kept for the memory.
   Pairs old_pairs_;
   GrainState memory_;
   Discs discs_;
-  FoundPairs found_;
-  std::vector<std::uint32_t> order_, place_;  // old index of each body; new index of each old one
-  std::vector<std::uint32_t> cell_of_;
+  std::vector<std::uint32_t> place_;  // new index of each old body
+  std::vector<Strip> strips_;
+  FoundPairs found_;  // of all strips
   std::vector<Taken> taken_;
-  std::vector<std::uint8_t> class_of_;      // per found pair
-  std::vector<std::uint32_t> position_of_;  // per found pair, in pairs_
+  std::vector<std::uint8_t> class_of_;  // per found pair
+  std::vector<std::uint32_t> number_;   // of each found pair in pairs_
 };
 
 }  // namespace grseg

@@ -5,6 +5,7 @@
 #include "formats/tool.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -267,6 +268,8 @@ po::options_description scene_options()
   add("burst", po::value<long>()->default_value(1), "frames of consecutive steps at a time");
   add("keep-deposition", po::bool_switch(), "write the deposition too, at t < 0");
   add("seed", po::value<long>()->default_value(1), "of the random numbers");
+  add("threads", po::value<long>()->default_value(1),
+      "for wide scenes; 0 takes all cores. Frames do not depend on it");
   add("accuracy", text("standard"), "draft, standard or reference: sets the three below");
   add("step", po::value<double>(), "time step, s");
   add("tolerance", po::value<double>(),
@@ -317,6 +320,8 @@ Scene resolve_scene(const po::variables_map& values)
   resolve_accuracy(keys, scene);
   scene.keep_deposition = values["keep-deposition"].as<bool>();
   scene.seed = static_cast<std::uint64_t>(keys.whole_number("seed", 1, 4294967295));
+  scene.threads = static_cast<int>(keys.whole_number("threads", 0, 1024));
+  if (scene.threads == 0) scene.threads = omp_get_num_procs();
   scene.compression = values["compression"].as<int>();
   if (scene.compression < 0 || scene.compression > 9)
     throw SceneError("compression", "compression is a deflate level from 0 (none) to 9");

@@ -40,6 +40,7 @@ struct Scene {
   std::int64_t burst = 1;     // consecutive frames, one per step, at each
   bool keep_deposition = false;
   std::uint64_t seed = 1;
+  int threads = 1;  // frames do not depend on it
 
   std::string accuracy;  // draft, standard, reference
   double step = 0;       // s
@@ -78,7 +79,7 @@ Scene resolve_scene(const boost::program_options::variables_map& values);
 /// wrong in the file is a FormatError with its line.
 Scene resolve_scene(const std::string& path, const boost::program_options::variables_map& given);
 
-/// The scene as a file that gives the same run: every key in SI.
+/// The scene as a file that gives the same run: every key in SI but threads, which changes nothing.
 std::string to_text(const Scene& scene);
 
 /// What a trajectory says of the scene under /parameters.

@@ -2,6 +2,7 @@
 #include "sim/simulation.hpp"
 
 #include "formats/errors.hpp"
+#include "sim/parallel.hpp"
 
 #include <fmt/format.h>
 
@@ -25,15 +26,17 @@ World with_defaults(World world)
   const double smallest =
       2 * *std::min_element(world.grains.radius.begin(), world.grains.radius.end());
   world.margin = std::max(world.margin, least_margin * smallest);
-  if (!(world.skin > 0)) world.skin = 0.5 * smallest;
+  if (!(world.skin > 0)) world.skin = world.margin + 0.5 * smallest;
   return world;
 }
 
 /// A grain's contacts as the file tells them: i before j, unless i does not move.
 struct Named {
   std::int32_t i, j;
-  std::uint32_t slot;
   bool turned;
+  const ContactBlock* block;
+  const BlockOrigin* origin;
+  std::size_t lane;
 
   bool operator<(const Named& other) const { return i != other.i ? i < other.i : j < other.j; }
 };
@@ -44,9 +47,10 @@ Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
     : world_(with_defaults(world)),
       effects_{world.material.friction > 0, world.rotation,
                world.material.restitution > 0 || world.horizon > 0},
+      threads_(position.size() < CellGrid::cut_from ? 1 : world.threads),
       pairs_(world.walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world_.skin,
-             world_.margin),
+             world_.margin, threads_),
       state_(make_state(world.grains, position)),
       body_of_(position.size())
 {
@@ -107,9 +111,7 @@ StepReport Simulation::step(Frame* frame)
   move_grains(world_.step / 2);
   find_contacts(report);
   apply_gravity(world_.step);
-  report.solver = solve_contacts(contacts_.used(), contacts_.count, state_.motion.data(),
-                                 world_.material.friction, effects_, world_.solver,
-                                 floor_of_reference * world_.gravity.norm() * world_.step);
+  solve(report);
   keep_impulses(report);
   if (frame != nullptr) write_down(*frame);
   move_grains(world_.step / 2);
@@ -117,41 +119,64 @@ StepReport Simulation::step(Frame* frame)
   return report;
 }
 
+void Simulation::solve(StepReport& report)
+{
+  std::vector<std::span<ContactBlock>> strips;
+  std::size_t count = 0;
+  for (auto& strip : contacts_) {
+    strips.push_back(strip.used());
+    count += strip.count;
+  }
+  report.solver = solve_contacts(
+      strips, count, state_.motion.data(), world_.material.friction, effects_, world_.solver,
+      floor_of_reference * world_.gravity.norm() * world_.step, threads_);
+}
+
 void Simulation::move_grains(double duration)
 {
-  for (std::size_t b = 0; b < state_.size(); ++b) {
-    state_.position[b].x() += duration * state_.motion[b].vx;
-    state_.position[b].y() += duration * state_.motion[b].vy;
-  }
+  for_ranges(threads_, state_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      state_.position[b].x() += duration * state_.motion[b].vx;
+      state_.position[b].y() += duration * state_.motion[b].vy;
+    }
+  });
 }
 
 void Simulation::apply_gravity(double duration)
 {
-  for (std::size_t b = 0; b < state_.size(); ++b) {
-    if (!(state_.motion[b].inverse_mass > 0)) continue;
-    state_.motion[b].vx += duration * world_.gravity.x();
-    state_.motion[b].vy += duration * world_.gravity.y();
-  }
+  const Vec2 change = duration * world_.gravity;
+  if (change == Vec2::Zero()) return;
+  for_ranges(threads_, state_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      if (!(state_.motion[b].inverse_mass > 0)) continue;
+      state_.motion[b].vx += change.x();
+      state_.motion[b].vy += change.y();
+    }
+  });
 }
 
 void Simulation::wrap_positions()
 {
   if (!world_.box.periodic_x) return;
   const double length = world_.box.length_x;
-  for (std::size_t b = 0; b < state_.size(); ++b) {
-    const double periods = std::floor(state_.position[b].x() / length);
-    state_.position[b].x() -= periods * length;
-    state_.image[b] += static_cast<std::int32_t>(periods);
-  }
+  for_ranges(threads_, state_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const double periods = std::floor(state_.position[b].x() / length);
+      state_.position[b].x() -= periods * length;
+      state_.image[b] += static_cast<std::int32_t>(periods);
+    }
+  });
 }
 
 const std::vector<Vec2>& Simulation::look_ahead()
 {
   if (world_.forecast == 0) return state_.position;
   const double duration = world_.forecast * world_.step;
-  ahead_ = state_.position;
-  for (std::size_t b = 0; b < state_.size(); ++b)
-    ahead_[b] += duration * Vec2(state_.motion[b].vx, state_.motion[b].vy);
+  ahead_.resize(state_.position.size());
+  for_ranges(threads_, state_.position.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      ahead_[b] = state_.position[b] + duration * Vec2(state_.motion[b].vx, state_.motion[b].vy);
+  });
   return ahead_;
 }
 
@@ -159,8 +184,10 @@ void Simulation::renew_pairs()
 {
   wrap_positions();
   pairs_.renew(state_, look_ahead());
-  for (std::size_t b = 0; b < state_.size(); ++b)
-    body_of_[static_cast<std::size_t>(state_.row[b])] = static_cast<std::uint32_t>(b);
+  for_ranges(threads_, state_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      body_of_[static_cast<std::size_t>(state_.row[b])] = static_cast<std::uint32_t>(b);
+  });
 }
 
 void Simulation::find_contacts(StepReport& report)
@@ -181,12 +208,12 @@ void Simulation::find_contacts(StepReport& report)
   rule.restitution = world_.material.restitution;
   rule.horizon = world_.horizon * world_.step;
   rule.periodic = world_.box.periodic_x;
-  const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_);
+  const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_, threads_);
   if (sums.coincident) stop_at_coincidence();
   if (renew || restored_)
     pairs_.forget_impulses();
   else
-    forget_impulses(contacts_, pairs_.impulses(), memories());
+    forget_impulses(contacts_, pairs_.impulses(), memories(), threads_);
   restored_ = false;
   report.touching = sums.touching;
   report.sum_overlap = sums.overlap;
@@ -220,7 +247,7 @@ void Simulation::stop_at_coincidence() const
 
 void Simulation::keep_impulses(StepReport& report)
 {
-  const auto sums = grseg::keep_impulses(contacts_, pairs_.impulses(), memories());
+  const auto sums = grseg::keep_impulses(contacts_, pairs_.impulses(), memories(), threads_);
   report.force_bearing = sums.force_bearing;
   report.sum_gap_bearing = sums.gap_bearing;
   report.base_impulse = sums.on_base_side;
@@ -263,30 +290,31 @@ void Simulation::write_down_contacts(ContactList& list) const
   const auto& pairs = pairs_.pairs();
   const auto row_of = [&](std::uint32_t twice) { return state_.row[twice / 2]; };
   std::vector<Named> names;
-  for (std::uint32_t slot = 0; slot < contacts_.size * block_lanes; ++slot) {
-    const auto k = contacts_.origins[slot / block_lanes].row[slot % block_lanes] / 2;
-    if (k == pairs.size()) continue;
-    const bool at_wall = pairs.j[k] / 2 == state_.still();
-    const std::int32_t i = row_of(pairs.i[k]), j = at_wall ? wall_name(k) : row_of(pairs.j[k]);
-    const bool turned = !at_wall && j < i && !world_.grains.fixed[static_cast<std::size_t>(j)];
-    names.push_back({turned ? j : i, turned ? i : j, slot, turned});
+  for (const auto& strip : contacts_) {
+    for (std::size_t slot = 0; slot < strip.size * block_lanes; ++slot) {
+      const auto& block = strip.blocks[slot / block_lanes];
+      const auto& origin = strip.origins[slot / block_lanes];
+      const std::size_t lane = slot % block_lanes;
+      const std::size_t k = origin.row[lane] / 2;
+      if (k == pairs.size()) continue;
+      const bool at_wall = pairs.j[k] / 2 == state_.still();
+      const std::int32_t i = row_of(pairs.i[k]), j = at_wall ? wall_name(k) : row_of(pairs.j[k]);
+      const bool turned = !at_wall && j < i && !world_.grains.fixed[static_cast<std::size_t>(j)];
+      names.push_back({turned ? j : i, turned ? i : j, turned, &block, &origin, lane});
+    }
   }
   std::sort(names.begin(), names.end());
   list.clear();
   list.reserve(names.size());
-  for (const auto& name : names) {
-    const auto& block = contacts_.blocks[name.slot / block_lanes];
-    const auto& origin = contacts_.origins[name.slot / block_lanes];
-    const std::size_t lane = name.slot % block_lanes;
-    const double sign = name.turned ? -1 : 1;
-    const Vec2 normal{sign * block.nx[lane], sign * block.ny[lane]};
+  for (const auto& [i, j, turned, block, origin, lane] : names) {
+    const double sign = turned ? -1 : 1, gap = origin->gap[lane];
+    const Vec2 normal{sign * block->nx[lane], sign * block->ny[lane]};
     const Vec2 tangent{-normal.y(), normal.x()};
-    const double gap = origin.gap[lane];
-    list.i.push_back(name.i);
-    list.j.push_back(name.j);
-    list.force.push_back((block.impulse_n[lane] * normal + block.impulse_t[lane] * tangent) /
+    list.i.push_back(i);
+    list.j.push_back(j);
+    list.force.push_back((block->impulse_n[lane] * normal + block->impulse_t[lane] * tangent) /
                          world_.step);
-    list.branch.push_back((pairs.geometry[origin.row[lane] / 2].reach + gap) * normal);
+    list.branch.push_back((pairs.geometry[origin->row[lane] / 2].reach + gap) * normal);
     list.gap.push_back(gap);
   }
 }

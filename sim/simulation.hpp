@@ -30,7 +30,8 @@ struct World {
   /// Steps within which a pair that is still apart may at most close its gap; 0 lets it overlap
   /// first. Newton's restitution then follows a step later, from the velocity that was lost.
   double horizon = 0;
-  double skin = 0;  // m, more than margin, of the pair list; 0 chooses half the smallest diameter
+  double skin = 0;  // m, of the pair list; 0 chooses margin and half the smallest diameter
+  int threads = 1;  // results do not depend on it
 };
 
 /// What one step did.
@@ -45,10 +46,11 @@ struct StepReport {
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
 };
 
-/// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2): contacts are looked
-/// for where the grains are half-way through the step; Newton's restitution uses the velocities at
-/// the beginning of the step, so that resting contacts do not rattle; nothing pushes overlap out,
-/// so no energy enters that way. A pair counts as touching when its gap at mid-step is <= 0.
+/// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2): contacts are those of
+/// the grains half-way through the step; Newton's restitution uses the velocities at the beginning
+/// of the step, so that resting contacts do not rattle; nothing pushes overlap out, so no energy
+/// enters that way. A pair acts when its gap is <= 0 where World::forecast looks, by itself at
+/// mid-step.
 class Simulation {
  public:
   /// All that changes from step to step and that later steps depend on.
@@ -111,6 +113,7 @@ class Simulation {
   std::span<Pairs::Memory> memories();
   void renew_pairs();
   void find_contacts(StepReport& report);
+  void solve(StepReport& report);
   [[noreturn]] void stop_at_coincidence() const;
   void apply_gravity(double duration);
   void keep_impulses(StepReport& report);
@@ -123,12 +126,13 @@ class Simulation {
 
   World world_;
   Effects effects_;
+  int threads_;
   PairList pairs_;
   GrainState state_;
   std::vector<std::uint32_t> body_of_;  // where in the state each grain is
   std::vector<Vec2> ahead_;             // m, positions looked at where forecast is not 0
   std::vector<Motion> before_;          // by row, at the beginning of a step that is written down
-  StepContacts contacts_;
+  std::vector<StripContacts> contacts_;
   std::int64_t steps_done_ = 0;
   bool restored_ = false;  // the contacts of the step before are not known, only their impulses
 };

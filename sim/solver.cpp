@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/solver.hpp"
 
+#include "sim/parallel.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace grseg {
@@ -19,19 +22,34 @@ Relax choose_relax(Effects e)
   return table[e.friction][e.rotation];
 }
 
+SweepResult total(const std::vector<SweepResult>& strips)
+{
+  SweepResult total;
+  for (const auto& s : strips) {
+    total.largest = std::max(total.largest, s.largest);
+    total.sum_squares += s.sum_squares;
+    total.sum_reference += s.sum_reference;
+  }
+  return total;
+}
+
 }  // namespace
 
-SolverReport solve_contacts(std::span<ContactBlock> contacts, std::size_t count, Motion* motion,
-                            double friction, Effects effects, const SolverSettings& settings,
-                            double floor)
+SolverReport solve_contacts(std::span<const std::span<ContactBlock>> strips, std::size_t count,
+                            Motion* motion, double friction, Effects effects,
+                            const SolverSettings& settings, double floor, int threads)
 {
   SolverReport report;
   if (count == 0) return report;
-  apply_impulses(contacts, motion, effects);
+  for_alternate_strips(threads, strips.size(),
+                       [&](std::size_t s) { apply_impulses(strips[s], motion, effects); });
   const auto sweep = choose_sweep(effects);
   const auto contact_count = static_cast<double>(count);
+  std::vector<SweepResult> results(strips.size());
   do {
-    const auto result = sweep(contacts, motion, friction);
+    for_alternate_strips(threads, strips.size(),
+                         [&](std::size_t s) { results[s] = sweep(strips[s], motion, friction); });
+    const auto result = total(results);
     const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
     ++report.sweeps;
     report.residual = reference > 0 ? result.largest / reference : 0;
@@ -51,8 +69,9 @@ SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>&
   motion.emplace_back();  // what the lanes left over act on
   ContactBlocks packed;
   packed.pack(contacts, motion, motion.size() - 1);
-  const auto report = solve_contacts(packed.blocks(), contacts.size(), motion.data(), friction,
-                                     effects, settings, floor);
+  const std::array strips{packed.blocks()};
+  const auto report =
+      solve_contacts(strips, contacts.size(), motion.data(), friction, effects, settings, floor);
   motion.pop_back();
   packed.unpack(contacts);
   return report;

@@ -29,11 +29,12 @@ struct SolverReport {
 /// rather than the mean change decides, so that a contact which has just closed is not hidden by
 /// thousands of settled ones.
 ///
-/// Impulses in `contacts` are the first guess; they are applied to `motion` here. Contacts are
-/// swept block after block.
-SolverReport solve_contacts(std::span<ContactBlock> contacts, std::size_t count, Motion* motion,
-                            double friction, Effects effects, const SolverSettings& settings,
-                            double floor);
+/// Impulses in the blocks are the first guess; they are applied to `motion` here. Contacts come in
+/// strips and are swept block after block: those of even strips at a time, then those of odd ones.
+/// Strips that are no neighbours share no mobile body; what is summed is added strip by strip.
+SolverReport solve_contacts(std::span<const std::span<ContactBlock>> strips, std::size_t count,
+                            Motion* motion, double friction, Effects effects,
+                            const SolverSettings& settings, double floor, int threads = 1);
 
 /// The same for contacts in any order.
 SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,

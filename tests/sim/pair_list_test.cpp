@@ -21,10 +21,11 @@ struct Listed {
   PairList list;
 
   Listed(const World& world, const std::vector<Vec2>& at, const std::vector<Wall>& walls,
-         double skin)
+         double skin, double margin = 0)
       : state(make_state(world.grains, at)),
         list(walls, world.box,
-             *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), skin)
+             *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), skin,
+             margin)
   {
   }
 
@@ -184,6 +185,39 @@ TEST(PairList, ImpulsesOfPairsThatStaySurviveARenewal)
   EXPECT_EQ(impulse.t, -1);
 }
 
+TEST(PairList, ImpulsesOfPairsThatStaySurviveARenewalWherever)
+{
+  // Every pair of a full bed, across the period and at a wall too, keeps its own impulse.
+  World world;
+  std::vector<Vec2> position;
+  for (int row = 0; row < 12; ++row)
+    for (int k = 0; k < 20; ++k) {
+      position.push_back({0.4 + k, 0.6 + row});
+      worlds::add(world, {position.back(), 0.5, row == 4});
+    }
+  world.box = {20, 100, true};
+  Listed list(world, position, {worlds::floor_at(0)}, 0.2);
+  list.renew(position);
+  const auto own = [](const Listed::Pair& pair) {
+    return Pairs::Impulse{1.0 + std::min(pair.i, pair.j) + 1000 * std::max(pair.i, pair.j),
+                          1.0 + pair.i * pair.j};
+  };
+  const auto before = list.pairs();
+  EXPECT_EQ(before.size(), 12u * 20 - 20 + 11 * 20 + 20);
+  for (const auto& pair : before) {
+    list.list.impulses()[pair.entry] = own(pair);
+    list.list.memories()[pair.entry] = {-own(pair).n, 0};
+  }
+  for (auto& x : position) x.x() += 7.7 - (x.x() + 7.7 >= 20 ? 20 : 0);
+  list.renew(position);
+  EXPECT_EQ(list.pairs().size(), before.size());
+  for (const auto& pair : list.pairs()) {
+    EXPECT_EQ(list.list.impulses()[pair.entry].n, own(pair).n) << pair.i << ' ' << pair.j;
+    EXPECT_EQ(list.list.impulses()[pair.entry].t, own(pair).t);
+    EXPECT_EQ(list.list.memories()[pair.entry].approach, -own(pair).n);
+  }
+}
+
 TEST(PairList, AWallIsMetByWhoeverComesNear)
 {
   World world;
@@ -233,6 +267,40 @@ TEST(PairList, NamesNoPairTwiceInACellOfTwoColumns)
   std::set<std::pair<int, int>> seen;
   for (const auto& pair : list.pairs())
     EXPECT_TRUE(seen.insert(std::minmax(pair.i, pair.j)).second);
+}
+
+/// Whether the list of two discs of diameter 1 with skin 0.2 is still complete after the second has
+/// gone from `from` to `to`; the first stays at (0, 0).
+bool complete_after(const Vec2& from, const Vec2& to, double margin = 0)
+{
+  World world;
+  std::vector<Vec2> position{{0, 0}, from};
+  for (const auto& x : position) worlds::add(world, {x, 0.5});
+  world.box = {100, 100, false};
+  Listed list(world, position, {}, 0.2, margin);
+  list.renew(position);
+  position[1] = to;
+  return list.complete(position);
+}
+
+TEST(PairList, PairsWithinAMarginAreKnownToo)
+{
+  EXPECT_TRUE(complete_after({1.3, 0}, {1.22, 0}, 0.1));
+  EXPECT_FALSE(complete_after({1.3, 0}, {1.18, 0}, 0.1));
+}
+
+TEST(PairList, GrainsThatComeFromBandsFurtherAwayRenewItWhenTheyCouldMeet)
+{
+  // Bands are 1.2 high: 4 is in the fourth, and may be 1.2 + 0.2 closer for all the list knows.
+  EXPECT_TRUE(complete_after({0, 4}, {0, 2.7}));
+  EXPECT_FALSE(complete_after({0, 4}, {0, 2.5}));
+  EXPECT_TRUE(complete_after({0, 4}, {0, 50}));
+}
+
+TEST(PairList, GrainsThatComeFromGroupsFurtherAwayRenewIt)
+{
+  EXPECT_TRUE(complete_after({40, 0}, {39, 0}));
+  EXPECT_FALSE(complete_after({40, 0}, {1, 0}));
 }
 
 TEST(PairList, AGrainThatFallsAloneToAWallRenewsTheList)

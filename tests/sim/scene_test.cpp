@@ -111,6 +111,7 @@ TEST(Scene, ValuesOutOfRangeAreRefusedByName)
                                                         {"rotation", "maybe"},
                                                         {"accuracy", "best"},
                                                         {"seed", "-1"},
+                                                        {"threads", "-1"},
                                                         {"base", "sand"}}) {
     try {
       scene_from({"--" + key, value});
@@ -192,12 +193,13 @@ TEST(Deposition, GivesTheWorldWhatTheSceneSays)
 {
   const auto scene =
       scene_from({"--depth", "6dS", "--length", "6dL", "--origin", "centre", "--rotation", "off",
-                  "--density", "3", "--tolerance", "0.3", "--max-sweeps", "77"});
+                  "--density", "3", "--tolerance", "0.3", "--max-sweeps", "77", "--threads", "3"});
   const auto simulation = deposit(scene);
   const auto& world = simulation.world();
   EXPECT_FALSE(world.rotation);
   EXPECT_EQ(world.solver.tolerance, 0.3);
   EXPECT_EQ(world.solver.max_sweeps, 77);
+  EXPECT_EQ(world.threads, 3);
   EXPECT_EQ(simulation.time(), 0);
   for (std::size_t k = 0; k < world.grains.size(); ++k) {
     const double r = world.grains.radius[k];

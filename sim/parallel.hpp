@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+/// Work shared out among threads. What is shared out must not depend on the order in which it is
+/// done, so that any number of threads gives the same bytes.
+namespace grseg {
+
+/// do_part(k) for k = 0 .. count-1.
+template <class Part>
+void for_each_part(int threads, std::size_t count, const Part& do_part)
+{
+  if (threads == 1 || count <= 1) {  // a team of one costs microseconds, too
+    for (std::size_t k = 0; k < count; ++k) do_part(k);
+    return;
+  }
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t k = 0; k < count; ++k) do_part(k);
+}
+
+/// do_range(begin, end) for ranges that make up 0 .. count-1.
+template <class Range>
+void for_ranges(int threads, std::size_t count, const Range& do_range)
+{
+  constexpr std::size_t size = 16384;
+  for_each_part(threads, (count + size - 1) / size,
+                [&](std::size_t k) { do_range(k * size, std::min(count, (k + 1) * size)); });
+}
+
+/// do_strip(s) for all strips: those of even number at a time, and then the others, so that what
+/// reaches over into the next strip meets nothing.
+template <class Strip>
+void for_alternate_strips(int threads, std::size_t count, const Strip& do_strip)
+{
+  for (const std::size_t odd : {0, 1})
+    for_each_part(threads, (count + 1 - odd) / 2, [&](std::size_t k) { do_strip(2 * k + odd); });
+}
+
+}  // namespace grseg
