@@ -28,8 +28,8 @@ struct Accuracy {
 
 constexpr std::array<Accuracy, 3> accuracies{{
     {"draft", 0.0111, 0.5, 50},
-    {"standard", 0.00443, 0.5, 200},
-    {"reference", 0.00222, 0.01, 5000},
+    {"standard", 0.00443, 0.2, 500},
+    {"reference", 0.00222, 0.02, 5000},
 }};
 
 // Restitution and geometry err by O(h); beyond this step a scene is a different one.
@@ -163,6 +163,7 @@ void resolve_accuracy(const Keys& keys, Scene& scene)
   scene.burst = keys.whole_number("burst", 1, scene.steps_per_frame());
   scene.solver.tolerance =
       keys.given("tolerance") ? keys.number("tolerance", 1e-15, 1e3) : preset->tolerance;
+  scene.solver.acceleration = parse_switch(keys.text("acceleration"), "acceleration");
   scene.solver.max_sweeps = keys.given("max-sweeps")
                                 ? static_cast<int>(keys.whole_number("max-sweeps", 1, 1000000000))
                                 : preset->max_sweeps;
@@ -276,6 +277,7 @@ po::options_description scene_options()
       "of the solver: largest change of a relative velocity in the last sweep, over the mean one "
       "that forces make");
   add("max-sweeps", po::value<long>(), "of the solver, per step");
+  add("acceleration", text("on"), "on or off: whether sweeps are extrapolated (Nesterov)");
   add("compression", po::value<int>()->default_value(0),
       "deflate level of the file, 0 (none) to 9");
   add("store", text("float64"), "float64 or float32, of the file");
@@ -361,6 +363,7 @@ std::string to_text(const Scene& scene)
   add("step", scene.step);
   add("tolerance", scene.solver.tolerance);
   add("max-sweeps", scene.solver.max_sweeps);
+  add("acceleration", scene.solver.acceleration ? "on" : "off");
   add("compression", scene.compression);
   add("store", scene.float32 ? "float32" : "float64");
   return text;
@@ -386,6 +389,7 @@ Parameters to_parameters(const Scene& scene)
   n["rotation"] = {scene.rotation ? 1.0 : 0.0};
   n["horizon"] = {scene.horizon};
   n["tolerance"] = {scene.solver.tolerance};
+  n["acceleration"] = {scene.solver.acceleration ? 1.0 : 0.0};
   n["max_sweeps"] = {static_cast<double>(scene.solver.max_sweeps)};
   n["seed"] = {static_cast<double>(scene.seed)};
   parameters.texts["scene"] = to_text(scene);

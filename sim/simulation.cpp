@@ -128,8 +128,8 @@ void Simulation::solve(StepReport& report)
     count += strip.count;
   }
   report.solver = solve_contacts(
-      strips, count, state_.motion.data(), world_.material.friction, effects_, world_.solver,
-      floor_of_reference * world_.gravity.norm() * world_.step, threads_);
+      strips, count, state_.motion, world_.material.friction, effects_, world_.solver,
+      floor_of_reference * world_.gravity.norm() * world_.step, extrapolation_, threads_);
 }
 
 void Simulation::move_grains(double duration)

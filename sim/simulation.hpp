@@ -133,6 +133,7 @@ class Simulation {
   std::vector<Vec2> ahead_;             // m, positions looked at where forecast is not 0
   std::vector<Motion> before_;          // by row, at the beginning of a step that is written down
   std::vector<StripContacts> contacts_;
+  Extrapolation extrapolation_;
   std::int64_t steps_done_ = 0;
   bool restored_ = false;  // the contacts of the step before are not known, only their impulses
 };

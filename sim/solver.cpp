@@ -36,19 +36,22 @@ SweepResult total(const std::vector<SweepResult>& strips)
 }  // namespace
 
 SolverReport solve_contacts(std::span<const std::span<ContactBlock>> strips, std::size_t count,
-                            Motion* motion, double friction, Effects effects,
-                            const SolverSettings& settings, double floor, int threads)
+                            std::span<Motion> motion, double friction, Effects effects,
+                            const SolverSettings& settings, double floor,
+                            Extrapolation& extrapolation, int threads)
 {
   SolverReport report;
   if (count == 0) return report;
   for_alternate_strips(threads, strips.size(),
-                       [&](std::size_t s) { apply_impulses(strips[s], motion, effects); });
+                       [&](std::size_t s) { apply_impulses(strips[s], motion.data(), effects); });
   const auto sweep = choose_sweep(effects);
   const auto contact_count = static_cast<double>(count);
   std::vector<SweepResult> results(strips.size());
-  do {
-    for_alternate_strips(threads, strips.size(),
-                         [&](std::size_t s) { results[s] = sweep(strips[s], motion, friction); });
+  if (settings.acceleration) extrapolation.begin(strips, motion, threads);
+  for (;;) {
+    for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
+      results[s] = sweep(strips[s], motion.data(), friction);
+    });
     const auto result = total(results);
     const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
     ++report.sweeps;
@@ -56,8 +59,9 @@ SolverReport solve_contacts(std::span<const std::span<ContactBlock>> strips, std
     report.residual_rms =
         reference > 0 ? std::sqrt(result.sum_squares / contact_count) / reference : 0;
     report.converged = report.residual <= settings.tolerance;
-  } while (!report.converged && report.sweeps < settings.max_sweeps);
-  return report;
+    if (report.converged || report.sweeps >= settings.max_sweeps) return report;
+    if (settings.acceleration) extrapolation.go_on(strips, motion, result.sum_squares, threads);
+  }
 }
 
 SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
@@ -66,12 +70,14 @@ SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>&
 {
   if (!effects.friction)
     for (auto& c : contacts) c.impulse_t = 0;
+  const std::size_t bodies = motion.size();
   motion.emplace_back();  // what the lanes left over act on
   ContactBlocks packed;
-  packed.pack(contacts, motion, motion.size() - 1);
+  packed.pack(contacts, motion, bodies);
   const std::array strips{packed.blocks()};
-  const auto report =
-      solve_contacts(strips, contacts.size(), motion.data(), friction, effects, settings, floor);
+  Extrapolation extrapolation;
+  const auto report = solve_contacts(strips, contacts.size(), motion, friction, effects, settings,
+                                     floor, extrapolation);
   motion.pop_back();
   packed.unpack(contacts);
   return report;

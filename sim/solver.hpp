@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/contact_blocks.hpp"
+#include "sim/extrapolation.hpp"
 #include "sim/sweep.hpp"
 
 #include <span>
@@ -12,6 +13,7 @@ namespace grseg {
 struct SolverSettings {
   double tolerance = 1e-2;  ///< on SolverReport::residual
   int max_sweeps = 500;
+  bool acceleration = false;
 };
 
 /// How a step's solve went. Not converging is a result: it is stored and reported, not thrown.
@@ -29,12 +31,16 @@ struct SolverReport {
 /// rather than the mean change decides, so that a contact which has just closed is not hidden by
 /// thousands of settled ones.
 ///
+/// With `acceleration` each sweep starts beyond where the last one came to (Extrapolation, kept by
+/// the caller for its memory).
+///
 /// Impulses in the blocks are the first guess; they are applied to `motion` here. Contacts come in
 /// strips and are swept block after block: those of even strips at a time, then those of odd ones.
 /// Strips that are no neighbours share no mobile body; what is summed is added strip by strip.
 SolverReport solve_contacts(std::span<const std::span<ContactBlock>> strips, std::size_t count,
-                            Motion* motion, double friction, Effects effects,
-                            const SolverSettings& settings, double floor, int threads = 1);
+                            std::span<Motion> motion, double friction, Effects effects,
+                            const SolverSettings& settings, double floor,
+                            Extrapolation& extrapolation, int threads = 1);
 
 /// The same for contacts in any order.
 SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
