@@ -217,6 +217,7 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
   visit("/state/pairs/impulse_t", c.state.pairs.impulse_t);
   visit("/state/pairs/approach", c.state.pairs.approach);
   visit("/state/pairs/renewals", c.state.pairs.renewals);
+  visit("/state/pairs/age", c.state.pairs.age);
   visit("/trajectory/frames", c.trajectory.frames);
   visit("/trajectory/digest", c.trajectory.digest);
   visit("/trajectory/begin", c.trajectory.begin);

@@ -61,7 +61,7 @@ void measure(const double* from, const double* to, std::span<const Range> groups
       continue;
     }
     extent = {Vec2::Constant(infinity), Vec2::Constant(-infinity)};
-    for (auto b = group.begin; b < group.end; ++b) {
+    for (std::size_t b = group.begin; b < group.end; ++b) {
       const Vec2 displacement{to[2 * b] - from[2 * b], to[2 * b + 1] - from[2 * b + 1]};
       extent.low = extent.low.cwiseMin(displacement);
       extent.high = extent.high.cwiseMax(displacement);
@@ -164,15 +164,15 @@ HWY_INLINE std::size_t find_pair(const FoundPairs& found, std::uint32_t a, std::
 void carry_all(const Carry& task, std::uint32_t first, std::uint32_t last)
 {
   const auto& found = *task.found;
-  for (auto eight = first; eight < last; eight += block_lanes) {
+  for (std::size_t eight = first; eight < last; eight += block_lanes) {
     for (auto bits = not_zero(task.impulse + 2 * eight); bits != 0; bits &= bits - 1) {
-      const auto k = eight + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+      const std::size_t k = eight + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       const auto i = task.place[task.i[k] / 2], j = task.place[task.j[k] / 2];
       auto f = find_pair(found, std::min(i, j), std::max(i, j));
       if (f == found.size()) f = find_pair(found, std::max(i, j), std::min(i, j));
       if (f == found.size()) continue;
-      std::copy_n(task.impulse + 2 * k, 2, task.to_impulse + 2 * task.number[f]);
-      std::copy_n(task.memory + 2 * k, 2, task.to_memory + 2 * task.number[f]);
+      std::copy_n(task.impulse + 2 * k, 2, task.to_impulse + 2 * std::size_t{task.number[f]});
+      std::copy_n(task.memory + 2 * k, 2, task.to_memory + 2 * std::size_t{task.number[f]});
     }
   }
   leave_vectors();

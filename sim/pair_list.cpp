@@ -6,7 +6,6 @@
 #include "sim/parallel.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -73,34 +72,38 @@ PairList::PairList(const std::vector<Wall>& walls, const Box& box, double larges
 bool PairList::complete(const std::vector<Vec2>& position)
 {
   if (made_at_.size() != position.size()) return false;
+  ++age_;
   const std::size_t across = first_group_.back();
   for_each_part(threads_, bands_, [&](std::size_t band) {
     measure_displacements(made_at_, position, std::span(groups_).subspan(band * across, across),
                           std::span(moved_).subspan(band * across));
   });
-  std::atomic<bool> apart = true;
-  for_each_part(threads_, bands_, [&](std::size_t band) {
-    if (!grains_stay_apart(band)) apart = false;
-  });
-  return apart && bands_stay_apart() && walls_stay_away();
+  for_each_part(threads_, bands_, [&](std::size_t band) { measure_neighbours(band); });
+  neighbours_moved_ = *std::max_element(moved_in_band_.begin(), moved_in_band_.end());
+  return neighbours_moved_ <= slack_ && bands_stay_apart() && walls_stay_away();
+}
+
+double PairList::moved_in_a_step() const
+{
+  return age_ == 1 && neighbours_moved_ > slack_ ? neighbours_moved_ : 0;
 }
 
 /// Any two neighbouring groups lie in a square of two by two.
-bool PairList::grains_stay_apart(std::size_t band)
+void PairList::measure_neighbours(std::size_t band)
 {
   const std::size_t across = first_group_.back();
   const auto* here = &moved_[band * across];
   const auto* above = band + 1 < bands_ ? here + across : here;
   band_moved_[band] = nothing();
+  double squared = 0;
   for (std::size_t g = 0; g < across; ++g) {
     const std::size_t next = g + 1 < across ? g + 1 : length_ > 0 ? 0 : g;
     auto square = here[g];
     add(band_moved_[band], square);
     for (const auto& other : {here[next], above[g], above[next]}) add(square, other);
-    if (!empty(square) && !((square.high - square.low).squaredNorm() <= slack_ * slack_))
-      return false;
+    if (!empty(square)) squared = std::max(squared, (square.high - square.low).squaredNorm());
   }
-  return true;
+  moved_in_band_[band] = std::sqrt(squared);
 }
 
 /// Groups that are no neighbours are a band or a group apart: they may move by that much more.
@@ -140,6 +143,7 @@ bool PairList::walls_stay_away() const
 void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
 {
   ++renewals_;
+  age_ = 0;
   sort_along_cells(grains, position);
   make_groups();
   const std::size_t strips = grid_.strips();
@@ -162,6 +166,7 @@ PairList::State PairList::state() const
   State state;
   state.made_at = made_at_;
   state.renewals = renewals_;
+  state.age = age_;
   state.i = pairs_.i;
   state.j = pairs_.j;
   for (const auto& impulse : pairs_.impulse) {
@@ -185,6 +190,7 @@ void PairList::restore(GrainState& grains, const State& state)
     pairs_.memory[k] = {state.approach[k], 0};
   }
   renewals_ = state.renewals;
+  age_ = state.age;
 }
 
 void PairList::sort_along_cells(GrainState& grains, const std::vector<Vec2>& position)
@@ -236,6 +242,7 @@ void PairList::make_groups()
       groups_.push_back(grid_.bodies(first_column[g], first_column[g + 1] - 1, band));
   moved_.resize(groups_.size());
   band_moved_.resize(bands_);
+  moved_in_band_.resize(bands_);
   unlisted_nearest_.assign(walls_.size() * groups_.size(), infinity);
 }
 

@@ -100,13 +100,16 @@ class PairList {
   /// As if no pair had ever touched.
   void forget_impulses();
   std::size_t renewals() const { return renewals_; }
+  /// Where a list was no longer complete when it was first asked for: by how much, in m, neighbours
+  /// can have moved past each other in the one step since, unseen. Otherwise 0.
+  double moved_in_a_step() const;
 
   /// All that a list must have to be made again as it is.
   struct State {
     std::vector<Vec2> made_at;        // m, as in GrainState; empty before the first renewal
     std::vector<std::uint32_t> i, j;  // as in Pairs, and with the same neutral pair
     std::vector<double> impulse_n, impulse_t, approach;
-    std::uint64_t renewals = 0;
+    std::uint64_t renewals = 0, age = 0;
   };
   State state() const;
   /// Makes the list again. FormatError where one made at the same positions holds other pairs.
@@ -137,7 +140,7 @@ class PairList {
   void fill_in(std::size_t strip, const GrainState& grains);
   void carry_impulses();
   void carry_wall_impulse(std::uint32_t body, std::int32_t wall, std::uint32_t from);
-  bool grains_stay_apart(std::size_t band);
+  void measure_neighbours(std::size_t band);
   bool bands_stay_apart() const;
   bool walls_stay_away() const;
   double nearest_shift(double difference) const;
@@ -149,6 +152,8 @@ class PairList {
   CellGrid grid_;
   Pairs pairs_;
   std::size_t renewals_ = 0;
+  std::uint64_t age_ = 0;        // how often it was asked for since it was made
+  double neighbours_moved_ = 0;  // m, most that grains of neighbouring groups have, relatively
 
   std::vector<std::size_t> first_group_;  // in a band, per strip, and behind the last
   std::size_t bands_ = 0;
@@ -157,6 +162,7 @@ class PairList {
   std::vector<Vec2> made_at_;             // m, positions when the list was made
   std::vector<Extent> moved_;             // per group, since the list was made
   std::vector<Extent> band_moved_;        // per band
+  std::vector<double> moved_in_band_;     // m, relative to neighbours, per band
   std::vector<double> unlisted_nearest_;  // m, per wall and group, to grains that are not listed
 
   // For the renewal alone; kept for the memory.

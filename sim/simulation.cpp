@@ -194,6 +194,7 @@ void Simulation::find_contacts(StepReport& report)
 {
   const auto* looked_at = &look_ahead();
   const bool renew = !pairs_.complete(*looked_at);
+  const double passed = pairs_.moved_in_a_step();
   if (renew) {
     renew_pairs();
     looked_at = &look_ahead();
@@ -218,7 +219,7 @@ void Simulation::find_contacts(StepReport& report)
   report.touching = sums.touching;
   report.sum_overlap = sums.overlap;
   report.largest_overlap = sums.largest_overlap;
-  report.fastest_approach = sums.fastest_approach;
+  report.fastest_approach = std::max(sums.fastest_approach, passed / world_.step);
 }
 
 std::span<Pairs::Memory> Simulation::memories()

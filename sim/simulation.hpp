@@ -37,12 +37,14 @@ struct World {
 /// What one step did.
 struct StepReport {
   SolverReport solver;
-  std::size_t touching = 0;          ///< pairs with gap <= 0 at mid-step
-  std::size_t force_bearing = 0;     ///< contacts that carry an impulse
-  double sum_overlap = 0;            ///< m, of -gap over the touching pairs
-  double largest_overlap = 0;        ///< m
-  double sum_gap_bearing = 0;        ///< m, of |gap| over force-bearing contacts
-  double fastest_approach = 0;       ///< m/s, of a touching pair at the beginning of the step
+  std::size_t touching = 0;       ///< pairs with gap <= 0 at mid-step
+  std::size_t force_bearing = 0;  ///< contacts that carry an impulse
+  double sum_overlap = 0;         ///< m, of -gap over the touching pairs
+  double largest_overlap = 0;     ///< m
+  double sum_gap_bearing = 0;     ///< m, of |gap| over force-bearing contacts
+  /// m/s, of a pair that acts, at the beginning of the step; or of neighbours so fast that they may
+  /// have passed each other unseen.
+  double fastest_approach = 0;
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
 };
 

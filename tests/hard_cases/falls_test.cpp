@@ -214,5 +214,16 @@ TEST_P(Tunnelling, ADiscThatCouldPassAnotherWithinAStepStopsTheRunWithTheStepTha
   }
 }
 
+TEST_P(Tunnelling, ADiscThatPassesThroughARowWithinAStepIsRefusedAtEveryPhase)
+{
+  for (const double per_step : {1.0, 1.4, 2.0, 5.0})
+    for (const double offset : {0.0, 0.5})
+      for (int phase = 0; phase < 40; ++phase)
+        EXPECT_THROW(
+            run(over_a_row(world_of({}), offset, 2 + per_step * (1 + phase / 40.0), per_step)),
+            RunError)
+            << per_step << ' ' << offset << ' ' << phase;
+}
+
 }  // namespace
 }  // namespace grseg::hard_cases
