@@ -50,7 +50,7 @@ void move_impulses_on(std::span<ContactBlock> now, double* before, double factor
 {
   static_assert(offsetof(ContactBlock, impulse_t) ==
                 offsetof(ContactBlock, impulse_n) + sizeof(ContactBlock::Lanes));
-  constexpr std::size_t row = 2 * block_lanes;
+  constexpr std::size_t row = std::size_t{2} * block_lanes;
   for (std::size_t b = 0; b < now.size(); ++b)
     move_on(now[b].impulse_n.data(), before + row * b, row, factor);
   leave_vectors();

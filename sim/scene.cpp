@@ -28,7 +28,7 @@ struct Accuracy {
 
 constexpr std::array<Accuracy, 3> accuracies{{
     {"draft", 0.0111, 0.5, 50},
-    {"standard", 0.00443, 0.2, 500},
+    {"standard", 0.00443, 0.5, 500},
     {"reference", 0.00222, 0.02, 5000},
 }};
 

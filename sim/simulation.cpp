@@ -26,7 +26,8 @@ World with_defaults(World world)
   const double smallest =
       2 * *std::min_element(world.grains.radius.begin(), world.grains.radius.end());
   world.margin = std::max(world.margin, least_margin * smallest);
-  if (!(world.skin > 0)) world.skin = world.margin + 0.5 * smallest;
+  if (!(world.skin > 0))
+    world.skin = 0.5 * smallest;  // whatever the margin: a restart may change that
   return world;
 }
 

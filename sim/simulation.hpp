@@ -30,7 +30,7 @@ struct World {
   /// Steps within which a pair that is still apart may at most close its gap; 0 lets it overlap
   /// first. Newton's restitution then follows a step later, from the velocity that was lost.
   double horizon = 0;
-  double skin = 0;  // m, of the pair list; 0 chooses margin and half the smallest diameter
+  double skin = 0;  // m, more than margin, of the pair list; 0 chooses half the smallest diameter
   int threads = 1;  // results do not depend on it
 };
 

@@ -107,6 +107,21 @@ TEST(Restart, AtAnyStepBetweenTwoRenewalsOfThePairList)
   }
 }
 
+TEST(Restart, UnderEveryOtherContactLawTheFlowGoesOn)
+{
+  const auto chute = scene();
+  auto first = bed(chute);
+  digest_of_steps(first, 50);
+  const auto checkpoint = through_a_file(checkpoint_of(first, chute));
+  for (const char* law : {"touch", "predictive", "speculative"}) {
+    const auto other = scene({"--contact-law", law});
+    auto again = go_on(checkpoint, chute, other, {});
+    again.tilt(tilted_gravity(other));
+    EXPECT_NE(digest_of_steps(again, 50), digest_of_steps(first, 50)) << law;
+    EXPECT_EQ(again.steps_done(), 100);
+  }
+}
+
 TEST(Restart, OfAListThatWasNeverMade)
 {
   const auto chute = scene();
