@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit_data.hpp"
+#include "analysis/segregation_fit.hpp"
+#include "tests/analysis/synthetic_sums.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// Points and tables whose fits are known, and the short words in which tests ask for them.
+namespace grseg::synthetic {
+
+inline const std::vector<double> compositions{0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95};
+
+/// Points y = k x^a in one window, of unequal weights.
+inline std::vector<FitPoint> power_law(double k, double a)
+{
+  std::vector<FitPoint> points;
+  for (const double phi : compositions) {
+    FitPoint point{.phi_large = phi, .weight = 1 + 3 * phi, .size_ratio = 2};
+    point.large = 1.7;
+    point.small = 1.7 * k * std::pow(point.ratio(), a);
+    point.total = point.small + point.large;
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// A number that looks random in [-1, 1] and is the same everywhere.
+inline double scatter(std::size_t k)
+{
+  return std::sin(12.9898 * static_cast<double>(k + 1));
+}
+
+/// 30 windows of 7 layers: neutral contacts whose mixed part scatters by `noise`.
+inline std::vector<TableRow> neutral_rows(double noise, double r = 2, int windows = 30)
+{
+  std::vector<TableRow> rows;
+  for (int window = 0; window < windows; ++window)
+    for (const double phi : compositions) {
+      auto sums = neutral_sums(phi, r);
+      const double factor = 1 + noise * scatter(rows.size());
+      sums.ll *= factor;
+      rows.push_back({1.25 * window, 1.25 * (window + 1), 25, sums});
+    }
+  return rows;
+}
+
+inline FitData read(const std::vector<Table>& tables, const FitFilters& filters = {},
+                    Quantity quantity = Quantity::contact)
+{
+  return read_fit_data(tables, quantity, filters, {});
+}
+
+inline FitData neutral_data(double noise)
+{
+  return read({stress_table(neutral_rows(noise))});
+}
+
+inline Bootstrap no_bootstrap(const FitData& data)
+{
+  return Bootstrap(data.runs, 0, 1);
+}
+
+inline RuleFit fit(const FitData& data, const std::string& rule, const FitSettings& settings = {})
+{
+  return fit_rule(data, parse_rule(rule), settings, no_bootstrap(data));
+}
+
+/// What the Error says that reading `tables` ends with; "" where it ends well.
+template <class Error>
+std::string sentence_of(const std::vector<Table>& tables, const FitFilters& filters = {},
+                        Quantity quantity = Quantity::contact)
+{
+  try {
+    read(tables, filters, quantity);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline bool holds(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace grseg::synthetic
