@@ -299,6 +299,7 @@ void read_scene_text(const std::string& text, const std::string& name,
   read_keys(
       in, name, [&](const std::string&) { return name; }, leave_out, values);
 }
+
 Scene resolve_scene(const std::string& path, const po::variables_map& given)
 {
   auto values = given;

@@ -31,6 +31,7 @@ stopped() {
   "$bin/grseg-sim" --quiet --checkpoint "$checkpoint" "$@" 2>words &
   while [ ! -e "$checkpoint" ] && kill -0 $! 2>/dev/null; do sleep 0.01; done
   sleep "$wait"
+  # The run may have ended by itself; then there is nothing to kill.
   kill -s "$signal" $! 2>/dev/null || true
   wait $! || code=$?
 }
