@@ -48,11 +48,16 @@ struct StepReport {
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
 };
 
-/// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2): contacts are those of
-/// the grains half-way through the step; Newton's restitution uses the velocities at the beginning
-/// of the step, so that resting contacts do not rattle; nothing pushes overlap out, so no energy
-/// enters that way. A pair acts when its gap is <= 0 where World::forecast looks, by itself at
-/// mid-step.
+/// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2): normals and lever arms
+/// are those half-way through the step; Newton's restitution uses the velocities at its beginning,
+/// so that resting contacts do not rattle; nothing pushes overlap out, so no energy enters that
+/// way.
+///
+/// A pair acts when its gap is <= World::margin after a free flight of World::forecast steps from
+/// mid-step, at the velocities of the step's beginning. By itself it then obeys Newton's
+/// restitution. With a World::horizon a pair still apart at mid-step is only slowed down, so
+/// that its gap would last for so many steps; it rebounds in the next step, from the velocity that
+/// it had. docs/numerics.md compares the laws that this makes.
 class Simulation {
  public:
   /// All that changes from step to step and that later steps depend on.
