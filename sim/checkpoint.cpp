@@ -16,7 +16,7 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int32_t format_version = 1;
+constexpr std::int32_t format_version = 2;
 // A damaged size is refused before memory is asked for.
 constexpr hsize_t most_values = 1'000'000'000;
 
@@ -290,8 +290,10 @@ Checkpoint read_checkpoint(const std::string& path)
   std::int32_t version = 0;
   read("/version", version);
   if (version != format_version)
-    fail(fmt::format("is a checkpoint of version {}, and this grseg-sim reads version {}", version,
-                     format_version));
+    fail(
+        fmt::format("is a checkpoint of version {}, and this grseg-sim reads version {}; go on "
+                    "with the program that wrote it",
+                    version, format_version));
   Checkpoint checkpoint;
   visit_all(read, checkpoint);
   std::uint64_t digest = 0;

@@ -96,13 +96,16 @@ TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(read.state.image, written.state.image);
   EXPECT_EQ(read.state.velocity, written.state.velocity);
   EXPECT_EQ(read.state.rim_speed, written.state.rim_speed);
+  EXPECT_EQ(read.state.row, written.state.row);
   EXPECT_EQ(read.state.steps_done, 50);
   EXPECT_EQ(read.state.pairs.made_at, written.state.pairs.made_at);
   EXPECT_EQ(read.state.pairs.i, written.state.pairs.i);
   EXPECT_EQ(read.state.pairs.j, written.state.pairs.j);
   EXPECT_EQ(read.state.pairs.impulse_n, written.state.pairs.impulse_n);
   EXPECT_EQ(read.state.pairs.impulse_t, written.state.pairs.impulse_t);
+  EXPECT_EQ(read.state.pairs.approach, written.state.pairs.approach);
   EXPECT_EQ(read.state.pairs.renewals, written.state.pairs.renewals);
+  EXPECT_EQ(read.state.pairs.age, written.state.pairs.age);
   EXPECT_EQ(read.trajectory.frames, 3u);
   EXPECT_EQ(read.trajectory.digest, 0xfedcba9876543210);
   EXPECT_EQ(read.trajectory.begin, 0.25);
@@ -135,9 +138,12 @@ TEST_F(CheckpointFile, AChangedNumberIsToldByTheDigest)
 
 TEST_F(CheckpointFile, AnotherVersionIsRefused)
 {
-  tamper([](hid_t file) { put(file, "/version", H5T_NATIVE_INT, 99); });
-  EXPECT_EQ(complaint(),
-            path + ": is a checkpoint of version 99, and this grseg-sim reads version 1");
+  for (const int version : {1, 99}) {
+    tamper([&](hid_t file) { put(file, "/version", H5T_NATIVE_INT, version); });
+    EXPECT_EQ(complaint(), path + ": is a checkpoint of version " + std::to_string(version) +
+                               ", and this grseg-sim reads version 2; go on with the program "
+                               "that wrote it");
+  }
 }
 
 TEST_F(CheckpointFile, AMissingEntryIsNamed)
