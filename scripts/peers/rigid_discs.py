@@ -1,13 +1,8 @@
-"""grseg-sim: makes the common state and goes on from it.
-
-With a checkpoint, grseg-sim restarts from exactly that state. A grseg-sim that cannot write one runs
-again from the tilt with the same seed, and the cost of the way to the state is taken off.
-"""
+"""grseg-sim: makes the common state, a checkpoint, and goes on from it."""
 import math
 import os
 import re
 import shlex
-import subprocess
 import sys
 
 import h5py
@@ -28,16 +23,14 @@ def make_state(program, scene, flow, folder, core):
     run = os.path.join(folder, "state.h5")
     checkpoint = checkpoint_of(folder)
     if not os.path.exists(run):
-        start = [program, scene]
-        if "--checkpoint" in subprocess.run([program, "--help"], capture_output=True, text=True,
-                                            check=True).stdout:
-            way = os.path.join(folder, "way.h5")
-            process.run([*start, "--step", repr(STATE_STEP), "--duration", repr(flow), "--overwrite",
-                         "--checkpoint", checkpoint, "-o", way], os.path.join(folder, "state"), core)
-            os.remove(way)
-            start = [program, "--restart", checkpoint]
-        process.run([*start, "--step", repr(STATE_STEP), "--duration", repr(flow + STATE_STEP),
-                     "-o", run], os.path.join(folder, "state"), core)
+        way = os.path.join(folder, "way.h5")
+        process.run([program, scene, "--step", repr(STATE_STEP), "--duration", repr(flow),
+                     "--overwrite", "--checkpoint", checkpoint, "-o", way],
+                    os.path.join(folder, "state"), core)
+        os.remove(way)
+        process.run([program, "--restart", checkpoint, "--step", repr(STATE_STEP),
+                     "--duration", repr(flow + STATE_STEP), "-o", run],
+                    os.path.join(folder, "state"), core)
     state, units, time = read_run(run)
     if abs(time - flow - STATE_STEP) > STATE_STEP / 2:
         sys.exit(f"compare-peers: {run} is of {time:g} s of flow, not of {flow:g} s; remove it, "
@@ -58,11 +51,10 @@ class RigidDiscs:
     """grseg-sim with some of its options."""
     trial = 0.5  # s of flow that tell how many fill the time asked for
 
-    def __init__(self, program, scene, options):
-        self.program, self.scene, self.options = program, scene, options
+    def __init__(self, program, options):
+        self.program, self.options = program, options
         self.name = "grseg " + re.sub(r"^--accuracy ", "", options)
         self.method = "contact dynamics, e 0.25"
-        self.way_to_state = None  # s of wall time
 
     def missing(self):
         return None
@@ -73,16 +65,11 @@ class RigidDiscs:
 
     def command(self, data, until):
         """`until` counts from the tilt, s."""
-        checkpoint = checkpoint_of(data["folder"])
-        start = ["--restart", checkpoint] if os.path.exists(checkpoint) else [self.scene]
-        return [self.program, *start, *shlex.split(self.options), "--duration", f"{until:.10g}",
-                "-o", "run.h5", "--overwrite"]
+        return [self.program, "--restart", checkpoint_of(data["folder"]), *shlex.split(self.options),
+                "--duration", f"{until:.10g}", "-o", "run.h5", "--overwrite"]
 
     def sample(self, folder, data, flow, core):
         """Times `flow` seconds; overlaps are those of their second half."""
-        if self.way_to_state is None:
-            restarts = os.path.exists(checkpoint_of(data["folder"]))
-            self.way_to_state = 0.0 if restarts else self.run(folder, data, 0, core).wall
         flow = math.ceil(flow / FRAME_INTERVAL) * FRAME_INTERVAL
         cost = self.run(folder, data, flow, core)
         path = os.path.join(folder, "run.h5")
@@ -90,13 +77,12 @@ class RigidDiscs:
         _, velocity = mean_velocities(path, data["units"])
         os.remove(path)
         return process.Sample(
-            command=self.command_line(data, flow), cost=cost, wall=cost.wall - self.way_to_state,
+            command=self.command_line(data, flow), cost=cost, wall=cost.wall,
             steps=round(flow / seen["step"]), velocity=velocity[-1], flow=flow, **seen)
 
     def command_line(self, data, flow):
         return process.in_words(self.command(data, data["flow"] + flow), None,
-                                [(data["folder"], "."), (self.program, "grseg-sim"),
-                                 (self.scene, "sim/scenes/chute.ini")])
+                                [(data["folder"], "."), (self.program, "grseg-sim")])
 
 
 def mean_velocities(path, units):
