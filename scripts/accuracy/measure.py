@@ -1,6 +1,7 @@
 """Numbers of one trajectory for the accuracy-cost study, by way of the analysis tools."""
 import json
 import math
+import os
 import subprocess
 
 import h5py
@@ -91,5 +92,5 @@ def everything(folder, trajectory, begin):
     (numbers["B_kappa"],) = of_fit(folder, kinetic, quantity="kinetic", **heights)
     numbers.update(of_micro(rows(tool(folder, "grseg-micro", trajectory, "--begin", str(begin)))))
     for path in (stress, kinetic):
-        subprocess.run(["rm", "-f", path], check=True)
+        os.remove(path)
     return numbers
