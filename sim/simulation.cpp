@@ -31,6 +31,14 @@ World with_defaults(World world)
   return world;
 }
 
+/// What the coefficients call for.
+Effects effects_of(const World& world)
+{
+  return {.friction = world.general || world.material.friction > 0,
+          .rotation = world.rotation,
+          .restitution = world.general || world.material.restitution > 0 || world.horizon > 0};
+}
+
 /// A grain's contacts as the file tells them: i before j, unless i does not move.
 struct Named {
   std::int32_t i, j;
@@ -46,8 +54,7 @@ struct Named {
 
 Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
     : world_(with_defaults(world)),
-      effects_{world.material.friction > 0, world.rotation,
-               world.material.restitution > 0 || world.horizon > 0},
+      effects_(effects_of(world)),
       threads_(position.size() < CellGrid::cut_from ? 1 : world.threads),
       pairs_(world.walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world_.skin,
@@ -209,7 +216,7 @@ void Simulation::find_contacts(StepReport& report)
   rule.effects = effects_;
   rule.restitution = world_.material.restitution;
   rule.horizon = world_.horizon * world_.step;
-  rule.periodic = world_.box.periodic_x;
+  rule.periodic = world_.general || world_.box.periodic_x;
   const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_, threads_);
   if (sums.coincident) stop_at_coincidence();
   if (renew || restored_)

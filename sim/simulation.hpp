@@ -32,6 +32,9 @@ struct World {
   double horizon = 0;
   double skin = 0;  // m, more than margin, of the pair list; 0 chooses half the smallest diameter
   int threads = 1;  // results do not depend on it
+  /// Kernels that see to friction, restitution and periodicity whether the world has them or not:
+  /// the same bytes for more time, for measurements and tests.
+  bool general = false;
 };
 
 /// What one step did.

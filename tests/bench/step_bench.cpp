@@ -1,65 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/deposition.hpp"
-#include "sim/scene.hpp"
+#include "tests/bench/flow.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <malloc.h>
 
-#include <cmath>
-#include <map>
+#include <fstream>
 
-/// What a step of the paper's chute costs and, in wide beds, what of it a new list does. The bed is
-/// deposited here and flows for two seconds first; wide beds are copies of it side by side.
+/// What a step of the paper's chute costs and, in wide beds, what of it a new list does, and the
+/// memory it takes. Wide beds are copies of the chute side by side.
 namespace grseg {
 namespace {
 
-/// The chute in flow; copied by whoever changes it.
-const Simulation& flow(const std::string& accuracy)
+/// An entry of /proc/self/status, in bytes.
+double memory(const std::string& entry)
 {
-  namespace po = boost::program_options;
-  static std::map<std::string, Simulation> made;
-  if (const auto found = made.find(accuracy); found != made.end()) return found->second;
-  const std::vector<std::string> words{"--accuracy", accuracy};
-  po::variables_map values;
-  po::store(po::command_line_parser(words).options(scene_options()).run(), values);
-  const auto scene = resolve_scene(GRSEG_SCENES "/chute.ini", values);
-  auto simulation = deposit(scene);
-  const auto gravity = to_parameters(scene).numbers.at("gravity");
-  simulation.tilt({gravity[0], gravity[1]});
-  while (simulation.time() < 2) simulation.advance();
-  return made.emplace(accuracy, simulation).first->second;
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  double kilobytes = 0;
+  while (status >> word)
+    if (word == entry) status >> kilobytes;
+  return 1024 * kilobytes;
 }
 
-Simulation side_by_side(const Simulation& one, int copies, int threads)
-{
-  auto world = one.world();
-  const auto grains = world.grains;
-  const double length = world.box.length_x;
-  world.grains = {};
-  world.threads = threads;
-  world.box.length_x = copies * length;
-  std::vector<Vec2> position;
-  for (int copy = 0; copy < copies; ++copy) {
-    for (std::size_t g = 0; g < grains.size(); ++g) {
-      const double x = one.position(g).x();
-      position.push_back(
-          {x - length * std::floor(x / length) + copy * length, one.position(g).y()});
-      world.grains.id.push_back(static_cast<std::int32_t>(position.size()));
-      world.grains.species.push_back(grains.species[g]);
-      world.grains.radius.push_back(grains.radius[g]);
-      world.grains.mass.push_back(grains.mass[g]);
-      world.grains.fixed.push_back(grains.fixed[g]);
-    }
+/// The memory taken since this was made, while the process has most of it.
+class PeakMemory {
+ public:
+  PeakMemory()
+  {
+    malloc_trim(0);  // what others have freed must not be taken again unseen
+    before_ = memory("VmRSS:");
   }
-  Simulation wide(world, position);
-  for (std::size_t g = 0; g < position.size(); ++g)
-    wide.set_velocity(g, one.velocity(g % grains.size()), one.angular_velocity(g % grains.size()));
-  return wide;
+  /// Whatever peak there was so far does not count.
+  static void reset() { std::ofstream("/proc/self/clear_refs") << 5; }
+  double bytes() const { return memory("VmHWM:") - before_; }
+
+ private:
+  double before_ = 0;
+};
+
+Simulation bed(const std::string& accuracy, int copies, int threads)
+{
+  if (copies == 1) return flow(accuracy);
+  auto world = flow(accuracy).world();
+  world.threads = threads;
+  return side_by_side(flow(accuracy), world, copies);
 }
 
 void step(benchmark::State& state, const std::string& accuracy, int copies, int threads)
 {
-  auto simulation = copies > 1 ? side_by_side(flow(accuracy), copies, threads) : flow(accuracy);
+  flow(accuracy);
+  const PeakMemory memory;
+  auto simulation = bed(accuracy, copies, threads);
+  PeakMemory::reset();
   for (int warm = 0; warm < 20; ++warm) simulation.advance();
   const auto renewals = simulation.pair_list_renewals();
   double sweeps = 0, contacts = 0;
@@ -73,6 +66,8 @@ void step(benchmark::State& state, const std::string& accuracy, int copies, int 
   state.counters["contacts"] = Counter(contacts, Counter::kAvgIterations);
   state.counters["renewals"] = Counter(
       static_cast<double>(simulation.pair_list_renewals() - renewals), Counter::kAvgIterations);
+  state.counters["bytes_per_grain"] =
+      memory.bytes() / static_cast<double>(simulation.world().grains.size());
 }
 
 void add(const std::string& accuracy, int copies, int threads, int steps)

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/deposition.hpp"
+#include "sim/scene.hpp"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+/// The paper's chute in developed flow, for measurements: deposited when first asked for, and two
+/// seconds of flow.
+namespace grseg {
+
+/// The chute in flow; copied by whoever changes it.
+inline const Simulation& flow(const std::string& accuracy)
+{
+  namespace po = boost::program_options;
+  static std::map<std::string, Simulation> made;
+  if (const auto found = made.find(accuracy); found != made.end()) return found->second;
+  const std::vector<std::string> words{"--accuracy", accuracy};
+  po::variables_map values;
+  po::store(po::command_line_parser(words).options(scene_options()).run(), values);
+  const auto scene = resolve_scene(GRSEG_SCENES "/chute.ini", values);
+  auto simulation = deposit(scene);
+  const auto gravity = to_parameters(scene).numbers.at("gravity");
+  simulation.tilt({gravity[0], gravity[1]});
+  while (simulation.time() < 2) simulation.advance();
+  return made.emplace(accuracy, simulation).first->second;
+}
+
+/// The grains of `one`, `copies` times side by side, as they move, without the impulses of their
+/// contacts, under the conditions of `world`; its grains and its period are set here.
+inline Simulation side_by_side(const Simulation& one, World world, int copies)
+{
+  const auto& grains = one.world().grains;
+  const double length = one.world().box.length_x;
+  world.grains = {};
+  world.box.length_x = copies * length;
+  std::vector<Vec2> position;
+  for (int copy = 0; copy < copies; ++copy) {
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      const double x = one.position(g).x();
+      position.push_back(
+          {x - length * std::floor(x / length) + copy * length, one.position(g).y()});
+      world.grains.id.push_back(static_cast<std::int32_t>(position.size()));
+      world.grains.species.push_back(grains.species[g]);
+      world.grains.radius.push_back(grains.radius[g]);
+      world.grains.mass.push_back(grains.mass[g]);
+      world.grains.fixed.push_back(grains.fixed[g]);
+    }
+  }
+  Simulation wide(world, position);
+  for (std::size_t g = 0; g < position.size(); ++g)
+    wide.set_velocity(g, one.velocity(g % grains.size()), one.angular_velocity(g % grains.size()));
+  return wide;
+}
+
+}  // namespace grseg
