@@ -8,6 +8,7 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -120,6 +121,8 @@ Simulation go_on(const Checkpoint& checkpoint, const Scene& then, const Scene& n
   set_conditions(world, now);
   auto state = checkpoint.state;
   change_step(state, then, now);
+  if (now.friction == 0)  // the solver then leaves tangential impulses as they are
+    std::fill(state.pairs.impulse_t.begin(), state.pairs.impulse_t.end(), 0.0);
   if (perturbation.size > 0)
     displace(state.position, world.grains, perturbation.size * now.small_diameter,
              perturbation.seed);

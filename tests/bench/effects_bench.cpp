@@ -97,7 +97,7 @@ void add_all()
     w.walls = {{{0, 0}, {1, 0}}, {{w.box.length_x, 0}, {-1, 0}}};
     w.box.periodic_x = false;
   };
-  const Change faint_gravity = [](World& w) { w.gravity = {1e-100, -1e-100}; };
+  const Change faint_gravity = [](World& w) { w.gravity = {1e-200, -1e-200}; };
   const Change weightless = [](World& w) { w.gravity = Vec2::Zero(); };
 
   add_pair("friction", {smooth, general}, {smooth});

@@ -122,6 +122,23 @@ TEST(Restart, UnderEveryOtherContactLawTheFlowGoesOn)
   }
 }
 
+TEST(Restart, WithoutFrictionNoContactKeepsItsTangentialForce)
+{
+  const auto chute = scene(), smooth = scene({"--friction", "0"});
+  auto first = bed(chute);
+  digest_of_steps(first, 50);
+  auto again = go_on(checkpoint_of(first, chute), chute, smooth, {});
+  again.tilt(tilted_gravity(smooth));
+  Frame frame;
+  again.advance(frame);
+  ASSERT_GT(frame.contacts.size(), 30u);
+  for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+    const auto &force = frame.contacts.force[c], &branch = frame.contacts.branch[c];
+    EXPECT_LE(std::abs(force.x() * branch.y() - force.y() * branch.x()),
+              1e-12 * force.norm() * branch.norm());
+  }
+}
+
 TEST(Restart, OfAListThatWasNeverMade)
 {
   const auto chute = scene();
