@@ -103,7 +103,7 @@ void frames_in_a_file(benchmark::State& state)
   Recorder recorder(writer, 2 * start.world().skin);  // the skin is half a diameter
   Frame frame;
   const auto record = [&](Simulation& s) {
-    const auto report = s.advance(frame);
+    auto report = s.advance(frame);
     recorder.add(report);
     recorder.write(frame, s);
     return report;
