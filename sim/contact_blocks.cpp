@@ -75,12 +75,14 @@ void ContactBlocks::colour(std::span<const Contact> contacts, std::span<const Mo
 void ContactBlocks::lay_out(std::size_t idle)
 {
   std::uint32_t count = 0;
+  ends_.clear();
   for (std::size_t c = 0; c < colours; ++c) {
     next_[c] = count * block_lanes;
     count += (sizes_[c] + block_lanes - 1) / block_lanes;
+    if (sizes_[c] > 0) ends_.push_back(count);
   }
   next_[colours] = count * block_lanes;
-  count += sizes_[colours];
+  for (std::uint32_t k = 0; k < sizes_[colours]; ++k) ends_.push_back(++count);
   blocks_.resize(count);
   const auto neutral = neutral_block(idle);
   for (std::size_t c = 0; c < colours; ++c)

@@ -24,6 +24,13 @@ struct alignas(64) ContactBlock {
   std::array<std::uint32_t, block_lanes> i, j;
 };
 
+/// Blocks in the order in which they are relaxed. They come in runs, one behind the other; no two
+/// blocks of a run share a mobile body, so what one of them reads does not wait for the others.
+struct BlockRuns {
+  std::span<ContactBlock> blocks;
+  std::span<const std::uint32_t> ends;  // of the runs, in blocks
+};
+
 /// Contacts sorted by colour into blocks. First-fit colours in the order of the contacts: a contact
 /// takes the first colour that neither of its mobile bodies has yet, so the same contacts always
 /// get the same colours. Immobile bodies (inverse mass 0) take no colour, since what is written to
@@ -37,6 +44,7 @@ class ContactBlocks {
   void unpack(std::span<Contact> contacts) const;
 
   std::span<ContactBlock> blocks() { return blocks_; }
+  BlockRuns runs() { return {blocks_, ends_}; }
   /// Where each contact went: 8 * block + lane. Sweeps relax contacts in this order.
   std::span<const std::uint32_t> slots() const { return slot_; }
   /// Number of contacts of each colour; the last entry counts those left without a colour because
@@ -49,6 +57,7 @@ class ContactBlocks {
   void lay_out(std::size_t idle);
 
   std::vector<ContactBlock> blocks_;
+  std::vector<std::uint32_t> ends_;   // of a colour's blocks, and of each block left without
   std::vector<std::uint64_t> taken_;  // per body, a bit per colour
   std::vector<std::uint8_t> colour_;  // per contact
   std::vector<std::uint32_t> slot_;   // per contact

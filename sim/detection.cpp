@@ -266,6 +266,7 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
   LaneSums sums;
   auto& near = contacts.near;
   bool base_seen = false;
+  contacts.ends.clear();
   for (const auto& c : pairs.classes_of(strip)) {
     if (c.on_base && !base_seen) contacts.on_base = contacts.size;
     base_seen |= c.on_base;
@@ -278,6 +279,9 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
       set_geometry<with.periodic>(pairs, c, near, b * block_lanes, rule, block, origin, sums);
       set_dynamics<with>(pairs, rule, block, origin, sums);
     }
+    for (std::size_t b = 0; b < blocks; ++b)
+      if (c.alone || b + 1 == blocks)
+        contacts.ends.push_back(static_cast<std::uint32_t>(contacts.size + b + 1));
     contacts.size += blocks;
     contacts.count += count;
   }

@@ -27,6 +27,7 @@ struct NearPairs {
 /// The contacts of a strip in one step.
 struct StripContacts {
   std::vector<ContactBlock> blocks;  // the first `size` of them; kept for the memory
+  std::vector<std::uint32_t> ends;   // as in BlockRuns
   std::vector<BlockOrigin> origins, previous_origins;
   NearPairs near;
   std::size_t size = 0;  // blocks in use
@@ -34,7 +35,7 @@ struct StripContacts {
   std::size_t on_base = 0;  // the first of the blocks whose partners j do not move
   std::size_t count = 0;    // contacts
 
-  std::span<ContactBlock> used() { return std::span(blocks).first(size); }
+  BlockRuns used() { return {std::span(blocks).first(size), ends}; }
 };
 
 /// What a step looks for.

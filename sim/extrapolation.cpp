@@ -70,21 +70,26 @@ HWY_EXPORT(move_impulses_on);
 
 }  // namespace
 
-void Extrapolation::begin(std::span<const std::span<ContactBlock>> strips,
-                          std::span<const Motion> motion, int threads)
+void Extrapolation::begin()
 {
   weight_ = 1;
   last_change_ = std::numeric_limits<double>::infinity();
+}
+
+void Extrapolation::remember(std::span<const BlockRuns> strips, std::span<const Motion> motion,
+                             int threads)
+{
   impulses_.resize(strips.size());
   for_each_part(threads, strips.size(), [&](std::size_t s) {
-    impulses_[s].resize(strips[s].size());
-    for (std::size_t b = 0; b < strips[s].size(); ++b)
-      impulses_[s][b] = {strips[s][b].impulse_n, strips[s][b].impulse_t};
+    const auto& blocks = strips[s].blocks;
+    impulses_[s].resize(blocks.size());
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      impulses_[s][b] = {blocks[b].impulse_n, blocks[b].impulse_t};
   });
   motion_.assign(motion.begin(), motion.end());
 }
 
-void Extrapolation::go_on(std::span<const std::span<ContactBlock>> strips, std::span<Motion> motion,
+void Extrapolation::go_on(std::span<const BlockRuns> strips, std::span<Motion> motion,
                           double change, int threads)
 {
   if (change > last_change_) weight_ = 1;
@@ -92,9 +97,10 @@ void Extrapolation::go_on(std::span<const std::span<ContactBlock>> strips, std::
   const double next = (1 + std::sqrt(1 + 4 * weight_ * weight_)) / 2;
   const double factor = (weight_ - 1) / next;
   weight_ = next;
+  if (factor == 0) return remember(strips, motion, threads);
   for_each_part(threads, strips.size(), [&](std::size_t s) {
-    if (!strips[s].empty())
-      HWY_DYNAMIC_DISPATCH(move_impulses_on)(strips[s], impulses_[s][0].n.data(), factor);
+    if (!strips[s].blocks.empty())
+      HWY_DYNAMIC_DISPATCH(move_impulses_on)(strips[s].blocks, impulses_[s][0].n.data(), factor);
   });
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
     HWY_DYNAMIC_DISPATCH(move_motion_on)(&motion[begin], &motion_[begin], end - begin, factor);

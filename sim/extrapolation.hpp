@@ -16,14 +16,15 @@ namespace grseg {
 /// what the next sweep projects back need not obey Signorini and Coulomb in between.
 class Extrapolation {
  public:
-  /// Remembers where the sweeps start.
-  void begin(std::span<const std::span<ContactBlock>> strips, std::span<const Motion> motion,
-             int threads);
+  /// Before the first sweep.
+  void begin();
   /// After a sweep whose squared changes add up to `change`.
-  void go_on(std::span<const std::span<ContactBlock>> strips, std::span<Motion> motion,
-             double change, int threads);
+  void go_on(std::span<const BlockRuns> strips, std::span<Motion> motion, double change,
+             int threads);
 
  private:
+  void remember(std::span<const BlockRuns> strips, std::span<const Motion> motion, int threads);
+
   struct alignas(64) Impulses {
     ContactBlock::Lanes n, t;
   };

@@ -129,7 +129,7 @@ StepReport Simulation::step(Frame* frame)
 
 void Simulation::solve(StepReport& report)
 {
-  std::vector<std::span<ContactBlock>> strips;
+  std::vector<BlockRuns> strips;
   std::size_t count = 0;
   for (auto& strip : contacts_) {
     strips.push_back(strip.used());

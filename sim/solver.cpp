@@ -35,19 +35,20 @@ SweepResult total(const std::vector<SweepResult>& strips)
 
 }  // namespace
 
-SolverReport solve_contacts(std::span<const std::span<ContactBlock>> strips, std::size_t count,
+SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
                             const SolverSettings& settings, double floor,
                             Extrapolation& extrapolation, int threads)
 {
   SolverReport report;
   if (count == 0) return report;
-  for_alternate_strips(threads, strips.size(),
-                       [&](std::size_t s) { apply_impulses(strips[s], motion.data(), effects); });
+  for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
+    apply_impulses(strips[s].blocks, motion.data(), effects);
+  });
   const auto sweep = choose_sweep(effects);
   const auto contact_count = static_cast<double>(count);
   std::vector<SweepResult> results(strips.size());
-  if (settings.acceleration) extrapolation.begin(strips, motion, threads);
+  if (settings.acceleration) extrapolation.begin();
   for (;;) {
     for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
       results[s] = sweep(strips[s], motion.data(), friction);
@@ -74,7 +75,7 @@ SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>&
   motion.emplace_back();  // what the lanes left over act on
   ContactBlocks packed;
   packed.pack(contacts, motion, bodies);
-  const std::array strips{packed.blocks()};
+  const std::array strips{packed.runs()};
   Extrapolation extrapolation;
   const auto report = solve_contacts(strips, contacts.size(), motion, friction, effects, settings,
                                      floor, extrapolation);

@@ -35,9 +35,9 @@ struct SolverReport {
 /// the caller for its memory).
 ///
 /// Impulses in the blocks are the first guess; they are applied to `motion` here. Contacts come in
-/// strips and are swept block after block: those of even strips at a time, then those of odd ones.
+/// strips and are swept run after run: those of even strips at a time, then those of odd ones.
 /// Strips that are no neighbours share no mobile body; what is summed is added strip by strip.
-SolverReport solve_contacts(std::span<const std::span<ContactBlock>> strips, std::size_t count,
+SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
                             const SolverSettings& settings, double floor,
                             Extrapolation& extrapolation, int threads = 1);

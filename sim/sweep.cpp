@@ -53,13 +53,13 @@ struct alignas(64) LaneResults {
   }
 };
 
-/// relax() on the lanes that begin at `lane`; the same operations in the same order.
+/// relax() on the lanes that begin at `lane`, of the bodies a and b; the same operations in the
+/// same order.
 template <Effects with>
-HWY_INLINE void relax_lanes(ContactBlock& c, std::size_t lane, double* motion, Vector friction,
-                            LaneResults& results)
+HWY_INLINE void relax_lanes(ContactBlock& c, std::size_t lane, Bodies a, Bodies b, double* motion,
+                            Vector friction, LaneResults& results)
 {
   const D d;
-  auto a = load_bodies(d, motion, &c.i[lane]), b = load_bodies(d, motion, &c.j[lane]);
   const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
   const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
   const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
@@ -99,15 +99,41 @@ HWY_INLINE void relax_lanes(ContactBlock& c, std::size_t lane, double* motion, V
   store_bodies(d, b, motion, &c.j[lane]);
 }
 
+/// Relaxes blocks that share no mobile body. The bodies of what comes next are loaded before what
+/// is there is relaxed: a relaxation is one long chain of operations, and the processor does not
+/// look far enough ahead to fill its pauses with the next one by itself.
 template <Effects with>
-SweepResult sweep(std::span<ContactBlock> blocks, Motion* motion, double friction)
+HWY_INLINE void sweep_run(ContactBlock* block, const ContactBlock* end, double* motion,
+                          Vector friction, LaneResults& results)
+{
+  const D d;
+  auto a = load_bodies(d, motion, &block->i[0]), b = load_bodies(d, motion, &block->j[0]);
+  for (; block != end; ++block) {
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+      const bool same = lane + hn::MaxLanes(d) < block_lanes;
+      const auto* next = same || block + 1 == end ? block : block + 1;
+      const std::size_t next_lane = same ? lane + hn::MaxLanes(d) : 0;
+      const auto next_a = load_bodies(d, motion, &next->i[next_lane]);
+      const auto next_b = load_bodies(d, motion, &next->j[next_lane]);
+      relax_lanes<with>(*block, lane, a, b, motion, friction, results);
+      a = next_a;
+      b = next_b;
+    }
+  }
+}
+
+template <Effects with>
+SweepResult sweep(const BlockRuns& contacts, Motion* motion, double friction)
 {
   const D d;
   LaneResults results;
   const auto coefficient = hn::Set(d, friction);
-  for (auto& block : blocks)
-    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d))
-      relax_lanes<with>(block, lane, members(motion), coefficient, results);
+  auto* blocks = contacts.blocks.data();
+  std::uint32_t begin = 0;
+  for (const auto end : contacts.ends) {
+    sweep_run<with>(blocks + begin, blocks + end, members(motion), coefficient, results);
+    begin = end;
+  }
   const auto total = results.total();
   leave_vectors();
   return total;

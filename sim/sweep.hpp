@@ -20,7 +20,7 @@ struct SweepResult {
 };
 
 /// Relaxes all contacts once, block after block.
-using Sweep = SweepResult (*)(std::span<ContactBlock>, Motion*, double friction);
+using Sweep = SweepResult (*)(const BlockRuns&, Motion*, double friction);
 Sweep choose_sweep(Effects effects);
 
 /// Applies the impulses of the blocks to the bodies.

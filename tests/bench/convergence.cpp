@@ -17,6 +17,7 @@ namespace {
 /// Impulses and velocities, linear in one another.
 struct State {
   std::vector<ContactBlock> blocks;
+  std::vector<std::uint32_t> ends;
   std::vector<Motion> motion;
 };
 
@@ -27,12 +28,13 @@ State cold_start(double omega)
   for (auto& c : p.contacts) c.mass_n *= omega, c.mass_t *= omega;
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
-  return {{packed.blocks().begin(), packed.blocks().end()}, p.motion};
+  const auto runs = packed.runs();
+  return {{runs.blocks.begin(), runs.blocks.end()}, {runs.ends.begin(), runs.ends.end()}, p.motion};
 }
 
 void sweep(State& s)
 {
-  choose_sweep({})(s.blocks, s.motion.data(), FrozenProblem::friction);
+  choose_sweep({})({s.blocks, s.ends}, s.motion.data(), FrozenProblem::friction);
 }
 
 /// Distance of velocities, square root of twice the kinetic energy (a disc's I omega^2 is

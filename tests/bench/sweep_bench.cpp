@@ -32,7 +32,7 @@ void sweep(benchmark::State& state, const std::string& instructions, Effects eff
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
   const auto one_sweep = choose_sweep(effects);
   for (auto _ : state)
-    benchmark::DoNotOptimize(one_sweep(packed.blocks(), p.motion.data(), p.friction));
+    benchmark::DoNotOptimize(one_sweep(packed.runs(), p.motion.data(), p.friction));
   count_contacts(state, p);
 }
 

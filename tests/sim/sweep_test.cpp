@@ -62,7 +62,7 @@ std::vector<std::uint64_t> swept(FrozenProblem p, Effects effects)
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
   SweepResult result;
   for (int s = 0; s < sweeps; ++s)
-    result = choose_sweep(effects)(packed.blocks(), p.motion.data(), p.friction);
+    result = choose_sweep(effects)(packed.runs(), p.motion.data(), p.friction);
   packed.unpack(p.contacts);
   EXPECT_EQ(bits_of({p.motion.back()}), bits_of(std::vector<Motion>{{}}));
   auto bits = bits_of(p.motion), impulses = bits_of(p.contacts);
@@ -181,7 +181,7 @@ TEST_P(SweepOn, FrictionLeftOutEqualsZeroFrictionToTheLastBit)
     p->motion.emplace_back();
     packed.pack(p->contacts, p->motion, p->motion.size() - 1);
     const Effects effects{.friction = p == &with};
-    for (int s = 0; s < sweeps; ++s) choose_sweep(effects)(packed.blocks(), p->motion.data(), 0);
+    for (int s = 0; s < sweeps; ++s) choose_sweep(effects)(packed.runs(), p->motion.data(), 0);
     packed.unpack(p->contacts);
   }
   EXPECT_EQ(bits_of(with.motion), bits_of(without.motion));
@@ -195,7 +195,7 @@ TEST_P(SweepOn, ImpulsesAppliedMoveTheBodiesAsRelaxingDid)
   const auto start = p.motion;
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
-  for (int s = 0; s < 50; ++s) choose_sweep({})(packed.blocks(), p.motion.data(), p.friction);
+  for (int s = 0; s < 50; ++s) choose_sweep({})(packed.runs(), p.motion.data(), p.friction);
   auto again = start;
   apply_impulses(packed.blocks(), again.data(), {});
   for (std::size_t g = 0; g < start.size(); ++g) {
