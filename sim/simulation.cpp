@@ -116,7 +116,7 @@ StepReport Simulation::step(Frame* frame)
     before_.clear();
     for (const auto body : body_of_) before_.push_back(state_.motion[body]);
   }
-  move_grains(world_.step / 2);
+  move_to_middle();
   find_contacts(report);
   apply_gravity(world_.step);
   solve(report);
@@ -140,13 +140,30 @@ void Simulation::solve(StepReport& report)
       floor_of_reference * world_.gravity.norm() * world_.step, extrapolation_, threads_);
 }
 
+void Simulation::move_to_middle()
+{
+  const double half = world_.step / 2, onward = world_.forecast * world_.step;
+  ahead_.resize(state_.position.size());
+  // Plain pointers, or the compiler fetches them anew for every grain.
+  auto *position = state_.position.data(), *ahead = ahead_.data();
+  const auto* motion = state_.motion.data();
+  for_ranges(threads_, state_.position.size(), [=](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const Vec2 velocity(motion[b].vx, motion[b].vy);
+      const Vec2 middle = position[b] + half * velocity;
+      position[b] = middle;
+      ahead[b] = middle + onward * velocity;
+    }
+  });
+}
+
 void Simulation::move_grains(double duration)
 {
-  for_ranges(threads_, state_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      state_.position[b].x() += duration * state_.motion[b].vx;
-      state_.position[b].y() += duration * state_.motion[b].vy;
-    }
+  auto* position = state_.position.data();
+  const auto* motion = state_.motion.data();
+  for_ranges(threads_, state_.size(), [=](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      position[b] += duration * Vec2(motion[b].vx, motion[b].vy);
   });
 }
 
@@ -154,11 +171,12 @@ void Simulation::apply_gravity(double duration)
 {
   const Vec2 change = duration * world_.gravity;
   if (change == Vec2::Zero()) return;
-  for_ranges(threads_, state_.size(), [&](std::size_t begin, std::size_t end) {
+  auto* motion = state_.motion.data();
+  for_ranges(threads_, state_.size(), [=](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      if (!(state_.motion[b].inverse_mass > 0)) continue;
-      state_.motion[b].vx += change.x();
-      state_.motion[b].vy += change.y();
+      if (!(motion[b].inverse_mass > 0)) continue;
+      motion[b].vx += change.x();
+      motion[b].vy += change.y();
     }
   });
 }
@@ -176,22 +194,21 @@ void Simulation::wrap_positions()
   });
 }
 
-const std::vector<Vec2>& Simulation::look_ahead()
+void Simulation::look_ahead()
 {
-  if (world_.forecast == 0) return state_.position;
-  const double duration = world_.forecast * world_.step;
-  ahead_.resize(state_.position.size());
+  const double onward = world_.forecast * world_.step;
   for_ranges(threads_, state_.position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
-      ahead_[b] = state_.position[b] + duration * Vec2(state_.motion[b].vx, state_.motion[b].vy);
+      ahead_[b] = state_.position[b] + onward * Vec2(state_.motion[b].vx, state_.motion[b].vy);
   });
-  return ahead_;
 }
 
 void Simulation::renew_pairs()
 {
   wrap_positions();
-  pairs_.renew(state_, look_ahead());
+  look_ahead();
+  pairs_.renew(state_, ahead_);
+  look_ahead();
   for_ranges(threads_, state_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
       body_of_[static_cast<std::size_t>(state_.row[b])] = static_cast<std::uint32_t>(b);
@@ -200,15 +217,11 @@ void Simulation::renew_pairs()
 
 void Simulation::find_contacts(StepReport& report)
 {
-  const auto* looked_at = &look_ahead();
-  const bool renew = !pairs_.complete(*looked_at);
+  const bool renew = !pairs_.complete(ahead_);
   const double passed = pairs_.moved_in_a_step();
-  if (renew) {
-    renew_pairs();
-    looked_at = &look_ahead();
-  }
+  if (renew) renew_pairs();
   DetectionRule rule;
-  rule.looked_at = *looked_at;
+  rule.looked_at = ahead_;
   rule.middle = state_.position;
   rule.motion = state_.motion;
   rule.walls = world_.walls;

@@ -119,7 +119,8 @@ class Simulation {
   const Motion& motion(std::size_t g) const { return state_.motion[body_of_[g]]; }
   StepReport step(Frame* frame);
   void move_grains(double duration);
-  const std::vector<Vec2>& look_ahead();
+  void look_ahead();
+  void move_to_middle();
   std::span<Pairs::Memory> memories();
   void renew_pairs();
   void find_contacts(StepReport& report);
@@ -140,7 +141,7 @@ class Simulation {
   PairList pairs_;
   GrainState state_;
   std::vector<std::uint32_t> body_of_;  // where in the state each grain is
-  std::vector<Vec2> ahead_;             // m, positions looked at where forecast is not 0
+  std::vector<Vec2> ahead_;             // m, positions looked at: after a forecast of free flight
   std::vector<Motion> before_;          // by row, at the beginning of a step that is written down
   std::vector<StripContacts> contacts_;
   Extrapolation extrapolation_;
