@@ -27,9 +27,9 @@ struct Accuracy {
 };
 
 constexpr std::array<Accuracy, 3> accuracies{{
-    {"draft", 0.0111, 0.5, 50},
-    {"standard", 0.00443, 0.5, 500},
-    {"reference", 0.00222, 0.02, 5000},
+    {"draft", 0.02214, 0.3, 100},
+    {"standard", 0.01107, 0.4, 500},
+    {"reference", 0.00443, 0.1, 5000},
 }};
 
 // Restitution and geometry err by O(h); beyond this step a scene is a different one.
@@ -256,11 +256,11 @@ po::options_description scene_options()
   add("friction", number(0.5), "Coulomb's coefficient, all contacts");
   add("restitution", number(0.25), "Newton's coefficient, all contacts");
   add("rotation", text("on"), "on or off: whether grains rotate");
-  add("contact-law", text("centred"),
+  add("contact-law", text("speculative"),
       "which pairs act in a step: centred (those that touch by its end), touch (at its middle), "
       "predictive (half a step after its end) or speculative (slowed down short of overlap, they "
       "rebound in the step after)");
-  add("horizon", number(0.5), "steps ahead that the speculative law looks, at most 1");
+  add("horizon", number(0.75), "steps ahead that the speculative law looks, at most 1");
   add("base", text("grains"), "grains (a row of fixed large grains) or wall (straight)");
   add("lateral", text("periodic"), "periodic or walls: what bounds the cell along x");
   add("origin", text("top"), "y = 0 at the top or at the centre of the base grains");

@@ -56,9 +56,10 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
     const auto result = total(results);
     const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
     ++report.sweeps;
-    report.residual = reference > 0 ? result.largest / reference : 0;
-    report.residual_rms =
-        reference > 0 ? std::sqrt(result.sum_squares / contact_count) / reference : 0;
+    // Without gravity the sweep that lets the last contact go leaves a reference of 0.
+    const auto relative = [&](double change) { return change == 0 ? 0 : change / reference; };
+    report.residual = relative(result.largest);
+    report.residual_rms = relative(std::sqrt(result.sum_squares / contact_count));
     report.converged = report.residual <= settings.tolerance;
     if (report.converged || report.sweeps >= settings.max_sweeps) return report;
     if (settings.acceleration) extrapolation.go_on(strips, motion, result.sum_squares, threads);

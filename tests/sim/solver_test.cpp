@@ -17,6 +17,22 @@ TEST(Solver, AVelocityFarBelowTheFloorNeedsNoSecondSweep)
   EXPECT_EQ(solve_contacts(contacts, motion, 0.5, {}, {1e-2, 100}, 1e-6).sweeps, 1);
 }
 
+TEST(Solver, TheSweepThatLetsTheLastContactGoIsNotTheLastWhereThereIsNoGravity)
+{
+  // Two discs that part, with an impulse between them that was right before.
+  std::vector<Motion> motion{{1, 0, 0, 1}, {-1, 0, 0, 1}};
+  Contact c{};
+  c.nx = c.kappa = c.impulse_n = 1;
+  c.mass_n = 0.5, c.mass_t = 1.0 / 6;
+  c.j = 1;
+  std::vector<Contact> contacts{c};
+  const auto report = solve_contacts(contacts, motion, 0.5, {}, {0.5, 100}, 0);
+  EXPECT_EQ(report.sweeps, 2);
+  EXPECT_EQ(report.residual, 0);
+  EXPECT_EQ(contacts[0].impulse_n, 0);
+  EXPECT_EQ(motion[0].vx, 1);
+}
+
 TEST(Solver, ANewcomerIsNotHiddenByThousandsOfSettledContacts)
 {
   // 4000 discs that rest on a floor, their impulses known, beside a row of 10 touching discs of
