@@ -72,7 +72,7 @@ Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
                const po::variables_map& given)
 {
   std::vector<std::string> renewed;
-  if (!given["accuracy"].defaulted()) renewed = {"step", "tolerance", "max-sweeps"};
+  if (!given["accuracy"].defaulted()) renewed = {"step", "tolerance", "min-sweeps", "max-sweeps"};
   auto values = given;
   read_scene_text(checkpoint.scene, name, renewed, values);
   return resolve_scene(values);

@@ -61,7 +61,8 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
     report.residual = relative(result.largest);
     report.residual_rms = relative(std::sqrt(result.sum_squares / contact_count));
     report.converged = report.residual <= settings.tolerance;
-    if (report.converged || report.sweeps >= settings.max_sweeps) return report;
+    const bool enough = report.sweeps >= settings.min_sweeps || result.largest == 0;
+    if ((report.converged && enough) || report.sweeps >= settings.max_sweeps) return report;
     if (settings.acceleration) extrapolation.go_on(strips, motion, result.sum_squares, threads);
   }
 }

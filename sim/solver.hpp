@@ -14,6 +14,10 @@ struct SolverSettings {
   double tolerance = 1e-2;  ///< on SolverReport::residual
   int max_sweeps = 500;
   bool acceleration = false;
+  /// At least so many sweeps, unless one changes nothing. A sweep hands a load on to the next grain
+  /// only, so where weight has to be found again small changes do not mean small errors: a bed at
+  /// rest trembles when every step stops at the first or second sweep.
+  int min_sweeps = 1;
 };
 
 /// How a step's solve went. Not converging is a result: it is stored and reported, not thrown.
@@ -29,7 +33,7 @@ struct SolverReport {
 /// reference velocity: the quadratic mean of W p over the `count` contacts, at least `floor` (m/s),
 /// so that a motionless bed stops at once. Normal and tangential parts both count, and the largest
 /// rather than the mean change decides, so that a contact which has just closed is not hidden by
-/// thousands of settled ones.
+/// thousands of settled ones. `min_sweeps` come first.
 ///
 /// With `acceleration` each sweep starts beyond where the last one came to (Extrapolation, kept by
 /// the caller for its memory).

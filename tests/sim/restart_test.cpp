@@ -252,6 +252,7 @@ TEST(Restart, AGivenAccuracySetsStepToleranceAndSweepsAnew)
   EXPECT_EQ(now.step, fresh.step);
   EXPECT_EQ(now.solver.tolerance, fresh.solver.tolerance);
   EXPECT_EQ(now.solver.max_sweeps, fresh.solver.max_sweeps);
+  EXPECT_EQ(now.solver.min_sweeps, fresh.solver.min_sweeps);
 }
 
 TEST(Restart, KeysOfTheBedCannotChange)

@@ -189,6 +189,34 @@ TEST(Deposition, MakesABedOfTheAskedDepthAndComposition)
   EXPECT_LT(y_large / count_large, 0.6 * y_small / count_small);
 }
 
+/// Kinetic energy over m g d of a small grain, per grain, of a bed left flat for a second.
+double trembling(const std::string& accuracy, const std::string& min_sweeps)
+{
+  const auto scene = scene_from({"--depth", "40dS", "--length", "10dL", "--accuracy", accuracy});
+  auto simulation = deposit(scene);
+  const auto loose = scene_from({"--accuracy", accuracy, "--min-sweeps", min_sweeps});
+  auto world = simulation.world();
+  world.solver = loose.solver;
+  simulation = Simulation(world, simulation.state());
+  double most = 0;
+  while (simulation.time() < 1) {
+    simulation.advance();
+    if (simulation.time() > 0.5) most = std::max(most, simulation.translational_energy());
+  }
+  const auto& grains = world.grains;
+  const double small = std::numbers::pi / 4 * scene.small_diameter * scene.small_diameter;
+  return most / (static_cast<double>(grains.size()) * scene.density * small * scene.gravity *
+                 scene.small_diameter);
+}
+
+TEST(Deposition, ABedAtRestStaysAtRest)
+{
+  for (const auto* accuracy : {"draft", "standard"}) {
+    EXPECT_LT(trembling(accuracy, "8"), 1e-3) << accuracy;
+    EXPECT_GT(trembling(accuracy, "1"), 2e-3) << accuracy << ": the least number is for nothing";
+  }
+}
+
 TEST(Deposition, GivesTheWorldWhatTheSceneSays)
 {
   const auto scene =

@@ -17,6 +17,29 @@ TEST(Solver, AVelocityFarBelowTheFloorNeedsNoSecondSweep)
   EXPECT_EQ(solve_contacts(contacts, motion, 0.5, {}, {1e-2, 100}, 1e-6).sweeps, 1);
 }
 
+TEST(Solver, SweepsOnToTheLeastNumberUnlessOneChangesNothing)
+{
+  // A column of ten discs on a floor, from nothing; the floor alone carries the lowest from the
+  // first sweep on.
+  const auto sweeps = [](int discs, int at_least) {
+    std::vector<Motion> motion(static_cast<std::size_t>(discs), Motion{0, -1, 0, 1});
+    motion.push_back({});
+    std::vector<Contact> contacts;
+    for (int k = 0; k < discs; ++k) {
+      Contact c{};
+      c.ny = c.kappa = 1;
+      c.mass_n = k == 0 ? 1 : 0.5;
+      c.mass_t = c.mass_n / 3;
+      c.i = k, c.j = k == 0 ? discs : k - 1;
+      contacts.push_back(c);
+    }
+    return solve_contacts(contacts, motion, 0, {}, {10, 100, false, at_least}, 0).sweeps;
+  };
+  EXPECT_EQ(sweeps(10, 1), 1);
+  EXPECT_EQ(sweeps(10, 8), 8);
+  EXPECT_EQ(sweeps(1, 8), 2);
+}
+
 TEST(Solver, TheSweepThatLetsTheLastContactGoIsNotTheLastWhereThereIsNoGravity)
 {
   // Two discs that part, with an impulse between them that was right before.
