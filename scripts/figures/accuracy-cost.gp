@@ -1,16 +1,26 @@
-# Error of an observable against the reference over the processor time of a simulated second.
-#   gnuplot -e "table='accuracy-cost.tsv'; observable='mean_velocity'; out='front.png'" scripts/figures/accuracy-cost.gp
-if (!exists("observable")) observable = "mean_velocity"
-if (!exists("out")) out = observable . "-front.png"
-set terminal pngcairo size 900,600 font "DejaVu Sans,11" noenhanced
+# A front per observable: its difference from the reference over the processor time of a simulated
+# second, with 95 % bars; the presets in red.
+#   gnuplot -c scripts/figures/accuracy-cost.gp accuracy-cost.tsv fronts.png
+table = ARGC > 0 ? ARG1 : "accuracy-cost.tsv"
+out = ARGC > 1 ? ARG2 : "fronts.png"
+set terminal pngcairo size 1500,1500 font "DejaVu Sans,10" noenhanced
 set output out
 set datafile separator "\t"
 set datafile commentschars "#"
 set logscale x
-set xlabel "processor time per simulated second (s)"
-set ylabel sprintf("%s minus reference", observable)
 set key off
 set grid
-plot 0 with lines linecolor "gray", \
-     table using "cost":(column(observable."_diff")):(column(observable."_diff_hw")) with yerrorbars pointtype 7 linecolor "#1f77b4", \
-     table using "cost":(column(observable."_diff")):"setting" with labels left offset 0.6,0.3 font ",8"
+names = "mean_velocity shear_rate B_size B_half B_kappa mean_overlap mean_gap largest_overlap z_S z_L zf_S zf_L mixed_share energy_defect"
+titles = "'mean velocity (m/s)' 'shear rate (1/s)' 'B, size' 'B, half' 'B_kappa' 'mean overlap (d_S)' 'mean |gap| under force (d_S)' 'largest overlap (d_S)' 'z, small' 'z, large' 'z f, small (N)' 'z f, large (N)' 'mixed share' 'energy defect'"
+preset(s) = s eq "draft" || s eq "standard" || s eq "reference" || s eq "finer"
+set multiplot layout 5,3
+do for [k = 1:words(names)] {
+  name = word(names, k)
+  set title word(titles, k) . " minus reference"
+  if (k > words(names) - 3) { set xlabel "processor time per simulated second (s)" }
+  plot 0 with lines linecolor "gray", \
+       table using "cost":(column(name."_diff")):(column(name."_diff_hw")) with yerrorbars pointtype 7 pointsize 0.6 linecolor "#1f77b4", \
+       table using "cost":(preset(stringcolumn("setting")) ? column(name."_diff") : NaN) with points pointtype 7 pointsize 1.2 linecolor "#d62728", \
+       table using "cost":(preset(stringcolumn("setting")) ? column(name."_diff") : NaN):"setting" with labels left offset 0.6,0.6 font ",9"
+}
+unset multiplot
