@@ -10,8 +10,8 @@
 namespace grseg {
 namespace {
 
-// A strip's velocities fit into the second cache, and there are several for every thread.
-constexpr std::size_t grains_per_strip = 7500;
+// A strip's contacts fit into the second cache, and there are several for every thread.
+constexpr std::size_t grains_per_strip = 3500;
 // Contacts of strips that are no neighbours share no grain from two columns on.
 constexpr std::int32_t least_columns_per_strip = 4;
 

@@ -16,8 +16,8 @@ namespace grseg {
 /// where x is periodic, so that strips of even number are no neighbours.
 class CellGrid {
  public:
-  /// Scenes of fewer grains are one strip, and not worth more than one thread.
-  static constexpr std::size_t cut_from = 30000;
+  /// Scenes of fewer grains are one strip.
+  static constexpr std::size_t cut_from = 10000;
 
   CellGrid(const Box& box, double cell, int threads);
 

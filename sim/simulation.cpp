@@ -39,6 +39,9 @@ Effects effects_of(const World& world)
           .restitution = world.general || world.material.restitution > 0 || world.horizon > 0};
 }
 
+// Fewer grains are not worth more than one thread.
+constexpr std::size_t worth_sharing = 30000;
+
 /// A grain's contacts as the file tells them: i before j, unless i does not move.
 struct Named {
   std::int32_t i, j;
@@ -55,7 +58,7 @@ struct Named {
 Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
     : world_(with_defaults(world)),
       effects_(effects_of(world)),
-      threads_(position.size() < CellGrid::cut_from ? 1 : world.threads),
+      threads_(position.size() < worth_sharing ? 1 : world.threads),
       pairs_(world.walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world_.skin,
              world_.margin, threads_),

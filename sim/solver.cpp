@@ -33,6 +33,50 @@ SweepResult total(const std::vector<SweepResult>& strips)
   return total;
 }
 
+/// Which strips are swept. All, until few have changes above the tolerance; then only these and
+/// their neighbours: somewhere in a wide scene there is always a contact that needs more sweeps.
+class LocalWork {
+ public:
+  explicit LocalWork(std::span<const BlockRuns> strips) : strips_(strips), swept_(strips.size(), 1)
+  {
+    count_blocks();
+    all_ = relaxed_;
+  }
+
+  bool swept(std::size_t strip) const { return swept_[strip] != 0; }
+  bool local() const { return local_; }
+  /// As many as if every contact had been relaxed as often.
+  int sweeps() const { return static_cast<int>((relaxed_ + all_ - 1) / all_); }
+
+  /// After a sweep; `enough` of all strips have been made.
+  void choose(const std::vector<SweepResult>& results, double limit, bool enough)
+  {
+    const auto unsettled = [&](std::size_t s) { return results[s].largest > limit; };
+    const std::size_t strips = results.size();
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < strips; ++s) count += unsettled(s) ? 1 : 0;
+    local_ = local_ || (enough && 4 * count <= strips);
+    if (local_)
+      for (std::size_t s = 0; s < strips; ++s)
+        swept_[s] =
+            unsettled(s) || unsettled((s + 1) % strips) || unsettled((s + strips - 1) % strips) ? 1
+                                                                                                : 0;
+    count_blocks();
+  }
+
+ private:
+  void count_blocks()
+  {
+    for (std::size_t s = 0; s < strips_.size(); ++s)
+      if (swept(s)) relaxed_ += strips_[s].blocks.size();
+  }
+
+  std::span<const BlockRuns> strips_;
+  std::vector<std::uint8_t> swept_;
+  std::size_t relaxed_ = 0, all_ = 0;  // blocks
+  bool local_ = false;
+};
+
 }  // namespace
 
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
@@ -48,22 +92,25 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
   const auto sweep = choose_sweep(effects);
   const auto contact_count = static_cast<double>(count);
   std::vector<SweepResult> results(strips.size());
+  LocalWork work(strips);
   if (settings.acceleration) extrapolation.begin();
-  for (;;) {
+  for (int rounds = 1;; ++rounds) {
     for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
-      results[s] = sweep(strips[s], motion.data(), friction);
+      if (work.swept(s)) results[s] = sweep(strips[s], motion.data(), friction);
     });
     const auto result = total(results);
     const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
-    ++report.sweeps;
     // Without gravity the sweep that lets the last contact go leaves a reference of 0.
     const auto relative = [&](double change) { return change == 0 ? 0 : change / reference; };
+    report.sweeps = work.sweeps();
     report.residual = relative(result.largest);
     report.residual_rms = relative(std::sqrt(result.sum_squares / contact_count));
     report.converged = report.residual <= settings.tolerance;
-    const bool enough = report.sweeps >= settings.min_sweeps || result.largest == 0;
-    if ((report.converged && enough) || report.sweeps >= settings.max_sweeps) return report;
-    if (settings.acceleration) extrapolation.go_on(strips, motion, result.sum_squares, threads);
+    const bool enough = rounds >= settings.min_sweeps || result.largest == 0;
+    if ((report.converged && enough) || rounds >= settings.max_sweeps) return report;
+    work.choose(results, settings.tolerance * reference, enough);
+    if (settings.acceleration && !work.local())
+      extrapolation.go_on(strips, motion, result.sum_squares, threads);
   }
 }
 

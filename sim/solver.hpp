@@ -22,7 +22,7 @@ struct SolverSettings {
 
 /// How a step's solve went. Not converging is a result: it is stored and reported, not thrown.
 struct SolverReport {
-  int sweeps = 0;
+  int sweeps = 0;           ///< relaxations per contact, rounded up
   double residual = 0;      ///< largest change of the last sweep / reference velocity
   double residual_rms = 0;  ///< the same in the quadratic mean, which hides newcomers
   bool converged = true;
@@ -40,7 +40,9 @@ struct SolverReport {
 ///
 /// Impulses in the blocks are the first guess; they are applied to `motion` here. Contacts come in
 /// strips and are swept run after run: those of even strips at a time, then those of odd ones.
-/// Strips that are no neighbours share no mobile body; what is summed is added strip by strip.
+/// Strips that are no neighbours share no mobile body; what is summed is added strip by strip. When
+/// changes above the tolerance are left in a quarter of the strips or less, only these and their
+/// neighbours are swept further, without extrapolation.
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
                             const SolverSettings& settings, double floor,
