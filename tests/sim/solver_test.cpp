@@ -40,6 +40,51 @@ TEST(Solver, SweepsOnToTheLeastNumberUnlessOneChangesNothing)
   EXPECT_EQ(sweeps(1, 8), 2);
 }
 
+/// Rows of ten touching discs, a strip each, of which the first disc of the first row is hit.
+struct Rows {
+  static constexpr std::size_t discs = 10;
+  std::vector<Motion> motion;
+  std::vector<ContactBlocks> packed;
+
+  explicit Rows(std::size_t rows) : motion(rows * discs, Motion{0, 0, 0, 1}), packed(rows)
+  {
+    motion[0].vx = 1;
+    motion.emplace_back();
+    for (std::size_t r = 0; r < rows; ++r) {
+      std::vector<Contact> contacts;
+      for (std::size_t k = discs - 1; k > 0; --k) {
+        Contact c{};
+        c.nx = c.kappa = 1, c.mass_n = 0.5, c.mass_t = 1.0 / 6;
+        c.i = static_cast<std::int32_t>(r * discs + k);
+        c.j = c.i - 1;
+        contacts.push_back(c);
+      }
+      packed[r].pack(contacts, motion, motion.size() - 1);
+    }
+  }
+  SolverReport solve(int threads)
+  {
+    std::vector<BlockRuns> strips;
+    for (auto& p : packed) strips.push_back(p.runs());
+    Extrapolation extrapolation;
+    return solve_contacts(strips, packed.size() * (discs - 1), motion, 0, {}, {1e-6, 10000}, 0,
+                          extrapolation, threads);
+  }
+};
+
+TEST(Solver, AStripThatNeedsManySweepsDoesNotMakeOthersPay)
+{
+  Rows one(1), many(40), shared(40);
+  const auto alone = one.solve(1), among = many.solve(1);
+  EXPECT_TRUE(among.converged);
+  EXPECT_LE(among.residual, 1e-6);
+  EXPECT_GT(alone.sweeps, 100);
+  EXPECT_LT(among.sweeps, alone.sweeps / 5);
+  for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_NEAR(many.motion[k].vx, 0.1, 1e-3);
+  EXPECT_EQ(shared.solve(3).sweeps, among.sweeps);
+  for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_EQ(shared.motion[k].vx, many.motion[k].vx);
+}
+
 TEST(Solver, TheSweepThatLetsTheLastContactGoIsNotTheLastWhereThereIsNoGravity)
 {
   // Two discs that part, with an impulse between them that was right before.
