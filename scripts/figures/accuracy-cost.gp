@@ -8,6 +8,7 @@ set output out
 set datafile separator "\t"
 set datafile commentschars "#"
 set logscale x
+set xrange [0.5:20]
 set key off
 set grid
 names = "mean_velocity shear_rate B_size B_half B_kappa mean_overlap mean_gap largest_overlap z_S z_L zf_S zf_L mixed_share energy_defect"
