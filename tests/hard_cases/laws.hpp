@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -15,25 +16,10 @@ namespace grseg::hard_cases {
 struct Law {
   std::string name;
   void (*choose)(World&);
+
+  friend void PrintTo(const Law& law, std::ostream* out) { *out << law.name; }
 };
 
-/// Those under which an impact takes one step.
-inline std::vector<Law> immediate_laws()
-{
-  return {{"touch", [](World&) {}},
-          {"centred", [](World& w) { w.forecast = 0.5; }},
-          {"predictive", [](World& w) { w.forecast = 1; }}};
-}
-
-/// Those that act no earlier than the step in whose middle the touch lies nearest.
-inline std::vector<Law> late_laws()
-{
-  auto laws = immediate_laws();
-  laws.pop_back();
-  return laws;
-}
-
-/// All; a speculative contact is slowed down in one step and rebounds in the next.
 /// Those that act no earlier than in the step in whose middle the touch lies nearest; the bounds of
 /// the tests are theirs.
 inline std::vector<Law> laws()
@@ -46,7 +32,8 @@ inline std::vector<Law> laws()
 inline std::vector<Law> early_laws()
 {
   return {{"predictive", [](World& w) { w.forecast = 1; }},
-          {"speculative", [](World& w) { w.horizon = w.forecast = 0.5; }},
+          {"speculativeHalfStep", [](World& w) { w.horizon = w.forecast = 0.5; }},
+          {"speculative", [](World& w) { w.horizon = w.forecast = 0.75; }},
           {"speculativeWholeStep", [](World& w) { w.horizon = w.forecast = 1; }}};
 }
 
