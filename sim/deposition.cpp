@@ -2,11 +2,13 @@
 #include "sim/deposition.hpp"
 
 #include "formats/errors.hpp"
+#include "sim/boundaries.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -26,6 +28,19 @@ Random random_numbers(std::uint64_t seed)
   Random random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
   gsl_rng_set(random.get(), seed);
   return random;
+}
+
+Room narrower(const Room& a, const Room& b)
+{
+  return {std::max(a.left, b.left), std::min(a.right, b.right)};
+}
+
+std::string no_room(const Scene& scene)
+{
+  return fmt::format(
+      "the falling grains do not fit into a drum of {:.4g} m; choose a larger one or a smaller "
+      "fill",
+      scene.drum_diameter);
 }
 
 struct Packing {
@@ -51,36 +66,30 @@ double add_layer(Packing& packing, const Scene& scene, Species species, long cou
   const double nominal = species == Species::large ? scene.large_diameter : scene.small_diameter;
   const double largest = nominal * (1 + scene.spread / 2);
   const double row_height = loose * largest;
-  const long per_row = std::max(1L, static_cast<long>(scene.length / row_height));
-  const double spacing = scene.length / static_cast<double>(per_row);
-  const double slack = spacing - largest;
-  for (long k = 0; k < count; ++k) {
-    if (k > 0 && k % per_row == 0) y += row_height;
-    const double diameter = nominal * (1 + scene.spread * (gsl_rng_uniform(random) - 0.5));
-    const double x = (static_cast<double>(k % per_row) + 0.5) * spacing +
-                     slack * (gsl_rng_uniform(random) - 0.5);
-    const double jitter = (row_height - largest) * (gsl_rng_uniform(random) - 0.5);
-    add_grain(packing, species, diameter / 2, scene.density, {x, y + row_height / 2 + jitter});
+  for (long k = 0; k < count; y += row_height) {
+    const auto room = narrower(room_at(scene, y), room_at(scene, y + row_height));
+    const double width = room.right - room.left;
+    const long per_row = static_cast<long>(width / row_height);
+    if (per_row < 1 && y > scene.drum_diameter / 2) throw UsageError(no_room(scene));
+    const double spacing = width / static_cast<double>(per_row);
+    const double slack = spacing - largest;
+    for (long place = 0; place < per_row && k < count; ++place, ++k) {
+      const double diameter = nominal * (1 + scene.spread * (gsl_rng_uniform(random) - 0.5));
+      const double x = room.left + (static_cast<double>(place) + 0.5) * spacing +
+                       slack * (gsl_rng_uniform(random) - 0.5);
+      const double jitter = (row_height - largest) * (gsl_rng_uniform(random) - 0.5);
+      add_grain(packing, species, diameter / 2, scene.density, {x, y + row_height / 2 + jitter});
+    }
   }
-  return count > 0 ? y + row_height : y;
+  return y;
 }
 
-void add_base(Packing& packing, const Scene& scene)
+void add_boundaries(Packing& packing, const Scene& scene, const Boundaries& boundaries)
 {
-  if (scene.base == Scene::Base::wall) {
-    packing.world.walls.push_back({{0, 0}, {0, 1}});
-  } else {
-    const long beads = std::lround(std::floor(scene.length / scene.large_diameter + 1e-9));
-    const double spacing = scene.length / static_cast<double>(beads);
-    const double y = scene.origin == Scene::Origin::top ? -scene.large_diameter / 2 : 0;
-    for (long k = 0; k < beads; ++k)
-      add_grain(packing, Species::boundary, scene.large_diameter / 2, scene.density,
-                {(static_cast<double>(k) + 0.5) * spacing, y});
-  }
-  if (scene.lateral == Scene::Lateral::walls) {
-    packing.world.walls.push_back({{0, 0}, {1, 0}});
-    packing.world.walls.push_back({{scene.length, 0}, {-1, 0}});
-  }
+  for (std::size_t k = 0; k < boundaries.position.size(); ++k)
+    add_grain(packing, Species::boundary, boundaries.radius[k], scene.density,
+              boundaries.position[k]);
+  packing.world.walls = boundaries.walls;
 }
 
 /// The grains of a bed whose mobile grains cover `area` (m^2), in the air above their base.
@@ -89,18 +98,19 @@ Packing loose_packing(const Scene& scene, double area, gsl_rng* random)
   Packing packing;
   auto& world = packing.world;
   const double quarter_pi = std::numbers::pi / 4;
-  const long large = std::lround(scene.phi_large * area /
-                                 (quarter_pi * scene.large_diameter * scene.large_diameter));
-  const long small = std::lround((1 - scene.phi_large) * area /
-                                 (quarter_pi * scene.small_diameter * scene.small_diameter));
+  const double of_large = quarter_pi * scene.large_diameter * scene.large_diameter;
+  const long large =
+      scene.large_grains >= 0 ? scene.large_grains : std::lround(scene.phi_large * area / of_large);
+  const double left = scene.large_grains >= 0
+                          ? std::max(0.0, area - static_cast<double>(large) * of_large)
+                          : (1 - scene.phi_large) * area;
+  const long small = std::lround(left / (quarter_pi * scene.small_diameter * scene.small_diameter));
   if (large + small == 0)
     throw UsageError("the bed holds no grain; choose a larger depth or length, or smaller grains");
-  const double top_of_base = scene.origin == Scene::Origin::top || scene.base == Scene::Base::wall
-                                 ? 0
-                                 : scene.large_diameter / 2;
-  double y = add_layer(packing, scene, Species::large, large, top_of_base, random);
+  const auto boundaries = boundaries_of(scene);
+  double y = add_layer(packing, scene, Species::large, large, boundaries.top, random);
   y = add_layer(packing, scene, Species::small, small, y, random);
-  add_base(packing, scene);
+  add_boundaries(packing, scene, boundaries);
 
   world.box = {scene.length, 1.5 * y, scene.lateral == Scene::Lateral::periodic};
   set_conditions(world, scene);
@@ -206,7 +216,11 @@ double bed_height(const Simulation& simulation)
 
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
 {
-  double area = usual_solid_fraction * scene.depth * scene.length;
+  const bool drum = scene.geometry == Scene::Geometry::drum;
+  const auto room = room_at(scene, 0);
+  double area = usual_solid_fraction * (drum ? scene.fill * std::numbers::pi / 4 *
+                                                   scene.drum_diameter * scene.drum_diameter
+                                             : scene.depth * (room.right - room.left));
   // One stream for all attempts: a shallow bed scatters by more than 2 %, and must get another
   // draw.
   const auto random = random_numbers(scene.seed);
@@ -216,7 +230,7 @@ Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
     const auto start = simulation;
     const auto steps = settle(simulation, scene, hooks);
     const double height = bed_height(simulation);
-    if (std::abs(height - scene.depth) <= depth_tolerance * scene.depth) {
+    if (drum || std::abs(height - scene.depth) <= depth_tolerance * scene.depth) {
       if (hooks.record) {
         simulation = start;
         replay(simulation, steps, scene, hooks);

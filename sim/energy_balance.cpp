@@ -16,9 +16,10 @@ double kinetic_energy(double mass, const Vec2& velocity, double rim_speed)
 
 double EnergyBalance::defect() const
 {
-  const double missing = kinetic_after - kinetic_before - work_of_gravity - work_of_contacts;
-  const double largest = std::max(
-      {kinetic_before, kinetic_after, std::abs(work_of_gravity), std::abs(work_of_contacts)});
+  const double missing =
+      kinetic_after - kinetic_before - work_of_gravity - work_of_contacts - work_of_boundaries;
+  const double largest = std::max({kinetic_before, kinetic_after, std::abs(work_of_gravity),
+                                   std::abs(work_of_contacts), std::abs(work_of_boundaries)});
   return largest > 0 ? std::abs(missing) / largest : 0;
 }
 
@@ -50,6 +51,9 @@ EnergyBalance energy_balance(const Grains& grains, const Frame& frame,
       relative -= velocity[j];
       rims += rim_speed[j];
       kappa = contacts.branch[c].norm() / (grains.radius[i] + grains.radius[j]);
+      if (grains.fixed[j])
+        balance.work_of_boundaries +=
+            step * contacts.force[c].dot(velocity[j] + kappa * rim_speed[j] * t);
     }
     relative -= kappa * rims * t;
     balance.work_of_contacts += step * contacts.force[c].dot(relative);

@@ -92,6 +92,12 @@ void require_same_bed(const Scene& then, const Scene& now)
   require("spread", then.spread == now.spread);
   require("density", then.density == now.density);
   require("phi-large", then.phi_large == now.phi_large);
+  require("large-grains", then.large_grains == now.large_grains);
+  require("geometry", then.geometry == now.geometry);
+  require("drum-diameter", then.drum_diameter == now.drum_diameter);
+  require("fill", then.fill == now.fill);
+  require("column-width", then.column_width == now.column_width);
+  require("outlet", then.outlet == now.outlet);
   require("depth", then.depth == now.depth);
   require("length", then.length == now.length);
   require("seed", then.seed == now.seed);

@@ -4,6 +4,7 @@
 #include "formats/errors.hpp"
 #include "formats/repack.hpp"
 #include "formats/tool.hpp"
+#include "sim/boundaries.hpp"
 #include "sim/cut_back.hpp"
 #include "sim/deposition.hpp"
 #include "sim/recorder.hpp"
@@ -259,12 +260,6 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
         recorder.totals().missed, recorder.totals().steps));
 }
 
-Vec2 gravity_of(const Parameters& parameters)
-{
-  const auto& g = parameters.numbers.at("gravity");
-  return {g[0], g[1]};
-}
-
 TrajectoryWriter new_trajectory(const Scene& scene, const Simulation& simulation,
                                 const Parameters& parameters, const std::string& part)
 {
@@ -320,14 +315,14 @@ void simulate(const Scene& scene, const RunOptions& options)
   const auto listen = [] {
     if (stop_signal != 0) throw interruption("interrupted while the bed was deposited");
   };
-  auto simulation = deposit(scene, {.each_step = listen, .record = {}});
+  const auto deposited = deposit(scene, {.each_step = listen, .record = {}});
+  const auto simulation = release(deposited, scene);
   Run run{simulation,
           new_trajectory(scene, simulation, parameters, part),
           {},
-          bed_height(simulation),
+          bed_height(deposited),
           parameters.text("history")};
   if (scene.keep_deposition) record_deposition(scene, run.writer);
-  run.simulation.tilt(gravity_of(parameters));
   finish(scene, options, run);
 }
 
@@ -358,7 +353,8 @@ void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& 
   if (!perturbed && moves_alike(then, scene))
     progress.recorder.since_frame = checkpoint.trajectory.recorder.since_frame;
   if (in_place) progress = checkpoint.trajectory;
-  simulation.tilt(gravity_of(parameters));
+  simulation.tilt(gravity_of(scene));
+  simulation.drive(bodies_of(scene, simulation.world().grains));
   Run run{simulation,
           in_place
               ? cut_back(part, checkpoint, options.restart, history, storage_while_running(scene))

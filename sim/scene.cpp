@@ -54,6 +54,12 @@ Choice parse_choice(const std::string& text, const std::string& key,
   throw SceneError(key, fmt::format("{} is '{}': choose one of {}", key, text, all));
 }
 
+constexpr std::array<std::pair<const char*, Scene::Geometry>, 5> geometries{
+    {{"bed", Scene::Geometry::bed},
+     {"drum", Scene::Geometry::drum},
+     {"shear", Scene::Geometry::shear},
+     {"column", Scene::Geometry::column},
+     {"hopper", Scene::Geometry::hopper}}};
 constexpr std::array<std::pair<const char*, Scene::Base>, 2> bases{
     {{"grains", Scene::Base::grains}, {"wall", Scene::Base::wall}}};
 constexpr std::array<std::pair<const char*, Scene::Lateral>, 2> laterals{
@@ -115,6 +121,8 @@ void resolve_grains(const Keys& keys, Scene& scene)
   scene.spread = keys.number("spread", 0, 0.9);
   scene.density = keys.number("density", 1e-9, 1e12);
   scene.phi_large = keys.number("phi-large", 0, 1);
+  if (keys.given("large-grains"))
+    scene.large_grains = keys.whole_number("large-grains", 0, 1000000000);
   scene.friction = keys.number("friction", 0, 1e3);
   scene.restitution = keys.number("restitution", 0, 1);
   scene.rotation = parse_switch(keys.text("rotation"), "rotation");
@@ -129,9 +137,70 @@ void resolve_geometry(const Keys& keys, Scene& scene)
   scene.length = keys.length("length", units, 4 * scene.large_diameter, 1e6 * scene.large_diameter);
   scene.slope = keys.number("slope", -90, 90);
   scene.gravity = keys.number("gravity", 1e-9, 1e9);
+  scene.geometry = parse_choice(keys.text("geometry"), "geometry", geometries);
   scene.base = parse_choice(keys.text("base"), "base", bases);
   scene.lateral = parse_choice(keys.text("lateral"), "lateral", laterals);
   scene.origin = parse_choice(keys.text("origin"), "origin", origins);
+}
+
+void require(bool fine, const std::string& key, const std::string& sentence)
+{
+  if (!fine) throw SceneError(key, sentence);
+}
+
+void resolve_drum(const Keys& keys, Scene& scene, LengthUnits units)
+{
+  scene.drum_diameter =
+      keys.length("drum-diameter", units, 4 * scene.large_diameter, 1e6 * scene.large_diameter);
+  scene.drum_rate = keys.number("drum-rate", -1e6, 1e6);
+  scene.fill = keys.number("fill", 0.01, 0.5);
+  if (scene.geometry != Scene::Geometry::drum) return;
+  require(scene.lateral == Scene::Lateral::walls, "lateral",
+          "lateral is periodic: a drum has an inside; say walls");
+  scene.length = scene.drum_diameter + 2 * scene.large_diameter;
+  scene.depth = scene.fill * scene.drum_diameter;
+}
+
+void resolve_plate(const Keys& keys, Scene& scene)
+{
+  scene.plate_speed = keys.number("plate-speed", -1e6, 1e6);
+  scene.plate_pressure = keys.number("plate-pressure", 1e-12, 1e12);
+  const double beads = std::floor(scene.length / scene.large_diameter + 1e-9);
+  scene.plate_mass = keys.given("plate-mass") ? keys.number("plate-mass", 1e-15, 1e15)
+                                              : beads * scene.density * std::numbers::pi / 4 *
+                                                    scene.large_diameter * scene.large_diameter;
+  if (scene.geometry != Scene::Geometry::shear) return;
+  require(scene.lateral == Scene::Lateral::periodic, "lateral",
+          "lateral is walls: plates of a shear cell go round; say periodic");
+  require(scene.base == Scene::Base::grains, "base",
+          "base is wall: plates of a shear cell are rough; say grains");
+}
+
+void resolve_openings(const Keys& keys, Scene& scene, LengthUnits units)
+{
+  scene.column_width = keys.length("column-width", units, scene.large_diameter, 1e12);
+  scene.outlet = keys.length("outlet", units, scene.small_diameter, 1e12);
+  const bool column = scene.geometry == Scene::Geometry::column,
+             hopper = scene.geometry == Scene::Geometry::hopper;
+  require(!(column || hopper) || scene.lateral == Scene::Lateral::walls, "lateral",
+          "lateral is periodic: columns and hoppers stand between walls; say walls");
+  require(!column || scene.column_width < scene.length, "column-width",
+          "column-width is not below length: the column needs room to fall into");
+  require(!hopper || scene.base == Scene::Base::grains, "base",
+          "base is wall: the outlet of a hopper lies between grains; say grains");
+  require(!hopper || scene.outlet < scene.length, "outlet",
+          "outlet is not below length: nothing would hold the bed");
+}
+
+void resolve_shaking(const Keys& keys, Scene& scene, LengthUnits units)
+{
+  scene.shake_amplitude = keys.length("shake-amplitude", units, 0, 1e12);
+  scene.shake_frequency = keys.number("shake-frequency", 0, 1e9);
+  if (scene.shake_amplitude == 0) return;
+  require(scene.geometry == Scene::Geometry::bed && scene.base == Scene::Base::grains,
+          "shake-amplitude", "shake-amplitude moves the base of a bed; say base = grains");
+  require(scene.shake_frequency > 0, "shake-frequency",
+          "shake-frequency is 0 but shake-amplitude is not; give both");
 }
 
 void resolve_accuracy(const Keys& keys, Scene& scene)
@@ -238,6 +307,13 @@ std::int64_t Scene::steps_in_all() const
   return std::llround(duration / step);
 }
 
+Vec2 gravity_of(const Scene& scene)
+{
+  if (scene.geometry == Scene::Geometry::shear) return Vec2::Zero();
+  const double slope = scene.slope * std::numbers::pi / 180;
+  return {scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)};
+}
+
 po::options_description scene_options()
 {
   const auto text = [](const char* standard) {
@@ -255,6 +331,10 @@ po::options_description scene_options()
   add("spread", number(0.08), "(d_max - d_min)/d within a species, uniform");
   add("density", number(1), "of the grains, kg/m^2");
   add("phi-large", number(0.3), "share of the large grains in the area of all grains");
+  add("large-grains", po::value<long>(), "number of large grains, instead of phi-large");
+  add("geometry", text("bed"),
+      "bed (on its base), drum (turning), shear (under a plate, without gravity), column (its gate "
+      "opens at t = 0) or hopper (its outlet does)");
   add("depth", text("60dS"), "height of the deposited bed, within 2 %");
   add("length", text("35dL"), "of the cell");
   add("slope", number(23), "degrees");
@@ -270,6 +350,16 @@ po::options_description scene_options()
   add("base", text("grains"), "grains (a row of fixed large grains) or wall (straight)");
   add("lateral", text("periodic"), "periodic or walls: what bounds the cell along x");
   add("origin", text("top"), "y = 0 at the top or at the centre of the base grains");
+  add("drum-diameter", text("100dS"), "of a drum, between its beads");
+  add("drum-rate", number(0.5), "of a drum, rad/s, counter-clockwise");
+  add("fill", number(0.4), "of a drum: share of its area under the settled bed");
+  add("plate-speed", number(1), "of a shear cell's plate, m/s");
+  add("plate-pressure", number(2), "of a shear cell's plate on the grains, N/m");
+  add("plate-mass", po::value<double>(), "of a shear cell's plate, kg (default: its grains)");
+  add("column-width", text("40dS"), "of a column before its gate opens");
+  add("outlet", text("16dS"), "of a hopper");
+  add("shake-amplitude", text("0"), "of a bed's base, vertical");
+  add("shake-frequency", number(0), "of a bed's base, Hz");
   add("duration", number(150), "simulated time after the tilt, s");
   add("frame-interval", number(0.05), "s between frames, or between bursts of them");
   add("burst", po::value<long>()->default_value(1), "frames of consecutive steps at a time");
@@ -328,8 +418,19 @@ Scene resolve_scene(const po::variables_map& values)
   Scene scene;
   resolve_grains(keys, scene);
   resolve_geometry(keys, scene);
+  const LengthUnits units{scene.small_diameter, scene.large_diameter};
+  resolve_drum(keys, scene, units);
+  resolve_plate(keys, scene);
+  resolve_openings(keys, scene, units);
+  resolve_shaking(keys, scene, units);
   resolve_accuracy(keys, scene);
   scene.keep_deposition = values["keep-deposition"].as<bool>();
+  require(
+      !scene.keep_deposition ||
+          (scene.geometry != Scene::Geometry::shear && scene.geometry != Scene::Geometry::hopper),
+      "keep-deposition",
+      "keep-deposition: a plate or a plug makes other grains of a shear cell or hopper at t = 0; "
+      "leave it out");
   scene.seed = static_cast<std::uint64_t>(keys.whole_number("seed", 1, 4294967295));
   scene.threads = static_cast<int>(keys.whole_number("threads", 0, 1024));
   if (scene.threads == 0) scene.threads = omp_get_num_procs();
@@ -351,6 +452,8 @@ std::string to_text(const Scene& scene)
   add("spread", scene.spread);
   add("density", scene.density);
   add("phi-large", scene.phi_large);
+  if (scene.large_grains >= 0) add("large-grains", scene.large_grains);
+  add("geometry", geometries[static_cast<std::size_t>(scene.geometry)].first);
   add("depth", scene.depth);
   add("length", scene.length);
   add("slope", scene.slope);
@@ -363,6 +466,16 @@ std::string to_text(const Scene& scene)
   add("base", bases[static_cast<std::size_t>(scene.base)].first);
   add("lateral", laterals[static_cast<std::size_t>(scene.lateral)].first);
   add("origin", origins[static_cast<std::size_t>(scene.origin)].first);
+  add("drum-diameter", scene.drum_diameter);
+  add("drum-rate", scene.drum_rate);
+  add("fill", scene.fill);
+  add("plate-speed", scene.plate_speed);
+  add("plate-pressure", scene.plate_pressure);
+  add("plate-mass", scene.plate_mass);
+  add("column-width", scene.column_width);
+  add("outlet", scene.outlet);
+  add("shake-amplitude", scene.shake_amplitude);
+  add("shake-frequency", scene.shake_frequency);
   add("duration", scene.duration);
   add("frame-interval", scene.frame_interval);
   add("burst", scene.burst);
@@ -383,8 +496,8 @@ Parameters to_parameters(const Scene& scene)
 {
   Parameters parameters;
   auto& n = parameters.numbers;
-  const double slope = scene.slope * std::numbers::pi / 180;
-  n["gravity"] = {scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)};
+  const auto gravity = gravity_of(scene);
+  n["gravity"] = {gravity.x(), gravity.y()};
   n["slope"] = {scene.slope};
   n["step"] = {scene.step};
   n["frame_interval"] = {scene.frame_interval};
@@ -404,6 +517,7 @@ Parameters to_parameters(const Scene& scene)
   n["max_sweeps"] = {static_cast<double>(scene.solver.max_sweeps)};
   n["seed"] = {static_cast<double>(scene.seed)};
   parameters.texts["scene"] = to_text(scene);
+  parameters.texts["geometry"] = geometries[static_cast<std::size_t>(scene.geometry)].first;
   parameters.texts["accuracy"] = scene.accuracy;
   parameters.texts["contact_law"] = laws[static_cast<std::size_t>(scene.law)].first;
   parameters.texts["origin"] = origins[static_cast<std::size_t>(scene.origin)].first;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/errors.hpp"
+#include "formats/frame.hpp"
 #include "formats/parameters.hpp"
 #include "sim/solver.hpp"
 
@@ -13,8 +14,9 @@
 
 namespace grseg {
 
-/// A chute of two species as the user asks for it, in SI. Defaults are the flow of Staron &
-/// Phillips (2015). Every member is a key of a scene file and an option of the same name.
+/// Grains of two species and what bounds them, as the user asks for it, in SI. Defaults are the
+/// chute of Staron & Phillips (2015). Every member is a key of a scene file and an option of the
+/// same name.
 struct Scene {
   double small_diameter = 0;  // m, nominal
   double size_ratio = 0;      // nominal d_L/d_S
@@ -22,6 +24,7 @@ struct Scene {
   double spread = 0;          // (d_max - d_min)/d of each species, uniform
   double density = 0;         // kg/m^2, of the grains
   double phi_large = 0;       // share of the large grains in the area of all grains
+  long large_grains = -1;     // their number, where it is given instead
   double depth = 0;           // m, height H0 of the deposited bed above y = 0
   double length = 0;          // m, of the cell
   double slope = 0;           // degrees
@@ -31,9 +34,23 @@ struct Scene {
   bool rotation = true;
   enum class Law { speculative, touch, centred, predictive } law = Law::centred;
   double horizon = 0;  // steps, of the speculative law
+  /// A bed on its base; in a drum that turns; sheared by a plate; a column that collapses; over an
+  /// outlet.
+  enum class Geometry { bed, drum, shear, column, hopper } geometry = Geometry::bed;
   enum class Base { grains, wall } base = Base::grains;
   enum class Lateral { periodic, walls } lateral = Lateral::periodic;
   enum class Origin { top, centre } origin = Origin::top;
+
+  double drum_diameter = 0;    // m, between the beads
+  double drum_rate = 0;        // rad/s, counter-clockwise
+  double fill = 0;             // share of the drum under the settled bed
+  double plate_speed = 0;      // m/s
+  double plate_pressure = 0;   // N/m
+  double plate_mass = 0;       // kg
+  double column_width = 0;     // m, before the gate opens
+  double outlet = 0;           // m
+  double shake_amplitude = 0;  // m, of the base, vertical
+  double shake_frequency = 0;  // Hz
 
   double duration = 0;        // s after the tilt
   double frame_interval = 0;  // s
@@ -52,6 +69,9 @@ struct Scene {
   std::int64_t steps_per_frame() const;
   std::int64_t steps_in_all() const;
 };
+
+/// Gravity of the flow, m/s^2: none in a shear cell, whose plate presses instead.
+Vec2 gravity_of(const Scene& scene);
 
 /// The keys of a scene, for Boost.ProgramOptions, with their defaults.
 boost::program_options::options_description scene_options();

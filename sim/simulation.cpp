@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace grseg {
@@ -115,6 +116,7 @@ StepReport Simulation::advance(Frame& frame)
 StepReport Simulation::step(Frame* frame)
 {
   StepReport report;
+  drive_bodies();
   if (frame != nullptr) {
     before_.clear();
     for (const auto body : body_of_) before_.push_back(state_.motion[body]);
@@ -122,6 +124,7 @@ StepReport Simulation::step(Frame* frame)
   move_to_middle();
   find_contacts(report);
   apply_gravity(world_.step);
+  apply_loads(world_.step);
   solve(report);
   keep_impulses(report);
   if (frame != nullptr) write_down(*frame);
@@ -138,9 +141,35 @@ void Simulation::solve(StepReport& report)
     strips.push_back(strip.used());
     count += strip.count;
   }
-  report.solver = solve_contacts(
-      strips, count, state_.motion, world_.material.friction, effects_, world_.solver,
-      floor_of_reference * world_.gravity.norm() * world_.step, extrapolation_, threads_);
+  const bool any_free = std::any_of(world_.bodies.begin(), world_.bodies.end(),
+                                    [](const auto& body) { return body.free(); });
+  std::optional<FreeBodies> free;
+  if (any_free) free.emplace(world_.bodies, body_of_, strips, state_.motion);
+  report.solver =
+      solve_contacts(strips, count, state_.motion, world_.material.friction, effects_,
+                     world_.solver, floor_of_reference * world_.gravity.norm() * world_.step,
+                     extrapolation_, threads_, any_free ? &*free : nullptr);
+}
+
+void Simulation::drive_bodies()
+{
+  for (const auto& body : world_.bodies)
+    for (auto row = body.begin; row < body.end; ++row) {
+      auto& motion = state_.motion[body_of_[row]];
+      const auto velocity =
+          chord_velocity(body, state_.position[body_of_[row]], time(), world_.step);
+      motion.vx = velocity.x();
+      if (!body.free()) motion.vy = velocity.y();
+      motion.rim_speed = time() + world_.step > 0 ? body.spin * world_.grains.radius[row] : 0;
+    }
+}
+
+void Simulation::apply_loads(double duration)
+{
+  for (const auto& body : world_.bodies)
+    if (body.free())
+      for (auto row = body.begin; row < body.end; ++row)
+        state_.motion[body_of_[row]].vy += duration * body.load / body.mass;
 }
 
 void Simulation::move_to_middle()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/frame.hpp"
+#include "sim/boundary_body.hpp"
 #include "sim/detection.hpp"
 #include "sim/grain_state.hpp"
 #include "sim/pair_list.hpp"
@@ -16,6 +17,7 @@ namespace grseg {
 struct World {
   Grains grains;
   std::vector<Wall> walls;
+  std::vector<BoundaryBody> bodies;  // of boundary grains that move
   Box box;
   Material material;
   bool rotation = true;
@@ -92,6 +94,8 @@ class Simulation {
 
   /// Turns gravity: the slope is tilted.
   void tilt(const Vec2& gravity) { world_.gravity = gravity; }
+  /// From now on boundary grains move so.
+  void drive(const std::vector<BoundaryBody>& bodies) { world_.bodies = bodies; }
   /// Sets the number of steps done, and with it the time; negative before the tilt.
   void set_clock(std::int64_t steps) { steps_done_ = steps; }
 
@@ -126,7 +130,9 @@ class Simulation {
   void find_contacts(StepReport& report);
   void solve(StepReport& report);
   [[noreturn]] void stop_at_coincidence() const;
+  void drive_bodies();
   void apply_gravity(double duration);
+  void apply_loads(double duration);
   void keep_impulses(StepReport& report);
   void wrap_positions();
   void write_down(Frame& frame) const;

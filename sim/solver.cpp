@@ -82,13 +82,14 @@ class LocalWork {
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
                             const SolverSettings& settings, double floor,
-                            Extrapolation& extrapolation, int threads)
+                            Extrapolation& extrapolation, int threads, FreeBodies* free)
 {
   SolverReport report;
   if (count == 0) return report;
   for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
     apply_impulses(strips[s].blocks, motion.data(), effects);
   });
+  if (free != nullptr) free->give_way(motion);
   const auto sweep = choose_sweep(effects);
   const auto contact_count = static_cast<double>(count);
   std::vector<SweepResult> results(strips.size());
@@ -101,7 +102,8 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
       for (int k = 0; work.swept(s) && k < at_a_time; ++k)
         results[s] = sweep(strips[s], motion.data(), friction);
     });
-    const auto result = total(results);
+    auto result = total(results);
+    if (free != nullptr) result.largest = std::max(result.largest, free->give_way(motion));
     const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
     // Without gravity the sweep that lets the last contact go leaves a reference of 0.
     const auto relative = [&](double change) { return change == 0 ? 0 : change / reference; };
@@ -111,7 +113,7 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
     report.converged = report.residual <= settings.tolerance;
     const bool enough = sweeps >= settings.min_sweeps || result.largest == 0;
     if ((report.converged && enough) || sweeps >= settings.max_sweeps) return report;
-    work.choose(results, settings.tolerance * reference, enough);
+    work.choose(results, settings.tolerance * reference, enough && free == nullptr);
     if (settings.acceleration && !work.local())
       extrapolation.go_on(strips, motion, result.sum_squares, threads);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "sim/boundary_body.hpp"
 #include "sim/contact_blocks.hpp"
 #include "sim/extrapolation.hpp"
 #include "sim/sweep.hpp"
@@ -43,11 +44,12 @@ struct SolverReport {
 /// Strips that are no neighbours share no mobile body; what is summed is added strip by strip. Of
 /// several strips each is swept twice before the next, and counts as swept twice. When
 /// changes above the tolerance are left in a quarter of the strips or less, only these and their
-/// neighbours are swept further, without extrapolation.
+/// neighbours are swept further, without extrapolation; bodies that give way need all.
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
                             const SolverSettings& settings, double floor,
-                            Extrapolation& extrapolation, int threads = 1);
+                            Extrapolation& extrapolation, int threads = 1,
+                            FreeBodies* free = nullptr);
 
 /// The same for contacts in any order.
 SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,

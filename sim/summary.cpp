@@ -16,7 +16,9 @@ NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals)
   in.step = scene.step;
   in.mass = scene.density * std::numbers::pi / 4 * d * d;
   in.diameter = d;
-  in.base_pressure = totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length);
+  in.base_pressure = scene.geometry == Scene::Geometry::shear
+                         ? scene.plate_pressure
+                         : totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length);
   in.layers = scene.depth / d;
   in.gravity = scene.gravity * std::cos(scene.slope * std::numbers::pi / 180);
   return numerical_stiffness(in);
