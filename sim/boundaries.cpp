@@ -158,6 +158,11 @@ Room room_at(const Scene& scene, double y)
   return {drum_centre(scene).x() - half, drum_centre(scene).x() + half};
 }
 
+bool moves_boundaries(const Scene& scene)
+{
+  return !bodies_of(scene, {}).empty();
+}
+
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains)
 {
   const auto count = static_cast<std::uint32_t>(grains.size());

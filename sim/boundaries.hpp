@@ -27,6 +27,9 @@ Room room_at(const Scene& scene, double y);
 /// How the boundary grains of a scene move; they are the last rows of `grains`, in one piece.
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
 
+/// Whether any of them does.
+bool moves_boundaries(const Scene& scene);
+
 /// The scene at t = 0: what held the grains until then is gone (the gate of a column, the plug of a
 /// hopper), the plate of a shear cell lies on them, gravity is that of the flow and boundaries
 /// begin to move.

@@ -7,6 +7,7 @@
 #include "sim/boundaries.hpp"
 #include "sim/cut_back.hpp"
 #include "sim/deposition.hpp"
+#include "sim/effects_report.hpp"
 #include "sim/recorder.hpp"
 #include "sim/summary.hpp"
 #include "sim/sweep.hpp"
@@ -79,6 +80,7 @@ Parameters describe(const Scene& scene, const RunOptions& options)
   parameters.texts["instruction_set"] = instruction_set();
   parameters.texts["command_line"] = options.command_line;
   parameters.texts["history"] = options.command_line;
+  parameters.texts["effects_left_out"] = effects_left_out(scene);
   return parameters;
 }
 

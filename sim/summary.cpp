@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/summary.hpp"
 
+#include "sim/effects_report.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -66,7 +68,9 @@ std::string to_text(const RunSummary& s, const Scene& scene)
       "waves below 1e-3 d: step {:.2g} s or {:.0f} sweeps\n",
       s.stiffness.stiffness, s.stiffness.rigidity, s.stiffness.sound_speed,
       s.stiffness.advised_step, s.stiffness.advised_sweeps);
-  return cost + solver + geometry + stiffness;
+  const auto none = effects_left_out(scene);
+  const auto effects = fmt::format("  left out: {}\n", none.empty() ? "nothing" : none);
+  return cost + solver + geometry + stiffness + effects;
 }
 
 }  // namespace grseg

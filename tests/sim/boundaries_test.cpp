@@ -3,6 +3,7 @@
 
 #include "formats/errors.hpp"
 #include "sim/deposition.hpp"
+#include "sim/effects_report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -171,6 +172,17 @@ TEST(Boundaries, ARestartedShearCellGoesOnToTheLastBit)
   run_for(again, 0.1);
   for (std::size_t g = 0; g < through.world().grains.size(); ++g)
     EXPECT_EQ(through.position(g), again.position(g));
+}
+
+TEST(Effects, ASceneSaysWhatItLeavesOutAndWhy)
+{
+  EXPECT_EQ(effects_left_out(scene_from({})), "moving boundaries (all stand still)");
+  EXPECT_EQ(effects_left_out(scene_from({"--geometry", "shear"})), "gravity (none)");
+  EXPECT_EQ(effects_left_out(scene_from({"--geometry", "drum", "--lateral", "walls", "--friction",
+                                         "0", "--rotation", "off", "--restitution", "0",
+                                         "--contact-law", "centred"})),
+            "friction (its coefficient is 0), rotation (off), restitution (its coefficient is 0), "
+            "memory of approaches (contacts act at once), periodicity (the cell has ends)");
 }
 
 TEST(Boundaries, WhatDoesNotBelongTogetherIsRefusedInASentence)

@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+"""What the scenes of sim/scenes show, each in numbers that theory or literature has, too.
+
+    scripts/scenes/measure.py SCENE run.h5 ...
+
+Prints a table for gnuplot: of one line per run where a law is met by several runs (shear, column,
+hopper), of one line per frame otherwise (drum, shaken-box, intruder). Definitions stand with the
+functions. scripts/scenes-study makes the runs.
+"""
+import sys
+
+import h5py
+import numpy
+
+GRAVITY = 9.8
+
+
+class Run:
+    def __init__(self, path):
+        self.file = h5py.File(path)
+        grains = self.file["particles/grains"]
+        self.position = grains["position/value"]
+        self.velocity = grains["velocity/value"]
+        self.time = grains["position/time"][:]
+        self.species = grains["species"][:]
+        self.radius = grains["radius"][:]
+        self.mass = grains["mass"][:]
+        self.mobile = self.species != 2
+        self.length = grains["box/edges"][0]
+        scene = self.file["parameters/scene"][()].decode()
+        self.scene = dict(line.split(" = ") for line in scene.splitlines())
+
+    def key(self, name):
+        return float(self.scene[name])
+
+    def forces(self, frame):
+        contacts = self.file["grseg/contacts"]
+        begin, end = contacts["offset"][frame], contacts["offset"][frame + 1]
+        return contacts["j"][begin:end], contacts["force"][begin:end]
+
+
+def slope_with_error(x, y):
+    (slope, level), cover = numpy.polyfit(x, y, 1, cov=True)
+    return slope, cover[0, 0] ** 0.5, level, cover[1, 1] ** 0.5
+
+
+def shear(paths):
+    """Inertial number I = shear rate x mean diameter x sqrt(density/P) and effective friction, over
+    the second half of each run: rate from the velocity profile's middle 60 %, P and the shear
+    stress from the forces on the plate; error of the mean over ten blocks."""
+    print("inertial_number\tfriction\tfriction_error\tsolid_fraction")
+    for path in paths:
+        run = Run(path)
+        first = len(run.time) // 2
+        beads = numpy.flatnonzero(~run.mobile)
+        plate = beads[len(beads) // 2:]
+        ratios, heights, speeds, tops = [], [], [], []
+        for frame in range(first, len(run.time)):
+            j, force = run.forces(frame)
+            on_plate = -force[j >= plate[0]].sum(axis=0)
+            ratios.append((-on_plate[0], on_plate[1]))
+            heights.append(run.position[frame][run.mobile, 1])
+            speeds.append(run.velocity[frame][run.mobile, 0])
+            tops.append(run.position[frame][plate[0], 1] - run.radius[plate[0]])
+        height, speed, top = numpy.concatenate(heights), numpy.concatenate(speeds), numpy.mean(tops)
+        inner = (height > 0.2 * top) & (height < 0.8 * top)
+        rate = slope_with_error(height[inner], speed[inner])[0]
+        stress = numpy.array(ratios)
+        blocks = [abs(b[:, 0].mean() / b[:, 1].mean()) for b in numpy.array_split(stress, 10)]
+        pressure = abs(stress[:, 1].mean()) / run.length
+        number = rate * 2 * run.radius[run.mobile].mean() * (run.key("density") / pressure) ** 0.5
+        area = numpy.pi * (run.radius[run.mobile] ** 2).sum()
+        print(number, numpy.mean(blocks), numpy.std(blocks) / 10 ** 0.5,
+              area / (run.length * top), sep="\t")
+
+
+def column(paths):
+    """Aspect ratio of the deposited column and run-out (x_99 - L0)/L0, x_99 the distance that 99 % of
+    the mass lies within at the end."""
+    print("aspect_ratio\trun_out\tspeed_at_end")
+    for path in paths:
+        run = Run(path)
+        width = run.key("column-width")
+        start = run.position[0][run.mobile]
+        height = 2 * numpy.average(start[:, 1], weights=run.mass[run.mobile])
+        end = numpy.sort(run.position[-1][run.mobile, 0])
+        reach = end[int(0.99 * len(end))]
+        last = run.velocity[-1][run.mobile]
+        print(height / width, (reach - width) / width, (last ** 2).sum(axis=1).mean() ** 0.5, sep="\t")
+
+
+def hopper(paths):
+    """Outlet over the mean diameter and discharge, solid area per time over sqrt(g) d^(3/2), while
+    15 to 50 % of the grains leave; error from eight pieces of that time."""
+    print("outlet\tdischarge\terror")
+    for path in paths:
+        run = Run(path)
+        diameter = 2 * run.radius[run.mobile].mean()
+        area = numpy.pi * run.radius[run.mobile] ** 2
+        left = numpy.array([area[p[run.mobile, 1] < 0].sum() for p in run.position])
+        steady = (left > 0.15 * area.sum()) & (left < 0.5 * area.sum())
+        time, left = run.time[steady], left[steady]
+        rates = [slope_with_error(t, a)[0] for t, a in zip(numpy.array_split(time, 8),
+                                                           numpy.array_split(left, 8))]
+        unit = GRAVITY ** 0.5 * diameter ** 1.5
+        print(run.key("outlet") / diameter, numpy.mean(rates) / unit,
+              numpy.std(rates) / 8 ** 0.5 / unit, sep="\t")
+
+
+def drum(paths):
+    """Time in turns, and mean distance of small and large grains from the middle of the bed (where half of the
+    grains lie nearer to the rim), over that of all grains: below 1 is inside."""
+    print("turns\tsmall\tlarge")
+    run = Run(paths[0])
+    turns = abs(run.key("drum-rate")) / (2 * numpy.pi) * run.time
+    weight = run.radius ** 2
+    for time, position in zip(turns, run.position):
+        mobile = run.mobile
+        centre = numpy.average(position[mobile], axis=0, weights=weight[mobile])
+        away = numpy.linalg.norm(position - centre, axis=1)
+        mean = [numpy.average(away[run.species == s], weights=weight[run.species == s]) for s in (0, 1)]
+        mean = numpy.array(mean) / numpy.average(away[mobile], weights=weight[mobile])
+        print(time, *mean, sep="\t")
+
+
+def intruder(paths):
+    """Time and height of the large grain, in small diameters, beside twice the mean height of all."""
+    print("time\theight\tbed")
+    run = Run(paths[0])
+    d = run.key("small-diameter")
+    large = numpy.flatnonzero(run.species == 1)[0]
+    for time, position in zip(run.time, run.position):
+        bed = 2 * numpy.average(position[run.mobile, 1], weights=run.mass[run.mobile])
+        print(time, position[large, 1] / d, bed / d, sep="\t")
+
+
+if __name__ == "__main__":
+    scenes = {"shear": shear, "column": column, "hopper": hopper, "drum": drum, "shaken-box": intruder,
+              "intruder": intruder}
+    if len(sys.argv) < 3 or sys.argv[1] not in scenes:
+        sys.exit(__doc__)
+    scenes[sys.argv[1]](sys.argv[2:])
