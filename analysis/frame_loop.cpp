@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <limits>
 #include <sstream>
+#include <thread>
 
 namespace grseg {
 namespace {
@@ -58,6 +59,9 @@ void FrameOptions::add_to(po::options_description& options)
   options.add_options()("end", time(windows.end), "no window ends after this (default: the run)");
   options.add_options()("stride", po::value(&windows.stride)->default_value(1)->value_name("N"),
                         "use one frame in N");
+  options.add_options()("threads", po::value(&threads)->default_value(1)->value_name("N"),
+                        "share the frames out to N threads, 0: as many as there are processors; "
+                        "changes no byte");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
   options.add_options()("output,o", po::value(&output)->value_name("FILE"),
                         "instead of standard output");
@@ -82,11 +86,21 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
 {
+  if (options.threads < 0 || options.threads > 1024)
+    throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", options.threads));
+  if (options.threads == 0)
+    options_.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 FrameLoop::~FrameLoop()
 {
   if (progress_) fmt::print(stderr, "\r\033[K");
+}
+
+void FrameLoop::read(std::size_t index, Frame& frame, TrajectoryReader::Fields fields)
+{
+  const std::lock_guard lock(reading_);
+  run_.read(index, frame, fields);
 }
 
 void FrameLoop::report_progress(const Window& window)

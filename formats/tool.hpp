@@ -28,7 +28,8 @@ struct ToolInfo {
 int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
              const std::function<void(const po::variables_map&)>& body);
 
-/// The command line as typed, but with the program's bare name: a line of a history chain.
+/// The command line as typed, but with the program's bare name and without --threads, which changes
+/// no byte of any output: a line of a history chain.
 std::string command_line(int argc, char** argv);
 
 /// "0.1.0"; with the git hash: "0.1.0 (1a2b3c4)".

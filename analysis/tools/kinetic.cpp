@@ -38,14 +38,10 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   auto table = loop.make_table(command, {{"mean", s.mean}}, KineticStress::columns());
 
   for (const auto& window : loop.windows()) {
-    KineticStress stress(loop.layers(), flow, loop.run().small_diameter() / 2);
     const TrajectoryReader::Fields fields{.velocity = true, .contacts = false};
-    loop.for_each_frame(window, fields, [&](const Grains& grains, const Frame& frame) {
-      stress.add_to_mean(grains, frame);
-    });
-    loop.for_each_frame(window, fields, [&](const Grains& grains, const Frame& frame) {
-      stress.add(grains, frame);
-    });
+    const auto [mean] = loop.sum(
+        window, fields, MeanVelocity(flow, loop.layers(), loop.run().small_diameter() / 2));
+    const auto [stress] = loop.sum(window, fields, KineticStress(loop.layers(), mean));
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, stress.row(layer)));
   }

@@ -38,11 +38,9 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
       loop.make_table(command, {{"composition", s.composition}}, MicroStructure::columns());
 
   for (const auto& window : loop.windows()) {
-    MicroStructure micro(loop.layers(), area, loop.run().small_diameter(),
-                         loop.run().large_diameter());
-    loop.for_each_frame(
-        window, {.velocity = false, .contacts = true},
-        [&](const Grains& grains, const Frame& frame) { micro.add(grains, frame); });
+    const auto [micro] = loop.sum(window, {.velocity = false, .contacts = true},
+                                  MicroStructure(loop.layers(), area, loop.run().small_diameter(),
+                                                 loop.run().large_diameter()));
     for (std::size_t layer = 0; layer < micro.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, micro.row(layer)));
     table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));

@@ -75,13 +75,9 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   auto table = loop.make_table(command, settings, columns);
 
   for (const auto& window : loop.windows()) {
-    Composition composition(loop.layers(), area);
-    PartialContactStress stress(loop.layers(), assignment, power);
-    loop.for_each_frame(window, {.velocity = false, .contacts = true},
-                        [&](const Grains& grains, const Frame& frame) {
-                          composition.add(grains, frame);
-                          stress.add(grains, frame);
-                        });
+    const auto [composition, stress] =
+        loop.sum(window, {.velocity = false, .contacts = true}, Composition(loop.layers(), area),
+                 PartialContactStress(loop.layers(), assignment, power));
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
       const auto areas = composition.mean(layer);
       table.rows.push_back(
