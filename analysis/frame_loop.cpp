@@ -62,6 +62,7 @@ void FrameOptions::add_to(po::options_description& options)
   options.add_options()("threads", po::value(&threads)->default_value(1)->value_name("N"),
                         "share the frames out to N threads, 0: as many as there are processors; "
                         "changes no byte");
+  options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
   options.add_options()("output,o", po::value(&output)->value_name("FILE"),
                         "instead of standard output");
@@ -81,6 +82,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
                      const FrameOptions& options)
     : info_(info),
       options_(options),
+      preset_(preset_of(values)),
       run_(the_run(values)),
       layers_(layers_of(run_, options)),
       windows_(cut_into_windows(times_of(run_), options.windows)),
@@ -118,6 +120,7 @@ Table FrameLoop::make_table(const std::string& command,
   Table table;
   auto& header = table.header;
   header.emplace_back("program", fmt::format("{} {}", info_.name, version()));
+  header.emplace_back("preset", preset_);
   std::istringstream history(run_.parameters().text("history"));
   for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
   header.emplace_back("history", command);
@@ -167,7 +170,7 @@ std::vector<double> FrameLoop::bed_row(const Window& window, double height,
 
 void FrameLoop::write(const Table& table) const
 {
-  write_whole(options_.output, table.to_text());
+  write_whole(options_.output, options_.json ? table.to_json() : table.to_text());
 }
 
 }  // namespace grseg

@@ -24,9 +24,9 @@ struct FrameOptions {
   std::string output, layer = "4dS";
   WindowSettings windows;
   int threads = 1;
-  bool quiet = false;
+  bool json = false, quiet = false;
 
-  /// Adds --output --begin --end --stride --layer --window --threads --quiet.
+  /// Adds --output --begin --end --stride --layer --window --threads --json --quiet.
   void add_to(po::options_description& options);
 };
 
@@ -73,8 +73,8 @@ class FrameLoop {
     report_progress(window);
   }
 
-  /// A table without rows: header with program, history, content digest of the run, the numbers
-  /// that later tools need and `settings` of the tool; key columns, then `columns`.
+  /// A table without rows: header with program, preset, history, content digest of the run, the
+  /// numbers that later tools need and `settings` of the tool; key columns, then `columns`.
   Table make_table(const std::string& command,
                    const std::vector<std::pair<std::string, std::string>>& settings,
                    const std::vector<std::string>& columns) const;
@@ -93,6 +93,7 @@ class FrameLoop {
 
   ToolInfo info_;
   FrameOptions options_;
+  std::string preset_;
   TrajectoryReader run_;
   Layers layers_;
   std::vector<Window> windows_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frame_loop.hpp"
 #include "analysis/kinetic_stress.hpp"
+#include "analysis/presets.hpp"
 
 using namespace grseg;
 
@@ -12,7 +13,8 @@ constexpr ToolInfo info{
     "grseg-kinetic run.h5 [options] > kinetic.tsv",
     "  grseg-kinetic run.h5 -o kinetic.tsv              about a fine profile of mean velocity\n"
     "  grseg-kinetic run.h5 --mean layer                about the mean of each layer\n"
-    "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n"};
+    "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n",
+    presets::kinetic};
 
 struct Settings {
   FrameOptions frames;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frame_loop.hpp"
 #include "analysis/micro_structure.hpp"
+#include "analysis/presets.hpp"
 
 using namespace grseg;
 
@@ -12,7 +13,8 @@ constexpr ToolInfo info{
     "grseg-micro run.h5 [options] > micro.tsv",
     "  grseg-micro run.h5 -o micro.tsv\n"
     "  grseg-micro run.h5 | grep -v '^#' | awk -F'\\t' '$3 == \"nan\"'   the whole bed over "
-    "time\n"};
+    "time\n",
+    presets::micro};
 
 struct Settings {
   FrameOptions frames;

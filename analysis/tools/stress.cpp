@@ -3,6 +3,7 @@
 #include "analysis/frame_loop.hpp"
 #include "analysis/partial_contact_stress.hpp"
 #include "analysis/partition.hpp"
+#include "analysis/presets.hpp"
 
 using namespace grseg;
 
@@ -14,7 +15,8 @@ constexpr ToolInfo info{
     "grseg-stress run.h5 [options] > sums.tsv",
     "  grseg-stress run.h5 -o sums.tsv                  layers of 4 dS, windows of 1.25 s\n"
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
-    "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n"};
+    "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n",
+    presets::stress};
 
 struct Settings {
   FrameOptions frames;
