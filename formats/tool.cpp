@@ -66,6 +66,7 @@ void take_preset(const ToolInfo& info, const po::options_description& options,
 {
   const auto preset = preset_values(info, values);
   std::vector<std::string> words;
+  words.reserve(preset.size());
   for (const auto& [option, value] : preset) words.push_back(fmt::format("--{}={}", option, value));
   po::store(po::command_line_parser(words).options(options).run(), values);
   po::notify(values);

@@ -52,7 +52,7 @@ Properties small_index_cache()
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
   H5Pget_mdc_config(access, &cache);
   cache.set_initial_size = true;
-  cache.initial_size = cache.min_size = cache.max_size = 128 * 1024;  // bytes
+  cache.initial_size = cache.min_size = cache.max_size = 131072;  // bytes
   H5Pset_mdc_config(access, &cache);
   return access;
 }
