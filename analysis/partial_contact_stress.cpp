@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/partial_contact_stress.hpp"
 
+#include "analysis/add_up.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -112,6 +114,19 @@ void PartialContactStress::add(const Grains& grains, const Frame& frame)
       book(large ? F_Lb : F_Sb, contact, {y_i, y_j, 1});
     }
   }
+}
+
+PartialContactStress::Sums& PartialContactStress::Sums::operator+=(const Sums& others)
+{
+  add_up(contacts, others.contacts);
+  add_up(tensor, others.tensor);
+  return *this;
+}
+
+void PartialContactStress::merge(const PartialContactStress& others)
+{
+  frames_ += others.frames_;
+  add_up(sums_, others.sums_);
 }
 
 PartialContactStress::Mean PartialContactStress::mean(std::size_t layer) const

@@ -51,6 +51,7 @@ class PartialContactStress {
                        std::optional<double> power = std::nullopt);
 
   void add(const Grains& grains, const Frame& frame);
+  void merge(const PartialContactStress& others);
   std::size_t layers() const { return sums_.size(); }
   Mean mean(std::size_t layer) const;
 
@@ -65,6 +66,7 @@ class PartialContactStress {
     std::array<double, pair_types> contacts{};
     std::array<Tensor2, parts> tensor;
     Sums() { tensor.fill(Tensor2::Zero()); }
+    Sums& operator+=(const Sums& others);
   };
   /// A stretch of the branch: `weight` of the contact's force (x) branch, beginning at the grain it
   /// belongs to. Heights, m.

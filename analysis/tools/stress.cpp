@@ -3,6 +3,7 @@
 #include "analysis/frame_loop.hpp"
 #include "analysis/partial_contact_stress.hpp"
 #include "analysis/partition.hpp"
+#include "analysis/presets.hpp"
 
 using namespace grseg;
 
@@ -14,7 +15,8 @@ constexpr ToolInfo info{
     "grseg-stress run.h5 [options] > sums.tsv",
     "  grseg-stress run.h5 -o sums.tsv                  layers of 4 dS, windows of 1.25 s\n"
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
-    "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n"};
+    "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n",
+    presets::stress};
 
 struct Settings {
   FrameOptions frames;
@@ -75,13 +77,9 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   auto table = loop.make_table(command, settings, columns);
 
   for (const auto& window : loop.windows()) {
-    Composition composition(loop.layers(), area);
-    PartialContactStress stress(loop.layers(), assignment, power);
-    loop.for_each_frame(window, {.velocity = false, .contacts = true},
-                        [&](const Grains& grains, const Frame& frame) {
-                          composition.add(grains, frame);
-                          stress.add(grains, frame);
-                        });
+    const auto [composition, stress] =
+        loop.sum(window, {.velocity = false, .contacts = true}, Composition(loop.layers(), area),
+                 PartialContactStress(loop.layers(), assignment, power));
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
       const auto areas = composition.mean(layer);
       table.rows.push_back(
