@@ -150,8 +150,8 @@ void merge(const Settings& s, const po::variables_map& values, const std::string
   const std::set<std::string> about_merging{"merge", "all-windows", "input", "output", "quiet"};
   for (const auto& [name, value] : values)
     if (!value.defaulted() && !about_merging.contains(name))
-      throw UsageError(fmt::format(
-          "--{} does not go with --merge: the tables are what they are; make them with it", name));
+      throw UsageError(
+          fmt::format("--{} does not go with --merge: tables keep what they were made with", name));
   std::vector<Table> tables;
   if (values.count("input") > 0)
     for (const auto& path : values["input"].as<std::vector<std::string>>())
