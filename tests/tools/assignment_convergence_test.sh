@@ -7,11 +7,11 @@ source=$1 bin=$2
 out=$(mktemp)
 trap 'rm -f "$out"' EXIT
 "$source/scripts/assignment-convergence" "$source/data/sample/chute.h5" --bin "$bin" --window 2 \
-  --stride 5 --blocks 4 --layers 4 --deviations 8 --heights 2,18 >"$out"
+  --stride 5 --blocks 4 --layers 4 --deviations 8 --heights 2,18 -o "$out" >/dev/null
 [ "$(grep -vc '^#' "$out")" = 10 ] || { cat "$out" >&2; exit 1; }
 awk -F '\t' '
-  $1 == "branch" { if ($7 != 0 || $8 != 0) exit 1; sharp = $13 - $14 }
-  $1 == "gauss 8" { if ($7 == 0 || $8 == 0) exit 1; washed = $13 - $14 }
+  $1 == "branch" { if ($7 != 0 || $8 != 0) exit 1; sharp = $21 - $22 }
+  $1 == "gauss 8" { if ($7 == 0 || $8 == 0) exit 1; washed = $21 - $22 }
   END { if (!(sharp > 0.3 && washed < 0.6 * sharp)) { print sharp, washed; exit 1 } }' "$out" || {
   cat "$out" >&2
   exit 1
