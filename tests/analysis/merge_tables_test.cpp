@@ -111,7 +111,7 @@ TEST(MergeTables, WindowsStayApartUnlessAllAreAsked)
 TEST(MergeTables, TimesThatDifferByRoundingAreTheSameWindow)
 {
   auto b = table("b", {row(3, 0, 10, 3)});
-  b.rows[0][0] = 0.3;  // where a has 0.1 * 3
+  b.rows[0][0] = 0.3 - 1e-15;  // where a has 0.1 * 3
   const auto a = table("a", {row(3, 0, 10, 1)});
   ASSERT_NE(a.rows[0][0], b.rows[0][0]);
   EXPECT_EQ(merged({a, b}).rows.size(), 1u);
@@ -183,6 +183,8 @@ TEST(MergeTables, TheSameTimeOfOneRunDoesNotCountTwice)
   const auto rest = table("a", {row(2, 0, 1, 1)}), part = table("a", {row(1, 0, 1, 1)});
   EXPECT_EQ(merged({a, rest}).rows.size(), 3u);
   EXPECT_TRUE(holds(sentence<UsageError>({a, rest, part}), "the time from 0.1 s"));
+  const auto shifted = table("a", {{0.25, 0.35, 1, sums(1)}});  // half in the last window of `rest`
+  EXPECT_TRUE(holds(sentence<UsageError>({rest, shifted}), "both hold the time from 0.2"));
   const auto with_b = merged({a, table("b", {row(0, 0, 1, 1)})});
   EXPECT_TRUE(holds(sentence<UsageError>({with_b, part}), "of the same run (xxh3 a)"));
 }
