@@ -10,17 +10,21 @@ namespace grseg {
 void Composition::add(const Grains& grains, const Frame& frame)
 {
   ++frames_;
-  const std::size_t count = std::max(sums_.size(), layers_.count(grains, frame));
-  sums_.resize(count);
+  const std::size_t count = layers_.count(grains, frame);
+  sums_.resize(std::max(sums_.size(), count));
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, g)) continue;
     const auto species = static_cast<std::size_t>(grains.species[g]);
     const double y = frame.position[g].y(), radius = grains.radius[g];
+    const double whole = std::numbers::pi * radius * radius;
+    const auto book = [&](std::size_t n, double area) { sums_[n][species] += area; };
     if (rule_ == GrainArea::centre)
-      sums_[layers_.at(y)][species] += std::numbers::pi * radius * radius;
+      book(layers_.at(y), whole);
+    else if (rule_ == GrainArea::clipped)
+      layers_.share_disc(y, radius, count, book);
     else
-      layers_.share_disc(y, radius, count,
-                         [&](std::size_t n, double area) { sums_[n][species] += area; });
+      share_kernel(layers_, *kernel_, y, y, count,
+                   [&](std::size_t n, double share) { book(n, share * whole); });
   }
 }
 

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/coarse_graining.hpp"
 #include "analysis/layers.hpp"
 #include "formats/frame.hpp"
 
 #include <array>
+#include <cassert>
+#include <optional>
 #include <vector>
 
 namespace grseg {
 
-/// How the area of a grain is given to layers: cut at their edges, or whole where its centre is.
-enum class GrainArea { clipped, centre };
+/// How the area of a grain is given to layers: cut at their edges, whole where its centre is, or
+/// spread about its centre by a coarse-graining kernel (coarse_graining.hpp).
+enum class GrainArea { clipped, centre, kernel };
 
 /// Area of small and of large mobile grains in each layer: phi_L = large/(small + large), and the
 /// solid fraction nu = (small + large)/V. Means per frame.
@@ -23,7 +27,12 @@ class Composition {
     double phi_large() const { return large / (small + large); }
   };
 
-  Composition(const Layers& layers, GrainArea rule) : layers_(layers), rule_(rule) {}
+  /// `kernel` belongs to GrainArea::kernel.
+  Composition(const Layers& layers, GrainArea rule, std::optional<Kernel> kernel = std::nullopt)
+      : layers_(layers), rule_(rule), kernel_(kernel)
+  {
+    assert(kernel_ || rule_ != GrainArea::kernel);
+  }
 
   void add(const Grains& grains, const Frame& frame);
   void merge(const Composition& others);
@@ -35,6 +44,7 @@ class Composition {
  private:
   Layers layers_;
   GrainArea rule_;
+  std::optional<Kernel> kernel_;
   std::size_t frames_ = 0;
   std::vector<std::array<double, 2>> sums_;  // by species
 };

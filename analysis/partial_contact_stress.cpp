@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cmath>
 
 namespace grseg {
@@ -39,23 +40,28 @@ void append(std::vector<double>& row, const Tensor2& t)
 }  // namespace
 
 PartialContactStress::PartialContactStress(const Layers& layers, Assignment assignment,
-                                           std::optional<double> power)
-    : layers_(layers), assignment_(assignment), power_(power)
+                                           std::optional<double> power,
+                                           std::optional<Kernel> kernel)
+    : layers_(layers), assignment_(assignment), power_(power), kernel_(kernel)
 {
+  assert(kernel_ || assignment_ != Assignment::kernel);
 }
 
 void PartialContactStress::book(Part part, const Contact& contact, const Stretch& stretch)
 {
-  if (assignment_ == Assignment::contact_point) {
-    sums_[contact.layer].tensor[part] += stretch.weight * contact.stress;
-  } else if (assignment_ == Assignment::grain) {
-    const std::size_t layer = std::min(layers_.at(stretch.from), sums_.size() - 1);
-    sums_[layer].tensor[part] += stretch.weight * contact.stress;
-  } else {
-    layers_.share_segment(stretch.from, stretch.to, sums_.size(),
-                          [&](std::size_t layer, double share) {
-                            sums_[layer].tensor[part] += share * stretch.weight * contact.stress;
-                          });
+  const Tensor2 stress = stretch.weight * contact.stress;
+  const auto share = [&](std::size_t layer, double of_it) {
+    sums_[layer].tensor[part] += of_it * stress;
+  };
+  switch (assignment_) {
+    case Assignment::contact_point:
+      return share(contact.layer, 1);
+    case Assignment::branch:
+      return layers_.share_segment(stretch.from, stretch.to, count_, share);
+    case Assignment::kernel:
+      return share_kernel(layers_, *kernel_, stretch.from, stretch.to, count_, share);
+    case Assignment::grain:
+      return share(std::min(layers_.at(stretch.from), count_ - 1), 1);
   }
 }
 
@@ -83,7 +89,8 @@ void PartialContactStress::add_mixed(const Contact& contact, double y_large, dou
 void PartialContactStress::add(const Grains& grains, const Frame& frame)
 {
   ++frames_;
-  sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));
+  count_ = layers_.count(grains, frame);
+  sums_.resize(std::max(sums_.size(), count_));
   const auto& list = frame.contacts;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Vec2& force = list.force[k];
@@ -94,7 +101,7 @@ void PartialContactStress::add(const Grains& grains, const Frame& frame)
     const double y_i = frame.position[i].y(), y_j = y_i - list.branch[k].y();
     const double y_contact = y_i - share_i * list.branch[k].y();
     const Contact contact{force * list.branch[k].transpose(),
-                          std::min(layers_.at(y_contact), sums_.size() - 1)};
+                          std::min(layers_.at(y_contact), count_ - 1)};
     sums_[contact.layer].contacts[static_cast<std::size_t>(type)] += 1;
 
     if (type == PairType::SS || type == PairType::LL) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/coarse_graining.hpp"
 #include "analysis/layers.hpp"
 #include "analysis/pair_type.hpp"
 #include "analysis/partition.hpp"
@@ -17,6 +18,7 @@ namespace grseg {
 enum class Assignment {
   contact_point,  ///< all of it where the two grains touch
   branch,         ///< spread evenly over the branch: every layer gets the length that lies in it
+  kernel,         ///< spread along the branch by a coarse-graining kernel (coarse_graining.hpp)
   grain,          ///< each grain's part at the height of its own centre
 };
 
@@ -27,10 +29,12 @@ enum class Assignment {
 ///
 /// Only contacts that carry a force count, in n_* too.
 ///
-/// `branch` cuts at layers what belongs to one grain: the large grain's part of a mixed contact
-/// (mixed_size, mixed_contact) is the stretch from its centre to r_L/(r_L + r_S) of the branch or
-/// to the contact point, base_* that from the grain's centre to the contact point. mixed_power is a
-/// weight times the whole branch's share of the layer.
+/// `branch` and `kernel` share out what belongs to one grain along its own stretch of the branch:
+/// the large grain's part of a mixed contact (mixed_size, mixed_contact) along that from its centre
+/// to r_L/(r_L + r_S) of the branch or to the contact point, base_* along that from the grain's
+/// centre to the contact point (the boundary rule of Weinhart et al. 2012). mixed_power is a weight
+/// times the whole branch's share of the layer. Under a kernel a row is the integral of the field
+/// over the layer: sum/V is the field's mean there.
 ///
 /// `grain` books either grain's part of equal grains (cut at the contact point) and of mixed ones
 /// (cut by size, so that `mixed` less `mixed_size` is the small grain's part, at its centre) where
@@ -46,9 +50,11 @@ class PartialContactStress {
     Tensor2 mixed_at_large = Tensor2::Zero(), mixed_at_small = Tensor2::Zero();
   };
 
-  /// With `power` Q, mixed_power takes the share r_L^Q/(r_L^Q + r_S^Q).
+  /// With `power` Q, mixed_power takes the share r_L^Q/(r_L^Q + r_S^Q). `kernel` belongs to
+  /// Assignment::kernel.
   PartialContactStress(const Layers& layers, Assignment assignment,
-                       std::optional<double> power = std::nullopt);
+                       std::optional<double> power = std::nullopt,
+                       std::optional<Kernel> kernel = std::nullopt);
 
   void add(const Grains& grains, const Frame& frame);
   void merge(const PartialContactStress& others);
@@ -87,7 +93,9 @@ class PartialContactStress {
   Layers layers_;
   Assignment assignment_;
   std::optional<double> power_;
+  std::optional<Kernel> kernel_;
   std::size_t frames_ = 0;
+  std::size_t count_ = 0;  // layers of the frame that is being added
   std::vector<Sums> sums_;
 };
 

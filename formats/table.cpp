@@ -135,6 +135,10 @@ Table Table::parse(const std::string& text, const std::string& name)
   Table table;
   table.name = name;
   if (text.empty()) throw FormatError(fmt::format("{}: is empty, so it is no table", name));
+  if (text.starts_with("\x89HDF"))
+    throw FormatError(fmt::format(
+        "{}: is an HDF5 file where a table is needed; is it a run? grseg-stress makes its table",
+        name));
   if (text.back() != '\n')
     throw FormatError(fmt::format("{}: the last line has no end; the table is truncated", name));
   std::istringstream lines(text);

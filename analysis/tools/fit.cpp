@@ -153,7 +153,7 @@ void collect(const std::vector<Table>& tables, const char* key, std::vector<std:
 /// Says on standard error what a reader of the numbers should know.
 void remark(const std::vector<Table>& tables, const FitReport& report, bool bootstrap)
 {
-  for (const char* key : {"assign", "layer", "window", "base", "partition", "step"})
+  for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step"})
     for (const auto& table : tables)
       if (header_or(table, key, "") != header_or(tables[0], key, ""))
         std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name, tables[0].name,

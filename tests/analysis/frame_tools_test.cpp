@@ -105,16 +105,60 @@ TEST_F(FrameTools, StressHasTheSumsOfTheThreeGrains)
 TEST_F(FrameTools, AssignmentsGiveTheSameTotals)
 {
   const auto a = table(stress, "--layer 6mm"), b = table(stress, "--layer 6mm --assign branch"),
-             c = table(stress, "--layer 6mm --assign grain");
+             c = table(stress, "--layer 6mm --assign grain"),
+             d = table(stress, "--layer 6mm --assign lucy --width 2dL");
   for (const char* column : {"M_yy", "Msize_yy", "Mcp_xy", "A_Lb_yy", "F_Lb_yy", "area_L"}) {
     const auto total = [&](const Table& t) {
       return cell(t, 0, column) + cell(t, 1, column) + cell(t, 2, column);
     };
     EXPECT_NEAR(total(b), total(a), 1e-18) << column;
     EXPECT_NEAR(total(c), total(a), 1e-18) << column;
+    EXPECT_NEAR(total(d), total(a), 1e-18) << column;
   }
   EXPECT_NEAR(cell(c, 0, "ML_yy"), 1.5e-6, 1e-18);
   EXPECT_NEAR(cell(c, 2, "MS_yy"), 1.5e-6, 1e-18);
+}
+
+// The mixed contact reaches from y = 5 mm to 12.5 mm: half of the Gaussian's 8.75 mm.
+TEST_F(FrameTools, CoarseGrainingSpreadsContactsAndGrainsByTheSameKernel)
+{
+  const auto t = table(stress, "--layer 8.75mm --assign gauss --width 0.5dS");
+  EXPECT_NEAR(cell(t, 0, "M_yy"), 0.75e-6, 1e-18);
+  EXPECT_NEAR(cell(t, 1, "M_yy"), 0.75e-6, 1e-18);
+  const double below = std::erfc((0.0125 - 0.00875) / 0.0025 / std::numbers::sqrt2) / 2;
+  EXPECT_NEAR(cell(t, 0, "area_S"), std::numbers::pi * 0.0025 * 0.0025 * below, 1e-18);
+  EXPECT_EQ(t.header_text("assign"), "gauss");
+  EXPECT_EQ(t.header_number("width"), 0.0025);
+  EXPECT_EQ(t.header_text("composition"), "kernel");
+  EXPECT_EQ(table(stress, "--assign lucy --composition clipped").header_text("composition"),
+            "clipped");
+}
+
+TEST_F(FrameTools, ARunInTwoPartsMergesIntoTheWhole)
+{
+  const auto part = [&](const std::string& name, const std::string& options) {
+    const auto path = (folder / name).string();
+    EXPECT_EQ(run(stress + " " + file + " --layer 6mm " + options + " -o " + path).code, 0);
+    return " " + path;
+  };
+  for (const std::string rule :
+       {"contact-point", "branch", "gauss", "lucy", "heaviside", "grain"}) {
+    const auto assign = " --assign " + rule;
+    const auto a = part("a.tsv", "--window 0.5 --end 1" + assign),
+               b = part("b.tsv", "--window 0.5 --begin 1" + assign);
+    const auto whole = table(stress, "--layer 6mm --window 0.5" + assign);
+    const auto merged = Table::parse(run(stress + " --merge" + b + a).out, "merged");
+    EXPECT_EQ(merged.columns, whole.columns);
+    EXPECT_EQ(merged.rows, whole.rows);
+
+    const auto once = table(stress, "--layer 6mm --window 3" + assign);
+    const auto all = Table::parse(run(stress + " --merge --all-windows" + a + b).out, "merged");
+    ASSERT_EQ(all.rows.size(), once.rows.size());
+    for (std::size_t row = 0; row < once.rows.size(); ++row)
+      for (std::size_t c = 0; c < once.columns.size(); ++c)
+        EXPECT_NEAR(all.rows[row][c], once.rows[row][c], 1e-14 * std::abs(once.rows[row][c]));
+    EXPECT_EQ(all.header_number("window"), 3);
+  }
 }
 
 TEST_F(FrameTools, KineticHasMassesAndFlow)
@@ -271,7 +315,16 @@ TEST_F(FrameTools, TroubleHasItsExitCodeAndASentence)
   EXPECT_EQ(code(""), 2);
   EXPECT_EQ(code(file + " " + file), 2);
   EXPECT_EQ(code((folder / "absent.h5").string()), 2);
-  EXPECT_EQ(code(file + " --assign gauss"), 2);
+  EXPECT_EQ(code(file + " --assign gaussian"), 2);
+  EXPECT_EQ(code(file + " --assign gauss --width 0"), 2);
+  EXPECT_EQ(code(file + " --assign gauss --width wide"), 2);
+  EXPECT_EQ(code(file + " --assign branch --width 1dS"), 2);
+  EXPECT_EQ(code(file + " --composition kernel"), 2);
+  EXPECT_EQ(code(file + " --all-windows"), 2);
+  EXPECT_EQ(code("--merge"), 2);
+  EXPECT_EQ(code("--merge --layer 2dS sums.tsv"), 2);
+  EXPECT_EQ(code("--merge " + (folder / "absent.tsv").string()), 2);
+  EXPECT_EQ(code("--merge " + file), 3);
   EXPECT_EQ(code(file + " --layer 4dX"), 2);
   EXPECT_EQ(code(file + " --layer 0"), 2);
   EXPECT_EQ(code(file + " --partition thirds"), 2);

@@ -26,10 +26,15 @@ Tensor2 dyad(const Vec2& f, const Vec2& b)
   return t;
 }
 
+constexpr Assignment all_assignments[] = {Assignment::contact_point, Assignment::branch,
+                                          Assignment::grain, Assignment::kernel};
+const Kernel smooth(KernelShape::gauss, 0.3);
+
 PartialContactStress stress_of(const Scene& scene, Assignment assignment,
-                               std::optional<double> power = std::nullopt)
+                               std::optional<double> power = std::nullopt,
+                               const Kernel& kernel = smooth)
 {
-  PartialContactStress stress(unit_layers, assignment, power);
+  PartialContactStress stress(unit_layers, assignment, power, kernel);
   stress.add(scene.grains, scene.frame);
   return stress;
 }
@@ -53,7 +58,7 @@ TEST(PartialContactStress, PushingGrainsApartIsPositiveWhoeverComesFirst)
   std::swap(scene.frame.contacts.i[0], scene.frame.contacts.j[0]);
   scene.frame.contacts.force[0] *= -1;
   scene.frame.contacts.branch[0] *= -1;
-  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain}) {
+  for (const auto assignment : all_assignments) {
     const auto here = stress_of(scene, assignment), there = stress_of(large_on_small(), assignment);
     for (std::size_t n = 0; n < here.layers(); ++n) {
       EXPECT_TRUE(same(here.mean(n).sums.mixed, there.mean(n).sums.mixed));
@@ -89,6 +94,28 @@ TEST(PartialContactStress, AlongTheBranchEveryLayerGetsItsLength)
   // A weight, not a cut: power:0 is one half of what lies in the layer.
   EXPECT_TRUE(same(stress.mean(1).sums.mixed_power, mixed / 4));
   EXPECT_TRUE(same(stress.mean(2).sums.mixed_power, mixed / 4));
+}
+
+// The branch from 1.25 to 2.75 spread by half a unit up and down: what begins at y <= 1.5 reaches
+// below 1, by 1.5 - y, a 48th of all. The large grain's part reaches below 2 by 2.5 - y and above 3
+// by y - 2.5.
+TEST(PartialContactStress, AKernelSpreadsTheBranchAndEachGrainsPartOfIt)
+{
+  const Kernel box(KernelShape::heaviside, 0.5);
+  const auto stress = stress_of(large_on_small(), Assignment::kernel, 0, box);
+  const auto at = [&](std::size_t n) { return stress.mean(n).sums; };
+  EXPECT_TRUE(same(at(0).mixed, mixed / 48));
+  EXPECT_TRUE(same(at(1).mixed, mixed * 23 / 48));
+  EXPECT_TRUE(same(at(2).mixed, mixed * 23 / 48));
+  EXPECT_TRUE(same(at(3).mixed, mixed / 48));
+  for (const auto part : {&ContactSums::mixed_size, &ContactSums::mixed_contact}) {
+    EXPECT_TRUE(same(at(0).*part, mixed * 0));
+    EXPECT_TRUE(same(at(1).*part, mixed * 2 / 3 * 9 / 32));
+    EXPECT_TRUE(same(at(2).*part, mixed * 2 / 3 * 22 / 32));
+    EXPECT_TRUE(same(at(3).*part, mixed * 2 / 3 / 32));
+  }
+  EXPECT_TRUE(same(at(0).mixed_power, mixed / 96));
+  EXPECT_EQ(stress.mean(1).contacts[1], 1);
 }
 
 TEST(PartialContactStress, EachGrainsPartIsBookedAtItsOwnCentre)
@@ -171,12 +198,29 @@ TEST(PartialContactStress, TheBaseBranchIsCutAtTheContactPointAndAlsoGivenWhole)
   EXPECT_TRUE(same(at_centre.mean(1).sums.whole_small, mixed));
 }
 
+// Weinhart et al. (2012): a contact with the base is stress from the grain's centre to the contact
+// point, here 1.25 to 0.75; the rest of the branch is none of the flow's.
+TEST(PartialContactStress, UnderAKernelTheBaseBranchEndsAtTheContactPoint)
+{
+  Scene scene;
+  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
+  const auto base = scene.grain(Species::boundary, 1, {5, -0.25});
+  scene.contact(small, base, push);
+  const auto stress = stress_of(scene, Assignment::kernel);
+  for (const std::size_t n : {0, 1}) {
+    const double below = smooth.below_along(1, 0.75, 1.25),
+                 whole = smooth.below_along(1, -0.25, 1.25);
+    EXPECT_TRUE(same(stress.mean(n).sums.base_small, mixed / 3 * (n == 0 ? below : 1 - below)));
+    EXPECT_TRUE(same(stress.mean(n).sums.whole_small, mixed * (n == 0 ? whole : 1 - whole)));
+  }
+}
+
 TEST(PartialContactStress, AtAStraightWallBothBasePartsAreTheSame)
 {
   Scene scene;
   const auto large = scene.grain(Species::large, 1, {5, 1});
   scene.wall_contact(large, 0, push, {0, 1});
-  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain}) {
+  for (const auto assignment : all_assignments) {
     const auto stress = stress_of(scene, assignment);
     Tensor2 cut = Tensor2::Zero(), whole = Tensor2::Zero();
     for (std::size_t n = 0; n < stress.layers(); ++n) {
@@ -254,6 +298,45 @@ TEST(PartialContactStress, WhereAContactIsBookedDoesNotChangeTheTotal)
     EXPECT_NEAR(along[c], at_points[c], 1e-12);
     EXPECT_NEAR(at_centres[c], at_points[c], 1e-12);
   }
+  for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside})
+    for (const double width : {1e-3, 0.3, 2.0, 40.0}) {
+      const auto spread = total(stress_of(scene, Assignment::kernel, {}, {shape, width}));
+      for (std::size_t c = 0; c < at_points.size(); ++c)
+        EXPECT_NEAR(spread[c], at_points[c], 1e-12);
+    }
+}
+
+TEST(PartialContactStress, SpeciesAddUpToTheWholeUnderEveryAssignmentAndRule)
+{
+  const Scene scene = heap();
+  for (const auto assignment : all_assignments) {
+    const auto stress = stress_of(scene, assignment, 2);
+    for (std::size_t n = 0; n < stress.layers(); ++n) {
+      auto sums = stress.mean(n).sums;
+      sums.volume = unit_layers.volume();
+      for (const auto& rule :
+           parse_rules({"size", "contact-point", "half", "uniform:0.8", "power:2"}))
+        for (const auto base : {BasePart::contact_point, BasePart::half, BasePart::none}) {
+          const auto partial = partial_stress(sums, rule, base);
+          EXPECT_TRUE(same(partial.small + partial.large, partial.total));
+        }
+    }
+  }
+}
+
+TEST(PartialContactStress, ANarrowGaussianIsTheBranchAssignment)
+{
+  const Scene scene = heap();
+  const auto along = stress_of(scene, Assignment::branch);
+  const auto narrow = stress_of(scene, Assignment::kernel, {}, {KernelShape::gauss, 1e-14});
+  const auto wide = stress_of(scene, Assignment::kernel, {}, {KernelShape::gauss, 0.1});
+  double difference = 0;
+  for (std::size_t n = 0; n < along.layers(); ++n)
+    for (std::size_t c = 0; c < along.row(n).size(); ++c) {
+      EXPECT_NEAR(narrow.row(n)[c], along.row(n)[c], 1e-12);
+      difference = std::max(difference, std::abs(wide.row(n)[c] - along.row(n)[c]));
+    }
+  EXPECT_GT(difference, 1e-3);
 }
 
 TEST(PartialContactStress, TheTotalIsTheSumOverContacts)
@@ -293,13 +376,37 @@ TEST(PartialContactStress, AlongTheBranchTheSumIsTheForceThroughTheLayer)
   }
 }
 
+// Likewise for the field of a kernel, in which the net force on a grain acts where the kernel is.
+TEST(PartialContactStress, UnderAKernelTheSumIsTheSpreadForceThroughTheLayer)
+{
+  const Scene scene = heap();
+  const auto& list = scene.frame.contacts;
+  std::vector<Vec2> net(scene.grains.size(), Vec2::Zero());
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    net[static_cast<std::size_t>(list.i[k])] += list.force[k];
+    net[static_cast<std::size_t>(list.j[k])] -= list.force[k];
+  }
+  const auto stress = stress_of(scene, Assignment::kernel);
+  for (std::size_t n = 1; n + 1 < stress.layers(); ++n) {
+    Vec2 through = Vec2::Zero();
+    for (std::size_t g = 0; g < net.size(); ++g) {
+      const double y = scene.frame.position[g].y();
+      through += net[g] * (1 - smooth.below_along(unit_layers.top(n), y, y + 1));
+    }
+    const auto s = stress.mean(n).sums;
+    const Tensor2 sum = s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
+    EXPECT_NEAR(sum(0, 1), through.x(), 1e-12);
+    EXPECT_NEAR(sum(1, 1), through.y(), 1e-12);
+  }
+}
+
 TEST(PartialContactStress, MovingTheBedAlongThePeriodChangesNothing)
 {
   const Scene scene = heap();
   Scene moved = scene;
   for (auto& position : moved.frame.position)
     position.x() = std::fmod(position.x() + 3.7, 10.0);  // branches stay, as in a periodic run
-  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain}) {
+  for (const auto assignment : all_assignments) {
     const auto here = stress_of(scene, assignment), there = stress_of(moved, assignment);
     for (std::size_t n = 0; n < here.layers(); ++n) EXPECT_EQ(here.row(n), there.row(n));
   }
@@ -310,7 +417,7 @@ TEST(PartialContactStress, MovingTheBedByAWholeLayerMovesTheRows)
   const Scene scene = heap();
   Scene moved = scene;
   for (auto& position : moved.frame.position) position.y() += 1;
-  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain}) {
+  for (const auto assignment : all_assignments) {
     const auto here = stress_of(scene, assignment), there = stress_of(moved, assignment);
     ASSERT_EQ(there.layers(), here.layers() + 1);
     for (std::size_t n = 1; n < here.layers(); ++n)
@@ -319,10 +426,88 @@ TEST(PartialContactStress, MovingTheBedByAWholeLayerMovesTheRows)
   }
 }
 
+/// The same grains and contacts under other numbers, and every other contact seen from its other
+/// end.
+Scene relabelled(const Scene& scene)
+{
+  const auto count = static_cast<std::int32_t>(scene.grains.size());
+  const auto number = [&](std::int32_t g) { return (7 * g + 3) % count; };
+  const auto old = [&](std::int32_t g) {
+    std::int32_t from = 0;
+    while (number(from) != g) ++from;
+    return static_cast<std::size_t>(from);
+  };
+  Scene other;
+  for (std::int32_t g = 0; g < count; ++g)
+    other.grain(scene.grains.species[old(g)], scene.grains.radius[old(g)],
+                scene.frame.position[old(g)]);
+  const auto& list = scene.frame.contacts;
+  for (std::size_t k = list.size(); k-- > 0;) {
+    const auto i = number(list.i[k]), j = number(list.j[k]);
+    if (k % 2 == 0 && other.grains.fixed[static_cast<std::size_t>(j)] == 0)
+      other.contact(j, i, -list.force[k]);
+    else
+      other.contact(i, j, list.force[k]);
+  }
+  return other;
+}
+
+TEST(PartialContactStress, NamesAndOrderOfGrainsChangeNothing)
+{
+  const Scene scene = heap(), other = relabelled(scene);
+  for (const auto assignment : all_assignments) {
+    const auto here = stress_of(scene, assignment, 2), there = stress_of(other, assignment, 2);
+    ASSERT_EQ(there.layers(), here.layers());
+    for (std::size_t n = 0; n < here.layers(); ++n)
+      for (std::size_t c = 0; c < here.row(n).size(); ++c)
+        EXPECT_NEAR(there.row(n)[c], here.row(n)[c], 1e-12);
+  }
+  for (const auto rule : {GrainArea::clipped, GrainArea::centre, GrainArea::kernel}) {
+    Composition here(unit_layers, rule, smooth), there = here;
+    here.add(scene.grains, scene.frame);
+    there.add(other.grains, other.frame);
+    for (std::size_t n = 0; n < here.layers(); ++n) {
+      EXPECT_NEAR(there.mean(n).small, here.mean(n).small, 1e-13);
+      EXPECT_NEAR(there.mean(n).large, here.mean(n).large, 1e-13);
+    }
+  }
+}
+
+// A flat heap reaches fewer layers; what a kernel has above them goes to its own highest layer.
+TEST(PartialContactStress, FramesCanBeAddedApartAndInAnyOrder)
+{
+  const Scene scene = heap();
+  Scene flat = scene;
+  for (auto& position : flat.frame.position) position.y() *= 0.5;
+  for (const auto assignment : all_assignments) {
+    auto together = stress_of(scene, assignment, 2);
+    together.add(flat.grains, flat.frame);
+    auto apart = stress_of(flat, assignment, 2);
+    ASSERT_LT(apart.layers(), together.layers());
+    apart.merge(stress_of(scene, assignment, 2));
+    ASSERT_EQ(apart.layers(), together.layers());
+    for (std::size_t n = 0; n < apart.layers(); ++n)
+      for (std::size_t c = 0; c < apart.row(n).size(); ++c)
+        EXPECT_NEAR(apart.row(n)[c], together.row(n)[c], 1e-12);
+  }
+  for (const auto rule : {GrainArea::clipped, GrainArea::centre, GrainArea::kernel}) {
+    Composition together(unit_layers, rule, smooth), apart = together, other = together;
+    together.add(scene.grains, scene.frame);
+    together.add(flat.grains, flat.frame);
+    apart.add(flat.grains, flat.frame);
+    other.add(scene.grains, scene.frame);
+    apart.merge(other);
+    for (std::size_t n = 0; n < together.layers(); ++n) {
+      EXPECT_NEAR(apart.mean(n).small, together.mean(n).small, 1e-13);
+      EXPECT_NEAR(apart.mean(n).large, together.mean(n).large, 1e-13);
+    }
+  }
+}
+
 TEST(PartialContactStress, ColumnsAndNumbersAgreeInCount)
 {
   const Scene scene = large_on_small();
-  for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain})
+  for (const auto assignment : all_assignments)
     for (const auto power : {std::optional<double>{}, std::optional<double>{2}}) {
       const auto stress = stress_of(scene, assignment, power);
       EXPECT_EQ(stress.columns().size(), stress.row(0).size());
@@ -378,7 +563,7 @@ TEST(PartialContactStress, RecombinedSumsAreTheDirectPartition)
   }
 }
 
-TEST(Composition, ClippedAreasAddUpToTheGrainsAndCentresBookThemWhole)
+TEST(Composition, AreasAreClippedOrSpreadOrWholeAtCentresAndAddUpToTheGrains)
 {
   Scene scene;
   scene.grain(Species::large, 1, {5, 1.5});
@@ -394,6 +579,14 @@ TEST(Composition, ClippedAreasAddUpToTheGrainsAndCentresBookThemWhole)
   EXPECT_NEAR(clipped.mean(0).small, pi / 16, 1e-14);
   EXPECT_NEAR(clipped.mean().large, pi, 1e-14);
   EXPECT_NEAR(clipped.mean().phi_large(), 16.0 / 17, 1e-14);
+
+  Composition spread(unit_layers, GrainArea::kernel, smooth);
+  spread.add(scene.grains, scene.frame);
+  const double below = smooth.below(1 - 1.5);
+  EXPECT_NEAR(spread.mean(0).large, pi * below, 1e-14);
+  EXPECT_NEAR(spread.mean(2).large, pi * below, 1e-14);
+  EXPECT_NEAR(spread.mean(0).small, pi / 16 * smooth.below(0.5), 1e-14);
+  EXPECT_NEAR(spread.mean().large, pi, 1e-14);
 
   Composition whole(unit_layers, GrainArea::centre);
   whole.add(scene.grains, scene.frame);

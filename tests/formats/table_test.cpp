@@ -75,6 +75,9 @@ TEST(Table, ThatIsCutOffIsRefusedWithItsLine)
             "t.tsv: line 3: 1 columns where 2 are named; is the table truncated?");
   EXPECT_EQ(complaint("a\tb\n1\tx2\n"), "t.tsv: line 2: 'x2' is no number");
   EXPECT_EQ(complaint(""), "t.tsv: is empty, so it is no table");
+  EXPECT_EQ(
+      complaint("\x89HDF\r\n\x1a\n"),
+      "t.tsv: is an HDF5 file where a table is needed; is it a run? grseg-stress makes its table");
   EXPECT_EQ(complaint("# only: comments\n"),
             "t.tsv: has no line of column names, so it is no table");
 }
