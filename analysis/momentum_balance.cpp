@@ -56,12 +56,56 @@ void MomentumBalance::add(const Grains& grains, const Frame& frame)
   // This frame's own count, so that the sums do not depend on which frames came before.
   const std::size_t count = layers_.count(grains, frame);
   sums_.resize(std::max(sums_.size(), count));
+  pull_.assign(grains.size(), Vec2::Zero());
+  for (std::size_t k = 0; k < frame.contacts.size(); ++k) add_contact(grains, frame, k, count);
   Instant before{frame.time, {count, {Vec2::Zero(), Vec2::Zero()}}};
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g)) add_grain(grains, frame, g, before);
-  for (std::size_t k = 0; k < frame.contacts.size(); ++k) add_contact(grains, frame, k, count);
   if (!first_) first_ = before;
   last_ = std::move(before);
+}
+
+void MomentumBalance::add_contact(const Grains& grains, const Frame& frame, std::size_t contact,
+                                  std::size_t count)
+{
+  const auto& list = frame.contacts;
+  const Vec2& force = list.force[contact];
+  if (force.x() == 0 && force.y() == 0) return;
+  const auto type = pair_type(grains, frame, contact);
+  const bool at_base = type == PairType::Sb || type == PairType::Lb;
+  const auto i = static_cast<std::size_t>(list.i[contact]);
+  const double y_i = frame.position[i].y(), share_i = share_of_first(grains, list, contact);
+  const double y_contact = y_i - share_i * list.branch[contact].y();
+  const Tensor2 stress = force * list.branch[contact].transpose();
+  const auto meet = [&](Species species, const Vec2& on, Vec2 SpeciesMomentum::*booked) {
+    share_kernel(layers_, kernel_, y_contact, y_contact, count, [&](std::size_t n, double share) {
+      auto& sums = sums_[n][index(species)];
+      sums.contact -= share * on;
+      sums.*booked += share * on;
+    });
+  };
+
+  pull_[i] += force;
+  if (at_base) {
+    meet(grains.species[i], force, &SpeciesMomentum::base);
+    return add_stress(grains.species[i], share_i * stress, y_i, y_contact, count);
+  }
+  const auto j = static_cast<std::size_t>(list.j[contact]);
+  const double y_j = frame.position[j].y();
+  pull_[j] -= force;
+  if (type != PairType::LS) return add_stress(grains.species[i], stress, y_i, y_j, count);
+  meet(grains.species[i], force, &SpeciesMomentum::interaction);
+  meet(grains.species[j], -force, &SpeciesMomentum::interaction);
+  add_stress(grains.species[i], share_i * stress, y_i, y_contact, count);
+  add_stress(grains.species[j], (1 - share_i) * stress, y_contact, y_j, count);
+}
+
+void MomentumBalance::add_stress(Species species, const Tensor2& force_by_arm, double from,
+                                 double to, std::size_t count)
+{
+  share_kernel(layers_, kernel_, from, to, count, [&](std::size_t n, double share) {
+    sums_[n][index(species)].contact_stress += share * force_by_arm;
+  });
 }
 
 void MomentumBalance::add_grain(const Grains& grains, const Frame& frame, std::size_t grain,
@@ -77,6 +121,7 @@ void MomentumBalance::add_grain(const Grains& grains, const Frame& frame, std::s
     sums.momentum += share * momentum;
     sums.momentum_flux += share * momentum * velocity.transpose();
     sums.gravity += share * mass * gravity_;
+    sums.contact += share * pull_[grain];
     sums.force += share * force;
     sums.rate -= share / step_ * momentum_before;
     sums.kinetic -= share / step_ * momentum;
@@ -87,45 +132,6 @@ void MomentumBalance::add_grain(const Grains& grains, const Frame& frame, std::s
     sums_[n][species].rate += share / step_ * momentum;
     sums_[n][species].kinetic += share / step_ * momentum;
   });
-}
-
-void MomentumBalance::add_contact(const Grains& grains, const Frame& frame, std::size_t contact,
-                                  std::size_t count)
-{
-  const auto& list = frame.contacts;
-  const Vec2 &force = list.force[contact], &branch = list.branch[contact];
-  if (force.x() == 0 && force.y() == 0) return;
-  const auto type = pair_type(grains, frame, contact);
-  const bool at_base = type == PairType::Sb || type == PairType::Lb;
-  const auto booked = at_base                 ? &SpeciesMomentum::base
-                      : type == PairType::LS ? &SpeciesMomentum::interaction
-                                              : nullptr;
-  const auto i = static_cast<std::size_t>(list.i[contact]);
-  const double y_i = frame.position[i].y(), share_i = share_of_first(grains, list, contact);
-  const double y_contact = y_i - share_i * branch.y();
-  add_part({grains.species[i], force, share_i * branch, y_i, y_contact, booked}, count);
-  if (at_base) return;
-  const auto j = static_cast<std::size_t>(list.j[contact]);
-  const Vec2 arm_j = (share_i - 1) * branch;
-  add_part({grains.species[j], -force, arm_j, frame.position[j].y(), y_contact, booked}, count);
-}
-
-void MomentumBalance::add_part(const Part& part, std::size_t count)
-{
-  const std::size_t species = index(part.species);
-  const auto at = [&](double y, Vec2 SpeciesMomentum::*member, double sign) {
-    share_kernel(layers_, kernel_, y, y, count, [&](std::size_t n, double share) {
-      sums_[n][species].*member += sign * share * part.force;
-    });
-  };
-  at(part.centre, &SpeciesMomentum::contact, 1);
-  at(part.contact, &SpeciesMomentum::contact, -1);
-  if (part.booked != nullptr) at(part.contact, part.booked, 1);
-  const Tensor2 stress = part.force * part.arm.transpose();
-  share_kernel(layers_, kernel_, part.centre, part.contact, count,
-               [&](std::size_t n, double share) {
-                 sums_[n][species].contact_stress += share * stress;
-               });
 }
 
 void MomentumBalance::merge(const MomentumBalance& later)

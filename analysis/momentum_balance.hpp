@@ -80,22 +80,14 @@ class MomentumBalance {
   struct Instant {
     double time;  // s
     std::vector<std::array<Vec2, 2>> momentum;
-
     Vec2 at(std::size_t layer, Species species) const;
   };
-  /// What a contact is to one of its grains.
-  struct Part {
-    Species species;
-    Vec2 force;               // N, on the grain
-    Vec2 arm;                 // m, from the contact point to the grain's centre
-    double centre, contact;   // m, heights
-    Vec2 SpeciesMomentum::*booked;  // at the contact point; null within a species
-  };
 
-  void add_grain(const Grains& grains, const Frame& frame, std::size_t grain, Instant& before);
   void add_contact(const Grains& grains, const Frame& frame, std::size_t contact,
                    std::size_t count);
-  void add_part(const Part& part, std::size_t count);
+  void add_stress(Species species, const Tensor2& force_by_arm, double from, double to,
+                  std::size_t count);
+  void add_grain(const Grains& grains, const Frame& frame, std::size_t grain, Instant& before);
 
   Layers layers_;
   Kernel kernel_;
@@ -104,6 +96,7 @@ class MomentumBalance {
   std::size_t frames_ = 0;
   std::vector<std::array<SpeciesMomentum, 2>> sums_;  // by layer and species, times V
   std::optional<Instant> first_, last_;
+  std::vector<Vec2> pull_;  // N, of all contacts of a grain of this frame
 };
 
 }  // namespace grseg
