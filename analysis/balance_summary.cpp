@@ -10,60 +10,78 @@
 namespace grseg {
 namespace {
 
-struct Estimate {
-  double mean, error;
-};
-
-Estimate over_windows(const std::vector<double>& values)
+/// "up by 0.012 +- 0.003"; "neither way" where two standard errors hide the sign.
+std::string direction(const std::vector<double>& push)
 {
-  const std::size_t n = values.size();
-  const double mean = gsl_stats_mean(values.data(), 1, n);
-  return {mean, gsl_stats_sd_m(values.data(), 1, n, mean) / std::sqrt(static_cast<double>(n))};
-}
-
-/// "up 0.012 +- 0.003"; "neither way" where the error is no smaller than half the mean.
-std::string direction(const Estimate& push)
-{
-  const bool known = std::abs(push.mean) > 2 * push.error;
-  const char* way = !known ? "neither way" : push.mean > 0 ? "up" : "down";
-  return fmt::format("{} ({:.2g} +- {:.1g})", way, push.mean, push.error);
+  const std::size_t n = push.size();
+  const double mean = gsl_stats_mean(push.data(), 1, n);
+  const double error =
+      gsl_stats_sd_m(push.data(), 1, n, mean) / std::sqrt(static_cast<double>(n));
+  if (std::abs(mean) <= 2 * error) return fmt::format("neither way ({:.2g} +- {:.1g})", mean, error);
+  return fmt::format("{} by {:.2g} +- {:.1g}", mean > 0 ? "up" : "down", std::abs(mean), error);
 }
 
 }  // namespace
 
-void BalanceSummary::add(const SpeciesMomentum& small, const SpeciesMomentum& large)
+BalanceSummary::BalanceSummary(const Layers& layers, double large_diameter, double gravity)
+    : layers_(layers), margin_(2 * large_diameter), gravity_(gravity)
 {
-  for (const auto* own : {&small, &large}) {
-    double largest = 0;
-    for (const auto& term : {own->rate, own->gravity, own->contact, own->kinetic, own->interaction,
-                             own->base, own->force})
-      largest = std::max(largest, term.cwiseAbs().maxCoeff());
-    if (largest > 0)
-      residual_ = std::max(residual_, own->residual().cwiseAbs().maxCoeff() / largest);
+}
+
+double BalanceSummary::surface(const MomentumBalance& window) const
+{
+  double mass = 0, moment = 0;
+  for (std::size_t n = 0; n < window.layers(); ++n) {
+    const double here =
+        window.mean(n, Species::small).density + window.mean(n, Species::large).density;
+    mass += here;
+    moment += here * (layers_.bottom(n) + layers_.top(n)) / 2;
   }
-  const auto forces = segregation_forces(small, large);
-  auto& window = windows_.back();
-  if (std::isnan(forces.push) || std::isnan(forces.push_kinetic)) return;
-  window.force[0] += forces.push;
-  window.force[1] += forces.push_kinetic;
-  window.force[2] += forces.drag;
-  window.weight += large.density * std::abs(gravity_);
-  window.drift += forces.drift;
+  return 2 * moment / mass;
+}
+
+void BalanceSummary::add_residual(const SpeciesMomentum& own)
+{
+  double largest = 0;
+  for (const auto& term :
+       {own.rate, own.gravity, own.contact, own.kinetic, own.interaction, own.base})
+    largest = std::max(largest, term.cwiseAbs().maxCoeff());
+  if (largest > 0)
+    residual_ = std::max(residual_, own.residual().cwiseAbs().maxCoeff() / largest);
+}
+
+void BalanceSummary::add(const MomentumBalance& window)
+{
+  const double rounding = 1e-9 * margin_, highest = surface(window) - margin_;
+  double push = 0, push_kinetic = 0, drag = 0, weight = 0;
+  for (std::size_t n = 0; n < window.layers(); ++n) {
+    const auto large = window.mean(n, Species::large);
+    add_residual(window.mean(n, Species::small));
+    add_residual(large);
+    if (layers_.bottom(n) < margin_ - rounding || layers_.top(n) > highest + rounding) continue;
+    const auto forces = segregation_forces(window, n);
+    if (std::isnan(forces.drag)) continue;
+    push += forces.push;
+    push_kinetic += forces.push_kinetic;
+    drag += forces.drag;
+    weight += large.density * std::abs(gravity_);
+  }
+  if (!(weight > 0)) return;
+  push_.push_back(push / weight);
+  push_kinetic_.push_back(push_kinetic / weight);
+  drag_.push_back(drag / weight);
 }
 
 std::string BalanceSummary::sentence() const
 {
-  const auto closed = fmt::format("each balance closes to {:.1e} of its largest term", residual_);
-  std::array<std::vector<double>, mechanisms> parts;
-  for (const auto& window : windows_)
-    for (std::size_t m = 0; m < mechanisms && window.weight > 0; ++m)
-      parts[m].push_back(window.force[m] / window.weight);
-  if (parts[0].size() < 2) return closed;
+  const auto closed =
+      fmt::format("the balances close to {:.1e} of the largest term of each", residual_);
+  if (push_.size() < 2) return closed;
   return fmt::format(
-      "in units of their weight, over {} windows, large grains are pushed {} by the contact stress, "
-      "{} by the kinetic stress, {} by drag; {}",
-      parts[0].size(), direction(over_windows(parts[0])), direction(over_windows(parts[1])),
-      direction(over_windows(parts[2])), closed);
+      "in units of their weight, large grains are pushed {} by contact stress, {} by kinetic "
+      "stress and {} by drag (two large diameters and more from base and surface, standard errors "
+      "of {} windows); {}",
+      direction(push_), direction(push_kinetic_), direction(drag_), push_.size(), closed);
 }
 
 }  // namespace grseg

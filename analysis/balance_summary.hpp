@@ -3,38 +3,35 @@
 
 #include "analysis/segregation_forces.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
 namespace grseg {
 
-/// What the balances of a run say in one sentence: which way each mechanism pushes the large grains
-/// of the whole bed, in units of their weight, and how well the balances close. Errors are standard
-/// errors over windows, each of which counts as one independent value.
+/// What the balances of a run say in one sentence: which way each mechanism pushes the large grains,
+/// in units of their weight, and how well the balances close. Only the inside of the bed counts for
+/// the mechanisms: layers at least two large diameters away from the base and from the surface,
+/// which lies at twice the mean height of the mass. Errors are standard errors over windows, of
+/// which each counts as one independent value.
 class BalanceSummary {
  public:
-  /// Gravity along y, m/s^2.
-  explicit BalanceSummary(double gravity) : gravity_(gravity) {}
+  /// Diameter in m, gravity along y in m/s^2.
+  BalanceSummary(const Layers& layers, double large_diameter, double gravity);
 
-  /// Layers of one window are added one by one, after next_window().
-  void next_window() { windows_.push_back({}); }
-  void add(const SpeciesMomentum& small, const SpeciesMomentum& large);
+  void add(const MomentumBalance& window);
 
-  /// Largest residual of a layer over the largest of its own terms.
+  /// Largest residual of a species in a layer over the largest term of its balance.
   double residual() const { return residual_; }
-  /// Without a full stop.
+  /// Without a full stop; the mechanisms only where two windows or more have both species inside.
   std::string sentence() const;
 
  private:
-  static constexpr std::size_t mechanisms = 3;  // push, push_kinetic, drag
-  struct Window {
-    std::array<double, mechanisms> force{};
-    double weight = 0, drift = 0;
-  };
+  void add_residual(const SpeciesMomentum& own);
+  double surface(const MomentumBalance& window) const;
 
-  double gravity_, residual_ = 0;
-  std::vector<Window> windows_;
+  Layers layers_;
+  double margin_, gravity_, residual_ = 0;
+  std::vector<double> push_, push_kinetic_, drag_;  // by window, over the weight
 };
 
 }  // namespace grseg

@@ -47,9 +47,9 @@ std::vector<std::string> balance_columns()
     for (const char* axis : {"x", "y"})
       names.push_back(fmt::format("change_{}_{}[N/m^2]", species, axis));
   }
-  for (const char* name : {"phi_L", "psi_L", "psik_L", "B", "B_kappa", "excess[N/m^2]",
-                           "push[N/m^2]", "push_kinetic[N/m^2]", "drag[N/m^2]", "spread[N/m^2]",
-                           "spread_kinetic[N/m^2]", "drift[kg/(m^2 s)]", "drag_rate[1/s]"})
+  for (const char* name : {"phi_L", "psi_L", "psik_L", "B", "B_kappa", "push[N/m^2]",
+                           "push_kinetic[N/m^2]", "spread[N/m^2]", "spread_kinetic[N/m^2]",
+                           "drag[N/m^2]", "scatter[N/m^2]", "drift[kg/(m^2 s)]", "drag_rate[1/s]"})
     names.emplace_back(name);
   return names;
 }
@@ -61,14 +61,14 @@ std::vector<double> balance_row(const MomentumBalance& balance, std::size_t laye
   const Vec2 mean = (small.momentum + large.momentum) / (small.density + large.density);
   std::vector<double> row;
   for (const auto species : {Species::small, Species::large}) {
-    append(row, species == Species::small ? small : large, mean);
+    append(row, balance.mean(layer, species), mean);
     const Vec2 change = balance.change(layer, species);
     row.insert(row.end(), {change.x(), change.y()});
   }
-  const auto of = segregation_forces(small, large);
-  row.insert(row.end(), {of.phi, of.psi, of.psi_kinetic, of.b, of.b_kinetic, of.excess, of.push,
-                         of.push_kinetic, of.drag, of.spread, of.spread_kinetic, of.drift,
-                         of.drag_rate()});
+  const auto of = segregation_forces(balance, layer);
+  row.insert(row.end(), {of.phi, of.psi, of.psi_kinetic, of.b, of.b_kinetic, of.push,
+                         of.push_kinetic, of.spread, of.spread_kinetic, of.drag, of.scatter,
+                         of.drift, of.drag_rate()});
   return row;
 }
 

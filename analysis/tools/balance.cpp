@@ -52,17 +52,15 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   auto table = loop.make_table(
       command, {{"kernel", s.kernel}, {"width", format_number(kernel.width())}}, balance_columns());
 
-  BalanceSummary summary(run.gravity().y());
+  BalanceSummary summary(loop.layers(), run.large_diameter(), run.gravity().y());
   for (const auto& window : loop.windows()) {
     MomentumBalance balance(loop.layers(), kernel, run.gravity(), run.step());
     loop.for_each_frame(
         window, {.velocity = true, .contacts = true, .force = true},
         [&](const Grains& grains, const Frame& frame) { balance.add(grains, frame); });
-    summary.next_window();
-    for (std::size_t layer = 0; layer < balance.layers(); ++layer) {
+    for (std::size_t layer = 0; layer < balance.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, balance_row(balance, layer)));
-      summary.add(balance.mean(layer, Species::small), balance.mean(layer, Species::large));
-    }
+    summary.add(balance);
   }
   loop.write(table);
   if (!s.frames.quiet) fmt::print(stderr, "{}: {}\n", info.name, summary.sentence());
