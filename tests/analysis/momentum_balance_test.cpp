@@ -288,7 +288,7 @@ TEST(MomentumBalance, PartsMergeToTheWhole)
   std::vector<Scene> frames;
   for (unsigned k = 0; k < 5; ++k) frames.push_back(random_bed(10 + k));
   for (std::size_t k = 0; k < frames.size(); ++k) frames[k].frame.time = static_cast<double>(k);
-  frames[3].frame.position[30].y() = 6.5;  // one frame is higher than the others
+  frames[1].frame.position[30].y() = 6.5;  // one frame is higher than the others
   const auto whole = balance_of(frames);
   auto parts = balance_of({});
   parts.merge(balance_of({frames[0], frames[1]}));

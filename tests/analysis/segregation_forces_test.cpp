@@ -40,15 +40,27 @@ Scene columns(int count, double load)
   return scene;
 }
 
-MomentumBalance balance_of(const Scene& scene, int frames = 2)
+/// A contact that is not balanced by others: it moves both grains.
+void push_apart(Scene& scene, std::int32_t i, std::int32_t j, const Vec2& force)
 {
-  MomentumBalance balance(unit_layers, narrow, gravity, step);
-  for (int k = 0; k < frames; ++k) {
-    auto frame = scene.frame;
-    frame.time = k;
-    balance.add(scene.grains, frame);
-  }
+  scene.contact(i, j, force);
+  scene.frame.force[static_cast<std::size_t>(i)] += force;
+  scene.frame.force[static_cast<std::size_t>(j)] -= force;
+}
+
+MomentumBalance balance_of(const std::vector<Scene>& frames, const Kernel& kernel = narrow)
+{
+  MomentumBalance balance(unit_layers, kernel, gravity, step);
+  for (const auto& scene : frames) balance.add(scene.grains, scene.frame);
   return balance;
+}
+
+/// Two frames of the same, a second apart.
+MomentumBalance balance_of(const Scene& scene)
+{
+  Scene later = scene;
+  later.frame.time = 1;
+  return balance_of(std::vector{scene, later});
 }
 
 double cell(const MomentumBalance& balance, std::size_t layer, const std::string& column)
@@ -117,23 +129,27 @@ TEST(SegregationForces, WhatMovesLessIsPushedFromTheHotSide)
 TEST(SegregationForces, TheInteractionIsSpreadDragAndScatter)
 {
   auto scene = columns(10, 2);
-  // Neighbours in the two columns touch by name; rates are not at rest any more.
-  for (std::int32_t n = 1; n <= 10; ++n) scene.contact(n, n + 11, {-0.1 * n, 0.3 * n - 1});
-  const auto& list = scene.frame.contacts;
-  for (std::size_t k = 21; k < list.size(); ++k) {
-    scene.frame.force[static_cast<std::size_t>(list.i[k])] += list.force[k];
-    scene.frame.force[static_cast<std::size_t>(list.j[k])] -= list.force[k];
-  }
+  for (std::int32_t n = 1; n <= 10; ++n) push_apart(scene, n, n + 11, {-0.1 * n, 0.3 * n - 1});
   for (std::size_t g = 0; g < scene.grains.size(); ++g)
     if (scene.grains.fixed[g] == 0)
-      scene.frame.velocity[g] = {0.1, 0.03 * static_cast<double>(g % 7) - 0.1};
-  const auto balance = balance_of(scene);
+      scene.frame.velocity[g] = {0.1, 0.3 * static_cast<double>(g % 7) - 1};
+  auto later = scene;
+  later.frame.time = 2;
+  for (auto& velocity : later.frame.velocity) velocity *= 1.5;
+  const auto balance = balance_of({scene, later}, Kernel(KernelShape::gauss, 0.4));
   for (std::size_t n = 0; n < 10; ++n) {
     const auto of = segregation_forces(balance, n);
-    const double interaction = balance.mean(n, Species::large).interaction.y();
-    EXPECT_GT(std::abs(interaction), 1e-3);
-    EXPECT_NEAR(of.spread + of.spread_kinetic + of.drag + of.scatter, interaction, 1e-11);
+    const auto small = balance.mean(n, Species::small), large = balance.mean(n, Species::large);
+    const double change_large = balance.change(n, Species::large).y();
+    const double change =
+        change_large - of.phi * (change_large + balance.change(n, Species::small).y());
+    EXPECT_GT(std::abs(large.interaction.y()), 1e-3);
+    EXPECT_GT(std::abs(of.push_kinetic), 1e-6);
+    EXPECT_GT(std::abs(change), 1e-5);
+    EXPECT_NEAR(of.spread + of.spread_kinetic + of.drag + of.scatter, large.interaction.y(), 1e-11);
+    EXPECT_NEAR(of.push + of.push_kinetic + of.drag, change, 1e-12);
     EXPECT_NEAR(of.drag, -of.drag_rate() * of.drift, 1e-14);
+    EXPECT_NEAR(of.drift, (1 - of.phi) * large.momentum.y() - of.phi * small.momentum.y(), 1e-14);
   }
 }
 
@@ -207,7 +223,8 @@ TEST(BalanceSummary, WhatIsWithinItsErrorGoesNeitherWay)
 TEST(BalanceSummary, TellsTheLargestResidualOverItsLargestTerm)
 {
   auto scene = columns(10, 0);
-  scene.frame.force[4].y() = 9 * pi / 4 * 0.01;  // at the middle of layer 3, where 1 is its weight
+  push_apart(scene, 4, 15, {-9 * pi / 8, 0});
+  scene.frame.force[4].y() += 9 * pi / 4 * 0.01;  // at the middle of layer 3, where 1 is its weight
   BalanceSummary summary(unit_layers, 1, -9);
   summary.add(balance_of(scene));
   EXPECT_NEAR(summary.residual(), 0.01, 1e-12);
