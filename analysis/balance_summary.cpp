@@ -15,9 +15,9 @@ std::string direction(const std::vector<double>& push)
 {
   const std::size_t n = push.size();
   const double mean = gsl_stats_mean(push.data(), 1, n);
-  const double error =
-      gsl_stats_sd_m(push.data(), 1, n, mean) / std::sqrt(static_cast<double>(n));
-  if (std::abs(mean) <= 2 * error) return fmt::format("neither way ({:.2g} +- {:.1g})", mean, error);
+  const double error = gsl_stats_sd_m(push.data(), 1, n, mean) / std::sqrt(static_cast<double>(n));
+  if (std::abs(mean) <= 2 * error)
+    return fmt::format("neither way ({:.2g} +- {:.1g})", mean, error);
   return fmt::format("{} by {:.2g} +- {:.1g}", mean > 0 ? "up" : "down", std::abs(mean), error);
 }
 
@@ -46,8 +46,7 @@ void BalanceSummary::add_residual(const SpeciesMomentum& own)
   for (const auto& term :
        {own.rate, own.gravity, own.contact, own.kinetic, own.interaction, own.base})
     largest = std::max(largest, term.cwiseAbs().maxCoeff());
-  if (largest > 0)
-    residual_ = std::max(residual_, own.residual().cwiseAbs().maxCoeff() / largest);
+  if (largest > 0) residual_ = std::max(residual_, own.residual().cwiseAbs().maxCoeff() / largest);
 }
 
 void BalanceSummary::add(const MomentumBalance& window)

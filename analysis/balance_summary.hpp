@@ -8,11 +8,11 @@
 
 namespace grseg {
 
-/// What the balances of a run say in one sentence: which way each mechanism pushes the large grains,
-/// in units of their weight, and how well the balances close. Only the inside of the bed counts for
-/// the mechanisms: layers at least two large diameters away from the base and from the surface,
-/// which lies at twice the mean height of the mass. Errors are standard errors over windows, of
-/// which each counts as one independent value.
+/// What the balances of a run say in one sentence: which way each mechanism pushes the large
+/// grains, in units of their weight, and how well the balances close. Only the inside of the bed
+/// counts for the mechanisms: layers at least two large diameters away from the base and from the
+/// surface, which lies at twice the mean height of the mass. Errors are standard errors over
+/// windows, of which each counts as one independent value.
 class BalanceSummary {
  public:
   /// Diameter in m, gravity along y in m/s^2.

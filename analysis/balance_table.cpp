@@ -21,8 +21,9 @@ Tensor2 kinetic_stress(const SpeciesMomentum& of, const Vec2& mean)
 void append(std::vector<double>& row, const SpeciesMomentum& of, const Vec2& mean)
 {
   const Tensor2 &contact = of.contact_stress, kinetic = kinetic_stress(of, mean);
-  row.insert(row.end(), {of.density, of.momentum.x(), of.momentum.y(), contact(0, 0), contact(0, 1),
-                         contact(1, 0), contact(1, 1), kinetic(0, 0), kinetic(0, 1), kinetic(1, 1)});
+  row.insert(row.end(),
+             {of.density, of.momentum.x(), of.momentum.y(), contact(0, 0), contact(0, 1),
+              contact(1, 0), contact(1, 1), kinetic(0, 0), kinetic(0, 1), kinetic(1, 1)});
   for (const Vec2& term : {of.rate, of.gravity, of.contact, of.kinetic, of.interaction, of.base,
                            of.force, of.residual()})
     row.insert(row.end(), {term.x(), term.y()});
@@ -66,9 +67,9 @@ std::vector<double> balance_row(const MomentumBalance& balance, std::size_t laye
     row.insert(row.end(), {change.x(), change.y()});
   }
   const auto of = segregation_forces(balance, layer);
-  row.insert(row.end(), {of.phi, of.psi, of.psi_kinetic, of.b, of.b_kinetic, of.push,
-                         of.push_kinetic, of.spread, of.spread_kinetic, of.drag, of.scatter,
-                         of.drift, of.drag_rate()});
+  row.insert(row.end(),
+             {of.phi, of.psi, of.psi_kinetic, of.b, of.b_kinetic, of.push, of.push_kinetic,
+              of.spread, of.spread_kinetic, of.drag, of.scatter, of.drift, of.drag_rate()});
   return row;
 }
 

@@ -11,7 +11,8 @@ namespace grseg {
 /// The columns of grseg-balance after the key columns, X = S, L, a = x, y:
 ///   rho_X jx_X jy_X             density and momentum density
 ///   Sc_X_ab                     contact stress
-///   Sk_X_xx, _xy, _yy           kinetic stress about the mean velocity of both species in layer and
+///   Sk_X_xx, _xy, _yy           kinetic stress about the mean velocity of both species in layer
+///   and
 ///                               window; xx contains the mean shear within the layer
 ///   rate_X_a ... force_X_a      terms of the balance (momentum_balance.hpp), and its residual
 ///   change_X_a                  what the rates sample

@@ -10,10 +10,10 @@ namespace grseg {
 namespace {
 
 constexpr std::array tensors{&SpeciesMomentum::contact_stress, &SpeciesMomentum::momentum_flux};
-constexpr std::array vectors{&SpeciesMomentum::momentum,    &SpeciesMomentum::rate,
-                             &SpeciesMomentum::gravity,     &SpeciesMomentum::contact,
-                             &SpeciesMomentum::kinetic,     &SpeciesMomentum::interaction,
-                             &SpeciesMomentum::base,        &SpeciesMomentum::force};
+constexpr std::array vectors{&SpeciesMomentum::momentum, &SpeciesMomentum::rate,
+                             &SpeciesMomentum::gravity,  &SpeciesMomentum::contact,
+                             &SpeciesMomentum::kinetic,  &SpeciesMomentum::interaction,
+                             &SpeciesMomentum::base,     &SpeciesMomentum::force};
 
 std::size_t index(Species species)
 {

@@ -36,9 +36,9 @@ struct SpeciesMomentum {
 
 /// Momentum balance of each species by coarse graining over height (Goldhirsch 2010; Weinhart et
 /// al. 2012; for species Tunuguntla, Thornton & Weinhart 2016). S(y') is the part of the kernel of
-/// a point at height y' that lies in the layer (share_kernel). With y_i the stored height of a grain
-/// (mid-step), v its velocity after the solve, F = m (v - v_before)/h its stored force, f_ij a
-/// contact force and c the height of its contact point, and all sums divided by V:
+/// a point at height y' that lies in the layer (share_kernel). With y_i the stored height of a
+/// grain (mid-step), v its velocity after the solve, F = m (v - v_before)/h its stored force, f_ij
+/// a contact force and c the height of its contact point, and all sums divided by V:
 ///
 ///   rate         sum (m/h) [v S(y_i + h v_y) - v_before S(y_i)]
 ///   gravity      sum m g S(y_i)

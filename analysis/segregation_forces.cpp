@@ -53,8 +53,8 @@ SegregationForces segregation_forces(const MomentumBalance& balance, std::size_t
   const auto beyond_mixture = [&](const Vec2& of_large, const Vec2& of_small) {
     return of_large.y() - of.phi * (of_large + of_small).y();
   };
-  const double change = beyond_mixture(balance.change(layer, Species::large),
-                                       balance.change(layer, Species::small));
+  const double change =
+      beyond_mixture(balance.change(layer, Species::large), balance.change(layer, Species::small));
   of.drag = change - of.push - of.push_kinetic;
   of.scatter = beyond_mixture(large.rate, small.rate) - change;
   of.drift = beyond_mixture(large.momentum, small.momentum);

@@ -9,9 +9,10 @@ namespace grseg {
 /// part phi_L = rho^L/rho of the mixture's (a part of the mass; of the area where both species have
 /// one density), so that gravity drops out. Means over a layer; force densities on the large
 /// grains, N/m^2, upward positive: the small grains feel the opposite. With yy of contact stress
-/// sigma and momentum flux K of the mixture, psi and psi_K the large grains' parts of these, beta the
-/// interaction on large grains and ' = d/dy, less the force of the base in sigma' and (psi sigma)'
-/// (the jump of stress at the wall is no pressure gradient), the balance reads, to round-off,
+/// sigma and momentum flux K of the mixture, psi and psi_K the large grains' parts of these, beta
+/// the interaction on large grains and ' = d/dy, less the force of the base in sigma' and (psi
+/// sigma)' (the jump of stress at the wall is no pressure gradient), the balance reads, to
+/// round-off,
 ///
 ///   rate^L - phi_L rate = push + push_kinetic + beta - spread - spread_kinetic
 ///   push         = -(psi - phi_L) sigma' = -phi_L phi_S B sigma'

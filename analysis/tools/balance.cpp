@@ -43,10 +43,11 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   FrameLoop loop(info, values, s.frames);
   const auto& run = loop.run();
   if (!run.has_force())
-    throw FormatError(fmt::format(
-        "{}: there is no /particles/grains/force, the rate at which momentum changes; take a run of "
-        "grseg-sim, or import one with the forces on its grains",
-        run.path()));
+    throw FormatError(
+        fmt::format("{}: there is no /particles/grains/force, the rate at which momentum changes; "
+                    "take a run of "
+                    "grseg-sim, or import one with the forces on its grains",
+                    run.path()));
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   const Kernel kernel(shape, parse_length(s.width, "--width", units));
   auto table = loop.make_table(

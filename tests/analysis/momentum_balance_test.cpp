@@ -40,9 +40,7 @@ Scene random_bed(unsigned seed)
   std::uniform_real_distribution<double> place(0, 3), kick(-1, 1);
   Scene scene;
   for (int g = 0; g < 60; ++g) {
-    const auto species = g < 5         ? Species::boundary
-                         : g % 3 == 0 ? Species::large
-                                      : Species::small;
+    const auto species = g < 5 ? Species::boundary : g % 3 == 0 ? Species::large : Species::small;
     scene.grain(species, g % 3 == 0 ? 0.2 : 0.1, {3 * place(random), g < 5 ? -0.1 : place(random)},
                 {2 + kick(random), kick(random)}, kick(random));
   }
