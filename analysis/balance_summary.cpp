@@ -73,8 +73,7 @@ void BalanceSummary::add(const MomentumBalance& window)
 
 std::string BalanceSummary::sentence() const
 {
-  const auto closed =
-      fmt::format("the balances close to {:.1e} of the largest term of each", residual_);
+  auto closed = fmt::format("the balances close to {:.1e} of the largest term of each", residual_);
   if (push_.size() < 2) return closed;
   return fmt::format(
       "in units of their weight, large grains are pushed {} by contact stress, {} by kinetic "
