@@ -363,6 +363,10 @@ const Parameters& TrajectoryReader::parameters() const
 {
   return impl_->parameters;
 }
+bool TrajectoryReader::has_force() const
+{
+  return impl_->has_force;
+}
 const std::vector<std::int64_t>& TrajectoryReader::steps() const
 {
   return impl_->steps;

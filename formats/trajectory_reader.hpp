@@ -33,6 +33,7 @@ class TrajectoryReader {
   const Grains& grains() const;
   const Box& box() const;
   const Parameters& parameters() const;
+  bool has_force() const;  ///< an import may have none; `force` of its frames is then empty
 
   /// Steps and times (s) of the committed frames.
   const std::vector<std::int64_t>& steps() const;

@@ -65,18 +65,22 @@ class FrameTools : public testing::Test {
   }
 };
 
-const std::string stress = GRSEG_STRESS, kinetic = GRSEG_KINETIC, micro = GRSEG_MICRO;
+const std::string stress = GRSEG_STRESS, kinetic = GRSEG_KINETIC, micro = GRSEG_MICRO,
+                  balance = GRSEG_BALANCE;
 
 TEST_F(FrameTools, RowsOfAllToolsHaveTheSameKeys)
 {
   const std::string options = "--layer 6mm --window 0.4 --begin 0.3 --stride 3";
-  const auto a = table(stress, options), b = table(kinetic, options), c = table(micro, options);
+  const auto a = table(stress, options), b = table(kinetic, options), c = table(micro, options),
+             d = table(balance, options);
   ASSERT_EQ(a.rows.size(), 6 * 3u);
   ASSERT_EQ(b.rows.size(), a.rows.size());
   ASSERT_EQ(c.rows.size(), 6 * 4u);
+  ASSERT_EQ(d.rows.size(), a.rows.size());
   for (std::size_t row = 0; row < a.rows.size(); ++row)
     for (std::size_t key = 0; key < 6; ++key) {
       EXPECT_EQ(a.rows[row][key], b.rows[row][key]);
+      EXPECT_EQ(a.rows[row][key], d.rows[row][key]);
       EXPECT_EQ(a.rows[row][key], c.rows[row + row / 3][key]);
     }
 }

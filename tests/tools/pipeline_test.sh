@@ -28,6 +28,15 @@ cmp file.txt pipe.txt || fail "a pipe and a file differ"
 $bin/grseg-kinetic a.h5 --window 0.5 --quiet | grep -v '^#' | cut -f 1-6 >keys-kinetic
 grep -v '^#' a.tsv | cut -f 1-6 >keys-stress
 cmp keys-kinetic keys-stress || fail "the tools' rows do not join"
+$bin/grseg-balance a.h5 --window 0.5 -o balance.tsv 2>words
+grep -v '^#' balance.tsv | cut -f 1-6 >keys-balance
+cmp keys-balance keys-stress || fail "the rows of grseg-balance do not join"
+
+# Of a true run each balance closes to round-off.
+closes=$(sed -n 's/^grseg-balance: .*the balances close to \([0-9.e-]*\) of .*/\1/p' words)
+awk -v r="$closes" 'BEGIN {exit !(r != "" && r < 1e-10)}' || fail "momentum is missing: $(cat words)"
+"$source/scripts/balance-profile" balance.tsv >profile.tsv
+[ "$(wc -l <profile.tsv)" -gt 3 ] || fail "no profile of the balance"
 
 # SIGINT: exit code 130, the frames so far readable under NAME.part, NAME itself absent.
 # (A background job of a script ignores SIGINT, so `timeout` sends it.)

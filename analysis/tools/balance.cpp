@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/balance_summary.hpp"
+#include "analysis/balance_table.hpp"
+#include "analysis/frame_loop.hpp"
+#include "formats/length.hpp"
+
+#include <fmt/format.h>
+
+using namespace grseg;
+
+namespace {
+
+constexpr ToolInfo info{
+    "grseg-balance",
+    "momentum balance of each species by layer and window, and which mechanism pushes large grains "
+    "which way.",
+    "grseg-balance run.h5 [options] > balance.tsv",
+    "  grseg-balance run.h5 -o balance.tsv              layers of 4 dS, Gaussian of 1 dS\n"
+    "  grseg-balance run.h5 --layer 1dS --width 0.5dS   finer profiles\n"
+    "  grseg-balance run.h5 --kernel lucy --width 3dS   a kernel of compact support\n"
+    "  grseg-balance run.h5 --begin 20 -o /dev/null     only the sentence that sums it up\n"};
+
+struct Settings {
+  FrameOptions frames;
+  std::string kernel = "gauss", width = "1dS";
+};
+
+po::options_description options_into(Settings& s)
+{
+  po::options_description options("Options");
+  options.add_options()("kernel", po::value(&s.kernel)->default_value(s.kernel)->value_name("WORD"),
+                        "coarse-graining function over height: gauss, lucy or heaviside");
+  options.add_options()("width", po::value(&s.width)->default_value(s.width)->value_name("LENGTH"),
+                        "its width: standard deviation of gauss, half the support of the others");
+  s.frames.add_to(options);
+  return options;
+}
+
+void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+{
+  const auto shape = static_cast<KernelShape>(
+      choose(s.kernel, "--kernel", {kernel_names.begin(), kernel_names.end()}));
+  FrameLoop loop(info, values, s.frames);
+  const auto& run = loop.run();
+  if (!run.has_force())
+    throw FormatError(
+        fmt::format("{}: there is no /particles/grains/force, the rate at which momentum changes; "
+                    "take a run of "
+                    "grseg-sim, or import one with the forces on its grains",
+                    run.path()));
+  const LengthUnits units{run.small_diameter(), run.large_diameter()};
+  const Kernel kernel(shape, parse_length(s.width, "--width", units));
+  auto table = loop.make_table(
+      command, {{"kernel", s.kernel}, {"width", format_number(kernel.width())}}, balance_columns());
+
+  BalanceSummary summary(loop.layers(), run.large_diameter(), run.gravity().y());
+  for (const auto& window : loop.windows()) {
+    MomentumBalance balance(loop.layers(), kernel, run.gravity(), run.step());
+    loop.for_each_frame(
+        window, {.velocity = true, .contacts = true, .force = true},
+        [&](const Grains& grains, const Frame& frame) { balance.add(grains, frame); });
+    for (std::size_t layer = 0; layer < balance.layers(); ++layer)
+      table.rows.push_back(loop.row(window, layer, balance_row(balance, layer)));
+    summary.add(balance);
+  }
+  loop.write(table);
+  if (!s.frames.quiet) fmt::print(stderr, "{}: {}\n", info.name, summary.sentence());
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Settings settings;
+  const auto options = options_into(settings);
+  return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
+    tabulate(settings, values, command_line(argc, argv));
+  });
+}
