@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/composition.hpp"
 
+#include "analysis/add_up.hpp"
+
 #include <numbers>
 
 namespace grseg {
@@ -20,6 +22,12 @@ void Composition::add(const Grains& grains, const Frame& frame)
       layers_.share_disc(y, radius, count,
                          [&](std::size_t n, double area) { sums_[n][species] += area; });
   }
+}
+
+void Composition::merge(const Composition& others)
+{
+  frames_ += others.frames_;
+  add_up(sums_, others.sums_);
 }
 
 Composition::Areas Composition::mean(std::size_t layer) const

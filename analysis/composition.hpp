@@ -26,6 +26,7 @@ class Composition {
   Composition(const Layers& layers, GrainArea rule) : layers_(layers), rule_(rule) {}
 
   void add(const Grains& grains, const Frame& frame);
+  void merge(const Composition& others);
   std::size_t layers() const { return sums_.size(); }
   Areas mean(std::size_t layer) const;
   /// All layers together.
