@@ -153,6 +153,17 @@ TEST(MicroStructure, WhoIsFirstInAContactChangesNothing)
     EXPECT_NEAR(a[k], b[k], 1e-15) << MicroSums::columns()[k];
 }
 
+TEST(MicroStructure, AForceIsTakenApartAlongItsBranchAndAcrossCounterClockwise)
+{
+  const Vec2 n{0.6, 0.8}, t{-0.8, 0.6};
+  ContactList contacts;
+  contacts.force = {3 * n + 2 * t};
+  contacts.branch = {1.7 * n};
+  const auto parts = force_parts(contacts, 0);
+  EXPECT_NEAR(parts.f_n, 3, 1e-15);
+  EXPECT_NEAR(parts.f_t, 2, 1e-15);
+}
+
 /// Two grains side by side, the force on the right one from the left.
 MicroSums pressed(const Vec2& force, double friction)
 {
@@ -178,18 +189,18 @@ TEST(MicroStructure, WithoutAFrictionCoefficientNobodyKnowsWhatSlides)
   EXPECT_TRUE(std::isnan(pressed({2, 1}, std::nan("")).of(PairType::SS).sliding));
 }
 
-// Forces 1, 2 and 6 on three contacts of one layer: one is above their mean.
+// Forces 1, 4 and 6 on three contacts of one layer: two are above their mean.
 TEST(MicroStructure, AStrongContactBearsMoreThanTheMeanOfItsLayer)
 {
   Scene scene;
   for (int g = 0; g < 4; ++g)
     scene.grain(g < 2 ? Species::small : Species::large, 1, {1.0 + 2 * g, 1});
   scene.contact(1, 0, {1, 0});
-  scene.contact(2, 1, {2, 0});
+  scene.contact(2, 1, {4, 0});
   scene.contact(3, 2, {6, 0});
   const auto sums = micro_of(scene, one_layer).mean();
   EXPECT_EQ(sums.of(PairType::SS).strong, 0);
-  EXPECT_EQ(sums.of(PairType::LS).strong, 0);
+  EXPECT_EQ(sums.of(PairType::LS).strong, 1);
   EXPECT_EQ(sums.of(PairType::LL).strong, 1);
 }
 
@@ -208,25 +219,34 @@ TEST(MicroStructure, StressesAreThoseOfTheContactStressAtTheContactPoint)
   }
 }
 
-TEST(MicroStructure, ResultsAreMeansPerFrameHoweverTheFramesAreMerged)
+TEST(MicroStructure, ResultsAreMeansPerFrame)
 {
   const Scene scene = pyramid();
   Scene idle = scene;
   idle.frame.contacts = {};
-  MicroStructure one(one_layer, GrainArea::clipped), first = one, second = one;
-  one.add(scene.grains, scene.frame);
-  one.add(idle.grains, idle.frame);
-  first.add(scene.grains, scene.frame);
-  second.add(idle.grains, idle.frame);
-  first.merge(second);
-  for (const auto& micro : {one, first}) {
-    EXPECT_EQ(micro.mean(0).of(Species::large).grains, 2);
-    EXPECT_EQ(micro.mean(0).of(Species::large).ends, 1.5);
-    EXPECT_EQ(micro.mean(0).coordination(Species::large), 0.75);
-    EXPECT_NEAR(micro.mean(0).mean_force(Species::small, {}), 3, 1e-15);
-    EXPECT_NEAR(micro.heights().large, 1, 1e-15);
-    EXPECT_NEAR(micro.mean(0).phi_large(), 2 / 2.25, 1e-14);
-  }
+  auto micro = micro_of(scene, one_layer);
+  micro.add(idle.grains, idle.frame);
+  EXPECT_EQ(micro.mean(0).of(Species::large).grains, 2);
+  EXPECT_EQ(micro.mean(0).of(Species::large).ends, 1.5);
+  EXPECT_EQ(micro.mean(0).coordination(Species::large), 0.75);
+  EXPECT_NEAR(micro.mean(0).mean_force(Species::small, {}), 3, 1e-15);
+  EXPECT_NEAR(micro.heights().large, 1, 1e-15);
+  EXPECT_NEAR(micro.mean(0).phi_large(), 2 / 2.25, 1e-14);
+}
+
+TEST(MicroStructure, MergedSumsAreThoseOfAllFrames)
+{
+  const Scene scene = pyramid();
+  Scene lifted = scene;  // reaches into two layers more
+  lifted.frame.position[3].y() += 2;
+  lifted.frame.contacts.force[0] = {0, 0};
+  auto whole = micro_of(scene, unit_layers), parts = whole;
+  whole.add(lifted.grains, lifted.frame);
+  parts.merge(micro_of(lifted, unit_layers));
+  ASSERT_EQ(parts.layers(), whole.layers());
+  for (std::size_t layer = 0; layer < whole.layers(); ++layer)
+    EXPECT_EQ(parts.mean(layer).numbers(), whole.mean(layer).numbers()) << layer;
+  EXPECT_EQ(parts.bed_row(), whole.bed_row());
 }
 
 TEST(MicroStructure, ColumnsAndNumbersAgreeInCount)
