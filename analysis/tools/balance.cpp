@@ -55,10 +55,9 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
 
   BalanceSummary summary(loop.layers(), run.large_diameter(), run.gravity().y());
   for (const auto& window : loop.windows()) {
-    MomentumBalance balance(loop.layers(), kernel, run.gravity(), run.step());
-    loop.for_each_frame(
-        window, {.velocity = true, .contacts = true, .force = true},
-        [&](const Grains& grains, const Frame& frame) { balance.add(grains, frame); });
+    const auto [balance] =
+        loop.sum(window, {.velocity = true, .contacts = true, .force = true},
+                 MomentumBalance(loop.layers(), kernel, run.gravity(), run.step()));
     for (std::size_t layer = 0; layer < balance.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, balance_row(balance, layer)));
     summary.add(balance);

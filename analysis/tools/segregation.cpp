@@ -79,13 +79,9 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
 
   SegregationRun run(loop.layers(), small_diameter, large_diameter);
   for (const auto& window : loop.windows()) {
-    SegregationSeries series(loop.layers());
-    SegregationFlux flux(loop.layers(), window, small_diameter, large_diameter);
-    loop.for_each_frame(window, {.velocity = true, .contacts = false},
-                        [&](const Grains& grains, const Frame& frame) {
-                          series.add(grains, frame);
-                          flux.add(grains, frame);
-                        });
+    const auto [series, flux] =
+        loop.sum(window, {.velocity = true, .contacts = false}, SegregationSeries(loop.layers()),
+                 SegregationFlux(loop.layers(), window, small_diameter, large_diameter));
     run.add(file.grains(), series, flux);
     for (std::size_t layer = 0; layer < run.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, run.row(layer)));

@@ -131,13 +131,8 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
                                joined({"area_S[m^2]", "area_L[m^2]"}, no_contacts.columns()));
 
   for (const auto& window : loop.windows()) {
-    auto composition = no_grains;
-    auto stress = no_contacts;
-    loop.for_each_frame(window, {.velocity = false, .contacts = true},
-                        [&](const Grains& grains, const Frame& frame) {
-                          composition.add(grains, frame);
-                          stress.add(grains, frame);
-                        });
+    const auto [composition, stress] =
+        loop.sum(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
       const auto areas = composition.mean(layer);
       table.rows.push_back(
