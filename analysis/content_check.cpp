@@ -32,7 +32,10 @@ std::vector<CheckLine> ContentCheck::lines() const
   };
   const bool complete = run_.parameters().numbers.contains("complete");
   auto missing = line("not_closed", complete ? 0 : 1, 0, complete);
-  if (!complete) missing.remark = "the run was interrupted, or goes on; frames may be missing";
+  if (!complete)
+    missing.remark =
+        "no /parameters/complete: the run was interrupted or goes on, or its writer sets no such "
+        "mark";
   auto damaged = line("damaged_frames", static_cast<double>(damaged_), 0, damaged_ == 0);
   damaged.remark =
       damaged_ == 0 ? fmt::format("{} frames agree with their digests", frames_)

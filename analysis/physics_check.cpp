@@ -134,6 +134,15 @@ const std::array<CheckTolerances::Named, 12>& CheckTolerances::all()
   return names;
 }
 
+void CheckTolerances::require_sense() const
+{
+  for (const auto& [name, value, meaning] : all())
+    if (!(this->*value >= 0) || !std::isfinite(this->*value))
+      throw UsageError(fmt::format("--{} is {}: it must be 0 or more", name, this->*value));
+  if (!(false_alarm > 0) || !(false_alarm < 1))
+    throw UsageError(fmt::format("--false-alarm is {}: it must lie between 0 and 1", false_alarm));
+}
+
 PhysicsCheck::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& settings)
     : run_(run),
       tolerances_(settings.tolerances),
@@ -151,6 +160,7 @@ PhysicsCheck::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& s
       base_force_(base_force_of(run)),
       energy_defect_(observable_of(run, "energy_defect"))
 {
+  tolerances_.require_sense();
   try {
     windows_ = cut_into_windows(
         {run.steps(), run.step(), number_of(run, "frame_interval").value_or(0)}, settings.windows);
@@ -165,19 +175,28 @@ bool PhysicsCheck::in_window(std::size_t index) const
   return window_ < windows_.size() && index >= windows_[window_].frames.front();
 }
 
+/// Whether the energies are so small that what is missing of them is round-off of the forces.
+bool PhysicsCheck::at_rest(const TotalMotion& total) const
+{
+  constexpr double least = 1e-12;
+  return total.energy < least * total.mass * gravity_.norm() * small_diameter_;
+}
+
 void PhysicsCheck::add(std::size_t index, const Frame& frame)
 {
   if (frame.time < begin_ || frame.time >= end_) return;
   const auto& grains = run_.grains();
   std::optional<Vec2> base;
   if (!base_force_.empty()) base = base_force_[index];
-  motion_.add(total_motion(grains, frame, run_.box()), base);
+  const auto total = total_motion(grains, frame, run_.box());
+  motion_.add(total, base);
   if (in_window(index) && windows_[window_].frames.front() == index) begin_window(frame);
   has_force_ = has_force_ && !frame.force.empty();
   forces_.add(grains, frame);
   partials_.add(grains, frame);
   contacts_.add(grains, frame);
-  if (!energy_defect_.empty()) energy_.add(energy_defect_[index], frame.time, 0);
+  if (!energy_defect_.empty())
+    energy_.add(at_rest(total) ? 0 : energy_defect_[index], frame.time, 0);
   if (!in_window(index)) return;
   if (weights_) weights_->add_to_mean(grains, frame);
   if (windows_[window_].frames.back() == index) end_window();

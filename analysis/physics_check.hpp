@@ -22,6 +22,8 @@ namespace grseg {
 /// fails only if it is beyond both the number given here and what chance does to it: the quantile
 /// of Student's t at `false_alarm`, over all layers together, times the standard error.
 struct CheckTolerances {
+  /// (An energy defect is relative to energies; it counts while the kinetic one is above
+  /// 1e-12 M g d_S.)
   double round_off = 1e-10, single_precision = 1e-5;
   double mean_overlap = 5e-3, largest_overlap = 0.1;     // d_S
   double mean_approach = 1e-3, largest_approach = 0.05;  // d_S per step
@@ -37,6 +39,8 @@ struct CheckTolerances {
     const char* meaning;
   };
   static const std::array<Named, 12>& all();
+  /// UsageError, naming the option, where one is no tolerance.
+  void require_sense() const;
 };
 
 struct PhysicsSettings {
@@ -65,6 +69,7 @@ class PhysicsCheck {
     double energy_defect = 0, frames = 0;
   };
   bool in_window(std::size_t index) const;
+  bool at_rest(const TotalMotion& total) const;
   void begin_window(const Frame& frame);
   void end_window();
   void add_balances(std::vector<CheckLine>& lines) const;

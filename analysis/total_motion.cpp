@@ -16,6 +16,7 @@ TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& bo
     if (!is_mobile(grains, g)) continue;
     total.mass += grains.mass[g];
     total.momentum += grains.mass[g] * frame.velocity[g];
+    total.energy += grains.mass[g] * frame.velocity[g].squaredNorm() / 2;
     total.x += grains.mass[g] * (frame.position[g].x() + frame.image[g][0] * box.length_x);
   }
   if (total.mass > 0) total.x /= total.mass;

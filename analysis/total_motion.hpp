@@ -16,6 +16,7 @@ struct TotalMotion {
   double time = 0;               // s
   double mass = 0;               // kg
   Vec2 momentum = Vec2::Zero();  // kg m/s
+  double energy = 0;             // J, kinetic, of translation
   double x = 0;                  // m, of the centre of mass, periods counted
 };
 TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& box);

@@ -336,16 +336,19 @@ TEST_F(Check, GrainsThatMoveWithoutVelocityAreFound)
   EXPECT_EQ(failed(column), Names{"x_drift"});
 }
 
-TEST_F(Check, EnergyThatIsMissingIsFound)
+TEST_F(Check, EnergyThatIsMissingIsFoundUnlessNothingMoves)
 {
-  Column column;
+  Column column({3, -weight}, 0.5);
   column.observables[7][2] = 1e-9;
   EXPECT_EQ(failed(column), Names{"energy_defect"});
+  Column at_rest;
+  at_rest.observables[7][2] = 1e-9;
+  EXPECT_EQ(failed(at_rest), Names{});
 }
 
 TEST_F(Check, EnergyThatGoesMissingMoreAndMoreIsFound)
 {
-  Column column;
+  Column column({3, -weight}, 0.5);
   for (std::size_t k = 0; k < column.frames.size(); ++k)
     column.observables[k][2] = 1e-11 * static_cast<double>(k);
   EXPECT_EQ(failed(column), (Names{"energy_defect", "energy_defect_drift"}));
