@@ -296,6 +296,44 @@ TEST_F(Check, DiscsThatGoOnApproachingAreFound)
   EXPECT_EQ(failed(column), (Names{"approach_largest", "approach_mean"}));
 }
 
+// A disc that touches after an approach at 0.4 m/s owes 0.1 m/s at e = 1/4; one that is 30
+// micrometres away may close its gap within 0.75 steps, at 0.4 m/s.
+TEST_F(Check, WhatAPairLacksOfItsSeparationVelocityIsNewtonsOrThatOfItsGap)
+{
+  ContactRules rules;
+  rules.restitution = 0.25;
+  rules.step = h;
+  rules.horizon = rules.look_ahead = 0.75;
+  const auto lacking = [&](double gap, double before, double after) {
+    Column column;
+    auto& frame = column.frames[0];
+    Column::lift_top(frame, gap);
+    frame.velocity[discs].y() = after;
+    frame.force[discs].y() = column.description.grains.mass[discs] * (after - before) / h;
+    ContactViolations violations(rules);
+    violations.add(column.description.grains, frame);
+    return violations.approach().largest / h;
+  };
+  EXPECT_NEAR(lacking(0, -0.4, 0.1), 0, 1e-12);
+  EXPECT_NEAR(lacking(0, -0.4, 0.04), 0.06, 1e-12);
+  EXPECT_NEAR(lacking(0, -0.4, -0.04), 0.14, 1e-12);
+  EXPECT_NEAR(lacking(30e-6, -0.6, -0.4), 0, 1e-12);
+  EXPECT_NEAR(lacking(30e-6, -0.6, -0.5), 0.1, 1e-12);
+}
+
+TEST_F(Check, FramesBeforeTheTiltAreNotHeldAgainstTheTiltedGravity)
+{
+  Column column;
+  for (std::size_t k = 0; k < column.frames.size(); ++k) {
+    auto& frame = column.frames[k];
+    frame.step -= 1500;
+    frame.time -= 1500 * h;
+    if (k < 3)
+      for (auto& force : frame.contacts.force) force *= 1.1;
+  }
+  EXPECT_EQ(failed(column), Names{});
+}
+
 TEST_F(Check, DeepOverlapIsFound)
 {
   Column column;
