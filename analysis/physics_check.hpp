@@ -91,7 +91,6 @@ class PhysicsCheck {
   Layers layers_;
   double begin_, end_;  // s
   std::vector<Window> windows_;
-  std::string no_windows_;  // why there are none
 
   ForceBalance forces_;
   MotionBalance motion_;

@@ -29,16 +29,16 @@ std::vector<What> moments_above(const Grains& grains, const Frame& frame, const 
   return moment;
 }
 
-/// What windows say of one layer, two numbers each: what it carries and what it should.
-struct Series {
-  std::vector<Vec2> carried, asked;  // (xy, yy), N/m
+Vec2 mean_of(const std::vector<Vec2>& values)
+{
+  Vec2 sum = Vec2::Zero();
+  for (const auto& value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
 
-  Vec2 mean(const std::vector<Vec2>& values) const
-  {
-    Vec2 sum = Vec2::Zero();
-    for (const auto& value : values) sum += value;
-    return sum / static_cast<double>(values.size());
-  }
+/// What windows say of one layer: what it carries and what the balance asks for, (xy, yy), N/m.
+struct Series {
+  std::vector<Vec2> carried, asked;
 };
 
 /// Standard error of a mean from the deviations of its parts, which add up to 0.
@@ -65,7 +65,7 @@ Series series_of(const std::vector<WeightWindow>& windows, std::size_t layer)
 
 LayerBalance balance_of(const Series& series)
 {
-  const Vec2 carried = series.mean(series.carried), asked = series.mean(series.asked);
+  const Vec2 carried = mean_of(series.carried), asked = mean_of(series.asked);
   const std::size_t n = series.carried.size();
   LayerBalance balance;
   balance.carried = carried.y() / asked.y();
@@ -142,7 +142,7 @@ std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& window
   std::size_t count = windows.front().stress.size();
   for (const auto& window : windows) count = std::min(count, window.stress.size());
   if (count == 0) return balances;
-  const auto load = [](const Series& series) { return series.mean(series.asked).y(); };
+  const auto load = [](const Series& series) { return mean_of(series.asked).y(); };
   const double least = least_load * load(series_of(windows, 0));
   for (std::size_t n = 1; n < count; ++n) {
     const auto series = series_of(windows, n);
