@@ -459,6 +459,15 @@ TEST_F(Check, AFewFramesSkipWhatNeedsWindows)
                                                   "torque_balance", "weight", "x_drift"}));
 }
 
+TEST_F(Check, ARunWithoutFramesIsNamed)
+{
+  Column column;
+  column.frames.clear();
+  const auto lines = lines_of(column);
+  EXPECT_EQ(with(Verdict::failed, lines), Names{"no_frames"});
+  EXPECT_EQ(with(Verdict::skipped, lines), Names{"physics"});
+}
+
 TEST_F(Check, AFrameThatIsNotAsWrittenDisagreesWithItsDigest)
 {
   Column().write(path);
