@@ -320,10 +320,8 @@ void TrajectoryReader::drop_damaged_end()
 {
   auto& my = *impl_;
   if (my.parameters.numbers.contains("complete") || !exists(my.file, "/grseg/digest")) return;
-  const auto stored = my.open("/grseg/digest", H5T_INTEGER, 1);
-  stored.require(0, size(), true);
-  std::vector<std::uint64_t> digests(size() + 1, 0);
-  stored.read_rows(H5T_NATIVE_UINT64, 0, size(), digests.data() + 1);
+  auto digests = this->digests();
+  digests.insert(digests.begin(), 0);
   Frame frame;
   const auto whole = [&](std::size_t last) {
     try {
@@ -331,7 +329,7 @@ void TrajectoryReader::drop_damaged_end()
     } catch (const FormatError&) {
       return false;
     }
-    return frame_digest(frame, digests[last], my.position.stores_float32()) == digests[last + 1];
+    return frame_digest(frame, digests[last], stores_float32()) == digests[last + 1];
   };
   while (size() > 0 && !whole(size() - 1)) {
     my.offset.pop_back();
@@ -451,12 +449,21 @@ std::vector<double> TrajectoryReader::observable(const std::string& name) const
 
 std::uint64_t TrajectoryReader::digest() const
 {
-  if (size() == 0) return 0;
+  return size() == 0 ? 0 : digests().back();
+}
+
+std::vector<std::uint64_t> TrajectoryReader::digests() const
+{
   const auto dataset = impl_->open("/grseg/digest", H5T_INTEGER, 1);
   dataset.require(0, size(), true);
-  std::uint64_t last = 0;
-  dataset.read_rows(H5T_NATIVE_UINT64, size() - 1, 1, &last);
-  return last;
+  std::vector<std::uint64_t> all(size());
+  dataset.read_rows(H5T_NATIVE_UINT64, 0, size(), all.data());
+  return all;
+}
+
+bool TrajectoryReader::stores_float32() const
+{
+  return impl_->position.stores_float32();
 }
 
 }  // namespace grseg

@@ -56,6 +56,10 @@ class TrajectoryReader {
 
   /// xxh3 chain up to and including the last committed frame: the content digest of the run.
   std::uint64_t digest() const;
+  /// The chain itself, one entry per committed frame (formats/digest.hpp).
+  std::vector<std::uint64_t> digests() const;
+  /// Whether the numbers of grains and contacts are stored in single precision.
+  bool stores_float32() const;
 
  private:
   void drop_damaged_end();

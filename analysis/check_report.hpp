@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grseg {
+
+enum class Verdict { passed, failed, skipped };
+
+/// One thing that was measured against a tolerance.
+struct CheckLine {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  std::string quantity;         // "force_balance"
+  double y0 = none, y1 = none;  // m, of a layer
+  double measured = none;
+  double error = none;  // standard error of `measured`, where it is statistical
+  double tolerance = none;
+  Verdict verdict = Verdict::skipped;
+  std::string remark;  // where the largest is; why it was skipped
+};
+
+/// What grseg-check prints.
+struct CheckReport {
+  std::vector<std::pair<std::string, std::string>> header;  // program, history, input, settings
+  std::vector<CheckLine> lines;
+
+  /// One sentence that names every line that failed, or "" where none did.
+  std::string failures() const;
+};
+
+/// `#` lines, a line of column names, one row per line. Numbers have 17 significant digits.
+std::string to_tsv(const CheckReport& report);
+/// {"lines": [{"quantity", "layer", "measured", ...}, ...], "passed", "settings", "history"}
+std::string to_json(const CheckReport& report);
+
+}  // namespace grseg

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/content_check.hpp"
+#include "analysis/physics_check.hpp"
+#include "formats/digest.hpp"
+#include "formats/errors.hpp"
+#include "formats/table.hpp"
+#include "formats/tool.hpp"
+#include "formats/trajectory_reader.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+using namespace grseg;
+
+namespace {
+
+constexpr ToolInfo info{
+    "grseg-check",
+    "whether a run is whole, and with --physics whether it obeys the laws of mechanics.",
+    "grseg-check run.h5 [options] > check.tsv",
+    "  grseg-check run.h5                               closed, readable, digests agree\n"
+    "  grseg-check run.h5 --physics                     balances, contact laws, layers, drift\n"
+    "  grseg-check run.h5 --physics --begin 20 --mean-overlap 1e-3 --json -o check.json\n"};
+
+struct Settings {
+  PhysicsSettings physics;
+  std::string output;
+  bool with_physics = false, json = false, quiet = false;
+};
+
+po::options_description options_into(Settings& s)
+{
+  po::options_description options("Options");
+  auto add = options.add_options();
+  auto& windows = s.physics.windows;
+  const auto time = [](std::optional<double>& place) {
+    return po::value<double>()->value_name("s")->notifier([&place](double t) { place = t; });
+  };
+  add("physics", po::bool_switch(&s.with_physics),
+      "check the physics too; a line fails beyond its tolerance, all of which are options");
+  add("layer", po::value(&s.physics.layer)->default_value(s.physics.layer)->value_name("LENGTH"),
+      "thickness of the layers whose weight is carried: 4dS, 2dL, 20mm, or metres");
+  add("window", po::value(&windows.length)->default_value(windows.length)->value_name("s"),
+      "time over which means are taken; their scatter is the error");
+  add("begin", time(windows.begin), "leave out what is before (default: t = 0)");
+  add("end", time(windows.end), "leave out what is from here on (default: the run)");
+  for (const auto& tolerance : CheckTolerances::all()) {
+    double& value = s.physics.tolerances.*tolerance.value;
+    add(tolerance.name, po::value(&value)->default_value(value, fmt::format("{:g}", value)),
+        tolerance.meaning);
+  }
+  add("json", po::bool_switch(&s.json), "print JSON instead of a table");
+  add("quiet", po::bool_switch(&s.quiet), "no progress on standard error");
+  add("output,o", po::value(&s.output)->value_name("FILE"), "instead of standard output");
+  return options;
+}
+
+const std::string& the_run(const po::variables_map& values)
+{
+  if (values.count("input") == 0)
+    throw UsageError("no run given; name a trajectory file, e.g. run.h5");
+  const auto& inputs = values["input"].as<std::vector<std::string>>();
+  if (inputs.size() != 1)
+    throw UsageError(fmt::format("{} runs given; check one at a time", inputs.size()));
+  return inputs[0];
+}
+
+std::vector<std::pair<std::string, std::string>> header_of(const TrajectoryReader& run,
+                                                           const Settings& s,
+                                                           const std::string& command)
+{
+  std::vector<std::pair<std::string, std::string>> header{
+      {"program", fmt::format("{} {}", info.name, version())}};
+  std::istringstream history(run.parameters().text("history"));
+  for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
+  header.emplace_back("history", command);
+  header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run.digest())));
+  if (!s.with_physics) return header;
+  header.emplace_back("layer", s.physics.layer);
+  header.emplace_back("window", format_number(s.physics.windows.length));
+  for (const auto& tolerance : CheckTolerances::all())
+    header.emplace_back(tolerance.name, format_number(s.physics.tolerances.*tolerance.value));
+  return header;
+}
+
+CheckReport check(const TrajectoryReader& run, const Settings& s, const std::string& command)
+{
+  ContentCheck content(run);
+  std::optional<PhysicsCheck> physics;
+  if (s.with_physics) physics.emplace(run, s.physics);
+  const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
+  Frame frame;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
+    content.add(k, frame);
+    if (physics) physics->add(k, frame);
+    if (progress && k % 100 == 0)
+      fmt::print(stderr, "\r{}: frame {} of {}\033[K", info.name, k, run.size());
+  }
+  if (progress) fmt::print(stderr, "\r\033[K");
+  CheckReport report{header_of(run, s, command), content.lines()};
+  if (physics)
+    for (auto& line : physics->lines()) report.lines.push_back(std::move(line));
+  return report;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Settings settings;
+  const auto options = options_into(settings);
+  return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
+    const TrajectoryReader run(the_run(values));
+    const auto report = check(run, settings, command_line(argc, argv));
+    write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));
+    std::cout.flush();
+    if (const auto failures = report.failures(); !failures.empty())
+      throw CheckError(fmt::format("{}: {}", run.path(), failures));
+  });
+}
