@@ -32,6 +32,7 @@ std::string header_lines(const FitReport& report)
   for (const auto& [key, value] : report.header) text += fmt::format("# {}: {}\n", key, value);
   for (const auto& input : report.inputs) text += fmt::format("# input: {}\n", input);
   for (const auto& line : report.history) text += fmt::format("# history: {}\n", line);
+  for (const auto& doubt : doubts(report)) text += fmt::format("# doubt: {}\n", doubt);
   return text;
 }
 
@@ -50,7 +51,8 @@ std::string rule_table(const FitReport& report)
     text += fmt::format("\t{0}\t{0}_low\t{0}_high", name);
   text +=
       "\tneutral\tminus_size\tminus_size_low\tminus_size_high\tnot_positive"
-      "\tautocorrelation_time[windows]\tblock_length[windows]\teffective_windows\n";
+      "\tautocorrelation_time[windows]\tblock_length[windows]\teffective_windows"
+      "\tB_half_windows_low\tB_half_windows_high\n";
   for (const auto& fit : report.rules) {
     std::vector<double> numbers{static_cast<double>(fit.points)};
     for (const auto& [name, place] : estimator_names)
@@ -59,7 +61,8 @@ std::string rule_table(const FitReport& report)
         numbers.end(),
         {fit.neutral, fit.minus_size, fit.minus_size_interval.low, fit.minus_size_interval.high,
          static_cast<double>(fit.not_positive), fit.dependence.time,
-         static_cast<double>(fit.dependence.block), fit.dependence.effective_windows});
+         static_cast<double>(fit.dependence.block), fit.dependence.effective_windows,
+         fit.B_half_windows.low, fit.B_half_windows.high});
     text += rule_name(report, fit) + '\t' + row(numbers);
   }
   return text;
@@ -71,7 +74,9 @@ std::string scan_table(const PartitionScan& scan)
   for (const auto& [key, value] : {std::pair{"p_zero", scan.p_zero},
                                    {"p_zero_low", scan.p_low},
                                    {"p_zero_high", scan.p_high},
-                                   {"dB_dp", scan.dB_dp}})
+                                   {"dB_dp", scan.dB_dp},
+                                   {"autocorrelation_time", scan.dependence.time},
+                                   {"block_length", static_cast<double>(scan.dependence.block)}})
     text += fmt::format("# {}: {}\n", key, format_number(value));
   text += "p\tB\tlow\thigh\tB_direct\tB_direct_low\tB_direct_high\tneutral\n";
   for (const auto& fit : scan.fits)
@@ -96,6 +101,7 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
           {"B_mean", fit.value.B_mean},
           {"B_direct", fit.value.B_direct},
           {"B_interval", {fit.low.B_half, fit.high.B_half}},
+          {"B_windows_interval", {fit.B_half_windows.low, fit.B_half_windows.high}},
           {"neutral", fit.neutral},
           {"minus_size", fit.minus_size},
           {"minus_size_interval", {fit.minus_size_interval.low, fit.minus_size_interval.high}},
@@ -108,6 +114,16 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
 }
 
 }  // namespace
+
+std::vector<std::string> doubts(const FitReport& report)
+{
+  std::vector<std::string> all;
+  for (const auto& fit : report.rules)
+    if (!fit.doubt.empty()) all.push_back(fmt::format("{}: {}", rule_name(report, fit), fit.doubt));
+  if (report.scan && !report.scan->fits.front().doubt.empty())
+    all.push_back("scan: " + report.scan->fits.front().doubt);
+  return all;
+}
 
 std::string to_tsv(const FitReport& report)
 {
@@ -127,10 +143,13 @@ std::string to_json(const FitReport& report)
     all["p_zero"] = report.scan->p_zero;
     all["p_zero_interval"] = {report.scan->p_low, report.scan->p_high};
     all["dB_dp"] = report.scan->dB_dp;
+    all["autocorrelation_time"] = report.scan->dependence.time;
+    all["block_length"] = report.scan->dependence.block;
   }
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
   all["inputs"] = report.inputs;
   all["history"] = report.history;
+  all["doubts"] = doubts(report);
   return all.dump(2) + '\n';
 }
 

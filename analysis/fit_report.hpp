@@ -22,6 +22,10 @@ struct FitReport {
   std::optional<PartitionScan> scan;
 };
 
+/// What limits the intervals: a sentence per rule and one for the scan, mostly none. They are among
+/// the lines of the table and in "doubts".
+std::vector<std::string> doubts(const FitReport& report);
+
 /// "# key: value" lines, one line of column[unit] names, a row per rule, whose name stands first;
 /// with a scan instead a row per share p, with p_zero and dB_dp among the lines above.
 std::string to_tsv(const FitReport& report);

@@ -64,6 +64,16 @@ double refine_zero(double share, const FitData& data, const FitSettings& setting
   return share;
 }
 
+/// One for all shares, so that the band of B(p) does not jump where the block length would.
+Dependence worst_dependence(const FitData& data, const ScanRange& range,
+                            const FitSettings& settings)
+{
+  auto worst = dependence_of(data, uniform(range.first), settings);
+  for (const double share : range.shares())
+    worst = worse(worst, dependence_of(data, uniform(share), settings));
+  return worst;
+}
+
 }  // namespace
 
 std::vector<double> ScanRange::shares() const
@@ -98,8 +108,9 @@ PartitionScan scan_partition(const FitData& data, const ScanRange& range,
                              const FitSettings& settings, const Bootstrap& bootstrap)
 {
   PartitionScan scan;
+  scan.dependence = worst_dependence(data, range, settings);
   for (const double share : range.shares())
-    scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap));
+    scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
   const double near = crossing(scan.fits, &RuleFit::value);
   if (std::isnan(near)) return scan;
   scan.p_zero = refine_zero(near, data, settings);

@@ -21,6 +21,7 @@ ScanRange parse_scan(const std::string& text);
 /// B as a function of the share p that the large grain of a mixed contact gets.
 struct PartitionScan {
   std::vector<RuleFit> fits;                                 // uniform:p, one per share
+  Dependence dependence;                                     // the worst of all, common to all fits
   double p_zero = std::numeric_limits<double>::quiet_NaN();  // B_half(p) = 0; NaN: not in range
   double p_low = std::numeric_limits<double>::quiet_NaN();   // where the interval of B ends at 0,
   double p_high = std::numeric_limits<double>::quiet_NaN();  // i.e. the interval of p_zero

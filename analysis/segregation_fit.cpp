@@ -113,18 +113,32 @@ std::vector<Estimates> replicate(const Eigen::MatrixXd& times, const Eigen::Matr
   return replicates;
 }
 
-/// What each window adds to the deviation of mean ln(y/x) and of B_direct from their values.
-Dependence dependence_of(const Eigen::MatrixXd& sums, const RunLengths& runs, bool direct)
+/// How a statistic scatters over the two kinds of samples.
+struct Replicates {
+  Eigen::VectorXd inside, between;
+};
+
+Interval interval_of(double estimate, const Replicates& replicates, const Bootstrap& bootstrap,
+                     const Dependence& dependence)
 {
-  const Eigen::RowVectorXd total = sums.colwise().sum();
-  const Eigen::VectorXd logarithm = sums.col(sum_wY) - sums.col(sum_wX);
-  const double mean = (total[sum_wY] - total[sum_wX]) / total[sum_w];
-  const auto of_log = dependence(logarithm - mean * sums.col(sum_w), sums.col(sum_w), runs);
-  if (!direct) return of_log;
-  const double b = total[sum_wQD] / total[sum_wQQ];
-  const auto of_direct =
-      dependence(sums.col(sum_wQD) - b * sums.col(sum_wQQ), sums.col(sum_wQQ), runs);
-  return total[sum_w] > 0 ? worse(of_log, of_direct) : of_direct;
+  return bootstrap.runs().size() > 1
+             ? bootstrap.over_runs(estimate, replicates.between, dependence)
+             : bootstrap.over_windows(estimate, replicates.inside, dependence);
+}
+
+void add_intervals(RuleFit& fit, const Eigen::MatrixXd& sums, const Bootstrap& bootstrap)
+{
+  const auto inside = replicate(bootstrap.blocks(fit.dependence.block), sums);
+  const auto between = replicate(bootstrap.whole_runs(), sums);
+  for (const auto& [name, place] : estimator_names) {
+    const auto interval =
+        interval_of(fit.value.*place, {column_of(inside, place), column_of(between, place)},
+                    bootstrap, fit.dependence);
+    fit.low.*place = interval.low;
+    fit.high.*place = interval.high;
+  }
+  fit.B_half_windows = bootstrap.over_windows(
+      fit.value.B_half, column_of(inside, &Estimates::B_half), fit.dependence);
 }
 
 void add_minus_size(RuleFit& fit, const std::vector<FitPoint>& points,
@@ -138,9 +152,15 @@ void add_minus_size(RuleFit& fit, const std::vector<FitPoint>& points,
     return column_of(replicate(times, sums), &Estimates::B_direct) -
            column_of(replicate(times, size_sums), &Estimates::B_direct);
   };
-  fit.minus_size_interval =
-      bootstrap.interval(fit.minus_size, difference(bootstrap.blocks(fit.dependence.block)),
-                         difference(bootstrap.whole_runs()), fit.dependence);
+  fit.minus_size_interval = interval_of(
+      fit.minus_size,
+      {difference(bootstrap.blocks(fit.dependence.block)), difference(bootstrap.whole_runs())},
+      bootstrap, fit.dependence);
+}
+
+bool adds_up(const PartitionRule& rule)
+{
+  return rule.kind != PartitionRule::Kind::drop;
 }
 
 }  // namespace
@@ -241,11 +261,31 @@ double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& ru
   return sum / weights;
 }
 
+Dependence dependence_of(const FitData& data, const PartitionRule& rule,
+                         const FitSettings& settings)
+{
+  const Eigen::MatrixXd sums = window_sums(fit_points(data, rule, settings), data.runs);
+  const Eigen::RowVectorXd total = sums.colwise().sum();
+  const Eigen::VectorXd logarithm = sums.col(sum_wY) - sums.col(sum_wX);
+  const double mean = (total[sum_wY] - total[sum_wX]) / total[sum_w];
+  const auto of_log = dependence(logarithm - mean * sums.col(sum_w), sums.col(sum_w), data.runs);
+  if (!adds_up(rule)) return of_log;
+  const double b = total[sum_wQD] / total[sum_wQQ];
+  const auto of_direct =
+      dependence(sums.col(sum_wQD) - b * sums.col(sum_wQQ), sums.col(sum_wQQ), data.runs);
+  return total[sum_w] > 0 ? worse(of_log, of_direct) : of_direct;
+}
+
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                  const Bootstrap& bootstrap)
 {
+  return fit_rule(data, rule, settings, bootstrap, dependence_of(data, rule, settings));
+}
+
+RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
+                 const Bootstrap& bootstrap, const Dependence& dependence)
+{
   const auto points = fit_points(data, rule, settings);
-  const bool adds_up = rule.kind != PartitionRule::Kind::drop;
   const bool contact = data.quantity == Quantity::contact;
   RuleFit fit;
   fit.rule = rule;
@@ -254,23 +294,16 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   fit.not_positive = points.size() - fit.points;
   fit.value = estimate(points);
   if (contact) fit.neutral = neutral_mean(points, rule);
+  fit.dependence = dependence;
+  fit.doubt = bootstrap.doubt(dependence);
 
-  const Eigen::MatrixXd sums = window_sums(points, data.runs);
-  fit.dependence = dependence_of(sums, data.runs, adds_up);
-  if (bootstrap.samples() > 0) {
-    const auto inside = replicate(bootstrap.blocks(fit.dependence.block), sums);
-    const auto between = replicate(bootstrap.whole_runs(), sums);
-    for (const auto& [name, place] : estimator_names) {
-      const auto interval = bootstrap.interval(fit.value.*place, column_of(inside, place),
-                                               column_of(between, place), fit.dependence);
-      fit.low.*place = interval.low;
-      fit.high.*place = interval.high;
-    }
-  }
-  if (!adds_up)
+  if (bootstrap.samples() > 0) add_intervals(fit, window_sums(points, data.runs), bootstrap);
+  if (!adds_up(rule)) {
     for (auto* all : {&fit.value, &fit.low, &fit.high}) forget_b(*all);
-  else if (contact)
+    fit.B_half_windows = {Estimates::nan, Estimates::nan};
+  } else if (contact) {
     add_minus_size(fit, points, fit_points(data, PartitionRule{}, settings), bootstrap);
+  }
   return fit;
 }
 

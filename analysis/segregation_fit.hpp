@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
-#include <optional>
+#include <string>
 #include <vector>
 
 /// The segregation strength B of Gray & Thornton (2005), psi_L = phi_L (1 + B phi_S), from partial
@@ -93,15 +93,26 @@ struct RuleFit {
   PartitionRule rule;
   std::size_t points = 0;        // with both stresses positive
   std::size_t not_positive = 0;  // the others
-  Estimates value, low, high;    // intervals of 95 %
+  // Intervals of 95 %, of several runs by their scatter.
+  Estimates value, low, high;
+  Interval B_half_windows{Estimates::nan, Estimates::nan};  // by the windows' scatter inside runs
   double neutral = Estimates::nan;
   double minus_size = Estimates::nan;  // B_direct less that of rule size, same samples
   Interval minus_size_interval{Estimates::nan, Estimates::nan};
   Dependence dependence;
+  std::string doubt;  // a sentence on the intervals, mostly empty
 };
+
+/// How the windows of a fit depend on each other: the worse of what they add to the mean of
+/// ln(y/x) and to B_direct.
+Dependence dependence_of(const FitData& data, const PartitionRule& rule,
+                         const FitSettings& settings);
 
 /// For `drop` every B is NaN: its partial stresses do not add up to the whole.
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                  const Bootstrap& bootstrap);
+/// With a dependence that several fits share.
+RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
+                 const Bootstrap& bootstrap, const Dependence& dependence);
 
 }  // namespace grseg

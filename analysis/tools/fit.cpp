@@ -153,17 +153,14 @@ void collect(const std::vector<Table>& tables, const char* key, std::vector<std:
 }
 
 /// Says on standard error what a reader of the numbers should know.
-void remark(const std::vector<Table>& tables, const FitReport& report, bool bootstrap)
+void remark(const std::vector<Table>& tables, const FitReport& report)
 {
   for (const char* key : {"assign", "layer", "window", "base", "partition", "step"})
     for (const auto& table : tables)
       if (header_or(table, key, "") != header_or(tables[0], key, ""))
         std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name, tables[0].name,
                                  table.name, key);
-  for (const auto& fit : report.rules)
-    if (bootstrap && std::isnan(fit.low.slope))
-      std::cerr << fmt::format("{}: {}: too few windows for an interval ({:.3g} effective ones)\n",
-                               info.name, fit.rule.name(), fit.dependence.effective_windows);
+  for (const auto& doubt : doubts(report)) std::cerr << fmt::format("{}: {}\n", info.name, doubt);
 }
 
 FitReport make_report(const Settings& s, const std::vector<Table>& tables)
@@ -216,7 +213,7 @@ int main(int argc, char** argv)
 
     auto report = make_report(settings, tables);
     report.history.push_back(command_line(argc, argv));
-    if (!values.contains("quiet")) remark(tables, report, settings.bootstrap > 0);
+    if (!values.contains("quiet")) remark(tables, report);
     write_whole(settings.output, values.contains("json") ? to_json(report) : to_tsv(report));
   });
 }

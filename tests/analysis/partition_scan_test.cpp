@@ -2,11 +2,14 @@
 #include "analysis/partition_scan.hpp"
 
 #include "formats/errors.hpp"
+#include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -17,19 +20,62 @@ using synthetic::no_bootstrap;
 using synthetic::read;
 using synthetic::stress_table;
 
-TEST(PartitionScan, EveryShareIsTheSingleFitOfItsRule)
+PartitionRule uniform(double share)
+{
+  return {PartitionRule::Kind::uniform, share};
+}
+
+TEST(PartitionScan, EveryShareIsTheSingleFitOfItsRuleInBlocksOfTheScan)
 {
   const auto data = neutral_data(0.1);
   const Bootstrap bootstrap(data.runs, 200, 4);
   const auto scan = scan_partition(data, parse_scan("0.4:0.9:0.1"), {}, bootstrap);
   ASSERT_EQ(scan.fits.size(), 6u);
   for (const auto& one : scan.fits) {
-    const auto single =
-        fit_rule(data, {PartitionRule::Kind::uniform, one.rule.value}, {}, bootstrap);
+    const auto single = fit_rule(data, uniform(one.rule.value), {}, bootstrap, scan.dependence);
     EXPECT_NEAR(one.value.B_half, single.value.B_half, 1e-12);
     EXPECT_NEAR(one.low.B_half, single.low.B_half, 1e-12);
     EXPECT_NEAR(one.high.B_direct, single.high.B_direct, 1e-12);
   }
+}
+
+/// 120 windows in which contacts of large grains remember for ten windows and mixed ones nothing.
+FitData of_two_memories()
+{
+  synthetic::Ar1 slow(0.8), quick(0);
+  const Eigen::VectorXd large = slow.series(120), mixed = quick.series(120);
+  std::vector<synthetic::TableRow> rows;
+  for (Eigen::Index window = 0; window < 120; ++window) {
+    auto sums = synthetic::neutral_sums(0.5, 2);
+    sums.ll *= 1 + 0.02 * large[window];
+    for (auto* part : {&sums.mixed, &sums.mixed_size, &sums.mixed_contact})
+      *part *= 1 + 0.1 * mixed[window];
+    const auto begin = static_cast<double>(window);
+    rows.push_back({begin, begin + 1, 25, sums});
+  }
+  return read({stress_table(rows)});
+}
+
+// The block length changes with the share; were each share to take its own, the band would jump
+// there. With one for all it changes as smoothly as B: a step of 0.002 moves its half-width, which
+// halves over some tenths, by less than two per cent.
+TEST(PartitionScan, TheBandOfBIsSmooth)
+{
+  const auto data = of_two_memories();
+  const Bootstrap bootstrap(data.runs, 1000, 4);
+  const auto scan = scan_partition(data, parse_scan("0.5:0.8:0.002"), {}, bootstrap);
+  const auto half_width = [](const RuleFit& fit) { return (fit.high.B_half - fit.low.B_half) / 2; };
+  double jump = 0, own_jump = 0;
+  for (std::size_t k = 1; k < scan.fits.size(); ++k) {
+    const auto &fit = scan.fits[k], &before = scan.fits[k - 1];
+    jump = std::max(jump, std::abs(half_width(fit) / half_width(before) - 1));
+    const auto own = [&](const RuleFit& of) {
+      return half_width(fit_rule(data, of.rule, {}, bootstrap));
+    };
+    own_jump = std::max(own_jump, std::abs(own(fit) / own(before) - 1));
+  }
+  EXPECT_LT(jump, 0.02);
+  EXPECT_GT(own_jump, 2 * jump);
 }
 
 // B_half = 2 (1 - s)/(1 + s) has the slope of -ln s at s = 1, and there the neutral model gives
