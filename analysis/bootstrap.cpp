@@ -117,6 +117,20 @@ Interval students_interval(double estimate, double variance, double degrees)
   return {estimate - reach, estimate + reach};
 }
 
+/// rho of the AR(1) series whose autocorrelation time is `time` = (1 + rho)/(1 - rho).
+double neighbour_correlation(double time)
+{
+  return (time - 1) / (time + 1);
+}
+
+/// Variance of the mean over blocks of `length` windows of an AR(1) series, relative to what it
+/// would be if what lies on both sides of a cut were correlated, too.
+double kept_in_blocks(double time, std::size_t length)
+{
+  const double rho = neighbour_correlation(time), b = static_cast<double>(length);
+  return 1 - 2 * rho * (1 - std::pow(rho, b)) / (b * (1 - rho * rho));
+}
+
 /// (sum b)^2 / sum b^2
 double effective_number(const Eigen::VectorXd& weight)
 {
@@ -154,8 +168,9 @@ std::size_t block_length(double time, const RunLengths& runs)
   if (runs.empty()) return 1;
   const auto windows = static_cast<double>(total(runs));
   const auto count = static_cast<double>(runs.size());
+  const double rho = neighbour_correlation(time);
   const double best =
-      std::pow(std::sqrt(6.0) / 4 * (time - 1 / time), 2.0 / 3) * std::cbrt(windows / count);
+      std::pow(std::sqrt(6.0) * rho / (1 - rho * rho), 2.0 / 3) * std::cbrt(windows / count);
   const double longest = std::floor(windows / (count + 1));
   return static_cast<std::size_t>(std::max(1.0, std::min(std::ceil(best), longest)));
 }
@@ -222,6 +237,18 @@ const Eigen::MatrixXd& Bootstrap::whole_runs() const
   return whole_runs_;
 }
 
+const Eigen::MatrixXd& Bootstrap::samples(const Dependence& dependence) const
+{
+  return runs_.size() > 1 ? whole_runs() : blocks(dependence.block);
+}
+
+Interval Bootstrap::interval(double estimate, const Eigen::VectorXd& samples,
+                             const Dependence& dependence) const
+{
+  return runs_.size() > 1 ? over_runs(estimate, samples, dependence)
+                          : over_windows(estimate, samples, dependence);
+}
+
 double Bootstrap::window_degrees(const Dependence& dependence) const
 {
   return dependence.effective_windows / static_cast<double>(dependence.block) -
@@ -233,10 +260,9 @@ Interval Bootstrap::over_windows(double estimate, const Eigen::VectorXd& samples
 {
   const double degrees = window_degrees(dependence);
   const double fitted = (degrees + static_cast<double>(runs_.size())) / degrees;
-  // Half of it at most, since the formula is the first term of a series.
-  const double lost = std::min(
-      0.5, (dependence.time - 1 / dependence.time) / (2 * static_cast<double>(dependence.block)));
-  return students_interval(estimate, variance(samples) * fitted / (1 - lost), degrees);
+  return students_interval(
+      estimate, variance(samples) * fitted / kept_in_blocks(dependence.time, dependence.block),
+      degrees);
 }
 
 Interval Bootstrap::over_runs(double estimate, const Eigen::VectorXd& samples,

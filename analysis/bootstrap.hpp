@@ -57,7 +57,7 @@ class Bootstrap {
   Bootstrap(RunLengths runs, std::size_t samples, unsigned long seed);
 
   const RunLengths& runs() const { return runs_; }
-  std::size_t samples() const { return samples_; }
+  std::size_t count() const { return samples_; }  // of samples
   std::size_t windows() const;
 
   /// Row = sample, column = window: how often the window counts when blocks of `length`
@@ -66,11 +66,18 @@ class Bootstrap {
   /// The same where whole runs are drawn; no rows for a single run.
   const Eigen::MatrixXd& whole_runs() const;
 
+  /// The samples and the interval that grseg reports: of several runs those of runs, of a single
+  /// one those of windows.
+  const Eigen::MatrixXd& samples(const Dependence& dependence) const;
+  Interval interval(double estimate, const Eigen::VectorXd& samples,
+                    const Dependence& dependence) const;
+
   /// What the windows alone tell: estimate -+ t sqrt(V), with V the variance of the statistic over
   /// samples of blocks(), times m/(m - R) for the means of R runs that were fitted (m = effective
-  /// windows/block), over 1 - (tau - 1/tau)/(2 block), what AR(1) blocks lose at their cuts; t is
-  /// Student's quantile of m - R degrees of freedom. NaN where these are less than one half. With
-  /// several runs it holds only if runs do not differ.
+  /// windows/block), over the share of the variance that blocks of b windows of an AR(1) series
+  /// keep at their cuts, 1 - 2 rho (1 - rho^b)/(b (1 - rho^2)); t is Student's quantile of m - R
+  /// degrees of freedom. NaN where these are less than one half. With several runs it holds only
+  /// if runs do not differ.
   Interval over_windows(double estimate, const Eigen::VectorXd& samples,
                         const Dependence& dependence) const;
   /// What several runs tell: the same with samples of whole_runs(), m = effective runs and m - 1

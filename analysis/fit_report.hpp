@@ -3,7 +3,7 @@
 
 #include "analysis/fit_data.hpp"
 #include "analysis/partition_scan.hpp"
-#include "analysis/segregation_fit.hpp"
+#include "analysis/rule_fit.hpp"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #include "analysis/fit_report.hpp"
 #include "analysis/partition.hpp"
 #include "analysis/partition_scan.hpp"
-#include "analysis/segregation_fit.hpp"
+#include "analysis/rule_fit.hpp"
 #include "formats/errors.hpp"
 #include "formats/table.hpp"
 #include "formats/tool.hpp"
@@ -25,6 +25,7 @@ constexpr ToolInfo info{
     "grseg-fit", "the segregation strength B, with its interval, from tables of sums.",
     "grseg-fit sums.tsv ... | - [options]",
     "  grseg-fit sums.tsv                               B by size, the default\n"
+    "  grseg-fit sums.tsv --partition stock             B by the rules of published codes\n"
     "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
@@ -50,7 +51,8 @@ po::options_description options_into(Settings& s)
   auto add = options.add_options();
   add("partition", po::value(&s.partition)->composing()->value_name("RULE,..."),
       "share of a mixed contact that goes to its large grain: size (default), contact-point, half, "
-      "drop, uniform:P or power:Q; several give a row each");
+      "drop, uniform:P or power:Q; several give a row each; stock: the first four, as published "
+      "codes have them");
   add("component", text(s.component, "NAME")->default_value("yy"),
       "yy or pressure (half the trace)");
   add("quantity", text(s.quantity, "NAME")->default_value("contact"), "contact or kinetic stress");

@@ -149,13 +149,13 @@ Eigen::VectorXd plus_and_minus_one()
   return samples;
 }
 
-// tau = 3, blocks of 4, 40 effective windows: m = 10 blocks, so 10/9 for the fitted mean,
-// 1/(1 - (3 - 1/3)/8) = 3/2 for the cuts, and t of 9 degrees of freedom.
+// tau = 3, i.e. rho = 1/2, blocks of 4, 40 effective windows: m = 10 blocks, so 10/9 for the fitted
+// mean; at the cuts 1 - (1 - 1/16)/(4 x 3/4) = 11/16 is kept; t of 9 degrees of freedom.
 TEST(Bootstrap, AnIntervalOfWindowsByHand)
 {
   const auto interval =
       Bootstrap({40}, 100, 1).over_windows(5, plus_and_minus_one(), {3, 4, 40, 1});
-  EXPECT_NEAR(half_width(interval), 2.262157 * std::sqrt(100. / 99 * 10 / 9 * 3 / 2), 1e-6);
+  EXPECT_NEAR(half_width(interval), 2.262157 * std::sqrt(100. / 99 * 10 / 9 * 16 / 11), 1e-6);
   EXPECT_NEAR(interval.low + interval.high, 10, 1e-12);
 }
 

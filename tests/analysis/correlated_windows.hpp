@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/bootstrap.hpp"
-#include "analysis/segregation_fit.hpp"
+#include "analysis/rule_fit.hpp"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_randist.h>
@@ -68,7 +68,6 @@ class Ar1 {
 struct Verdict {
   double estimate = 0;
   Interval interval{}, plain{};  // plain: 2.5 and 97.5 % of the samples of blocks
-  bool doubted = false;          // the tool says that the windows are too few
 };
 
 inline bool holds(const Interval& interval, double truth)
@@ -99,13 +98,10 @@ inline Eigen::VectorXd sampled_means(const Eigen::MatrixXd& times, const Eigen::
 inline Verdict mean_of(const Eigen::VectorXd& series, const Bootstrap& bootstrap)
 {
   const auto how = dependence_of_mean(series, bootstrap.runs());
-  const auto inside = sampled_means(bootstrap.blocks(how.block), series);
-  const auto between = sampled_means(bootstrap.whole_runs(), series);
   const double mean = series.mean();
-  return {mean,
-          bootstrap.runs().size() > 1 ? bootstrap.over_runs(mean, between, how)
-                                      : bootstrap.over_windows(mean, inside, how),
-          percentiles(inside), !bootstrap.doubt(how).empty()};
+  return {.estimate = mean,
+          .interval = bootstrap.interval(mean, sampled_means(bootstrap.samples(how), series), how),
+          .plain = percentiles(sampled_means(bootstrap.blocks(how.block), series))};
 }
 
 /// Layers whose stresses scatter about sigma^S/sigma^L = 0.966 phi_S/phi_L, by 10 % where the
@@ -146,15 +142,38 @@ class ScatteredStress {
             sample(k, phi, deviation * gsl_integration_fixed_nodes(rule.get())[k]));
     const Eigen::Map<const Eigen::RowVectorXd> weights(gsl_integration_fixed_weights(rule.get()),
                                                        nodes);
-    return estimate_from_sums(weights * window_sums(fit_points(data, {}, {}), data.runs));
+    return estimate_from_sums(weights * window_sums(fit_points(data, {}, {}), data.runs).sums);
+  }
+
+  /// The same while layers segregate, from phi_L = 1/2 in all of them, under a rule that gives B a
+  /// course over phi_L: that of neutral contacts of which large grains get 0.8. Without noise what
+  /// the fit is to find.
+  static FitData drifting(std::size_t windows, Ar1* noise)
+  {
+    FitData data;
+    data.quantity = Quantity::kinetic;
+    data.runs = {windows};
+    for (const double end : compositions) {
+      const auto length = static_cast<Eigen::Index>(windows);
+      const Eigen::VectorXd normal = noise ? noise->series(length) : Eigen::VectorXd::Zero(length);
+      for (std::size_t window = 0; window < windows; ++window) {
+        const double progress = (static_cast<double>(window) + 0.5) / static_cast<double>(windows);
+        const double phi = 0.5 + (end - 0.5) * progress;
+        const double b = neutral_b({PartitionRule::Kind::uniform, 0.8}, 2, phi);
+        const double of_rule = (1 - b * phi) / (1 + b * (1 - phi));
+        data.samples.push_back(
+            sample(window, phi, normal[static_cast<Eigen::Index>(window)], of_rule));
+      }
+    }
+    return data;
   }
 
  private:
-  static LayerSample sample(std::size_t window, double phi, double normal)
+  static LayerSample sample(std::size_t window, double phi, double normal, double of_slope = slope)
   {
     const double rarer = std::min(phi, 1 - phi);
     const double ratio =
-        slope * (1 - phi) / phi * std::exp(scatter * std::sqrt(0.5 / rarer) * normal);
+        of_slope * (1 - phi) / phi * std::exp(scatter * std::sqrt(0.5 / rarer) * normal);
     LayerSample layer{
         .window = window, .phi_large = phi, .weight = rarer, .size_ratio = 2, .sums = {}};
     layer.sums.volume = 1;

@@ -93,7 +93,7 @@ TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
     }
     EXPECT_NEAR(scan.p_zero, r / (1 + r), 1e-12);
     EXPECT_NEAR(scan.dB_dp, slope / weight, 1e-10);
-    EXPECT_TRUE(std::isnan(scan.p_low));
+    EXPECT_TRUE(std::isnan(scan.p_zero_interval.low));
   }
 }
 
@@ -102,8 +102,8 @@ TEST(PartitionScan, TheIntervalOfTheZeroHoldsIt)
   const auto data = neutral_data(0.2);
   const auto scan =
       scan_partition(data, parse_scan("0.5:0.8:0.01"), {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_LT(scan.p_low, scan.p_zero);
-  EXPECT_GT(scan.p_high, scan.p_zero);
+  EXPECT_LT(scan.p_zero_interval.low, scan.p_zero);
+  EXPECT_GT(scan.p_zero_interval.high, scan.p_zero);
 }
 
 TEST(PartitionScan, ARangeWithoutAZeroSaysSo)
