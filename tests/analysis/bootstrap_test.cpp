@@ -216,6 +216,26 @@ TEST(Coverage, OfTheStrengthOfSegregationIsThatOfAMean)
   EXPECT_LT(share, most);
 }
 
+// While layers segregate their compositions drift, and where B depends on composition so does what
+// each window says of it. That is no noise: independent windows stay independent, and the interval
+// is as narrow as their scatter lets it be.
+TEST(Coverage, OfAFlowThatSegregatesIsThatOfASteadyOne)
+{
+  Ar1 noise(0.5);
+  const auto known = ScatteredStress::drifting(120, nullptr);
+  const double truth = estimate(fit_points(known, {}, {})).B_half;
+  double share = 0, time = 0;
+  for (int k = 0; k < trials; ++k) {
+    const auto fit = fit_rule(ScatteredStress::drifting(120, &noise), {}, {},
+                              Bootstrap({120}, 200, 1 + static_cast<unsigned>(k)));
+    share += holds({fit.low.B_half, fit.high.B_half}, truth) / trial_count;
+    time += fit.dependence.time / trial_count;
+  }
+  EXPECT_GT(share, least);
+  EXPECT_LT(share, most);
+  EXPECT_NEAR(time, 4, 1);  // 3, and the longer of two noisy estimates
+}
+
 TEST(Bootstrap, CorrelatedWindowsAreDrawnInLongerBlocks)
 {
   EXPECT_GE(dependence_of_mean(Ar1(0.7).series(120), {120}).block, 5u);

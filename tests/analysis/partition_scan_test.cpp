@@ -106,6 +106,58 @@ TEST(PartitionScan, TheIntervalOfTheZeroHoldsIt)
   EXPECT_GT(scan.p_zero_interval.high, scan.p_zero);
 }
 
+// dB = dB/dp dp: the interval of the zero is that of B there.
+TEST(PartitionScan, TheIntervalOfTheZeroIsThatOfBOverItsSlope)
+{
+  const auto data = neutral_data(0.2);
+  const Bootstrap bootstrap(data.runs, 2000, 1);
+  const auto scan = scan_partition(data, parse_scan("0.5:0.8:0.01"), {}, bootstrap);
+  const auto at_zero = fit_rule(data, uniform(scan.p_zero), {}, bootstrap);
+  EXPECT_NEAR(at_zero.value.B_half, 0, 1e-12);
+  EXPECT_NEAR((scan.p_zero_interval.high - scan.p_zero_interval.low) * scan.dB_dp /
+                  (at_zero.high.B_half - at_zero.low.B_half),
+              1, 0.01);
+}
+
+/// 48 windows of seven layers of neutral contacts; each kind of contact scatters by two per cent.
+FitData scattered_neutral_data(synthetic::Ar1& noise)
+{
+  std::vector<synthetic::TableRow> rows;
+  for (const double phi : synthetic::compositions) {
+    const Eigen::MatrixX3d normal = noise.series({48, 48, 48}, 0).reshaped(48, 3);
+    for (Eigen::Index window = 0; window < 48; ++window) {
+      auto sums = synthetic::neutral_sums(phi, 2);
+      sums.ll *= 1 + 0.02 * normal(window, 0);
+      sums.ss *= 1 + 0.02 * normal(window, 1);
+      sums.mixed *= 1 + 0.02 * normal(window, 2);
+      rows.push_back(
+          {1. * static_cast<double>(window), 1. + static_cast<double>(window), 25, sums});
+    }
+  }
+  return read({stress_table(rows)});
+}
+
+// Three standard deviations of 300 trials about 93 and 97 %.
+TEST(PartitionScan, TheIntervalsOfZeroAndSlopeHoldTheTruth)
+{
+  const auto known = neutral_data(0);
+  const double slope =
+      scan_partition(known, parse_scan("0.6:0.7:0.1"), {}, no_bootstrap(known)).dB_dp;
+  synthetic::Ar1 noise(0.5);
+  double zero_held = 0, slope_held = 0;
+  for (unsigned k = 1; k <= 300; ++k) {
+    const auto data = scattered_neutral_data(noise);
+    const auto scan =
+        scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 200, k));
+    zero_held += synthetic::holds(scan.p_zero_interval, 2. / 3) / 300.;
+    slope_held += synthetic::holds(scan.dB_dp_interval, slope) / 300.;
+  }
+  for (const double held : {zero_held, slope_held}) {
+    EXPECT_GT(held, 0.93 - 3 * std::sqrt(0.93 * 0.07 / 300));
+    EXPECT_LE(held, 0.97 + 3 * std::sqrt(0.97 * 0.03 / 300));
+  }
+}
+
 TEST(PartitionScan, ARangeWithoutAZeroSaysSo)
 {
   const auto data = neutral_data(0);

@@ -156,6 +156,15 @@ TEST(NeutralContacts, SharedOtherwiseShowExactlyTheClosedForm)
   EXPECT_EQ(fit(data, "half").neutral, fit(data, "uniform:0.5").neutral);
 }
 
+TEST(NeutralContacts, GiveLargeGrainsTheShareOfTheRule)
+{
+  const auto data = neutral_data(0.1);
+  EXPECT_NEAR(fit(data, "size").share, 2. / 3, 1e-14);
+  EXPECT_NEAR(fit(data, "half").share, 0.5, 1e-14);
+  EXPECT_NEAR(fit(data, "uniform:0.8").share, 0.8, 1e-14);
+  EXPECT_TRUE(std::isnan(fit(data, "drop").share));
+}
+
 TEST(NeutralContacts, DisturbedOnesShowInTheDifferenceToSizeWhatTheRuleAdds)
 {
   const auto data = neutral_data(0.1);
