@@ -145,9 +145,9 @@ class ScatteredStress {
     return estimate_from_sums(weights * window_sums(fit_points(data, {}, {}), data.runs).sums);
   }
 
-  /// The same while layers segregate, from phi_L = 1/2 in all of them, under a rule that gives B a
-  /// course over phi_L: that of neutral contacts of which large grains get 0.8. Without noise what
-  /// the fit is to find.
+  /// A third of that scatter while layers segregate, from phi_L = 0.3 in all of them, under a rule
+  /// that gives B a course over phi_L: that of neutral contacts of which large grains get 0.8.
+  /// Without noise what the fit is to find.
   static FitData drifting(std::size_t windows, Ar1* noise)
   {
     FitData data;
@@ -158,11 +158,11 @@ class ScatteredStress {
       const Eigen::VectorXd normal = noise ? noise->series(length) : Eigen::VectorXd::Zero(length);
       for (std::size_t window = 0; window < windows; ++window) {
         const double progress = (static_cast<double>(window) + 0.5) / static_cast<double>(windows);
-        const double phi = 0.5 + (end - 0.5) * progress;
+        const double phi = 0.3 + (end - 0.3) * progress;
         const double b = neutral_b({PartitionRule::Kind::uniform, 0.8}, 2, phi);
         const double of_rule = (1 - b * phi) / (1 + b * (1 - phi));
         data.samples.push_back(
-            sample(window, phi, normal[static_cast<Eigen::Index>(window)], of_rule));
+            sample(window, phi, normal[static_cast<Eigen::Index>(window)] / 3, of_rule));
       }
     }
     return data;
