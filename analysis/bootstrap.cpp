@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/bootstrap.hpp"
 
+#include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_rng.h>
 
@@ -15,6 +16,9 @@ namespace grseg {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Degrees of freedom below which there is no interval.
+constexpr double least_degrees = 0.5;
 
 using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
 
@@ -105,27 +109,44 @@ double variance(const Eigen::VectorXd& replicates)
   return n > 1 && n >= 0.95 * static_cast<double>(replicates.size()) ? squares / (n - 1) : nan;
 }
 
-/// Variances of two sources that add, with the degrees of freedom of their sum.
-struct Variance {
-  double value = 0, degrees = 0;
-
-  Variance plus(const Variance& other) const
-  {
-    const double sum = value + other.value;
-    if (!(sum > 0)) return {sum, degrees + other.degrees};
-    return {sum, sum * sum / (value * value / degrees + other.value * other.value / other.degrees)};
-  }
-};
-
-Variance inside_runs(const Eigen::VectorXd& replicates, const Dependence& dependence, double runs)
+Interval students_interval(double estimate, double variance, double degrees)
 {
-  const auto block = static_cast<double>(dependence.block);
-  const double blocks = dependence.effective_windows / block;
-  const double degrees = blocks - runs;
-  if (degrees < 0.5) return {nan, nan};
-  // Half of it at most, since the formula is the first term of a series.
-  const double lost = std::min(0.5, (dependence.time - 1 / dependence.time) / (2 * block));
-  return {variance(replicates) * blocks / degrees / (1 - lost), degrees};
+  if (!(degrees >= least_degrees) || !std::isfinite(estimate) || !std::isfinite(variance))
+    return {nan, nan};
+  const double reach = gsl_cdf_tdist_Pinv(0.975, degrees) * std::sqrt(variance);
+  return {estimate - reach, estimate + reach};
+}
+
+/// rho of the AR(1) series whose autocorrelation time is `time` = (1 + rho)/(1 - rho).
+double neighbour_correlation(double time)
+{
+  return (time - 1) / (time + 1);
+}
+
+/// Variance of the mean over blocks of `length` windows of an AR(1) series, relative to what it
+/// would be if what lies on both sides of a cut were correlated, too.
+double kept_in_blocks(double time, std::size_t length)
+{
+  const double rho = neighbour_correlation(time), b = static_cast<double>(length);
+  return 1 - 2 * rho * (1 - std::pow(rho, b)) / (b * (1 - rho * rho));
+}
+
+/// (sum b)^2 / sum b^2
+double effective_number(const Eigen::VectorXd& weight)
+{
+  const double sum = weight.sum();
+  return sum > 0 ? sum * sum / weight.squaredNorm() : 0;
+}
+
+Eigen::VectorXd sum_by_run(const Eigen::VectorXd& weight, const RunLengths& runs)
+{
+  Eigen::VectorXd sums(index(runs.size()));
+  std::size_t first = 0;
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    sums[index(run)] = weight.segment(index(first), index(runs[run])).sum();
+    first += runs[run];
+  }
+  return sums;
 }
 
 }  // namespace
@@ -147,8 +168,9 @@ std::size_t block_length(double time, const RunLengths& runs)
   if (runs.empty()) return 1;
   const auto windows = static_cast<double>(total(runs));
   const auto count = static_cast<double>(runs.size());
+  const double rho = neighbour_correlation(time);
   const double best =
-      std::pow(std::sqrt(6.0) / 4 * (time - 1 / time), 2.0 / 3) * std::cbrt(windows / count);
+      std::pow(std::sqrt(6.0) * rho / (1 - rho * rho), 2.0 / 3) * std::cbrt(windows / count);
   const double longest = std::floor(windows / (count + 1));
   return static_cast<std::size_t>(std::max(1.0, std::min(std::ceil(best), longest)));
 }
@@ -157,14 +179,15 @@ Dependence dependence(const Eigen::VectorXd& influence, const Eigen::VectorXd& w
                       const RunLengths& runs)
 {
   const double time = autocorrelation_time(influence, runs);
-  const double sum = weight.sum();
-  return {time, block_length(time, runs), sum > 0 ? sum * sum / weight.squaredNorm() : 0};
+  return {time, block_length(time, runs), effective_number(weight),
+          effective_number(sum_by_run(weight, runs))};
 }
 
 Dependence worse(const Dependence& a, const Dependence& b)
 {
   const Dependence& longer = a.time >= b.time ? a : b;
-  return {longer.time, longer.block, std::min(a.effective_windows, b.effective_windows)};
+  return {longer.time, longer.block, std::min(a.effective_windows, b.effective_windows),
+          std::min(a.effective_runs, b.effective_runs)};
 }
 
 Bootstrap::Bootstrap(RunLengths runs, std::size_t samples, unsigned long seed)
@@ -214,16 +237,61 @@ const Eigen::MatrixXd& Bootstrap::whole_runs() const
   return whole_runs_;
 }
 
-Interval Bootstrap::interval(double estimate, const Eigen::VectorXd& from_blocks,
-                             const Eigen::VectorXd& from_runs, const Dependence& dependence) const
+const Eigen::MatrixXd& Bootstrap::samples(const Dependence& dependence) const
 {
-  const auto count = static_cast<double>(runs_.size());
-  Variance spread = inside_runs(from_blocks, dependence, count);
-  if (runs_.size() > 1)
-    spread = spread.plus({variance(from_runs) * count / (count - 1), count - 1});
-  if (samples_ == 0 || !std::isfinite(estimate) || !std::isfinite(spread.value)) return {nan, nan};
-  const double reach = gsl_cdf_tdist_Pinv(0.975, spread.degrees) * std::sqrt(spread.value);
-  return {estimate - reach, estimate + reach};
+  return runs_.size() > 1 ? whole_runs() : blocks(dependence.block);
+}
+
+Interval Bootstrap::interval(double estimate, const Eigen::VectorXd& samples,
+                             const Dependence& dependence) const
+{
+  return runs_.size() > 1 ? over_runs(estimate, samples, dependence)
+                          : over_windows(estimate, samples, dependence);
+}
+
+double Bootstrap::window_degrees(const Dependence& dependence) const
+{
+  return dependence.effective_windows / static_cast<double>(dependence.block) -
+         static_cast<double>(runs_.size());
+}
+
+Interval Bootstrap::over_windows(double estimate, const Eigen::VectorXd& samples,
+                                 const Dependence& dependence) const
+{
+  const double degrees = window_degrees(dependence);
+  const double fitted = (degrees + static_cast<double>(runs_.size())) / degrees;
+  return students_interval(
+      estimate, variance(samples) * fitted / kept_in_blocks(dependence.time, dependence.block),
+      degrees);
+}
+
+Interval Bootstrap::over_runs(double estimate, const Eigen::VectorXd& samples,
+                              const Dependence& dependence) const
+{
+  const double degrees = dependence.effective_runs - 1;
+  return students_interval(estimate, variance(samples) * dependence.effective_runs / degrees,
+                           degrees);
+}
+
+std::string Bootstrap::doubt(const Dependence& dependence) const
+{
+  if (samples_ == 0) return {};
+  if (runs_.size() > 1) {
+    if (dependence.effective_runs > 3.5) return {};
+    return fmt::format(
+        "{} runs, worth {:.3g} of equal weight, tell {} how runs differ; four or "
+        "more give a narrower interval",
+        runs_.size(), dependence.effective_runs,
+        dependence.effective_runs < 1 + least_degrees ? "nothing of" : "little of");
+  }
+  if (dependence.independent_windows() > 8) return {};
+  return fmt::format(
+      "{:.3g} windows with an autocorrelation time of {:.3g} windows are worth "
+      "{:.2g} independent ones; {}",
+      dependence.effective_windows, dependence.time, dependence.independent_windows(),
+      window_degrees(dependence) < least_degrees
+          ? "too few for an interval"
+          : "with fewer than 8 an interval of 95 % holds the truth less often");
 }
 
 }  // namespace grseg

@@ -4,11 +4,13 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <vector>
 
 /// Error bars for means over correlated windows: moving blocks of consecutive windows (Kuensch
 /// 1989) and, where there are several, whole runs are drawn with replacement. What is drawn is how
 /// often each window counts, so a statistic made of sums over windows costs one matrix product.
+/// How often the intervals hold the truth: docs/uncertainty.md.
 namespace grseg {
 
 /// Windows per run. A series lists the windows of all runs, one run after the other.
@@ -19,6 +21,9 @@ struct Dependence {
   double time = 1;               // integrated autocorrelation time in windows, at least 1
   std::size_t block = 1;         // windows drawn together
   double effective_windows = 0;  // (sum b)^2 / sum b^2 of the windows' weights b
+  double effective_runs = 0;     // the same of the runs' weights
+
+  double independent_windows() const { return effective_windows / time; }
 };
 
 /// 1 + 2 sum of the autocorrelation function; each run about its own mean, all runs together. The
@@ -38,7 +43,7 @@ std::size_t block_length(double time, const RunLengths& runs);
 Dependence dependence(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight,
                       const RunLengths& runs);
 
-/// Of the two the one that leads to the wider interval.
+/// Of each the part that leads to the wider interval.
 Dependence worse(const Dependence& a, const Dependence& b);
 
 /// 95 % interval; NaN where there are too few windows to tell.
@@ -52,7 +57,7 @@ class Bootstrap {
   Bootstrap(RunLengths runs, std::size_t samples, unsigned long seed);
 
   const RunLengths& runs() const { return runs_; }
-  std::size_t samples() const { return samples_; }
+  std::size_t count() const { return samples_; }  // of samples
   std::size_t windows() const;
 
   /// Row = sample, column = window: how often the window counts when blocks of `length`
@@ -61,22 +66,32 @@ class Bootstrap {
   /// The same where whole runs are drawn; no rows for a single run.
   const Eigen::MatrixXd& whole_runs() const;
 
-  /// estimate -+ t SE, where SE^2 is the variance of the statistic over the two kinds of samples,
-  /// each freed of what it is known to miss:
-  ///   blocks: times m/(m - R), m = effective windows/block, R runs, for the means that were
-  ///     fitted; over 1 - (tau - 1/tau)/(2 block), what AR(1) blocks lose at their cuts;
-  ///   runs: times R/(R - 1).
-  /// t is Student's quantile, its degrees of freedom m - R and R - 1 joined after Satterthwaite
-  /// (1946). Runs scatter by what scatters inside them too, so that with several runs the interval
-  /// is rather too wide than too narrow.
-  ///
-  /// How often it holds the truth, for the mean of AR(1) series (1000 series each): 120 windows
-  /// 95 % for rho <= 0.7, 93 % for 0.9; 16 windows 97 % for rho = 0, 92 % for 0.5, 85 % for 0.9;
-  /// four runs 94 to 99 %.
-  Interval interval(double estimate, const Eigen::VectorXd& from_blocks,
-                    const Eigen::VectorXd& from_runs, const Dependence& dependence) const;
+  /// The samples and the interval that grseg reports: of several runs those of runs, of a single
+  /// one those of windows.
+  const Eigen::MatrixXd& samples(const Dependence& dependence) const;
+  Interval interval(double estimate, const Eigen::VectorXd& samples,
+                    const Dependence& dependence) const;
+
+  /// What the windows alone tell: estimate -+ t sqrt(V), with V the variance of the statistic over
+  /// samples of blocks(), times m/(m - R) for the means of R runs that were fitted (m = effective
+  /// windows/block), over the share of the variance that blocks of b windows of an AR(1) series
+  /// keep at their cuts, 1 - 2 rho (1 - rho^b)/(b (1 - rho^2)); t is Student's quantile of m - R
+  /// degrees of freedom. NaN where these are less than one half. With several runs it holds only
+  /// if runs do not differ.
+  Interval over_windows(double estimate, const Eigen::VectorXd& samples,
+                        const Dependence& dependence) const;
+  /// What several runs tell: the same with samples of whole_runs(), m = effective runs and m - 1
+  /// degrees of freedom. Each run is one observation, whatever goes on inside it.
+  Interval over_runs(double estimate, const Eigen::VectorXd& samples,
+                     const Dependence& dependence) const;
+
+  /// A sentence where an interval may say more than it knows, or far less: too few windows for
+  /// their correlation, two or three runs. Empty otherwise and for samples = 0.
+  std::string doubt(const Dependence& dependence) const;
 
  private:
+  double window_degrees(const Dependence& dependence) const;
+
   RunLengths runs_;
   std::size_t samples_;
   unsigned long seed_;

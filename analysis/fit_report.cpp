@@ -17,6 +17,13 @@ std::string rule_name(const FitReport& report, const RuleFit& fit)
   return report.quantity == Quantity::kinetic ? "kinetic" : fit.rule.name();
 }
 
+/// Whose tool makes the same of a mixed contact; "-" where no tool does.
+std::string used_by(const FitReport& report, const RuleFit& fit)
+{
+  const std::string tool = report.quantity == Quantity::kinetic ? "" : fit.rule.used_by();
+  return tool.empty() ? "-" : tool;
+}
+
 const char* word(Quantity quantity)
 {
   return quantity == Quantity::contact ? "contact" : "kinetic";
@@ -32,15 +39,16 @@ std::string header_lines(const FitReport& report)
   for (const auto& [key, value] : report.header) text += fmt::format("# {}: {}\n", key, value);
   for (const auto& input : report.inputs) text += fmt::format("# input: {}\n", input);
   for (const auto& line : report.history) text += fmt::format("# history: {}\n", line);
+  for (const auto& doubt : doubts(report)) text += fmt::format("# doubt: {}\n", doubt);
   return text;
 }
 
-std::string row(const std::vector<double>& numbers)
+std::string cells(const std::vector<double>& numbers)
 {
-  std::vector<std::string> cells;
-  cells.reserve(numbers.size());
-  for (const double number : numbers) cells.push_back(format_number(number));
-  return fmt::format("{}\n", fmt::join(cells, "\t"));
+  std::vector<std::string> texts;
+  texts.reserve(numbers.size());
+  for (const double number : numbers) texts.push_back(format_number(number));
+  return fmt::format("{}", fmt::join(texts, "\t"));
 }
 
 std::string rule_table(const FitReport& report)
@@ -50,7 +58,8 @@ std::string rule_table(const FitReport& report)
     text += fmt::format("\t{0}\t{0}_low\t{0}_high", name);
   text +=
       "\tneutral\tminus_size\tminus_size_low\tminus_size_high\tnot_positive"
-      "\tautocorrelation_time[windows]\tblock_length[windows]\teffective_windows\n";
+      "\tautocorrelation_time[windows]\tblock_length[windows]\teffective_windows"
+      "\tB_half_windows_low\tB_half_windows_high\tshare\tused_by\n";
   for (const auto& fit : report.rules) {
     std::vector<double> numbers{static_cast<double>(fit.points)};
     for (const auto& [name, place] : estimator_names)
@@ -59,8 +68,10 @@ std::string rule_table(const FitReport& report)
         numbers.end(),
         {fit.neutral, fit.minus_size, fit.minus_size_interval.low, fit.minus_size_interval.high,
          static_cast<double>(fit.not_positive), fit.dependence.time,
-         static_cast<double>(fit.dependence.block), fit.dependence.effective_windows});
-    text += rule_name(report, fit) + '\t' + row(numbers);
+         static_cast<double>(fit.dependence.block), fit.dependence.effective_windows,
+         fit.B_half_windows.low, fit.B_half_windows.high, fit.share});
+    text +=
+        fmt::format("{}\t{}\t{}\n", rule_name(report, fit), cells(numbers), used_by(report, fit));
   }
   return text;
 }
@@ -69,15 +80,25 @@ std::string scan_table(const PartitionScan& scan)
 {
   std::string text;
   for (const auto& [key, value] : {std::pair{"p_zero", scan.p_zero},
-                                   {"p_zero_low", scan.p_low},
-                                   {"p_zero_high", scan.p_high},
-                                   {"dB_dp", scan.dB_dp}})
+                                   {"p_zero_low", scan.p_zero_interval.low},
+                                   {"p_zero_high", scan.p_zero_interval.high},
+                                   {"dB_dp", scan.dB_dp},
+                                   {"dB_dp_low", scan.dB_dp_interval.low},
+                                   {"dB_dp_high", scan.dB_dp_interval.high},
+                                   {"autocorrelation_time", scan.dependence.time},
+                                   {"block_length", static_cast<double>(scan.dependence.block)}})
     text += fmt::format("# {}: {}\n", key, format_number(value));
   text += "p\tB\tlow\thigh\tB_direct\tB_direct_low\tB_direct_high\tneutral\n";
   for (const auto& fit : scan.fits)
-    text += row({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half,
-                 fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral});
+    text += cells({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half,
+                   fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral}) +
+            '\n';
   return text;
+}
+
+Json pair(const Interval& interval)
+{
+  return Json::array({interval.low, interval.high});
 }
 
 Json rule_object(const FitReport& report, const RuleFit& fit)
@@ -87,6 +108,7 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
     estimators[name] = {{"value", fit.value.*place},
                         {"interval", {fit.low.*place, fit.high.*place}}};
   return {{"rule", rule_name(report, fit)},
+          {"used_by", used_by(report, fit)},
           {"component", word(report.component)},
           {"quantity", word(report.quantity)},
           {"slope", fit.value.slope},
@@ -96,9 +118,11 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
           {"B_mean", fit.value.B_mean},
           {"B_direct", fit.value.B_direct},
           {"B_interval", {fit.low.B_half, fit.high.B_half}},
+          {"B_windows_interval", pair(fit.B_half_windows)},
+          {"share", fit.share},
           {"neutral", fit.neutral},
           {"minus_size", fit.minus_size},
-          {"minus_size_interval", {fit.minus_size_interval.low, fit.minus_size_interval.high}},
+          {"minus_size_interval", pair(fit.minus_size_interval)},
           {"points", fit.points},
           {"not_positive", fit.not_positive},
           {"autocorrelation_time", fit.dependence.time},
@@ -108,6 +132,16 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
 }
 
 }  // namespace
+
+std::vector<std::string> doubts(const FitReport& report)
+{
+  std::vector<std::string> all;
+  for (const auto& fit : report.rules)
+    if (!fit.doubt.empty()) all.push_back(fmt::format("{}: {}", rule_name(report, fit), fit.doubt));
+  if (report.scan && !report.scan->fits.front().doubt.empty())
+    all.push_back("scan: " + report.scan->fits.front().doubt);
+  return all;
+}
 
 std::string to_tsv(const FitReport& report)
 {
@@ -125,12 +159,16 @@ std::string to_json(const FitReport& report)
       all["scan"].push_back(
           Json::array({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half}));
     all["p_zero"] = report.scan->p_zero;
-    all["p_zero_interval"] = {report.scan->p_low, report.scan->p_high};
+    all["p_zero_interval"] = pair(report.scan->p_zero_interval);
     all["dB_dp"] = report.scan->dB_dp;
+    all["dB_dp_interval"] = pair(report.scan->dB_dp_interval);
+    all["autocorrelation_time"] = report.scan->dependence.time;
+    all["block_length"] = report.scan->dependence.block;
   }
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
   all["inputs"] = report.inputs;
   all["history"] = report.history;
+  all["doubts"] = doubts(report);
   return all.dump(2) + '\n';
 }
 

@@ -3,7 +3,7 @@
 
 #include "analysis/fit_data.hpp"
 #include "analysis/partition_scan.hpp"
-#include "analysis/segregation_fit.hpp"
+#include "analysis/rule_fit.hpp"
 
 #include <optional>
 #include <string>
@@ -21,6 +21,10 @@ struct FitReport {
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
 };
+
+/// What limits the intervals: a sentence per rule and one for the scan, mostly none. They are among
+/// the lines of the table and in "doubts".
+std::vector<std::string> doubts(const FitReport& report);
 
 /// "# key: value" lines, one line of column[unit] names, a row per rule, whose name stands first;
 /// with a scan instead a row per share p, with p_zero and dB_dp among the lines above.

@@ -77,6 +77,24 @@ std::string PartitionRule::name() const
   return "";
 }
 
+std::string PartitionRule::used_by() const
+{
+  switch (kind) {
+    case Kind::size:
+      return "grseg, Staron & Phillips 2015";
+    case Kind::contact_point:
+      return "MercuryDPM MercuryCG";
+    case Kind::half:
+      return "LAMMPS, LIGGGHTS compute stress/atom";
+    case Kind::drop:
+      return "LAMMPS compute continuum/chunk of a group";
+    case Kind::uniform:
+    case Kind::power:
+      break;
+  }
+  return "";
+}
+
 PartitionRule parse_rule(const std::string& text)
 {
   const auto colon = text.find(':');
@@ -103,7 +121,13 @@ std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts)
   for (const auto& text : texts) {
     std::istringstream list(text);
     if (text.empty()) refuse("");
-    for (std::string one; std::getline(list, one, ',');) rules.push_back(parse_rule(one));
+    for (std::string one; std::getline(list, one, ',');) {
+      if (one == "stock")
+        rules.insert(rules.end(),
+                     {{Kind::size}, {Kind::contact_point}, {Kind::half}, {Kind::drop}});
+      else
+        rules.push_back(parse_rule(one));
+    }
   }
   return rules;
 }

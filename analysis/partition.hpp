@@ -27,12 +27,15 @@ struct PartitionRule {
 
   /// As it is typed: "size", "uniform:0.8".
   std::string name() const;
+  /// The codes that share mixed contacts so; "" where none is known.
+  std::string used_by() const;
   bool operator==(const PartitionRule&) const = default;
 };
 
 /// UsageError, naming the rules, where `text` is none.
 PartitionRule parse_rule(const std::string& text);
-/// Several rules; each text may be a list "size,uniform:0.8".
+/// Several rules; each text may be a list "size,uniform:0.8", in which "stock" stands for those of
+/// published codes: size, contact-point, half and drop.
 std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts);
 
 /// What a contact with the base or a wall gives to the species of its mobile grain.

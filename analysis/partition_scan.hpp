@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/segregation_fit.hpp"
+#include "analysis/rule_fit.hpp"
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,13 +19,17 @@ ScanRange parse_scan(const std::string& text);
 
 /// B as a function of the share p that the large grain of a mixed contact gets.
 struct PartitionScan {
-  std::vector<RuleFit> fits;                                 // uniform:p, one per share
-  double p_zero = std::numeric_limits<double>::quiet_NaN();  // B_half(p) = 0; NaN: not in range
-  double p_low = std::numeric_limits<double>::quiet_NaN();   // where the interval of B ends at 0,
-  double p_high = std::numeric_limits<double>::quiet_NaN();  // i.e. the interval of p_zero
-  double dB_dp = std::numeric_limits<double>::quiet_NaN();   // of B_half, at p_zero
+  std::vector<RuleFit> fits;       // uniform:p, one per share
+  Dependence dependence;           // common to all fits, see scan_partition
+  double p_zero = Estimates::nan;  // B_half(p) = 0; NaN: not in range
+  double dB_dp = Estimates::nan;   // of B_half, at p_zero
+  Interval p_zero_interval{Estimates::nan, Estimates::nan};
+  Interval dB_dp_interval{Estimates::nan, Estimates::nan};
 };
 
+/// The band of B(p) must not jump where the block length of a single fit would, so all shares have
+/// one: that of the share nearest to B = 0, with the longest autocorrelation time of all. The
+/// intervals of p_zero and dB_dp are those of a fit at p_zero, whatever the range.
 PartitionScan scan_partition(const FitData& data, const ScanRange& range,
                              const FitSettings& settings, const Bootstrap& bootstrap);
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation_fit.hpp"
 
+#include "analysis/composition_noise.hpp"
+
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics.h>
 
-#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -40,7 +43,7 @@ Estimates with_all_b(double log_slope, double slope_linear, double prefactor, do
   all.B_mean = -log_slope;
   all.B_pure_large = 1 - s;
   all.B_pure_small = (1 - s) / s;
-  all.B_half_sum = (all.B_pure_large + all.B_pure_small) / 2;
+  all.B_paper = (all.B_pure_large + all.B_pure_small) / 2;
   all.slope_linear = slope_linear;
   all.B_linear = at_half(slope_linear);
   all.prefactor_power = prefactor;
@@ -87,60 +90,61 @@ bool spread_out(double w, double wX, double wXX)
   return wXX * w - wX * wX > 1e-12 * w * w;
 }
 
-/// Removes what has no meaning where the partial stresses do not add up.
-void forget_b(Estimates& estimates)
+/// One statistic as a weighted mean over points: of ln(y/x), of y/x with weight x^2 (the line
+/// through the origin) or of (psi_L - phi_L)/(phi_L phi_S) with weight w (phi_L phi_S)^2.
+struct WeightedMean {
+  std::vector<const FitPoint*> points;
+  std::vector<double> phi_large, value, weight;
+
+  void add(const FitPoint& point, double of_value, double with_weight)
+  {
+    points.push_back(&point);
+    phi_large.push_back(point.phi_large);
+    value.push_back(of_value);
+    weight.push_back(with_weight);
+  }
+  /// Calls at(point, weight x noise) for every point.
+  template <class At>
+  void for_noise(const At& at) const
+  {
+    if (points.empty()) return;
+    const auto vector = [](const std::vector<double>& list) {
+      return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+    };
+    const Eigen::VectorXd noise =
+        composition_noise(vector(phi_large), vector(value), vector(weight));
+    for (std::size_t k = 0; k < points.size(); ++k)
+      at(*points[k], weight[k] * noise[static_cast<Eigen::Index>(k)]);
+  }
+};
+
+Eigen::Index window_of(const FitPoint& point)
 {
-  for (const auto& [name, place] : estimator_names)
-    if (name[0] == 'B') estimates.*place = Estimates::nan;
+  return static_cast<Eigen::Index>(point.window);
 }
 
-Eigen::VectorXd column_of(const std::vector<Estimates>& replicates, double Estimates::*place)
+Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index windows)
 {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(replicates.size()));
-  for (std::size_t k = 0; k < replicates.size(); ++k)
-    values[static_cast<Eigen::Index>(k)] = replicates[k].*place;
-  return values;
-}
-
-std::vector<Estimates> replicate(const Eigen::MatrixXd& times, const Eigen::MatrixXd& sums)
-{
-  std::vector<Estimates> replicates;
-  if (times.rows() == 0) return replicates;
-  const Eigen::MatrixXd totals = times * sums;
-  replicates.reserve(static_cast<std::size_t>(totals.rows()));
-  for (Eigen::Index sample = 0; sample < totals.rows(); ++sample)
-    replicates.push_back(estimate_from_sums(totals.row(sample)));
-  return replicates;
-}
-
-/// What each window adds to the deviation of mean ln(y/x) and of B_direct from their values.
-Dependence dependence_of(const Eigen::MatrixXd& sums, const RunLengths& runs, bool direct)
-{
-  const Eigen::RowVectorXd total = sums.colwise().sum();
-  const Eigen::VectorXd logarithm = sums.col(sum_wY) - sums.col(sum_wX);
-  const double mean = (total[sum_wY] - total[sum_wX]) / total[sum_w];
-  const auto of_log = dependence(logarithm - mean * sums.col(sum_w), sums.col(sum_w), runs);
-  if (!direct) return of_log;
-  const double b = total[sum_wQD] / total[sum_wQQ];
-  const auto of_direct =
-      dependence(sums.col(sum_wQD) - b * sums.col(sum_wQQ), sums.col(sum_wQQ), runs);
-  return total[sum_w] > 0 ? worse(of_log, of_direct) : of_direct;
-}
-
-void add_minus_size(RuleFit& fit, const std::vector<FitPoint>& points,
-                    const std::vector<FitPoint>& by_size, const Bootstrap& bootstrap)
-{
-  fit.minus_size = fit.value.B_direct - direct_b(by_size);
-  if (bootstrap.samples() == 0) return;
-  const Eigen::MatrixXd sums = window_sums(points, bootstrap.runs());
-  const Eigen::MatrixXd size_sums = window_sums(by_size, bootstrap.runs());
-  const auto difference = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
-    return column_of(replicate(times, sums), &Estimates::B_direct) -
-           column_of(replicate(times, size_sums), &Estimates::B_direct);
-  };
-  fit.minus_size_interval =
-      bootstrap.interval(fit.minus_size, difference(bootstrap.blocks(fit.dependence.block)),
-                         difference(bootstrap.whole_runs()), fit.dependence);
+  WeightedMean logarithm, linear, direct;
+  for (const auto& point : points) {
+    if (point.has_logarithm()) {
+      const double x = point.ratio(), slope = point.small / point.large / x;
+      logarithm.add(point, std::log(slope), point.weight);
+      linear.add(point, slope, x * x);
+    }
+    const double q = product(point);
+    if (point.total > 0) direct.add(point, excess(point) / q, point.weight * q * q);
+  }
+  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(windows, number_of_sums);
+  logarithm.for_noise([&](const FitPoint& point, double part) {
+    noise(window_of(point), sum_wY) += part;
+    noise(window_of(point), sum_wXY) += part * std::log(point.ratio());
+  });
+  linear.for_noise(
+      [&](const FitPoint& point, double part) { noise(window_of(point), sum_xy) += part; });
+  direct.for_noise(
+      [&](const FitPoint& point, double part) { noise(window_of(point), sum_wQD) += part; });
+  return noise;
 }
 
 }  // namespace
@@ -190,13 +194,13 @@ Estimates estimate(const std::vector<FitPoint>& points)
                     std::exp(intercept), exponent, direct);
 }
 
-Eigen::MatrixXd window_sums(const std::vector<FitPoint>& points, const RunLengths& runs)
+WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs)
 {
-  Eigen::Index windows = 0;
-  for (const auto length : runs) windows += static_cast<Eigen::Index>(length);
+  const auto windows =
+      static_cast<Eigen::Index>(std::accumulate(runs.begin(), runs.end(), std::size_t{0}));
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(windows, number_of_sums);
   for (const auto& point : points) {
-    auto row = sums.row(static_cast<Eigen::Index>(point.window));
+    auto row = sums.row(window_of(point));
     const double w = point.weight;
     if (point.has_logarithm()) {
       const double x = point.ratio(), y = point.small / point.large;
@@ -214,19 +218,25 @@ Eigen::MatrixXd window_sums(const std::vector<FitPoint>& points, const RunLength
       row[sum_wQQ] += w * product(point) * product(point);
     }
   }
-  return sums;
+  return {std::move(sums), window_noise(points, windows)};
 }
 
-Estimates estimate_from_sums(const Eigen::RowVectorXd& sums)
+Eigen::MatrixXd WindowSums::totals(const Eigen::MatrixXd& times) const
 {
-  const double w = sums[sum_w], w_x = sums[sum_wX], w_y = sums[sum_wY];
+  const Eigen::RowVectorXd without_noise = total() - noise.colwise().sum();
+  return (times * noise).rowwise() + without_noise;
+}
+
+Estimates estimate_from_sums(const Eigen::RowVectorXd& total)
+{
+  const double w = total[sum_w], w_x = total[sum_wX], w_y = total[sum_wY];
   double prefactor = Estimates::nan, exponent = Estimates::nan;
-  if (spread_out(w, w_x, sums[sum_wXX])) {
-    exponent = (w * sums[sum_wXY] - w_x * w_y) / (w * sums[sum_wXX] - w_x * w_x);
+  if (spread_out(w, w_x, total[sum_wXX])) {
+    exponent = (w * total[sum_wXY] - w_x * w_y) / (w * total[sum_wXX] - w_x * w_x);
     prefactor = std::exp((w_y - exponent * w_x) / w);
   }
-  return with_all_b((w_y - w_x) / w, sums[sum_xy] / sums[sum_xx], prefactor, exponent,
-                    sums[sum_wQD] / sums[sum_wQQ]);
+  return with_all_b((w_y - w_x) / w, total[sum_xy] / total[sum_xx], prefactor, exponent,
+                    total[sum_wQD] / total[sum_wQQ]);
 }
 
 double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& rule)
@@ -241,37 +251,12 @@ double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& ru
   return sum / weights;
 }
 
-RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                 const Bootstrap& bootstrap)
+Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up)
 {
-  const auto points = fit_points(data, rule, settings);
-  const bool adds_up = rule.kind != PartitionRule::Kind::drop;
-  const bool contact = data.quantity == Quantity::contact;
-  RuleFit fit;
-  fit.rule = rule;
-  fit.points = static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_logarithm(); }));
-  fit.not_positive = points.size() - fit.points;
-  fit.value = estimate(points);
-  if (contact) fit.neutral = neutral_mean(points, rule);
-
-  const Eigen::MatrixXd sums = window_sums(points, data.runs);
-  fit.dependence = dependence_of(sums, data.runs, adds_up);
-  if (bootstrap.samples() > 0) {
-    const auto inside = replicate(bootstrap.blocks(fit.dependence.block), sums);
-    const auto between = replicate(bootstrap.whole_runs(), sums);
-    for (const auto& [name, place] : estimator_names) {
-      const auto interval = bootstrap.interval(fit.value.*place, column_of(inside, place),
-                                               column_of(between, place), fit.dependence);
-      fit.low.*place = interval.low;
-      fit.high.*place = interval.high;
-    }
-  }
-  if (!adds_up)
-    for (auto* all : {&fit.value, &fit.low, &fit.high}) forget_b(*all);
-  else if (contact)
-    add_minus_size(fit, points, fit_points(data, PartitionRule{}, settings), bootstrap);
-  return fit;
+  const auto of_log = dependence(windows.noise.col(sum_wY), windows.sums.col(sum_w), runs);
+  if (!adds_up) return of_log;
+  const auto of_direct = dependence(windows.noise.col(sum_wQD), windows.sums.col(sum_wQQ), runs);
+  return windows.sums.col(sum_w).any() ? worse(of_log, of_direct) : of_direct;
 }
 
 }  // namespace grseg

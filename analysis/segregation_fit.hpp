@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
-#include <optional>
 #include <vector>
 
 /// The segregation strength B of Gray & Thornton (2005), psi_L = phi_L (1 + B phi_S), from partial
@@ -47,7 +46,7 @@ struct Estimates {
   double B_mean = nan;           // mean over phi_L
   double B_pure_large = nan;     // the ends of the range of B
   double B_pure_small = nan;     //
-  double B_half_sum = nan;       // half the sum of the two ends, as Staron & Phillips quote it
+  double B_paper = nan;          // half the sum of the two ends, as Staron & Phillips quote it
   double slope_linear = nan;     // least squares through the origin, y = s x, unweighted
   double B_linear = nan;         // at phi_L = 1/2
   double prefactor_power = nan;  // y = k x^a, weighted least squares of the logarithms
@@ -67,7 +66,7 @@ inline constexpr std::array<EstimatorName, 12> estimator_names{{
     {"B_mean", &Estimates::B_mean},
     {"B_pure_large", &Estimates::B_pure_large},
     {"B_pure_small", &Estimates::B_pure_small},
-    {"B_half_sum", &Estimates::B_half_sum},
+    {"B_paper", &Estimates::B_paper},
     {"slope_linear", &Estimates::slope_linear},
     {"B_linear", &Estimates::B_linear},
     {"prefactor_power", &Estimates::prefactor_power},
@@ -80,28 +79,26 @@ inline constexpr std::array<EstimatorName, 12> estimator_names{{
 /// B_direct only.
 Estimates estimate(const std::vector<FitPoint>& points);
 
-/// Rows of additive sums, one per window, from which every estimator follows.
-Eigen::MatrixXd window_sums(const std::vector<FitPoint>& points, const RunLengths& runs);
-/// The same estimates as from the points, from (resampled) totals of those sums.
-Estimates estimate_from_sums(const Eigen::RowVectorXd& sums);
+/// Additive sums from which every estimator follows, one row per window, and what of them is noise:
+/// the part that the layers' compositions do not explain, which is what resampling varies.
+struct WindowSums {
+  Eigen::MatrixXd sums, noise;
+
+  /// The sums of all windows, and of samples that count window k times(sample, k) times.
+  Eigen::RowVectorXd total() const { return sums.colwise().sum(); }
+  Eigen::MatrixXd totals(const Eigen::MatrixXd& times) const;
+};
+WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs);
+
+/// The same estimates as from the points, from totals of those sums.
+Estimates estimate_from_sums(const Eigen::RowVectorXd& total);
+
+/// How far the windows are from independent, for the worse of the mean of ln(y/x) and, where
+/// stresses add up, B_direct.
+Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up);
 
 /// The neutral contact model's B averaged with the weights of B_direct: what B_direct would be,
 /// were the grains' contacts blind to their species.
 double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& rule);
-
-struct RuleFit {
-  PartitionRule rule;
-  std::size_t points = 0;        // with both stresses positive
-  std::size_t not_positive = 0;  // the others
-  Estimates value, low, high;    // intervals of 95 %
-  double neutral = Estimates::nan;
-  double minus_size = Estimates::nan;  // B_direct less that of rule size, same samples
-  Interval minus_size_interval{Estimates::nan, Estimates::nan};
-  Dependence dependence;
-};
-
-/// For `drop` every B is NaN: its partial stresses do not add up to the whole.
-RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                 const Bootstrap& bootstrap);
 
 }  // namespace grseg

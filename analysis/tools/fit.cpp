@@ -4,7 +4,7 @@
 #include "analysis/partition.hpp"
 #include "analysis/partition_scan.hpp"
 #include "analysis/presets.hpp"
-#include "analysis/segregation_fit.hpp"
+#include "analysis/rule_fit.hpp"
 #include "formats/errors.hpp"
 #include "formats/table.hpp"
 #include "formats/tool.hpp"
@@ -26,6 +26,7 @@ constexpr ToolInfo info{
     "grseg-fit", "the segregation strength B, with its interval, from tables of sums.",
     "grseg-fit sums.tsv ... | - [options]",
     "  grseg-fit sums.tsv                               B by size, the default\n"
+    "  grseg-fit sums.tsv --partition stock             B by the rules of published codes\n"
     "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
@@ -52,7 +53,8 @@ po::options_description options_into(Settings& s)
   auto add = options.add_options();
   add("partition", po::value(&s.partition)->composing()->value_name("RULE,..."),
       "share of a mixed contact that goes to its large grain: size (default), contact-point, half, "
-      "drop, uniform:P or power:Q; several give a row each");
+      "drop, uniform:P or power:Q; several give a row each; stock: the first four, as published "
+      "codes have them");
   add("component", text(s.component, "NAME")->default_value("yy"),
       "yy or pressure (half the trace)");
   add("quantity", text(s.quantity, "NAME")->default_value("contact"), "contact or kinetic stress");
@@ -151,17 +153,14 @@ void collect(const std::vector<Table>& tables, const char* key, std::vector<std:
 }
 
 /// Says on standard error what a reader of the numbers should know.
-void remark(const std::vector<Table>& tables, const FitReport& report, bool bootstrap)
+void remark(const std::vector<Table>& tables, const FitReport& report)
 {
   for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step"})
     for (const auto& table : tables)
       if (header_or(table, key, "") != header_or(tables[0], key, ""))
         std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name, tables[0].name,
                                  table.name, key);
-  for (const auto& fit : report.rules)
-    if (bootstrap && std::isnan(fit.low.slope))
-      std::cerr << fmt::format("{}: {}: too few windows for an interval ({:.3g} effective ones)\n",
-                               info.name, fit.rule.name(), fit.dependence.effective_windows);
+  for (const auto& doubt : doubts(report)) std::cerr << fmt::format("{}: {}\n", info.name, doubt);
 }
 
 FitReport make_report(const Settings& s, const std::string& preset,
@@ -219,7 +218,7 @@ int main(int argc, char** argv)
 
     auto report = make_report(settings, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
-    if (!values.contains("quiet")) remark(tables, report, settings.bootstrap > 0);
+    if (!values.contains("quiet")) remark(tables, report);
     write_whole(settings.output, values.contains("json") ? to_json(report) : to_tsv(report));
   });
 }

@@ -1,20 +1,52 @@
 # B over the share p of a mixed contact that goes to its large grain, with its 95 % band, of
-# FOLDER/scan.tsv, and the neutral model's line:
+# FOLDER/scan.tsv, the neutral model's line, and, where there is a FOLDER/stock.tsv (grseg-fit
+# --partition stock), the rules of published codes; below, how far both are from neutral contacts:
 #   gnuplot -c scripts/figures/b-of-p.gp FOLDER
 folder = ARG1
+scan = folder."/scan.tsv"
+stock = folder."/stock.tsv"
+marked = system("test -f '".stock."' && echo yes") eq "yes"
+cell(rule, name) = real(system("grep -v '^#' '".stock."' | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"".name."\") at = c} $1 == \"".rule."\" {print $at}'"))
+p_zero = real(system("awk '/^# p_zero:/ {print $3}' '".scan."'"))
+
 set datafile separator tab
-set terminal pngcairo size 900,700 font "DejaVu Sans,13"
+set terminal pngcairo size 900,900 font "DejaVu Sans,12"
 set output folder."/b-of-p.png"
 set xlabel "share p of a mixed contact given to its large grain"
-set ylabel "B"
-set key top left
 set xzeroaxis
 set style fill transparent solid 0.25 noborder
-set arrow from 0.5, graph 0 to 0.5, graph 1 nohead dt 3 lc rgb "gray"
-set arrow from 2.0/3, graph 0 to 2.0/3, graph 1 nohead dt 3 lc rgb "gray"
-set label "half" at 0.505, graph 0.05
-set label "size" at 0.672, graph 0.05
-scan = folder."/scan.tsv"
-plot scan using "p":"low":"high" with filledcurves lc rgb "#1f77b4" title "95 %", \
-     scan using "p":"B" with lines lw 2 lc rgb "#1f77b4" title "B at φ = 1/2", \
-     scan using "p":"neutral" with lines dt 2 lc rgb "black" title "neutral contacts, direct fit"
+blue = "#1f77b4"
+red = "#d62728"
+is(rule) = strcol("rule") eq rule
+set lmargin 11
+set multiplot layout 2,1
+
+set ylabel "B at φ = 1/2"
+set key top left
+if (p_zero == p_zero) {
+  set arrow from p_zero, graph 0 to p_zero, first 0 nohead dt 3 lc rgb "gray"
+  set label sprintf("B = 0 at p = %.3f", p_zero) at p_zero, graph 0.36 offset 0.5,0 tc rgb "#606060"
+}
+if (marked) {
+  set label "size: grseg, the paper" at cell("size", "share"), cell("size", "B_half") right offset -1,1 tc rgb red
+  set label "contact-point: MercuryCG" at cell("contact-point", "share"), cell("contact-point", "B_half") offset 1.5,-0.7 tc rgb red
+  set label "half: LAMMPS, LIGGGHTS stress/atom" at cell("half", "share"), cell("half", "B_half") offset 1.5,-0.7 tc rgb red
+  set label sprintf("drop (stress of a group) gives mixed contacts to nobody: no p and no B;\nσ_S/σ_L = %.2f (φ_S/φ_L)^{%.2f} instead of φ_S/φ_L", cell("drop", "prefactor_power"), cell("drop", "exponent")) at graph 0.98, graph 0.13 right tc rgb red
+}
+plot scan using "p":"low":"high" with filledcurves lc rgb blue title "95 %", \
+     scan using "p":"B" with lines lw 2 lc rgb blue title "this flow", \
+     scan using "p":"neutral" with lines dt 2 lc rgb "black" title "neutral contacts", \
+     marked ? stock : scan using (marked ? column("share") : NaN):(marked ? column("B_half") : NaN) \
+       with points pt 7 ps 1.2 lc rgb red notitle
+
+unset label
+unset arrow
+set ylabel "B, direct fit, less that of neutral contacts"
+set key top left
+plot scan using "p":(column("B_direct_low") - column("neutral")):(column("B_direct_high") - column("neutral")) \
+       with filledcurves lc rgb blue title "95 %", \
+     scan using "p":(column("B_direct") - column("neutral")) with lines lw 2 lc rgb blue title "this flow", \
+     marked ? stock : scan using (marked ? column("share") : NaN):(column("B_direct") - column("neutral")): \
+       (column("B_direct_low") - column("neutral")):(column("B_direct_high") - column("neutral")) \
+       with yerrorbars pt 7 ps 1.2 lc rgb red notitle
+unset multiplot

@@ -1,79 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/bootstrap.hpp"
 
+#include "tests/analysis/correlated_windows.hpp"
+
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
 namespace grseg {
 namespace {
 
-/// x_{k+1} = rho x_k + noise, of variance 1 and mean 0; rho = 0 is independent noise.
-class Ar1 {
- public:
-  explicit Ar1(double rho, unsigned long seed = 7)
-      : rng_(gsl_rng_alloc(gsl_rng_ranlxd2), &gsl_rng_free), rho_(rho)
-  {
-    gsl_rng_set(rng_.get(), seed);
-  }
-  Eigen::VectorXd series(Eigen::Index length)
-  {
-    Eigen::VectorXd values(length);
-    double value = gsl_ran_gaussian(rng_.get(), 1);
-    for (double& place : values) {
-      place = value;
-      value = rho_ * value + gsl_ran_gaussian(rng_.get(), std::sqrt(1 - rho_ * rho_));
-    }
-    return values;
-  }
-
- private:
-  std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> rng_;
-  double rho_;
-};
-
-Dependence dependence_of(const Eigen::VectorXd& series, const RunLengths& runs)
-{
-  return dependence(series.array() - series.mean(), Eigen::VectorXd::Ones(series.size()), runs);
-}
-
-Eigen::VectorXd means(const Eigen::MatrixXd& times, const Eigen::VectorXd& series)
-{
-  if (times.rows() == 0) return {};
-  return (times * series).array() / times.rowwise().sum().array();
-}
-
-/// The interval of the mean of a series, as a fit would make it.
-Interval interval_of_mean(const Eigen::VectorXd& series, const RunLengths& runs,
-                          std::size_t samples)
-{
-  const Bootstrap bootstrap(runs, samples, 1);
-  const auto how = dependence_of(series, runs);
-  return bootstrap.interval(series.mean(), means(bootstrap.blocks(how.block), series),
-                            means(bootstrap.whole_runs(), series), how);
-}
+using namespace synthetic;
 
 double half_width(const Interval& interval)
 {
   return (interval.high - interval.low) / 2;
 }
 
-/// How often the interval of the mean holds the true mean, 0.
-double coverage(double rho, Eigen::Index windows, int series_count)
+Interval interval_of_mean(const Eigen::VectorXd& series, const RunLengths& runs,
+                          std::size_t samples)
 {
-  Ar1 source(rho);
-  int holds = 0;
-  for (int k = 0; k < series_count; ++k) {
-    const auto interval =
-        interval_of_mean(source.series(windows), {static_cast<std::size_t>(windows)}, 200);
-    holds += interval.low < 0 && interval.high > 0;
-  }
-  return static_cast<double>(holds) / series_count;
+  return mean_of(series, Bootstrap(runs, samples, 1)).interval;
 }
+
+/// In how many of 500 trials an interval holds the truth.
+constexpr int trials = 500;
+struct Coverage {
+  double interval = 0, plain = 0;
+};
+
+Coverage coverage_of_mean(double rho, const RunLengths& runs, double run_scatter)
+{
+  Ar1 noise(rho);
+  Coverage share;
+  for (int k = 0; k < trials; ++k) {
+    const auto verdict = mean_of(noise.series(runs, run_scatter),
+                                 Bootstrap(runs, 200, 1 + static_cast<unsigned>(k)));
+    share.interval += holds(verdict.interval, 0) / double{trials};
+    share.plain += holds(verdict.plain, 0) / double{trials};
+  }
+  return share;
+}
+
+/// What is seen of 93 to 97 % in so many trials, three standard deviations of the binomial
+/// distribution either way.
+constexpr double trial_count = trials;
+const double least = 0.93 - 3 * std::sqrt(0.93 * 0.07 / trial_count);  // 0.896
+const double most = 0.97 + 3 * std::sqrt(0.97 * 0.03 / trial_count);   // 0.993
 
 // tau = (1 + rho)/(1 - rho); the estimate from 20000 windows is good to some per cent.
 TEST(Autocorrelation, TimeOfAFirstOrderSeriesIsTheKnownOne)
@@ -159,48 +133,113 @@ TEST(Bootstrap, IndependentWindowsGiveStudentsIntervalOfTheMean)
   const double n = 50;
   const Eigen::VectorXd series = Ar1(0).series(50);
   const Bootstrap bootstrap({50}, 4000, 1);
-  const Dependence independent{1, 1, n};
-  const auto interval =
-      bootstrap.interval(series.mean(), means(bootstrap.blocks(1), series), {}, independent);
+  const Dependence independent{1, 1, n, 1};
+  const auto interval = bootstrap.over_windows(
+      series.mean(), sampled_means(bootstrap.blocks(1), series), independent);
   const double s = std::sqrt((series.array() - series.mean()).square().sum() / (n - 1));
   const double expected = gsl_cdf_tdist_Pinv(0.975, n - 1) * s / std::sqrt(n);
   EXPECT_NEAR(half_width(interval) / expected, 1, 0.034);
   EXPECT_NEAR(interval.low + interval.high, 2 * series.mean(), 1e-12);
 }
 
-// Samples at +-1: variance 100/99. tau = 3, blocks of 4, 40 effective windows: m = 10 blocks, so
-// 10/9 for the fitted mean, 1/(1 - (3 - 1/3)/8) = 3/2 for the cuts, and t of 9 degrees of freedom.
-TEST(Bootstrap, AnIntervalByHand)
+Eigen::VectorXd plus_and_minus_one()
 {
-  Eigen::VectorXd samples(100);
+  Eigen::VectorXd samples(100);  // of variance 100/99
   for (Eigen::Index k = 0; k < 100; ++k) samples[k] = k % 2 == 0 ? 1 : -1;
-  const auto interval = Bootstrap({40}, 100, 1).interval(5, samples, {}, {3, 4, 40});
-  EXPECT_NEAR(half_width(interval), 2.262157 * std::sqrt(100. / 99 * 10 / 9 * 3 / 2), 1e-6);
+  return samples;
+}
+
+// tau = 3, i.e. rho = 1/2, blocks of 4, 40 effective windows: m = 10 blocks, so 10/9 for the fitted
+// mean; at the cuts 1 - (1 - 1/16)/(4 x 3/4) = 11/16 is kept; t of 9 degrees of freedom.
+TEST(Bootstrap, AnIntervalOfWindowsByHand)
+{
+  const auto interval =
+      Bootstrap({40}, 100, 1).over_windows(5, plus_and_minus_one(), {3, 4, 40, 1});
+  EXPECT_NEAR(half_width(interval), 2.262157 * std::sqrt(100. / 99 * 10 / 9 * 16 / 11), 1e-6);
   EXPECT_NEAR(interval.low + interval.high, 10, 1e-12);
 }
 
-// Two sources of equal variance, 9 and 1 degrees of freedom: Satterthwaite's 4/(1/9 + 1) = 3.6.
-TEST(Bootstrap, RunsAndWindowsAddTheirVariances)
+// 4 runs: 4/3 for their mean, t of 3 degrees of freedom; windows and their correlation are nothing
+// to it.
+TEST(Bootstrap, AnIntervalOfRunsByHand)
 {
-  Eigen::VectorXd samples(100);
-  for (Eigen::Index k = 0; k < 100; ++k) samples[k] = k % 2 == 0 ? 1 : -1;
-  const double variance = 100. / 99 * 2;  // times R/(R - 1) = 2 for two runs
-  const Eigen::VectorXd blocks = samples * std::sqrt(2 * 9. / 11);  // 11 windows: m/(m - 2) = 11/9
-  const auto interval = Bootstrap({6, 5}, 100, 1).interval(0, blocks, samples, {1, 1, 11});
-  EXPECT_NEAR(half_width(interval), gsl_cdf_tdist_Pinv(0.975, 3.6) * std::sqrt(2 * variance), 1e-9);
+  const Bootstrap bootstrap({10, 10, 10, 10}, 100, 1);
+  const auto interval = bootstrap.over_runs(5, plus_and_minus_one(), {3, 4, 40, 4});
+  EXPECT_NEAR(half_width(interval), 3.182446 * std::sqrt(100. / 99 * 4 / 3), 1e-6);
+  EXPECT_NEAR(interval.low + interval.high, 10, 1e-12);
 }
 
-// 400 series: a coverage of 0.95 is seen as 0.95 -+ 0.011; allowed are three times that.
-TEST(Bootstrap, IntervalsOfIndependentWindowsHoldTheTruthNineteenTimesInTwenty)
+// Weights 2, 1 and 1 in runs of 1, 2 and 1 windows: (2 + 2 + 1)^2/(4 + 4 + 1).
+TEST(Bootstrap, ARunCountsByItsWeight)
 {
-  EXPECT_NEAR(coverage(0, 120, 400), 0.955, 0.033);
+  const Eigen::Vector4d weight(2, 1, 1, 1);
+  EXPECT_DOUBLE_EQ(dependence(Eigen::Vector4d::Zero(), weight, {1, 2, 1}).effective_runs, 25. / 9);
 }
 
-TEST(Bootstrap, CorrelatedWindowsAreDrawnInLongerBlocksAndKeepTheirCoverage)
+TEST(Coverage, OfTheMeanOfAHundredAndTwentyWindowsIsAsSaid)
 {
-  EXPECT_GE(dependence_of(Ar1(0.7).series(120), {120}).block, 5u);
-  EXPECT_LE(dependence_of(Ar1(0).series(120), {120}).block, 3u);
-  EXPECT_GT(coverage(0.7, 120, 400), 0.91);
+  for (const double rho : {0.0, 0.5, 0.8}) {
+    const auto share = coverage_of_mean(rho, {120}, 0);
+    EXPECT_GT(share.interval, least) << rho;
+    EXPECT_LT(share.interval, most) << rho;
+  }
+}
+
+TEST(Coverage, OfPlainPercentilesOfCorrelatedWindowsIsTooLow)
+{
+  EXPECT_LT(coverage_of_mean(0.8, {120}, 0).plain, least);
+}
+
+// 8 runs of 24 windows whose own scatter is sqrt(3/24) = 0.35: alike, and three times as different.
+TEST(Coverage, OfSeveralRunsIsAsSaidWhetherOrNotTheyDiffer)
+{
+  const RunLengths runs(8, 24);
+  for (const double run_scatter : {0.0, 1.0}) {
+    const auto share = coverage_of_mean(0.5, runs, run_scatter);
+    EXPECT_GT(share.interval, least) << run_scatter;
+    EXPECT_LT(share.interval, most) << run_scatter;
+  }
+}
+
+TEST(Coverage, OfTheStrengthOfSegregationIsThatOfAMean)
+{
+  Ar1 noise(0.8);
+  const double truth = ScatteredStress::truth(0).B_half;
+  EXPECT_NEAR(truth, 2 * (1 - 0.966) / (1 + 0.966), 1e-12);
+  double share = 0;
+  for (int k = 0; k < trials; ++k) {
+    const auto fit = fit_rule(ScatteredStress::windows({120}, 0, noise), {}, {},
+                              Bootstrap({120}, 200, 1 + static_cast<unsigned>(k)));
+    share += holds({fit.low.B_half, fit.high.B_half}, truth) / trial_count;
+  }
+  EXPECT_GT(share, least);
+  EXPECT_LT(share, most);
+}
+
+// While layers segregate their compositions drift, and where B depends on composition so does what
+// each window says of it. That is no noise: independent windows stay independent, and the interval
+// is as narrow as their scatter lets it be.
+TEST(Coverage, OfAFlowThatSegregatesIsThatOfASteadyOne)
+{
+  Ar1 noise(0.5);
+  const auto known = ScatteredStress::drifting(120, nullptr);
+  const double truth = estimate(fit_points(known, {}, {})).B_half;
+  double share = 0, time = 0;
+  for (int k = 0; k < trials; ++k) {
+    const auto fit = fit_rule(ScatteredStress::drifting(120, &noise), {}, {},
+                              Bootstrap({120}, 200, 1 + static_cast<unsigned>(k)));
+    share += holds({fit.low.B_half, fit.high.B_half}, truth) / trial_count;
+    time += fit.dependence.time / trial_count;
+  }
+  EXPECT_GT(share, least);
+  EXPECT_LT(share, most);
+  EXPECT_NEAR(time, 4, 1);  // 3, and the longer of two noisy estimates
+}
+
+TEST(Bootstrap, CorrelatedWindowsAreDrawnInLongerBlocks)
+{
+  EXPECT_GE(dependence_of_mean(Ar1(0.7).series(120), {120}).block, 5u);
+  EXPECT_LE(dependence_of_mean(Ar1(0).series(120), {120}).block, 3u);
 }
 
 // The variance of a mean of n windows is tau/n; one long series knows it well.
@@ -224,11 +263,36 @@ TEST(Bootstrap, TooFewWindowsHaveNoInterval)
 {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   EXPECT_TRUE(std::isnan(interval_of_mean(one, {1}, 200).low));
-  EXPECT_TRUE(std::isnan(interval_of_mean(Eigen::VectorXd::LinSpaced(2, 0, 1), {1, 1}, 200).low));
   // Many windows of which one alone has weight.
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(50);
   weight[3] = 1;
   EXPECT_EQ(dependence(Eigen::VectorXd::Zero(50), weight, {50}).effective_windows, 1);
+}
+
+// Student's factor for two observations is 12.7; means 0 and 1, standard error 1/2.
+TEST(Bootstrap, TwoRunsOfOneWindowEachAreTwoObservations)
+{
+  const auto interval = interval_of_mean(Eigen::Vector2d(0, 1), {1, 1}, 4000);
+  EXPECT_NEAR(half_width(interval) / (12.7062 / 2), 1, 0.04);
+}
+
+TEST(Bootstrap, DoubtIsVoicedWhereWindowsAreTooFewForTheirCorrelation)
+{
+  const Bootstrap one_run({48}, 200, 1);
+  EXPECT_EQ(one_run.doubt({5, 10, 48, 1}), "");
+  EXPECT_EQ(one_run.doubt({12, 10, 48, 1}),
+            "48 windows with an autocorrelation time of 12 windows are worth 4 independent ones; "
+            "with fewer than 8 an interval of 95 % holds the truth less often");
+  EXPECT_TRUE(one_run.doubt({12, 48, 48, 1}).ends_with("; too few for an interval"));
+  EXPECT_EQ(Bootstrap({48}, 0, 1).doubt({12, 10, 48, 1}), "");
+}
+
+TEST(Bootstrap, DoubtIsVoicedWhereRunsAreTooFew)
+{
+  EXPECT_EQ(Bootstrap({48, 48}, 200, 1).doubt({1, 1, 96, 2}),
+            "2 runs, worth 2 of equal weight, tell little of how runs differ; four or more give a "
+            "narrower interval");
+  EXPECT_EQ(Bootstrap(RunLengths(4, 48), 200, 1).doubt({1, 1, 192, 4}), "");
 }
 
 TEST(Bootstrap, WithoutSamplesThereIsNoInterval)

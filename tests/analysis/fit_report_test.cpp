@@ -41,8 +41,9 @@ TEST(FitReport, JsonSaysNullWhereThereIsNoNumber)
   const auto json = nlohmann::json::parse(to_json(report));
   ASSERT_EQ(json["rules"].size(), 3u);
   const auto& size = json["rules"][0];
-  for (const char* key : {"rule", "component", "quantity", "slope", "slope_interval", "exponent",
-                          "B_half", "B_mean", "B_direct", "B_interval", "points", "estimators"})
+  for (const char* key :
+       {"rule", "component", "quantity", "slope", "slope_interval", "exponent", "B_half", "B_mean",
+        "B_direct", "B_interval", "points", "estimators", "used_by", "share"})
     EXPECT_TRUE(size.contains(key)) << key;
   EXPECT_EQ(size["rule"], "size");
   EXPECT_EQ(size["points"], 210);
@@ -56,9 +57,21 @@ TEST(FitReport, JsonSaysNullWhereThereIsNoNumber)
   EXPECT_EQ(json["scan"][1][0], 0.6);
   EXPECT_EQ(json["scan"][1][1], report.scan->fits[1].value.B_half);
   EXPECT_EQ(json["p_zero"], report.scan->p_zero);
+  EXPECT_EQ(json["p_zero_interval"][0], report.scan->p_zero_interval.low);
   EXPECT_EQ(json["dB_dp"], report.scan->dB_dp);
+  EXPECT_EQ(json["dB_dp_interval"][1], report.scan->dB_dp_interval.high);
+  EXPECT_EQ(json["rules"][2]["used_by"], "-");
+  EXPECT_TRUE(json["doubts"].empty());
   EXPECT_EQ(json["inputs"][0], "run.h5 0123456789abcdef");
   EXPECT_EQ(json["history"].size(), 2u);
+}
+
+TEST(FitReport, WhatLimitsTheIntervalsIsAmongTheLinesOfTheTableAndInJson)
+{
+  auto report = report_with_seed(1);
+  report.rules[0].doubt = "too few";
+  EXPECT_TRUE(holds(to_tsv(report), "# doubt: size: too few\n"));
+  EXPECT_EQ(nlohmann::json::parse(to_json(report))["doubts"][0], "size: too few");
 }
 
 TEST(FitReport, TheTableNamesTheRuleFirstAndTheScanIsATable)

@@ -180,6 +180,16 @@ TEST(PartitionRule, NamesAreWhatIsTyped)
   EXPECT_EQ(rules[2].name(), "half");
 }
 
+TEST(PartitionRule, StockStandsForThoseOfPublishedCodes)
+{
+  const auto rules = parse_rules({"stock,uniform:0.8"});
+  ASSERT_EQ(rules.size(), 5u);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NE(rules[k].used_by(), "") << rules[k].name();
+  EXPECT_EQ(rules[2].name(), "half");
+  EXPECT_EQ(rules[2].used_by(), "LAMMPS, LIGGGHTS compute stress/atom");
+  EXPECT_EQ(rules[4].used_by(), "");
+}
+
 TEST(PartitionRule, WrongTextIsAnsweredWithTheNearestRule)
 {
   EXPECT_NE(sentence_of("siez").find("did you mean size?"), std::string::npos);

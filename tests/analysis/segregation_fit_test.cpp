@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/segregation_fit.hpp"
-
+#include "analysis/rule_fit.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +57,7 @@ TEST(Estimators, ThePapersSlopesGiveThePapersB)
   const auto kinetic = estimate(power_law(1.4413, 1));
   EXPECT_NEAR(kinetic.B_pure_large, -0.4413, 5e-5);
   EXPECT_NEAR(kinetic.B_pure_small, -0.3062, 5e-5);
-  EXPECT_NEAR(kinetic.B_half_sum, -0.3737, 1e-4);
+  EXPECT_NEAR(kinetic.B_paper, -0.3737, 1e-4);
   EXPECT_NEAR(kinetic.B_half, -0.3615, 1e-4);
 }
 
@@ -105,7 +104,7 @@ TEST(Estimators, SumsOverWindowsSayTheSameAsGslsFitsOfThePoints)
     points.push_back(point);
   }
   const auto by_points = estimate(points);
-  const auto by_sums = estimate_from_sums(window_sums(points, {4, 7}).colwise().sum());
+  const auto by_sums = estimate_from_sums(window_sums(points, {4, 7}).total());
   for (const auto& [name, place] : estimator_names)
     EXPECT_NEAR(by_sums.*place, by_points.*place, 1e-12) << name;
 }
@@ -128,7 +127,7 @@ TEST(Estimators, OneCompositionHasASlopeButNoExponent)
       3, {.phi_large = 0.3, .weight = 1, .size_ratio = 2, .small = 2, .large = 1, .total = 3});
   EXPECT_NEAR(estimate(points).slope, 2 / (0.7 / 0.3), 1e-14);
   EXPECT_TRUE(std::isnan(estimate(points).exponent));
-  EXPECT_TRUE(std::isnan(estimate_from_sums(window_sums(points, {1}).row(0)).exponent));
+  EXPECT_TRUE(std::isnan(estimate_from_sums(window_sums(points, {1}).total()).exponent));
 }
 
 // ---- rules on neutral contacts ------------------------------------------------------------------
@@ -139,8 +138,7 @@ TEST(NeutralContacts, SharedBySizeDoNotSegregateByAnyEstimator)
   for (const char* rule : {"size", "contact-point"})
     for (const auto component : {Component::yy, Component::pressure}) {
       const auto b = fit(data, rule, {.component = component}).value;
-      for (const double value :
-           {b.B_half, b.B_mean, b.B_half_sum, b.B_linear, b.B_power, b.B_direct})
+      for (const double value : {b.B_half, b.B_mean, b.B_paper, b.B_linear, b.B_power, b.B_direct})
         EXPECT_NEAR(value, 0, 1e-12);
       EXPECT_NEAR(b.exponent, 1, 1e-12);
     }
@@ -156,6 +154,15 @@ TEST(NeutralContacts, SharedOtherwiseShowExactlyTheClosedForm)
   }
   EXPECT_EQ(fit(data, "size").neutral, 0);
   EXPECT_EQ(fit(data, "half").neutral, fit(data, "uniform:0.5").neutral);
+}
+
+TEST(NeutralContacts, GiveLargeGrainsTheShareOfTheRule)
+{
+  const auto data = neutral_data(0.1);
+  EXPECT_NEAR(fit(data, "size").share, 2. / 3, 1e-14);
+  EXPECT_NEAR(fit(data, "half").share, 0.5, 1e-14);
+  EXPECT_NEAR(fit(data, "uniform:0.8").share, 0.8, 1e-14);
+  EXPECT_TRUE(std::isnan(fit(data, "drop").share));
 }
 
 TEST(NeutralContacts, DisturbedOnesShowInTheDifferenceToSizeWhatTheRuleAdds)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/fit_data.hpp"
-#include "analysis/segregation_fit.hpp"
+#include "analysis/rule_fit.hpp"
 #include "tests/analysis/synthetic_sums.hpp"
 
 #include <cmath>

@@ -22,6 +22,10 @@ again PARTITION=uniform:0.8 >log
   fail "another partition: $(cat log)"
 again PARTITION=uniform:0.8 LAYER=5dS >log
 [ "$(grep -c 'grseg-stress\|grseg-kinetic\|grseg-micro' log)" = 3 ] || fail "another layer: $(cat log)"
+PWD=$folder make --no-print-directory -C "$source/scripts" figure BIN="$bin" WINDOW=0.5 BOOTSTRAP=0 \
+  LAYER=5dS RUNS=run.h5 HEIGHTS=5dS: >log 2>&1
+[ "$(grep -c 'bin/grseg-' log)" = 2 ] && [ "$(head -c 4 reanalysis/b-of-p.png | tail -c 3)" = PNG ] ||
+  fail "the figure: $(cat log)"
 grep -q grseg-sim log && fail "simulated again"
 [ "$(cksum run.h5)" = "$digest" ] || fail "the run was touched"
 code=0
