@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/composition.hpp"
 
+#include "analysis/add_up.hpp"
+
 #include <numbers>
 
 namespace grseg {
@@ -29,9 +31,7 @@ void Composition::add(const Grains& grains, const Frame& frame)
 void Composition::merge(const Composition& others)
 {
   frames_ += others.frames_;
-  sums_.resize(std::max(sums_.size(), others.sums_.size()));
-  for (std::size_t n = 0; n < others.sums_.size(); ++n)
-    for (const std::size_t species : {0, 1}) sums_[n][species] += others.sums_[n][species];
+  add_up(sums_, others.sums_);
 }
 
 Composition::Areas Composition::mean(std::size_t layer) const

@@ -5,6 +5,7 @@
 #include "analysis/partition.hpp"
 #include "formats/table.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct FitFilters {
   double end = std::numeric_limits<double>::infinity();
   // Layers lie in [lowest, highest]: lengths as on the command line (4dS), "" where open.
   std::string lowest{}, highest{};
+
+  bool all_times() const { return std::isinf(begin) && std::isinf(end); }
 };
 
 /// One layer in one window.

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <limits>
 #include <sstream>
+#include <thread>
 
 namespace grseg {
 namespace {
@@ -58,6 +59,10 @@ void FrameOptions::add_to(po::options_description& options)
   options.add_options()("end", time(windows.end), "no window ends after this (default: the run)");
   options.add_options()("stride", po::value(&windows.stride)->default_value(1)->value_name("N"),
                         "use one frame in N");
+  options.add_options()("threads", po::value(&threads)->default_value(1)->value_name("N"),
+                        "share the frames out to N threads, 0: as many as there are processors; "
+                        "changes no byte");
+  options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
   options.add_options()("output,o", po::value(&output)->value_name("FILE"),
                         "instead of standard output");
@@ -77,16 +82,27 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
                      const FrameOptions& options)
     : info_(info),
       options_(options),
+      preset_(preset_of(values)),
       run_(the_run(values)),
       layers_(layers_of(run_, options)),
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
 {
+  if (options.threads < 0 || options.threads > 1024)
+    throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", options.threads));
+  if (options.threads == 0)
+    options_.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 FrameLoop::~FrameLoop()
 {
   if (progress_) fmt::print(stderr, "\r\033[K");
+}
+
+void FrameLoop::read(std::size_t index, Frame& frame, TrajectoryReader::Fields fields)
+{
+  const std::lock_guard lock(reading_);
+  run_.read(index, frame, fields);
 }
 
 void FrameLoop::report_progress(const Window& window)
@@ -104,6 +120,7 @@ Table FrameLoop::make_table(const std::string& command,
   Table table;
   auto& header = table.header;
   header.emplace_back("program", fmt::format("{} {}", info_.name, version()));
+  header.emplace_back("preset", preset_);
   std::istringstream history(run_.parameters().text("history"));
   for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
   header.emplace_back("history", command);
@@ -153,7 +170,7 @@ std::vector<double> FrameLoop::bed_row(const Window& window, double height,
 
 void FrameLoop::write(const Table& table) const
 {
-  write_whole(options_.output, table.to_text());
+  write_whole(options_.output, options_.json ? table.to_json() : table.to_text());
 }
 
 }  // namespace grseg

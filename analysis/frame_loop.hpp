@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/in_order.hpp"
 #include "analysis/layers.hpp"
 #include "analysis/windows.hpp"
 #include "formats/table.hpp"
 #include "formats/tool.hpp"
 #include "formats/trajectory_reader.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,9 +23,10 @@ namespace grseg {
 struct FrameOptions {
   std::string output, layer = "4dS";
   WindowSettings windows;
-  bool quiet = false;
+  int threads = 1;
+  bool json = false, quiet = false;
 
-  /// Adds --output --begin --end --stride --layer --window --quiet.
+  /// Adds --output --begin --end --stride --layer --window --threads --json --quiet.
   void add_to(po::options_description& options);
 };
 
@@ -41,19 +46,35 @@ class FrameLoop {
   const Layers& layers() const { return layers_; }
   const std::vector<Window>& windows() const { return windows_; }
 
-  /// Calls use(grains, frame) for every frame of a window.
+  /// Sums over the frames of a window. Each of `empty`, accumulators that have seen nothing, comes
+  /// back having seen all frames:
+  ///
+  ///   const auto [areas, stress] =
+  ///       loop.sum(window, fields, Composition(...), PartialContactStress(...));
+  ///
+  /// An accumulator has add(grains, frame) and merge(others), which adds the sums of another one.
+  /// --threads share the frames out in blocks, and the blocks' sums are merged in order; a block is
+  /// of so many frames whatever the number of threads, so that this changes no byte. As many frames
+  /// are held as there are threads.
+  template <class... Sums>
+  std::tuple<Sums...> sum(const Window& window, TrajectoryReader::Fields fields,
+                          const Sums&... empty);
+
+  /// Calls use(grains, frame) for every frame of a window, one after the other: for what depends on
+  /// their order.
   template <class Use>
   void for_each_frame(const Window& window, TrajectoryReader::Fields fields, const Use& use)
   {
+    Frame frame;
     for (const std::size_t k : window.frames) {
-      run_.read(k, frame_, fields);
-      use(run_.grains(), frame_);
+      read(k, frame, fields);
+      use(run_.grains(), frame);
     }
     report_progress(window);
   }
 
-  /// A table without rows: header with program, history, content digest of the run, the numbers
-  /// that later tools need and `settings` of the tool; key columns, then `columns`.
+  /// A table without rows: header with program, preset, history, content digest of the run, the
+  /// numbers that later tools need and `settings` of the tool; key columns, then `columns`.
   Table make_table(const std::string& command,
                    const std::vector<std::pair<std::string, std::string>>& settings,
                    const std::vector<std::string>& columns) const;
@@ -67,15 +88,46 @@ class FrameLoop {
   void write(const Table& table) const;
 
  private:
+  void read(std::size_t index, Frame& frame, TrajectoryReader::Fields fields);
   void report_progress(const Window& window);
 
   ToolInfo info_;
   FrameOptions options_;
+  std::string preset_;
   TrajectoryReader run_;
   Layers layers_;
   std::vector<Window> windows_;
   bool progress_;
-  Frame frame_;
+  std::mutex reading_;  // the HDF5 library knows no threads
 };
+
+template <class... Sums>
+std::tuple<Sums...> FrameLoop::sum(const Window& window, TrajectoryReader::Fields fields,
+                                   const Sums&... empty)
+{
+  constexpr std::size_t block = 4;
+  const auto& frames = window.frames;
+  const auto sums_of_block = [&](std::size_t number) {
+    std::tuple<Sums...> sums(empty...);
+    Frame frame;
+    const std::size_t end = std::min(frames.size(), (number + 1) * block);
+    for (std::size_t k = number * block; k < end; ++k) {
+      read(frames[k], frame, fields);
+      std::apply([&](Sums&... each) { (each.add(run_.grains(), frame), ...); }, sums);
+    }
+    return sums;
+  };
+  std::tuple<Sums...> total(empty...);
+  const auto merge = [&](const std::tuple<Sums...>& sums) {
+    std::apply(
+        [&](Sums&... all) {
+          std::apply([&](const Sums&... each) { (all.merge(each), ...); }, sums);
+        },
+        total);
+  };
+  in_order(options_.threads, (frames.size() + block - 1) / block, sums_of_block, merge);
+  report_progress(window);
+  return total;
+}
 
 }  // namespace grseg

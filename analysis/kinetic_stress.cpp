@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/kinetic_stress.hpp"
 
-#include <cassert>
+#include "analysis/add_up.hpp"
+
 #include <limits>
 
 namespace grseg {
 
-KineticStress::KineticStress(const Layers& layers, MeanFlow flow, double bin)
-    : layers_(layers), mean_velocity_(flow, layers, bin)
+KineticStress::KineticStress(const Layers& layers, const MeanVelocity& mean)
+    : layers_(layers), mean_velocity_(mean)
 {
-}
-
-void KineticStress::add_to_mean(const Grains& grains, const Frame& frame)
-{
-  assert(!mean_is_known_);
-  mean_velocity_.add(grains, frame);
+  mean_velocity_.finish();
 }
 
 void KineticStress::add(const Grains& grains, const Frame& frame)
 {
-  if (!mean_is_known_) mean_velocity_.finish();
-  mean_is_known_ = true;
   ++frames_;
   sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -46,6 +40,32 @@ void KineticStress::add(const Grains& grains, const Frame& frame)
     sums.mv += mass * velocity.y();
     sums.muy += mass * velocity.x() * above;
   }
+}
+
+KineticStress::Mean& KineticStress::Mean::operator+=(const Mean& other)
+{
+  mass += other.mass;
+  kinetic += other.kinetic;
+  rotational += other.rotational;
+  return *this;
+}
+
+KineticStress::Sums& KineticStress::Sums::operator+=(const Sums& others)
+{
+  add_up(species, others.species);
+  mass += others.mass;
+  my += others.my;
+  myy += others.myy;
+  mu += others.mu;
+  mv += others.mv;
+  muy += others.muy;
+  return *this;
+}
+
+void KineticStress::merge(const KineticStress& others)
+{
+  frames_ += others.frames_;
+  add_up(sums_, others.sums_);
 }
 
 KineticStress::Mean KineticStress::mean(std::size_t layer, Species species) const

@@ -15,7 +15,8 @@ namespace grseg {
 /// 2015, kinetic stress), dv = velocity less the mean velocity at the grain's own height. A grain
 /// is booked, whole, in the layer of its centre. J, not divided by V, means per frame.
 ///
-/// All frames of a window are added twice: first to the mean flow, then to the fluctuations.
+/// All frames of a window are gone through twice: first for the mean flow, then for the
+/// fluctuations.
 class KineticStress {
  public:
   /// Of one species in one layer.
@@ -23,6 +24,7 @@ class KineticStress {
     double mass = 0;                    // kg
     Tensor2 kinetic = Tensor2::Zero();  // J, sum m dv (x) dv, without a factor 1/2
     double rotational = 0;              // J, sum m r^2/2 dw^2, likewise; w is the spin
+    Mean& operator+=(const Mean& other);
   };
   /// Of all mobile grains in one layer, weighted by mass; NaN where there are none.
   struct Flow {
@@ -30,11 +32,11 @@ class KineticStress {
     double du_dy;  // 1/s, slope of the least-squares line u(y); NaN for less than two heights
   };
 
-  /// Bins of the profile no thicker than `bin`, m.
-  KineticStress(const Layers& layers, MeanFlow flow, double bin);
+  /// About the mean over the frames that `mean` was given, which are those to be added.
+  KineticStress(const Layers& layers, const MeanVelocity& mean);
 
-  void add_to_mean(const Grains& grains, const Frame& frame);
   void add(const Grains& grains, const Frame& frame);
+  void merge(const KineticStress& others);
 
   std::size_t layers() const { return sums_.size(); }
   Mean mean(std::size_t layer, Species species) const;
@@ -48,11 +50,11 @@ class KineticStress {
   struct Sums {
     std::array<Mean, 2> species;
     double mass = 0, my = 0, myy = 0, mu = 0, mv = 0, muy = 0;  // y from the layer's bottom
+    Sums& operator+=(const Sums& others);
   };
 
   Layers layers_;
   MeanVelocity mean_velocity_;
-  bool mean_is_known_ = false;
   std::size_t frames_ = 0;
   std::vector<Sums> sums_;
 };

@@ -17,8 +17,9 @@ constexpr double most_layers = 100000;
 
 double disc_area_below(double radius, double height)
 {
-  const double d = std::clamp(height, -radius, radius);
   const double square = radius * radius;
+  if (height >= radius) return std::numbers::pi * square;
+  const double d = std::max(height, -radius);
   return square * (std::numbers::pi / 2 + std::asin(d / radius)) + d * std::sqrt(square - d * d);
 }
 
@@ -28,16 +29,6 @@ Layers::Layers(double thickness, double length) : thickness_(thickness), length_
     throw UsageError(fmt::format("a layer of {:g} m has no thickness; give e.g. 4dS", thickness));
   if (!(length > 0) || !std::isfinite(length))
     throw UsageError(fmt::format("a cell of {:g} m has no length", length));
-}
-
-std::size_t Layers::at(double y) const
-{
-  if (!(y >= thickness_)) return 0;
-  auto n = static_cast<std::size_t>(y / thickness_);
-  // The quotient may be rounded to the wrong side of an edge.
-  if (y < bottom(n)) --n;
-  if (y >= top(n)) ++n;
-  return n;
 }
 
 std::size_t Layers::count(const Grains& grains, const Frame& frame) const

@@ -53,6 +53,16 @@ class Layers {
   double thickness_, length_;
 };
 
+inline std::size_t Layers::at(double y) const
+{
+  if (!(y >= thickness_)) return 0;
+  auto n = static_cast<std::size_t>(y / thickness_);
+  // The quotient may be rounded to the wrong side of an edge.
+  if (y < bottom(n)) --n;
+  if (y >= top(n)) ++n;
+  return n;
+}
+
 template <class Book>
 void Layers::share_segment(double from, double to, std::size_t count, const Book& book) const
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/mean_velocity.hpp"
 
+#include "analysis/add_up.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +36,19 @@ void MeanVelocity::add(const Grains& grains, const Frame& frame)
     sum.momentum +=
         mass * Motion{frame.velocity[g].x(), frame.velocity[g].y(), frame.angular_velocity[g]};
   }
+}
+
+MeanVelocity::Sum& MeanVelocity::Sum::operator+=(const Sum& other)
+{
+  mass += other.mass;
+  moment += other.moment;
+  momentum += other.momentum;
+  return *this;
+}
+
+void MeanVelocity::merge(const MeanVelocity& others)
+{
+  add_up(sums_, others.sums_);
 }
 
 void MeanVelocity::finish()

@@ -33,6 +33,7 @@ class MeanVelocity {
   MeanVelocity(MeanFlow flow, const Layers& layers, double bin);
 
   void add(const Grains& grains, const Frame& frame);
+  void merge(const MeanVelocity& others);
   /// Takes the means; nothing can be added after that.
   void finish();
   /// At height y, for a grain of a species; of grains that were added only.
@@ -42,6 +43,7 @@ class MeanVelocity {
   struct Sum {
     double mass = 0, moment = 0;  // kg, kg m
     Motion momentum = Motion::Zero();
+    Sum& operator+=(const Sum& other);
   };
   struct Point {
     double y;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro_structure.hpp"
 
+#include "analysis/add_up.hpp"
+
 #include <fmt/format.h>
 
 #include <limits>
@@ -19,12 +21,6 @@ double ratio(double a, double b)
 std::size_t at(PairType type)
 {
   return static_cast<std::size_t>(type);
-}
-
-template <std::size_t n>
-void add_up(std::array<double, n>& sums, const std::array<double, n>& others)
-{
-  for (std::size_t k = 0; k < n; ++k) sums[k] += others[k];
 }
 
 template <std::size_t n>
@@ -137,6 +133,16 @@ void MicroStructure::add(const Grains& grains, const Frame& frame)
     add_end(list.i[k]);
     add_end(list.j[k]);
   }
+}
+
+void MicroStructure::merge(const MicroStructure& others)
+{
+  frames_ += others.frames_;
+  composition_.merge(others.composition_);
+  add_up(sums_, others.sums_);
+  heights_.large += others.heights_.large;
+  heights_.small += others.heights_.small;
+  heights_.bed += others.heights_.bed;
 }
 
 void MicroStructure::add_heights(const Grains& grains, const Frame& frame)

@@ -64,6 +64,7 @@ class MicroStructure {
                  double large_diameter);
 
   void add(const Grains& grains, const Frame& frame);
+  void merge(const MicroStructure& others);
   std::size_t layers() const { return sums_.size(); }
   MicroSums mean(std::size_t layer) const;
   MicroSums mean() const;

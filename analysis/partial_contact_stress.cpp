@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/partial_contact_stress.hpp"
 
+#include "analysis/add_up.hpp"
+
 #include <fmt/format.h>
 
 #include <cassert>
@@ -121,15 +123,17 @@ void PartialContactStress::add(const Grains& grains, const Frame& frame)
   }
 }
 
+PartialContactStress::Sums& PartialContactStress::Sums::operator+=(const Sums& others)
+{
+  add_up(contacts, others.contacts);
+  add_up(tensor, others.tensor);
+  return *this;
+}
+
 void PartialContactStress::merge(const PartialContactStress& others)
 {
   frames_ += others.frames_;
-  sums_.resize(std::max(sums_.size(), others.sums_.size()));
-  for (std::size_t n = 0; n < others.sums_.size(); ++n) {
-    for (std::size_t t = 0; t < pair_types; ++t)
-      sums_[n].contacts[t] += others.sums_[n].contacts[t];
-    for (std::size_t p = 0; p < parts; ++p) sums_[n].tensor[p] += others.sums_[n].tensor[p];
-  }
+  add_up(sums_, others.sums_);
 }
 
 PartialContactStress::Mean PartialContactStress::mean(std::size_t layer) const

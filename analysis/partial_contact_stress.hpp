@@ -73,6 +73,7 @@ class PartialContactStress {
     std::array<double, pair_types> contacts{};
     std::array<Tensor2, parts> tensor;
     Sums() { tensor.fill(Tensor2::Zero()); }
+    Sums& operator+=(const Sums& others);
   };
   /// A stretch of the branch: `weight` of the contact's force (x) branch, beginning at the grain it
   /// belongs to. Heights, m.

@@ -5,6 +5,7 @@
 #include "formats/tool.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -98,6 +99,26 @@ std::string Table::to_text() const
     text += '\n';
   }
   return text;
+}
+
+std::string Table::to_json() const
+{
+  using Json = nlohmann::ordered_json;
+  Json settings = Json::object(), inputs = Json::array(), history = Json::array();
+  for (const auto& [key, value] : header) {
+    if (key == "input")
+      inputs.push_back(value);
+    else if (key == "history")
+      history.push_back(value);
+    else
+      settings[key] = value;
+  }
+  const Json all{{"columns", columns},
+                 {"rows", rows},
+                 {"settings", settings},
+                 {"inputs", inputs},
+                 {"history", history}};
+  return all.dump() + '\n';
 }
 
 Table Table::read(const std::string& path)

@@ -25,6 +25,9 @@ class Table {
   double header_number(const std::string& key) const;
 
   std::string to_text() const;
+  /// {"columns": [...], "rows": [[...], ...], "settings": {...}, "inputs": [...], "history":
+  /// [...]}; what is not a number is null.
+  std::string to_json() const;
 
   /// From a file, or from standard input where `path` is "-". UsageError where it is missing,
   /// FormatError with the line number where it is no table.

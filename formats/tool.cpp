@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <numeric>
 
 namespace grseg {
@@ -42,7 +43,50 @@ std::vector<std::string> names_of(const po::options_description& options)
   return names;
 }
 
-po::variables_map parse(int argc, char** argv, const po::options_description& options)
+/// What the preset sets of the options that are not given themselves: option and value.
+std::vector<std::pair<std::string, std::string>> preset_values(const ToolInfo& info,
+                                                               const po::variables_map& given)
+{
+  const auto name = preset_of(given);
+  if (name == "none") return {};
+  if (name != "paper" && name != "rigorous")
+    throw UsageError(fmt::format("--preset: there is no '{}'; it is paper or rigorous", name));
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const auto& [option, paper, rigorous] : info.presets) {
+    const std::string value = name == "paper" ? paper : rigorous;
+    if (!value.empty() && (!given.contains(option) || given[option].defaulted()))
+      values.emplace_back(option, value);
+  }
+  return values;
+}
+
+/// Gives `values` what the preset sets, as defaults.
+void take_preset(const ToolInfo& info, const po::options_description& options,
+                 po::variables_map& values)
+{
+  const auto preset = preset_values(info, values);
+  std::vector<std::string> words;
+  words.reserve(preset.size());
+  for (const auto& [option, value] : preset) words.push_back(fmt::format("--{}={}", option, value));
+  po::store(po::command_line_parser(words).options(options).run(), values);
+  po::notify(values);
+  std::map<std::string, po::variable_value>& all = values;
+  for (const auto& [option, value] : preset)
+    all[option] = po::variable_value(all[option].value(), true);
+}
+
+std::string help_of(const std::span<const PresetOption> presets)
+{
+  std::string paper = "paper:", rigorous = "rigorous:";
+  for (const auto& row : presets) {
+    if (*row.paper != '\0') paper += fmt::format(" --{} {}", row.option, row.paper);
+    if (*row.rigorous != '\0') rigorous += fmt::format(" --{} {}", row.option, row.rigorous);
+  }
+  return fmt::format("{}; {}; options that are given go before", paper, rigorous);
+}
+
+po::variables_map parse(int argc, char** argv, const ToolInfo& info,
+                        const po::options_description& options)
 {
   namespace style = po::command_line_style;
   po::options_description all;
@@ -59,7 +103,7 @@ po::variables_map parse(int argc, char** argv, const po::options_description& op
                   .style(style::unix_style & ~style::allow_guessing)
                   .run(),
               values);
-    po::notify(values);
+    take_preset(info, all, values);
   } catch (const po::unknown_option& unknown) {
     const auto& option = unknown.get_option_name();
     const auto suggestion = nearest(option, names_of(options));
@@ -88,9 +132,12 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
              const std::function<void(const po::variables_map&)>& body)
 {
   po::options_description all = options;
+  const auto presets = help_of(info.presets);
+  if (!info.presets.empty())
+    all.add_options()("preset", po::value<std::string>()->value_name("NAME"), presets.c_str());
   all.add_options()("version", "print the version and stop")("help,h", "print this text and stop");
   try {
-    const auto values = parse(argc, argv, all);
+    const auto values = parse(argc, argv, info, all);
     if (values.count("help") > 0) {
       print_help(info, all);
     } else if (values.count("version") > 0) {
@@ -112,11 +159,18 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
   return exit_trouble;
 }
 
+std::string preset_of(const po::variables_map& values)
+{
+  return values.contains("preset") ? values["preset"].as<std::string>() : "none";
+}
+
 std::string command_line(int argc, char** argv)
 {
   std::string line = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "";
   for (int k = 1; k < argc; ++k) {
     const std::string word = argv[k];
+    if (word == "--threads") ++k;
+    if (word.starts_with("--threads")) continue;
     const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$*") == std::string::npos;
     line += plain ? " " + word : " '" + word + "'";
   }

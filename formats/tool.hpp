@@ -6,6 +6,7 @@
 #include <boost/program_options.hpp>
 
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,21 +15,32 @@ namespace grseg {
 
 namespace po = boost::program_options;
 
+/// An option and what --preset paper and --preset rigorous set it to, as it would be typed; "":
+/// they leave it as it is by default.
+struct PresetOption {
+  const char *option, *paper, *rigorous;
+};
+
 struct ToolInfo {
-  const char* name;      // "grseg-stress"
-  const char* summary;   // one sentence
-  const char* usage;     // "grseg-stress run.h5 [options]"
-  const char* examples;  // shown first by --help
+  const char* name;                            // "grseg-stress"
+  const char* summary;                         // one sentence
+  const char* usage;                           // "grseg-stress run.h5 [options]"
+  const char* examples;                        // shown first by --help
+  std::span<const PresetOption> presets = {};  // none: the tool has no --preset
 };
 
 /// What every program of the suite does alike: parse the command line (an unknown option is
-/// refused with the nearest known one), --help and --version, and turn what `body` throws into one
-/// sentence on standard error and an exit code (errors.hpp). Arguments that are no options come as
-/// "input". `body` gets the parsed options.
+/// refused with the nearest known one), --help, --version and --preset, and turn what `body` throws
+/// into one sentence on standard error and an exit code (errors.hpp). Arguments that are no options
+/// come as "input". `body` gets the parsed options; what a preset sets counts as default.
 int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
              const std::function<void(const po::variables_map&)>& body);
 
-/// The command line as typed, but with the program's bare name: a line of a history chain.
+/// The preset that was given, or "none".
+std::string preset_of(const po::variables_map& values);
+
+/// The command line as typed, but with the program's bare name and without --threads, which changes
+/// no byte of any output: a line of a history chain.
 std::string command_line(int argc, char** argv);
 
 /// "0.1.0"; with the git hash: "0.1.0 (1a2b3c4)".

@@ -43,6 +43,20 @@ std::vector<std::string> read_strings(hid_t object, const std::string& name)
   return texts;
 }
 
+/// The library keeps little of its index of chunks, so that memory does not grow with the number of
+/// frames: they are read one after the other.
+Properties small_index_cache()
+{
+  Properties access(H5Pcreate(H5P_FILE_ACCESS));
+  H5AC_cache_config_t cache{};
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  H5Pget_mdc_config(access, &cache);
+  cache.set_initial_size = true;
+  cache.initial_size = cache.min_size = cache.max_size = 131072;  // bytes
+  H5Pset_mdc_config(access, &cache);
+  return access;
+}
+
 /// A file that does not open is damaged, or a running simulation holds HDF5's lock on it.
 std::string why_it_does_not_open(const std::string& path)
 {
@@ -276,7 +290,7 @@ TrajectoryReader::TrajectoryReader(const std::string& path) : impl_(std::make_un
   require_file(path);
   auto& my = *impl_;
   my.path = path;
-  my.file = File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  my.file = File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, small_index_cache()));
   if (!my.file.valid()) my.fail(why_it_does_not_open(path));
   my.require_version("/h5md");
   my.require_version("/h5md/modules/grseg");

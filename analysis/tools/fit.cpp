@@ -3,6 +3,7 @@
 #include "analysis/fit_report.hpp"
 #include "analysis/partition.hpp"
 #include "analysis/partition_scan.hpp"
+#include "analysis/presets.hpp"
 #include "analysis/segregation_fit.hpp"
 #include "formats/errors.hpp"
 #include "formats/table.hpp"
@@ -28,11 +29,12 @@ constexpr ToolInfo info{
     "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
-    "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n"};
+    "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n",
+    presets::fit};
 
 struct Settings {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range, heights, preset, output;
+  std::string component, quantity, base, scan, ratio_range, heights, output;
   int bootstrap = 0;
   long seed = 0;
   FitFilters filters;
@@ -69,8 +71,6 @@ po::options_description options_into(Settings& s)
       "least solid fraction of a layer, in units of the run's median");
   add("begin", number(s.filters.begin, "s"), "first time of the windows that take part");
   add("end", number(s.filters.end, "s"), "last time of the windows that take part");
-  add("preset", text(s.preset, "NAME"),
-      "paper (the nominal two thirds, uniform:0.66667) or rigorous (size)");
   add("json", "print JSON instead of a table");
   add("quiet", "no remarks on standard error");
   add("output,o", text(s.output, "FILE"), "write there instead of to standard output");
@@ -121,10 +121,9 @@ void check(const Settings& s, const po::variables_map& values)
   if (!(s.filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
   parse_rules(s.partition);
   if (!s.scan.empty()) parse_scan(s.scan);
-  if (!s.preset.empty()) is_second(s.preset, "preset", "paper", "rigorous");
   if (s.quantity == "kinetic")
     for (const char* option : {"partition", "scan", "base"})
-      if (values.contains(option))
+      if (values.contains(option) && !values[option].defaulted())
         throw UsageError(
             fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));
 }
@@ -138,9 +137,8 @@ std::string header_or(const Table& table, const std::string& key, const std::str
 
 std::vector<PartitionRule> rules_of(const Settings& s, const Table& first)
 {
+  if (s.quantity == "kinetic") return {PartitionRule{}};
   if (!s.partition.empty()) return parse_rules(s.partition);
-  if (s.preset == "paper") return {parse_rule("uniform:0.66667")};
-  if (s.preset == "rigorous" || s.quantity == "kinetic") return {PartitionRule{}};
   return {parse_rule(header_or(first, "partition", "size"))};
 }
 
@@ -166,7 +164,8 @@ void remark(const std::vector<Table>& tables, const FitReport& report, bool boot
                                info.name, fit.rule.name(), fit.dependence.effective_windows);
 }
 
-FitReport make_report(const Settings& s, const std::vector<Table>& tables)
+FitReport make_report(const Settings& s, const std::string& preset,
+                      const std::vector<Table>& tables)
 {
   const auto base = s.base.empty() ? header_or(tables[0], "base", "contact-point") : s.base;
   FitReport report;
@@ -182,18 +181,22 @@ FitReport make_report(const Settings& s, const std::vector<Table>& tables)
   for (const auto& rule : rules) report.rules.push_back(fit_rule(data, rule, settings, bootstrap));
   if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
 
-  report.header = {{"program", fmt::format("grseg-fit {}", version())},
-                   {"quantity", s.quantity},
-                   {"component", s.component},
-                   {"ratio_range", s.ratio_range},
-                   {"heights", s.heights.empty() ? "all" : s.heights},
-                   {"min_solid", format_number(s.filters.min_solid)},
-                   {"rows", data.count.sentence()},
-                   {"runs", fmt::format("{}", data.runs.size())},
-                   {"windows", fmt::format("{}", bootstrap.windows())},
-                   {"bootstrap", fmt::format("{}", s.bootstrap)},
-                   {"seed", fmt::format("{}", s.seed)},
-                   {"interval", "95 %"}};
+  report.header = {
+      {"program", fmt::format("grseg-fit {}", version())},
+      {"preset", preset},
+      {"quantity", s.quantity},
+      {"component", s.component},
+      {"ratio_range", s.ratio_range},
+      {"heights", s.heights.empty() ? "all" : s.heights},
+      {"times",
+       s.filters.all_times() ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
+      {"min_solid", format_number(s.filters.min_solid)},
+      {"rows", data.count.sentence()},
+      {"runs", fmt::format("{}", data.runs.size())},
+      {"windows", fmt::format("{}", bootstrap.windows())},
+      {"bootstrap", fmt::format("{}", s.bootstrap)},
+      {"seed", fmt::format("{}", s.seed)},
+      {"interval", "95 %"}};
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
   collect(tables, "input", report.inputs);
   collect(tables, "history", report.history);
@@ -214,7 +217,7 @@ int main(int argc, char** argv)
     for (const auto& path : values["input"].as<std::vector<std::string>>())
       tables.push_back(Table::read(path));
 
-    auto report = make_report(settings, tables);
+    auto report = make_report(settings, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
     if (!values.contains("quiet")) remark(tables, report, settings.bootstrap > 0);
     write_whole(settings.output, values.contains("json") ? to_json(report) : to_tsv(report));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frame_loop.hpp"
 #include "analysis/kinetic_stress.hpp"
+#include "analysis/presets.hpp"
 
 using namespace grseg;
 
@@ -12,7 +13,8 @@ constexpr ToolInfo info{
     "grseg-kinetic run.h5 [options] > kinetic.tsv",
     "  grseg-kinetic run.h5 -o kinetic.tsv              about a fine profile of mean velocity\n"
     "  grseg-kinetic run.h5 --mean layer                about the mean of each layer\n"
-    "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n"};
+    "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n",
+    presets::kinetic};
 
 struct Settings {
   FrameOptions frames;
@@ -38,14 +40,10 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   auto table = loop.make_table(command, {{"mean", s.mean}}, KineticStress::columns());
 
   for (const auto& window : loop.windows()) {
-    KineticStress stress(loop.layers(), flow, loop.run().small_diameter() / 2);
     const TrajectoryReader::Fields fields{.velocity = true, .contacts = false};
-    loop.for_each_frame(window, fields, [&](const Grains& grains, const Frame& frame) {
-      stress.add_to_mean(grains, frame);
-    });
-    loop.for_each_frame(window, fields, [&](const Grains& grains, const Frame& frame) {
-      stress.add(grains, frame);
-    });
+    const auto [mean] = loop.sum(
+        window, fields, MeanVelocity(flow, loop.layers(), loop.run().small_diameter() / 2));
+    const auto [stress] = loop.sum(window, fields, KineticStress(loop.layers(), mean));
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, stress.row(layer)));
   }

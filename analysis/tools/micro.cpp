@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frame_loop.hpp"
 #include "analysis/micro_structure.hpp"
+#include "analysis/presets.hpp"
 
 using namespace grseg;
 
@@ -12,7 +13,8 @@ constexpr ToolInfo info{
     "grseg-micro run.h5 [options] > micro.tsv",
     "  grseg-micro run.h5 -o micro.tsv\n"
     "  grseg-micro run.h5 | grep -v '^#' | awk -F'\\t' '$3 == \"nan\"'   the whole bed over "
-    "time\n"};
+    "time\n",
+    presets::micro};
 
 struct Settings {
   FrameOptions frames;
@@ -38,11 +40,9 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
       loop.make_table(command, {{"composition", s.composition}}, MicroStructure::columns());
 
   for (const auto& window : loop.windows()) {
-    MicroStructure micro(loop.layers(), area, loop.run().small_diameter(),
-                         loop.run().large_diameter());
-    loop.for_each_frame(
-        window, {.velocity = false, .contacts = true},
-        [&](const Grains& grains, const Frame& frame) { micro.add(grains, frame); });
+    const auto [micro] = loop.sum(window, {.velocity = false, .contacts = true},
+                                  MicroStructure(loop.layers(), area, loop.run().small_diameter(),
+                                                 loop.run().large_diameter()));
     for (std::size_t layer = 0; layer < micro.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, micro.row(layer)));
     table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));

@@ -5,6 +5,7 @@
 #include "analysis/merge_tables.hpp"
 #include "analysis/partial_contact_stress.hpp"
 #include "analysis/partition.hpp"
+#include "analysis/presets.hpp"
 #include "formats/errors.hpp"
 #include "formats/length.hpp"
 
@@ -24,7 +25,8 @@ constexpr ToolInfo info{
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
     "  grseg-stress run.h5 --assign gauss --width 1dS   coarse grained by a Gaussian\n"
     "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n"
-    "  grseg-stress --merge seed1.tsv seed2.tsv         the sums of two runs as one table\n"};
+    "  grseg-stress --merge seed1.tsv seed2.tsv         the sums of two runs as one table\n",
+    presets::stress};
 
 struct Settings {
   FrameOptions frames;
@@ -129,13 +131,8 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
                                joined({"area_S[m^2]", "area_L[m^2]"}, no_contacts.columns()));
 
   for (const auto& window : loop.windows()) {
-    auto composition = no_grains;
-    auto stress = no_contacts;
-    loop.for_each_frame(window, {.velocity = false, .contacts = true},
-                        [&](const Grains& grains, const Frame& frame) {
-                          composition.add(grains, frame);
-                          stress.add(grains, frame);
-                        });
+    const auto [composition, stress] =
+        loop.sum(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
       const auto areas = composition.mean(layer);
       table.rows.push_back(
@@ -147,7 +144,8 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
 
 void merge(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const std::set<std::string> about_merging{"merge", "all-windows", "input", "output", "quiet"};
+  const std::set<std::string> about_merging{"merge",  "all-windows", "input",
+                                            "output", "quiet",       "json"};
   for (const auto& [name, value] : values)
     if (!value.defaulted() && !about_merging.contains(name))
       throw UsageError(
@@ -157,8 +155,8 @@ void merge(const Settings& s, const po::variables_map& values, const std::string
     for (const auto& path : values["input"].as<std::vector<std::string>>())
       tables.push_back(Table::read(path));
   const auto program = fmt::format("{} {}", info.name, version());
-  write_whole(s.frames.output,
-              merge_tables(std::move(tables), s.all_windows, program, command).to_text());
+  const auto merged = merge_tables(std::move(tables), s.all_windows, program, command);
+  write_whole(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
 }
 
 }  // namespace

@@ -6,9 +6,11 @@
 #include "tests/three_grains.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -212,6 +214,97 @@ TEST_F(FrameTools, TheSameInputGivesTheSameBytesToFileAndPipe)
   EXPECT_EQ(stored.rows, piped.rows);
 }
 
+// The sample is a true run of 200 frames: 50 in a window make 13 blocks.
+TEST_F(FrameTools, AnyNumberOfThreadsGivesTheSameBytes)
+{
+  const std::string sample = std::string(GRSEG_SAMPLE) + " --window 5";
+  for (const auto& tool : {stress + " --assign branch", kinetic, micro}) {
+    const auto alone = run(tool + " " + sample + " --threads 1").out;
+    EXPECT_GT(alone.size(), 10000u);
+    EXPECT_EQ(alone, run(tool + " " + sample).out);
+    for (const char* threads : {" --threads 2", " --threads=3", " --threads 7", " --threads 0"})
+      EXPECT_EQ(alone, run(tool + threads + " " + sample).out) << tool << threads;
+  }
+}
+
+// Frame 9 holds what is no number, and in frame 30, which other threads reach first, a grain is
+// lost.
+TEST_F(FrameTools, TheFirstDamagedFrameIsNamedWhoeverReadsIt)
+{
+  {
+    TrajectoryWriter writer(file, three_grains::description(), {});
+    for (int k = 0; k < 60; ++k) {
+      auto frame = three_grains::frame(k);
+      if (k == 9) frame.position[1].x() = std::nan("");
+      if (k == 30) frame.position[1].y() = 1e6;
+      writer.append(frame, std::vector<double>{0});
+    }
+    writer.close();
+  }
+  for (const auto& tool : {stress, kinetic, micro})
+    for (const char* threads : {"1", "2", "7"}) {
+      const auto trouble = [&, threads = threads](const std::string& times) {
+        return run(tool + " " + file + times + " --threads " + threads + " 2>&1");
+      };
+      const auto nan = trouble(" --window 3"), lost = trouble(" --begin 0.75 --window 2");
+      EXPECT_EQ(nan.code, 3);
+      EXPECT_EQ(
+          nan.out.substr(nan.out.find(": /particles")),
+          ": /particles/grains/position/value is not a finite number in frame 9, entry 2; the "
+          "frame is damaged\n");
+      EXPECT_EQ(lost.code, 1);
+      EXPECT_EQ(
+          lost.out.substr(lost.out.find(": at")),
+          ": at t = 1.50005 s a grain is 1e+06 m above the base, more than 100000 layers; is it "
+          "lost, or are the layers too thin?\n");
+    }
+}
+
+TEST_F(FrameTools, APresetIsRecordedAndWhatIsGivenGoesBefore)
+{
+  EXPECT_EQ(table(stress).header_text("preset"), "none");
+  const auto paper = table(stress, "--preset paper"), rigorous = table(stress, "--preset rigorous"),
+             own = table(stress, "--volume bulk --preset paper --assign grain");
+  EXPECT_EQ(paper.header_text("preset"), "paper");
+  EXPECT_EQ(paper.header_text("assign"), "contact-point");
+  EXPECT_EQ(paper.header_text("partition"), "uniform:0.66667");
+  EXPECT_EQ(paper.header_text("volume"), "solid");
+  EXPECT_EQ(rigorous.header_text("preset"), "rigorous");
+  EXPECT_EQ(rigorous.header_text("assign"), "branch");
+  EXPECT_EQ(rigorous.header_text("partition"), "size");
+  EXPECT_EQ(own.header_text("preset"), "paper");
+  EXPECT_EQ(own.header_text("assign"), "grain");
+  EXPECT_EQ(own.header_text("partition"), "uniform:0.66667");
+  EXPECT_EQ(own.header_text("volume"), "bulk");
+  EXPECT_EQ(table(kinetic, "--preset paper").header_text("mean"), "layer");
+  EXPECT_EQ(table(kinetic, "--preset rigorous").header_text("mean"), "profile");
+  EXPECT_EQ(table(kinetic, "--preset paper --mean species").header_text("mean"), "species");
+  for (const char* preset : {"paper", "rigorous"})
+    EXPECT_EQ(table(micro, std::string("--preset ") + preset).header_text("preset"), preset);
+}
+
+TEST_F(FrameTools, JsonHoldsTheTable)
+{
+  for (const auto& tool : {stress, kinetic, micro}) {
+    const auto t = table(tool);
+    const auto json = nlohmann::json::parse(run(tool + " " + file + " --json").out);
+    EXPECT_EQ(json["columns"], t.columns);
+    ASSERT_EQ(json["rows"].size(), t.rows.size());
+    for (std::size_t row = 0; row < t.rows.size(); ++row)
+      for (std::size_t c = 0; c < t.columns.size(); ++c) {
+        const auto& cell = json["rows"][row][c];
+        if (std::isnan(t.rows[row][c]))
+          EXPECT_TRUE(cell.is_null());
+        else
+          EXPECT_EQ(cell, t.rows[row][c]);
+      }
+    EXPECT_EQ(json["settings"]["layer"], t.header_text("layer"));
+    EXPECT_EQ(json["inputs"][0], t.header_text("input"));
+    EXPECT_EQ(json["history"][0], "three grains by hand");
+    EXPECT_EQ(json["history"].size(), 2u);
+  }
+}
+
 TEST_F(FrameTools, TroubleHasItsExitCodeAndASentence)
 {
   const auto code = [&](const std::string& arguments) {
@@ -240,6 +333,8 @@ TEST_F(FrameTools, TroubleHasItsExitCodeAndASentence)
   EXPECT_EQ(code(file + " --windows 2"), 2);
   EXPECT_EQ(code(file + " --window 1e-3"), 2);
   EXPECT_EQ(code(file + " --stride 0"), 2);
+  EXPECT_EQ(code(file + " --threads -1"), 2);
+  EXPECT_EQ(code(file + " --preset papers"), 2);
   EXPECT_EQ(code(file + " --begin nan"), 2);
   EXPECT_EQ(code(file + " --window 4"), 1);
   EXPECT_EQ(code(file + " -o " + (folder / "absent" / "sums.tsv").string()), 1);

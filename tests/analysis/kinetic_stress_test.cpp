@@ -19,8 +19,9 @@ constexpr double bin = 0.125;
 
 KineticStress kinetic(const std::vector<Scene>& frames, MeanFlow flow)
 {
-  KineticStress stress(unit_layers, flow, bin);
-  for (const auto& scene : frames) stress.add_to_mean(scene.grains, scene.frame);
+  MeanVelocity mean(flow, unit_layers, bin);
+  for (const auto& scene : frames) mean.add(scene.grains, scene.frame);
+  KineticStress stress(unit_layers, mean);
   for (const auto& scene : frames) stress.add(scene.grains, scene.frame);
   return stress;
 }

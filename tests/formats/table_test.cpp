@@ -30,6 +30,17 @@ std::string complaint(const std::string& text)
   return "no complaint";
 }
 
+TEST(Table, AsJsonTellsSettingsInputsAndHistoryApart)
+{
+  auto table = sample();
+  table.header.insert(table.header.begin(), {{"input", "xxh3 1"}, {"history", "first \"word\""}});
+  EXPECT_EQ(table.to_json(),
+            "{\"columns\":[\"t0[s]\",\"A_SS_xx[N m]\",\"n_SS\"],"
+            "\"rows\":[[0.0,0.3333333333333333,7.0],[1.25,-1e-300,null]],"
+            "\"settings\":{\"program\":\"grseg-stress 0.1.0\",\"layer\":\"0.02\"},"
+            "\"inputs\":[\"xxh3 1\"],\"history\":[\"first \\\"word\\\"\",\"a: b\"]}\n");
+}
+
 TEST(Table, ReadsBackEveryBitOfWhatItPrints)
 {
   const auto read = Table::parse(sample().to_text(), "t.tsv");

@@ -18,7 +18,11 @@ int run(std::vector<std::string> words, const std::function<void(const po::varia
   for (auto& word : words) argv.push_back(word.data());
   po::options_description options("Options");
   options.add_options()("layer", po::value<std::string>(), "height");
-  const ToolInfo info{"grseg-test", "does nothing.", "grseg-test", "  grseg-test\n"};
+  options.add_options()("rule", po::value<std::vector<std::string>>()->composing(), "rules");
+  options.add_options()("mean", po::value<std::string>()->default_value("own"), "mean");
+  static constexpr PresetOption presets[] = {
+      {"layer", "4dS", "2dS"}, {"rule", "half", ""}, {"mean", "", "profile"}};
+  const ToolInfo info{"grseg-test", "does nothing.", "grseg-test", "  grseg-test\n", presets};
   return run_tool(static_cast<int>(argv.size()), argv.data(), info, options, body);
 }
 
@@ -42,6 +46,54 @@ TEST(Tool, RefusesAnUnknownOptionAndNamesTheNearest)
 TEST(Tool, DoesNotGuessAbbreviatedOptions)
 {
   EXPECT_EQ(run({"grseg-test", "--lay", "4dS"}, [](const auto&) { FAIL(); }), 2);
+}
+
+TEST(Tool, APresetSetsWhatIsNotGivenAndCountsAsDefault)
+{
+  const auto given = [](const po::variables_map& values, const char* option) {
+    return values.contains(option) && !values[option].defaulted();
+  };
+  EXPECT_EQ(run({"grseg-test", "--preset", "paper", "--rule", "size"},
+                [&](const auto& values) {
+                  EXPECT_EQ(preset_of(values), "paper");
+                  EXPECT_EQ(values["layer"].template as<std::string>(), "4dS");
+                  EXPECT_FALSE(given(values, "layer"));
+                  EXPECT_EQ(values["rule"].template as<std::vector<std::string>>(),
+                            std::vector<std::string>{"size"});
+                  EXPECT_TRUE(given(values, "rule"));
+                  EXPECT_EQ(values["mean"].template as<std::string>(), "own");
+                }),
+            0);
+  EXPECT_EQ(run({"grseg-test", "--layer", "1dS", "--preset", "rigorous"},
+                [&](const auto& values) {
+                  EXPECT_EQ(values["layer"].template as<std::string>(), "1dS");
+                  EXPECT_FALSE(values.contains("rule"));
+                  EXPECT_EQ(values["mean"].template as<std::string>(), "profile");
+                }),
+            0);
+  EXPECT_EQ(run({"grseg-test"}, [](const auto& values) { EXPECT_EQ(preset_of(values), "none"); }),
+            0);
+}
+
+TEST(Tool, RefusesAPresetThatThereIsNot)
+{
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run({"grseg-test", "--preset", "loose"}, [](const auto&) { FAIL(); }), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "grseg-test: --preset: there is no 'loose'; it is paper or rigorous\n");
+}
+
+TEST(Tool, TheHistoryDoesNotTellHowManyThreadsThereWere)
+{
+  const auto line = [](std::vector<std::string> words) {
+    std::vector<char*> argv;
+    for (auto& word : words) argv.push_back(word.data());
+    return command_line(static_cast<int>(argv.size()), argv.data());
+  };
+  EXPECT_EQ(line({"bin/t", "run.h5", "--threads", "7", "--layer", "4 dS"}),
+            "t run.h5 --layer '4 dS'");
+  EXPECT_EQ(line({"t", "--threads=7", "run.h5"}), "t run.h5");
+  EXPECT_EQ(line({"t", "run.h5", "--threads"}), "t run.h5");
 }
 
 TEST(Tool, HelpShowsExamplesAndRunsNothing)
