@@ -12,8 +12,7 @@ namespace grseg::presets {
 
 //   option, paper, rigorous; "": the tool's default
 inline constexpr PresetOption stress[] = {
-    {"assign", "contact-point", "branch"},  // the branch's share of a layer balances momentum
-    {"composition", "clipped", "clipped"},
+    {"assign", "contact-point", "branch"},     // the branch's share of a layer balances momentum
     {"partition", "uniform:0.66667", "size"},  // nominal or actual radii
     {"volume", "solid", "bulk"},
 };

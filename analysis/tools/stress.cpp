@@ -144,7 +144,8 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
 
 void merge(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const std::set<std::string> about_merging{"merge", "all-windows", "input", "output", "quiet"};
+  const std::set<std::string> about_merging{"merge",  "all-windows", "input",
+                                            "output", "quiet",       "json"};
   for (const auto& [name, value] : values)
     if (!value.defaulted() && !about_merging.contains(name))
       throw UsageError(
@@ -154,8 +155,8 @@ void merge(const Settings& s, const po::variables_map& values, const std::string
     for (const auto& path : values["input"].as<std::vector<std::string>>())
       tables.push_back(Table::read(path));
   const auto program = fmt::format("{} {}", info.name, version());
-  write_whole(s.frames.output,
-              merge_tables(std::move(tables), s.all_windows, program, command).to_text());
+  const auto merged = merge_tables(std::move(tables), s.all_windows, program, command);
+  write_whole(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
 }
 
 }  // namespace
