@@ -57,18 +57,6 @@ RateFilter filter_of(const Settings& s, LengthUnits units)
   return filter;
 }
 
-/// A list of names with numbers under the header of `table`.
-std::string text_of(Table table, const SegregationSummary& summary)
-{
-  for (const auto& remark : summary.remarks) table.header.emplace_back("remark", remark);
-  table.columns = {"quantity", "value", "low", "high"};
-  std::string text = table.to_text();
-  for (const auto& [name, number] : summary.numbers)
-    text += fmt::format("{}\t{}\t{}\t{}\n", name, format_number(number.value),
-                        format_number(number.low), format_number(number.high));
-  return text;
-}
-
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
   FrameLoop loop(info, values, s.frames);
@@ -90,13 +78,13 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   if (!s.summary) return loop.write(table);
 
   const auto summary = run.summary(filter);
-  table.rows.clear();
   table.header.emplace_back("heights", s.heights.empty() ? "all" : s.heights);
   table.header.emplace_back("min_solid", format_number(s.min_solid));
   table.header.emplace_back("interval", "95 %");
   if (!s.frames.quiet)
     for (const auto& remark : summary.remarks) fmt::print(stderr, "{}: {}\n", info.name, remark);
-  write_whole(s.frames.output, text_of(table, summary));
+  write_whole(s.frames.output,
+              s.frames.json ? to_json(summary, table.header) : to_tsv(summary, table.header));
 }
 
 }  // namespace
