@@ -3,65 +3,32 @@
 
 #include "analysis/composition.hpp"
 #include "analysis/layers.hpp"
-#include "analysis/pair_type.hpp"
+#include "analysis/micro_sums.hpp"
 #include "formats/frame.hpp"
 
-#include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace grseg {
 
-/// Share of mixed contacts in the neutral model, where contact ends are in proportion to perimeter
-/// and pair at random: 2 x_L x_S with x_L = phi_L/(phi_L + r phi_S), r = d_L/d_S. For r = 2 it is
-/// 4 phi_L phi_S/(1 + phi_S)^2, at most 1/2, at phi_L = 2/3.
-double neutral_mixed_share(double phi_large, double size_ratio);
+/// A contact slides where |f_t| >= (1 - tolerance) mu f_n. The solver puts sliding contacts on the
+/// Coulomb limit to round-off; the tolerance leaves room for single precision.
+constexpr double sliding_tolerance = 1e-6;
 
-/// What a layer, or the whole bed, holds: means per frame. Only contacts that carry a force count.
-struct MicroSums {
-  std::array<double, 2> grains{};  // S and L grains, by their centre
-  std::array<double, 2> ends{};    // contact ends on them, base contacts included, likewise
-  // By PairType, where the contact point is:
-  std::array<double, pair_types> contacts{};
-  std::array<double, pair_types> force{};   // N, sum of moduli
-  std::array<double, pair_types> normal{};  // N, sum of normal parts, repulsion positive
-  Vec2 base_force = Vec2::Zero();           // N, of boundary grains and walls on the mobile grains
-
-  MicroSums& operator+=(const MicroSums& other);
-  MicroSums operator/(double number) const;
-
-  /// z_S, z_L: contact ends per grain; NaN without grains.
-  double coordination(Species species) const;
-  /// f_S, f_L, N: mean modulus over the contacts with at least one such grain, base contacts
-  /// included (Staron & Phillips 2015, below eq. for Pi); NaN without contacts.
-  double mean_force(Species species) const;
-  /// N_LS/(N_LL + N_LS + N_SS); base contacts do not count. NaN without contacts.
-  double mixed_share() const;
+/// Normal and tangential part of a contact's force; see FabricSums.
+struct ForceParts {
+  Vec2 n;           // from j to i
+  double f_n, f_t;  // N
 };
-
-/// The paper's estimates of the pressure, N/m, from phi, z, f and nominal diameters d:
-///   Pi_S = phi_S z_S f_S/(pi d_S), Pi_L likewise, Pi = Pi_S + Pi_L.
-/// The paper prints 2/(pi d), which lacks the 1/2 of P = tr(sigma)/2 and gives twice the pressure.
-/// Since phi_S + phi_L = 1 these are stresses in the volume of the grains, V_solid; the stress in
-/// the whole volume is nu times as large. NaN where z or f is, unless the species is absent.
-struct PressureEstimate {
-  double small = 0, large = 0;
-  double total() const { return small + large; }
-};
-PressureEstimate estimate_pressure(const MicroSums& sums, double phi_large, double small_diameter,
-                                   double large_diameter);
-
-/// Heights of the bed, m, means per frame.
-struct BedHeights {
-  double large = 0, small = 0;  // y_L, y_S: centres of mass of the species; NaN without grains
-  double bed = 0;               // twice the mean height of the mobile grains' area
-};
+ForceParts force_parts(const ContactList& contacts, std::size_t contact);
 
 /// Number of grains and contacts, and the forces on them, by layer and of the whole bed.
 class MicroStructure {
  public:
-  MicroStructure(const Layers& layers, GrainArea area, double small_diameter,
-                 double large_diameter);
+  /// `friction` is the mu of the Coulomb limit; NaN where it is unknown.
+  MicroStructure(const Layers& layers, GrainArea area,
+                 double friction = std::numeric_limits<double>::quiet_NaN());
 
   void add(const Grains& grains, const Frame& frame);
   void merge(const MicroStructure& others);
@@ -70,21 +37,24 @@ class MicroStructure {
   MicroSums mean() const;
   BedHeights heights() const;
 
-  /// The columns of grseg-micro from grains_S on; a layer's numbers, and those of the whole bed.
+  /// The columns of grseg-micro from area_S on; a layer's numbers, and those of the whole bed.
   static std::vector<std::string> columns();
   std::vector<double> row(std::size_t layer) const;
   std::vector<double> bed_row() const;
 
  private:
-  void add_heights(const Grains& grains, const Frame& frame);
-  std::vector<double> row(const MicroSums& sums, double phi_large, const BedHeights& heights) const;
+  void add_grains(const Grains& grains, const Frame& frame);
+  void add_contacts(const Grains& grains, const Frame& frame);
+  /// 1 or 0; NaN where friction is unknown.
+  double slides(double f_n, double f_t) const;
+  void add_ends(const Grains& grains, const Frame& frame, std::size_t contact, PairType type);
 
   Layers layers_;
   Composition composition_;
-  double small_diameter_, large_diameter_;
+  double friction_;
   std::size_t frames_ = 0;
-  std::vector<MicroSums> sums_;
-  BedHeights heights_;
+  std::vector<MicroSums> sums_;  // without areas: those are in composition_
+  BedHeights heights_{0, 0, 0};
 };
 
 }  // namespace grseg

@@ -84,13 +84,14 @@ def of_micro(table):
 
 def everything(folder, trajectory, begin):
     numbers = of_simulator(trajectory, begin)
-    stress, kinetic = trajectory + ".stress.tsv", trajectory + ".kinetic.tsv"
+    stress, kinetic, micro = (f"{trajectory}.{name}.tsv" for name in ("stress", "kinetic", "micro"))
     tool(folder, "grseg-stress", trajectory, "--begin", str(begin), "-o", stress)
     tool(folder, "grseg-kinetic", trajectory, "--begin", str(begin), "-o", kinetic)
     heights = {"heights": "4dS:56dS"}
     numbers["B_size"], numbers["B_half"] = of_fit(folder, stress, partition="size,half", **heights)
     (numbers["B_kappa"],) = of_fit(folder, kinetic, quantity="kinetic", **heights)
-    numbers.update(of_micro(rows(tool(folder, "grseg-micro", trajectory, "--begin", str(begin)))))
-    for path in (stress, kinetic):
+    tool(folder, "grseg-micro", trajectory, "--begin", str(begin), "-o", micro)
+    numbers.update(of_micro(rows(tool(folder, "grseg-micro", "--derived", micro))))
+    for path in (stress, kinetic, micro):
         os.remove(path)
     return numbers

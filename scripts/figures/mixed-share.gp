@@ -11,6 +11,8 @@ set xrange [0:1]
 set yrange [0:0.7]
 set key top left
 r = 2.0
-plot folder."/micro.tsv" using (column("y0[m]") == column("y0[m]") ? column("phi_L") : NaN):"mixed_share" \
+phi(dummy) = column("area_L[m^2]") / (column("area_S[m^2]") + column("area_L[m^2]"))
+share(dummy) = column("n_LS") / (column("n_SS") + column("n_LS") + column("n_LL"))
+plot folder."/micro.tsv" using (column("y0[m]") == column("y0[m]") ? phi(0) : NaN):(share(0)) \
        with points pt 7 ps 0.4 lc rgb "#801f77b4" title "a layer in a window", \
      2 * r * x * (1 - x) / (x + r * (1 - x))**2 with lines lw 2 lc rgb "black" title "neutral contacts"

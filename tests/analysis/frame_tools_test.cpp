@@ -136,9 +136,57 @@ TEST_F(FrameTools, MicroHasTheWholeBedLast)
   EXPECT_TRUE(std::isnan(cell(t, 0, "yL")));
   EXPECT_TRUE(std::isnan(cell(t, 1, "y0")));
   EXPECT_NEAR(cell(t, 1, "yL"), 0.005, 1e-15);
-  EXPECT_NEAR(cell(t, 1, "z_L"), 2, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "ends_L"), 2, 1e-15);
   EXPECT_NEAR(cell(t, 1, "height"), 2 * (4 * 0.005 + 0.0125) / 5, 1e-15);
   EXPECT_NEAR(cell(t, 1, "V"), 0.35 * 0.013, 1e-15);
+}
+
+TEST_F(FrameTools, DerivedNumbersFollowFromTheSumsAlone)
+{
+  const auto sums = (folder / "micro.tsv").string();
+  EXPECT_EQ(run(micro + " " + file + " --friction 0.6 -o " + sums).code, 0);
+  const auto t = Table::parse(run(micro + " --derived " + sums).out, "derived");
+  ASSERT_EQ(t.rows.size(), 2 * 2u);
+  EXPECT_NEAR(cell(t, 1, "z_S"), 1, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "z_L"), 2, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "z_LS"), 1, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "f_S"), std::sqrt(5) * 1e-4, 1e-18);
+  EXPECT_NEAR(cell(t, 1, "f_L"), (std::sqrt(5) * 1e-4 + std::sqrt(109) * 1e-4) / 2, 1e-18);
+  EXPECT_NEAR(cell(t, 1, "mobilised_LS"), 0.5 / 0.6, 1e-14);
+  EXPECT_EQ(cell(t, 1, "sliding_LS"), 0);
+  EXPECT_EQ(t.header_text("force"), "modulus");
+  EXPECT_EQ(t.header_number("friction"), 0.6);
+  EXPECT_EQ(t.header_text("input"), "xxh3 " + format_digest(TrajectoryReader(file).digest()));
+  const auto normal = Table::parse(
+      run(micro + " --derived " + sums + " --force normal --average ends --pool windows").out,
+      "derived");
+  ASSERT_EQ(normal.rows.size(), 2u);
+  EXPECT_EQ(cell(normal, 0, "frames"), 50);
+  EXPECT_NEAR(cell(normal, 0, "f_L"), (2e-4 + 1e-3) / 2, 1e-18);
+  EXPECT_NEAR(cell(normal, 0, "error"), 0, 1e-14);  // sizes without spread
+}
+
+TEST_F(FrameTools, SumsPassThroughAPipe)
+{
+  const auto sums = (folder / "micro.tsv").string();
+  EXPECT_EQ(run(micro + " " + file + " -o " + sums).code, 0);
+  const auto stored = Table::parse(run(micro + " --derived " + sums).out, "stored");
+  const auto piped =
+      Table::parse(run(micro + " " + file + " | " + micro + " --derived -").out, "-");
+  ASSERT_EQ(stored.rows.size(), piped.rows.size());
+  for (std::size_t row = 0; row < stored.rows.size(); ++row)
+    EXPECT_EQ(cell(stored, row, "Pi"), cell(piped, row, "Pi"));
+}
+
+// One mixed contact and one with the base: each is the mean of its own pair type.
+TEST_F(FrameTools, MicroDistributesForcesByTheirMean)
+{
+  const auto t = table(micro, "--distribution --unit type --begin 0 --end 1.25");
+  ASSERT_EQ(t.rows.size(), 2 * 101u);
+  EXPECT_EQ(cell(t, 10, "x0"), 1);
+  EXPECT_EQ(cell(t, 10, "n_LS") + cell(t, 9, "n_LS"), 1);  // round-off may fall below the mean
+  EXPECT_EQ(cell(t, 10, "n_Lb") + cell(t, 9, "n_Lb"), 1);
+  EXPECT_EQ(cell(t, 0, "n_LS"), 0);
 }
 
 TEST_F(FrameTools, TheHeaderTellsWhatLaterToolsNeed)

@@ -37,6 +37,13 @@ struct Scene {
     add(i, j, force, branch, branch.norm() - grains.radius[a] - grains.radius[b]);
   }
 
+  /// Adds a contact through the periodic boundary: `branch` from the image of j to i.
+  void image_contact(std::int32_t i, std::int32_t j, const Vec2& force, const Vec2& branch)
+  {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    add(i, j, force, branch, branch.norm() - grains.radius[a] - grains.radius[b]);
+  }
+
   /// Adds a contact with straight wall number `wall`.
   void wall_contact(std::int32_t i, int wall, const Vec2& force, const Vec2& branch)
   {

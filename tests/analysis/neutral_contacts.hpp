@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/micro_sums.hpp"
+
+#include <numbers>
+
+namespace grseg {
+
+/// Sums of the neutral contact model: small grains of diameter 1, large ones of diameter r, contact
+/// ends in proportion to perimeter, paired at random, 4 per small grain; all contacts touch and
+/// bear the normal force 1 in all directions alike.
+inline MicroSums neutral_contacts(double phi_large, double r)
+{
+  MicroSums sums;
+  const auto set_species = [&](Species s, double phi, double diameter) {
+    auto& species = sums.species[static_cast<std::size_t>(s)];
+    species.area = 100 * phi;
+    species.grains = species.area / (std::numbers::pi / 4 * diameter * diameter);
+    species.ends = 4 * diameter * species.grains;
+  };
+  set_species(Species::small, 1 - phi_large, 1);
+  set_species(Species::large, phi_large, r);
+  const double small = sums.of(Species::small).ends, large = sums.of(Species::large).ends;
+  const double all = small + large, mixed = small * large / all;
+  const auto set_pair = [&](PairType type, double contacts, double branch) {
+    auto& pair = sums.pair[static_cast<std::size_t>(type)];
+    pair.contacts = pair.force = pair.normal = contacts;
+    pair.stress = contacts * branch / 2 * Tensor2::Identity();
+  };
+  set_pair(PairType::SS, small * small / all / 2, 1);
+  set_pair(PairType::LS, mixed, (1 + r) / 2);
+  set_pair(PairType::LL, large * large / all / 2, r);
+  sums.mixed_size = r / (1 + r) * sums.of(PairType::LS).stress;
+  for (auto& species : sums.species) species.mixed_ends = mixed;
+  return sums;
+}
+
+}  // namespace grseg
