@@ -20,21 +20,6 @@ std::vector<Table> read_tables(const po::variables_map& values)
   return tables;
 }
 
-bool is_given(const po::variables_map& values, const char* option)
-{
-  return values.contains(option) && !values[option].defaulted();
-}
-
-void refuse_options_of_the_sums(const po::variables_map& values)
-{
-  for (const char* option : {"layer", "window", "stride", "composition", "friction", "unit", "bin"})
-    if (is_given(values, option))
-      throw UsageError(fmt::format(
-          "--{} belongs to the making of the sums; leave it out with --derived", option));
-  if (values["distribution"].as<bool>())
-    throw UsageError("--distribution reads a run, --derived tables; choose one");
-}
-
 ForceMeasure measure_of(const ReportOptions& options)
 {
   return {static_cast<ContactForce>(choose(options.force, "--force", {"modulus", "normal"})),
@@ -80,11 +65,13 @@ void require_same_scale(const Table& first, const Table& other)
 
 /// The header of the first table, with the inputs and histories of all.
 Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
-                  const ReportOptions& options, const std::string& command)
+                  const ReportOptions& options, const std::string& preset,
+                  const std::string& command)
 {
   Table result;
   auto& header = result.header;
   header.emplace_back("program", fmt::format("{} {}", info.name, version()));
+  header.emplace_back("preset", preset);
   const auto collect = [&](const char* key) {
     for (const auto& table : tables)
       for (const auto& line : table.header)
@@ -95,7 +82,8 @@ Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
   header.emplace_back("history", command);
   collect("input");
   for (const auto& line : tables[0].header)
-    if (line.first != "program" && line.first != "history" && line.first != "input")
+    if (line.first != "program" && line.first != "preset" && line.first != "history" &&
+        line.first != "input")
       header.push_back(line);
   const std::string depth = options.depth.empty() ? "height of the bed" : options.depth;
   const std::string heights = options.heights.empty() ? "all" : options.heights;
@@ -144,18 +132,22 @@ void ReportOptions::add_to(po::options_description& options)
       "likewise, layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
 }
 
-void refuse_report_options(const po::variables_map& values)
+void refuse_options(const po::variables_map& values, const std::vector<const char*>& options,
+                    const char* why)
 {
-  for (const char* option : {"force", "average", "partition", "pool", "depth", "heights"})
-    if (is_given(values, option))
-      throw UsageError(fmt::format("--{} needs --derived and a table of sums", option));
+  for (const char* option : options)
+    if (values.contains(option) && !values[option].defaulted())
+      throw UsageError(fmt::format("--{} {}", option, why));
 }
 
 void report_derived(const ToolInfo& info, const po::variables_map& values,
                     const ReportOptions& options, const FrameOptions& frames,
                     const std::string& command)
 {
-  refuse_options_of_the_sums(values);
+  refuse_options(values,
+                 {"layer", "window", "stride", "threads", "composition", "friction", "unit", "bin",
+                  "distribution"},
+                 "belongs to the making of the sums; leave it out with --derived");
   const auto pool =
       static_cast<Pool>(choose(options.pool, "--pool", {"none", "windows", "composition"}));
   ViewSettings settings{measure_of(options), rule_of(options), 0};
@@ -170,12 +162,12 @@ void report_derived(const ToolInfo& info, const po::variables_map& values,
   const LengthUnits units{scale.small_diameter, scale.large_diameter};
   if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
 
-  auto table = empty_table(info, tables, options, command);
+  auto table = empty_table(info, tables, options, preset_of(values), command);
   for (const auto& row : pooled(filtered(std::move(rows), filter_of(options, frames, units)), pool))
     add_row(table, row, derived(row, scale, settings));
   if (table.rows.empty())
     throw RunError("no row is left; choose another --begin, --end or --heights");
-  write_whole(frames.output, table.to_text());
+  write_whole(frames.output, frames.json ? table.to_json() : table.to_text());
 }
 
 }  // namespace grseg

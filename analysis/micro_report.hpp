@@ -17,8 +17,9 @@ struct ReportOptions {
   void add_to(po::options_description& options);
 };
 
-/// UsageError where one of them was given although nothing is derived.
-void refuse_report_options(const po::variables_map& values);
+/// UsageError, "--option why", where one of the options was given that have no meaning here.
+void refuse_options(const po::variables_map& values, const std::vector<const char*>& options,
+                    const char* why);
 
 /// Writes the derived table of the tables that the command line names, to the file of --output or
 /// to standard output; --begin and --end choose windows. UsageError where options have no meaning

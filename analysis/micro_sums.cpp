@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <type_traits>
 
 namespace grseg {
 namespace {

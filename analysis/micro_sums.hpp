@@ -38,7 +38,7 @@ struct PairSums {
 /// Grains of one species and the contact ends on them, booked where the grain's centre is.
 struct SpeciesSums {
   double area = 0;        // m^2
-  double grains = 0;      //
+  double grains = 0;      // with their centre in the layer
   double ends = 0;        // base contacts included
   double mixed_ends = 0;  // of these, with a grain of the other species
   double base_ends = 0;   // with boundary grains and walls

@@ -108,9 +108,11 @@ std::vector<MicroRow> read_micro_rows(const Table& table)
              small = column("yS"), bed = column("height");
 
   std::vector<MicroRow> rows;
+  rows.reserve(table.rows.size());
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& cells = table.rows[r];
     std::vector<double> numbers;
+    numbers.reserve(places.size());
     for (const auto place : places)
       numbers.push_back(std::find(may_lack.begin(), may_lack.end(), place) == may_lack.end()
                             ? finite_cell(table, r, place)
@@ -149,6 +151,7 @@ std::vector<MicroRow> pooled(const std::vector<MicroRow>& rows, Pool pool)
     merged[pool_key(row, pool)].add(row);
   }
   std::vector<MicroRow> result;
+  result.reserve(merged.size());
   for (const auto& [key, row] : merged) result.push_back(row.mean());
   return result;
 }

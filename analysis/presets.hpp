@@ -21,6 +21,9 @@ inline constexpr PresetOption kinetic[] = {
 };
 inline constexpr PresetOption micro[] = {
     {"composition", "clipped", "clipped"},
+    {"force", "modulus", "normal"},  // with f_n, over ends, Pi is the pressure of each species
+    {"average", "contacts", "ends"},
+    {"partition", "uniform:0.66667", "size"},
 };
 inline constexpr PresetOption fit[] = {
     {"partition", "uniform:0.66667", "size"},

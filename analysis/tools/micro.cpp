@@ -130,10 +130,13 @@ int main(int argc, char** argv)
     const auto command = command_line(argc, argv);
     if (settings.derived)
       return report_derived(info, values, settings.report, settings.frames, command);
-    refuse_report_options(values);
-    if (settings.distribution)
-      distribute(settings, values, command);
-    else
-      tabulate(settings, values, command);
+    refuse_options(values, {"force", "average", "partition", "pool", "depth", "heights"},
+                   "needs --derived and a table of sums");
+    if (settings.distribution) {
+      refuse_options(values, {"composition", "friction"}, "does not concern --distribution");
+      return distribute(settings, values, command);
+    }
+    refuse_options(values, {"unit", "bin"}, "needs --distribution");
+    tabulate(settings, values, command);
   });
 }

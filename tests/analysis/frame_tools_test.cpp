@@ -235,6 +235,8 @@ TEST_F(FrameTools, TheMeanOfALayerTellsWhatItAdds)
   EXPECT_NE(outcome.out.find("grseg-kinetic: 100 % of K_xx about the layers' means is shear"),
             std::string::npos);
   EXPECT_EQ(run(kinetic + " " + file + " --mean instant 2>&1 >/dev/null").out, "");
+}
+
 TEST_F(FrameTools, DerivedNumbersFollowFromTheSumsAlone)
 {
   const auto sums = (folder / "micro.tsv").string();

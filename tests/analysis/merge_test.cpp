@@ -101,7 +101,7 @@ TEST(Merge, PartsOfTheCompositionMakeTheWhole)
 
 TEST(Merge, PartsOfTheMicroStructureMakeTheWhole)
 {
-  expect_parts_make_the_whole(MicroStructure(layers, GrainArea::clipped, 0.2, 0.4));
+  expect_parts_make_the_whole(MicroStructure(layers, GrainArea::clipped, 0.5));
 }
 
 TEST(Merge, PartsOfTheKineticStressAndItsMeanMakeTheWhole)

@@ -82,6 +82,11 @@ TEST(MicroView, ForcesAreMeasuredByTheWeightOfAGrainAndByThePressureAtTheirHeigh
   deeper.depth = 25;
   cells = derived(layer(0.5), scale, deeper);
   EXPECT_NEAR(value(cells, "f_depth_L"), 1 / 480.0, 1e-16);
+  auto finer = scale;
+  finer.small_diameter = 0.5;
+  cells = derived(layer(0.5), finer, over_ends);
+  EXPECT_NEAR(value(cells, "f_depth_L"), 1 / 180.0, 1e-16);
+  EXPECT_NEAR(value(cells, "f_weight_S"), 4 / weight, 1e-15);
 }
 
 TEST(MicroView, OfTheWholeBedThePressureIsTakenAtTheCentresOfMass)
