@@ -228,6 +228,19 @@ def compare_stress(where, row, mine, base, n):
     compare(f"{where}: sigma", mine["all"][n], total / volume)
 
 
+def quotient(a, b):
+    return a / b if b else math.nan
+
+
+def coordination(row, letter):
+    return quotient(row[f"ends_{letter}"], row[f"grains_{letter}"])
+
+
+def mean_force(row, letter):
+    pairs = [letter * 2, "LS", f"{letter}b"]
+    return quotient(sum(row[f"sum_f_{p}"] for p in pairs), sum(row[f"n_{p}"] for p in pairs))
+
+
 def check(bin_folder, path, frames, layer):
     """Two windows, each of half of the frames."""
     run = Run(path, frames)
@@ -264,9 +277,10 @@ def check(bin_folder, path, frames, layer):
                             tensor(row, f"K_{letter}") / row["V"])
         for n in range(layers + 1):
             where = f"{path}, window {number}, " + (f"layer {n}" if n < layers else "whole bed")
+            row = rows["micro"][n]
             for species, letter in NAME.items():
-                compare(f"{where}: z_{letter}", z[species][n], rows["micro"][n][f"z_{letter}"])
-                compare(f"{where}: f_{letter}", f[species][n], rows["micro"][n][f"f_{letter}"])
+                compare(f"{where}: z_{letter}", z[species][n], coordination(row, letter))
+                compare(f"{where}: f_{letter}", f[species][n], mean_force(row, letter))
 
 
 def main():
