@@ -88,16 +88,13 @@ LayerBalance balance_of(const Series& series)
 }  // namespace
 
 WeightSums::WeightSums(const Layers& layers, const Vec2& gravity, double bin)
-    : layers_(layers),
-      gravity_(gravity),
-      kinetic_(layers, MeanFlow::profile, bin),
-      contact_(layers, Assignment::branch)
+    : layers_(layers), gravity_(gravity), mean_(layers, bin), contact_(layers, Assignment::branch)
 {
 }
 
 void WeightSums::add_to_mean(const Grains& grains, const Frame& frame)
 {
-  kinetic_.add_to_mean(grains, frame);
+  mean_.add(grains, frame);
   if (!momentum_.empty()) return;
   time_ = frame.time;
   momentum_ = moments_above(grains, frame, layers_, Vec2(0, 0), [&](std::size_t g) -> Vec2 {
@@ -107,7 +104,11 @@ void WeightSums::add_to_mean(const Grains& grains, const Frame& frame)
 
 void WeightSums::add(const Grains& grains, const Frame& frame)
 {
-  kinetic_.add(grains, frame);
+  if (!kinetic_) {
+    mean_.finish();
+    kinetic_.emplace(layers_, MeanFlow::profile, mean_);
+  }
+  kinetic_->add(grains, frame);
   contact_.add(grains, frame);
   ++frames_;
   const auto mass =
@@ -125,8 +126,8 @@ WeightWindow WeightSums::window() const
   for (std::size_t n = 0; n < count; ++n) {
     const auto sums = contact_.mean(n).sums;
     const Tensor2 all = sums.ss + sums.ll + sums.mixed + sums.whole_small + sums.whole_large +
-                        kinetic_.mean(n, Species::small).kinetic +
-                        kinetic_.mean(n, Species::large).kinetic;
+                        kinetic_->mean(n, Species::small).about_mean.kinetic +
+                        kinetic_->mean(n, Species::large).about_mean.kinetic;
     window.stress.emplace_back(all.col(1) / volume);
     window.weight.emplace_back(-mass_above_[n] / static_cast<double>(frames_) / volume * gravity_);
     window.momentum.emplace_back(n < momentum_.size() ? Vec2(momentum_[n] / volume) : Vec2(0, 0));

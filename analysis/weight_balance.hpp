@@ -3,9 +3,12 @@
 
 #include "analysis/kinetic_stress.hpp"
 #include "analysis/layers.hpp"
+#include "analysis/mean_velocity.hpp"
 #include "analysis/partial_contact_stress.hpp"
 #include "formats/frame.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace grseg {
@@ -40,7 +43,8 @@ class WeightSums {
  private:
   Layers layers_;
   Vec2 gravity_;
-  KineticStress kinetic_;
+  MeanVelocity mean_;
+  std::optional<KineticStress> kinetic_;  // once the mean is known
   PartialContactStress contact_;
   std::size_t frames_ = 0;
   double time_ = 0;                 // s, of the first frame
