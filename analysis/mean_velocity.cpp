@@ -5,70 +5,73 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace grseg {
-namespace {
 
-/// Layers for the means of a layer, fine bins for the profile.
-Layers bins_for(MeanFlow flow, const Layers& layers, double bin)
-{
-  const double parts = flow == MeanFlow::profile ? std::ceil(layers.thickness() / bin - 1e-9) : 1;
-  return {layers.thickness() / std::max(parts, 1.0), layers.length()};
-}
-
-}  // namespace
-
-MeanVelocity::MeanVelocity(MeanFlow flow, const Layers& layers, double bin)
-    : flow_(flow), bins_(bins_for(flow, layers, bin))
+MeanVelocity::MeanVelocity(const Layers& layers, double bin)
+    : layers_(layers),
+      bins_(layers.thickness() / std::max(std::ceil(layers.thickness() / bin - 1e-9), 1.0),
+            layers.length())
 {
 }
 
 void MeanVelocity::add(const Grains& grains, const Frame& frame)
 {
-  sums_.resize(std::max(sums_.size(), bins_.count(grains, frame)));
+  of_bin_.resize(std::max(of_bin_.size(), bins_.count(grains, frame)));
+  of_layer_.resize(std::max(of_layer_.size(), layers_.count(grains, frame)));
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, g)) continue;
     const double y = frame.position[g].y(), mass = grains.mass[g];
-    const bool apart = flow_ == MeanFlow::species && grains.species[g] == Species::large;
-    auto& sum = sums_[bins_.at(y)][apart ? 1 : 0];
-    sum.mass += mass;
-    sum.moment += mass * y;
-    sum.momentum +=
-        mass * Motion{frame.velocity[g].x(), frame.velocity[g].y(), frame.angular_velocity[g]};
+    const Sum own{mass, mass * Motion{frame.velocity[g].x(), frame.velocity[g].y(),
+                                      frame.angular_velocity[g]}};
+    of_bin_[bins_.at(y)] += {own, mass * y};
+    of_layer_[layers_.at(y)][static_cast<std::size_t>(grains.species[g])] += own;
   }
 }
 
 MeanVelocity::Sum& MeanVelocity::Sum::operator+=(const Sum& other)
 {
   mass += other.mass;
-  moment += other.moment;
   momentum += other.momentum;
+  return *this;
+}
+
+MeanVelocity::BinSum& MeanVelocity::BinSum::operator+=(const BinSum& other)
+{
+  motion += other.motion;
+  moment += other.moment;
   return *this;
 }
 
 void MeanVelocity::merge(const MeanVelocity& others)
 {
-  add_up(sums_, others.sums_);
+  add_up(of_bin_, others.of_bin_);
+  add_up(of_layer_, others.of_layer_);
 }
 
 void MeanVelocity::finish()
 {
-  if (flow_ != MeanFlow::profile) return;
-  for (const auto& [sum, unused] : sums_)
-    if (sum.mass > 0) profile_.push_back({sum.moment / sum.mass, sum.momentum / sum.mass});
+  for (const auto& [sum, moment] : of_bin_)
+    if (sum.mass > 0) profile_.push_back({moment / sum.mass, sum.momentum / sum.mass});
 }
 
-Motion MeanVelocity::at(Species species, double y) const
+Motion MeanVelocity::of_layer(std::size_t layer) const
 {
-  if (flow_ == MeanFlow::profile) return on_profile(y);
-  const bool apart = flow_ == MeanFlow::species && species == Species::large;
-  const auto& sum = sums_[bins_.at(y)][apart ? 1 : 0];
+  const auto& [small, large] = of_layer_[layer];
+  return (small.momentum + large.momentum) / (small.mass + large.mass);
+}
+
+Motion MeanVelocity::of_species(std::size_t layer, Species species) const
+{
+  const auto& sum = of_layer_[layer][static_cast<std::size_t>(species)];
   return sum.momentum / sum.mass;
 }
 
 Motion MeanVelocity::on_profile(double y) const
 {
   const std::size_t n = profile_.size();
+  if (n == 0) return Motion::Constant(std::numeric_limits<double>::quiet_NaN());
   if (n == 1) return profile_[0].motion;
   const auto line = [y](const Point& a, const Point& b) -> Motion {
     return a.motion + (b.motion - a.motion) * ((y - a.y) / (b.y - a.y));

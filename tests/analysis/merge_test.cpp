@@ -107,14 +107,15 @@ TEST(Merge, PartsOfTheMicroStructureMakeTheWhole)
 TEST(Merge, PartsOfTheKineticStressAndItsMeanMakeTheWhole)
 {
   const auto scenes = frames(7);
-  for (const auto flow : {MeanFlow::profile, MeanFlow::layer, MeanFlow::species}) {
-    const MeanVelocity empty(flow, layers, 0.25);
-    const auto whole = sum(empty, scenes, 0, 7);
-    auto parts = sum(empty, scenes, 0, 3);
-    parts.merge(sum(empty, scenes, 3, 7));
-    expect_parts_make_the_whole(KineticStress(layers, whole));
-    const auto about_whole = numbers(sum(KineticStress(layers, whole), scenes, 0, 7));
-    const auto about_parts = numbers(sum(KineticStress(layers, parts), scenes, 0, 7));
+  const MeanVelocity empty(layers, 0.25);
+  const auto whole = sum(empty, scenes, 0, 7);
+  auto parts = sum(empty, scenes, 0, 3);
+  parts.merge(sum(empty, scenes, 3, 7));
+  for (const auto flow :
+       {MeanFlow::profile, MeanFlow::layer, MeanFlow::instant, MeanFlow::species}) {
+    expect_parts_make_the_whole(KineticStress(layers, flow, whole));
+    const auto about_whole = numbers(sum(KineticStress(layers, flow, whole), scenes, 0, 7));
+    const auto about_parts = numbers(sum(KineticStress(layers, flow, parts), scenes, 0, 7));
     ASSERT_EQ(about_parts.size(), about_whole.size());
     for (std::size_t k = 0; k < about_whole.size(); ++k)
       EXPECT_NEAR(about_parts[k], about_whole[k], 1e-13) << k;

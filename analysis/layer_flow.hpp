@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/frame.hpp"
+
+namespace grseg {
+
+/// Mean flow of the mobile grains in one layer, weighted by mass; NaN where there are none.
+struct LayerFlow {
+  double u, v;   // m/s, down-slope and along y
+  double du_dy;  // 1/s, slope of the least-squares line u(y); NaN for less than two heights
+};
+
+/// The sums it is made of. Heights are counted from the layer's bottom, so that little cancels.
+struct LayerFlowSums {
+  double mass = 0, my = 0, myy = 0, mu = 0, mv = 0, muy = 0;
+
+  void add(double grain_mass, double above_bottom, const Vec2& velocity);
+  LayerFlowSums& operator+=(const LayerFlowSums& others);
+  /// Heights that differ by less than a millionth of `thickness` (m) are the same.
+  LayerFlow mean(double thickness) const;
+};
+
+}  // namespace grseg
