@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/confidence.hpp"
+
+#include "analysis/bootstrap.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <cmath>
+
+namespace grseg {
+
+double StandardError::reach() const
+{
+  return degrees >= 1 ? gsl_cdf_tdist_Pinv(0.975, degrees) * error
+                      : std::numeric_limits<double>::quiet_NaN();
+}
+
+Estimate StandardError::around(double value) const
+{
+  return {value, value - reach(), value + reach()};
+}
+
+StandardError standard_error(const Eigen::VectorXd& influence, int fitted)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto n = static_cast<double>(influence.size());
+  if (n < 2 || !influence.allFinite()) return {nan, 0};
+  const double time = autocorrelation_time(influence, {static_cast<std::size_t>(influence.size())});
+  const double degrees = n / time - fitted;
+  if (!(degrees >= 1)) return {nan, 0};
+  return {std::sqrt(influence.squaredNorm() * time * (degrees + fitted) / degrees), degrees};
+}
+
+}  // namespace grseg

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+namespace grseg {
+
+/// A number with its 95 % interval; NaN where it cannot be told.
+struct Estimate {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Standard error and the degrees of freedom it is known with; NaN where less than one.
+struct StandardError {
+  double error = 0, degrees = 0;
+
+  /// Student's 95 % quantile times the error.
+  double reach() const;
+  Estimate around(double value) const;
+};
+
+/// Of a statistic whose deviation is the sum of `influence`, one entry per observation of one run
+/// in order of time, where `fitted` parameters were taken from the same n observations:
+///   error^2 = tau sum influence^2 / (1 - fitted tau/n),  degrees = n/tau - fitted,
+/// tau the integrated autocorrelation time of the influence (bootstrap.hpp).
+StandardError standard_error(const Eigen::VectorXd& influence, int fitted);
+
+}  // namespace grseg

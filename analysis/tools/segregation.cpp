@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frame_loop.hpp"
+#include "analysis/segregation_run.hpp"
+#include "formats/length.hpp"
+
+#include <fmt/format.h>
+
+using namespace grseg;
+
+namespace {
+
+constexpr ToolInfo info{
+    "grseg-segregation",
+    "how fast the species part: fluxes, diffusivities, segregation times and Peclet number.",
+    "grseg-segregation run.h5 [options] > segregation.tsv",
+    "  grseg-segregation run.h5 -o segregation.tsv             by layer and window, and of the "
+    "bed\n"
+    "  grseg-segregation run.h5 --summary                      times, S, D, Pe of the whole run\n"
+    "  grseg-segregation run.h5 --summary --heights 4dS:56dS   without base and surface\n"
+    "  grseg-segregation run.h5 --window 5                     D over a longer time\n"};
+
+struct Settings {
+  FrameOptions frames;
+  bool summary = false;
+  std::string heights;
+  double min_solid = 0.5;
+};
+
+po::options_description options_into(Settings& s)
+{
+  po::options_description options("Options");
+  options.add_options()("summary", po::bool_switch(&s.summary),
+                        "numbers of the whole run with 95 % intervals instead of layers and "
+                        "windows");
+  options.add_options()("heights", po::value(&s.heights)->value_name("y0:y1"),
+                        "layers that S, D and Pe of the summary are taken from, e.g. 4dS:56dS or "
+                        "4dS: (default: all)");
+  options.add_options()("min-solid",
+                        po::value(&s.min_solid)->default_value(0.5, "0.5")->value_name("X"),
+                        "likewise, the least solid fraction of a layer, in units of the median");
+  s.frames.add_to(options);
+  return options;
+}
+
+RateFilter filter_of(const Settings& s, LengthUnits units)
+{
+  RateFilter filter;
+  filter.min_solid = s.min_solid;
+  if (!(s.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
+  if (s.heights.empty()) return filter;
+  const auto colon = s.heights.find(':');
+  if (colon == std::string::npos)
+    throw UsageError(fmt::format("--heights {}: write low:high, e.g. 4dS:56dS or 4dS:", s.heights));
+  const auto low = s.heights.substr(0, colon), high = s.heights.substr(colon + 1);
+  if (!low.empty()) filter.lowest = parse_length(low, "--heights", units);
+  if (!high.empty()) filter.highest = parse_length(high, "--heights", units);
+  return filter;
+}
+
+/// A list of names with numbers under the header of `table`.
+std::string text_of(Table table, const SegregationSummary& summary)
+{
+  for (const auto& remark : summary.remarks) table.header.emplace_back("remark", remark);
+  table.columns = {"quantity", "value", "low", "high"};
+  std::string text = table.to_text();
+  for (const auto& [name, number] : summary.numbers)
+    text += fmt::format("{}\t{}\t{}\t{}\n", name, format_number(number.value),
+                        format_number(number.low), format_number(number.high));
+  return text;
+}
+
+void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+{
+  FrameLoop loop(info, values, s.frames);
+  const auto& file = loop.run();
+  const double small_diameter = file.small_diameter(), large_diameter = file.large_diameter();
+  const auto filter = filter_of(s, {small_diameter, large_diameter});
+  auto table = loop.make_table(command, {{"composition", "centre"}}, SegregationRun::columns());
+
+  SegregationRun run(loop.layers(), small_diameter, large_diameter);
+  for (const auto& window : loop.windows()) {
+    SegregationSeries series(loop.layers());
+    SegregationFlux flux(loop.layers(), window, small_diameter, large_diameter);
+    loop.for_each_frame(window, {.velocity = true, .contacts = false},
+                        [&](const Grains& grains, const Frame& frame) {
+                          series.add(grains, frame);
+                          flux.add(grains, frame);
+                        });
+    run.add(file.grains(), series, flux);
+    for (std::size_t layer = 0; layer < run.layers(); ++layer)
+      table.rows.push_back(loop.row(window, layer, run.row(layer)));
+    table.rows.push_back(loop.bed_row(window, run.bed(), run.bed_row()));
+  }
+  if (!s.summary) return loop.write(table);
+
+  const auto summary = run.summary(filter);
+  table.rows.clear();
+  table.header.emplace_back("heights", s.heights.empty() ? "all" : s.heights);
+  table.header.emplace_back("min_solid", format_number(s.min_solid));
+  table.header.emplace_back("interval", "95 %");
+  if (!s.frames.quiet)
+    for (const auto& remark : summary.remarks) fmt::print(stderr, "{}: {}\n", info.name, remark);
+  write_whole(s.frames.output, text_of(table, summary));
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Settings settings;
+  const auto options = options_into(settings);
+  return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
+    tabulate(settings, values, command_line(argc, argv));
+  });
+}
