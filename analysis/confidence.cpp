@@ -31,4 +31,13 @@ StandardError standard_error(const Eigen::VectorXd& influence, int fitted)
   return {std::sqrt(influence.squaredNorm() * time * (degrees + fitted) / degrees), degrees};
 }
 
+StandardError error_about_trend(const Eigen::VectorXd& influence)
+{
+  const auto n = influence.size();
+  if (n < 3 || !influence.allFinite()) return {std::numeric_limits<double>::quiet_NaN(), 0};
+  const auto differences = static_cast<double>(n - 1);
+  const double squares = (influence.tail(n - 1) - influence.head(n - 1)).squaredNorm() / 2;
+  return {std::sqrt(static_cast<double>(n) / differences * squares), 2 * differences / 3};
+}
+
 }  // namespace grseg

@@ -48,8 +48,7 @@ class Regression {
 
   Estimate estimate(Eigen::Index unknown = 0) const
   {
-    const auto fitted = static_cast<int>(value.size());
-    return standard_error(influence.col(unknown), fitted).around(value[unknown]);
+    return error_about_trend(influence.col(unknown)).around(value[unknown]);
   }
 
   Eigen::VectorXd value;
@@ -89,7 +88,7 @@ Estimate quotient(const Regression& a, const Regression& b, double factor)
   if (a.influence.rows() != b.influence.rows()) return {value};
   const Eigen::VectorXd influence =
       value * (a.influence.col(0) / a.value[0] - b.influence.col(0) / b.value[0]);
-  return standard_error(influence, 1).around(value);
+  return error_about_trend(influence).around(value);
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter&
 ///   Shat   the same with both sides over |du/dy| d
 ///   Pe = S H/D, lambda = D/S
 ///   S_flux, D_flux  both at once from q_L = S phi_L phi_S - D d phi_L/dy, displacements not asked
-/// Intervals come from the windows (standard_error).
+/// Intervals come from how windows differ from their neighbours in time (error_about_trend), so
+/// that what changes as the bed segregates is part of the mean and not of its error.
 SegregationSummary segregation_rates(const std::vector<RatePoint>& points);
 
 }  // namespace grseg
