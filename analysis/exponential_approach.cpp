@@ -110,15 +110,16 @@ class Errors {
   {
     const Eigen::MatrixX3d j = jacobian(data, p);
     const Eigen::Matrix3d inverse = (j.transpose() * j).inverse();
-    shares_ = residuals(data, p).asDiagonal() * (j * inverse);
+    influences_ = residuals(data, p).asDiagonal() * (j * inverse);
   }
   StandardError of(const Parameters& combination) const
   {
-    return standard_error(shares_ * combination, 3);
+    return standard_error(influences_ * combination, 3);
   }
+  const Eigen::MatrixX3d& influences() const { return influences_; }
 
  private:
-  Eigen::MatrixX3d shares_;  // of each observation in the deviation of each parameter
+  Eigen::MatrixX3d influences_;  // of each observation on each parameter
 };
 
 /// Why the curve says nothing, or "".
@@ -137,8 +138,6 @@ void fill(ExponentialApproach& fit, const Parameters& p, const Errors& errors, d
   fit.end = errors.of({0, 1, 0}).around(p[1]);
   const double reach = errors.of({0, 0, 1}).reach();
   fit.scale = {range / p[2], range / (p[2] + reach), range / (p[2] - reach)};
-  fit.halfway = errors.of({0.5, 0.5, 0});
-  fit.nine_tenths = errors.of({0.1, 0.9, 0});
 }
 
 }  // namespace
@@ -160,7 +159,9 @@ ExponentialApproach fit_approach(const Eigen::VectorXd& x, const Eigen::VectorXd
     fit.trouble = "does not change";
     return fit;
   }
-  Data data{(x.array() - x[0]) / range, (y.array() - y[0]) / height};
+  // From 1 on rather than 0: a step is small by its ratio to the parameter.
+  const double origin = y[0] - height;
+  Data data{(x.array() - x[0]) / range, (y.array() - origin) / height};
   auto p = first_guess(data);
   if (!least_squares(data, p)) {
     fit.trouble = "is no exponential approach";
@@ -171,10 +172,9 @@ ExponentialApproach fit_approach(const Eigen::VectorXd& x, const Eigen::VectorXd
   if (!fit.trouble.empty()) return fit;
   fill(fit, p, errors, range);
   for (auto* level : {&fit.start, &fit.end})
-    *level = {y[0] + height * level->value, y[0] + height * level->low,
-              y[0] + height * level->high};
-  fit.halfway.error *= height;
-  fit.nine_tenths.error *= height;
+    *level = {origin + height * level->value, origin + height * level->low,
+              origin + height * level->high};
+  fit.influences = height * errors.influences().leftCols<2>();
   fit.scatter = height * std::sqrt(residuals(data, p).squaredNorm() / static_cast<double>(n - 3));
   return fit;
 }
@@ -191,7 +191,7 @@ Estimate time_to(double part, const ExponentialApproach& fit, const Eigen::Vecto
   const double between = k == 0 ? 0 : (level - y[k - 1]) / (y[k] - y[k - 1]);
   const double when = k == 0 ? 0 : x[k - 1] - x[0] + between * (x[k] - x[k - 1]);
 
-  auto error = part < 0.7 ? fit.halfway : fit.nine_tenths;
+  auto error = standard_error(fit.influences * Eigen::Vector2d{1 - part, part}, 3);
   const double speed = std::abs(rise) * (1 - part) / fit.scale.value;
   error.error = std::hypot(error.error, fit.scatter) / speed;
   return error.around(when);

@@ -20,15 +20,15 @@ struct ExponentialApproach {
   std::string trouble;
 
   // For what follows from the fit:
-  double scatter = 0;                  // rms of the residuals
-  StandardError halfway, nine_tenths;  // of the heights at 50 % and 90 % of the way
+  double scatter = 0;           // rms of the residuals
+  Eigen::MatrixX2d influences;  // of each observation on start and end
 };
 
 /// x increasing, e.g. time or strain; both of the same length.
 ExponentialApproach fit_approach(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
 
 /// Where y first has gone `part` of the way from the fit's start to its end: x - x_0, between two
-/// observations on a straight line. NaN where it never does or without a fit. `part` 0.5 or 0.9.
+/// observations on a straight line. NaN where it never does or without a fit.
 Estimate time_to(double part, const ExponentialApproach& fit, const Eigen::VectorXd& x,
                  const Eigen::VectorXd& y);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace grseg {
 namespace {
@@ -62,10 +63,13 @@ std::vector<WindowMean> window_means(const std::vector<Moment>& moments,
     const std::vector<Moment> own(first, first + static_cast<std::ptrdiff_t>(count));
     first += static_cast<std::ptrdiff_t>(count);
     const auto mixing = series(own, &Moment::mixing);
-    const Eigen::VectorXd influence =
-        (mixing.array() - mixing.mean()) / static_cast<double>(mixing.size());
+    const Eigen::VectorXd excess = mixing.array() - mixing.mean();
+    const auto frames = static_cast<double>(mixing.size());
+    const double error = standard_error(excess / frames, 1).error;
+    // Frames that all depend on each other count as one.
     means.push_back({series(own, &Moment::time).mean(), series(own, &Moment::strain).mean(),
-                     mixing.mean(), standard_error(influence, 1).error});
+                     mixing.mean(),
+                     std::isnan(error) ? std::sqrt(excess.squaredNorm() / frames) : error});
   }
   return means;
 }
