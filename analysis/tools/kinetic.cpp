@@ -56,10 +56,11 @@ struct LayerBias {
   }
   void report() const
   {
+    const double all = profile + measured;
     fmt::print(stderr,
-               "{}: the mean over a layer adds {:.3g} % to K_xx about the profile, by the shear "
-               "inside the layer (mass (du/dy h)^2/12 would be {:.3g} %); layer_bias_* has it\n",
-               info.name, 100 * measured / profile, 100 * of_shear / profile);
+               "{}: {:.3g} % of K_xx about the layers' means is shear inside the layers (mass "
+               "(du/dy h)^2/12: {:.3g} %); the columns layer_bias have it\n",
+               info.name, 100 * measured / all, 100 * of_shear / all);
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grseg-stress, grseg-kinetic and grseg-micro as programs, on a run known by heart.
+// grseg-stress, grseg-kinetic, grseg-micro and grseg-segregation as programs, on a run known by
+// heart.
 #include "formats/digest.hpp"
 #include "formats/table.hpp"
 #include "formats/trajectory_reader.hpp"
@@ -65,7 +66,8 @@ class FrameTools : public testing::Test {
   }
 };
 
-const std::string stress = GRSEG_STRESS, kinetic = GRSEG_KINETIC, micro = GRSEG_MICRO;
+const std::string stress = GRSEG_STRESS, kinetic = GRSEG_KINETIC, micro = GRSEG_MICRO,
+                  segregation = GRSEG_SEGREGATION;
 
 TEST_F(FrameTools, RowsOfAllToolsHaveTheSameKeys)
 {
@@ -139,6 +141,47 @@ TEST_F(FrameTools, MicroHasTheWholeBedLast)
   EXPECT_NEAR(cell(t, 1, "z_L"), 2, 1e-15);
   EXPECT_NEAR(cell(t, 1, "height"), 2 * (4 * 0.005 + 0.0125) / 5, 1e-15);
   EXPECT_NEAR(cell(t, 1, "V"), 0.35 * 0.013, 1e-15);
+}
+
+// Masses 4:1, velocities 0.2 and -0.4 m/s: w = 0.08.
+TEST_F(FrameTools, SegregationHasTheFluxOfTheThreeGrains)
+{
+  const auto t = table(segregation), m = table(micro);
+  ASSERT_EQ(t.rows.size(), 2 * 2u);
+  for (std::size_t row = 0; row < t.rows.size(); ++row)
+    for (std::size_t key = 0; key < 6; ++key)
+      EXPECT_TRUE(t.rows[row][key] == m.rows[row][key] ||
+                  (std::isnan(t.rows[row][key]) && std::isnan(m.rows[row][key])));
+  EXPECT_NEAR(cell(t, 0, "w_L"), 0.12, 1e-15);
+  EXPECT_NEAR(cell(t, 0, "w_S"), -0.48, 1e-15);
+  EXPECT_NEAR(cell(t, 0, "q_L"), 0.8 * 0.12, 1e-15);
+  EXPECT_NEAR(cell(t, 0, "q_S"), -0.2 * 0.48, 1e-15);
+  EXPECT_TRUE(std::isnan(cell(t, 0, "yL")));
+  EXPECT_TRUE(std::isnan(cell(t, 1, "y0")));
+  EXPECT_NEAR(cell(t, 1, "yL"), 0.005, 1e-15);
+  EXPECT_NEAR(cell(t, 1, "height"), 0.013, 1e-15);
+}
+
+TEST_F(FrameTools, ASummaryThatCannotBeMadeSaysSoAndIsDone)
+{
+  const auto outcome = run(segregation + " " + file + " --summary 2>&1 >/dev/null");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("grseg-segregation: no fit of an exponential approach to y_L over "
+                             "time: it does not change; a longer run may tell"),
+            std::string::npos);
+  const auto quiet = run(segregation + " " + file + " --summary --quiet 2>&1");
+  EXPECT_EQ(quiet.code, 0);
+  EXPECT_NE(quiet.out.find("# remark: no fit of an exponential approach"), std::string::npos);
+  EXPECT_NE(quiet.out.find("\ntau[s]\tnan\tnan\tnan\n"), std::string::npos);
+}
+
+TEST_F(FrameTools, TheMeanOfALayerTellsWhatItAdds)
+{
+  const auto outcome = run(kinetic + " " + file + " --mean layer 2>&1 >/dev/null");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("grseg-kinetic: 100 % of K_xx about the layers' means is shear"),
+            std::string::npos);
+  EXPECT_EQ(run(kinetic + " " + file + " --mean instant 2>&1 >/dev/null").out, "");
 }
 
 TEST_F(FrameTools, TheHeaderTellsWhatLaterToolsNeed)
