@@ -21,7 +21,7 @@ Eigen::VectorXd series(const std::vector<Moment>& moments, double Moment::*place
   return values;
 }
 
-/// The fit against time or against strain; the ends of the one against time.
+/// The fit against time or against strain.
 void add_approach(const std::vector<Moment>& moments, bool against_time,
                   SegregationSummary& summary)
 {
@@ -29,9 +29,9 @@ void add_approach(const std::vector<Moment>& moments, bool against_time,
   const auto y = series(moments, &Moment::large);
   const auto fit = fit_approach(x, y);
   const char* unit = against_time ? "[s]" : "_strain";
-  if (against_time)
-    summary.numbers.insert(summary.numbers.end(),
-                           {{"y_L_start[m]", fit.start}, {"y_L_end[m]", fit.end}});
+  const char* kind = against_time ? "" : "_strain";
+  summary.numbers.emplace_back(fmt::format("y_L_start{}[m]", kind), fit.start);
+  summary.numbers.emplace_back(fmt::format("y_L_end{}[m]", kind), fit.end);
   summary.numbers.emplace_back(fmt::format("tau{}", unit), fit.scale);
   for (const auto& [name, part] : {std::pair{"t50", 0.5}, {"t90", 0.9}}) {
     const auto when = time_to(part, fit, x, y);
@@ -44,8 +44,7 @@ void add_approach(const std::vector<Moment>& moments, bool against_time,
   if (!fit.trouble.empty())
     summary.remarks.push_back(
         fmt::format("no fit of an exponential approach to y_L over {}: it {}; a longer run may "
-                    "tell, or another "
-                    "--begin",
+                    "tell, or another --begin",
                     against_time ? "time" : "strain", fit.trouble));
 }
 

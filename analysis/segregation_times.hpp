@@ -9,7 +9,7 @@
 namespace grseg {
 
 /// Segregation time by its several definitions, from the first moment on, in seconds and in strain
-/// (numbers that end in _strain):
+/// (numbers named _strain):
 ///   y_L_start, y_L_end, tau  y_L = end - (end - start) exp(-t/tau), least squares over frames
 ///   t50, t90                 when y_L has gone 50 % and 90 % of the way from start to end of the
 ///   fit mixing_start, mixing_most, mixing_end   mixing_index, means over windows t_mixing middle
