@@ -21,4 +21,11 @@ struct SegregationSummary {
   }
 };
 
+using TableHeader = std::vector<std::pair<std::string, std::string>>;
+
+/// Rows of quantity, value, low and high under the header of a table, remarks among its lines.
+std::string to_tsv(const SegregationSummary& summary, TableHeader header);
+/// {"numbers": {"tau[s]": {"value", "interval"}, ...}, "remarks", "settings", "inputs", "history"}
+std::string to_json(const SegregationSummary& summary, const TableHeader& header);
+
 }  // namespace grseg

@@ -57,18 +57,6 @@ RateFilter filter_of(const Settings& s, LengthUnits units)
   return filter;
 }
 
-/// A list of names with numbers under the header of `table`.
-std::string text_of(Table table, const SegregationSummary& summary)
-{
-  for (const auto& remark : summary.remarks) table.header.emplace_back("remark", remark);
-  table.columns = {"quantity", "value", "low", "high"};
-  std::string text = table.to_text();
-  for (const auto& [name, number] : summary.numbers)
-    text += fmt::format("{}\t{}\t{}\t{}\n", name, format_number(number.value),
-                        format_number(number.low), format_number(number.high));
-  return text;
-}
-
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
   FrameLoop loop(info, values, s.frames);
@@ -79,13 +67,9 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
 
   SegregationRun run(loop.layers(), small_diameter, large_diameter);
   for (const auto& window : loop.windows()) {
-    SegregationSeries series(loop.layers());
-    SegregationFlux flux(loop.layers(), window, small_diameter, large_diameter);
-    loop.for_each_frame(window, {.velocity = true, .contacts = false},
-                        [&](const Grains& grains, const Frame& frame) {
-                          series.add(grains, frame);
-                          flux.add(grains, frame);
-                        });
+    const auto [series, flux] =
+        loop.sum(window, {.velocity = true, .contacts = false}, SegregationSeries(loop.layers()),
+                 SegregationFlux(loop.layers(), window, small_diameter, large_diameter));
     run.add(file.grains(), series, flux);
     for (std::size_t layer = 0; layer < run.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, run.row(layer)));
@@ -94,13 +78,13 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   if (!s.summary) return loop.write(table);
 
   const auto summary = run.summary(filter);
-  table.rows.clear();
   table.header.emplace_back("heights", s.heights.empty() ? "all" : s.heights);
   table.header.emplace_back("min_solid", format_number(s.min_solid));
   table.header.emplace_back("interval", "95 %");
   if (!s.frames.quiet)
     for (const auto& remark : summary.remarks) fmt::print(stderr, "{}: {}\n", info.name, remark);
-  write_whole(s.frames.output, text_of(table, summary));
+  write_whole(s.frames.output,
+              s.frames.json ? to_json(summary, table.header) : to_tsv(summary, table.header));
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ TEST_F(FrameTools, SegregationHasTheFluxOfTheThreeGrains)
   const auto t = table(segregation), m = table(micro);
   ASSERT_EQ(t.rows.size(), 2 * 2u);
   for (std::size_t row = 0; row < t.rows.size(); ++row)
-    for (std::size_t key = 0; key < 6; ++key)
+    for (std::size_t key = 0; key < 5; ++key)
       EXPECT_TRUE(t.rows[row][key] == m.rows[row][key] ||
                   (std::isnan(t.rows[row][key]) && std::isnan(m.rows[row][key])));
   EXPECT_NEAR(cell(t, 0, "w_L"), 0.12, 1e-15);
@@ -173,6 +173,11 @@ TEST_F(FrameTools, ASummaryThatCannotBeMadeSaysSoAndIsDone)
   EXPECT_EQ(quiet.code, 0);
   EXPECT_NE(quiet.out.find("# remark: no fit of an exponential approach"), std::string::npos);
   EXPECT_NE(quiet.out.find("\ntau[s]\tnan\tnan\tnan\n"), std::string::npos);
+  const auto json =
+      nlohmann::json::parse(run(segregation + " " + file + " --summary --quiet --json").out);
+  EXPECT_TRUE(json["numbers"]["tau[s]"]["value"].is_null());
+  EXPECT_EQ(json["numbers"]["mixing_end"]["interval"].size(), 2u);
+  EXPECT_EQ(json["settings"]["min_solid"], "0.5");
 }
 
 TEST_F(FrameTools, TheMeanOfALayerTellsWhatItAdds)
