@@ -51,8 +51,8 @@ Parameters best_for(const Data& data, double rate)
 Parameters first_guess(const Data& data)
 {
   Parameters best = best_for(data, 1);
-  for (double rate = 1.0 / 64; rate < 1e4; rate *= 2) {
-    const auto p = best_for(data, rate);
+  for (int power = -6; power <= 13; ++power) {
+    const auto p = best_for(data, std::ldexp(1.0, power));
     if (residuals(data, p).squaredNorm() < residuals(data, best).squaredNorm()) best = p;
   }
   return best;

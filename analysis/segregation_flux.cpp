@@ -220,6 +220,7 @@ std::vector<SegregationFlux::Result> SegregationFlux::results(const Grains& grai
   std::vector<Result> results;
   for (std::size_t n = 0; n < layers; ++n) {
     std::vector<LayerSegregation> values;
+    values.reserve(left_out.size());
     for (const auto& others : left_out) values.push_back(evaluate(others, n, bed));
     const auto frames = static_cast<double>(frames_);
     const auto& sums = all[n];

@@ -51,6 +51,16 @@ Estimate number(const SegregationSummary& summary, const std::string& name)
   return {};
 }
 
+// Differences -2, 2, -2: 4/3 * 12/2.
+TEST(ErrorAboutTrend, ItIsThatOfTheDifferencesOfNeighbours)
+{
+  const auto error = error_about_trend(Eigen::Vector4d{1, -1, 1, -1});
+  EXPECT_NEAR(error.error, std::sqrt(8), 1e-14);
+  EXPECT_NEAR(error.degrees, 2, 1e-14);
+  EXPECT_NEAR(error.around(3).high, 3 + 4.302652729749464 * std::sqrt(8), 1e-9);  // t_0.975(2)
+  EXPECT_TRUE(std::isnan(error_about_trend(Eigen::Vector2d{1, -1}).around(3).low));
+}
+
 TEST(SegregationRates, AFluxThatObeysTheLawGivesItsCoefficients)
 {
   const auto summary = segregation_rates(points(0));

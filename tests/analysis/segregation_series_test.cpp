@@ -47,7 +47,7 @@ TEST(MixingIndex, ARegularMixtureIsMixedMoreThanARandomOne)
 TEST(MixingIndex, SpeciesAtRandomHaveOne)
 {
   std::mt19937 random(2);
-  std::bernoulli_distribution is_large(0.2);
+  std::bernoulli_distribution is_large(0.1);
   double mean = 0;
   for (int trial = 0; trial < 200; ++trial) {
     Scene scene;
@@ -59,10 +59,9 @@ TEST(MixingIndex, SpeciesAtRandomHaveOne)
       }
     mean += (1 - index_of(scene)) / 200;
   }
-  // 1 - index = (s^2 - s_r^2)/(s_0^2 - s_r^2); s_r^2/s_0^2 = (phi_S a_L + phi_L a_S)/(A/n) =
-  // 2.5/(200*1.6) here; a twentieth of it is the bed's own, and the weights are a hundredth's
-  // matter.
-  EXPECT_NEAR(mean, 0, 0.1 * 2.5 / 320);
+  // 1 - index = (s^2 - s_r^2)/(s_0^2 - s_r^2). phi_L = 4/13, area 1.3 per grain: s_r^2/s_0^2 =
+  // (9/13 * 4 + 4/13)/(200 * 1.3) = 0.0118. A twentieth of it is the bed's own share.
+  EXPECT_NEAR(mean, 0, 0.1 * 0.0118);
 }
 
 TEST(MixingIndex, OneSpeciesAloneHasNone)
