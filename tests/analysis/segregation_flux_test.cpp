@@ -139,6 +139,24 @@ TEST(SegregationFlux, BallisticMotionHasADiffusivityThatGrowsWithTheLag)
   EXPECT_NEAR(value.D2_small, c * c * 2, 1e-15);
 }
 
+// Darken: the rarer a species, the more the composition's diffusivity is its own.
+TEST(SegregationFlux, TheCompositionDiffusesAsItsRarerSpecies)
+{
+  Scene scene;
+  for (const double y : {1.2, 1.4}) scene.grain(Species::small, 0.01, {1, y});
+  for (const double y : {1.6, 1.8}) scene.grain(Species::large, 0.02, {2, y});
+  const auto flux = seen(scene, 8, [&](Scene& s, double t) {
+    for (std::size_t g = 0; g < 4; ++g)
+      s.frame.position[g].y() =
+          scene.frame.position[g].y() + (g % 2 == 0 ? 1 : -1) * (g < 2 ? 0.01 : 0.005) * t;
+  });
+  const auto value = flux.results(scene.grains, 2)[1].value;
+  EXPECT_NEAR(value.phi_large, 0.8, 1e-14);
+  EXPECT_NEAR(value.D_small, 1e-4, 1e-16);
+  EXPECT_NEAR(value.D_large, 2.5e-5, 1e-16);
+  EXPECT_NEAR(value.D, 0.2 * 2.5e-5 + 0.8 * 1e-4, 1e-16);
+}
+
 /// 40 small grains and 20 large ones in the middle of each of three layers walk at random with
 /// D = 2e-4 and 1e-4 m^2/s, drifts of their own on top.
 std::vector<Scene> walk(unsigned seed)
