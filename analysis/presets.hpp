@@ -25,6 +25,14 @@ inline constexpr PresetOption micro[] = {
     {"average", "contacts", "ends"},
     {"partition", "uniform:0.66667", "size"},
 };
+inline constexpr PresetOption balance[] = {
+    {"layer", "4dS", "4dS"},
+    {"window", "1.25", "1.25"},
+};
+inline constexpr PresetOption segregation[] = {
+    {"layer", "4dS", "4dS"},
+    {"window", "1.25", "1.25"},
+};
 inline constexpr PresetOption fit[] = {
     {"partition", "uniform:0.66667", "size"},
     {"begin", "", "10"},  // s; the paper takes all stages, spin-up takes 5 to 10 s

@@ -2,6 +2,7 @@
 #include "analysis/balance_summary.hpp"
 #include "analysis/balance_table.hpp"
 #include "analysis/frame_loop.hpp"
+#include "analysis/presets.hpp"
 #include "formats/length.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,8 @@ constexpr ToolInfo info{
     "  grseg-balance run.h5 -o balance.tsv              layers of 4 dS, Gaussian of 1 dS\n"
     "  grseg-balance run.h5 --layer 1dS --width 0.5dS   finer profiles\n"
     "  grseg-balance run.h5 --kernel lucy --width 3dS   a kernel of compact support\n"
-    "  grseg-balance run.h5 --begin 20 -o /dev/null     only the sentence that sums it up\n"};
+    "  grseg-balance run.h5 --begin 20 -o /dev/null     only the sentence that sums it up\n",
+    presets::balance};
 
 struct Settings {
   FrameOptions frames;

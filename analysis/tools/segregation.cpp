@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frame_loop.hpp"
+#include "analysis/presets.hpp"
 #include "analysis/segregation_run.hpp"
 #include "formats/length.hpp"
 
@@ -17,7 +18,8 @@ constexpr ToolInfo info{
     "bed\n"
     "  grseg-segregation run.h5 --summary                      times, S, D, Pe of the whole run\n"
     "  grseg-segregation run.h5 --summary --heights 4dS:56dS   without base and surface\n"
-    "  grseg-segregation run.h5 --window 5                     D over a longer time\n"};
+    "  grseg-segregation run.h5 --window 5                     D over a longer time\n",
+    presets::segregation};
 
 struct Settings {
   FrameOptions frames;
