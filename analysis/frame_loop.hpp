@@ -60,19 +60,6 @@ class FrameLoop {
   std::tuple<Sums...> sum(const Window& window, TrajectoryReader::Fields fields,
                           const Sums&... empty);
 
-  /// Calls use(grains, frame) for every frame of a window, one after the other: for what depends on
-  /// their order.
-  template <class Use>
-  void for_each_frame(const Window& window, TrajectoryReader::Fields fields, const Use& use)
-  {
-    Frame frame;
-    for (const std::size_t k : window.frames) {
-      read(k, frame, fields);
-      use(run_.grains(), frame);
-    }
-    report_progress(window);
-  }
-
   /// A table without rows: header with program, preset, history, content digest of the run, the
   /// numbers that later tools need and `settings` of the tool; key columns, then `columns`.
   Table make_table(const std::string& command,
