@@ -64,10 +64,11 @@ TEST(Gas, CoolsByHaffsLawUntilItClusters)
   // Poeschel 2004). Each disc that meets one of two walls at distance H loses (1 - e^2) T as well;
   // density there is that of the pressure, n (1 + 2 phi chi), which makes sqrt(2) (1 + 2 phi
   // chi)/(pi n d H chi) more.
-  // The law takes velocities for uncorrelated; that vortices grow shows as a few per cent.
-  Case law("H28", "temperature over Haff's law up to t = 3 t_e, e = 0.8, 0.9");
+  // The law takes velocities for uncorrelated. As vortices grow it is left behind in proportion to
+  // 1 - e^2, whatever the step: by 15 % at e = 0.8, 8 % at 0.9, 4 % at 0.95 after 3 t_e.
+  Case law("H28", "temperature over Haff's law up to t = 3 t_e, e = 0.95, 0.98");
   Case cooling("G8", "largest gain of energy of a cooling gas in a step, relative");
-  for (const double e : {0.8, 0.9}) {
+  for (const double e : {0.95, 0.98}) {
     auto gas = equilibrium(e);
     const double m = gas.world().grains.mass[0];
     const double t0 = temperature(gas), n = 4 * solid_fraction / pi;
@@ -82,7 +83,7 @@ TEST(Gas, CoolsByHaffsLawUntilItClusters)
       const double now = gas.translational_energy();
       cooling.at_most(std::max(0.0, now / energy - 1), 1e-12);
       energy = now;
-      law.near(temperature(gas) / t0 * std::pow(1 + gas.time() * rate, 2), 1, 0.08);
+      law.near(temperature(gas) / t0 * std::pow(1 + gas.time() * rate, 2), 1, 0.05);
     }
   }
 }
