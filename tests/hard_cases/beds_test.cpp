@@ -72,11 +72,11 @@ TEST(StaticBed, PressesOnItsBaseWithItsWeightAndOnEachLevelWithThatOfWhatIsAbove
   Frame frame;
   for (int step = 0; step < 20; ++step) {
     const auto report = bed.advance(frame);
-    base.near(report.base_impulse.y() / bed.world().step / weight, 1, 1e-5);
+    base.near(report.base_impulse.y() / bed.world().step / weight, 1, 1e-8);
     for (double y = scene.small_diameter; y < 15 * scene.small_diameter;
          y += scene.small_diameter) {
       const Cut cut(bed.world(), frame, y);
-      level.near(cut.carried / cut.weight, 1, 1e-4);
+      level.near(cut.carried / cut.weight, 1, 1e-8);
     }
   }
 }
@@ -130,7 +130,7 @@ TEST(SteadyFlow, BalancesGravityAtEveryLevelAndHasBagnoldsProfile)
   Case("H30", "impulse of the base less that of weight and change of momentum, relative")
       .at_most((base - expected).norm() / expected.norm(), 1e-9);
   Case("H30", "shear over normal force of the base over tan θ, 40 s")
-      .near(-base.x() / base.y() / std::tan(slope), 1, 0.02);
+      .near(-base.x() / base.y() / std::tan(slope), 1, 0.002);
 
   const double height = bed_height(flow);
   std::vector<double> x, u;
@@ -171,8 +171,8 @@ TEST(StoppedBed, FarBelowReposeComesToRestAndDoesNotCreep)
   const auto after = positions();
   for (std::size_t k = 0; k < after.size(); ++k)
     creep = std::max(creep, (after[k] - before[k]).norm() / scene.small_diameter);
-  Case("H34", "kinetic energy over m g d per grain, 10°, standard").at_most(energy, 1e-9);
-  Case("H34", "creep in 1e5 steps, d_S").at_most(creep, 1e-2);
+  Case("H34", "kinetic energy over m g d per grain, 10°, standard").at_most(energy, 1e-12);
+  Case("H34", "creep in 1e5 steps, d_S").at_most(creep, 1e-9);
 }
 
 /// Discs of diameter 1 +- 10 % poured into a box of this width between straight walls, in `rows`
