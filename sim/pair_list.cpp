@@ -85,7 +85,12 @@ bool PairList::complete(const std::vector<Vec2>& position)
 
 double PairList::moved_in_a_step() const
 {
-  return age_ == 1 && neighbours_moved_ > slack_ ? neighbours_moved_ : 0;
+  if (age_ != 1) return 0;
+  if (neighbours_moved_ > slack_) return neighbours_moved_;
+  if (bands_stay_apart()) return 0;
+  auto all = nothing();
+  for (const auto& band : band_moved_) add(all, band);
+  return (all.high - all.low).norm();
 }
 
 /// Any two neighbouring groups lie in a square of two by two.

@@ -100,8 +100,8 @@ class PairList {
   /// As if no pair had ever touched.
   void forget_impulses();
   std::size_t renewals() const { return renewals_; }
-  /// Where a list was no longer complete when it was first asked for: by how much, in m, neighbours
-  /// can have moved past each other in the one step since, unseen. Otherwise 0.
+  /// Where a list was no longer complete when it was first asked for: by how much, in m, grains can
+  /// have moved past each other in the one step since, unseen. Otherwise 0.
   double moved_in_a_step() const;
 
   /// All that a list must have to be made again as it is.

@@ -250,7 +250,7 @@ void Simulation::renew_pairs()
 void Simulation::find_contacts(StepReport& report)
 {
   const bool renew = !pairs_.complete(ahead_);
-  const double passed = pairs_.moved_in_a_step();
+  const double unseen = unseen_approach();
   if (renew) renew_pairs();
   DetectionRule rule;
   rule.looked_at = ahead_;
@@ -272,7 +272,19 @@ void Simulation::find_contacts(StepReport& report)
   report.touching = sums.touching;
   report.sum_overlap = sums.overlap;
   report.largest_overlap = sums.largest_overlap;
-  report.fastest_approach = std::max(sums.fastest_approach, passed / world_.step);
+  report.fastest_approach = std::max(sums.fastest_approach, unseen);
+}
+
+double Simulation::unseen_approach() const
+{
+  if (pairs_.renewals() > 0) return pairs_.moved_in_a_step() / world_.step;
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  for (const auto& m : state_.motion) {
+    low = low.cwiseMin(Vec2(m.vx, m.vy));
+    high = high.cwiseMax(Vec2(m.vx, m.vy));
+  }
+  const double spread = (high - low).norm();
+  return spread * world_.step / 2 > world_.skin - world_.margin ? spread : 0;
 }
 
 std::span<Pairs::Memory> Simulation::memories()

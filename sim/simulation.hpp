@@ -47,7 +47,7 @@ struct StepReport {
   double sum_overlap = 0;         ///< m, of -gap over the touching pairs
   double largest_overlap = 0;     ///< m
   double sum_gap_bearing = 0;     ///< m, of |gap| over force-bearing contacts
-  /// m/s, of a pair that acts, at the beginning of the step; or of neighbours so fast that they may
+  /// m/s, of a pair that acts, at the beginning of the step; or of grains so fast that they may
   /// have passed each other unseen.
   double fastest_approach = 0;
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
@@ -128,6 +128,8 @@ class Simulation {
   std::span<Pairs::Memory> memories();
   void renew_pairs();
   void find_contacts(StepReport& report);
+  /// m/s, of grains that may have passed each other since the last list, or before the first one.
+  double unseen_approach() const;
   void solve(StepReport& report);
   [[noreturn]] void stop_at_coincidence() const;
   void drive_bodies();

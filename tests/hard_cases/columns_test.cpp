@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/solver.hpp"
+#include "tests/hard_cases/case.hpp"
 #include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>
@@ -71,15 +72,16 @@ double contraction(const Column& cold, int sweeps)
 TEST(Column, ASweepContractsTheErrorByCosineSquaredOfPiOverTwoNInAnyOrder)
 {
   // Jacobi's matrix has the eigenvalues cos((2k - 1) pi/2n). Per decade 0.933 n^2 sweeps.
+  Case rates("H13", "error left by a sweep, cos²(π/2n)");
   for (const std::size_t n : {5u, 20u, 60u}) {
     Column column(std::vector<double>(n, 1.0));
     const int sweeps = static_cast<int>(2 * n * n);
     const double rate = std::pow(std::cos(pi / (2 * static_cast<double>(n))), 2);
-    EXPECT_NEAR(contraction(column, sweeps), rate, 1e-9);
+    rates.near(contraction(column, sweeps), rate, 1e-9);
     std::reverse(column.contacts.begin(), column.contacts.end());
-    EXPECT_NEAR(contraction(column, sweeps), rate, 1e-9);
+    rates.near(contraction(column, sweeps), rate, 1e-9);
     std::shuffle(column.contacts.begin(), column.contacts.end(), std::mt19937(1));
-    EXPECT_NEAR(contraction(column, sweeps), rate, 1e-9);
+    rates.near(contraction(column, sweeps), rate, 1e-9);
   }
 }
 
@@ -87,13 +89,17 @@ TEST(Column, AHeavyDiscOnALightOneConvergesByROverOnePlusRPerSweep)
 {
   // Sweep k leaves L^k of the impulse's error, L = R/(1 + R), and reports the residual
   // L^k/(R (1 - L^k)).
-  for (const double ratio : {1.0, 4.0, 100.0, 1e4}) {
+  // A light disc on a heavy one: R < 1.
+  Case heavy("H15", "load that k sweeps find, 1 − (R/(1 + R))ᵏ"),
+      light("H16", "load that k sweeps find, 1 − (1 + R)⁻ᵏ");
+  for (const double ratio : {1.0, 4.0, 100.0, 1e4, 0.25, 0.01, 1e-4}) {
     const double rate = ratio / (1 + ratio);
     for (const int sweeps : {1, 3, 50}) {
       Column column({1, ratio});
       const auto report = column.solve(0, sweeps);
       const double left = std::pow(rate, sweeps);
-      EXPECT_NEAR(column.contacts[1].impulse_n / (ratio * gh), 1 - left, 1e-12);
+      (ratio < 1 ? light : heavy)
+          .near(column.contacts[1].impulse_n / (ratio * gh), 1 - left, 1e-12);
       EXPECT_NEAR(report.residual, left / (ratio * (1 - left)), 1e-12);
     }
   }
@@ -103,13 +109,14 @@ TEST(Column, AHeavyDiscOnALightOneEndsWithinToleranceAndTellsTheSweeps)
 {
   // With the residual above, sweeps end when L^k is R tol/(1 + R tol): 231 sweeps per decade at
   // R = 100. At a tolerance that is not small against 1/R much of the load is still missing.
+  Case count("H15", "sweeps until a tolerance is met");
   for (const double ratio : {4.0, 100.0, 1e4})
     for (const double tolerance : {1e-2, 1e-6}) {
       Column column({1, ratio});
       const auto report = column.solve(tolerance, 1000000);
       const double left = ratio * tolerance / (1 + ratio * tolerance);
       EXPECT_TRUE(report.converged);
-      EXPECT_NEAR(report.sweeps, std::ceil(std::log(left) / std::log(ratio / (1 + ratio))), 1);
+      count.near(report.sweeps, std::ceil(std::log(left) / std::log(ratio / (1 + ratio))), 1);
       EXPECT_LE(1 - column.contacts[1].impulse_n / (ratio * gh), left * (1 + 1e-9));
     }
 }
@@ -119,7 +126,7 @@ TEST(Column, AHeavyDiscAtRestOnALightOneNeedsOneSweep)
   Column column({1, 1e4});
   column.contacts[0].impulse_n = (1 + 1e4) * gh;
   column.contacts[1].impulse_n = 1e4 * gh;
-  EXPECT_EQ(column.solve(1e-12, 100).sweeps, 1);
+  Case("H15", "sweeps of the column at rest, R = 10⁴").near(column.solve(1e-12, 100).sweeps, 1, 0);
 }
 
 /// A column swept `sweeps` times per step, at rest, that becomes heavier by 5 %.
@@ -173,13 +180,15 @@ TEST(Column, WithFewSweepsPerStepItRingsLikeAColumnOfSprings)
   // g h^2, E what the sweeps of a step leave of the relative velocities: near n^2/2N for any order,
   // ((n^2 - 1)/N - 1)/2 for n even and two colours.
   const int n = 40;
+  Case periods("H14", "period over π/asin(√N sin(π/4n)) steps, n = 40, N = 5, 20, 80"),
+      sinking("H14", "sinking of the top over ((n² − 1)/N − 1)/2 g h²");
   for (const int sweeps : {5, 20, 80}) {
     SCOPED_TRACE(sweeps);
     const Burdened column(n, sweeps, 3000);
     const double period = pi / std::asin(std::sqrt(sweeps) * std::sin(pi / (4 * n)));
-    EXPECT_NEAR(column.period(2) / period, 1, 0.02);
+    periods.near(column.period(2) / period, 1, 0.02);
     const double sink = ((n * n - 1.0) / sweeps - 1) / 2;
-    EXPECT_NEAR(column.sink.back() / sink, 1, 0.005);
+    sinking.near(column.sink.back() / sink, 1, 0.005);
     EXPECT_NEAR(column.force.back(), 1, 1e-3);
   }
 }

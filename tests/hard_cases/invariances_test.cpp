@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/sweep.hpp"
+#include "tests/hard_cases/case.hpp"
+#include "tests/hard_cases/contact_problem.hpp"
 #include "tests/hard_cases/flows.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <string>
 
 /// The same run in other units, on other instruction sets.
 namespace grseg::hard_cases {
@@ -38,16 +42,111 @@ TEST(Units, LengthsAThousandthAndMassesAMillionTimesGiveTheSameFlow)
     a.advance(in_a);
     b.advance(in_b);
   }
+  Case positions("H27", "positions in scaled units, m"), velocities("H27", "velocities, m/s"),
+      forces("H27", "forces, of a weight");
   for (std::size_t g = 0; g < original.position.size(); ++g) {
-    EXPECT_NEAR((b.position(g) / length - a.position(g)).norm(), 0, 1e-10);
-    EXPECT_NEAR((b.velocity(g) / speed - a.velocity(g)).norm(), 0, 1e-10);
+    positions.at_most((b.position(g) / length - a.position(g)).norm(), 1e-10);
+    velocities.at_most((b.velocity(g) / speed - a.velocity(g)).norm(), 1e-10);
   }
   EXPECT_GT(in_a.contacts.size(), 30u);
   ASSERT_EQ(in_a.contacts.i, in_b.contacts.i);
   ASSERT_EQ(in_a.contacts.j, in_b.contacts.j);
   const double weight = 9.8 * original.world.grains.mass[0];
   for (std::size_t c = 0; c < in_a.contacts.size(); ++c)
-    EXPECT_NEAR((in_b.contacts.force[c] / mass - in_a.contacts.force[c]).norm() / weight, 0, 1e-9);
+    forces.at_most((in_b.contacts.force[c] / mass - in_a.contacts.force[c]).norm() / weight, 1e-9);
+}
+
+TEST(Units, TwelveDecadesOfDiametersGiveTheSameFlow)
+{
+  // Powers of ten round differently, and a flow forgets its beginning: 300 steps.
+  Case positions("G9", "positions in scaled units, lengths times 10⁻⁶ to 10⁶, m");
+  const auto original = flow(6, 6, 0.5);
+  auto a = original.simulation();
+  for (int step = 0; step < 300; ++step) a.advance();
+  for (const double length : {1e-6, 1e-4, 1e-2, 1e2, 1e4, 1e6}) {
+    auto b = scaled(original, length, length * length).simulation();
+    for (int step = 0; step < 300; ++step) b.advance();
+    for (std::size_t g = 0; g < original.position.size(); ++g)
+      positions.at_most((b.position(g) / length - a.position(g)).norm(), 1e-10);
+  }
+}
+
+/// The contact forces of the step that follows, of contacts in the order of ids: 50 sweeps without
+/// a first guess. Gauss-Seidel's answer depends on the order, which in a step is that of space.
+struct Forces {
+  ContactList list;
+  std::vector<Vec2> impulse;  // kg m/s
+  std::vector<Vec2> velocity;
+
+  explicit Forces(Simulation simulation)
+  {
+    Frame frame;
+    simulation.advance(frame);
+    list = frame.contacts;
+    auto problem = contact_problem(simulation, frame);
+    solve_contacts(problem.contacts, problem.motion, simulation.world().material.friction, {},
+                   {0, 50}, 1);
+    for (const auto& c : problem.contacts)
+      impulse.push_back(c.impulse_n * Vec2(c.nx, c.ny) + c.impulse_t * Vec2(-c.ny, c.nx));
+    for (std::size_t g = 0; g < simulation.world().grains.size(); ++g)
+      velocity.push_back(simulation.velocity(g));
+  }
+};
+
+/// The crowd as it is after `steps` steps, as a new beginning.
+Crowd after(Crowd c, int steps)
+{
+  auto simulation = c.simulation();
+  for (int step = 0; step < steps; ++step) simulation.advance();
+  for (std::size_t g = 0; g < c.position.size(); ++g) {
+    c.position[g] = simulation.position(g);
+    c.velocity[g] = simulation.velocity(g);
+    c.spin[g] = simulation.angular_velocity(g);
+  }
+  return c;
+}
+
+void expect_same_forces(const Crowd& original, const Crowd& moved, const std::string& how)
+{
+  const Forces here(original.simulation()), there(moved.simulation());
+  ASSERT_GT(here.list.size(), 20u);
+  Case("H24", "the same contacts " + how)
+      .holds(here.list.i == there.list.i && here.list.j == there.list.j);
+  ASSERT_EQ(here.impulse.size(), there.impulse.size());
+  Case forces("H24", "difference of a force over the largest, contacts in order of ids, " + how);
+  double largest = 0;
+  for (const auto& p : here.impulse) largest = std::max(largest, p.norm());
+  ASSERT_GT(largest, 0);
+  for (std::size_t c = 0; c < here.impulse.size(); ++c)
+    forces.at_most((here.impulse[c] - there.impulse[c]).norm() / largest, 1e-12);
+}
+
+TEST(Period, AShiftAlongItChangesNoContactAndNoForce)
+{
+  const auto original = after(flow(8, 8, 0.5), 1500);
+  for (const double shift : {0.3, 4.7, -3.1, 9.6}) {
+    auto moved = original;
+    for (auto& x : moved.position) x.x() += shift;
+    expect_same_forces(original, moved, "after a shift");
+  }
+}
+
+TEST(Period, AnObserverWhoMovesAlongSeesTheSameForces)
+{
+  // A crowd that is pressed together, seen from a train.
+  auto original = crowd(8, 8, 1);
+  const auto press = [&] {
+    for (std::size_t g = 0; g < original.position.size(); ++g)
+      original.velocity[g].y() -= 3 * (original.position[g].y() - 5);
+  };
+  press();
+  original = after(original, 200);
+  press();
+  for (const double speed : {0.7, -5.0}) {
+    auto moved = original;
+    for (auto& v : moved.velocity) v.x() += speed;
+    expect_same_forces(original, moved, "under a boost");
+  }
 }
 
 /// All that the last frame of a flow says, as bits.
@@ -74,9 +173,10 @@ TEST(InstructionSets, AFlowIsTheSameToTheLastBitOnEachAndEachTime)
   const auto best = bits_of_a_flow();
   EXPECT_GT(best.size(), 64u * 5 + 2 * 30);
   EXPECT_EQ(best, bits_of_a_flow());
+  Case same("H38", "bits of 1000 steps on avx512, avx2, sse4, scalar are those of the best");
   for (const auto& set : instruction_sets()) {
     use_instruction_set(set);
-    EXPECT_EQ(best, bits_of_a_flow()) << set;
+    same.holds(best == bits_of_a_flow());
   }
   use_instruction_set("");
 }

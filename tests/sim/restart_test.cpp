@@ -4,6 +4,7 @@
 #include "formats/digest.hpp"
 #include "formats/errors.hpp"
 #include "sim/sweep.hpp"
+#include "tests/hard_cases/case.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +57,8 @@ void expect_a_restart_to_change_nothing(const Scene& scene)
   auto second = restarted(first, scene);
   EXPECT_EQ(second.steps_done(), 1000);
   const auto whole = digest_of_steps(second, 1000, half);
-  EXPECT_EQ(digest_of_steps(undisturbed, 2000), whole);
+  hard_cases::Case("H37", "2000 steps are 1000, a restart and 1000, bit for bit")
+      .holds(digest_of_steps(undisturbed, 2000) == whole);
   EXPECT_EQ(second.pair_list_renewals(), undisturbed.pair_list_renewals());
   EXPECT_GT(first.pair_list_renewals(), 1u);
   EXPECT_EQ(second.state().pairs.impulse_t, undisturbed.state().pairs.impulse_t);

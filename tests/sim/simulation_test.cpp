@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/simulation.hpp"
 
-#include "formats/errors.hpp"
 #include "sim/recorder.hpp"
 #include "tests/sim/worlds.hpp"
 
@@ -23,111 +22,6 @@ void run(Simulation& simulation, double duration)
 {
   const auto steps = std::llround(duration / simulation.world().step);
   for (std::int64_t k = 0; k < steps; ++k) simulation.advance();
-}
-
-TEST(Simulation, ADiscRollsDownAnInclineAtTwoThirdsOfGSin)
-{
-  const double slope = 0.4;  // tan = 0.42 < 3 mu
-  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
-  auto world = world_of(discs);
-  world.walls = {floor_at(0)};
-  world.gravity = {g * std::sin(slope), -g * std::cos(slope)};
-  Simulation simulation(world, positions_of(discs));
-  run(simulation, 1);
-  EXPECT_NEAR(simulation.velocity(0).x(), 2.0 / 3 * g * std::sin(slope), 1e-10);
-  EXPECT_NEAR(simulation.angular_velocity(0) * 0.5, -simulation.velocity(0).x(), 1e-10);
-  EXPECT_NEAR(simulation.position(0).x(), g * std::sin(slope) / 3, 1e-10);
-  EXPECT_NEAR(simulation.position(0).y(), 0.5, 1e-12);
-}
-
-TEST(Simulation, ADiscSlidesOnAnInclineSteeperThanThreeTimesFriction)
-{
-  const double mu = 0.1, slope = 0.4;  // tan = 0.42 > 0.3
-  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
-  auto world = world_of(discs);
-  world.material.friction = mu;
-  world.walls = {floor_at(0)};
-  world.gravity = {g * std::sin(slope), -g * std::cos(slope)};
-  Simulation simulation(world, positions_of(discs));
-  run(simulation, 1);
-  EXPECT_NEAR(simulation.velocity(0).x(), g * (std::sin(slope) - mu * std::cos(slope)), 1e-10);
-  EXPECT_NEAR(-simulation.angular_velocity(0) * 0.5, 2 * mu * g * std::cos(slope), 1e-10);
-}
-
-TEST(Simulation, RollingTurnsToSlidingAtTanEqualToThreeTimesFriction)
-{
-  const double slope = 0.4;
-  for (const double part : {0.999, 1.001}) {
-    const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
-    auto world = world_of(discs);
-    world.material.friction = part * std::tan(slope) / 3;
-    world.walls = {floor_at(0)};
-    world.gravity = {g * std::sin(slope), -g * std::cos(slope)};
-    Simulation simulation(world, positions_of(discs));
-    run(simulation, 1);
-    const double slip = simulation.velocity(0).x() + 0.5 * simulation.angular_velocity(0);
-    if (part < 1)
-      EXPECT_GT(slip, 1e-4);
-    else
-      EXPECT_NEAR(slip, 0, 1e-10);
-  }
-}
-
-TEST(Simulation, WithoutRotationADiscSlidesLikeABlock)
-{
-  const double slope = 0.4, mu = 0.1;
-  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
-  auto world = world_of(discs);
-  world.rotation = false;
-  world.material.friction = mu;
-  world.walls = {floor_at(0)};
-  world.gravity = {g * std::sin(slope), -g * std::cos(slope)};
-  Simulation simulation(world, positions_of(discs));
-  run(simulation, 1);
-  EXPECT_NEAR(simulation.velocity(0).x(), g * (std::sin(slope) - mu * std::cos(slope)), 1e-10);
-  EXPECT_EQ(simulation.angular_velocity(0), 0);
-}
-
-TEST(Simulation, ASlidingDiscRollsAfterVOverThreeMuG)
-{
-  const double v = 3, mu = 0.2;
-  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
-  auto world = world_of(discs);
-  world.material.friction = mu;
-  world.walls = {floor_at(0)};
-  world.gravity = {0, -g};
-  Simulation simulation(world, positions_of(discs));
-  simulation.set_velocity(0, {v, 0});
-  run(simulation, 2);
-  EXPECT_NEAR(simulation.velocity(0).x(), 2 * v / 3, 1e-10);
-}
-
-TEST(Simulation, TheKthDiscOfAColumnCarriesTheWeightOfKDiscs)
-{
-  const int count = 20;
-  std::vector<Disc> discs;
-  for (int k = 0; k < count; ++k) discs.push_back({{0, 0.5 + k}, 0.5});
-  auto world = world_of(discs);
-  world.walls = {floor_at(0)};
-  world.gravity = {0, -g};
-  Simulation simulation(world, positions_of(discs));
-  Frame frame;
-  simulation.advance(frame);
-  ASSERT_EQ(frame.contacts.size(), static_cast<std::size_t>(count));
-  const double weight = world.grains.mass[0] * g;
-  for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
-    // The contact joins a disc to the one below it or to the floor; above it stand `carried` discs.
-    const int lower =
-        frame.contacts.j[c] < 0 ? -1 : std::min(frame.contacts.i[c], frame.contacts.j[c]);
-    const int carried = count - 1 - lower;
-    const double on_upper = frame.contacts.i[c] > frame.contacts.j[c]
-                                ? frame.contacts.force[c].y()
-                                : -frame.contacts.force[c].y();
-    EXPECT_NEAR(on_upper, carried * weight, 1e-8 * weight);
-    EXPECT_EQ(frame.contacts.force[c].x(), 0);
-  }
-  for (int k = 0; k < count; ++k)
-    EXPECT_EQ(simulation.position(static_cast<std::size_t>(k)).x(), 0);
 }
 
 /// A few dozen discs of several sizes poured onto a floor between walls, at rest.
@@ -243,18 +137,6 @@ TEST(Simulation, ABeadOnTheBaseStaysOnTheBase)
   EXPECT_EQ(simulation.position(1), Vec2(-0.5, 0));
   EXPECT_EQ(simulation.velocity(2), Vec2(0, 0));
   EXPECT_NEAR(simulation.position(0).y(), std::sqrt(0.75), 1e-2);
-}
-
-TEST(Simulation, CoincidentCentresAreNamedAndStopTheRun)
-{
-  const std::vector<Disc> discs{{{1, 1}, 0.5}, {{1, 1}, 0.5}};
-  Simulation simulation(world_of(discs), positions_of(discs));
-  try {
-    simulation.advance();
-    FAIL();
-  } catch (const RunError& error) {
-    EXPECT_NE(std::string(error.what()).find("grains 0 and 1 coincide"), std::string::npos);
-  }
 }
 
 TEST(Simulation, ARestingDiscWithRestitutionCarriesItsWeightAndDoesNotRattle)

@@ -12,17 +12,28 @@
 /// A chute of some fifty grains, deposited in an instant, tilted by 25 degrees.
 namespace grseg::small_chute {
 
-/// `words` win over the chute's own.
-inline Scene scene(const std::vector<std::string>& words = {})
+/// The paper's chute but for what `words` say; what comes first wins.
+inline Scene scene_of(const std::vector<std::vector<std::string>>& words)
 {
   namespace po = boost::program_options;
-  const std::vector<std::string> own{"--depth", "8dS",     "--length", "8dL",        "--phi-large",
-                                     "0.5",     "--slope", "25",       "--accuracy", "draft"};
   po::variables_map values;
-  for (const auto& line : {words, own})
+  for (const auto& line : words)
     po::store(po::command_line_parser(line).options(scene_options()).run(), values);
   po::notify(values);
   return resolve_scene(values);
+}
+
+inline Scene paper_scene(const std::vector<std::string>& words = {})
+{
+  return scene_of({words});
+}
+
+/// `words` win over the small chute's own.
+inline Scene scene(const std::vector<std::string>& words = {})
+{
+  const std::vector<std::string> own{"--depth", "8dS",     "--length", "8dL",        "--phi-large",
+                                     "0.5",     "--slope", "25",       "--accuracy", "draft"};
+  return scene_of({words, own});
 }
 
 inline Vec2 tilted_gravity(const Scene& scene)

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/simulation.hpp"
+
+#include <vector>
+
+namespace grseg::hard_cases {
+
+/// The problem that a step had to solve, by itself: contacts in the order of the frame, that is of
+/// grain ids, without a first guess, and the motion that gravity alone would have given.
+struct ContactProblem {
+  std::vector<Contact> contacts;
+  std::vector<Motion> motion;  // of the grains; behind them that of the walls
+};
+
+/// Of the step that `frame` tells of, under the touching law.
+inline ContactProblem contact_problem(const Simulation& simulation, const Frame& frame)
+{
+  const auto& world = simulation.world();
+  ContactProblem problem;
+  problem.motion = simulation.before();
+  for (auto& m : problem.motion) {
+    if (!(m.inverse_mass > 0)) continue;
+    m.vx += world.step * world.gravity.x();
+    m.vy += world.step * world.gravity.y();
+  }
+  problem.motion.emplace_back();
+  const auto& list = frame.contacts;
+  const double spin = world.rotation ? disc_rim_factor : 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const auto i = static_cast<std::size_t>(list.i[k]);
+    const auto j = list.j[k] < 0 ? problem.motion.size() - 1 : static_cast<std::size_t>(list.j[k]);
+    const Vec2 n = list.branch[k].normalized();
+    Contact c{};
+    c.i = static_cast<std::int32_t>(i);
+    c.j = static_cast<std::int32_t>(j);
+    c.nx = n.x();
+    c.ny = n.y();
+    c.kappa = list.j[k] < 0
+                  ? 1
+                  : list.branch[k].norm() / (world.grains.radius[i] + world.grains.radius[j]);
+    c.mass_n = 1 / (problem.motion[i].inverse_mass + problem.motion[j].inverse_mass);
+    c.mass_t = c.mass_n / (1 + spin * c.kappa * c.kappa);
+    const auto &a = simulation.before()[i], b = list.j[k] < 0 ? Motion{} : simulation.before()[j];
+    const double separation = (a.vx - b.vx) * c.nx + (a.vy - b.vy) * c.ny;
+    c.rebound = separation < 0 ? -world.material.restitution * separation : 0;
+    problem.contacts.push_back(c);
+  }
+  return problem;
+}
+
+}  // namespace grseg::hard_cases

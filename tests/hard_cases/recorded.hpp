@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/errors.hpp"
+#include "sim/recorder.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+namespace grseg::hard_cases {
+
+/// Runs `steps` steps as a run does, under the eyes of the recorder, with a frame every `every`
+/// steps. What a run out of bounds is stopped with, or nothing.
+inline std::string words_of_a_run(Simulation simulation, double small_diameter, int steps,
+                                  int every = 1)
+{
+  const auto path = (std::filesystem::temp_directory_path() /
+                     ("grseg_hard_case_" + std::to_string(getpid()) + ".h5"))
+                        .string();
+  std::string words;
+  try {
+    const auto& world = simulation.world();
+    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
+    Recorder recorder(writer, small_diameter);
+    Frame frame;
+    for (int k = 1; k <= steps; ++k) {
+      const bool due = k % every == 0;
+      recorder.add(due ? simulation.advance(frame) : simulation.advance());
+      if (due) recorder.write(frame, simulation);
+    }
+  } catch (const RunError& error) {
+    words = error.what();
+  }
+  std::filesystem::remove(path);
+  return words;
+}
+
+}  // namespace grseg::hard_cases
