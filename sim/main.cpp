@@ -48,7 +48,8 @@ int main(int argc, char** argv)
 {
   using namespace grseg;
   const ToolInfo info{
-      "grseg-sim", "contact dynamics of small and large rigid discs: chute, drum, plane shear, column, hopper.",
+      "grseg-sim",
+      "contact dynamics of small and large rigid discs: chute, drum, plane shear, column, hopper.",
       "grseg-sim SCENE.ini [--key value ...] -o run.h5\n"
       "       grseg-sim --restart run.chk [--key value ...] -o run.h5",
       "  grseg-sim sim/scenes/chute.ini -o run.h5            the paper's flow, 150 s\n"

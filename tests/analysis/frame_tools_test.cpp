@@ -67,8 +67,7 @@ class FrameTools : public testing::Test {
 };
 
 const std::string stress = GRSEG_STRESS, kinetic = GRSEG_KINETIC, micro = GRSEG_MICRO,
-                  balance = GRSEG_BALANCE,
-                  segregation = GRSEG_SEGREGATION;
+                  balance = GRSEG_BALANCE, segregation = GRSEG_SEGREGATION;
 
 TEST_F(FrameTools, RowsOfAllToolsHaveTheSameKeys)
 {
