@@ -41,17 +41,20 @@ std::vector<double> row_with_outlet(const Scene& scene)
 {
   const double radius = bead_radius(scene), middle = scene.length / 2;
   std::vector<double> x;
+  const long beads = std::lround(std::ceil((middle - scene.outlet / 2) / (2 * radius)));
   for (const double side : {-1.0, 1.0})
-    for (double away = scene.outlet / 2 + radius; away < middle + radius; away += 2 * radius)
-      x.push_back(middle + side * away);
+    for (long k = 0; k < beads; ++k)
+      x.push_back(middle + side * (scene.outlet / 2 + (2 * static_cast<double>(k) + 1) * radius));
   return x;
 }
 
 std::vector<double> plug(const Scene& scene)
 {
-  const double beads = std::ceil(scene.outlet / scene.large_diameter), gap = scene.outlet / beads;
+  const long beads = std::lround(std::ceil(scene.outlet / scene.large_diameter));
+  const double gap = scene.outlet / static_cast<double>(beads);
   std::vector<double> x;
-  for (double k = 0.5; k < beads; ++k) x.push_back((scene.length - scene.outlet) / 2 + k * gap);
+  for (long k = 0; k < beads; ++k)
+    x.push_back((scene.length - scene.outlet) / 2 + (static_cast<double>(k) + 0.5) * gap);
   return x;
 }
 
@@ -63,9 +66,9 @@ Vec2 drum_centre(const Scene& scene)
 void add_drum(Boundaries& to, const Scene& scene)
 {
   const double radius = bead_radius(scene), ring = scene.drum_diameter / 2 + radius;
-  const double beads = std::floor(std::numbers::pi / std::asin(radius / ring));
-  for (double k = 0; k < beads; ++k) {
-    const double angle = 2 * std::numbers::pi * k / beads;
+  const long beads = std::lround(std::floor(std::numbers::pi / std::asin(radius / ring)));
+  for (long k = 0; k < beads; ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(beads);
     add_bead(to, scene, drum_centre(scene) + ring * Vec2(std::sin(angle), -std::cos(angle)));
   }
 }

@@ -4,6 +4,7 @@
 #include "formats/digest.hpp"
 #include "formats/table.hpp"
 #include "formats/trajectory_reader.hpp"
+#include "tests/shell.hpp"
 #include "tests/three_grains.hpp"
 
 #include <gtest/gtest.h>
@@ -24,23 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int code;
-  std::string out;
-};
-
-/// Runs a shell command; its standard output and exit code.
-Outcome run(const std::string& command)
-{
-  Outcome outcome{-1, ""};
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    outcome.out.append(buffer.data(), n);
-  outcome.code = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
+using shell::run;
 
 class FrameTools : public testing::Test {
  protected:

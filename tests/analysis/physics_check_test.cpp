@@ -5,6 +5,7 @@
 
 #include "analysis/content_check.hpp"
 #include "formats/trajectory_writer.hpp"
+#include "tests/shell.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -515,21 +516,7 @@ TEST_F(Check, BalancesOfTwoHalvesMergeIntoThatOfTheWhole)
 
 // --- The program. ---
 
-struct Outcome {
-  int code;
-  std::string out;
-};
-Outcome run(const std::string& command)
-{
-  Outcome outcome{-1, ""};
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    outcome.out.append(buffer.data(), n);
-  outcome.code = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
+using shell::run;
 
 const std::string program = GRSEG_CHECK;
 const std::string options = " --physics --window 0.2 --layer 10mm ";
