@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <limits>
 
 namespace grseg {
 
@@ -29,13 +29,14 @@ Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time,
 FreeBodies::FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std::uint32_t> place,
                        std::span<const BlockRuns> strips, std::span<const Motion> motion)
 {
-  std::unordered_map<std::uint32_t, std::size_t> body_at;  // by place
+  constexpr auto nobody = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> body_at(motion.size(), nobody);  // by place
   for (const auto& body : bodies) {
     if (!body.free()) continue;
     Body own{body.mass, 0, {}, {}};
     for (auto row = body.begin; row < body.end; ++row) {
       own.members.push_back(place[row]);
-      body_at[place[row]] = bodies_.size();
+      body_at[place[row]] = static_cast<std::uint32_t>(bodies_.size());
     }
     own.free_velocity = motion[own.members.front()].vy;
     bodies_.push_back(std::move(own));
@@ -44,8 +45,8 @@ FreeBodies::FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std
   for (const auto& strip : strips)
     for (const auto& block : strip.blocks)
       for (std::uint32_t lane = 0; lane < block_lanes; ++lane) {
-        const auto body = body_at.find(block.j[lane] / doubles);
-        if (body != body_at.end()) bodies_[body->second].contacts.push_back({&block, lane});
+        const auto body = body_at[block.j[lane] / doubles];
+        if (body != nobody) bodies_[body].contacts.push_back({&block, lane});
       }
 }
 
