@@ -1,0 +1,41 @@
+# B of what the runs left. A changed rule comes here and goes no further.
+
+fits := $(out)/fit
+.PHONY: fits
+reproduce: fits $(campaign:%=$(out)/%/checksums) $(out)/costs.tsv
+
+$(out)/costs.tsv: $(campaign:%=$(out)/%/checksums)
+	@cd $(out) && { printf 'run\t'; head -qn 1 */cost.tsv | head -n 1; for run in */cost.tsv; do printf '%s\t' $${run%/*}; tail -n 1 $$run; done; } > $@.new
+	@mv $@.new $@
+
+# of FLOWS, TABLE: that table of all seeds of these flows, by its name in OUT.
+of = $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(flow)-seed%,$(runs))))
+
+# What a fit is made of: its options, and the tables.
+$(fits)/.settings: FORCE
+	$(call settings,$(PARTITION) $(SCAN) $(BOOTSTRAP) $(runs))
+
+# fit NAME, TABLES, OPTIONS: a rule.
+define fit
+fits: $(fits)/$(1).tsv
+$(fits)/$(1).tsv: $(addprefix $(out)/,$(2)) $(fits)/.settings
+	cd $(out) && $(bin)/grseg-fit $(2) --bootstrap $(BOOTSTRAP) $(3) --quiet -o fit/$(1).tsv
+endef
+by_rule := --partition $(PARTITION)
+kinetic := --quantity kinetic
+above_base := --heights 4dS:
+
+# fits_of NAME, FLOWS: B by rule and by pressure, B(p), rules of published codes, B_kappa.
+define fits_of
+$(call fit,$(1),$(call of,$(2),stress),$(by_rule))
+$(call fit,$(1).kinetic,$(call of,$(2),kinetic),$(kinetic))
+$(call fit,$(1).kinetic-above-base,$(call of,$(2),kinetic),$(kinetic) $(above_base))
+endef
+$(foreach flow,$(mixtures) $(slopes) $(control),$(eval $(call fits_of,$(flow),$(flow))))
+all_slopes := $(SLOPES:%=phi0.45-s%)
+$(eval $(call fits_of,mixtures,$(mixtures)))
+$(eval $(call fits_of,slopes,$(all_slopes)))
+$(eval $(call fit,mixtures.pressure,$(call of,$(mixtures),stress),$(by_rule) --component pressure))
+$(eval $(call fit,mixtures.scan,$(call of,$(mixtures),stress),--scan $(SCAN)))
+$(eval $(call fit,mixtures.stock,$(call of,$(mixtures),stress),--partition stock))
+$(eval $(call fit,$(control).random,$(call of,$(control),stress-random),$(by_rule)))
