@@ -2,7 +2,7 @@
 
 fits := $(out)/fit
 .PHONY: fits
-reproduce: fits $(campaign:%=$(out)/%/checksums) $(out)/costs.tsv
+reproduce: $(campaign:%=$(out)/%/checksums) $(out)/costs.tsv fits
 
 $(out)/costs.tsv: $(campaign:%=$(out)/%/checksums)
 	@cd $(out) && { printf 'run\t'; head -qn 1 */cost.tsv | head -n 1; for run in */cost.tsv; do printf '%s\t' $${run%/*}; tail -n 1 $$run; done; } > $@.new
