@@ -2,7 +2,7 @@
 
 fits := $(out)/fit
 .PHONY: fits
-reproduce: $(campaign:%=$(out)/%/checksums) $(out)/costs.tsv fits
+reproduce: $(call files_of,$(campaign)) $(out)/costs.tsv fits
 
 $(out)/costs.tsv: $(campaign:%=$(out)/%/checksums)
 	@cd $(out) && { printf 'run\t'; head -qn 1 */cost.tsv | head -n 1; for run in */cost.tsv; do printf '%s\t' $${run%/*}; tail -n 1 $$run; done; } > $@.new
@@ -15,8 +15,9 @@ of = $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(flow)-seed%,$(runs))
 $(fits)/.settings: FORCE
 	$(call settings,$(PARTITION) $(SCAN) $(BOOTSTRAP) $(runs))
 
-# fit NAME, TABLES, OPTIONS: a rule.
-define fit
+# fit NAME, TABLES, OPTIONS: a rule, where there are tables.
+fit = $(if $(2),$(call rule_of_fit,$(1),$(2),$(3)))
+define rule_of_fit
 fits: $(fits)/$(1).tsv
 $(fits)/$(1).tsv: $(addprefix $(out)/,$(2)) $(fits)/.settings
 	cd $(out) && $(bin)/grseg-fit $(2) --bootstrap $(BOOTSTRAP) $(3) --quiet -o fit/$(1).tsv
