@@ -35,16 +35,20 @@ did grseg- 0
 
 killed_at run.chk
 killed_at kinetic.tsv
+h5dump -d /parameters/history killed/phi0.45-s23-seed1/run.h5 | grep -q 'restart run.chk' ||
+  fail "the simulation began anew: $(cat killed/phi0.45-s23-seed1/run.log)"
 campaign OUT=killed >log 2>&1 || fail "$(cat log)"
 did reproduce/simulate 0
 did grseg-stress 0
-grep -q '^restart' killed/phi0.45-s23-seed1/run.log || fail "the simulation was not gone on with"
 [ "$(tables whole)" = "$(tables killed)" ] || fail "kills changed: $(diff <(tables whole) <(tables killed))"
 [ -z "$(find killed -name '*.part' -o -name 'run.*' ! -name run.log)" ] || fail "something was left behind: $(ls killed/*)"
 
 campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
 did reproduce/ 0
 grep -q '^uniform:0.8' whole/fit/mixtures.tsv || fail "another partition is not in the fits"
+rm whole/phi0.45-s23-seed1/checksums
+campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
+did reproduce/simulate 0
 rm whole/phi0.45-s23-seed1/micro.tsv
 campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
 did reproduce/simulate 1
