@@ -11,15 +11,19 @@ $(out)/costs.tsv: $(campaign:%=$(out)/%/checksums)
 # of FLOWS, TABLE: that table of all seeds of these flows, by its name in OUT.
 of = $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(flow)-seed%,$(runs))))
 
-# What a fit is made of: its options, and the tables.
-$(fits)/.settings: FORCE
-	$(call settings,$(PARTITION) $(SCAN) $(BOOTSTRAP) $(runs))
+# What a fit is made of beside its tables.
+$(fits)/.runs: FORCE
+	$(call settings,$(BOOTSTRAP) $(runs))
+$(fits)/.partition: FORCE
+	$(call settings,$(PARTITION))
+$(fits)/.scan: FORCE
+	$(call settings,$(SCAN))
 
-# fit NAME, TABLES, OPTIONS: a rule, where there are tables.
-fit = $(if $(2),$(call rule_of_fit,$(1),$(2),$(3)))
+# fit NAME, TABLES, OPTIONS, SETTINGS: a rule, where there are tables.
+fit = $(if $(2),$(call rule_of_fit,$(1),$(2),$(3),$(4)))
 define rule_of_fit
 fits: $(if $(filter sensitivity/%,$(1)),,$(fits)/$(1).tsv)
-$(fits)/$(1).tsv: $(addprefix $(out)/,$(2)) $(fits)/.settings
+$(fits)/$(1).tsv: $(addprefix $(out)/,$(2)) $(addprefix $(fits)/,.runs $(4))
 	@mkdir -p $$(@D)
 	cd $(out) && $(bin)/grseg-fit $(2) --bootstrap $(BOOTSTRAP) $(3) --quiet -o fit/$(1).tsv
 endef
@@ -29,7 +33,7 @@ above_base := --heights 4dS:
 
 # fits_of NAME, FLOWS: B by rule, and B_kappa.
 define fits_of
-$(call fit,$(1),$(call of,$(2),stress),$(by_rule))
+$(call fit,$(1),$(call of,$(2),stress),$(by_rule),.partition)
 $(call fit,$(1).kinetic,$(call of,$(2),kinetic),$(kinetic))
 $(call fit,$(1).kinetic-above-base,$(call of,$(2),kinetic),$(kinetic) $(above_base))
 endef
@@ -37,10 +41,10 @@ $(foreach flow,$(mixtures) $(slopes) $(control),$(eval $(call fits_of,$(flow),$(
 all_slopes := $(SLOPES:%=phi0.45-s%)
 $(eval $(call fits_of,mixtures,$(mixtures)))
 $(eval $(call fits_of,slopes,$(all_slopes)))
-$(eval $(call fit,mixtures.pressure,$(call of,$(mixtures),stress),$(by_rule) --component pressure))
-$(eval $(call fit,mixtures.scan,$(call of,$(mixtures),stress),--scan $(SCAN)))
+$(eval $(call fit,mixtures.pressure,$(call of,$(mixtures),stress),$(by_rule) --component pressure,.partition))
+$(eval $(call fit,mixtures.scan,$(call of,$(mixtures),stress),--scan $(SCAN),.scan))
 $(eval $(call fit,mixtures.stock,$(call of,$(mixtures),stress),--partition stock))
-$(eval $(call fit,$(control).random,$(call of,$(control),stress-random),$(by_rule)))
+$(eval $(call fit,$(control).random,$(call of,$(control),stress-random),$(by_rule),.partition))
 
 # What B and B_kappa owe to the numbers that the paper does not give: other runs (VARIANTS), held against
 # the same time of flow of the campaign's; and other ways to make tables of those.

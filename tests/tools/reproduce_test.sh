@@ -45,6 +45,7 @@ did grseg-stress 0
 
 campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
 did reproduce/ 0
+did grseg-fit 4
 grep -q '^uniform:0.8' whole/fit/mixtures.tsv || fail "another partition is not in the fits"
 rm whole/phi0.45-s23-seed1/checksums
 campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
