@@ -12,7 +12,7 @@ $(out)/costs.tsv: $(campaign:%=$(out)/%/checksums)
 of = $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(flow)-seed%,$(runs))))
 
 # What a fit is made of beside its tables.
-$(fits)/.runs: FORCE
+$(fits)/.settings: FORCE
 	$(call settings,$(BOOTSTRAP) $(runs))
 $(fits)/.partition: FORCE
 	$(call settings,$(PARTITION))
@@ -23,7 +23,7 @@ $(fits)/.scan: FORCE
 fit = $(if $(2),$(call rule_of_fit,$(1),$(2),$(3),$(4)))
 define rule_of_fit
 fits: $(if $(filter sensitivity/%,$(1)),,$(fits)/$(1).tsv)
-$(fits)/$(1).tsv: $(addprefix $(out)/,$(2)) $(addprefix $(fits)/,.runs $(4))
+$(fits)/$(1).tsv: $(addprefix $(out)/,$(2)) $(addprefix $(fits)/,.settings $(4))
 	@mkdir -p $$(@D)
 	cd $(out) && $(bin)/grseg-fit $(2) --bootstrap $(BOOTSTRAP) $(3) --quiet -o fit/$(1).tsv
 endef

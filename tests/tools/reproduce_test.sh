@@ -10,7 +10,7 @@ cd "$folder"
 fail() { echo "$1" >&2; exit 1; }
 campaign() {
   PWD=$folder make --no-print-directory -C "$source/scripts" reproduce BIN="$bin" MIXTURES=0.45 SLOPES=23 SEEDS=1 \
-    CONTROL_SEEDS=0 DURATION=2 DEPTH=12dS LENGTH=16dS ACCURACY=draft WINDOW=0.25 BOOTSTRAP=0 CHECKPOINT_EVERY=0 "$@"
+    CONTROL_SEEDS=0 DURATION=2 DEPTH=12dS LENGTH=16dS ACCURACY=draft WINDOW=0.25 BOOTSTRAP=0 FIGURES=no CHECKPOINT_EVERY=0 "$@"
 }
 # did COMMAND NUMBER: how often the last call called it.
 did() { [ "$(grep -c "^[^#]*$1" log)" = "$2" ] || fail "$1 was to be called $2 times: $(cat log)"; }
@@ -57,6 +57,6 @@ did reproduce/simulate 1
 
 code=0
 make -C "$source/scripts/reproduce" run NAME=phi0.45-s23-seed9 BIN="$bin" OUT="$folder/whole" >log 2>&1 || code=$?
-[ $code = 2 ] && grep -q "phi0.45-s23-seed9: there is no such run; make names lists them" log || fail "an unknown run: $(cat log)"
+{ [ $code = 2 ] && grep -q "phi0.45-s23-seed9: there is no such run; make names lists them" log; } || fail "an unknown run: $(cat log)"
 "$source/scripts/reproduce/scene" phi0.45-x3 1 1 1 1 1 >log 2>&1 && fail "an unknown word in a name: $(cat log)"
 grep -q "scene: phi0.45-x3: 'x3' is no part of the name of a run" log || fail "$(cat log)"
