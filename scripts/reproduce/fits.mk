@@ -5,7 +5,8 @@ fits := $(out)/fit
 reproduce: $(call files_of,$(campaign)) $(out)/costs.tsv fits
 
 $(out)/costs.tsv: $(campaign:%=$(out)/%/checksums)
-	@cd $(out) && { printf 'run\t'; head -qn 1 */cost.tsv | head -n 1; for run in */cost.tsv; do printf '%s\t' $${run%/*}; tail -n 1 $$run; done; } > $@.new
+	@cd $(out) && for cost in */cost.tsv; do sed "1s/^/run\t/; 2s|^|$${cost%/*}\t|" $$cost; done | \
+	  awk '!/^run/ || NR == 1' > $@.new
 	@mv $@.new $@
 
 # of FLOWS, TABLE: that table of all seeds of these flows, by its name in OUT.
