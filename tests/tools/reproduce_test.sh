@@ -10,7 +10,7 @@ cd "$folder"
 fail() { echo "$1" >&2; exit 1; }
 campaign() {
   PWD=$folder make --no-print-directory -C "$source/scripts" reproduce BIN="$bin" MIXTURES=0.45 SLOPES=23 SEEDS=1 \
-    CONTROL_SEEDS=0 DURATION=2 DEPTH=12dS LENGTH=16dS ACCURACY=draft WINDOW=0.25 BOOTSTRAP=0 FIGURES=no CHECKPOINT_EVERY=0 "$@"
+    CONTROL_SEEDS=0 DURATION=2 DEPTH=12dS LENGTH=16dS ACCURACY=draft WINDOW=0.25 BOOTSTRAP=0 FIGURES=no CHECKPOINT_EVERY=0.05 "$@"
 }
 # did COMMAND NUMBER: how often the last call called it.
 did() { [ "$(grep -c "^[^#]*$1" log)" = "$2" ] || fail "$1 was to be called $2 times: $(cat log)"; }
