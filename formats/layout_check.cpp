@@ -179,7 +179,8 @@ void LayoutCheck::check_row(const Row& row)
 void LayoutCheck::check_times(const std::string& element)
 {
   for (const std::string name : {"step", "time"}) {
-    const auto own = element + "/" + name, first = "/particles/grains/position/" + name;
+    const auto own = fmt::format("{}/{}", element, name);
+    const auto first = fmt::format("/particles/grains/position/{}", name);
     H5O_info_t a, b;
     if (!exists(file_, own) || H5Oget_info_by_name(file_, own.c_str(), &a, H5P_DEFAULT) < 0 ||
         H5Oget_info_by_name(file_, first.c_str(), &b, H5P_DEFAULT) < 0 || a.addr != b.addr ||
@@ -191,7 +192,7 @@ void LayoutCheck::check_times(const std::string& element)
 void LayoutCheck::read_all_in(const std::string& group)
 {
   for (const auto& name : names_in(file_, group.empty() ? "/" : group)) {
-    const auto path = group + "/" + name;
+    const auto path = fmt::format("{}/{}", group, name);
     H5L_info_t link;
     if (H5Lget_info(file_, path.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
       depart(path, "is a soft or external link, which readers do not follow");
