@@ -28,6 +28,7 @@ bool is_layer(const CheckLine& line)
 
 std::string description(const CheckLine& line)
 {
+  if (line.quantity.starts_with('/')) return fmt::format("{} {}", line.quantity, line.remark);
   const auto where =
       is_layer(line) ? fmt::format(" at y = {:.4g} to {:.4g} m", line.y0, line.y1) : "";
   return fmt::format("{}{} is {:.3g} (at most {:.3g})", line.quantity, where, line.measured,

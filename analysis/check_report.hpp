@@ -14,7 +14,7 @@ enum class Verdict { passed, failed, skipped };
 struct CheckLine {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-  std::string quantity;         // "force_balance"
+  std::string quantity;         // "force_balance", or a path inside the file that `remark` is about
   double y0 = none, y1 = none;  // m, of a layer
   double measured = none;
   double error = none;  // standard error of `measured`, where it is statistical

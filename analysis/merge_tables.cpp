@@ -19,7 +19,7 @@ const std::vector<std::string> key_columns{"t0", "t1", "y0", "y1", "frames", "V"
 enum KeyColumn { t0, t1, y0, y1, frames, volume };
 
 /// Times in whole steps, since 3 * 0.1 s and 0.3 s are the same window.
-using Window = std::pair<std::int64_t, std::int64_t>;
+using Times = std::pair<std::int64_t, std::int64_t>;
 
 /// One window of one table.
 struct Part {
@@ -28,7 +28,7 @@ struct Part {
 };
 
 /// The windows of one table.
-using Parts = std::map<Window, Part>;
+using Parts = std::map<Times, Part>;
 
 bool is_source(const std::string& key)
 {
@@ -174,10 +174,10 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const std::strin
     for (std::size_t earlier = 0; earlier + 1 < parts.size(); ++earlier)
       refuse_same_time_of_same_run(tables[earlier], parts[earlier], table, parts.back());
   }
-  std::map<Window, std::vector<const Part*>> windows;
+  std::map<Times, std::vector<const Part*>> windows;
   for (const auto& of_table : parts)
     for (const auto& [window, part] : of_table)
-      windows[all_windows ? Window{} : window].push_back(&part);
+      windows[all_windows ? Times{} : window].push_back(&part);
 
   Table merged;
   merged.header.emplace_back("program", program);

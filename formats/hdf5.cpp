@@ -84,6 +84,36 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<in
   write_attribute(object, name, H5T_NATIVE_INT, shape, values.data());
 }
 
+std::vector<std::string> read_texts(hid_t object, const std::string& name)
+{
+  const Attribute attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
+  if (!attribute.valid()) return {};
+  const Type type(H5Aget_type(attribute));
+  const Space space(H5Aget_space(attribute));
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return {};
+  const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+  const auto length = H5Tget_size(type);
+  if (count > 3 || length > 64) return {};
+  std::string packed(count * length, '\0');
+  if (H5Aread(attribute, type, packed.data()) < 0) return {};
+  std::vector<std::string> texts;
+  for (std::size_t k = 0; k < count; ++k)
+    texts.emplace_back(packed.substr(k * length, length).c_str());
+  return texts;
+}
+
+std::vector<int> read_integers(hid_t object, const std::string& name)
+{
+  const Attribute attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
+  if (!attribute.valid()) return {};
+  const auto count = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute)));
+  if (H5Tget_class(Type(H5Aget_type(attribute))) != H5T_INTEGER || count < 1 || count > 3)
+    return {};
+  std::vector<int> values(static_cast<std::size_t>(count));
+  if (H5Aread(attribute, H5T_NATIVE_INT, values.data()) < 0) return {};
+  return values;
+}
+
 Dataset create_growing(hid_t parent, const std::string& path, hid_t type,
                        const std::vector<hsize_t>& shape, const Storage& storage)
 {

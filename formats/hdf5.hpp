@@ -39,6 +39,7 @@ class Handle {
 
 using File = Handle<H5Fclose>;
 using Group = Handle<H5Gclose>;
+using Object = Handle<H5Oclose>;  // a group or dataset
 using Dataset = Handle<H5Dclose>;
 using Space = Handle<H5Sclose>;
 using Type = Handle<H5Tclose>;
@@ -54,6 +55,11 @@ Type string_type(std::size_t length);
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
 void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
+
+/// The texts (at most 3 of at most 64 bytes) or integers (at most 3) of an attribute; empty where
+/// there is none, or one of another kind.
+std::vector<std::string> read_texts(hid_t object, const std::string& name);
+std::vector<int> read_integers(hid_t object, const std::string& name);
 
 /// How a growing dataset is stored.
 struct Storage {

@@ -25,24 +25,6 @@ constexpr hsize_t most_grains = 100'000'000;
 constexpr hsize_t most_frames = 100'000'000;
 constexpr hsize_t most_text = 16'000'000;
 
-std::vector<std::string> read_strings(hid_t object, const std::string& name)
-{
-  const Attribute attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
-  if (!attribute.valid()) return {};
-  const Type type(H5Aget_type(attribute));
-  const Space space(H5Aget_space(attribute));
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return {};
-  const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
-  const auto length = H5Tget_size(type);
-  if (count > 3 || length > 64) return {};
-  std::string packed(count * length, '\0');
-  if (H5Aread(attribute, type, packed.data()) < 0) return {};
-  std::vector<std::string> texts;
-  for (std::size_t k = 0; k < count; ++k)
-    texts.emplace_back(packed.substr(k * length, length).c_str());
-  return texts;
-}
-
 /// The library keeps little of its index of chunks, so that memory does not grow with the number of
 /// frames: they are read one after the other.
 Properties small_index_cache()
@@ -132,13 +114,8 @@ struct TrajectoryReader::Impl {
 
 void TrajectoryReader::Impl::require_version(const std::string& module) const
 {
-  int version[2] = {0, 0};
-  if (exists(file, module)) {
-    const Group group(H5Gopen2(file, module.c_str(), H5P_DEFAULT));
-    const Attribute attribute(H5Aopen(group, "version", H5P_DEFAULT));
-    if (attribute.valid() && H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute))) == 2)
-      H5Aread(attribute, H5T_NATIVE_INT, version);
-  }
+  auto version = read_integers(Group(H5Gopen2(file, module.c_str(), H5P_DEFAULT)), "version");
+  if (version.size() != 2) version = {0, 0};
   if (version[0] != 1)
     fail(fmt::format("{} is of version {}.{}, and this grseg reads versions 1.x", module,
                      version[0], version[1]));
@@ -185,7 +162,7 @@ void TrajectoryReader::Impl::read_box()
   double values[2];
   edges.read_all(H5T_NATIVE_DOUBLE, values);
   const Group group(H5Gopen2(file, "/particles/grains/box", H5P_DEFAULT));
-  const auto boundary = read_strings(group, "boundary");
+  const auto boundary = read_texts(group, "boundary");
   if (boundary.size() != 2 || boundary[1] != "none" ||
       (boundary[0] != "none" && boundary[0] != "periodic"))
     fail(
@@ -349,6 +326,10 @@ std::size_t TrajectoryReader::size() const
 {
   return impl_->size();
 }
+std::size_t TrajectoryReader::contacts() const
+{
+  return impl_->offset.back();
+}
 const Grains& TrajectoryReader::grains() const
 {
   return impl_->grains;
@@ -432,7 +413,7 @@ std::vector<Observable> TrajectoryReader::observables() const
   for (const auto& name : names_in(impl_->file, "/observables")) {
     if (!has_observable(name)) continue;
     const auto value = impl_->open("/observables/" + name + "/value", H5T_FLOAT, 1);
-    const auto unit = read_strings(value.id(), "unit");
+    const auto unit = read_texts(value.id(), "unit");
     all.push_back({name, unit.empty() ? "" : unit[0]});
   }
   return all;

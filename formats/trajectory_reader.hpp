@@ -29,7 +29,8 @@ class TrajectoryReader {
   TrajectoryReader(TrajectoryReader&&) noexcept;
 
   const std::string& path() const;
-  std::size_t size() const;  ///< committed frames
+  std::size_t size() const;      ///< committed frames
+  std::size_t contacts() const;  ///< of all committed frames
   const Grains& grains() const;
   const Box& box() const;
   const Parameters& parameters() const;

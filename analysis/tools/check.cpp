@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/content_check.hpp"
 #include "analysis/physics_check.hpp"
+#include "analysis/specification_check.hpp"
 #include "formats/digest.hpp"
 #include "formats/errors.hpp"
 #include "formats/table.hpp"
@@ -20,16 +21,20 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-check",
-    "whether a run is whole, and with --physics whether it obeys the laws of mechanics.",
+    "whether a run is whole, with --deep whether its file is as specified, and with --physics "
+    "whether "
+    "it obeys the laws of mechanics.",
     "grseg-check run.h5 [options] > check.tsv",
     "  grseg-check run.h5                               closed, readable, digests agree\n"
+    "  grseg-check run.h5 --deep                        every path and chunk against "
+    "formats/README.md\n"
     "  grseg-check run.h5 --physics                     balances, contact laws, layers, drift\n"
     "  grseg-check run.h5 --physics --begin 20 --mean-overlap 1e-3 --json -o check.json\n"};
 
 struct Settings {
   PhysicsSettings physics;
   std::string output;
-  bool with_physics = false, json = false, quiet = false;
+  bool deep = false, with_physics = false, json = false, quiet = false;
 };
 
 po::options_description options_into(Settings& s)
@@ -40,6 +45,8 @@ po::options_description options_into(Settings& s)
   const auto time = [](std::optional<double>& place) {
     return po::value<double>()->value_name("s")->notifier([&place](double t) { place = t; });
   };
+  add("deep", po::bool_switch(&s.deep),
+      "hold the file against its specification, path by path, and read every chunk");
   add("physics", po::bool_switch(&s.with_physics),
       "check the physics too; a line fails beyond its tolerance, all of which are options");
   add("layer", po::value(&s.physics.layer)->default_value(s.physics.layer)->value_name("LENGTH"),
@@ -90,6 +97,8 @@ std::vector<std::pair<std::string, std::string>> header_of(const TrajectoryReade
 CheckReport check(const TrajectoryReader& run, const Settings& s, const std::string& command)
 {
   ContentCheck content(run);
+  std::optional<SpecificationCheck> specification;
+  if (s.deep) specification.emplace(run);
   std::optional<PhysicsCheck> physics;
   if (s.with_physics) physics.emplace(run, s.physics);
   const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
@@ -97,14 +106,19 @@ CheckReport check(const TrajectoryReader& run, const Settings& s, const std::str
   for (std::size_t k = 0; k < run.size(); ++k) {
     run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
     content.add(k, frame);
+    if (specification) specification->add(k, frame);
     if (physics) physics->add(k, frame);
     if (progress && k % 100 == 0)
       fmt::print(stderr, "\r{}: frame {} of {}\033[K", info.name, k, run.size());
   }
   if (progress) fmt::print(stderr, "\r\033[K");
   CheckReport report{header_of(run, s, command), content.lines()};
-  if (physics)
-    for (auto& line : physics->lines()) report.lines.push_back(std::move(line));
+  const auto append = [&](const auto& part) {
+    if (!part) return;
+    for (auto& line : part->lines()) report.lines.push_back(std::move(line));
+  };
+  append(specification);
+  append(physics);
   return report;
 }
 

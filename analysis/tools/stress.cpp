@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/coarse_graining.hpp"
-#include "analysis/composition.hpp"
+#include "analysis/booking.hpp"
 #include "analysis/frame_loop.hpp"
 #include "analysis/merge_tables.hpp"
-#include "analysis/partial_contact_stress.hpp"
 #include "analysis/partition.hpp"
 #include "analysis/presets.hpp"
 #include "formats/errors.hpp"
-#include "formats/length.hpp"
 
 #include <fmt/format.h>
 
@@ -30,8 +27,8 @@ constexpr ToolInfo info{
 
 struct Settings {
   FrameOptions frames;
-  std::string assign = "contact-point", width = "1dS", composition, base = "contact-point",
-              volume = "bulk", partition = "size";
+  BookingOptions booking;
+  std::string base = "contact-point", volume = "bulk", partition = "size";
   bool merge = false, all_windows = false;
 };
 
@@ -41,17 +38,7 @@ po::options_description options_into(Settings& s)
   const auto word = [](std::string& place) {
     return po::value(&place)->default_value(place)->value_name("WORD");
   };
-  options.add_options()("assign", word(s.assign),
-                        "where a contact is booked: contact-point, branch (by the length in each "
-                        "layer), gauss, lucy, heaviside (spread along the branch by this kernel) "
-                        "or grain (each grain's part at its centre)");
-  options.add_options()("width", po::value(&s.width)->default_value(s.width)->value_name("LENGTH"),
-                        "of the kernel: standard deviation of gauss, half the support of lucy and "
-                        "heaviside");
-  options.add_options()("composition", po::value(&s.composition)->value_name("WORD"),
-                        "a grain's area is clipped at the layers' edges (default), put whole at "
-                        "its centre, or spread from there by the kernel (default where there is "
-                        "one): clipped, centre or kernel");
+  s.booking.add_to(options);
   options.add_options()("partition", word(s.partition),
                         "the rule grseg-fit takes unless told otherwise; power:Q adds Mpower_*");
   options.add_options()("base", word(s.base),
@@ -67,39 +54,16 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-/// How a run's contacts and grains are booked, as said on the command line.
-struct Rules {
-  Assignment assignment;
-  std::optional<KernelShape> shape;
-  GrainArea area;
-  std::optional<double> power;
-};
-
-Rules rules_of(Settings& s, const po::variables_map& values)
+/// The exponent that Mpower_* needs, where --partition asks for them. Other words about partition
+/// are only passed on to grseg-fit.
+std::optional<double> power_of(Settings& s)
 {
-  constexpr std::array assignments{Assignment::contact_point, Assignment::branch,
-                                   Assignment::grain,         Assignment::kernel,
-                                   Assignment::kernel,        Assignment::kernel};
-  constexpr std::size_t first_kernel = 3;
-  const auto word = choose(
-      s.assign, "--assign",
-      {"contact-point", "branch", "grain", kernel_names[0], kernel_names[1], kernel_names[2]});
-  Rules rules{assignments[word], {}, {}, {}};
-  if (word >= first_kernel) rules.shape = static_cast<KernelShape>(word - first_kernel);
-  if (s.composition.empty()) s.composition = rules.shape ? "kernel" : "clipped";
-  rules.area = static_cast<GrainArea>(
-      choose(s.composition, "--composition", {"clipped", "centre", "kernel"}));
-  for (const auto& [given, option] :
-       {std::pair{rules.area == GrainArea::kernel, "--composition kernel"},
-        {!values["width"].defaulted(), "--width"}})
-    if (given && !rules.shape)
-      throw UsageError(fmt::format("{} needs a kernel: --assign gauss, lucy or heaviside", option));
   choose(s.volume, "--volume", {"bulk", "solid"});
   parse_base(s.base);
   const auto rule = parse_rule(s.partition);
   s.partition = rule.name();
-  if (rule.kind == PartitionRule::Kind::power) rules.power = rule.value;
-  return rules;
+  if (rule.kind != PartitionRule::Kind::power) return {};
+  return rule.value;
 }
 
 template <class T>
@@ -111,22 +75,20 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
 
 void tabulate(Settings s, const po::variables_map& values, const std::string& command)
 {
-  const auto rules = rules_of(s, values);
+  const auto booking = s.booking.booking(values);
+  const auto power = power_of(s);
   FrameLoop loop(info, values, s.frames);
-  std::vector<std::pair<std::string, std::string>> settings{{"assign", s.assign},
-                                                            {"composition", s.composition},
+  std::vector<std::pair<std::string, std::string>> settings{{"assign", s.booking.assign},
+                                                            {"composition", s.booking.composition},
                                                             {"partition", s.partition},
                                                             {"base", s.base},
                                                             {"volume", s.volume}};
-  if (rules.power) settings.emplace_back("power", format_number(*rules.power));
-  std::optional<Kernel> kernel;
-  if (rules.shape) {
-    const LengthUnits units{loop.run().small_diameter(), loop.run().large_diameter()};
-    kernel.emplace(*rules.shape, parse_length(s.width, "--width", units));
-    settings.emplace_back("width", format_number(kernel->width()));
-  }
-  const Composition no_grains(loop.layers(), rules.area, kernel);
-  const PartialContactStress no_contacts(loop.layers(), rules.assignment, rules.power, kernel);
+  if (power) settings.emplace_back("power", format_number(*power));
+  const auto kernel =
+      s.booking.kernel(booking, {loop.run().small_diameter(), loop.run().large_diameter()});
+  if (kernel) settings.emplace_back("width", format_number(kernel->width()));
+  const Composition no_grains(loop.layers(), booking.area, kernel);
+  const PartialContactStress no_contacts(loop.layers(), booking.assignment, power, kernel);
   auto table = loop.make_table(command, settings,
                                joined({"area_S[m^2]", "area_L[m^2]"}, no_contacts.columns()));
 

@@ -3,53 +3,16 @@
 
 #include "analysis/composition.hpp"
 #include "formats/errors.hpp"
-#include "tests/analysis/grain_builder.hpp"
+#include "tests/analysis/contact_scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace grseg {
 namespace {
-
-const Layers unit_layers(1, 10);
-const Vec2 push{-0.5, 3};
-
-/// force (x) branch by hand.
-Tensor2 dyad(const Vec2& f, const Vec2& b)
-{
-  Tensor2 t;
-  t << f.x() * b.x(), f.x() * b.y(), f.y() * b.x(), f.y() * b.y();
-  return t;
-}
-
-constexpr Assignment all_assignments[] = {Assignment::contact_point, Assignment::branch,
-                                          Assignment::grain, Assignment::kernel};
-const Kernel smooth(KernelShape::gauss, 0.3);
-
-PartialContactStress stress_of(const Scene& scene, Assignment assignment,
-                               std::optional<double> power = std::nullopt,
-                               const Kernel& kernel = smooth)
-{
-  PartialContactStress stress(unit_layers, assignment, power, kernel);
-  stress.add(scene.grains, scene.frame);
-  return stress;
-}
-
-/// A large grain at height 2.75 on a small one at height 1.25, touching at 1.75: the large grain's
-/// part is two thirds, the branch is (0, 1.5).
-Scene large_on_small()
-{
-  Scene scene;
-  const auto large = scene.grain(Species::large, 1, {5, 2.75});
-  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
-  scene.contact(large, small, push);
-  return scene;
-}
-const Tensor2 mixed = dyad(push, {0, 1.5});
 
 TEST(PartialContactStress, PushingGrainsApartIsPositiveWhoeverComesFirst)
 {
@@ -94,28 +57,6 @@ TEST(PartialContactStress, AlongTheBranchEveryLayerGetsItsLength)
   // A weight, not a cut: power:0 is one half of what lies in the layer.
   EXPECT_TRUE(same(stress.mean(1).sums.mixed_power, mixed / 4));
   EXPECT_TRUE(same(stress.mean(2).sums.mixed_power, mixed / 4));
-}
-
-// The branch from 1.25 to 2.75 spread by half a unit up and down: what begins at y <= 1.5 reaches
-// below 1, by 1.5 - y, a 48th of all. The large grain's part reaches below 2 by 2.5 - y and above 3
-// by y - 2.5.
-TEST(PartialContactStress, AKernelSpreadsTheBranchAndEachGrainsPartOfIt)
-{
-  const Kernel box(KernelShape::heaviside, 0.5);
-  const auto stress = stress_of(large_on_small(), Assignment::kernel, 0, box);
-  const auto at = [&](std::size_t n) { return stress.mean(n).sums; };
-  EXPECT_TRUE(same(at(0).mixed, mixed / 48));
-  EXPECT_TRUE(same(at(1).mixed, mixed * 23 / 48));
-  EXPECT_TRUE(same(at(2).mixed, mixed * 23 / 48));
-  EXPECT_TRUE(same(at(3).mixed, mixed / 48));
-  for (const auto part : {&ContactSums::mixed_size, &ContactSums::mixed_contact}) {
-    EXPECT_TRUE(same(at(0).*part, mixed * 0));
-    EXPECT_TRUE(same(at(1).*part, mixed * 2 / 3 * 9 / 32));
-    EXPECT_TRUE(same(at(2).*part, mixed * 2 / 3 * 22 / 32));
-    EXPECT_TRUE(same(at(3).*part, mixed * 2 / 3 / 32));
-  }
-  EXPECT_TRUE(same(at(0).mixed_power, mixed / 96));
-  EXPECT_EQ(stress.mean(1).contacts[1], 1);
 }
 
 TEST(PartialContactStress, EachGrainsPartIsBookedAtItsOwnCentre)
@@ -198,23 +139,6 @@ TEST(PartialContactStress, TheBaseBranchIsCutAtTheContactPointAndAlsoGivenWhole)
   EXPECT_TRUE(same(at_centre.mean(1).sums.whole_small, mixed));
 }
 
-// Weinhart et al. (2012): a contact with the base is stress from the grain's centre to the contact
-// point, here 1.25 to 0.75; the rest of the branch is none of the flow's.
-TEST(PartialContactStress, UnderAKernelTheBaseBranchEndsAtTheContactPoint)
-{
-  Scene scene;
-  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
-  const auto base = scene.grain(Species::boundary, 1, {5, -0.25});
-  scene.contact(small, base, push);
-  const auto stress = stress_of(scene, Assignment::kernel);
-  for (const std::size_t n : {0, 1}) {
-    const double below = smooth.below_along(1, 0.75, 1.25),
-                 whole = smooth.below_along(1, -0.25, 1.25);
-    EXPECT_TRUE(same(stress.mean(n).sums.base_small, mixed / 3 * (n == 0 ? below : 1 - below)));
-    EXPECT_TRUE(same(stress.mean(n).sums.whole_small, mixed * (n == 0 ? whole : 1 - whole)));
-  }
-}
-
 TEST(PartialContactStress, AtAStraightWallBothBasePartsAreTheSame)
 {
   Scene scene;
@@ -260,34 +184,6 @@ TEST(PartialContactStress, ABoundaryGrainNamedFirstIsRefused)
   EXPECT_THROW(stress_of(scene, Assignment::contact_point), FormatError);
 }
 
-/// A heap of grains in a cell of 10 x 5 with forces at random contacts; nothing is in balance,
-/// which sums do not mind.
-Scene heap()
-{
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> number(0, 1);
-  Scene scene;
-  for (int g = 0; g < 60; ++g) {
-    const auto species = g % 3 == 0    ? Species::large
-                         : g % 10 == 1 ? Species::boundary
-                                       : Species::small;
-    scene.grain(species, 0.2 + 0.5 * number(random), {10 * number(random), 5 * number(random)});
-  }
-  for (std::int32_t i = 0; i < 60; ++i)
-    for (std::int32_t j = 0; j < 60; j += 7)
-      if (i != j && scene.grains.fixed[static_cast<std::size_t>(i)] == 0)
-        scene.contact(i, j, {number(random) - 0.5, number(random) - 0.5});
-  return scene;
-}
-
-std::vector<double> total(const PartialContactStress& stress)
-{
-  std::vector<double> sum(stress.row(0).size());
-  for (std::size_t n = 0; n < stress.layers(); ++n)
-    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += stress.row(n)[c];
-  return sum;
-}
-
 TEST(PartialContactStress, WhereAContactIsBookedDoesNotChangeTheTotal)
 {
   const Scene scene = heap();
@@ -298,12 +194,6 @@ TEST(PartialContactStress, WhereAContactIsBookedDoesNotChangeTheTotal)
     EXPECT_NEAR(along[c], at_points[c], 1e-12);
     EXPECT_NEAR(at_centres[c], at_points[c], 1e-12);
   }
-  for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside})
-    for (const double width : {1e-3, 0.3, 2.0, 40.0}) {
-      const auto spread = total(stress_of(scene, Assignment::kernel, {}, {shape, width}));
-      for (std::size_t c = 0; c < at_points.size(); ++c)
-        EXPECT_NEAR(spread[c], at_points[c], 1e-12);
-    }
 }
 
 TEST(PartialContactStress, SpeciesAddUpToTheWholeUnderEveryAssignmentAndRule)
@@ -322,21 +212,6 @@ TEST(PartialContactStress, SpeciesAddUpToTheWholeUnderEveryAssignmentAndRule)
         }
     }
   }
-}
-
-TEST(PartialContactStress, ANarrowGaussianIsTheBranchAssignment)
-{
-  const Scene scene = heap();
-  const auto along = stress_of(scene, Assignment::branch);
-  const auto narrow = stress_of(scene, Assignment::kernel, {}, {KernelShape::gauss, 1e-14});
-  const auto wide = stress_of(scene, Assignment::kernel, {}, {KernelShape::gauss, 0.1});
-  double difference = 0;
-  for (std::size_t n = 0; n < along.layers(); ++n)
-    for (std::size_t c = 0; c < along.row(n).size(); ++c) {
-      EXPECT_NEAR(narrow.row(n)[c], along.row(n)[c], 1e-12);
-      difference = std::max(difference, std::abs(wide.row(n)[c] - along.row(n)[c]));
-    }
-  EXPECT_GT(difference, 1e-3);
 }
 
 TEST(PartialContactStress, TheTotalIsTheSumOverContacts)
@@ -358,41 +233,12 @@ TEST(PartialContactStress, TheTotalIsTheSumOverContacts)
 TEST(PartialContactStress, AlongTheBranchTheSumIsTheForceThroughTheLayer)
 {
   const Scene scene = heap();
-  const auto& list = scene.frame.contacts;
-  std::vector<Vec2> net(scene.grains.size(), Vec2::Zero());
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    net[static_cast<std::size_t>(list.i[k])] += list.force[k];
-    net[static_cast<std::size_t>(list.j[k])] -= list.force[k];
-  }
+  const auto net = net_forces(scene);
   const auto stress = stress_of(scene, Assignment::branch);
   for (std::size_t n = 0; n + 1 < stress.layers(); ++n) {
     Vec2 through = Vec2::Zero();
     for (std::size_t g = 0; g < net.size(); ++g)
       through += net[g] * std::clamp(scene.frame.position[g].y() - unit_layers.bottom(n), 0.0, 1.0);
-    const auto s = stress.mean(n).sums;
-    const Tensor2 sum = s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
-    EXPECT_NEAR(sum(0, 1), through.x(), 1e-12);
-    EXPECT_NEAR(sum(1, 1), through.y(), 1e-12);
-  }
-}
-
-// Likewise for the field of a kernel, in which the net force on a grain acts where the kernel is.
-TEST(PartialContactStress, UnderAKernelTheSumIsTheSpreadForceThroughTheLayer)
-{
-  const Scene scene = heap();
-  const auto& list = scene.frame.contacts;
-  std::vector<Vec2> net(scene.grains.size(), Vec2::Zero());
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    net[static_cast<std::size_t>(list.i[k])] += list.force[k];
-    net[static_cast<std::size_t>(list.j[k])] -= list.force[k];
-  }
-  const auto stress = stress_of(scene, Assignment::kernel);
-  for (std::size_t n = 1; n + 1 < stress.layers(); ++n) {
-    Vec2 through = Vec2::Zero();
-    for (std::size_t g = 0; g < net.size(); ++g) {
-      const double y = scene.frame.position[g].y();
-      through += net[g] * (1 - smooth.below_along(unit_layers.top(n), y, y + 1));
-    }
     const auto s = stress.mean(n).sums;
     const Tensor2 sum = s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
     EXPECT_NEAR(sum(0, 1), through.x(), 1e-12);

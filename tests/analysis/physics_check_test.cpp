@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A column of discs at rest, whose forces are the weights above: everything that grseg-check
-// measures on it is known. Then one thing is spoilt at a time.
+// What grseg-check measures on a column of discs at rest is known. Then one thing is spoilt at a
+// time.
 #include "analysis/physics_check.hpp"
 
 #include "analysis/content_check.hpp"
-#include "formats/trajectory_writer.hpp"
-#include "tests/shell.hpp"
+#include "tests/column.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
-#include <nlohmann/json.hpp>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iterator>
-#include <numbers>
 #include <set>
 #include <string>
 
@@ -29,95 +20,8 @@ namespace grseg {
 namespace {
 
 namespace fs = std::filesystem;
-using std::numbers::pi;
+using namespace column;
 using Names = std::set<std::string>;
-
-constexpr double h = 1e-4, small = 0.005, radius = 0.005, length = 0.1, weight = 9.8;
-constexpr std::size_t discs = 6;
-
-/// Discs of 10 mm, every other one of the species of small grains, on a boundary disc whose top is
-/// at y = 0. Row 0 is the boundary, row k the k-th disc from below; contact k-1 is that below it.
-struct Column {
-  RunDescription description;
-  std::vector<Frame> frames;
-  std::vector<std::vector<double>> observables;  // base_force_x, base_force_y, energy_defect
-
-  /// `acceleration` is along x; 20 frames, 500 steps apart unless told otherwise.
-  explicit Column(const Vec2& gravity = {0, -weight}, double acceleration = 0, int apart = 500)
-  {
-    auto& grains = description.grains;
-    for (std::size_t g = 0; g <= discs; ++g) {
-      grains.id.push_back(static_cast<std::int32_t>(g));
-      grains.species.push_back(g % 2 == 0 ? Species::large : Species::small);
-      grains.radius.push_back(radius);
-      grains.mass.push_back(pi * radius * radius);
-      grains.fixed.push_back(g == 0 ? 1 : 0);
-    }
-    grains.species[0] = Species::boundary;
-    description.box = {length, 0.2, true};
-    auto& numbers = description.parameters.numbers;
-    numbers = {{"small_diameter", {small}},
-               {"large_diameter", {2 * small}},
-               {"gravity", {gravity.x(), gravity.y()}},
-               {"step", {h}},
-               {"frame_interval", {apart * h}},
-               {"friction", {0.5}},
-               {"restitution", {0.25}},
-               {"rotation", {1}}};
-    description.observables = {{"base_force_x", "N"}, {"base_force_y", "N"}, {"energy_defect", ""}};
-    for (int k = 0; k < 20; ++k) add_frame(k * apart, gravity, {acceleration, 0});
-  }
-
-  void add_frame(int step, const Vec2& gravity, const Vec2& acceleration)
-  {
-    Frame f;
-    f.step = step;
-    f.time = (step + 0.5) * h;
-    const double mass = description.grains.mass[0];
-    const double way = 0.03 + acceleration.x() * f.time * f.time / 2;
-    const auto periods = static_cast<std::int32_t>(std::floor(way / length));
-    for (std::size_t g = 0; g <= discs; ++g) {
-      const bool mobile = g > 0;
-      f.position.emplace_back(way - periods * length, (2.0 * static_cast<double>(g) - 1) * radius);
-      f.image.push_back({periods, 0});
-      f.velocity.emplace_back(mobile ? Vec2(acceleration * (f.time + h / 2)) : Vec2(0, 0));
-      f.angular_velocity.push_back(0);
-      f.force.emplace_back(mobile ? Vec2(mass * acceleration) : Vec2(0, 0));
-    }
-    for (std::size_t g = 1; g <= discs; ++g) {
-      const double above = mass * static_cast<double>(discs + 1 - g);
-      f.contacts.i.push_back(static_cast<std::int32_t>(g));
-      f.contacts.j.push_back(static_cast<std::int32_t>(g) - 1);
-      f.contacts.force.emplace_back(above * (acceleration - gravity));
-      f.contacts.branch.emplace_back(0, 2 * radius);
-      f.contacts.gap.push_back(0);
-    }
-    observables.push_back({f.contacts.force[0].x(), f.contacts.force[0].y(), 0});
-    frames.push_back(f);
-  }
-
-  /// Shifts the top disc along y, with branch and gap.
-  static void lift_top(Frame& f, double way)
-  {
-    f.position[discs].y() += way;
-    f.contacts.branch[discs - 1].y() += way;
-    f.contacts.gap[discs - 1] += way;
-  }
-  /// Changes a contact's force, and the `force` of the two grains with it.
-  static void push(Frame& f, std::size_t contact, const Vec2& more)
-  {
-    f.contacts.force[contact] += more;
-    f.force[contact + 1] += more;
-    if (contact > 0) f.force[contact] -= more;
-  }
-
-  void write(const std::string& path) const
-  {
-    TrajectoryWriter writer(path, description);
-    for (std::size_t k = 0; k < frames.size(); ++k) writer.append(frames[k], observables[k]);
-    writer.close();
-  }
-};
 
 class Check : public testing::Test {
  protected:
@@ -511,60 +415,6 @@ TEST_F(Check, BalancesOfTwoHalvesMergeIntoThatOfTheWhole)
     EXPECT_EQ(a.count, b.count);
     EXPECT_EQ(a.time, b.time);
     EXPECT_EQ(a.number, b.number);
-  }
-}
-
-// --- The program. ---
-
-using shell::run;
-
-const std::string program = GRSEG_CHECK;
-const std::string options = " --physics --window 0.2 --layer 10mm ";
-
-TEST_F(Check, TheProgramNamesWhatFailedInOneSentenceAndStillWritesTheTable)
-{
-  Column column;
-  column.frames[7].contacts.force[2] *= -1;
-  column.write(path);
-  const auto table = path + ".tsv";
-  const auto outcome = run(program + " " + path + options + "-o " + table + " 2>&1");
-  EXPECT_EQ(outcome.code, 4);
-  EXPECT_EQ(outcome.out.find("grseg-check: " + path + ": beyond tolerance: force_balance is 1."),
-            0u)
-      << outcome.out;
-  EXPECT_NE(outcome.out.find(", tension_largest is 0.667 (at most 1e-10), tension_mean is "),
-            std::string::npos)
-      << outcome.out;
-  EXPECT_EQ(outcome.out.find('\n'), outcome.out.size() - 1);
-  std::ifstream file(table);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  EXPECT_NE(text.find("# round-off: 1e-10\n"), std::string::npos);
-  EXPECT_NE(text.find("\tfailed\tat t = 0.35005 s, contact 2\n"), std::string::npos) << text;
-  fs::remove(table);
-  EXPECT_EQ(run(program + " " + path + options + "--round-off 3 2>&1 >/dev/null").code, 0);
-}
-
-TEST_F(Check, WithoutPhysicsTheProgramLooksAtTheFileAlone)
-{
-  Column column;
-  column.frames[7].contacts.force[2] *= -1;
-  column.write(path);
-  const auto outcome = run(program + " " + path + " --json 2>&1");
-  EXPECT_EQ(outcome.code, 0) << outcome.out;
-  const auto json = nlohmann::json::parse(outcome.out);
-  EXPECT_TRUE(json["passed"].get<bool>());
-  EXPECT_EQ(json["lines"].size(), 3u);
-  EXPECT_EQ(json["lines"][2]["quantity"], "damaged_frames");
-}
-
-TEST_F(Check, JsonHoldsLinesLayersAndTolerances)
-{
-  Column({3, -weight}).write(path);
-  const auto json = nlohmann::json::parse(run(program + " " + path + options + "--json").out);
-  EXPECT_EQ(json["settings"]["false-alarm"], "0.001");
-  for (const auto& line : json["lines"]) {
-    EXPECT_EQ(line.contains("layer"), line["quantity"] == "weight" || line["quantity"] == "slope");
-    EXPECT_EQ(line["measured"].is_null(), line["verdict"] == "skipped");
   }
 }
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/partial_contact_stress.hpp"
+#include "tests/analysis/grain_builder.hpp"
+
+#include <optional>
+#include <random>
+#include <vector>
+
+/// Grains whose partial contact stresses are known by hand or by a sum over contacts, in layers of
+/// height 1 and a cell of length 10.
+namespace grseg {
+
+inline const Layers unit_layers(1, 10);
+inline const Vec2 push{-0.5, 3};
+
+/// force (x) branch by hand.
+inline Tensor2 dyad(const Vec2& f, const Vec2& b)
+{
+  Tensor2 t;
+  t << f.x() * b.x(), f.x() * b.y(), f.y() * b.x(), f.y() * b.y();
+  return t;
+}
+
+inline constexpr Assignment all_assignments[] = {Assignment::contact_point, Assignment::branch,
+                                                 Assignment::grain, Assignment::kernel};
+inline const Kernel smooth(KernelShape::gauss, 0.3);
+
+inline PartialContactStress stress_of(const Scene& scene, Assignment assignment,
+                                      std::optional<double> power = std::nullopt,
+                                      const Kernel& kernel = smooth)
+{
+  PartialContactStress stress(unit_layers, assignment, power, kernel);
+  stress.add(scene.grains, scene.frame);
+  return stress;
+}
+
+/// A large grain at height 2.75 on a small one at height 1.25, touching at 1.75: the large grain's
+/// part is two thirds, the branch is (0, 1.5).
+inline Scene large_on_small()
+{
+  Scene scene;
+  const auto large = scene.grain(Species::large, 1, {5, 2.75});
+  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
+  scene.contact(large, small, push);
+  return scene;
+}
+inline const Tensor2 mixed = dyad(push, {0, 1.5});
+
+/// A heap of grains in a cell of 10 x 5 with forces at random contacts; nothing is in balance,
+/// which sums do not mind.
+inline Scene heap()
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(0, 1);
+  Scene scene;
+  for (int g = 0; g < 60; ++g) {
+    const auto species = g % 3 == 0    ? Species::large
+                         : g % 10 == 1 ? Species::boundary
+                                       : Species::small;
+    scene.grain(species, 0.2 + 0.5 * number(random), {10 * number(random), 5 * number(random)});
+  }
+  for (std::int32_t i = 0; i < 60; ++i)
+    for (std::int32_t j = 0; j < 60; j += 7)
+      if (i != j && scene.grains.fixed[static_cast<std::size_t>(i)] == 0)
+        scene.contact(i, j, {number(random) - 0.5, number(random) - 0.5});
+  return scene;
+}
+
+/// The sum of the contact forces on each grain.
+inline std::vector<Vec2> net_forces(const Scene& scene)
+{
+  const auto& list = scene.frame.contacts;
+  std::vector<Vec2> net(scene.grains.size(), Vec2::Zero());
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    net[static_cast<std::size_t>(list.i[k])] += list.force[k];
+    net[static_cast<std::size_t>(list.j[k])] -= list.force[k];
+  }
+  return net;
+}
+
+inline std::vector<double> total(const PartialContactStress& stress)
+{
+  std::vector<double> sum(stress.row(0).size());
+  for (std::size_t n = 0; n < stress.layers(); ++n)
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += stress.row(n)[c];
+  return sum;
+}
+
+}  // namespace grseg

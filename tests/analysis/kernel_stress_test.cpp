@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contact stress spread along the branch by a kernel.
+#include "tests/analysis/contact_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+// The branch from 1.25 to 2.75 spread by half a unit up and down: what begins at y <= 1.5 reaches
+// below 1, by 1.5 - y, a 48th of all. The large grain's part reaches below 2 by 2.5 - y and above 3
+// by y - 2.5.
+TEST(KernelStress, AKernelSpreadsTheBranchAndEachGrainsPartOfIt)
+{
+  const Kernel box(KernelShape::heaviside, 0.5);
+  const auto stress = stress_of(large_on_small(), Assignment::kernel, 0, box);
+  const auto at = [&](std::size_t n) { return stress.mean(n).sums; };
+  EXPECT_TRUE(same(at(0).mixed, mixed / 48));
+  EXPECT_TRUE(same(at(1).mixed, mixed * 23 / 48));
+  EXPECT_TRUE(same(at(2).mixed, mixed * 23 / 48));
+  EXPECT_TRUE(same(at(3).mixed, mixed / 48));
+  for (const auto part : {&ContactSums::mixed_size, &ContactSums::mixed_contact}) {
+    EXPECT_TRUE(same(at(0).*part, mixed * 0));
+    EXPECT_TRUE(same(at(1).*part, mixed * 2 / 3 * 9 / 32));
+    EXPECT_TRUE(same(at(2).*part, mixed * 2 / 3 * 22 / 32));
+    EXPECT_TRUE(same(at(3).*part, mixed * 2 / 3 / 32));
+  }
+  EXPECT_TRUE(same(at(0).mixed_power, mixed / 96));
+  EXPECT_EQ(stress.mean(1).contacts[1], 1);
+}
+
+// Weinhart et al. (2012): a contact with the base is stress from the grain's centre to the contact
+// point, here 1.25 to 0.75; the rest of the branch is none of the flow's.
+TEST(KernelStress, UnderAKernelTheBaseBranchEndsAtTheContactPoint)
+{
+  Scene scene;
+  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
+  const auto base = scene.grain(Species::boundary, 1, {5, -0.25});
+  scene.contact(small, base, push);
+  const auto stress = stress_of(scene, Assignment::kernel);
+  for (const std::size_t n : {0, 1}) {
+    const double below = smooth.below_along(1, 0.75, 1.25),
+                 whole = smooth.below_along(1, -0.25, 1.25);
+    EXPECT_TRUE(same(stress.mean(n).sums.base_small, mixed / 3 * (n == 0 ? below : 1 - below)));
+    EXPECT_TRUE(same(stress.mean(n).sums.whole_small, mixed * (n == 0 ? whole : 1 - whole)));
+  }
+}
+
+TEST(KernelStress, NoWidthOfAKernelChangesTheTotal)
+{
+  const Scene scene = heap();
+  const auto at_points = total(stress_of(scene, Assignment::contact_point));
+  for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside})
+    for (const double width : {1e-3, 0.3, 2.0, 40.0}) {
+      const auto spread = total(stress_of(scene, Assignment::kernel, {}, {shape, width}));
+      for (std::size_t c = 0; c < at_points.size(); ++c)
+        EXPECT_NEAR(spread[c], at_points[c], 1e-12);
+    }
+}
+
+TEST(KernelStress, ANarrowGaussianIsTheBranchAssignment)
+{
+  const Scene scene = heap();
+  const auto along = stress_of(scene, Assignment::branch);
+  const auto narrow = stress_of(scene, Assignment::kernel, {}, {KernelShape::gauss, 1e-14});
+  const auto wide = stress_of(scene, Assignment::kernel, {}, {KernelShape::gauss, 0.1});
+  double difference = 0;
+  for (std::size_t n = 0; n < along.layers(); ++n)
+    for (std::size_t c = 0; c < along.row(n).size(); ++c) {
+      EXPECT_NEAR(narrow.row(n)[c], along.row(n)[c], 1e-12);
+      difference = std::max(difference, std::abs(wide.row(n)[c] - along.row(n)[c]));
+    }
+  EXPECT_GT(difference, 1e-3);
+}
+
+// Momentum balance of the field of a kernel: the net force on a grain acts where the kernel is.
+TEST(KernelStress, UnderAKernelTheSumIsTheSpreadForceThroughTheLayer)
+{
+  const Scene scene = heap();
+  const auto net = net_forces(scene);
+  const auto stress = stress_of(scene, Assignment::kernel);
+  for (std::size_t n = 1; n + 1 < stress.layers(); ++n) {
+    Vec2 through = Vec2::Zero();
+    for (std::size_t g = 0; g < net.size(); ++g) {
+      const double y = scene.frame.position[g].y();
+      through += net[g] * (1 - smooth.below_along(unit_layers.top(n), y, y + 1));
+    }
+    const auto s = stress.mean(n).sums;
+    const Tensor2 sum = s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
+    EXPECT_NEAR(sum(0, 1), through.x(), 1e-12);
+    EXPECT_NEAR(sum(1, 1), through.y(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace grseg
