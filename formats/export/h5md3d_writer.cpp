@@ -66,11 +66,11 @@ H5md3dWriter::Impl::Impl(const TrajectoryReader& its_run, const ViewCell& cell,
 
   const hsize_t n = run.grains().size();
   create_position();
-  box = create_element(group + "box/edges", "m", H5T_IEEE_F64LE, {3, 3}, scalar_chunk);
-  velocities = create_element(group + "velocity", "m s-1", H5T_IEEE_F64LE, {n, 3});
-  if (run.has_force()) forces = create_element(group + "force", "N", H5T_IEEE_F64LE, {n, 3});
+  box = create_element(group + "box/edges", "", H5T_IEEE_F64LE, {3, 3}, scalar_chunk);
+  velocities = create_element(group + "velocity", "", H5T_IEEE_F64LE, {n, 3});
+  if (run.has_force()) forces = create_element(group + "force", "", H5T_IEEE_F64LE, {n, 3});
   images = create_element(group + "image", "", H5T_STD_I32LE, {n, 3});
-  spins = create_element(group + "angular_velocity", "s-1", H5T_IEEE_F64LE, {n});
+  spins = create_element(group + "angular_velocity", "", H5T_IEEE_F64LE, {n});
   for (const auto& [name, unit] : run.observables())
     observables.emplace_back(
         run.observable(name),
@@ -82,10 +82,8 @@ void H5md3dWriter::Impl::create_position()
 {
   positions = create_growing(file, position + "/value", H5T_IEEE_F64LE, {run.grains().size(), 3},
                              {1, compression});
-  write_attribute(positions, "unit", std::string("m"));
   steps = create_growing(file, position + "/step", H5T_STD_I64LE, {}, {scalar_chunk, compression});
   times = create_growing(file, position + "/time", H5T_IEEE_F64LE, {}, {scalar_chunk, compression});
-  write_attribute(times, "unit", std::string("s"));
 }
 
 Dataset H5md3dWriter::Impl::create_element(const std::string& name, const std::string& unit,

@@ -12,8 +12,10 @@
 namespace grseg {
 
 /// H5MD 1.1 as MDAnalysis' H5MDReader wants it, which refuses two dimensions: vectors padded by
-/// z = 0, the group /particles/trajectory, box/edges with one matrix per frame. SI units stand at
-/// every element; MDAnalysis knows no metre, so that it has to be opened with convert_units=False.
+/// z = 0, the group /particles/trajectory, box/edges with one matrix per frame. No `unit` stands at
+/// particles' elements, as the reader knows no metre and refuses what it does not know (and every
+/// string of fixed length, which H5MD asks for); it has to be opened with convert_units=False, and
+/// numbers are SI as /h5md/modules/units says.
 /// position, velocity, force (where the run has it), image, angular_velocity (about z, [F][N]), and
 /// per grain id, species, radius, mass; /observables are those of the run. Contacts have no place
 /// in it.

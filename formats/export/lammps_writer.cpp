@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <string>
 
 namespace grseg {
 namespace {
@@ -26,6 +28,11 @@ std::string bounds_of(const ViewCell& cell)
   for (std::size_t axis = 0; axis < 3; ++axis)
     text += fmt::format("{} {}\n", cell.low[axis], cell.high[axis]);
   return text;
+}
+
+int type_of(Species species)
+{
+  return static_cast<int>(species) + 1;
 }
 
 }  // namespace
@@ -66,9 +73,8 @@ void LammpsWriter::add_grains(const Frame& frame)
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const auto &x = frame.position[g], &v = frame.velocity[g];
     fmt::format_to(end, "{} {} {} {} {} {} 0 {} {} 0 {} {} 0 {}", grains.id[g],
-                   static_cast<int>(grains.species[g]) + 1, grains.mass[g], grains.radius[g], x.x(),
-                   x.y(), frame.image[g][0], frame.image[g][1], v.x(), v.y(),
-                   frame.angular_velocity[g]);
+                   type_of(grains.species[g]), grains.mass[g], grains.radius[g], x.x(), x.y(),
+                   frame.image[g][0], frame.image[g][1], v.x(), v.y(), frame.angular_velocity[g]);
     if (has_force) fmt::format_to(end, " {} {} 0", frame.force[g].x(), frame.force[g].y());
     text.push_back('\n');
   }
@@ -107,11 +113,20 @@ void LammpsWriter::publish()
 
 std::string LammpsWriter::import_command() const
 {
+  const auto& species = run_.grains().species;
+  const auto type = [&](Species kind) -> std::string {
+    const bool there = std::find(species.begin(), species.end(), kind) != species.end();
+    return there ? std::to_string(type_of(kind)) : "none";
+  };
   const auto gravity = run_.gravity();
   return fmt::format(
-      "grseg-import --format lammps {} --contacts {} --small 1 --large 2 --boundary 3 --step {} "
-      "--gravity {},{} --discs -o again.h5",
-      grains_path_, contacts_path_, run_.step(), gravity.x(), gravity.y());
+      "grseg-import --format lammps --grains {} --contacts {} --columns "
+      "i=batom1,j=batom2,fx=forcex,fy=forcey,bx=branchx,by=branchy,overlap=overlap --units si "
+      "--step {} --gravity {},{},0 --grains-are discs --origin 0 --small {} --large {} "
+      "--boundary {} --small-diameter {} --large-diameter {}{} -o again.h5",
+      grains_path_, contacts_path_, run_.step(), gravity.x(), gravity.y(), type(Species::small),
+      type(Species::large), type(Species::boundary), run_.small_diameter(), run_.large_diameter(),
+      run_.stores_float32() ? " --float32" : "");
 }
 
 }  // namespace grseg

@@ -21,7 +21,7 @@ constexpr ToolInfo info{
     "  grseg-export run.h5 --to vtp -o view               ParaView: view/grains.pvd, contacts.pvd\n"
     "  grseg-export run.h5 --to extxyz --stride 10 -o run.xyz.gz              OVITO, ASE\n"
     "  grseg-export run.h5 --to lammps -o run.dump.gz     OVITO; run.contacts.dump.gz beside it\n"
-    "  grseg-export run.h5 --to h5md3d --begin 20 --end 40 -o view.h5         MDAnalysis\n"};
+    "  grseg-export run.h5 --to h5md3d --begin 20 --end 40 -o view.h5md       MDAnalysis\n"};
 
 struct Settings {
   FrameRange range;
@@ -74,8 +74,9 @@ void export_run(const Settings& s, const po::variables_map& values)
     write(ExtxyzWriter(run, cell, s.output, s.overwrite));
   } else if (s.format == "lammps") {
     LammpsWriter writer(run, cell, s.output, s.overwrite);
+    const auto command = writer.import_command();
     write(writer);
-    if (!s.quiet) fmt::print(stderr, "{}: a run again: {}\n", info.name, writer.import_command());
+    if (!s.quiet) fmt::print(stderr, "{}: a run again: {}\n", info.name, command);
   } else if (s.format == "h5md3d") {
     write(H5md3dWriter(run, cell, s.output, s.overwrite));
   } else {
