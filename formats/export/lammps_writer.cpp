@@ -35,12 +35,30 @@ int type_of(Species species)
   return static_cast<int>(species) + 1;
 }
 
+/// Options of grseg-import: what dumps cannot say.
+std::string import_options_for(const TrajectoryReader& run)
+{
+  const auto& species = run.grains().species;
+  const auto type = [&](Species kind) -> std::string {
+    const bool there = std::find(species.begin(), species.end(), kind) != species.end();
+    return there ? std::to_string(type_of(kind)) : "none";
+  };
+  const auto gravity = run.gravity();
+  return fmt::format(
+      "--units si --step {} --gravity {},{},0 --grains-are discs --origin 0 --small {} --large {} "
+      "--boundary {} --small-diameter {} --large-diameter {}{}",
+      run.step(), gravity.x(), gravity.y(), type(Species::small), type(Species::large),
+      type(Species::boundary), run.small_diameter(), run.large_diameter(),
+      run.stores_float32() ? " --float32" : "");
+}
+
 }  // namespace
 
 LammpsWriter::LammpsWriter(const TrajectoryReader& run, const ViewCell& cell,
                            const std::string& path, bool overwrite)
     : run_(run),
       bounds_(bounds_of(cell)),
+      import_options_(import_options_for(run)),
       grains_path_(path),
       contacts_path_(contacts_beside(path)),
       grains_file_(grains_path_, overwrite),
@@ -94,6 +112,7 @@ void LammpsWriter::add_contacts(const Frame& frame)
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.i[c]);
     const auto j = contacts.j[c];
+    has_walls_ = has_walls_ || j < 0;
     const auto parts = contact_parts(contacts, c);
     const auto &force = contacts.force[c], &branch = contacts.branch[c];
     const Vec2 normal = parts.normal * parts.n, tangential = force - normal;
@@ -113,20 +132,11 @@ void LammpsWriter::publish()
 
 std::string LammpsWriter::import_command() const
 {
-  const auto& species = run_.grains().species;
-  const auto type = [&](Species kind) -> std::string {
-    const bool there = std::find(species.begin(), species.end(), kind) != species.end();
-    return there ? std::to_string(type_of(kind)) : "none";
-  };
-  const auto gravity = run_.gravity();
   return fmt::format(
       "grseg-import --format lammps --grains {} --contacts {} --columns "
-      "i=batom1,j=batom2,fx=forcex,fy=forcey,bx=branchx,by=branchy,overlap=overlap --units si "
-      "--step {} --gravity {},{},0 --grains-are discs --origin 0 --small {} --large {} "
-      "--boundary {} --small-diameter {} --large-diameter {}{} -o again.h5",
-      grains_path_, contacts_path_, run_.step(), gravity.x(), gravity.y(), type(Species::small),
-      type(Species::large), type(Species::boundary), run_.small_diameter(), run_.large_diameter(),
-      run_.stores_float32() ? " --float32" : "");
+      "i=batom1,j=batom2,fx=forcex,fy=forcey,bx=branchx,by=branchy,overlap=overlap{} {} -o "
+      "again.h5",
+      grains_path_, contacts_path_, has_walls_ ? ",wall=wall" : "", import_options_);
 }
 
 }  // namespace grseg

@@ -30,7 +30,8 @@ class LammpsWriter {
   void add(const Frame& frame);
   void publish();
 
-  /// The command that makes a run of the dumps again, with what dumps cannot say.
+  /// The command that makes a run of the dumps again, with what dumps cannot say; when all frames
+  /// have been added.
   std::string import_command() const;
 
  private:
@@ -39,7 +40,8 @@ class LammpsWriter {
   void add_contacts(const Frame& frame);
 
   const TrajectoryReader& run_;
-  std::string bounds_, grains_path_, contacts_path_;
+  std::string bounds_, import_options_, grains_path_, contacts_path_;
+  bool has_walls_ = false;
   OutputFile grains_file_, contacts_file_;
 };
 

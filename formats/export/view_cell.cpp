@@ -13,13 +13,10 @@ ViewCell view_cell(const TrajectoryReader& run, std::size_t frame)
   const double largest = *std::max_element(radius.begin(), radius.end());
   const auto& box = run.box();
   ViewCell cell{{0, 0, -largest}, {box.length_x, box.length_y, largest}, box.periodic_x};
-  for (std::size_t g = 0; g < radius.size(); ++g)
-    for (const int axis : {0, 1}) {
-      if (axis == 0 && box.periodic_x) continue;
-      const auto a = static_cast<std::size_t>(axis);
-      cell.low[a] = std::min(cell.low[a], first.position[g][axis] - radius[g]);
-      cell.high[a] = std::max(cell.high[a], first.position[g][axis] + radius[g]);
-    }
+  for (std::size_t g = 0; g < radius.size(); ++g) {
+    cell.low[1] = std::min(cell.low[1], first.position[g].y() - radius[g]);
+    cell.high[1] = std::max(cell.high[1], first.position[g].y() + radius[g]);
+  }
   return cell;
 }
 

@@ -74,9 +74,8 @@ void export_run(const Settings& s, const po::variables_map& values)
     write(ExtxyzWriter(run, cell, s.output, s.overwrite));
   } else if (s.format == "lammps") {
     LammpsWriter writer(run, cell, s.output, s.overwrite);
-    const auto command = writer.import_command();
     write(writer);
-    if (!s.quiet) fmt::print(stderr, "{}: a run again: {}\n", info.name, command);
+    if (!s.quiet) fmt::print(stderr, "{}: a run again: {}\n", info.name, writer.import_command());
   } else if (s.format == "h5md3d") {
     write(H5md3dWriter(run, cell, s.output, s.overwrite));
   } else {
