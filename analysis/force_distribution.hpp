@@ -2,8 +2,8 @@
 #pragma once
 
 #include "analysis/layers.hpp"
-#include "analysis/pair_type.hpp"
 #include "formats/frame.hpp"
+#include "formats/pair_type.hpp"
 
 #include <array>
 #include <string>

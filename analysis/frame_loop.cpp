@@ -18,16 +18,6 @@
 namespace grseg {
 namespace {
 
-std::string the_run(const po::variables_map& values)
-{
-  if (values.count("input") == 0)
-    throw UsageError("no run given; name a trajectory file, e.g. run.h5");
-  const auto& inputs = values["input"].as<std::vector<std::string>>();
-  if (inputs.size() != 1)
-    throw UsageError(fmt::format("{} runs given; one table is made of one run", inputs.size()));
-  return inputs[0];
-}
-
 Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
 {
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
@@ -46,17 +36,16 @@ RunTimes times_of(const TrajectoryReader& run)
 
 void FrameOptions::add_to(po::options_description& options)
 {
-  const auto time = [](std::optional<double>& place) {
-    return po::value<double>()->value_name("s")->notifier([&place](double t) { place = t; });
-  };
   options.add_options()("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
                         "thickness of the layers: 4dS, 2dL, 20mm, or metres");
   options.add_options()("window",
                         po::value(&windows.length)->default_value(windows.length)->value_name("s"),
                         "time that is averaged over; windows that the run does not fill are left "
                         "out");
-  options.add_options()("begin", time(windows.begin), "first window begins here (default: t = 0)");
-  options.add_options()("end", time(windows.end), "no window ends after this (default: the run)");
+  options.add_options()("begin", time_option(windows.begin),
+                        "first window begins here (default: t = 0)");
+  options.add_options()("end", time_option(windows.end),
+                        "no window ends after this (default: the run)");
   options.add_options()("stride", po::value(&windows.stride)->default_value(1)->value_name("N"),
                         "use one frame in N");
   options.add_options()("threads", po::value(&threads)->default_value(1)->value_name("N"),
@@ -83,7 +72,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
     : info_(info),
       options_(options),
       preset_(preset_of(values)),
-      run_(the_run(values)),
+      run_(the_run(values, "one table is made of one run")),
       layers_(layers_of(run_, options)),
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)

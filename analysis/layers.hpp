@@ -8,12 +8,6 @@
 
 namespace grseg {
 
-/// Whether a grain belongs to the flow: boundary grains are in the file, but not in phi.
-inline bool is_mobile(const Grains& grains, std::size_t grain)
-{
-  return grains.fixed[grain] == 0 && grains.species[grain] != Species::boundary;
-}
-
 /// Area (m^2) of the part of a disc that lies below a line `height` (m) above its centre; exact,
 /// 0 below the disc and pi r^2 above it.
 double disc_area_below(double radius, double height);

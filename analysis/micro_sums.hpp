@@ -2,9 +2,9 @@
 #pragma once
 
 #include "analysis/fabric.hpp"
-#include "analysis/pair_type.hpp"
 #include "analysis/partition.hpp"
 #include "formats/frame.hpp"
+#include "formats/pair_type.hpp"
 
 #include <array>
 #include <string>

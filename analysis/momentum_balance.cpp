@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/momentum_balance.hpp"
 
-#include "analysis/pair_type.hpp"
+#include "formats/pair_type.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -3,9 +3,9 @@
 
 #include "analysis/coarse_graining.hpp"
 #include "analysis/layers.hpp"
-#include "analysis/pair_type.hpp"
 #include "analysis/partition.hpp"
 #include "formats/frame.hpp"
+#include "formats/pair_type.hpp"
 
 #include <array>
 #include <optional>

@@ -2,6 +2,7 @@
 #include "analysis/windows.hpp"
 
 #include "formats/errors.hpp"
+#include "formats/frame_range.hpp"
 
 #include <fmt/format.h>
 
@@ -12,14 +13,6 @@ namespace grseg {
 namespace {
 
 using Step = std::int64_t;
-
-Step whole_steps(double time, double step, const char* option)
-{
-  const double steps = std::round(time / step);
-  if (!(std::abs(steps) < 1e15))
-    throw UsageError(fmt::format("{} {:g} s is no time of this run", option, time));
-  return static_cast<Step>(steps);
-}
 
 /// Steps between two frames of the file.
 Step spacing(const RunTimes& run)

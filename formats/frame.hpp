@@ -27,6 +27,12 @@ struct Grains {
   std::size_t size() const { return radius.size(); }
 };
 
+/// Whether a grain belongs to the flow: boundary grains are in the file, but not in phi.
+inline bool is_mobile(const Grains& grains, std::size_t grain)
+{
+  return grains.fixed[grain] == 0 && grains.species[grain] != Species::boundary;
+}
+
 /// The cell. Where it is periodic, positions lie in [0, length_x).
 struct Box {
   double length_x = 0;  // m

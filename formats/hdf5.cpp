@@ -48,6 +48,7 @@ Properties with_parents()
 
 void silence()
 {
+  H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 

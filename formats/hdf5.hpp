@@ -46,7 +46,9 @@ using Type = Handle<H5Tclose>;
 using Properties = Handle<H5Pclose>;
 using Attribute = Handle<H5Aclose>;
 
-/// Turns the library's printing of its error stack off; called by everything that opens files.
+/// Turns the library's printing of its error stack off, and its closing of files at exit, which
+/// crashes on a file that could not be written (1.10.8): handles close theirs. To be called before
+/// anything else of the library, by everything that opens files.
 void silence();
 
 /// "string[length]" of fixed length, UTF-8.

@@ -256,6 +256,29 @@ void write_whole(const std::string& path, std::string_view text)
   close(file);
 }
 
+std::string the_run(const po::variables_map& values, const char* remedy)
+{
+  if (values.count("input") == 0)
+    throw UsageError("no run given; name a trajectory file, e.g. run.h5");
+  const auto& inputs = values["input"].as<std::vector<std::string>>();
+  if (inputs.size() != 1) throw UsageError(fmt::format("{} runs given; {}", inputs.size(), remedy));
+  return inputs[0];
+}
+
+po::typed_value<double>* time_option(std::optional<double>& place)
+{
+  return po::value<double>()->value_name("s")->notifier([&place](double time) { place = time; });
+}
+
+void refuse_to_overwrite(const std::string& path, bool overwrite)
+{
+  if (std::filesystem::is_directory(path))
+    throw UsageError(fmt::format("{} is a folder; name a file in it", path));
+  if (!overwrite && std::filesystem::exists(path))
+    throw UsageError(fmt::format(
+        "{} is there already; choose another name, remove it, or say --overwrite", path));
+}
+
 void require_file(const std::string& path)
 {
   std::error_code error;

@@ -6,6 +6,7 @@
 #include <boost/program_options.hpp>
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -60,6 +61,16 @@ void publish_file(const std::string& beside, const std::string& path);
 /// Writes `text` to `path`, whole or not at all (write beside, fsync, rename); "-" or "" is
 /// standard output. RunError where that fails.
 void write_whole(const std::string& path, std::string_view text);
+
+/// The one run that the command line names. UsageError where it names none, or several: then
+/// `remedy` ends the sentence.
+std::string the_run(const po::variables_map& values, const char* remedy);
+
+/// An option of a time in s; `place` stays empty where it is not given.
+po::typed_value<double>* time_option(std::optional<double>& place);
+
+/// Refuses to write where a folder is, or a file unless `overwrite` (UsageError).
+void refuse_to_overwrite(const std::string& path, bool overwrite);
 
 /// Refuses a path that is no readable file (UsageError).
 void require_file(const std::string& path);

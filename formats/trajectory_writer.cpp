@@ -3,8 +3,8 @@
 
 #include "formats/digest.hpp"
 #include "formats/errors.hpp"
+#include "formats/h5md.hpp"
 #include "formats/hdf5.hpp"
-#include "formats/tool.hpp"
 
 #include <fmt/format.h>
 
@@ -72,7 +72,6 @@ struct TrajectoryWriter::Impl {
   Series create_element(const std::string& name, const std::string& unit, hid_t file_type,
                         hid_t memory_type, const std::vector<hsize_t>& shape);
   void create_contacts();
-  void link_times(const std::string& element);
   void write_parameters(const Parameters& parameters);
   void flush()
   {
@@ -83,31 +82,13 @@ struct TrajectoryWriter::Impl {
 
 void TrajectoryWriter::Impl::create_metadata(const RunDescription& run)
 {
-  const auto group = [&](const char* name) {
-    const Properties links(H5Pcreate(H5P_LINK_CREATE));
-    H5Pset_create_intermediate_group(links, 1);
-    Group made(H5Gcreate2(file, name, links, H5P_DEFAULT, H5P_DEFAULT));
-    if (!made.valid()) throw RunError(fmt::format("cannot write {}: is the disk full?", path));
-    return made;
-  };
-  write_attribute(group("/h5md"), "version", std::vector<int>{1, 1});
-  write_attribute(group("/h5md/author"), "name", std::string("unknown"));
-  const auto creator = group("/h5md/creator");
-  write_attribute(creator, "name", std::string("grseg"));
-  write_attribute(creator, "version", version_with_hash());
-  const auto units = group("/h5md/modules/units");
-  write_attribute(units, "version", std::vector<int>{1, 0});
-  write_attribute(units, "system", std::string("SI"));
-  write_attribute(group("/h5md/modules/grseg"), "version", std::vector<int>{1, 0});
-
-  const auto box = group("/particles/grains/box");
-  write_attribute(box, "dimension", std::vector<int>{2});
-  const std::string along_x = run.box.periodic_x ? "periodic" : "none";
-  write_attribute(box, "boundary", std::vector<std::string>{along_x, "none"});
+  h5md::write_root(file);
+  write_attribute(h5md::make_group(file, "/h5md/modules/grseg"), "version", std::vector<int>{1, 0});
+  h5md::write_box(file, "grains", {run.box.periodic_x ? "periodic" : "none", "none"});
   const double edges[2] = {run.box.length_x, run.box.length_y};
   write_fixed(file, "/particles/grains/box/edges", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {2}, edges);
-  group("/parameters");
-  group("/observables");
+  h5md::make_group(file, "/parameters");
+  h5md::make_group(file, "/observables");
 }
 
 void TrajectoryWriter::Impl::create_grains(const Grains& all)
@@ -121,14 +102,6 @@ void TrajectoryWriter::Impl::create_grains(const Grains& all)
   write_fixed(file, at + "fixed", H5T_STD_U8LE, H5T_NATIVE_UINT8, shape, all.fixed.data());
 }
 
-void TrajectoryWriter::Impl::link_times(const std::string& element)
-{
-  for (const std::string name : {"step", "time"})
-    if (H5Lcreate_hard(file, fmt::format("/particles/grains/position/{}", name).c_str(), file,
-                       fmt::format("{}/{}", element, name).c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
-      throw RunError(fmt::format("cannot write {}: is the disk full?", path));
-}
-
 Series TrajectoryWriter::Impl::create_element(const std::string& name, const std::string& unit,
                                               hid_t file_type, hid_t memory_type,
                                               const std::vector<hsize_t>& shape)
@@ -136,7 +109,8 @@ Series TrajectoryWriter::Impl::create_element(const std::string& name, const std
   const bool per_grain = !shape.empty();
   auto series = grow(name + "/value", file_type, memory_type, shape, per_grain ? 1 : scalar_chunk);
   if (!unit.empty()) write_attribute(series.dataset, "unit", unit);
-  if (name != "/particles/grains/position") link_times(name);
+  const std::string first_element = "/particles/grains/position";
+  if (name != first_element) h5md::link_times(file, first_element, name);
   return series;
 }
 

@@ -97,15 +97,6 @@ void publish(const std::string& part, const std::string& output, const StorageSe
   if (whole != part) std::filesystem::remove(part, ignored);
 }
 
-void refuse_to_overwrite(const std::string& path, const RunOptions& options)
-{
-  if (std::filesystem::is_directory(path))
-    throw UsageError(fmt::format("{} is a folder; name a file in it", path));
-  if (!options.overwrite && std::filesystem::exists(path))
-    throw UsageError(fmt::format(
-        "{} is there already; choose another name, remove it, or say --overwrite", path));
-}
-
 /// Finds out before the bed is made, rather than after, that the file cannot be.
 void require_writable(const std::string& path)
 {
@@ -139,11 +130,12 @@ class RemoveIfEmpty {
 /// What must hold before time is spent on a run.
 void check_outputs(const RunOptions& options)
 {
-  refuse_to_overwrite(options.output, options);
+  refuse_to_overwrite(options.output, options.overwrite);
   if (options.checkpoint.empty()) return;
   if (options.checkpoint == options.output)
     throw UsageError("checkpoint and trajectory cannot be one file; name another for --checkpoint");
-  if (options.checkpoint != options.restart) refuse_to_overwrite(options.checkpoint, options);
+  if (options.checkpoint != options.restart)
+    refuse_to_overwrite(options.checkpoint, options.overwrite);
   const RemoveIfEmpty trial(options.checkpoint + ".part");
   require_writable(options.checkpoint + ".part");
 }
@@ -307,7 +299,7 @@ void simulate(const Scene& scene, const RunOptions& options)
 {
   const std::string part = options.output + ".part";
   check_outputs(options);
-  refuse_to_overwrite(part, options);
+  refuse_to_overwrite(part, options.overwrite);
   require_writable(part);
   const RemoveIfEmpty clean_up(part);
   listen_to_signals();
@@ -342,7 +334,7 @@ void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& 
     throw UsageError(fmt::format(
         "{} is at t = {:g} s and the run ends at {:g} s; a larger --duration prolongs it",
         options.restart, simulation.time(), scene.duration));
-  if (!in_place && holds_something(part)) refuse_to_overwrite(part, options);
+  if (!in_place && holds_something(part)) refuse_to_overwrite(part, options.overwrite);
   require_writable(part);
   const RemoveIfEmpty clean_up(part);
   listen_to_signals();

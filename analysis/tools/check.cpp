@@ -42,9 +42,6 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   auto& windows = s.physics.windows;
-  const auto time = [](std::optional<double>& place) {
-    return po::value<double>()->value_name("s")->notifier([&place](double t) { place = t; });
-  };
   add("deep", po::bool_switch(&s.deep),
       "hold the file against its specification, path by path, and read every chunk");
   add("physics", po::bool_switch(&s.with_physics),
@@ -53,8 +50,8 @@ po::options_description options_into(Settings& s)
       "thickness of the layers whose weight is carried: 4dS, 2dL, 20mm, or metres");
   add("window", po::value(&windows.length)->default_value(windows.length)->value_name("s"),
       "time over which means are taken; their scatter is the error");
-  add("begin", time(windows.begin), "leave out what is before (default: t = 0)");
-  add("end", time(windows.end), "leave out what is from here on (default: the run)");
+  add("begin", time_option(windows.begin), "leave out what is before (default: t = 0)");
+  add("end", time_option(windows.end), "leave out what is from here on (default: the run)");
   for (const auto& tolerance : CheckTolerances::all()) {
     double& value = s.physics.tolerances.*tolerance.value;
     add(tolerance.name, po::value(&value)->default_value(value, fmt::format("{:g}", value)),
@@ -64,16 +61,6 @@ po::options_description options_into(Settings& s)
   add("quiet", po::bool_switch(&s.quiet), "no progress on standard error");
   add("output,o", po::value(&s.output)->value_name("FILE"), "instead of standard output");
   return options;
-}
-
-const std::string& the_run(const po::variables_map& values)
-{
-  if (values.count("input") == 0)
-    throw UsageError("no run given; name a trajectory file, e.g. run.h5");
-  const auto& inputs = values["input"].as<std::vector<std::string>>();
-  if (inputs.size() != 1)
-    throw UsageError(fmt::format("{} runs given; check one at a time", inputs.size()));
-  return inputs[0];
 }
 
 std::vector<std::pair<std::string, std::string>> header_of(const TrajectoryReader& run,
@@ -129,7 +116,7 @@ int main(int argc, char** argv)
   Settings settings;
   const auto options = options_into(settings);
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
-    const TrajectoryReader run(the_run(values));
+    const TrajectoryReader run(the_run(values, "check one at a time"));
     const auto report = check(run, settings, command_line(argc, argv));
     write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));
     std::cout.flush();

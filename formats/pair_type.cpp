@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/pair_type.hpp"
+#include "formats/pair_type.hpp"
 
-#include "analysis/layers.hpp"
 #include "formats/errors.hpp"
 
 #include <fmt/format.h>

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/export/extxyz_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace grseg {
+namespace {
+
+std::string keys_of(const ViewCell& cell, bool has_force)
+{
+  return fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Origin="{} {} {}" pbc="{} F F" )"
+                     "Properties=id:I:1:type:I:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:omega:R:3{}",
+                     cell.length(0), cell.length(1), cell.length(2), cell.low[0], cell.low[1],
+                     cell.low[2], cell.periodic_x ? 'T' : 'F', has_force ? ":force:R:3" : "");
+}
+
+}  // namespace
+
+ExtxyzWriter::ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell,
+                           const std::string& path, bool overwrite)
+    : grains_(run.grains()),
+      has_force_(run.has_force()),
+      keys_(keys_of(cell, run.has_force())),
+      file_(path, overwrite)
+{
+}
+
+void ExtxyzWriter::add(const Frame& frame)
+{
+  fmt::memory_buffer text;
+  const auto end = std::back_inserter(text);
+  fmt::format_to(end, "{}\n{} Time={}\n", grains_.size(), keys_, frame.time);
+  for (std::size_t g = 0; g < grains_.size(); ++g) {
+    const auto &x = frame.position[g], &v = frame.velocity[g];
+    fmt::format_to(end, "{} {} {} {} 0 {} {} 0 {} {} 0 0 {}", grains_.id[g],
+                   static_cast<int>(grains_.species[g]) + 1, x.x(), x.y(), v.x(), v.y(),
+                   grains_.radius[g], grains_.mass[g], frame.angular_velocity[g]);
+    if (has_force_) fmt::format_to(end, " {} {} 0", frame.force[g].x(), frame.force[g].y());
+    text.push_back('\n');
+  }
+  file_.write({text.data(), text.size()});
+}
+
+}  // namespace grseg

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/export/output.hpp"
+#include "formats/export/view_cell.hpp"
+#include "formats/trajectory_reader.hpp"
+
+#include <string>
+
+namespace grseg {
+
+/// Extended XYZ as OVITO and ASE read it: per frame the number of grains, a line of keys, a row per
+/// grain. Types are numbers (1 small, 2 large, 3 boundary), since ASE refuses species that are no
+/// chemical symbols. Reals as short as they read back to the last bit; z = 0; contacts have no
+/// place in it.
+class ExtxyzWriter {
+ public:
+  ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell, const std::string& path,
+               bool overwrite);
+
+  /// Needs velocities, and forces where the run has them.
+  void add(const Frame& frame);
+  void publish() { file_.publish(); }
+
+ private:
+  const Grains& grains_;
+  bool has_force_;
+  std::string keys_;
+  OutputFile file_;
+};
+
+}  // namespace grseg

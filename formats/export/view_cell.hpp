@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/trajectory_reader.hpp"
+
+#include <array>
+
+namespace grseg {
+
+/// The cell as three-dimensional viewers want it, the same for all frames so that a film does not
+/// jitter: along x that of the run; along y, where nothing is periodic, from y = 0 or the lowest
+/// grain to the height of the box or the highest grain of one frame; along z one largest diameter
+/// about z = 0, where all centres are.
+struct ViewCell {
+  std::array<double, 3> low, high;  // m
+  bool periodic_x;
+
+  double length(std::size_t axis) const { return high[axis] - low[axis]; }
+};
+
+ViewCell view_cell(const TrajectoryReader& run, std::size_t frame);
+
+}  // namespace grseg

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/export/vtp_writer.hpp"
+
+#include "formats/export/contact_parts.hpp"
+#include "formats/export/poly_data.hpp"
+#include "formats/pair_type.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace grseg {
+namespace {
+
+std::vector<float> single(const std::vector<double>& values)
+{
+  std::vector<float> out;
+  out.reserve(values.size());
+  for (const double value : values) out.push_back(static_cast<float>(value));
+  return out;
+}
+
+void append(std::vector<float>& out, const Vec2& v)
+{
+  out.insert(out.end(), {static_cast<float>(v.x()), static_cast<float>(v.y()), 0.0F});
+}
+
+std::vector<float> padded(const std::vector<Vec2>& vectors)
+{
+  std::vector<float> out;
+  out.reserve(3 * vectors.size());
+  for (const auto& v : vectors) append(out, v);
+  return out;
+}
+
+/// A .pvd: times and files.
+std::string collection(const std::string& list)
+{
+  return fmt::format(R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="1.0" byte_order="LittleEndian">
+  <Collection>
+{}  </Collection>
+</VTKFile>
+)",
+                     list);
+}
+
+}  // namespace
+
+VtpWriter::VtpWriter(const TrajectoryReader& run, const std::string& folder, bool overwrite)
+    : run_(run), folder_(folder, "grains.pvd", overwrite)
+{
+  folder_.add_folder("grains");
+  folder_.add_folder("contacts");
+}
+
+std::string VtpWriter::grains_text(const Frame& frame) const
+{
+  const auto& grains = run_.grains();
+  auto diameter = grains.radius;
+  for (auto& value : diameter) value *= 2;
+  std::vector<std::int32_t> species;
+  for (const auto kind : grains.species) species.push_back(static_cast<std::int32_t>(kind));
+
+  PolyData data(PolyData::Cells::vertices, padded(frame.position), frame.time);
+  data.point_array("diameter", single(diameter));
+  data.point_array("radius", single(grains.radius));
+  data.point_array("mass", single(grains.mass));
+  data.point_array("species", species);
+  data.point_array("id", grains.id);
+  data.point_array("velocity", padded(frame.velocity), 3);
+  data.point_array("angular_velocity", single(frame.angular_velocity));
+  if (run_.has_force()) data.point_array("force", padded(frame.force), 3);
+  return data.text();
+}
+
+std::string VtpWriter::contacts_text(const Frame& frame) const
+{
+  const auto& grains = run_.grains();
+  const auto& contacts = frame.contacts;
+  std::vector<float> points, normal_at_points, normal, tangential;
+  std::vector<std::int32_t> id_i, id_j, type;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = static_cast<std::size_t>(contacts.i[c]);
+    const auto j = contacts.j[c];
+    append(points, frame.position[i]);
+    append(points, frame.position[i] - contacts.branch[c]);
+    const auto parts = contact_parts(contacts, c);
+    normal.push_back(static_cast<float>(parts.normal));
+    normal_at_points.insert(normal_at_points.end(), 2, normal.back());
+    tangential.push_back(static_cast<float>(parts.tangential));
+    id_i.push_back(grains.id[i]);
+    id_j.push_back(j < 0 ? j : grains.id[static_cast<std::size_t>(j)]);
+    type.push_back(static_cast<std::int32_t>(pair_type(grains, frame, c)));
+  }
+  PolyData data(PolyData::Cells::lines, std::move(points), frame.time);
+  data.point_array("normal_force", normal_at_points);
+  data.cell_array("normal_force", normal);
+  data.cell_array("tangential_force", tangential);
+  data.cell_array("force", padded(contacts.force), 3);
+  data.cell_array("gap", single(contacts.gap));
+  data.cell_array("pair_type", type);
+  data.cell_array("i", id_i);
+  data.cell_array("j", id_j);
+  return data.text();
+}
+
+void VtpWriter::add(const Frame& frame)
+{
+  const auto add = [&](const char* what, const std::string& text, std::string& list) {
+    const auto name = fmt::format("{}/{:06}.vtp", what, frames_);
+    folder_.add_file(name, text);
+    list +=
+        fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, name);
+  };
+  add("grains", grains_text(frame), grains_list_);
+  add("contacts", contacts_text(frame), contacts_list_);
+  ++frames_;
+}
+
+void VtpWriter::publish()
+{
+  folder_.add_file("contacts.pvd", collection(contacts_list_));
+  folder_.add_file("grains.pvd", collection(grains_list_));
+  folder_.publish();
+}
+
+}  // namespace grseg

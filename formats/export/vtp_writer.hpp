@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/export/output.hpp"
+#include "formats/trajectory_reader.hpp"
+
+#include <cstddef>
+#include <string>
+
+namespace grseg {
+
+/// A folder for ParaView: grains.pvd and contacts.pvd, each a list of times and files.
+///   grains/      a vertex per grain, with radius and diameter (by which glyphs are scaled), mass,
+///                species (0 small, 1 large, 2 boundary), id, velocity, angular_velocity (about z),
+///                force
+///   contacts/    a line per contact from x_i to x_i - branch, with points of its own: across the
+///                periodic edge it leaves the cell instead of crossing the picture, and at a wall
+///                it ends where the grain touches. normal_force stands at points (for tubes) and at
+///                lines, with force, tangential_force, gap, pair_type (0 SS, 1 LS, 2 LL, 3 Sb, 4
+///                Lb) and the ids i and j, -1 for wall 0, -2 for wall 1
+/// Reals are single precision.
+class VtpWriter {
+ public:
+  VtpWriter(const TrajectoryReader& run, const std::string& folder, bool overwrite);
+
+  /// Needs velocities, contacts, and forces where the run has them.
+  void add(const Frame& frame);
+  void publish();
+
+ private:
+  std::string grains_text(const Frame& frame) const;
+  std::string contacts_text(const Frame& frame) const;
+
+  const TrajectoryReader& run_;
+  OutputFolder folder_;
+  std::size_t frames_ = 0;
+  std::string grains_list_, contacts_list_;
+};
+
+}  // namespace grseg

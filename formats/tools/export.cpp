@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/export/extxyz_writer.hpp"
+#include "formats/export/h5md3d_writer.hpp"
+#include "formats/export/lammps_writer.hpp"
+#include "formats/export/vtp_writer.hpp"
+#include "formats/frame_range.hpp"
+#include "formats/tool.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+using namespace grseg;
+
+namespace {
+
+constexpr ToolInfo info{
+    "grseg-export", "a run as ParaView, OVITO, LAMMPS' readers or MDAnalysis open it.",
+    "grseg-export run.h5 --to vtp|extxyz|lammps|h5md3d -o NAME [options]",
+    "  grseg-export run.h5 --to vtp -o view               ParaView: view/grains.pvd, contacts.pvd\n"
+    "  grseg-export run.h5 --to extxyz --stride 10 -o run.xyz.gz              OVITO, ASE\n"
+    "  grseg-export run.h5 --to lammps -o run.dump.gz     OVITO; run.contacts.dump.gz beside it\n"
+    "  grseg-export run.h5 --to h5md3d --begin 20 --end 40 -o view.h5md       MDAnalysis\n"};
+
+struct Settings {
+  FrameRange range;
+  std::string format, output;
+  bool overwrite = false, quiet = false;
+};
+
+po::options_description options_into(Settings& s)
+{
+  po::options_description options("Options");
+  auto add = options.add_options();
+  add("to", po::value(&s.format)->value_name("WORD"),
+      "vtp: PolyData with times, grains as points and contacts as lines; extxyz: extended XYZ; "
+      "lammps: dump custom and dump local; h5md3d: H5MD padded to three dimensions");
+  s.range.add_to(options);
+  add("output,o", po::value(&s.output)->value_name("NAME"),
+      "the file to write (extxyz and lammps: gzip where it ends in .gz); of vtp the folder");
+  add("overwrite", po::bool_switch(&s.overwrite), "replace what is there already");
+  add("quiet", po::bool_switch(&s.quiet), "no progress and no remarks");
+  return options;
+}
+
+/// All frames, or nothing: what `writer` has begun goes with it when a frame cannot be read.
+template <class Writer>
+void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
+                  const Settings& s, Writer& writer)
+{
+  const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
+  Frame frame;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    run.read(frames[k], frame, {.velocity = true, .contacts = true, .force = true});
+    writer.add(frame);
+    if (progress && k % 20 == 0)
+      fmt::print(stderr, "\r{}: {} of {} frames\033[K", info.name, k, frames.size());
+  }
+  if (progress) fmt::print(stderr, "\r\033[K");
+  writer.publish();
+}
+
+void export_run(const Settings& s, const po::variables_map& values)
+{
+  const TrajectoryReader run(the_run(values, "export one at a time"));
+  if (s.output.empty()) throw UsageError("name what to write: -o NAME");
+  const auto frames = s.range.frames_of(run);
+  const auto cell = view_cell(run, frames.front());
+  const auto write = [&](auto&& writer) { write_frames(run, frames, s, writer); };
+  if (s.format == "vtp") {
+    write(VtpWriter(run, s.output, s.overwrite));
+  } else if (s.format == "extxyz") {
+    write(ExtxyzWriter(run, cell, s.output, s.overwrite));
+  } else if (s.format == "lammps") {
+    LammpsWriter writer(run, cell, s.output, s.overwrite);
+    write(writer);
+    if (!s.quiet) fmt::print(stderr, "{}: a run again: {}\n", info.name, writer.import_command());
+  } else if (s.format == "h5md3d") {
+    write(H5md3dWriter(run, cell, s.output, s.overwrite));
+  } else {
+    throw UsageError(
+        fmt::format("--to: there is no '{}'; it is one of: vtp, extxyz, lammps, h5md3d", s.format));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  Settings settings;
+  const auto options = options_into(settings);
+  return run_tool(argc, argv, info, options,
+                  [&](const po::variables_map& values) { export_run(settings, values); });
+}
