@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Runs made with other programs, as they stand in their archives: three components, the
+/// archive's own axes, ids, order of rows and units. What becomes of them (axes turned, species
+/// told apart, branches found, balances verified, a trajectory written) is the same for every
+/// format and lies outside its reader.
+namespace grseg {
+
+using Vec3 = Eigen::Vector3d;
+
+/// The grains of one moment, in any order; entry g of each array is grain g. Arrays that the
+/// archive does not fill stay empty, `id` and `position` are never empty.
+struct ArchiveGrains {
+  std::vector<std::int64_t> id;
+  std::vector<std::int32_t> type;  // the archive's own word for a species
+  std::vector<double> radius, mass;
+  std::vector<Vec3> position;  // of the centre; may lie outside a periodic cell
+  std::vector<Vec3> velocity;
+  std::vector<Vec3> angular_velocity;  // rad/s, right-handed about the archive's axes
+  std::vector<Vec3> force;             // total force on the grain, gravity included
+  std::vector<std::uint8_t> fixed;     // 1: the archive marks it as held in place
+
+  std::size_t size() const { return id.size(); }
+};
+
+/// The contacts of one moment, each once, in any order.
+struct ArchiveContacts {
+  std::vector<std::int64_t> i, j;  // ids of grains; j is not used at a wall
+  std::vector<std::int32_t> wall;  // -1: j is a grain; otherwise the number of a straight wall
+  std::vector<Vec3> force;         // ON i FROM j
+  std::vector<double> overlap;     // positive where the two overlap; empty: from the positions
+  std::vector<Vec3> branch;  // x_i - x_j, at a wall x_i - contact point; empty: from positions
+
+  std::size_t size() const { return i.size(); }
+};
+
+/// One moment of an archive: grains and contacts of the same time.
+struct ArchiveMoment {
+  std::int64_t step = 0;
+  double time = 0;
+  Vec3 low, high;  // of the cell
+  std::array<bool, 3> periodic{};
+  ArchiveGrains grains;
+  ArchiveContacts contacts;
+  std::string place;  // "atoms.dump, line 12": for sentences about this moment
+};
+
+/// What an archive says once about its run. What it does not say stays empty and has to come from
+/// the command line; nothing is guessed.
+struct ArchiveFacts {
+  std::optional<double> step;     // s, of the integration
+  std::optional<double> density;  // of the grains' matter
+  std::optional<Vec3> gravity;
+  std::optional<bool> discs;  // false: spheres
+  std::optional<std::string> units;
+  /// Largest residual of a grain's balance, relative to the largest contact force of the moment,
+  /// that faithful output of this program has (digits of its text, forces evaluated anew, float32).
+  double tolerance = 0;
+  std::string tolerance_reason;
+};
+
+/// Reads an archive moment by moment, in order of time, holding one moment in memory.
+class Archive {
+ public:
+  virtual ~Archive() = default;
+  virtual const ArchiveFacts& facts() const = 0;
+  /// Fills the next moment for which grains and contacts are both there; false at the end.
+  /// FormatError naming file, line and remedy where the archive is damaged.
+  virtual bool next(ArchiveMoment& moment) = 0;
+};
+
+}  // namespace grseg
