@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/errors.hpp"
+
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +25,8 @@ struct ArchiveGrains {
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> type;  // the archive's own word for a species
   std::vector<double> radius, mass;
-  std::vector<Vec3> position;  // of the centre; may lie outside a periodic cell
+  std::vector<Vec3> position;                      // of the centre; may lie outside a periodic cell
+  std::vector<std::array<std::int32_t, 3>> image;  // periods to add to `position`
   std::vector<Vec3> velocity;
   std::vector<Vec3> angular_velocity;  // rad/s, right-handed about the archive's axes
   std::vector<Vec3> force;             // total force on the grain, gravity included
@@ -34,19 +38,23 @@ struct ArchiveGrains {
 /// The contacts of one moment, each once, in any order.
 struct ArchiveContacts {
   std::vector<std::int64_t> i, j;  // ids of grains; j is not used at a wall
-  std::vector<std::int32_t> wall;  // -1: j is a grain; otherwise the number of a straight wall
+  std::vector<std::int32_t> wall;  // -1: j is a grain; otherwise the number of a straight wall;
+                                   // empty: no contact is one with a wall
   std::vector<Vec3> force;         // ON i FROM j
-  std::vector<double> overlap;     // positive where the two overlap; empty: from the positions
-  std::vector<Vec3> branch;  // x_i - x_j, at a wall x_i - contact point; empty: from positions
+  std::vector<double> overlap;     // positive where the two overlap
+  std::vector<double> distance;    // of the centres; where both are empty it is that of positions
+  std::vector<Vec3> branch;  // x_i - x_j, at a wall x_i - contact point; empty: from positions,
+                             // which needs contacts with grains alone
 
   std::size_t size() const { return i.size(); }
 };
 
-/// One moment of an archive: grains and contacts of the same time.
+/// One moment of an archive: grains and contacts of the same time. Of step and time at least one is
+/// told; the other follows by the length of a step, which the archive or the command line tells.
 struct ArchiveMoment {
-  std::int64_t step = 0;
-  double time = 0;
-  Vec3 low, high;  // of the cell
+  std::optional<std::int64_t> step;
+  std::optional<double> time;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // of the cell
   std::array<bool, 3> periodic{};
   ArchiveGrains grains;
   ArchiveContacts contacts;
@@ -56,13 +64,14 @@ struct ArchiveMoment {
 /// What an archive says once about its run. What it does not say stays empty and has to come from
 /// the command line; nothing is guessed.
 struct ArchiveFacts {
-  std::optional<double> step;     // s, of the integration
-  std::optional<double> density;  // of the grains' matter
+  std::optional<double> step;     // of the integration, in units of time
+  std::optional<double> density;  // of the grains' matter, per area (discs) or volume (spheres)
   std::optional<Vec3> gravity;
-  std::optional<bool> discs;  // false: spheres
-  std::optional<std::string> units;
-  /// Largest residual of a grain's balance, relative to the largest contact force of the moment,
-  /// that faithful output of this program has (digits of its text, forces evaluated anew, float32).
+  std::optional<bool> discs;         // false: spheres
+  std::optional<std::string> units;  // the program's word for them: "si", "cgs", "lj"
+  /// Largest residual of a grain's balance, relative to the largest force of the moment, that
+  /// faithful output of this program has (digits of its text, forces evaluated anew, float32), and
+  /// why.
   double tolerance = 0;
   std::string tolerance_reason;
 };
@@ -71,10 +80,39 @@ struct ArchiveFacts {
 class Archive {
  public:
   virtual ~Archive() = default;
+  /// Complete after the first `next`.
   virtual const ArchiveFacts& facts() const = 0;
   /// Fills the next moment for which grains and contacts are both there; false at the end.
   /// FormatError naming file, line and remedy where the archive is damaged.
   virtual bool next(ArchiveMoment& moment) = 0;
+
+  /// How the columns of the contacts are read, as --columns would say it; "": the format says it.
+  virtual std::string columns() const { return ""; }
+  /// Other values of --columns that the contacts may be meant by; tried where `columns()` does not
+  /// lead to balanced grains, to tell which does. To be asked for after `next`.
+  virtual std::vector<std::string> other_columns() const { return {}; }
+  /// What was left out on the way here, a sentence each: moments without partner, rows.
+  virtual std::vector<std::string> remarks() const { return {}; }
 };
+
+/// The archive ends in the middle of a moment. All moments before were whole: with
+/// --drop-incomplete the import ends there.
+struct TruncatedArchive : FormatError {
+  using FormatError::FormatError;
+};
+
+/// What a reader is given: files as named on the command line.
+struct ArchiveFiles {
+  std::vector<std::string> grains, contacts;  // may hold `*`; file_list.hpp
+  std::string restart;                        // MercuryDPM's, with what its other files lack
+  std::string columns;                        // contact_columns.hpp
+};
+
+/// The formats that open_archive knows, in the order in which --help names them.
+const std::vector<std::string>& archive_formats();
+
+/// UsageError where `format` is not among them or a file is missing, FormatError where one is
+/// damaged.
+std::unique_ptr<Archive> open_archive(const std::string& format, const ArchiveFiles& files);
 
 }  // namespace grseg
