@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <charconv>
 #include <cmath>
 #include <numbers>

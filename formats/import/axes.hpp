@@ -14,7 +14,7 @@ namespace grseg {
 class Axes {
  public:
   /// Two of the letters x, y, z, e.g. "xz": along the base and away from it. UsageError otherwise.
-  explicit Axes(const std::string& letters);
+  explicit Axes(const std::string& letters = "xy");
 
   /// Turned such that gravity, which lies in the plane, is |g| (sin slope, -cos slope); in degrees.
   void turn_to_slope(const Vec3& gravity, double slope);
@@ -47,7 +47,7 @@ GravityText parse_gravity(const std::string& text);
 /// and turns nothing. UsageError where that is not told or gravity leaves the plane.
 struct Plane {
   Axes axes;
-  Vec2 gravity;
+  Vec2 gravity = Vec2::Zero();
 };
 Plane plane_of(const std::string& letters, const GravityText& gravity, std::optional<double> slope);
 
