@@ -21,7 +21,7 @@ double component(const Vec3& vector, const Vec3& direction)
 }
 
 /// A gravity vector is written with a few digits: what differs by less is meant to be the same.
-constexpr double smallest_turn = 1e-4;
+constexpr double smallest_turn = 1e-3;
 
 Vec2 down_a_slope(double gravity, double slope)
 {

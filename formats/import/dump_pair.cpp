@@ -53,7 +53,7 @@ std::optional<std::string> DumpPair::units() const
   if (a && b && *a != *b)
     throw FormatError(fmt::format(
         "{}: the grains are in units {} and the contacts in units {}: they are not of one run",
-        contacts_.header().place, quoted(*a), quoted(*b)));
+        contacts_.header().place, printable(*a), printable(*b)));
   return a ? a : b;
 }
 

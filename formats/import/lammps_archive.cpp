@@ -51,7 +51,8 @@ class LammpsArchive : public Archive {
     moment.low = header.low;
     moment.high = header.high;
     moment.periodic = header.periodic;
-    moment.place = header.place;
+    moment.place = fmt::format("step {} ({}; {})", header.step, header.place,
+                               dumps_.contacts().header().place);
     grains_.read(dumps_.grains(), moment.grains);
     read_contacts(moment);
     return true;

@@ -67,7 +67,7 @@ std::optional<double> gap_between_sizes(std::vector<double> diameter)
   if (factor < far_apart) return std::nullopt;
   const double below = diameter[widest - 1] / diameter.front();
   const double above = diameter.back() / diameter[widest];
-  if (std::max(below, above) >= factor) return std::nullopt;
+  if (std::max(below * below, above * above) >= factor) return std::nullopt;
   return (diameter[widest - 1] + diameter[widest]) / 2;
 }
 
@@ -98,7 +98,7 @@ double diameter_that_splits(const std::vector<double>& diameter, const SpeciesSe
 NumberList::NumberList(const std::string& text, const std::string& option)
 {
   if (text == "none") return;
-  bool good = !text.empty();
+  bool good = !text.empty() && text.back() != ',';
   std::istringstream parts(text);
   for (std::string part; good && std::getline(parts, part, ',');) {
     const auto dash = part.find('-');

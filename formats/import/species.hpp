@@ -38,8 +38,9 @@ struct SpeciesFound {
 
 /// Boundary grains are those of the types or ids that were named, or that the archive marks as
 /// fixed; all others are small or large by type, by --split-diameter, or, where none is given, by
-/// two sizes far apart: the largest step between diameters is a factor of 1.2 or more and wider
-/// than either side of it. UsageError where that does not tell, with the histogram of diameters.
+/// two sizes far apart: the widest step between diameters is a factor of 1.2 or more, and on either
+/// side of it they differ by less than the root of that factor. UsageError where that does not
+/// tell, with the histogram of diameters.
 SpeciesFound tell_species(const ArchiveGrains& grains, const SpeciesSettings& settings);
 
 /// "0.0048 to 0.0052: 120, ...": how many of the values lie where, ten equal bins without empty

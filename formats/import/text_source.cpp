@@ -147,7 +147,7 @@ std::string TextSource::place() const
   return fmt::format("{}, line {}", impl_->file(), impl_->number);
 }
 
-std::string quoted(std::string_view text)
+std::string printable(std::string_view text)
 {
   constexpr std::size_t most = 40;
   std::string shown = "'";

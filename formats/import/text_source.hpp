@@ -33,6 +33,6 @@ class TextSource {
 };
 
 /// What stands in a file, fit to be quoted in a sentence: at most 40 characters, all printable.
-std::string quoted(std::string_view text);
+std::string printable(std::string_view text);
 
 }  // namespace grseg
