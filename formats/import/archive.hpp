@@ -69,9 +69,12 @@ struct ArchiveFacts {
   std::optional<Vec3> gravity;
   std::optional<bool> discs;         // false: spheres
   std::optional<std::string> units;  // the program's word for them: "si", "cgs", "lj"
-  /// Largest residual of a grain's balance, relative to the largest force of the moment, that
-  /// faithful output of this program has (digits of its text, forces evaluated anew, float32), and
-  /// why.
+  /// Contact forces are evaluated anew when the velocities have gone half a step further than those
+  /// that moved the grains (late_damping.hpp).
+  bool forces_are_late = false;
+  /// Largest residual of a grain's balance, relative to the largest force of the moment and without
+  /// what late damping explains, that faithful output of this program has (digits of its text,
+  /// float32), and why.
   double tolerance = 0;
   std::string tolerance_reason;
 };

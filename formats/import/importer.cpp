@@ -129,7 +129,7 @@ class Output {
 {
   const auto fitting =
       complaint.of_columns ? columns_that_fit(settings, frames.archive(), moments) : std::string();
-  const bool of_balance = frames.residual() && frames.residual()->largest > frames.tolerance();
+  const bool of_balance = frames.residual() && frames.residual()->unexplained > frames.tolerance();
   throw CheckError(fmt::format(
       "{}: {}{}{}", frames.place(), complaint.sentence, fitting,
       fitting.empty() && of_balance ? "; --accept-residual R imports what balances to R" : ""));
@@ -141,6 +141,33 @@ double median(std::vector<double> values)
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+/// Residuals of all moments.
+class Residuals {
+ public:
+  void add(const Residual& residual)
+  {
+    largest_ = std::max(largest_, residual.largest);
+    medians_.push_back(residual.median);
+    if (!residual.late) return;
+    unexplained_ = std::max(unexplained_, residual.unexplained);
+    normal_.push_back(residual.late->normal);
+    tangential_.push_back(residual.late->tangential);
+  }
+  void tell(ImportReport& report, const Units& units) const
+  {
+    if (medians_.empty()) return;
+    report.largest_residual = largest_;
+    report.median_residual = median(medians_);
+    if (normal_.empty()) return;
+    report.unexplained_residual = unexplained_;
+    report.late = {median(normal_) / units.time, median(tangential_) / units.time};
+  }
+
+ private:
+  double largest_ = 0, unexplained_ = 0;
+  std::vector<double> medians_, normal_, tangential_;
+};
 
 /// What is known only at the end.
 void finish(TrajectoryWriter& writer, const VerifiedFrames& frames, ImportReport& report)
@@ -154,6 +181,10 @@ void finish(TrajectoryWriter& writer, const VerifiedFrames& frames, ImportReport
   if (report.largest_residual) {
     last.numbers["import_residual_largest"] = {*report.largest_residual};
     last.numbers["import_residual_median"] = {*report.median_residual};
+  }
+  if (report.unexplained_residual) {
+    last.numbers["import_residual_unexplained"] = {*report.unexplained_residual};
+    last.numbers["import_late_damping"] = {report.late.normal, report.late.tangential};
   }
   if (report.frames > 1)
     last.numbers["frame_interval"] = {(report.last_time - report.first_time) /
@@ -178,15 +209,11 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
   report.base = frames.builder().species().base;
   report.sizes = frames.builder().species().sizes;
   TrajectoryWriter writer(output.beside(), run, settings.storage);
-  std::vector<double> medians;
+  Residuals residuals;
   for (Frame frame; frames.next(frame);) {
     if (frames.complaint()) refuse(frames, settings, *frames.complaint(), report.frames + 1);
-    double defect = 0;
-    if (const auto& residual = frames.residual()) {
-      defect = residual->largest;
-      report.largest_residual = std::max(report.largest_residual.value_or(0), defect);
-      medians.push_back(residual->median);
-    }
+    const double defect = frames.residual() ? frames.residual()->largest : 0;
+    if (frames.residual()) residuals.add(*frames.residual());
     frames.facts().units.convert(frame);
     if (report.frames == 0) report.first_time = frame.time;
     report.last_time = frame.time;
@@ -194,7 +221,7 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
     report.contacts += frame.contacts.size();
     writer.append(frame, {&defect, 1});
   }
-  if (!medians.empty()) report.median_residual = median(medians);
+  residuals.tell(report, frames.facts().units);
   finish(writer, frames, report);
   writer.close();
   output.publish();
@@ -209,12 +236,16 @@ std::string to_text(const ImportReport& report)
   if (!report.columns.empty()) text += fmt::format("columns: {}\n", report.columns);
   text += fmt::format("base: {}; {}\n", report.base, report.sizes);
   if (report.largest_residual)
+    text +=
+        fmt::format("grains balance: largest residual {:.3g}, median {:.3g} of the largest force\n",
+                    *report.largest_residual, *report.median_residual);
+  if (report.unexplained_residual)
     text += fmt::format(
-        "grains balance: largest residual {:.3g}, median {:.3g} of the largest force (tolerance "
-        "{:g}: "
-        "{})\n",
-        *report.largest_residual, *report.median_residual, report.tolerance,
-        report.tolerance_reason);
+        "of the largest, {:.3g} is not explained by damping of {:.4g} 1/s (normal) and {:.4g} 1/s "
+        "(tangential) half a step late\n",
+        *report.unexplained_residual, report.late.normal, report.late.tangential);
+  if (report.largest_residual)
+    text += fmt::format("tolerance {:g}: {}\n", report.tolerance, report.tolerance_reason);
   for (const auto& remark : report.remarks) text += remark + "\n";
   return text;
 }

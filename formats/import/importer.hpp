@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/import/import_settings.hpp"
+#include "formats/import/late_damping.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -17,6 +18,10 @@ struct ImportReport {
   /// Residuals of grains' balances (verification.hpp): the largest, and the median over the moments
   /// of the median over grains. None where there was nothing to compare with.
   std::optional<double> largest_residual, median_residual;
+  /// The largest that late damping does not explain, and the damping that does (late_damping.hpp;
+  /// 1/s, medians over the moments), where the program's forces are late.
+  std::optional<double> unexplained_residual;
+  LateDamping late;
   double tolerance = 0;
   std::string tolerance_reason, columns, base, sizes;
   std::vector<std::string> remarks;

@@ -28,11 +28,23 @@ bool is_mobile(const Grains& grains, std::size_t g)
   return grains.species[g] != Species::boundary;
 }
 
+Residual residual_of(const Grains& grains, const std::vector<Vec2>& defect, double scale)
+{
+  std::vector<std::pair<double, std::size_t>> sizes;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (is_mobile(grains, g)) sizes.emplace_back(defect[g].norm() / scale, g);
+  if (sizes.empty()) return {};
+  const auto largest = *std::max_element(sizes.begin(), sizes.end());
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return {largest.first, middle->first, largest.second, largest.first, std::nullopt};
+}
+
 }  // namespace
 
 Verification::Verification(const Grains& grains, const Box& box, const Vec2& gravity,
-                           double tolerance)
-    : grains_(grains), box_(box), gravity_(gravity), tolerance_(tolerance)
+                           const Faithful& faithful)
+    : grains_(grains), box_(box), gravity_(gravity), faithful_(faithful)
 {
 }
 
@@ -132,34 +144,39 @@ std::optional<Residual> Verification::residual_with(const Frame& frame,
   const auto sum = sums(frame.contacts, forces);
   double scale = 0;
   for (const auto& force : forces) scale = std::max(scale, force.norm());
-  std::vector<std::pair<double, std::size_t>> defects;
+  std::vector<Vec2> defect(grains_.size(), Vec2::Zero());
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, g)) continue;
     const Vec2 weight = grains_.mass[g] * gravity_;
     scale = std::max(scale, weight.norm());
-    Vec2 defect;
     if (told)
-      defect = sum[g] + weight - frame.force[g];
+      defect[g] = sum[g] + weight - frame.force[g];
     else
-      defect = (sum[g] + before_->sums[g]) / 2 + weight -
-               grains_.mass[g] * (frame.velocity[g] - before_->velocity[g]) /
-                   (frame.time - before_->time);
-    defects.emplace_back(defect.norm(), g);
+      defect[g] = (sum[g] + before_->sums[g]) / 2 + weight -
+                  grains_.mass[g] * (frame.velocity[g] - before_->velocity[g]) /
+                      (frame.time - before_->time);
   }
-  if (defects.empty() || !(scale > 0)) return std::nullopt;
-  const auto largest = *std::max_element(defects.begin(), defects.end());
-  const auto middle = defects.begin() + static_cast<std::ptrdiff_t>(defects.size() / 2);
-  std::nth_element(defects.begin(), middle, defects.end());
-  return Residual{largest.first / scale, middle->first / scale, largest.second};
+  if (!(scale > 0)) return std::nullopt;
+  auto residual = residual_of(grains_, defect, scale);
+  if (told && faithful_.late_forces) {
+    residual.late = take_late_damping(grains_, frame, faithful_.step, faithful_.inertia, defect);
+    residual.unexplained = residual_of(grains_, defect, scale).largest;
+  }
+  return residual;
 }
 
 std::optional<Complaint> Verification::balance(const Frame& frame) const
 {
-  if (!residual_ || residual_->largest <= tolerance_) return std::nullopt;
+  if (!residual_ || residual_->unexplained <= faithful_.tolerance) return std::nullopt;
   return Complaint{
       fmt::format("the forces on grain {} do not add up: {:.3g} of the largest force is missing "
-                  "(tolerance {:g}){}{}",
-                  grains_.id[residual_->grain], residual_->largest, tolerance_,
+                  "(tolerance {:g}){}{}{}",
+                  grains_.id[residual_->grain], residual_->largest, faithful_.tolerance,
+                  residual_->late
+                      ? fmt::format(", and {:.3g} that damping evaluated half a step late does not "
+                                    "explain",
+                                    residual_->unexplained)
+                      : "",
                   frame.force.empty()
                       ? ", its acceleration being the difference of velocities between "
                         "two moments, which need to be close together"
@@ -188,8 +205,8 @@ std::string Verification::other_readings(const Frame& frame) const
     for (std::size_t c = 0; c < contacts.size(); ++c)
       forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
     const auto residual = residual_with(frame, forces);
-    if (residual && residual->largest <= tolerance_)
-      return fmt::format("; they balance to {:.2g} {}", residual->largest, what);
+    if (residual && residual->unexplained <= faithful_.tolerance)
+      return fmt::format("; they balance to {:.2g} {}", residual->unexplained, what);
   }
   return "";
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/frame.hpp"
+#include "formats/import/late_damping.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -14,7 +15,9 @@ namespace grseg {
 /// over the largest of the frame's contact forces and of the mobile grains' weights.
 struct Residual {
   double largest = 0, median = 0;
-  std::size_t grain = 0;  // row of the largest
+  std::size_t grain = 0;            // row of the largest
+  double unexplained = 0;           // the largest without what late damping explains
+  std::optional<LateDamping> late;  // where that was looked for
 };
 
 /// What is wrong with a frame, as a sentence about the reading of its archive.
@@ -23,14 +26,22 @@ struct Complaint {
   bool of_columns = false;  // another reading of the columns might cure it
 };
 
+/// What faithful output of a program may miss.
+struct Faithful {
+  double tolerance = 0;      // largest residual that late damping does not explain
+  bool late_forces = false;  // late_damping.hpp
+  double step = 0;           // of the integration, then needed
+  double inertia = 0.5;      // I/(m r^2) of the grains, likewise
+};
+
 /// Holds each frame of an import against what must be true of it if the archive has been read as it
 /// was meant: contacts join grains that touch, each once, push rather than pull, and add up to the
 /// force on each grain. Where the archive has no forces on grains, these are m times the difference
 /// of velocities from the frame before, and contact forces the mean of the two frames.
 class Verification {
  public:
-  /// `tolerance` is the largest residual of faithful output. Lengths and forces in any units.
-  Verification(const Grains& grains, const Box& box, const Vec2& gravity, double tolerance);
+  /// In any units.
+  Verification(const Grains& grains, const Box& box, const Vec2& gravity, const Faithful& faithful);
 
   /// Frames in order; what is wrong with this one, if anything.
   std::optional<Complaint> check(const Frame& frame);
@@ -53,7 +64,7 @@ class Verification {
   const Grains& grains_;
   Box box_;
   Vec2 gravity_;
-  double tolerance_;
+  Faithful faithful_;
   std::optional<Residual> residual_;
 
   struct Before {

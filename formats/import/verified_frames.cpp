@@ -16,8 +16,9 @@ VerifiedFrames::VerifiedFrames(const ImportSettings& settings, const std::string
   facts_ = settle_facts(facts, moment_.grains, settings);
   tolerance_ = settings.accept_residual.value_or(facts.tolerance);
   builder_ = std::make_unique<FrameBuilder>(moment_, facts_, settings);
-  verification_ = std::make_unique<Verification>(builder_->grains(), builder_->box(),
-                                                 facts_.plane.gravity, tolerance_);
+  verification_ = std::make_unique<Verification>(
+      builder_->grains(), builder_->box(), facts_.plane.gravity,
+      Faithful{tolerance_, facts.forces_are_late, facts_.step, facts_.discs ? 0.5 : 0.4});
   has_force_ = !moment_.grains.force.empty();
   has_angular_velocity_ = !moment_.grains.angular_velocity.empty();
 }
@@ -57,7 +58,8 @@ std::optional<double> residual_with(const ImportSettings& settings, const std::s
     std::optional<double> largest;
     for (std::size_t k = 0; k < moments && frames.next(frame); ++k) {
       if (frames.complaint()) return std::nullopt;
-      if (frames.residual()) largest = std::max(largest.value_or(0), frames.residual()->largest);
+      if (frames.residual())
+        largest = std::max(largest.value_or(0), frames.residual()->unexplained);
     }
     return largest;
   } catch (const ToolError&) {

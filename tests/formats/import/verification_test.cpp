@@ -38,7 +38,7 @@ struct Scene {
   }
   Verification verification(double tolerance = 1e-10) const
   {
-    return {grains, box, gravity, tolerance};
+    return {grains, box, gravity, Faithful{tolerance, false, 0, 0.5}};
   }
   std::string complaint(double tolerance = 1e-10) const
   {
@@ -118,6 +118,25 @@ TEST(Verification, DampingMayPullALittle)
   EXPECT_EQ(scene.complaint(), "no complaint");
   scene.frame.contacts.force[1] = {0, -13};
   EXPECT_TRUE(mentions(scene.complaint(), "contacts pull: 30 %"));
+}
+
+// A disc of mass 3 that gains 2 per s upward: half a step of 0.1 later the damping 7 m v is less by
+// 7 * 3 * 2 * 0.05.
+TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsWhatIsMissing)
+{
+  Scene scene;
+  scene.frame.force[1] = {0, 6};
+  scene.frame.contacts.force[0] = {0, 36 - 7 * 3 * 2 * 0.05};
+  Verification verification(scene.grains, scene.box, scene.gravity,
+                            Faithful{1e-10, true, 0.1, 0.5});
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_NEAR(verification.residual()->late->normal, 7, 1e-12);
+  EXPECT_EQ(verification.residual()->late->tangential, 0);
+  EXPECT_NEAR(verification.residual()->largest, 2.1 / 33.9, 1e-12);
+  EXPECT_LT(verification.residual()->unexplained, 1e-14);
+
+  scene.frame.contacts.force[0] = {0, 36 + 7 * 3 * 2 * 0.05};
+  EXPECT_TRUE(verification.check(scene.frame)) << "damping does not drive";
 }
 
 // Without forces on grains a fall from rest has v = g t, and the held grain none.
