@@ -26,10 +26,11 @@ std::string columns_by_name(const DumpHeader& header)
 
 class LammpsArchive : public Archive {
  public:
-  explicit LammpsArchive(const ArchiveFiles& files)
-      : dumps_(archive_files(files.grains, "--grains"), archive_files(files.contacts, "--contacts"))
+  LammpsArchive(const std::vector<std::string>& grains, const std::vector<std::string>& contacts,
+                const std::string& columns)
+      : dumps_(grains, contacts)
   {
-    if (!files.columns.empty()) columns_.emplace(files.columns);
+    if (!columns.empty()) columns_.emplace(columns);
     facts_.step = dumps_.step();
     facts_.forces_are_late = true;
     facts_.tolerance = 5e-2;
@@ -108,7 +109,9 @@ class LammpsArchive : public Archive {
 
 std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
 {
-  return std::make_unique<LammpsArchive>(files);
+  const auto grains = archive_files(files.grains, "--grains");
+  return std::make_unique<LammpsArchive>(grains, archive_files(files.contacts, "--contacts"),
+                                         files.columns);
 }
 
 }  // namespace grseg

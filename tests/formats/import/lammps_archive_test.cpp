@@ -289,7 +289,8 @@ TEST_F(Lammps, UnitsWithoutDimensionNeedToBeSaid)
   EXPECT_NEAR(run.small_diameter(), 0.0025, 1e-17);
 }
 
-// The true thing: Debian's lammps on chute.in, whose gran/hooke has gamma_n = 100, and without
+// The true thing: Debian's lammps on chute.in, whose gran/hooke has gamma_n = 100 and
+// gamma_t = 50, and without
 // damping.
 TEST_F(Lammps, WhatATrueArchiveMissesIsTheDampingOfItsInput)
 {
@@ -309,6 +310,7 @@ TEST_F(Lammps, WhatATrueArchiveMissesIsTheDampingOfItsInput)
   EXPECT_LT(*damped.largest_residual, 2e-3);
   EXPECT_LT(*damped.unexplained_residual, *damped.largest_residual / 3);
   EXPECT_NEAR(damped.late.normal, 100, 1);
+  EXPECT_NEAR(damped.late.tangential, 50, 10);
 
   s.files.grains = {at + "elastic-atoms.dump.gz"};
   s.files.contacts = {at + "elastic-contacts.dump.zst"};
