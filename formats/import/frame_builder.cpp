@@ -173,6 +173,26 @@ void FrameBuilder::build(const ArchiveMoment& moment, Frame& frame) const
   require_same_cell(moment);
   place_grains(moment, frame);
   add_contacts(moment, frame.contacts, frame);
+  require_numbers(moment, frame);
+}
+
+/// What readers of some formats let through.
+void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame& frame) const
+{
+  const auto fail = [&](const std::string& what) {
+    throw FormatError(fmt::format("{}: {} has a number that is not finite", moment.place, what));
+  };
+  for (std::size_t g = 0; g < grains_.size(); ++g)
+    if (!frame.position[g].allFinite() || !frame.velocity[g].allFinite() ||
+        !std::isfinite(frame.angular_velocity[g]) ||
+        (!frame.force.empty() && !frame.force[g].allFinite()))
+      fail(fmt::format("grain {}", grains_.id[g]));
+  const auto& contacts = frame.contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    if (!contacts.force[c].allFinite() || !contacts.branch[c].allFinite() ||
+        !std::isfinite(contacts.gap[c]))
+      fail(fmt::format("a contact of grain {}",
+                       grains_.id[static_cast<std::size_t>(contacts.i[c])]));
 }
 
 void FrameBuilder::require_same_cell(const ArchiveMoment& moment) const

@@ -47,6 +47,7 @@ class FrameBuilder {
   void make_box(const ArchiveMoment& first);
   void find_origin(const ArchiveMoment& first, const std::string& text);
   void require_a_plane(const ArchiveMoment& first) const;
+  void require_numbers(const ArchiveMoment& moment, const Frame& frame) const;
   void require_same_cell(const ArchiveMoment& moment) const;
   void place_grains(const ArchiveMoment& moment, Frame& frame) const;
   void place(const ArchiveMoment& moment, std::size_t g, std::size_t row, Frame& frame) const;

@@ -42,6 +42,13 @@ bool VerifiedFrames::next(Frame& frame)
         "{}: some moments have forces on grains and some have none; import them one by one",
         moment_.place));
   builder_->build(moment_, frame);
+  if (last_ && (frame.step <= last_->first || frame.time <= last_->second))
+    throw FormatError(
+        fmt::format("{}: step {} at {:.10g} comes after step {} at {:.10g}: time must go on, by a "
+                    "step at least; "
+                    "is --step too long?",
+                    moment_.place, frame.step, frame.time, last_->first, last_->second));
+  last_ = {frame.step, frame.time};
   complaint_ = verification_->check(frame);
   return true;
 }

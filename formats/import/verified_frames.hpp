@@ -4,9 +4,11 @@
 #include "formats/import/frame_builder.hpp"
 #include "formats/import/verification.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace grseg {
 
@@ -40,6 +42,7 @@ class VerifiedFrames {
   std::unique_ptr<FrameBuilder> builder_;
   std::unique_ptr<Verification> verification_;
   std::optional<Complaint> complaint_;
+  std::optional<std::pair<std::int64_t, double>> last_;  // step and time of the frame before
   double tolerance_ = 0;
   bool first_ = true, has_force_ = false, has_angular_velocity_ = false;
 };

@@ -14,6 +14,16 @@ using namespace lammps_text;
 
 constexpr const char* recipe = "i=2,j=3,dist=4,force=5,tangential=8";
 
+constexpr const char* without_forces = "id type mass radius x y vx vy omegaz";
+
+std::vector<std::string> rows_without_forces()
+{
+  auto rows = grain_rows();
+  for (auto& row : rows)
+    for (int k = 0; k < 2; ++k) row.resize(row.rfind(' '));
+  return rows;
+}
+
 class Lammps : public testing::Test {
  protected:
   Folder folder;
@@ -190,6 +200,35 @@ TEST_F(Lammps, MassesTellDiscsFromSpheres)
   const TrajectoryReader run(s.output);
   EXPECT_EQ(run.parameters().text("import_grains"), "discs");
   EXPECT_NEAR(run.parameters().number("density", ""), 1, 1e-12);
+}
+
+TEST_F(Lammps, AnArchiveWithoutForcesOnGrainsMakesATrajectoryWithoutThem)
+{
+  auto s = at_rest();
+  std::string grains;
+  for (const int step : {0, 100})
+    grains += block("ATOMS", step, without_forces, rows_without_forces());
+  s.files.grains = {folder.write("atoms.dump", grains)};
+  EXPECT_EQ(refusal(s).code, exit_usage) << "nothing to hold the ten columns against";
+  s.files.columns = recipe;
+  const auto report = import_archive(s, "");
+  EXPECT_LT(*report.largest_residual, 1e-15) << "grains stay at rest";
+  EXPECT_FALSE(TrajectoryReader(s.output).has_force());
+  s.overwrite = true;
+  s.files.columns = "i=2,j=3,dist=4,force=5";
+  EXPECT_TRUE(mentions(refusal(s).sentence, "difference of velocities between two moments"));
+}
+
+TEST_F(Lammps, TimesThatGoBackAreRefused)
+{
+  const auto at = [](const char* time, int step) {
+    return fmt::format("ITEM: TIME\n{}\n", time) + grains_at(step);
+  };
+  const auto s = settings(folder, at("0", 0) + at("0.001", 100) + at("0.0005", 200),
+                          contacts_at(0) + contacts_at(100) + contacts_at(200));
+  EXPECT_EQ(refusal(s).code, exit_content);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "step 200 at 0.0005 comes after step 100 at 0.001"));
+  EXPECT_EQ(folder.files(), 2u);
 }
 
 TEST_F(Lammps, MomentsAreMatchedByStepAndTimedByIt)
