@@ -12,7 +12,8 @@ TrajectoryWriter copy_frames(const TrajectoryReader& run, std::size_t frames, co
   series.reserve(observables.size());
   for (const auto& observable : observables) series.push_back(run.observable(observable.name));
 
-  TrajectoryWriter writer(to, {run.grains(), run.box(), parameters, observables}, storage);
+  TrajectoryWriter writer(to, {run.grains(), run.box(), parameters, observables, run.has_force()},
+                          storage);
   Frame frame;
   std::vector<double> values(observables.size());
   for (std::size_t k = 0; k < frames; ++k) {

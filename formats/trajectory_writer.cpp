@@ -183,7 +183,7 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
   my.image = my.create_element(at + "image", "", H5T_STD_I32LE, H5T_NATIVE_INT32, {n, 2});
   my.velocity = real(at + "velocity", "m s-1", {n, 2});
   my.angular_velocity = real(at + "angular_velocity", "s-1", {n});
-  my.force = real(at + "force", "N", {n, 2});
+  if (run.has_force) my.force = real(at + "force", "N", {n, 2});
   for (const auto& [name, unit] : run.observables) {
     my.observables.push_back(
         my.create_element("/observables/" + name, unit, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}));
@@ -199,7 +199,8 @@ TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
 void TrajectoryWriter::append(const Frame& frame, std::span<const double> observables)
 {
   auto& my = *impl_;
-  assert(frame.position.size() == my.grains && frame.force.size() == my.grains);
+  assert(frame.position.size() == my.grains);
+  assert(frame.force.size() == (my.force.dataset.valid() ? my.grains : 0));
   assert(observables.size() == my.observables.size());
   const auto& contacts = frame.contacts;
   if (const hsize_t rows = contacts.size(); rows > 0) {
@@ -213,7 +214,7 @@ void TrajectoryWriter::append(const Frame& frame, std::span<const double> observ
   my.image.append(1, frame.image.data());
   my.velocity.append(1, first(frame.velocity));
   my.angular_velocity.append(1, frame.angular_velocity.data());
-  my.force.append(1, first(frame.force));
+  if (my.force.dataset.valid()) my.force.append(1, first(frame.force));
   for (std::size_t k = 0; k < observables.size(); ++k) my.observables[k].append(1, &observables[k]);
   my.step.append(1, &frame.step);
   my.time.append(1, &frame.time);

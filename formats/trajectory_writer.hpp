@@ -18,6 +18,7 @@ struct RunDescription {
   Box box;
   Parameters parameters;
   std::vector<Observable> observables;
+  bool has_force = true;  // false: no frame has forces on grains, as of some imports
 };
 
 struct StorageSettings {

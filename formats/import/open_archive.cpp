@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/archive.hpp"
+#include "formats/import/lammps_archive.hpp"
+#include "formats/tool.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace grseg {
+namespace {
+
+struct Format {
+  const char* name;
+  std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
+};
+
+/// One line per format.
+constexpr Format formats[] = {
+    {"lammps", open_lammps},
+};
+
+}  // namespace
+
+const std::vector<std::string>& archive_formats()
+{
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& format : formats) all.emplace_back(format.name);
+    return all;
+  }();
+  return names;
+}
+
+std::unique_ptr<Archive> open_archive(const std::string& format, const ArchiveFiles& files)
+{
+  for (const auto& known : formats)
+    if (format == known.name) return known.open(files);
+  throw UsageError(fmt::format("--format: there is no '{}'; it is one of: {}", format,
+                               fmt::join(archive_formats(), ", ")));
+}
+
+}  // namespace grseg

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/errors.hpp"
+#include "formats/import/importer.hpp"
+#include "formats/tool.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+using namespace grseg;
+
+namespace {
+
+constexpr ToolInfo info{
+    "grseg-import", "archived runs of other programs become trajectories, verified on the way.",
+    "grseg-import --format NAME --grains FILES --contacts FILES [options] -o run.h5",
+    "  grseg-import --format lammps --grains atoms.dump --contacts contacts.dump \\\n"
+    "    --columns i=2,j=3,dist=4,force=5,tangential=8 --units si --step 1e-5 \\\n"
+    "    --gravity 9.8 --slope 23 --boundary 3 -o run.h5\n"
+    "  grseg-import --format lammps --grains 'atoms.*.gz' --contacts 'contacts.*.gz' --units si "
+    "\\\n"
+    "    --step 1e-5 --gravity 3.83,-9.02,0 --small 1 --large 2 --boundary 3 -o run.h5\n"};
+
+void check(const ImportSettings& settings, const po::variables_map& values)
+{
+  if (values.count("input") > 0)
+    throw UsageError(
+        fmt::format("'{}' belongs to no option; name files with --grains and --contacts",
+                    values["input"].as<std::vector<std::string>>()[0]));
+  if (settings.format.empty()) throw UsageError("name the program with --format; --help lists all");
+  if (settings.storage.compression < 0 || settings.storage.compression > 9)
+    throw UsageError("--compression is a deflate level from 0 (none) to 9");
+  if (settings.accept_residual && !(*settings.accept_residual > 0))
+    throw UsageError("--accept-residual must be positive");
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  ImportSettings settings;
+  const auto options = import_options(settings);
+  return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
+    check(settings, values);
+    const auto report = import_archive(settings, command_line(argc, argv));
+    if (!settings.quiet) fmt::print(stderr, "{}", to_text(report));
+  });
+}
