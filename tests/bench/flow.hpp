@@ -24,8 +24,7 @@ inline const Simulation& flow(const std::string& accuracy)
   po::store(po::command_line_parser(words).options(scene_options()).run(), values);
   const auto scene = resolve_scene(GRSEG_SCENES "/chute.ini", values);
   auto simulation = deposit(scene);
-  const auto gravity = to_parameters(scene).numbers.at("gravity");
-  simulation.tilt({gravity[0], gravity[1]});
+  simulation.tilt(gravity_of(scene));
   while (simulation.time() < 2) simulation.advance();
   return made.emplace(accuracy, simulation).first->second;
 }

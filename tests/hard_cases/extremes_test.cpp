@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 /// Coefficients and conditions at the ends of their ranges: each flow stays within its bound or is
 /// stopped with a sentence.
@@ -151,53 +150,6 @@ TEST(Projectile, AtTenThousandTimesTheNaturalSpeedIsRefusedWithTheStepThatHelps)
   Case("G7", "largest gain of kinetic energy in a step, relative").at_most(gain, 1e-3);
   for (std::size_t k = 20; k < caught.world().grains.size(); ++k)
     EXPECT_GT(caught.position(k).y(), 0) << k;
-}
-
-TEST(Gravity, ReversedLetsABedFallUpwardsAsAWhole)
-{
-  // Contacts pull on nothing and overlaps push nothing, so every grain gains g t.
-  auto c = flow(8, 6, 0);
-  auto bed = c.simulation();
-  for (int step = 0; step < 6000; ++step) bed.advance();
-  std::vector<Vec2> before;
-  for (std::size_t k = 0; k < c.position.size(); ++k) before.push_back(bed.velocity(k));
-  const double noise = std::sqrt(2 * kinetic_energy(bed) / c.world.grains.mass[0]);
-  bed.tilt({0, g});
-  for (int step = 0; step < 500; ++step) bed.advance();
-  const double gained = g * 500 * c.world.step;
-  Case speeds("G11", "velocity after 0.5 s of reversed gravity, over gt"),
-      calm("G11", "speed of the bed before, over gt");
-  calm.at_most(noise / gained, 1e-2);
-  for (const auto& v : before) EXPECT_TRUE(v.allFinite());
-  for (std::size_t k = 0; k < c.position.size(); ++k)
-    speeds.near(bed.velocity(k).y() / gained, 1, 1e-2);
-}
-
-TEST(Slope, ThatChangesDuringTheRunKeepsTheEnergyBudgetOfEveryStep)
-{
-  // From level to 45 degrees and back, a little with every step.
-  Case defects("G12", "energy defect of a step while the slope turns"),
-      overlaps("G12", "mean overlap, of d_S"), height("G12", "lowest centre, d_S");
-  auto c = flow(8, 8, 0);
-  auto simulation = c.simulation();
-  Frame frame;
-  const int steps = 6000;
-  double overlap = 0, touching = 0;
-  for (int step = 0; step < steps; ++step) {
-    const double slope = 0.25 * std::numbers::pi * std::sin(std::numbers::pi * step / steps);
-    simulation.tilt({g * std::sin(slope), -g * std::cos(slope)});
-    const auto report = simulation.advance(frame);
-    overlap += report.sum_overlap;
-    touching += static_cast<double>(report.touching);
-    const auto& world = simulation.world();
-    defects.at_most(
-        energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step)
-            .defect(),
-        1e-12);
-  }
-  overlaps.at_most(overlap / touching / 0.7, 0.01);
-  for (std::size_t k = 0; k < c.position.size(); ++k)
-    height.between(simulation.position(k).y() / 0.7, 0.3, 20);
 }
 
 }  // namespace

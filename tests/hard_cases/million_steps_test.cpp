@@ -54,7 +54,8 @@ Sample sample_of(const Simulation& simulation, const Frame& frame)
 
 History flow_at(const char* slope)
 {
-  const auto scene = small_chute::paper_scene({"--slope", slope});
+  // The bounds below were chosen when two flows of seed 1 were known; this one is another.
+  const auto scene = small_chute::paper_scene({"--slope", slope, "--seed", "2"});
   auto simulation = small_chute::bed(scene);
   History history;
   history.d_s = scene.small_diameter;
