@@ -107,6 +107,51 @@ TEST(Coefficients, AtTheEndsOfTheirRangesKeepTheBalanceAndTheGrains)
     }
 }
 
+/// What became of a dense cloud of rough discs between two walls, without gravity.
+struct Cooling {
+  double energy, largest_gain = 0,
+                 gains = 0;  // over that at first; of a step, relative; all, over it
+  int sweeps = 0, missed = 0;
+
+  explicit Cooling(double restitution)
+  {
+    auto c = crowd(8, 8, 1);
+    c.world.walls = {worlds::floor_at(0), {{0, 10.4}, {0, -1}}};
+    c.world.material = {0.5, restitution};
+    c.world.solver = {1e-10, 500};
+    auto cloud = c.simulation();
+    const double all = kinetic_energy(cloud);
+    double before = energy = all;
+    for (int step = 0; step < 100000; ++step) {
+      const auto report = cloud.advance().solver;
+      sweeps = std::max(sweeps, report.sweeps);
+      missed += report.converged ? 0 : 1;
+      energy = kinetic_energy(cloud);
+      largest_gain = std::max(largest_gain, energy / before - 1);
+      gains += std::max(0.0, energy - before) / all;
+      before = energy;
+    }
+    energy /= all;
+  }
+};
+
+TEST(Cloud, OfRoughDiscsCoolsWithoutGravityUntilLoadsHaveFaded)
+{
+  // With e = 0 a step is a projection: sum p u after it is friction's, so no step gains energy.
+  // With e > 0 steps in which several contacts act may (impacts_test.cpp).
+  const Cooling inelastic(0), rebounding(0.5);
+  Case("G8", "largest gain of energy of a rough cloud in a step, e = 0, relative")
+      .at_most(inelastic.largest_gain, 1e-9);
+  Case("G8", "all gains of 1e5 steps at e = 0.5, over the energy at first")
+      .at_most(rebounding.gains, 1e-3);
+  for (const auto* c : {&inelastic, &rebounding}) {
+    Case("G8", "energy left of a rough cloud after 1e5 steps, e = 0, 0.5")
+        .between(c->energy, 1e-9, 0.02);
+    Case("G8", "steps of it that miss a tolerance of 1e-10").at_most(c->missed, 0);
+    Case("G8", "most sweeps of a step of it").at_most(c->sweeps, 499);
+  }
+}
+
 /// A fixed floor of discs, five layers on it, and one disc that comes down on them at 10^4
 /// sqrt(g d).
 Simulation projectile(double step)
