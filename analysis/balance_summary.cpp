@@ -23,8 +23,8 @@ std::string direction(const std::vector<double>& push)
 
 }  // namespace
 
-BalanceSummary::BalanceSummary(const Layers& layers, double large_diameter, double gravity)
-    : layers_(layers), margin_(2 * large_diameter), gravity_(gravity)
+BalanceSummary::BalanceSummary(const Layers& layers, double large_diameter)
+    : layers_(layers), margin_(2 * large_diameter)
 {
 }
 
@@ -63,7 +63,7 @@ void BalanceSummary::add(const MomentumBalance& window)
     push += forces.push;
     push_kinetic += forces.push_kinetic;
     drag += forces.drag;
-    weight += large.density * std::abs(gravity_);
+    weight += std::abs(large.gravity.y());
   }
   if (!(weight > 0)) return;
   push_.push_back(push / weight);

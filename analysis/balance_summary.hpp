@@ -15,8 +15,8 @@ namespace grseg {
 /// windows, of which each counts as one independent value.
 class BalanceSummary {
  public:
-  /// Diameter in m, gravity along y in m/s^2.
-  BalanceSummary(const Layers& layers, double large_diameter, double gravity);
+  /// Diameter in m.
+  BalanceSummary(const Layers& layers, double large_diameter);
 
   void add(const MomentumBalance& window);
 
@@ -30,7 +30,7 @@ class BalanceSummary {
   double surface(const MomentumBalance& window) const;
 
   Layers layers_;
-  double margin_, gravity_, residual_ = 0;
+  double margin_, residual_ = 0;
   std::vector<double> push_, push_kinetic_, drag_;  // by window, over the weight
 };
 

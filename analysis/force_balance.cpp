@@ -10,7 +10,7 @@ namespace grseg {
 namespace {
 
 /// N: the largest of the frame's contact forces and of the mobile grains' weights.
-double largest_force(const Grains& grains, const Frame& frame, const Vec2& gravity)
+double largest_force(const Grains& grains, const Frame& frame, const Gravity& gravity)
 {
   double largest = 0;
   for (const auto& force : frame.contacts.force) largest = std::max(largest, force.norm());
@@ -66,9 +66,10 @@ void ForceBalance::add(const Grains& grains, const Frame& frame)
 
 void ForceBalance::add_forces(const Grains& grains, const Frame& frame, double scale)
 {
+  const Vec2 gravity = gravity_.at(frame.time);
   std::vector<Vec2> defect(grains.size());
   for (std::size_t g = 0; g < grains.size(); ++g)
-    defect[g] = grains.mass[g] * gravity_ - frame.force[g];
+    defect[g] = grains.mass[g] * gravity - frame.force[g];
   const auto& contacts = frame.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     defect[static_cast<std::size_t>(contacts.i[c])] += contacts.force[c];

@@ -3,6 +3,7 @@
 
 #include "analysis/worst_case.hpp"
 #include "formats/frame.hpp"
+#include "formats/gravity.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -17,8 +18,8 @@ namespace grseg {
 /// round-off, whatever the solver's tolerance.
 class ForceBalance {
  public:
-  /// Gravity, m/s^2, and the step h, s.
-  ForceBalance(const Vec2& gravity, double step) : gravity_(gravity), step_(step) {}
+  /// Gravity and the step h, s.
+  ForceBalance(const Gravity& gravity, double step) : gravity_(gravity), step_(step) {}
 
   /// Frames in order. A frame without `force` counts for torques only.
   void add(const Grains& grains, const Frame& frame);
@@ -40,7 +41,7 @@ class ForceBalance {
   void add_forces(const Grains& grains, const Frame& frame, double scale);
   void add_torques(const Spin& before, const Spin& after);
 
-  Vec2 gravity_;
+  Gravity gravity_;
   double step_;
   WorstCase forces_, torques_;
   Spin first_, last_;  // of the frames added; inertia_times_spin is empty before the first

@@ -116,10 +116,12 @@ Table FrameLoop::make_table(const std::string& command,
   header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run_.digest())));
 
   const auto& first = windows_.front();
+  constexpr double no_one = std::numeric_limits<double>::quiet_NaN();
+  const Vec2 gravity = run_.gravity().turns() ? Vec2(no_one, no_one) : run_.gravity().start;
   for (const auto& [key, value] : {std::pair{"small_diameter", run_.small_diameter()},
                                    {"large_diameter", run_.large_diameter()},
-                                   {"gravity_x", run_.gravity().x()},
-                                   {"gravity_y", run_.gravity().y()},
+                                   {"gravity_x", gravity.x()},
+                                   {"gravity_y", gravity.y()},
                                    {"step", run_.step()},
                                    {"length", layers_.length()},
                                    {"layer", layers_.thickness()},

@@ -43,7 +43,7 @@ Vec2 MomentumBalance::Instant::at(std::size_t layer, Species species) const
   return layer < momentum.size() ? momentum[layer][index(species)] : Vec2(0, 0);
 }
 
-MomentumBalance::MomentumBalance(const Layers& layers, const Kernel& kernel, const Vec2& gravity,
+MomentumBalance::MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity& gravity,
                                  double step)
     : layers_(layers), kernel_(kernel), gravity_(gravity), step_(step)
 {
@@ -114,13 +114,14 @@ void MomentumBalance::add_grain(const Grains& grains, const Frame& frame, std::s
   const std::size_t species = index(grains.species[grain]), count = before.momentum.size();
   const double mass = grains.mass[grain], y = frame.position[grain].y();
   const Vec2 &velocity = frame.velocity[grain], &force = frame.force[grain];
+  const Vec2 gravity = gravity_.at(frame.time);
   const Vec2 momentum = mass * velocity, momentum_before = momentum - step_ * force;
   share_kernel(layers_, kernel_, y, y, count, [&](std::size_t n, double share) {
     auto& sums = sums_[n][species];
     sums.density += share * mass;
     sums.momentum += share * momentum;
     sums.momentum_flux += share * momentum * velocity.transpose();
-    sums.gravity += share * mass * gravity_;
+    sums.gravity += share * mass * gravity;
     sums.contact += share * pull_[grain];
     sums.force += share * force;
     sums.rate -= share / step_ * momentum_before;

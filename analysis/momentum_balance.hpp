@@ -4,6 +4,7 @@
 #include "analysis/coarse_graining.hpp"
 #include "analysis/layers.hpp"
 #include "formats/frame.hpp"
+#include "formats/gravity.hpp"
 
 #include <array>
 #include <optional>
@@ -62,7 +63,7 @@ struct SpeciesMomentum {
 class MomentumBalance {
  public:
   /// Gravity in m/s^2, step h in s.
-  MomentumBalance(const Layers& layers, const Kernel& kernel, const Vec2& gravity, double step);
+  MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity& gravity, double step);
 
   /// Frames come in order of time, with velocities, forces and contacts.
   void add(const Grains& grains, const Frame& frame);
@@ -91,7 +92,7 @@ class MomentumBalance {
 
   Layers layers_;
   Kernel kernel_;
-  Vec2 gravity_;
+  Gravity gravity_;
   double step_;
   std::size_t frames_ = 0;
   std::vector<std::array<SpeciesMomentum, 2>> sums_;  // by layer and species, times V

@@ -178,6 +178,12 @@ bool PhysicsCheck::in_window(std::size_t index) const
   return window_ < windows_.size() && index >= windows_[window_].frames.front();
 }
 
+/// Whether gravity presses on the base, always in one direction.
+bool PhysicsCheck::steady_slope() const
+{
+  return gravity_.start.y() < 0 && !gravity_.turns();
+}
+
 /// Whether the energies are so small that what is missing of them is round-off of the forces.
 bool PhysicsCheck::at_rest(const TotalMotion& total) const
 {
@@ -210,8 +216,8 @@ void PhysicsCheck::begin_window(const Frame& frame)
   const auto& overlap = contacts_.overlap();
   marks_.push_back(
       {frame.time, motion_.stray(), overlap.sum, overlap.count, energy_.sum, energy_.count});
-  if (gravity_.y() < 0 && run_.box().periodic_x)
-    weights_.emplace(layers_, gravity_, small_diameter_ / 2);
+  if (steady_slope() && run_.box().periodic_x)
+    weights_.emplace(layers_, gravity_.start, small_diameter_ / 2);
 }
 
 /// The mean velocity is known now, so that fluctuations can be counted from it.
@@ -319,7 +325,8 @@ void PhysicsCheck::add_layers(std::vector<CheckLine>& lines) const
 {
   std::string why = windows_.size() < least_windows ? few_windows : "";
   if (!run_.box().periodic_x) why = "the cell is not periodic, so that walls carry a part";
-  if (!(gravity_.y() < 0)) why = "gravity does not press on the base";
+  if (!(gravity_.start.y() < 0)) why = "gravity does not press on the base";
+  if (gravity_.turns()) why = "the slope turns, so no window has one";
   const auto balances = why.empty()
                             ? balance_layers(weight_windows_, layers_, tolerances_.least_load)
                             : std::vector<LayerBalance>{};

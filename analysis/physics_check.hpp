@@ -69,6 +69,7 @@ class PhysicsCheck {
     double energy_defect = 0, frames = 0;
   };
   bool in_window(std::size_t index) const;
+  bool steady_slope() const;
   bool at_rest(const TotalMotion& total) const;
   void begin_window(const Frame& frame);
   void end_window();
@@ -84,7 +85,7 @@ class PhysicsCheck {
 
   const TrajectoryReader& run_;
   CheckTolerances tolerances_;
-  Vec2 gravity_;
+  Gravity gravity_;
   double small_diameter_;
   ContactRules rules_;
   bool rotation_, has_force_ = true;

@@ -31,8 +31,9 @@ void MotionBalance::add(const TotalMotion& now, const std::optional<Vec2>& base_
     return;
   }
   if (base_force) {
-    const double between = static_cast<double>(now.step - last_.step) * step_;
-    const Vec2 weight = now.mass * gravity_;
+    const auto steps = now.step - last_.step;
+    const double between = static_cast<double>(steps) * step_;
+    const Vec2 weight = now.mass * gravity_.mean(now.time, steps, step_);
     const double scale = between * std::max(weight.norm(), base_force->norm());
     const double defect = (now.momentum - last_.momentum - between * (weight + *base_force)).norm();
     momentum_.add(scale > 0 ? defect / scale : defect, now.time, 0);

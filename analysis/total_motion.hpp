@@ -3,6 +3,7 @@
 
 #include "analysis/worst_case.hpp"
 #include "formats/frame.hpp"
+#include "formats/gravity.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,8 +29,8 @@ TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& bo
 /// times time (trapezium rule).
 class MotionBalance {
  public:
-  /// Gravity, m/s^2, and the step, s.
-  MotionBalance(const Vec2& gravity, double step) : gravity_(gravity), step_(step) {}
+  /// Gravity and the step, s.
+  MotionBalance(const Gravity& gravity, double step) : gravity_(gravity), step_(step) {}
 
   /// Frames in order; `base_force` (N) is the mean over the steps since the frame before.
   void add(const TotalMotion& now, const std::optional<Vec2>& base_force);
@@ -42,7 +43,7 @@ class MotionBalance {
   double stray() const { return first_ ? last_.x - first_->x - way_ : 0; }
 
  private:
-  Vec2 gravity_;
+  Gravity gravity_;
   double step_;
   std::size_t frames_ = 0;
   std::optional<TotalMotion> first_;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <numbers>
 
 namespace grseg {
 namespace {
@@ -368,12 +369,15 @@ double TrajectoryReader::step() const
   return impl_->parameters.number("step", impl_->path);
 }
 
-Vec2 TrajectoryReader::gravity() const
+Gravity TrajectoryReader::gravity() const
 {
-  const auto found = impl_->parameters.numbers.find("gravity");
-  if (found == impl_->parameters.numbers.end() || found->second.size() != 2)
+  const auto& numbers = impl_->parameters.numbers;
+  const auto found = numbers.find("gravity");
+  if (found == numbers.end() || found->second.size() != 2)
     impl_->fail("/parameters/gravity should be two numbers; see formats/README.md");
-  return {found->second[0], found->second[1]};
+  const double rate =
+      numbers.count("slope_rate") > 0 ? impl_->parameters.number("slope_rate", impl_->path) : 0;
+  return {{found->second[0], found->second[1]}, rate * std::numbers::pi / 180};
 }
 
 void TrajectoryReader::read(std::size_t index, Frame& frame, Fields fields) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/frame.hpp"
+#include "formats/gravity.hpp"
 #include "formats/parameters.hpp"
 
 #include <cstdint>
@@ -40,11 +41,11 @@ class TrajectoryReader {
   const std::vector<std::int64_t>& steps() const;
   const std::vector<double>& times() const;
 
-  /// Shorthands of /parameters: nominal diameters (m), step (s), gravity (m/s^2).
+  /// Shorthands of /parameters: nominal diameters (m), step (s), gravity.
   double small_diameter() const;
   double large_diameter() const;
   double step() const;
-  Vec2 gravity() const;
+  Gravity gravity() const;
 
   void read(std::size_t index, Frame& frame, Fields fields) const;
   void read(std::size_t index, Frame& frame) const { read(index, frame, Fields{}); }

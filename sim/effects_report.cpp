@@ -21,7 +21,7 @@ std::string effects_left_out(const Scene& scene)
   // The speculative law rebounds a step later, from a velocity that was remembered.
   add(scene.restitution == 0 && !foresight, "restitution (its coefficient is 0)");
   add(!foresight, "memory of approaches (contacts act at once)");
-  add(gravity_of(scene) == Vec2::Zero(), "gravity (none)");
+  add(gravity_of(scene).norm() == 0, "gravity (none)");
   add(scene.lateral == Scene::Lateral::walls, "periodicity (the cell has ends)");
   add(!moves_boundaries(scene), "moving boundaries (all stand still)");
   return fmt::format("{}", fmt::join(all, ", "));

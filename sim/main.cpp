@@ -55,6 +55,7 @@ int main(int argc, char** argv)
       "  grseg-sim sim/scenes/chute.ini -o run.h5            the paper's flow, 150 s\n"
       "  grseg-sim chute.ini --phi-large 0.45 --slope 21 --duration 60 -o slow.h5\n"
       "  grseg-sim chute.ini --accuracy draft --duration 20 -o quick.h5\n"
+      "  grseg-sim chute.ini --slope 10 --slope-rate 2.5 --duration 8 -o steeper.h5\n"
       "  grseg-sim chute.ini --checkpoint run.chk -o run.h5\n"
       "  grseg-sim --restart run.chk -o run.h5               goes on after an interruption\n"
       "  grseg-sim --restart run.chk --duration 300 -o more.h5\n"

@@ -133,6 +133,7 @@ void resolve_geometry(const Keys& keys, Scene& scene)
   scene.depth = keys.length("depth", units, scene.small_diameter, 1e6 * scene.small_diameter);
   scene.length = keys.length("length", units, 4 * scene.large_diameter, 1e6 * scene.large_diameter);
   scene.slope = keys.number("slope", -90, 90);
+  scene.slope_rate = keys.number("slope-rate", -1e9, 1e9);
   scene.gravity = keys.number("gravity", 1e-9, 1e9);
   scene.geometry = parse_choice(keys.text("geometry"), "geometry", geometries);
   scene.base = parse_choice(keys.text("base"), "base", bases);
@@ -241,6 +242,18 @@ void resolve_accuracy(const Keys& keys, Scene& scene)
                                                scene.solver.min_sweeps, scene.solver.max_sweeps));
 }
 
+void resolve_turning(const Scene& scene)
+{
+  constexpr double most = 1;  // degree: a step feels the gravity of its middle
+  require(scene.slope_rate == 0 || scene.geometry != Scene::Geometry::shear, "slope-rate",
+          "slope-rate turns gravity, and a shear cell has none");
+  const double turn = std::abs(scene.slope_rate) * scene.step;
+  require(turn <= most, "slope-rate",
+          fmt::format("slope-rate turns gravity by {:.3g} degrees per step, above {}; choose a "
+                      "smaller one or a smaller step",
+                      turn, most));
+}
+
 }  // namespace
 
 std::int64_t Scene::steps_per_frame() const
@@ -253,11 +266,12 @@ std::int64_t Scene::steps_in_all() const
   return std::llround(duration / step);
 }
 
-Vec2 gravity_of(const Scene& scene)
+Gravity gravity_of(const Scene& scene)
 {
-  if (scene.geometry == Scene::Geometry::shear) return Vec2::Zero();
+  if (scene.geometry == Scene::Geometry::shear) return {};
   const double slope = scene.slope * std::numbers::pi / 180;
-  return {scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)};
+  return {{scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)},
+          scene.slope_rate * std::numbers::pi / 180};
 }
 
 po::options_description scene_options()
@@ -284,6 +298,7 @@ po::options_description scene_options()
   add("depth", text("60dS"), "height of the deposited bed, within 2 %");
   add("length", text("35dL"), "of the cell");
   add("slope", number(23), "degrees");
+  add("slope-rate", number(0), "degrees/s by which the slope becomes steeper from t = 0 on");
   add("gravity", number(9.8), "m/s^2");
   add("friction", number(0.5), "Coulomb's coefficient, all contacts");
   add("restitution", number(0.25), "Newton's coefficient, all contacts");
@@ -340,6 +355,7 @@ Scene resolve_scene(const po::variables_map& values)
   resolve_openings(keys, scene, units);
   resolve_shaking(keys, scene, units);
   resolve_accuracy(keys, scene);
+  resolve_turning(scene);
   scene.keep_deposition = values["keep-deposition"].as<bool>();
   require(
       !scene.keep_deposition ||
@@ -373,6 +389,7 @@ std::string to_text(const Scene& scene)
   add("depth", scene.depth);
   add("length", scene.length);
   add("slope", scene.slope);
+  add("slope-rate", scene.slope_rate);
   add("gravity", scene.gravity);
   add("friction", scene.friction);
   add("restitution", scene.restitution);
@@ -412,9 +429,10 @@ Parameters to_parameters(const Scene& scene)
 {
   Parameters parameters;
   auto& n = parameters.numbers;
-  const auto gravity = gravity_of(scene);
+  const auto gravity = gravity_of(scene).start;
   n["gravity"] = {gravity.x(), gravity.y()};
   n["slope"] = {scene.slope};
+  n["slope_rate"] = {scene.slope_rate};
   n["step"] = {scene.step};
   n["frame_interval"] = {scene.frame_interval};
   n["burst"] = {static_cast<double>(scene.burst)};

@@ -3,6 +3,7 @@
 
 #include "formats/errors.hpp"
 #include "formats/frame.hpp"
+#include "formats/gravity.hpp"
 #include "formats/parameters.hpp"
 #include "sim/solver.hpp"
 
@@ -27,7 +28,8 @@ struct Scene {
   long large_grains = -1;     // their number, where it is given instead
   double depth = 0;           // m, height H0 of the deposited bed above y = 0
   double length = 0;          // m, of the cell
-  double slope = 0;           // degrees
+  double slope = 0;           // degrees, at t = 0
+  double slope_rate = 0;      // degrees/s, from then on
   double gravity = 0;         // m/s^2
   double friction = 0;
   double restitution = 0;  // Newton's e
@@ -70,8 +72,8 @@ struct Scene {
   std::int64_t steps_in_all() const;
 };
 
-/// Gravity of the flow, m/s^2: none in a shear cell, whose plate presses instead.
-Vec2 gravity_of(const Scene& scene);
+/// Gravity of the flow: none in a shear cell, whose plate presses instead.
+Gravity gravity_of(const Scene& scene);
 
 /// The keys of a scene, for Boost.ProgramOptions, with their defaults.
 boost::program_options::options_description scene_options();

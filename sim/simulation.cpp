@@ -58,6 +58,7 @@ struct Named {
 
 Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
     : world_(with_defaults(world)),
+      gravity_(world.gravity),
       effects_(effects_of(world)),
       threads_(position.size() < worth_sharing ? 1 : world.threads),
       pairs_(world.walls, world.box,
@@ -116,6 +117,7 @@ StepReport Simulation::advance(Frame& frame)
 StepReport Simulation::step(Frame* frame)
 {
   StepReport report;
+  if (gravity_.turns()) world_.gravity = gravity_.at(time() + world_.step / 2);
   drive_bodies();
   if (frame != nullptr) {
     before_.clear();

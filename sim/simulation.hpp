@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/frame.hpp"
+#include "formats/gravity.hpp"
 #include "sim/boundary_body.hpp"
 #include "sim/detection.hpp"
 #include "sim/grain_state.hpp"
@@ -21,7 +22,7 @@ struct World {
   Box box;
   Material material;
   bool rotation = true;
-  Vec2 gravity = Vec2::Zero();  // m/s^2
+  Vec2 gravity = Vec2::Zero();  // m/s^2, of the last step where the slope turns
   double step = 0;              // h, s
   SolverSettings solver;
   /// Where along its free flight, in steps from mid-step on, a pair must touch to act in a step: 0
@@ -92,8 +93,12 @@ class Simulation {
   std::int64_t steps_done() const { return steps_done_; }
   double time() const { return static_cast<double>(steps_done_) * world_.step; }  // s
 
-  /// Turns gravity: the slope is tilted.
-  void tilt(const Vec2& gravity) { world_.gravity = gravity; }
+  /// Turns gravity: the slope is tilted, and may go on turning, by the clock.
+  void tilt(const Gravity& gravity)
+  {
+    gravity_ = gravity;
+    world_.gravity = gravity.at(time());
+  }
   /// From now on boundary grains move so.
   void drive(const std::vector<BoundaryBody>& bodies) { world_.bodies = bodies; }
   /// Sets the number of steps done, and with it the time; negative before the tilt.
@@ -144,6 +149,7 @@ class Simulation {
   void write_down_motion(Frame& frame) const;
 
   World world_;
+  Gravity gravity_;
   Effects effects_;
   int threads_;
   PairList pairs_;

@@ -34,7 +34,9 @@ struct SolverReport {
 /// reference velocity: the quadratic mean of W p over the `count` contacts, at least `floor` (m/s),
 /// so that a motionless bed stops at once. Normal and tangential parts both count, and the largest
 /// rather than the mean change decides, so that a contact which has just closed is not hidden by
-/// thousands of settled ones. `min_sweeps` come first.
+/// thousands of settled ones. `min_sweeps` come first. Changes in the last digits of the fastest
+/// velocity are convergence, too: without gravity loads fade, and no number of sweeps makes changes
+/// small against them.
 ///
 /// With `acceleration` each sweep starts beyond where the last one came to (Extrapolation, kept by
 /// the caller for its memory).

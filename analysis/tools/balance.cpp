@@ -55,7 +55,7 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   auto table = loop.make_table(
       command, {{"kernel", s.kernel}, {"width", format_number(kernel.width())}}, balance_columns());
 
-  BalanceSummary summary(loop.layers(), run.large_diameter(), run.gravity().y());
+  BalanceSummary summary(loop.layers(), run.large_diameter());
   for (const auto& window : loop.windows()) {
     const auto [balance] =
         loop.sum(window, {.velocity = true, .contacts = true, .force = true},

@@ -403,7 +403,7 @@ TEST_F(Check, BalancesOfTwoHalvesMergeIntoThatOfTheWhole)
   column.frames[10].angular_velocity[3] = 5;
   column.frames[3].contacts.force[2] *= 1.5;
   const auto& grains = column.description.grains;
-  ForceBalance whole({2, -weight}, h), first = whole, second = whole;
+  ForceBalance whole(Vec2(2, -weight), h), first = whole, second = whole;
   for (std::size_t k = 0; k < 20; ++k) {
     whole.add(grains, column.frames[k]);
     (k < 10 ? first : second).add(grains, column.frames[k]);

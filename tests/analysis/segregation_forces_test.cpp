@@ -110,7 +110,7 @@ TEST(SegregationForces, WhatMovesLessIsPushedFromTheHotSide)
 {
   constexpr double w = 0.2, speed = 0.5;
   const Kernel box(KernelShape::heaviside, w);
-  MomentumBalance balance(unit_layers, box, {0, 0}, step);
+  MomentumBalance balance(unit_layers, box, {}, step);
   Scene scene;
   scene.grain(Species::large, 0.1, {2, 1.5});
   for (const double sign : {-1, 1}) scene.grain(Species::small, 0.1, {4, 1.05}, {0, sign * speed});
@@ -195,7 +195,7 @@ TEST(BalanceTable, KineticStressCountsFromTheMeanOfBothSpecies)
 // Layers 2 to 7 are two diameters away from base and surface.
 TEST(BalanceSummary, SaysWhichWayItGoesInUnitsOfTheWeight)
 {
-  BalanceSummary summary(unit_layers, 1, -9);
+  BalanceSummary summary(unit_layers, 1);
   EXPECT_EQ(summary.sentence(), "the balances close to 0.0e+00 of the largest term of each");
   double sum = 0, squares = 0;
   for (const double load : {2, 3, 4}) {
@@ -213,7 +213,7 @@ TEST(BalanceSummary, SaysWhichWayItGoesInUnitsOfTheWeight)
 
 TEST(BalanceSummary, WhatIsWithinItsErrorGoesNeitherWay)
 {
-  BalanceSummary summary(unit_layers, 1, -9);
+  BalanceSummary summary(unit_layers, 1);
   summary.add(balance_of(columns(10, 3)));
   summary.add(balance_of(columns(10, -3)));
   EXPECT_NE(summary.sentence().find("pushed neither way ("), std::string::npos)
@@ -225,7 +225,7 @@ TEST(BalanceSummary, TellsTheLargestResidualOverItsLargestTerm)
   auto scene = columns(10, 0);
   push_apart(scene, 4, 15, {-9 * pi / 8, 0});
   scene.frame.force[4].y() += 9 * pi / 4 * 0.01;  // at the middle of layer 3, where 1 is its weight
-  BalanceSummary summary(unit_layers, 1, -9);
+  BalanceSummary summary(unit_layers, 1);
   summary.add(balance_of(scene));
   EXPECT_NEAR(summary.residual(), 0.01, 1e-12);
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/effects_report.hpp"
 #include "sim/recorder.hpp"
 #include "tests/bench/flow.hpp"
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <functional>
@@ -113,6 +116,27 @@ void frames_in_a_file(benchmark::State& state)
   std::filesystem::remove(path);
 }
 
+/// A scene in kernels that see to all that the simulator knows, bodies that move among it (here
+/// they stand), against its own. Where there is no gravity a faint one would not give the same
+/// bytes (tests/sim/effects_test.cpp), so that this is left out of both.
+void whole_scene(benchmark::State& state, const std::string& name, double time)
+{
+  const auto& start = scene_at(time, name);
+  auto world = start.world();
+  world.general = true;
+  if (world.bodies.empty()) {
+    const auto& fixed = world.grains.fixed;
+    BoundaryBody still;
+    still.begin =
+        static_cast<std::uint32_t>(std::find(fixed.begin(), fixed.end(), 1) - fixed.begin());
+    still.end = static_cast<std::uint32_t>(fixed.size());
+    world.bodies = {still};
+  }
+  compare(state, {Simulation(world, start.state())}, {Simulation(start.world(), start.state())});
+  state.counters["grains"] = static_cast<double>(world.grains.size());
+  state.SetLabel(effects_left_out(scene_called(name)));
+}
+
 template <class... Arguments>
 void add(const char* name, Arguments... arguments)
 {
@@ -146,6 +170,15 @@ void add_all()
       Changes{smooth, inelastic, between_walls, unturned});
   add("frames", frames);
   add("frames_in_a_file", frames_in_a_file);
+  // Each while it does what it is known for.
+  for (const auto& [name, time] : {std::pair{"chute", 2.0},
+                                   {"intruder", 2.0},
+                                   {"drum", 2.0},
+                                   {"shear", 2.0},
+                                   {"shaken-box", 1.0},
+                                   {"column", 0.1},
+                                   {"hopper", 0.5}})
+    add(fmt::format("scene/{}", name).c_str(), whole_scene, name, time);
 }
 
 }  // namespace

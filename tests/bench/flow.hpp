@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "sim/boundaries.hpp"
 #include "sim/deposition.hpp"
 #include "sim/scene.hpp"
 
@@ -9,25 +10,37 @@
 #include <string>
 #include <vector>
 
-/// The paper's chute in developed flow, for measurements: deposited when first asked for, and two
-/// seconds of flow.
+/// Scenes in motion, for measurements, deposited when first asked for; the paper's chute in
+/// developed flow, after two seconds.
 namespace grseg {
 
-/// The chute in flow; copied by whoever changes it.
-inline const Simulation& flow(const std::string& accuracy)
+/// The scene of sim/scenes that is called `name`.
+inline Scene scene_called(const std::string& name, const std::string& accuracy = "standard")
 {
   namespace po = boost::program_options;
-  static std::map<std::string, Simulation> made;
-  if (const auto found = made.find(accuracy); found != made.end()) return found->second;
   const std::vector<std::string> words{"--accuracy", accuracy};
   po::variables_map values;
   po::store(po::command_line_parser(words).options(scene_options()).run(), values);
-  const auto scene = resolve_scene(GRSEG_SCENES "/chute.ini", values);
-  auto simulation = deposit(scene);
-  const auto gravity = to_parameters(scene).numbers.at("gravity");
-  simulation.tilt({gravity[0], gravity[1]});
-  while (simulation.time() < 2) simulation.advance();
-  return made.emplace(accuracy, simulation).first->second;
+  return resolve_scene(GRSEG_SCENES "/" + name + ".ini", values);
+}
+
+/// A scene `time` seconds after its begin; copied by whoever changes it.
+inline const Simulation& scene_at(double time, const std::string& name,
+                                  const std::string& accuracy = "standard")
+{
+  static std::map<std::string, Simulation> made;
+  const auto key = name + " " + accuracy;
+  if (const auto found = made.find(key); found != made.end()) return found->second;
+  const auto scene = scene_called(name, accuracy);
+  auto simulation = release(deposit(scene), scene);
+  while (simulation.time() < time) simulation.advance();
+  return made.emplace(key, simulation).first->second;
+}
+
+/// The chute in flow.
+inline const Simulation& flow(const std::string& accuracy)
+{
+  return scene_at(2, "chute", accuracy);
 }
 
 /// The grains of `one`, `copies` times side by side, as they move, without the impulses of their

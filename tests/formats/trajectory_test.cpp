@@ -91,7 +91,7 @@ TEST_F(Trajectory, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(reader.grains().fixed, three_grains::grains().fixed);
   EXPECT_EQ(reader.box().length_x, 0.35);
   EXPECT_TRUE(reader.box().periodic_x);
-  EXPECT_EQ(reader.gravity(), Vec2(3.8, -9.0));
+  EXPECT_EQ(reader.gravity().start, Vec2(3.8, -9.0));
   EXPECT_EQ(reader.parameters().text("history"), "three grains by hand");
   EXPECT_EQ(reader.observable("translational_energy"), (std::vector<double>{0, 0.5, 1}));
   Frame frame;

@@ -150,7 +150,7 @@ struct Burdened {
     EXPECT_NEAR(before, weight, 1e-3 * weight);
     const auto top = static_cast<std::size_t>(discs - 1);
     const double start = simulation.position(top).y();
-    simulation.tilt(1.05 * world.gravity);
+    simulation.tilt(Vec2(1.05 * world.gravity));
     for (int k = 0; k < steps; ++k) {
       force.push_back((simulation.advance().base_impulse.y() - before) / (0.05 * weight));
       sink.push_back((start - simulation.position(top).y()) / (0.05 * gh * world.step));

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numeric>
 #include <tuple>
 
 /// The paper's chute for 1e6 steps: what grows without bound, however slowly, shows here.
@@ -54,7 +55,8 @@ Sample sample_of(const Simulation& simulation, const Frame& frame)
 
 History flow_at(const char* slope)
 {
-  const auto scene = small_chute::paper_scene({"--slope", slope});
+  // The bound at equal speed was chosen when two flows of seed 1 were known; this one is another.
+  const auto scene = small_chute::paper_scene({"--slope", slope, "--seed", "2"});
   auto simulation = small_chute::bed(scene);
   History history;
   history.d_s = scene.small_diameter;
@@ -89,19 +91,20 @@ History flow_at(const char* slope)
 
 /// How the mean overlap goes over the second half of the run, in twenty blocks of 25,000 steps,
 /// which forget one another. Impacts overlap by their speed times the step, and the speed of the
-/// flow still rises as the large grains come up, so two trends: a straight line in time, and one in
-/// time and the root of the kinetic energy together, whose slope in time is what the scheme piles
-/// up. Per 10^6 steps and over the mean; standard errors from the scatter of the blocks.
+/// flow still rises as the large grains come up, so what the scheme piles up is what the overlap
+/// gains on the speed, the root of the kinetic energy: the trend of their quotient, and the slope
+/// in time of a fit in time and speed together. Per 10^6 steps and over the mean; standard errors
+/// from the scatter of the blocks.
 struct Drift {
   static constexpr std::size_t blocks = 20;
   double mean = 0;
-  double slope = 0, error = 0;          // in time alone
+  double slope = 0, error = 0;          // of overlap over speed, in time alone
   double own_slope = 0, own_error = 0;  // at equal speed of the flow
 
   explicit Drift(const std::vector<Sample>& samples)
   {
     const std::size_t first = samples.size() / 2, size = (samples.size() - first) / blocks;
-    std::vector<double> time, overlap, speed;
+    std::vector<double> time, overlap, speed, quotient;
     for (std::size_t b = 0; b < blocks; ++b) {
       double t = 0, o = 0, k = 0;
       for (std::size_t s = first + b * size; s < first + (b + 1) * size; ++s) {
@@ -112,16 +115,21 @@ struct Drift {
       time.push_back(t / samples.back().time);
       overlap.push_back(o);
       speed.push_back(std::sqrt(k));
-      mean += o / blocks;
+      quotient.push_back(o / speed.back());
     }
-    std::tie(slope, error) = fit(overlap, {time});
-    std::tie(own_slope, own_error) = fit(overlap, {time, speed});
+    const auto mean_of = [](const std::vector<double>& values) {
+      return std::accumulate(values.begin(), values.end(), 0.0) / blocks;
+    };
+    mean = mean_of(overlap);
+    std::tie(slope, error) = fit(quotient, mean_of(quotient), {time});
+    std::tie(own_slope, own_error) = fit(overlap, mean, {time, speed});
   }
 
  private:
-  /// Coefficient of the first of the regressors, beside a constant, and its standard error.
-  std::pair<double, double> fit(const std::vector<double>& values,
-                                const std::vector<std::vector<double>>& regressors) const
+  /// Coefficient of the first of the regressors, beside a constant, and its standard error, both
+  /// over `unit`.
+  static std::pair<double, double> fit(const std::vector<double>& values, double unit,
+                                       const std::vector<std::vector<double>>& regressors)
   {
     const std::size_t terms = regressors.size() + 1;
     const std::unique_ptr<gsl_matrix, decltype(&gsl_matrix_free)> x{gsl_matrix_alloc(blocks, terms),
@@ -139,8 +147,8 @@ struct Drift {
     }
     double squares = 0;
     gsl_multifit_linear(x.get(), y.get(), c.get(), covariance.get(), &squares, work.get());
-    return {gsl_vector_get(c.get(), 1) / mean,
-            std::sqrt(gsl_matrix_get(covariance.get(), 1, 1)) / mean};
+    return {gsl_vector_get(c.get(), 1) / unit,
+            std::sqrt(gsl_matrix_get(covariance.get(), 1, 1)) / unit};
   }
 };
 
@@ -171,9 +179,9 @@ void check(const std::string& slope)
 
   const Drift overlap(history.samples);
   Case(name, case_of("mean overlap, d_S")).at_most(overlap.mean, 0.01);
-  Case(name, case_of("change of the mean overlap in 1e6 steps, over the mean"))
-      .near(overlap.slope, 0, 0.1);
-  Case(name, case_of("the same at equal speed of the flow, over the mean"))
+  Case(name, case_of("growth of overlap over speed in 1e6 steps, over its standard error"))
+      .at_most(std::max(0.0, overlap.slope) / overlap.error, 3);
+  Case(name, case_of("change of the mean overlap at equal speed in 1e6 steps, over the mean"))
       .near(overlap.own_slope, 0, 3 * overlap.own_error);
   Case(name, case_of("standard error of this, over the mean")).at_most(overlap.own_error, 0.02);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/energy_balance.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/flows.hpp"
+#include "tests/hard_cases/recorded.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,6 +85,47 @@ TEST(SizeRatio, OfTenAndAHundredLosesNoPair)
     }
     EXPECT_GT(most, 100u);
   }
+}
+
+TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheRemedyForItsOverlapHelps)
+{
+  // The large discs are 10^4 times as heavy as those on which they come down.
+  Case defects("G3", "energy defect of a step, size ratio 100"),
+      momenta("G3", "impulse of the floor less that of weight and change of momentum, relative"),
+      lowest("G3", "lowest centre above the floor, of d_S");
+  const auto c = large_and_small(100);
+  auto simulation = c.simulation();
+  const auto& grains = c.world.grains;
+  double mass = 0;
+  const auto momentum = [&] {
+    Vec2 sum = Vec2::Zero();
+    for (std::size_t k = 0; k < grains.size(); ++k) sum += grains.mass[k] * simulation.velocity(k);
+    return sum;
+  };
+  for (const double m : grains.mass) mass += m;
+  const Vec2 start = momentum();
+  Vec2 floor = Vec2::Zero();
+  Frame frame;
+  const int steps = 1500;
+  for (int step = 0; step < steps; ++step) {
+    floor += simulation.advance(frame).base_impulse;
+    const auto balance =
+        energy_balance(grains, frame, simulation.before(), c.world.gravity, c.world.step);
+    defects.at_most(balance.defect(), 1e-12);
+  }
+  const Vec2 weight = steps * c.world.step * mass * c.world.gravity;
+  momenta.at_most((floor + weight - momentum() + start).norm() / weight.norm(), 1e-12);
+  for (std::size_t k = 0; k < grains.size(); ++k)
+    lowest.between(simulation.position(k).y() / 0.01, 0.3, 1000);
+
+  // They land with 0.03 d_S per step. That is too fast for a run, and a quarter of it is not.
+  const auto words = words_of_a_run(c.simulation(), 0.01, steps, 10);
+  Case("G3", "a run says that the mean overlap is too large and what to do")
+      .holds(words.find("use a smaller step or tolerance") != std::string::npos);
+  auto slower = c;
+  slower.world.step /= 4;
+  Case("G3", "with a quarter of the step it stays within its bounds")
+      .holds(words_of_a_run(slower.simulation(), 0.01, steps, 10).empty());
 }
 
 }  // namespace

@@ -86,9 +86,27 @@ TEST(Scene, GravityPointsDownTheSlopeAndIntoTheBase)
   EXPECT_NEAR(gravity[1], -9.8 * std::sqrt(3.0) / 2, 1e-12);
 }
 
+TEST(Scene, ASlopeThatTurnsIsToldAndMustTurnSlowly)
+{
+  const auto scene = scene_from({"--slope", "0", "--slope-rate", "5"});
+  EXPECT_EQ(to_parameters(scene).numbers.at("slope_rate").at(0), 5);
+  const auto later = gravity_of(scene).at(6);  // at 30 degrees
+  EXPECT_NEAR(later.x(), 4.9, 1e-12);
+  for (const auto& words : {std::vector<std::string>{"--slope-rate", "5000"},
+                            {"--slope-rate", "5", "--geometry", "shear"}}) {
+    try {
+      scene_from(words);
+      FAIL();
+    } catch (const SceneError& error) {
+      EXPECT_EQ(error.key, "slope-rate");
+    }
+  }
+}
+
 TEST(Scene, ItsTextMakesTheSameScene)
 {
-  const auto scene = scene_from({"--phi-large", "0.45", "--slope", "21.5", "--rotation", "off"});
+  const auto scene = scene_from(
+      {"--phi-large", "0.45", "--slope", "21.5", "--rotation", "off", "--slope-rate", "0.25"});
   const auto path =
       (fs::temp_directory_path() / ("grseg_scene_" + std::to_string(getpid()) + ".ini")).string();
   std::ofstream(path) << to_text(scene);

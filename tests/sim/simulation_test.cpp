@@ -60,7 +60,7 @@ TEST(Simulation, ASettledBedPressesOnItsBaseWithItsWeightAtEveryStep)
 TEST(Simulation, ContactForcesAndWeightMakeUpTheForceOfEveryGrainToRoundOff)
 {
   auto simulation = settled_heap(1e-2);
-  simulation.tilt({g * std::sin(0.5), -g * std::cos(0.5)});
+  simulation.tilt(Vec2(g * std::sin(0.5), -g * std::cos(0.5)));
   Frame frame;
   for (int k = 0; k < 100; ++k) {
     simulation.advance(frame);
