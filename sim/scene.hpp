@@ -28,7 +28,7 @@ struct Scene {
   double depth = 0;           // m, height H0 of the deposited bed above y = 0
   double length = 0;          // m, of the cell
   double slope = 0;           // degrees
-  double gravity = 0;         // m/s^2
+  double gravity = 0;         // m/s^2; of a shear cell: of its deposition, and of its time scale
   double friction = 0;
   double restitution = 0;  // Newton's e
   bool rotation = true;
@@ -72,6 +72,9 @@ struct Scene {
 
 /// Gravity of the flow, m/s^2: none in a shear cell, whose plate presses instead.
 Vec2 gravity_of(const Scene& scene);
+
+/// The axis of a drum, m: y = 0 is its lowest point.
+Vec2 drum_centre(const Scene& scene);
 
 /// The keys of a scene, for Boost.ProgramOptions, with their defaults.
 boost::program_options::options_description scene_options();
