@@ -24,6 +24,7 @@ constexpr ToolInfo info{
     "  grseg-stress run.h5 -o sums.tsv                  layers of 4 dS, windows of 1.25 s\n"
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
     "  grseg-stress run.h5 --assign gauss --width 1dS   coarse grained by a Gaussian\n"
+    "  grseg-stress drum.h5 --bins radius --layer 2dS   annuli about the axis of a drum\n"
     "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n"
     "  grseg-stress --merge seed1.tsv seed2.tsv         the sums of two runs as one table\n",
     presets::stress};
@@ -63,6 +64,7 @@ po::options_description options_into(Settings& s)
                         "of tables instead of a run: means weighted by frames, window by window");
   options.add_options()("all-windows", po::bool_switch(&s.all_windows),
                         "with --merge: of all windows together");
+  s.frames.add_bins_to(options);
   s.frames.add_to(options);
   return options;
 }
@@ -85,6 +87,11 @@ Rules rules_of(Settings& s, const po::variables_map& values)
       s.assign, "--assign",
       {"contact-point", "branch", "grain", kernel_names[0], kernel_names[1], kernel_names[2]});
   Rules rules{assignments[word], {}, {}, {}};
+  if (s.frames.annuli() && s.assign != "contact-point" && s.assign != "grain")
+    throw UsageError(fmt::format(
+        "--assign {} spreads contacts over layers, not over annuli; with --bins {} take "
+        "contact-point or grain",
+        s.assign, s.frames.bins));
   if (word >= first_kernel) rules.shape = static_cast<KernelShape>(word - first_kernel);
   if (s.composition.empty()) s.composition = rules.shape ? "kernel" : "clipped";
   rules.area = static_cast<GrainArea>(
