@@ -265,6 +265,12 @@ Vec2 gravity_of(const Scene& scene)
   return {scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)};
 }
 
+double contact_margin(const Scene& scene)
+{
+  if (scene.law != Scene::Law::speculative) return 0;
+  return scene.horizon * scene.step * std::sqrt(scene.gravity * scene.small_diameter);
+}
+
 Vec2 drum_centre(const Scene& scene)
 {
   return {scene.length / 2, scene.drum_diameter / 2};
@@ -439,6 +445,7 @@ Parameters to_parameters(const Scene& scene)
   n["restitution"] = {scene.restitution};
   n["rotation"] = {scene.rotation ? 1.0 : 0.0};
   n["horizon"] = {scene.horizon};
+  n["contact_margin"] = {contact_margin(scene)};
   n["tolerance"] = {scene.solver.tolerance};
   n["acceleration"] = {scene.solver.acceleration ? 1.0 : 0.0};
   n["min_sweeps"] = {static_cast<double>(scene.solver.min_sweeps)};

@@ -73,6 +73,10 @@ struct Scene {
 /// Gravity of the flow, m/s^2: none in a shear cell, whose plate presses instead.
 Vec2 gravity_of(const Scene& scene);
 
+/// m, within which a pair counts as touching where its law looks; of the speculative law, what
+/// neighbours may add to an approach within a step.
+double contact_margin(const Scene& scene);
+
 /// The axis of a drum, m: y = 0 is its lowest point.
 Vec2 drum_centre(const Scene& scene);
 
