@@ -105,7 +105,8 @@ void FrameOptions::add_bins_to(po::options_description& options)
 {
   options.add_options()(
       "bins", po::value(&bins)->default_value(bins)->value_name("WORD"),
-      "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about this "
+      "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
+      "this "
       "one), of thickness --layer; in annuli y is the distance from the axis and x goes round it, "
       "clockwise");
 }
@@ -180,8 +181,8 @@ Table FrameLoop::make_table(const std::string& command,
                                    {"stride", static_cast<double>(options_.windows.stride)}})
     header.emplace_back(key, format_number(value));
   if (const auto& axis = layers_.axis())
-    header.emplace_back("bins", fmt::format("radius {} {}", format_number(axis->x()),
-                                            format_number(axis->y())));
+    header.emplace_back(
+        "bins", fmt::format("radius {} {}", format_number(axis->x()), format_number(axis->y())));
   const auto origin = run_.parameters().text("origin");
   header.emplace_back("origin", origin.empty() ? "unknown" : origin);
   header.insert(header.end(), settings.begin(), settings.end());

@@ -27,9 +27,9 @@ double disc_area_within(double radius, double distance, double limit);
 /// all that is below y = 0, and the last all that is above it. There are as many as the highest
 /// mobile grain reaches; the last one keeps its full thickness and volume.
 ///
-/// Or annuli about an axis, as a drum asks for: y is then the distance from the axis, outward, and x
-/// goes round it clockwise, so that (x, y) is right-handed as over a base. Annulus n is
-/// [n h, (n+1) h), of volume pi h^2 (2 n + 1).
+/// Or annuli about an axis, as a drum asks for: y is then the distance from the axis, outward, and
+/// x goes round it clockwise, so that (x, y) is right-handed as over a base. Annulus n is [n h,
+/// (n+1) h), of volume pi h^2 (2 n + 1).
 class Layers {
  public:
   /// Thickness h and length Lx of the cell, m. UsageError unless both are positive.
@@ -40,8 +40,8 @@ class Layers {
 
   const std::optional<Vec2>& axis() const { return axis_; }  // of annuli
   double thickness() const { return thickness_; }
-  double volume(std::size_t layer) const;                 // m^2
-  double length() const { return length_; }               // m
+  double volume(std::size_t layer) const;    // m^2
+  double length() const { return length_; }  // m
   // Multiplying, not adding up: edges are the same in every tool and stay exact.
   double bottom(std::size_t layer) const { return static_cast<double>(layer) * thickness_; }
   double top(std::size_t layer) const { return bottom(layer + 1); }
@@ -74,7 +74,8 @@ class Layers {
   /// Of a disc at height y, the area below the top of a layer.
   double area_below_top(std::size_t layer, double y, double radius) const
   {
-    return axis_ ? disc_area_within(radius, y, top(layer)) : disc_area_below(radius, top(layer) - y);
+    return axis_ ? disc_area_within(radius, y, top(layer))
+                 : disc_area_below(radius, top(layer) - y);
   }
 
   double thickness_, length_;

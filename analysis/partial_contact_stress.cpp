@@ -102,9 +102,8 @@ void PartialContactStress::add(const Grains& grains, const Frame& frame)
     const Vec2 touch = position - share_i * branch;
     const double y_i = layers_.height(position), y_j = layers_.height(position - branch);
     const double y_contact = layers_.height(touch);
-    const Contact contact{
-        layers_.turned(force, touch) * layers_.turned(branch, touch).transpose(),
-        std::min(layers_.at(y_contact), count_ - 1)};
+    const Contact contact{layers_.turned(force, touch) * layers_.turned(branch, touch).transpose(),
+                          std::min(layers_.at(y_contact), count_ - 1)};
     sums_[contact.layer].contacts[static_cast<std::size_t>(type)] += 1;
 
     if (type == PairType::SS || type == PairType::LL) {

@@ -174,8 +174,7 @@ void resolve_plate(const Keys& keys, Scene& scene)
           "lateral is walls: plates of a shear cell go round; say periodic");
   require(scene.base == Scene::Base::grains, "base",
           "base is wall: plates of a shear cell are rough; say grains");
-  if (!keys.given("gravity"))
-    scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
+  if (!keys.given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
 }
 
 void resolve_openings(const Keys& keys, Scene& scene, LengthUnits units)
@@ -301,7 +300,8 @@ po::options_description scene_options()
   add("length", text("35dL"), "of the cell");
   add("slope", number(23), "degrees");
   add("gravity", number(9.8),
-      "m/s^2; of a shear cell that of the deposition alone, by default such that the bed presses on "
+      "m/s^2; of a shear cell that of the deposition alone, by default such that the bed presses "
+      "on "
       "its base about as the plate is going to");
   add("friction", number(0.5), "Coulomb's coefficient, all contacts");
   add("restitution", number(0.25), "Newton's coefficient, all contacts");

@@ -130,15 +130,23 @@ def drum(paths):
 
 def intruder(paths):
     """Per run, apart by two empty lines: time and height of the large grain, in small diameters,
-    beside twice the mean height of all."""
-    print("time\theight\tbed")
+    beside twice the mean height of all; before it, when it first stood at a quarter and at three
+    quarters of that."""
     for path in paths:
         run = Run(path)
         d = run.key("small-diameter")
         large = numpy.flatnonzero(run.species == 1)[0]
-        for time, position in zip(run.time, run.position):
-            bed = 2 * numpy.average(position[run.mobile, 1], weights=run.mass[run.mobile])
-            print(time, position[large, 1] / d, bed / d, sep="\t")
+        height = run.position[:, large, 1] / d
+        weight = run.mass[run.mobile]
+        bed = numpy.array([2 * numpy.average(p[run.mobile, 1], weights=weight) / d
+                           for p in run.position])
+        typical = numpy.median(bed)
+        first = [run.time[height > part * typical][0] if (height > part * typical).any()
+                 else numpy.nan for part in (0.25, 0.75)]
+        print(f"# bed {typical:.1f} d_S; quarter at {first[0]:.2f} s, three quarters at {first[1]:.2f} s")
+        print("# time\theight\tbed")
+        for row in zip(run.time, height, bed):
+            print(*row, sep="\t")
         print("\n")
 
 

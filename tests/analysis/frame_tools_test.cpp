@@ -92,8 +92,8 @@ TEST_F(FrameTools, StressHasTheSumsOfTheThreeGrains)
               1e-18);
 }
 
-// The three grains lie straight below the axis, where outward is down and clockwise is up-slope: the
-// mixed contact 12.5 mm from it, that with the boundary 22.5 mm.
+// The three grains lie straight below the axis, where outward is down and clockwise is up-slope:
+// the mixed contact 12.5 mm from it, that with the boundary 22.5 mm.
 TEST_F(FrameTools, AnnuliLieAboutTheAxisOfADrum)
 {
   auto description = three_grains::description();

@@ -290,7 +290,8 @@ TEST_F(Check, TheSpeculativeLawAllowsTheGapThatFreeFlightWouldClose)
   }
 }
 
-// The plate of a shear cell gives way within the step, and without gravity the file tells the margin.
+// The plate of a shear cell gives way within the step, and without gravity the file tells the
+// margin.
 TEST_F(Check, ABoundaryThatGivesWayIsTakenAsItMovedBeforeTheStep)
 {
   const double gap = 30e-6, flight = 0.75 * h;
@@ -300,7 +301,8 @@ TEST_F(Check, ABoundaryThatGivesWayIsTakenAsItMovedBeforeTheStep)
     column.description.parameters.numbers["horizon"] = {0.75};
     column.description.parameters.numbers["contact_margin"] = {margin};
     Column::lift_top(column.frames[7], gap);
-    EXPECT_EQ(failed(column), margin > gap ? Names{} : (Names{"open_gap_largest", "open_gap_mean"}));
+    EXPECT_EQ(failed(column),
+              margin > gap ? Names{} : (Names{"open_gap_largest", "open_gap_mean"}));
   }
   ContactRules rules;
   rules.step = h;

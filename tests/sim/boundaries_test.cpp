@@ -145,9 +145,8 @@ TEST(Boundaries, AShearCellHoldsItsPressureAndItsPlateItsSpeed)
 
 TEST(Boundaries, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
 {
-  const auto scene =
-      scene_from({"--geometry", "shear", "--length", "10dL", "--depth", "10dS", "--plate-speed",
-                  "0.1", "--size-ratio", "1", "--spread", "0.4"});
+  const auto scene = scene_from({"--geometry", "shear", "--length", "10dL", "--depth", "10dS",
+                                 "--plate-speed", "0.1", "--size-ratio", "1", "--spread", "0.4"});
   auto simulation = released(scene);
   const auto first = static_cast<int>(bodies_of(scene, simulation.world().grains).front().begin);
   run_for(simulation, 0.5);
@@ -170,8 +169,8 @@ TEST(Boundaries, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
 TEST(Boundaries, AShearCellTakesItsTimeFromItsPressure)
 {
   const auto one = scene_from({"--geometry", "shear", "--plate-pressure", "2"});
-  const auto hundred = scene_from({"--geometry", "shear", "--plate-pressure", "200",
-                                   "--frame-interval", "0.005"});
+  const auto hundred =
+      scene_from({"--geometry", "shear", "--plate-pressure", "200", "--frame-interval", "0.005"});
   EXPECT_NEAR(one.step, 10 * hundred.step, 1e-12);
   const auto given = scene_from({"--geometry", "shear", "--gravity", "9.8"});
   EXPECT_EQ(given.step, scene_from({}).step);
@@ -179,8 +178,8 @@ TEST(Boundaries, AShearCellTakesItsTimeFromItsPressure)
 
 TEST(Boundaries, AShearCellIsReleasedInALinearFlow)
 {
-  const auto scene = scene_from({"--geometry", "shear", "--length", "10dL", "--depth", "16dS",
-                                 "--plate-speed", "5"});
+  const auto scene = scene_from(
+      {"--geometry", "shear", "--length", "10dL", "--depth", "16dS", "--plate-speed", "5"});
   const auto deposited = deposit(scene);
   const auto simulation = release(deposited, scene);
   const auto& grains = simulation.world().grains;
