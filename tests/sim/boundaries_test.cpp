@@ -145,14 +145,14 @@ TEST(Boundaries, AShearCellHoldsItsPressureAndItsPlateItsSpeed)
 
 TEST(Boundaries, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
 {
-  const auto scene = scene_from({"--geometry", "shear", "--length", "10dL", "--depth", "10dS",
+  const auto scene = scene_from({"--geometry", "shear", "--length", "30dS", "--depth", "40dS",
                                  "--plate-speed", "0.1", "--size-ratio", "1", "--spread", "0.4"});
   auto simulation = released(scene);
   const auto first = static_cast<int>(bodies_of(scene, simulation.world().grains).front().begin);
-  run_for(simulation, 0.5);
+  run_for(simulation, 0.25);
   Frame frame;
   double at_plate = 0, elsewhere = 0, count_at_plate = 0, count_elsewhere = 0;
-  for (int step = 0; step < 4000; ++step) {
+  for (int step = 0; step < 2000; ++step) {
     simulation.advance(frame);
     for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
       const double gap = frame.contacts.gap[c];
@@ -163,7 +163,7 @@ TEST(Boundaries, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
     }
   }
   EXPECT_GT(count_at_plate, 1000);
-  EXPECT_LT(at_plate / count_at_plate, 2 * elsewhere / count_elsewhere);
+  EXPECT_LT(at_plate / count_at_plate, elsewhere / count_elsewhere);
 }
 
 TEST(Boundaries, AShearCellTakesItsTimeFromItsPressure)
