@@ -1,4 +1,4 @@
-# The large grain rises to the top of a shaken bed, one curve per seed.
+# The large grain rises to the top of a shaken bed, one curve per seed, one point per shake.
 #   gnuplot -c scripts/scenes/shaken-box.gp shaken-box.tsv shaken-box.png
 set terminal pngcairo size 800,560 font "DejaVu Sans,11"
 set output ARG2
@@ -8,5 +8,5 @@ set key bottom right
 set xlabel "time (s)"
 set ylabel "height / d_S"
 stats ARG1 using 1 nooutput
-plot for [k=0:STATS_blocks-2] ARG1 using 1:2 index k with lines title sprintf("large grain, seed %d", k+1), \
-     ARG1 using 1:3 index 0 with lines linecolor "gray" title "bed"
+plot for [k=0:STATS_blocks-2] ARG1 using 1:2 index k every 2 with lines title sprintf("large grain, seed %d", k+1), \
+     ARG1 using 1:3 index 0 every 2 with lines linecolor "gray" title "bed"
