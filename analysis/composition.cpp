@@ -15,7 +15,7 @@ void Composition::add(const Grains& grains, const Frame& frame)
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, g)) continue;
     const auto species = static_cast<std::size_t>(grains.species[g]);
-    const double y = frame.position[g].y(), radius = grains.radius[g];
+    const double y = layers_.height(frame.position[g]), radius = grains.radius[g];
     const double whole = std::numbers::pi * radius * radius;
     const auto book = [&](std::size_t n, double area) { sums_[n][species] += area; };
     if (rule_ == GrainArea::centre)

@@ -18,7 +18,7 @@ Approach approach_of(const Grains& grains, const Frame& frame, std::size_t conta
   const auto add = [&](std::size_t g, double sign) {
     const Vec2 change = step * frame.force[g] / grains.mass[g];
     relative.after += sign * frame.velocity[g];
-    relative.before += sign * (frame.velocity[g] - (grains.fixed[g] ? Vec2::Zero() : change));
+    relative.before += sign * (frame.velocity[g] - change);
   };
   add(static_cast<std::size_t>(frame.contacts.i[contact]), 1);
   const auto j = frame.contacts.j[contact];

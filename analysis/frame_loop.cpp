@@ -18,10 +18,43 @@
 namespace grseg {
 namespace {
 
+/// The axis that --bins names.
+Vec2 axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits units)
+{
+  const std::string word = bins.substr(0, bins.find(':'));
+  if (word != "radius")
+    throw UsageError(fmt::format(
+        "--bins: there is no '{}'; it is layers, radius (about a drum's axis) or radius:X,Y",
+        bins));
+  if (bins == word) {
+    const auto& numbers = run.parameters().numbers;
+    const auto centre = numbers.find("drum_centre");
+    if (centre == numbers.end() || centre->second.size() != 2)
+      throw UsageError(
+          "--bins radius: the run tells of no drum; name the axis, as in --bins radius:0.1,0.2");
+    return {centre->second[0], centre->second[1]};
+  }
+  const std::string place = bins.substr(word.size() + 1);
+  const auto comma = place.find(',');
+  if (comma == std::string::npos)
+    throw UsageError(
+        fmt::format("--bins {}: an axis has two coordinates, as in radius:0.1,0.2", bins));
+  return {parse_length(place.substr(0, comma), "--bins radius:", units),
+          parse_length(place.substr(comma + 1), "--bins radius:", units)};
+}
+
 Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
 {
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
-  return {parse_length(options.layer, "--layer", units), run.box().length_x};
+  const double thickness = parse_length(options.layer, "--layer", units);
+  if (!options.annuli()) return {thickness, run.box().length_x};
+  const Vec2 axis = axis_of(run, options.bins, units);
+  if (run.box().periodic_x)
+    throw UsageError(fmt::format(
+        "--bins {}: the cell is periodic along x, so that nothing lies at one distance from an "
+        "axis; take layers",
+        options.bins));
+  return Layers::annuli(thickness, run.box().length_x, axis);
 }
 
 RunTimes times_of(const TrajectoryReader& run)
@@ -55,6 +88,16 @@ void FrameOptions::add_to(po::options_description& options)
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
   options.add_options()("output,o", po::value(&output)->value_name("FILE"),
                         "instead of standard output");
+}
+
+void FrameOptions::add_bins_to(po::options_description& options)
+{
+  options.add_options()(
+      "bins", po::value(&bins)->default_value(bins)->value_name("WORD"),
+      "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
+      "this "
+      "one), of thickness --layer; in annuli y is the distance from the axis and x goes round it, "
+      "clockwise");
 }
 
 std::size_t choose(const std::string& word, const char* option,
@@ -128,6 +171,9 @@ Table FrameLoop::make_table(const std::string& command,
                                    {"window", first.end - first.begin},
                                    {"stride", static_cast<double>(options_.windows.stride)}})
     header.emplace_back(key, format_number(value));
+  if (const auto& axis = layers_.axis())
+    header.emplace_back(
+        "bins", fmt::format("radius {} {}", format_number(axis->x()), format_number(axis->y())));
   const auto origin = run_.parameters().text("origin");
   header.emplace_back("origin", origin.empty() ? "unknown" : origin);
   header.insert(header.end(), settings.begin(), settings.end());
@@ -145,7 +191,7 @@ std::vector<double> FrameLoop::row(const Window& window, std::size_t layer,
                           layers_.bottom(layer),
                           layers_.top(layer),
                           static_cast<double>(window.frames.size()),
-                          layers_.volume()};
+                          layers_.volume(layer)};
   row.insert(row.end(), values.begin(), values.end());
   return row;
 }

@@ -21,13 +21,16 @@ namespace grseg {
 
 /// The options of every tool that goes through the frames of a run by layer and window.
 struct FrameOptions {
-  std::string output, layer = "4dS";
+  std::string output, layer = "4dS", bins = "layers";
   WindowSettings windows;
   int threads = 1;
   bool json = false, quiet = false;
 
   /// Adds --output --begin --end --stride --layer --window --threads --json --quiet.
   void add_to(po::options_description& options);
+  /// Adds --bins, for tools that also know annuli.
+  void add_bins_to(po::options_description& options);
+  bool annuli() const { return bins != "layers"; }
 };
 
 /// Which of `words` was given. UsageError, naming them all, where none.

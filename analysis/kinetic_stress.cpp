@@ -92,8 +92,9 @@ void KineticStress::add(const Grains& grains, const Frame& frame)
   if (flow_ == MeanFlow::instant) now.add(grains, frame);
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, g)) continue;
-    const double mass = grains.mass[g], radius = grains.radius[g], y = frame.position[g].y();
-    const Vec2& velocity = frame.velocity[g];
+    const double mass = grains.mass[g], radius = grains.radius[g];
+    const double y = layers_.height(frame.position[g]);
+    const Vec2 velocity = layers_.turned(frame.velocity[g], frame.position[g]);
     const Motion motion{velocity.x(), velocity.y(), frame.angular_velocity[g]};
     const auto species = grains.species[g];
     const std::size_t layer = layers_.at(y);

@@ -23,7 +23,8 @@ struct Fluctuations {
 
 /// Kinetic stress by layer and species, sigma^kappa = (1/V) sum m dv (x) dv (Staron & Phillips
 /// 2015, kinetic stress), dv = velocity less a mean velocity (MeanFlow). A grain is booked, whole,
-/// in the layer of its centre. J, not divided by V, means per frame.
+/// in the layer of its centre. J, not divided by V, means per frame. In annuli velocities are
+/// those along and across the layer, at the grain's centre.
 ///
 /// What the mean velocity of a layer adds to the sums about the profile is kept beside them, so
 /// that whatever the mean it is seen: layer bias = sum about the layer's mean - sum about the

@@ -11,8 +11,8 @@ namespace grseg {
 
 MeanVelocity::MeanVelocity(const Layers& layers, double bin)
     : layers_(layers),
-      bins_(layers.thickness() / std::max(std::ceil(layers.thickness() / bin - 1e-9), 1.0),
-            layers.length())
+      bins_(layers.with_thickness(layers.thickness() /
+                                  std::max(std::ceil(layers.thickness() / bin - 1e-9), 1.0)))
 {
 }
 
@@ -22,9 +22,9 @@ void MeanVelocity::add(const Grains& grains, const Frame& frame)
   of_layer_.resize(std::max(of_layer_.size(), layers_.count(grains, frame)));
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, g)) continue;
-    const double y = frame.position[g].y(), mass = grains.mass[g];
-    const Sum own{mass, mass * Motion{frame.velocity[g].x(), frame.velocity[g].y(),
-                                      frame.angular_velocity[g]}};
+    const double y = layers_.height(frame.position[g]), mass = grains.mass[g];
+    const Vec2 velocity = layers_.turned(frame.velocity[g], frame.position[g]);
+    const Sum own{mass, mass * Motion{velocity.x(), velocity.y(), frame.angular_velocity[g]}};
     of_bin_[bins_.at(y)] += {own, mass * y};
     of_layer_[layers_.at(y)][static_cast<std::size_t>(grains.species[g])] += own;
   }

@@ -149,14 +149,14 @@ void MomentumBalance::merge(const MomentumBalance& later)
 SpeciesMomentum MomentumBalance::mean(std::size_t layer, Species species) const
 {
   auto mean = sums_[layer][index(species)];
-  mean *= 1 / (static_cast<double>(frames_) * layers_.volume());
+  mean *= 1 / (static_cast<double>(frames_) * layers_.volume(layer));
   return mean;
 }
 
 Vec2 MomentumBalance::change(std::size_t layer, Species species) const
 {
   const Vec2 gained = last_->at(layer, species) - first_->at(layer, species);
-  return gained / ((last_->time - first_->time) * layers_.volume());
+  return gained / ((last_->time - first_->time) * layers_.volume(layer));
 }
 
 }  // namespace grseg

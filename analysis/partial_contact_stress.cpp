@@ -98,9 +98,11 @@ void PartialContactStress::add(const Grains& grains, const Frame& frame)
     const auto type = pair_type(grains, frame, k);
     const auto i = static_cast<std::size_t>(list.i[k]);
     const double share_i = share_of_first(grains, list, k);
-    const double y_i = frame.position[i].y(), y_j = y_i - list.branch[k].y();
-    const double y_contact = y_i - share_i * list.branch[k].y();
-    const Contact contact{force * list.branch[k].transpose(),
+    const Vec2 &position = frame.position[i], &branch = list.branch[k];
+    const Vec2 touch = position - share_i * branch;
+    const double y_i = layers_.height(position), y_j = layers_.height(position - branch);
+    const double y_contact = layers_.height(touch);
+    const Contact contact{layers_.turned(force, touch) * layers_.turned(branch, touch).transpose(),
                           std::min(layers_.at(y_contact), count_ - 1)};
     sums_[contact.layer].contacts[static_cast<std::size_t>(type)] += 1;
 

@@ -27,7 +27,8 @@ enum class Assignment {
 /// algebra on these sums (partition.hpp). N m, compression positive, not divided by V, means per
 /// frame.
 ///
-/// Only contacts that carry a force count, in n_* too.
+/// Only contacts that carry a force count, in n_* too. In annuli components are those along and
+/// across the layer where the grains touch, and `branch` and `kernel` do not apply.
 ///
 /// `branch` and `kernel` share out what belongs to one grain along its own stretch of the branch:
 /// the large grain's part of a mixed contact (mixed_size, mixed_contact) along that from its centre

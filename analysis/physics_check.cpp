@@ -41,10 +41,10 @@ ContactRules rules_of(const TrajectoryReader& run)
   if (law == "predictive") rules.look_ahead = 1;
   if (law == "speculative") {
     rules.look_ahead = rules.horizon = run.parameters().number("horizon", run.path());
-    // What neighbours may add to an approach within a step.
-    rules.margin =
-        std::max(rules.margin, rules.horizon * rules.step *
-                                   std::sqrt(run.gravity().norm() * run.small_diameter()));
+    // Of files that do not tell it.
+    const double by_gravity =
+        rules.horizon * rules.step * std::sqrt(run.gravity().norm() * run.small_diameter());
+    rules.margin = std::max(rules.margin, number_of(run, "contact_margin").value_or(by_gravity));
   }
   return rules;
 }

@@ -52,7 +52,7 @@ void SegregationRun::add(const Grains& grains, const SegregationSeries& series,
     const auto& result = results_[n];
     const double phi = result.value.phi_large;
     points_.push_back({windows_.size(), layers_.bottom(n), layers_.top(n),
-                       (result.area_small + result.area_large) / layers_.volume(),
+                       (result.area_small + result.area_large) / layers_.volume(n),
                        (1 - phi) * small_diameter_ + phi * large_diameter_, bed_.bed, result});
   }
   windows_.push_back(count);

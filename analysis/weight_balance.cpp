@@ -121,9 +121,9 @@ WeightWindow WeightSums::window() const
 {
   WeightWindow window;
   window.time = time_;
-  const double volume = layers_.volume();
   const std::size_t count = mass_above_.size();
   for (std::size_t n = 0; n < count; ++n) {
+    const double volume = layers_.volume(n);
     const auto sums = contact_.mean(n).sums;
     const Tensor2 all = sums.ss + sums.ll + sums.mixed + sums.whole_small + sums.whole_large +
                         kinetic_->mean(n, Species::small).about_mean.kinetic +

@@ -58,11 +58,6 @@ std::vector<double> plug(const Scene& scene)
   return x;
 }
 
-Vec2 drum_centre(const Scene& scene)
-{
-  return {scene.length / 2, scene.drum_diameter / 2};
-}
-
 void add_drum(Boundaries& to, const Scene& scene)
 {
   const double radius = bead_radius(scene), ring = scene.drum_diameter / 2 + radius;
@@ -122,6 +117,20 @@ struct Bed {
     }
   }
 };
+
+/// Lets the grains move as they would in a steady flow of constant shear rate, so that no impact of
+/// the plate runs through them.
+void shear(Simulation& simulation, const Scene& scene)
+{
+  const auto& fixed = simulation.world().grains.fixed;
+  const double height = simulation.position(fixed.size() - 1).y();  // of the plate's centres
+  for (std::size_t g = 0; g < fixed.size(); ++g) {
+    if (fixed[g]) continue;
+    const double speed = scene.plate_speed * simulation.position(g).y() / height;
+    simulation.set_velocity(g, simulation.velocity(g) + Vec2(speed, 0),
+                            simulation.angular_velocity(g));
+  }
+}
 
 Simulation go_on_with(const Bed& bed, const Simulation& deposited)
 {
@@ -207,6 +216,7 @@ Simulation release(const Simulation& deposited, const Scene& scene)
     Bed bed(deposited, 0);
     bed.add_plate(scene);
     simulation = go_on_with(bed, deposited);
+    shear(simulation, scene);
   }
   simulation.set_clock(0);
   simulation.tilt(gravity_of(scene));

@@ -31,8 +31,8 @@ std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
 bool moves_boundaries(const Scene& scene);
 
 /// The scene at t = 0: what held the grains until then is gone (the gate of a column, the plug of a
-/// hopper), the plate of a shear cell lies on them, gravity is that of the flow and boundaries
-/// begin to move.
+/// hopper), the plate of a shear cell lies on them and they are sheared, gravity is that of the
+/// flow and boundaries begin to move.
 Simulation release(const Simulation& deposited, const Scene& scene);
 
 }  // namespace grseg

@@ -26,6 +26,12 @@ Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time,
   return velocity;
 }
 
+namespace {
+
+constexpr std::uint32_t doubles_per_body = sizeof(Motion) / sizeof(double);
+
+}  // namespace
+
 FreeBodies::FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std::uint32_t> place,
                        std::span<const BlockRuns> strips, std::span<const Motion> motion)
 {
@@ -41,11 +47,10 @@ FreeBodies::FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std
     own.free_velocity = motion[own.members.front()].vy;
     bodies_.push_back(std::move(own));
   }
-  constexpr std::uint32_t doubles = sizeof(Motion) / sizeof(double);
   for (const auto& strip : strips)
-    for (const auto& block : strip.blocks)
+    for (auto& block : strip.blocks)
       for (std::uint32_t lane = 0; lane < block_lanes; ++lane) {
-        const auto body = body_at[block.j[lane] / doubles];
+        const auto body = body_at[block.j[lane] / doubles_per_body];
         if (body != nobody) bodies_[body].contacts.push_back({&block, lane});
       }
 }
@@ -68,6 +73,29 @@ double FreeBodies::give_way(std::span<Motion> motion)
     largest = std::max(largest, std::abs(change));
   }
   return largest;
+}
+
+void FreeBodies::relax_contacts(std::span<Motion> motion, double friction, Effects effects)
+{
+  const auto relax_alone = choose_relax(effects);
+  for (const auto& body : bodies_)
+    for (const auto& [block, lane] : body.contacts) {
+      const std::uint32_t i = block->i[lane] / doubles_per_body,
+                          j = block->j[lane] / doubles_per_body;
+      Contact contact{block->nx[lane],
+                      block->ny[lane],
+                      block->kappa[lane],
+                      block->mass_n[lane],
+                      block->mass_t[lane],
+                      effects.restitution ? block->rebound[lane] : 0,
+                      block->impulse_n[lane],
+                      block->impulse_t[lane],
+                      static_cast<std::int32_t>(i),
+                      static_cast<std::int32_t>(j)};
+      relax_alone(contact, motion[i], motion[j], friction);
+      block->impulse_n[lane] = contact.impulse_n;
+      block->impulse_t[lane] = contact.impulse_t;
+    }
 }
 
 }  // namespace grseg

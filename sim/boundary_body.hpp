@@ -36,7 +36,9 @@ Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time,
 /// Bodies that give way, within one step's solve. Contacts relax as if boundary grains had
 /// infinite mass; after each sweep every body takes the velocity that the sum of its impulses asks
 /// for, less what its contacts are going to answer: one Newton step of
-/// M (V - V_free) = P(V), dP/dV = - sum of the effective masses of the contacts under force.
+/// M (V - V_free) = P(V), dP/dV = - sum of the effective masses of the contacts under force. Its
+/// contacts are then relaxed and it gives way once more: grains that a solve left with what a body
+/// does last, all alike, would sink into it step by step.
 class FreeBodies {
  public:
   /// `place` says where in `motion` each row of Grains is.
@@ -45,10 +47,12 @@ class FreeBodies {
 
   /// Velocities of all bodies, given the impulses in the blocks. Returns the largest change, m/s.
   double give_way(std::span<Motion> motion);
+  /// One relaxation of the bodies' own contacts.
+  void relax_contacts(std::span<Motion> motion, double friction, Effects effects);
 
  private:
   struct Seat {  // of a contact
-    const ContactBlock* block;
+    ContactBlock* block;
     std::uint32_t lane;
   };
   struct Body {

@@ -97,4 +97,17 @@ inline Change relax(Contact& c, Motion& a, Motion& b, double friction)
   return change;
 }
 
+using Relax = Change (*)(Contact&, Motion&, Motion&, double friction);
+
+/// relax() of a scene's effects. Restitution needs no variant here: without it rebounds are ignored
+/// by setting them 0.
+inline Relax choose_relax(Effects e)
+{
+  // [friction][rotation]
+  static constexpr Relax table[2][2] = {
+      {relax<Effects{false, false, true}>, relax<Effects{false, true, true}>},
+      {relax<Effects{true, false, true}>, relax<Effects{true, true, true}>}};
+  return table[e.friction][e.rotation];
+}
+
 }  // namespace grseg

@@ -184,7 +184,8 @@ void set_conditions(World& world, const Scene& scene)
   world.step = scene.step;
   world.solver = scene.solver;
   world.threads = scene.threads;
-  world.forecast = world.horizon = world.margin = 0;
+  world.forecast = world.horizon = 0;
+  world.margin = contact_margin(scene);
   switch (scene.law) {
     case Scene::Law::touch:
       break;
@@ -196,8 +197,6 @@ void set_conditions(World& world, const Scene& scene)
       break;
     case Scene::Law::speculative:
       world.horizon = world.forecast = scene.horizon;
-      // What neighbours may add to an approach within a step.
-      world.margin = scene.horizon * scene.step * std::sqrt(scene.gravity * scene.small_diameter);
   }
 }
 

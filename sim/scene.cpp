@@ -77,7 +77,10 @@ class Keys {
   explicit Keys(const po::variables_map& values) : values_(values) {}
 
   std::string text(const std::string& key) const { return values_[key].as<std::string>(); }
-  bool given(const std::string& key) const { return values_.count(key) > 0; }
+  bool given(const std::string& key) const
+  {
+    return values_.count(key) > 0 && !values_[key].defaulted();
+  }
   double number(const std::string& key, double low, double high) const
   {
     return within(values_[key].as<double>(), key, low, high);
@@ -172,6 +175,7 @@ void resolve_plate(const Keys& keys, Scene& scene)
           "lateral is walls: plates of a shear cell go round; say periodic");
   require(scene.base == Scene::Base::grains, "base",
           "base is wall: plates of a shear cell are rough; say grains");
+  if (!keys.given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
 }
 
 void resolve_openings(const Keys& keys, Scene& scene, LengthUnits units)
@@ -274,6 +278,17 @@ Gravity gravity_of(const Scene& scene)
           scene.slope_rate * std::numbers::pi / 180};
 }
 
+double contact_margin(const Scene& scene)
+{
+  if (scene.law != Scene::Law::speculative) return 0;
+  return scene.horizon * scene.step * std::sqrt(scene.gravity * scene.small_diameter);
+}
+
+Vec2 drum_centre(const Scene& scene)
+{
+  return {scene.length / 2, scene.drum_diameter / 2};
+}
+
 po::options_description scene_options()
 {
   const auto text = [](const char* standard) {
@@ -299,7 +314,10 @@ po::options_description scene_options()
   add("length", text("35dL"), "of the cell");
   add("slope", number(23), "degrees");
   add("slope-rate", number(0), "degrees/s by which the slope becomes steeper from t = 0 on");
-  add("gravity", number(9.8), "m/s^2");
+  add("gravity", number(9.8),
+      "m/s^2; of a shear cell that of the deposition alone, by default such that the bed presses "
+      "on "
+      "its base about as the plate is going to");
   add("friction", number(0.5), "Coulomb's coefficient, all contacts");
   add("restitution", number(0.25), "Newton's coefficient, all contacts");
   add("rotation", text("on"), "on or off: whether grains rotate");
@@ -445,11 +463,17 @@ Parameters to_parameters(const Scene& scene)
   n["restitution"] = {scene.restitution};
   n["rotation"] = {scene.rotation ? 1.0 : 0.0};
   n["horizon"] = {scene.horizon};
+  n["contact_margin"] = {contact_margin(scene)};
   n["tolerance"] = {scene.solver.tolerance};
   n["acceleration"] = {scene.solver.acceleration ? 1.0 : 0.0};
   n["min_sweeps"] = {static_cast<double>(scene.solver.min_sweeps)};
   n["max_sweeps"] = {static_cast<double>(scene.solver.max_sweeps)};
   n["seed"] = {static_cast<double>(scene.seed)};
+  if (scene.geometry == Scene::Geometry::drum) {
+    const auto centre = drum_centre(scene);
+    n["drum_centre"] = {centre.x(), centre.y()};
+    n["drum_diameter"] = {scene.drum_diameter};
+  }
   parameters.texts["scene"] = to_text(scene);
   parameters.texts["geometry"] = geometries[static_cast<std::size_t>(scene.geometry)].first;
   parameters.texts["accuracy"] = scene.accuracy;

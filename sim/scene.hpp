@@ -30,7 +30,7 @@ struct Scene {
   double length = 0;          // m, of the cell
   double slope = 0;           // degrees, at t = 0
   double slope_rate = 0;      // degrees/s, from then on
-  double gravity = 0;         // m/s^2
+  double gravity = 0;         // m/s^2; of a shear cell: of its deposition, and of its time scale
   double friction = 0;
   double restitution = 0;  // Newton's e
   bool rotation = true;
@@ -74,6 +74,13 @@ struct Scene {
 
 /// Gravity of the flow: none in a shear cell, whose plate presses instead.
 Gravity gravity_of(const Scene& scene);
+
+/// m, within which a pair counts as touching where its law looks; of the speculative law, what
+/// neighbours may add to an approach within a step.
+double contact_margin(const Scene& scene);
+
+/// The axis of a drum, m: y = 0 is its lowest point.
+Vec2 drum_centre(const Scene& scene);
 
 /// The keys of a scene, for Boost.ProgramOptions, with their defaults.
 boost::program_options::options_description scene_options();

@@ -26,18 +26,6 @@ double fastest(std::span<const Motion> motion)
   return largest;
 }
 
-using Relax = Change (*)(Contact&, Motion&, Motion&, double);
-
-/// Restitution needs no variant here: without it rebounds are ignored by setting them 0.
-Relax choose_relax(Effects e)
-{
-  // [friction][rotation]
-  static constexpr Relax table[2][2] = {
-      {relax<Effects{false, false, true}>, relax<Effects{false, true, true}>},
-      {relax<Effects{true, false, true}>, relax<Effects{true, true, true}>}};
-  return table[e.friction][e.rotation];
-}
-
 SweepResult total(const std::vector<SweepResult>& strips)
 {
   SweepResult total;
@@ -120,7 +108,11 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
         results[s] = sweep(strips[s], motion.data(), friction);
     });
     auto result = total(results);
-    if (free != nullptr) result.largest = std::max(result.largest, free->give_way(motion));
+    if (free != nullptr) {
+      result.largest = std::max(result.largest, free->give_way(motion));
+      free->relax_contacts(motion, friction, effects);
+      free->give_way(motion);
+    }
     const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
     // Without gravity the sweep that lets the last contact go leaves a reference of 0.
     const auto relative = [&](double change) { return change == 0 ? 0 : change / reference; };

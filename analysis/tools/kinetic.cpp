@@ -34,6 +34,7 @@ po::options_description options_into(Settings& s)
       "mean velocity that fluctuations are counted from: profile (over the window, in bins of at "
       "most half a dS, at the grain's own height), layer (over the window), instant (of the layer "
       "in each frame) or species (of the species in the layer, over the window)");
+  s.frames.add_bins_to(options);
   s.frames.add_to(options);
   return options;
 }

@@ -21,6 +21,7 @@ constexpr ToolInfo info{
     "  grseg-stress run.h5 -o sums.tsv                  layers of 4 dS, windows of 1.25 s\n"
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
     "  grseg-stress run.h5 --assign gauss --width 1dS   coarse grained by a Gaussian\n"
+    "  grseg-stress drum.h5 --bins radius --layer 2dS   annuli about the axis of a drum\n"
     "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n"
     "  grseg-stress --merge seed1.tsv seed2.tsv         the sums of two runs as one table\n",
     presets::stress};
@@ -50,6 +51,7 @@ po::options_description options_into(Settings& s)
                         "of tables instead of a run: means weighted by frames, window by window");
   options.add_options()("all-windows", po::bool_switch(&s.all_windows),
                         "with --merge: of all windows together");
+  s.frames.add_bins_to(options);
   s.frames.add_to(options);
   return options;
 }
@@ -66,6 +68,17 @@ std::optional<double> power_of(Settings& s)
   return rule.value;
 }
 
+void require_layers(const Settings& s, const Booking& booking)
+{
+  const bool whole =
+      booking.assignment == Assignment::contact_point || booking.assignment == Assignment::grain;
+  if (s.frames.annuli() && !whole)
+    throw UsageError(fmt::format(
+        "--assign {} spreads contacts over layers, not over annuli; with --bins {} take "
+        "contact-point or grain",
+        s.booking.assign, s.frames.bins));
+}
+
 template <class T>
 std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
 {
@@ -76,6 +89,7 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
 void tabulate(Settings s, const po::variables_map& values, const std::string& command)
 {
   const auto booking = s.booking.booking(values);
+  require_layers(s, booking);
   const auto power = power_of(s);
   FrameLoop loop(info, values, s.frames);
   std::vector<std::pair<std::string, std::string>> settings{{"assign", s.booking.assign},

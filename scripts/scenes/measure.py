@@ -12,8 +12,6 @@ import sys
 import h5py
 import numpy
 
-GRAVITY = 9.8
-
 
 class Run:
     def __init__(self, path):
@@ -75,63 +73,81 @@ def shear(paths):
 
 
 def column(paths):
-    """Aspect ratio of the deposited column and run-out (x_99 - L0)/L0, x_99 the distance that 99 % of
-    the mass lies within at the end."""
-    print("aspect_ratio\trun_out\tspeed_at_end")
+    """Aspect ratio H/L0 of the deposited column, its width L0 in diameters, and run-out (x_99 - L0)/L0,
+    x_99 the distance that 99 % of the mass lies within once all is at rest."""
+    print("aspect_ratio\twidth\trun_out")
     for path in paths:
         run = Run(path)
         width = run.key("column-width")
         start = run.position[0][run.mobile]
         height = 2 * numpy.average(start[:, 1], weights=run.mass[run.mobile])
-        end = numpy.sort(run.position[-1][run.mobile, 0])
-        reach = end[int(0.99 * len(end))]
-        last = run.velocity[-1][run.mobile]
-        print(height / width, (reach - width) / width, (last ** 2).sum(axis=1).mean() ** 0.5, sep="\t")
+        x = run.position[-1][run.mobile, 0]
+        order = numpy.argsort(x)
+        mass = numpy.cumsum(run.mass[run.mobile][order])
+        reach = x[order][numpy.searchsorted(mass, 0.99 * mass[-1])]
+        print(height / width, width / run.key("small-diameter"), (reach - width) / width, sep="\t")
 
 
 def hopper(paths):
     """Outlet over the mean diameter and discharge, solid area per time over sqrt(g) d^(3/2), while
-    15 to 50 % of the grains leave; error from eight pieces of that time."""
+    15 to 50 % of the grains leave; error of the mean over five pieces of that time."""
     print("outlet\tdischarge\terror")
     for path in paths:
         run = Run(path)
         diameter = 2 * run.radius[run.mobile].mean()
         area = numpy.pi * run.radius[run.mobile] ** 2
         left = numpy.array([area[p[run.mobile, 1] < 0].sum() for p in run.position])
-        steady = (left > 0.15 * area.sum()) & (left < 0.5 * area.sum())
-        time, left = run.time[steady], left[steady]
-        rates = [slope_with_error(t, a)[0] for t, a in zip(numpy.array_split(time, 8),
-                                                           numpy.array_split(left, 8))]
-        unit = GRAVITY ** 0.5 * diameter ** 1.5
+        steady = numpy.flatnonzero((left > 0.15 * area.sum()) & (left < 0.5 * area.sum()))
+        edges = numpy.linspace(steady[0], steady[-1], 6).astype(int)
+        rates = numpy.diff(left[edges]) / numpy.diff(run.time[edges])
+        unit = run.key("gravity") ** 0.5 * diameter ** 1.5
         print(run.key("outlet") / diameter, numpy.mean(rates) / unit,
-              numpy.std(rates) / 8 ** 0.5 / unit, sep="\t")
+              numpy.std(rates, ddof=1) / 5 ** 0.5 / unit, sep="\t")
 
 
 def drum(paths):
-    """Time in turns, and mean distance of small and large grains from the middle of the bed (where half of the
-    grains lie nearer to the rim), over that of all grains: below 1 is inside."""
-    print("turns\tsmall\tlarge")
+    """Time in turns, and the index of radial segregation (<r^2>_L - <r^2>_S)/(the same were all small
+    grains nearest to the drum's axis), r the distance from it: 0 mixed, 1 a core of small grains."""
+    print("turns\tindex")
     run = Run(paths[0])
     turns = abs(run.key("drum-rate")) / (2 * numpy.pi) * run.time
-    weight = run.radius ** 2
+    axis = run.file["parameters/drum_centre"][:]
+    small, area = run.species[run.mobile] == 0, run.radius[run.mobile] ** 2
+    share = area[small].sum() / area.sum()
+
+    def apart(square, inside):
+        """Difference of the area-weighted means, `inside` the part of each grain that is small."""
+        return (numpy.average(square, weights=area * (1 - inside))
+                - numpy.average(square, weights=area * inside))
+
     for time, position in zip(turns, run.position):
-        mobile = run.mobile
-        centre = numpy.average(position[mobile], axis=0, weights=weight[mobile])
-        away = numpy.linalg.norm(position - centre, axis=1)
-        mean = [numpy.average(away[run.species == s], weights=weight[run.species == s]) for s in (0, 1)]
-        mean = numpy.array(mean) / numpy.average(away[mobile], weights=weight[mobile])
-        print(time, *mean, sep="\t")
+        square = ((position[run.mobile] - axis) ** 2).sum(axis=1)
+        order = numpy.argsort(square)
+        inside = numpy.empty(len(area))
+        inside[order] = numpy.cumsum(area[order]) <= share * area.sum()
+        print(time, apart(square, small) / apart(square, inside), sep="\t")
 
 
 def intruder(paths):
-    """Time and height of the large grain, in small diameters, beside twice the mean height of all."""
-    print("time\theight\tbed")
-    run = Run(paths[0])
-    d = run.key("small-diameter")
-    large = numpy.flatnonzero(run.species == 1)[0]
-    for time, position in zip(run.time, run.position):
-        bed = 2 * numpy.average(position[run.mobile, 1], weights=run.mass[run.mobile])
-        print(time, position[large, 1] / d, bed / d, sep="\t")
+    """Per run, apart by two empty lines: time and height of the large grain, in small diameters,
+    beside twice the mean height of all; before it, when it first stood at a quarter and at three
+    quarters of that."""
+    for path in paths:
+        run = Run(path)
+        d = run.key("small-diameter")
+        large = numpy.flatnonzero(run.species == 1)[0]
+        height = run.position[:, large, 1] / d
+        weight = run.mass[run.mobile]
+        bed = numpy.array([2 * numpy.average(p[run.mobile, 1], weights=weight) / d
+                           for p in run.position])
+        typical = numpy.median(bed)
+        first = [run.time[height > part * typical][0] if (height > part * typical).any()
+                 else numpy.nan for part in (0.25, 0.75)]
+        print(f"# bed {typical:.1f} d_S; quarter at {first[0]:.2f} s, three quarters at {first[1]:.2f} s")
+        print("# time\theight\tbed")
+        for row in zip(run.time, height, bed):
+            print(*row, sep="\t")
+        print("\n")
 
 
 if __name__ == "__main__":

@@ -92,6 +92,35 @@ TEST_F(FrameTools, StressHasTheSumsOfTheThreeGrains)
               1e-18);
 }
 
+// The three grains lie straight below the axis, where outward is down and clockwise is up-slope:
+// the mixed contact 12.5 mm from it, that with the boundary 22.5 mm.
+TEST_F(FrameTools, AnnuliLieAboutTheAxisOfADrum)
+{
+  auto description = three_grains::description();
+  description.box.periodic_x = false;
+  description.parameters.numbers["drum_centre"] = {0.05, 0.0225};
+  {
+    TrajectoryWriter writer(file, description);
+    for (int k = 0; k < 30; ++k) {
+      auto frame = three_grains::frame(k);
+      frame.position = three_grains::frame(0).position;
+      writer.append(frame, std::vector<double>{0});
+    }
+    writer.close();
+  }
+  const auto t = table(stress, "--bins radius --layer 6mm");
+  ASSERT_EQ(t.rows.size(), 4u);
+  EXPECT_NEAR(cell(t, 2, "y0"), 0.012, 1e-15);
+  EXPECT_NEAR(cell(t, 2, "V"), std::numbers::pi * 0.006 * 0.006 * 5, 1e-15);
+  EXPECT_NEAR(cell(t, 2, "M_yy"), 1.5e-6, 1e-18);
+  EXPECT_NEAR(cell(t, 2, "M_xy"), -7.5e-7, 1e-18);
+  EXPECT_NEAR(cell(t, 3, "A_Lb_yy"), 5e-6, 1e-18);
+  EXPECT_EQ(t.header_text("bins"), "radius 0.050000000000000003 0.022499999999999999");
+  const auto k = table(kinetic, "--bins radius:50mm,22.5mm --layer 6mm");
+  EXPECT_NEAR(cell(k, 1, "u"), -0.3, 1e-15);  // of the small grain, 10 mm from the axis
+  EXPECT_NEAR(cell(k, 1, "v"), 0.4, 1e-15);
+}
+
 TEST_F(FrameTools, AssignmentsGiveTheSameTotals)
 {
   const auto a = table(stress, "--layer 6mm"), b = table(stress, "--layer 6mm --assign branch"),

@@ -66,6 +66,30 @@ TEST(KineticStress, ALinearShearHasNoFluctuationsAboutItsProfile)
   EXPECT_GT(largest(kinetic({shear}, MeanFlow::layer)), 1e-3);
 }
 
+// Clockwise, at Omega r; as motion over a base it is all fluctuation.
+TEST(KineticStress, ADrumThatTurnsAsAWholeHasNoFluctuationsInAnnuli)
+{
+  const Vec2 axis{3, 2};
+  const double rate = 1.5;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-1, 1);
+  Scene scene;
+  for (int g = 0; g < 300; ++g) {
+    const Vec2 arm{2 * place(random), 2 * place(random)};
+    scene.grain(g % 3 == 0 ? Species::large : Species::small, 0.02, axis + arm,
+                rate * Vec2(arm.y(), -arm.x()), -rate);
+  }
+  const auto annuli = Layers::annuli(0.5, 10, axis);
+  MeanVelocity mean(annuli, bin);
+  mean.add(scene.grains, scene.frame);
+  KineticStress stress(annuli, MeanFlow::profile, mean);
+  stress.add(scene.grains, scene.frame);
+  EXPECT_LT(largest(stress), 1e-26);
+  EXPECT_NEAR(stress.flow(2).du_dy, rate, 1e-12);
+  EXPECT_NEAR(stress.flow(2).v, 0, 1e-14);
+  EXPECT_GT(largest(kinetic({scene}, MeanFlow::profile)), 1e-3);
+}
+
 TEST(KineticStress, APlugHasNoFluctuationsAboutAnyMean)
 {
   const Scene plug = column([](double) { return Vec2{3, -1}; });

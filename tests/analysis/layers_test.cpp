@@ -49,7 +49,7 @@ TEST(Layers, TheFirstLayerTakesAllBelowTheBase)
 
 TEST(Layers, TheVolumeOfALayerIsItsThicknessTimesTheCell)
 {
-  EXPECT_DOUBLE_EQ(Layers(0.02, 0.35).volume(), 0.007);
+  EXPECT_DOUBLE_EQ(Layers(0.02, 0.35).volume(0), 0.007);
 }
 
 TEST(Layers, TheLastLayerIsReachedByTheTopOfTheHighestMobileGrain)
@@ -125,6 +125,71 @@ TEST(Layers, WhatLiesBelowTheBaseGoesToTheFirstLayerAndAboveToTheLast)
   std::vector<double> shares(2);
   Layers(1, 1).share_segment(-1, 3, 2, [&](std::size_t n, double share) { shares[n] += share; });
   EXPECT_EQ(shares, (std::vector<double>{0.5, 0.5}));
+}
+
+// Two unit circles through each other's centres share two segments of 120 degrees.
+TEST(Annuli, ADiscAndACircleShareTheirTwoSegments)
+{
+  EXPECT_NEAR(disc_area_within(1, 1, 1), 2 * pi / 3 - std::sqrt(3) / 2, 1e-15);
+  EXPECT_DOUBLE_EQ(disc_area_within(1, 0.5, 2), pi);
+  EXPECT_DOUBLE_EQ(disc_area_within(2, 0.5, 1), pi);
+  EXPECT_EQ(disc_area_within(1, 3, 1.5), 0);
+  // A large circle through the centre halves the disc, less what its curvature y^2/(2 R) takes.
+  EXPECT_NEAR(disc_area_within(1, 1e4, 1e4), pi / 2 - 1 / 3e4, 1e-10);
+}
+
+TEST(Annuli, ADiscAboutTheAxisFillsAnnuliFromTheInside)
+{
+  const auto annuli = Layers::annuli(1, 10, {5, 5});
+  std::vector<double> areas(3);
+  annuli.share_disc(0, 2.5, 3, [&](std::size_t n, double area) { areas[n] = area; });
+  EXPECT_NEAR(areas[0], pi, 1e-14);
+  EXPECT_NEAR(areas[1], 3 * pi, 1e-14);
+  EXPECT_NEAR(areas[2], 2.25 * pi, 1e-14);
+}
+
+TEST(Annuli, ADiscKeepsItsAreaHoweverTheAnnuliCutIt)
+{
+  for (const double thickness : {0.07, 0.3, 1.0, 2.5, 40.0})
+    for (const double distance : {0.0, 0.4, 1.0, 2.5, 33.3}) {
+      const auto annuli = Layers::annuli(thickness, 1, {0, 0});
+      double sum = 0;
+      annuli.share_disc(distance, 1, annuli.at(distance + 1) + 1, [&](std::size_t, double area) {
+        EXPECT_GE(area, -1e-12);
+        sum += area;
+      });
+      EXPECT_NEAR(sum, pi, 1e-11);
+    }
+}
+
+TEST(Annuli, VolumesAddUpToADisc)
+{
+  const auto annuli = Layers::annuli(0.3, 1, {0, 0});
+  double sum = 0;
+  for (std::size_t n = 0; n < 7; ++n) sum += annuli.volume(n);
+  EXPECT_NEAR(sum, pi * 2.1 * 2.1, 1e-13);
+}
+
+TEST(Annuli, AcrossIsOutwardAndAlongIsClockwise)
+{
+  const auto annuli = Layers::annuli(1, 10, {5, 5});
+  EXPECT_EQ(annuli.height({8, 9}), 5);
+  EXPECT_EQ(annuli.turned({2, 3}, {5, 7}), Vec2(2, 3));    // above the axis: as over a base
+  EXPECT_EQ(annuli.turned({2, 3}, {5, 1}), Vec2(-2, -3));  // below it
+  EXPECT_EQ(annuli.turned({2, 3}, {6, 5}), Vec2(-3, 2));   // on its right
+  EXPECT_EQ(Layers(1, 10).turned({2, 3}, {6, 5}), Vec2(2, 3));
+}
+
+TEST(Annuli, TheyReachToTheFarthestMobileGrain)
+{
+  Scene scene;
+  scene.grain(Species::boundary, 1, {50, 5});
+  scene.grain(Species::small, 0.5, {5, 1.75});
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 4u);
+  scene.frame.position[1].x() = 6;
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 4u);
+  scene.frame.position[1].x() = 9;
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 6u);
 }
 
 TEST(Layers, ThicknessAndLengthMustBePositive)

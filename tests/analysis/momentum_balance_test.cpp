@@ -95,7 +95,7 @@ TEST(MomentumBalance, AForceThatNoContactMakesIsLeftOverWhereItActs)
   const Vec2 lost(0.5, -0.25);
   scene.frame.force[20] += lost;
   const auto balance = balance_of({scene});
-  const Vec2 expected = lost * (below(2, 1.1) - below(1, 1.1)) / unit_layers.volume();
+  const Vec2 expected = lost * (below(2, 1.1) - below(1, 1.1)) / unit_layers.volume(0);
   const auto species = scene.grains.species[20];
   EXPECT_LT((balance.mean(1, species).residual() - expected).norm(), 1e-12);
 }
@@ -109,7 +109,7 @@ TEST(MomentumBalance, APairIsAsOnPaper)
   const Vec2 force(0.3, 2);
   scene.contact(large, small, force);
   const auto balance = balance_of({moved_by(scene, weightless)}, weightless);
-  const double volume = unit_layers.volume();
+  const double volume = unit_layers.volume(0);
   const double at_large = 1 - below(1, 1.15), at_small = 1 - below(1, 0.85);
   const double at_contact = 1 - below(1, 0.95);  // in the upper layer
 
@@ -151,7 +151,7 @@ TEST(MomentumBalance, TheContactTermIsTheDivergenceOfTheContactStress)
   };
   const auto balance = balance_of({scene});
   for (const auto species : {Species::small, Species::large}) {
-    const Vec2 gained = (flow(1, species) - flow(2, species)) / unit_layers.volume();
+    const Vec2 gained = (flow(1, species) - flow(2, species)) / unit_layers.volume(0);
     EXPECT_LT((balance.mean(1, species).contact - gained).norm(), 1e-14);
   }
 }
@@ -180,8 +180,8 @@ TEST(MomentumBalance, AColumnCarriesItsWeight)
     EXPECT_NEAR(stress(1, 1) * unit_layers.length(), above, 1e-12);
     EXPECT_NEAR((small.rate + large.rate).y(), 0, 1e-13);
     const double supported = n == 0 ? count * weight : 0;
-    EXPECT_NEAR((small.base + large.base).y() * unit_layers.volume(), supported, 1e-12);
-    EXPECT_NEAR((small.gravity + large.gravity).y() * unit_layers.volume(), -weight, 1e-12);
+    EXPECT_NEAR((small.base + large.base).y() * unit_layers.volume(0), supported, 1e-12);
+    EXPECT_NEAR((small.gravity + large.gravity).y() * unit_layers.volume(0), -weight, 1e-12);
     EXPECT_LT((small.interaction + large.interaction).norm(), 1e-14);
   }
 }
@@ -192,7 +192,7 @@ TEST(MomentumBalance, AFallingGrainCarriesItsMomentumThroughAnEdge)
   Scene scene;
   scene.grain(Species::large, 0.5, {1, 1.05}, {4, -2});
   scene.grain(Species::small, 0.1, {1, 2.5});
-  const double mass = pi / 4, volume = unit_layers.volume();
+  const double mass = pi / 4, volume = unit_layers.volume(0);
   const auto balance =
       balance_of({moved_by(scene, gravity)}, gravity, Kernel(KernelShape::heaviside, 0.2));
   const auto here = balance.mean(1, Species::large), beneath = balance.mean(0, Species::large);
@@ -253,7 +253,7 @@ TEST(MomentumBalance, OfTheWholeBedOnlyWeightAndBaseRemain)
         balance.mean(n, Species::small).interaction + balance.mean(n, Species::large).interaction;
     EXPECT_LT(pair.norm(), 1e-13);
   }
-  const double volume = unit_layers.volume();
+  const double volume = unit_layers.volume(0);
   EXPECT_LT((volume * (small.base + large.base) - base).norm(), 1e-12);
   EXPECT_LT((volume * (small.gravity + large.gravity) - weight).norm(), 1e-12);
   EXPECT_LT((volume * (small.rate + large.rate) - base - weight).norm(), 1e-10);

@@ -71,7 +71,7 @@ TEST(NeutralContacts, LargeGrainsCarryTheirShareBySizeAndByOtherRulesWhatTheForm
           EXPECT_NEAR(areas.large / areas.small, static_cast<double>(r * ends[n][0]) / ends[n][1],
                       1e-12);
           auto sums = stress.mean(n).sums;
-          sums.volume = thick_layers.volume();
+          sums.volume = thick_layers.volume(0);
           for (const auto& rule : parse_rules(
                    {"size", "contact-point", "half", "uniform:0.8", "uniform:0.6", "power:2"})) {
             const double b = b_of(partial_stress(sums, rule), areas);

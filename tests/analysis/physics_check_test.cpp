@@ -194,6 +194,34 @@ TEST_F(Check, TheSpeculativeLawAllowsTheGapThatFreeFlightWouldClose)
   }
 }
 
+// The plate of a shear cell gives way within the step, and without gravity the file tells the
+// margin.
+TEST_F(Check, ABoundaryThatGivesWayIsTakenAsItMovedBeforeTheStep)
+{
+  const double gap = 30e-6, flight = 0.75 * h;
+  for (const double margin : {29e-6, 31e-6}) {
+    Column column;
+    column.description.parameters.texts["contact_law"] = "speculative";
+    column.description.parameters.numbers["horizon"] = {0.75};
+    column.description.parameters.numbers["contact_margin"] = {margin};
+    Column::lift_top(column.frames[7], gap);
+    EXPECT_EQ(failed(column),
+              margin > gap ? Names{} : (Names{"open_gap_largest", "open_gap_mean"}));
+  }
+  ContactRules rules;
+  rules.step = h;
+  rules.look_ahead = rules.horizon = 0.75;
+  Column column;
+  auto& frame = column.frames[0];
+  frame.contacts.gap[0] = gap;
+  frame.contacts.branch[0].y() += gap;
+  frame.velocity[0].y() = 0.1;
+  frame.force[0].y() = column.description.grains.mass[0] * (0.1 - 1.01 * gap / flight) / h;
+  ContactViolations violations(rules);
+  violations.add(column.description.grains, frame);
+  EXPECT_EQ(violations.open_gap().largest, 0);
+}
+
 TEST_F(Check, DiscsThatGoOnApproachingAreFound)
 {
   Column column;

@@ -93,7 +93,7 @@ TEST(SegregationForces, WhatBearsMoreThanItsShareIsPushedAgainstGravity)
     const auto of = segregation_forces(balance, n);
     const double above = 9.5 - static_cast<double>(n);
     const double psi = (above + load) / (2 * above + load);
-    const double weight = 2 * 9 * pi / 4 / unit_layers.volume();
+    const double weight = 2 * 9 * pi / 4 / unit_layers.volume(0);
     EXPECT_NEAR(of.psi, psi, 1e-13);
     EXPECT_NEAR(of.b, 4 * (psi - 0.5), 1e-12);
     EXPECT_NEAR(of.push, (psi - 0.5) * weight, 1e-12);
@@ -117,7 +117,7 @@ TEST(SegregationForces, WhatMovesLessIsPushedFromTheHotSide)
   scene.frame.force.assign(3, {0, 0});
   balance.add(scene.grains, scene.frame);
   const auto of = segregation_forces(balance, 1);
-  const double mass = pi / 100, in = 2 * mass * speed * speed / (2 * w) / unit_layers.volume();
+  const double mass = pi / 100, in = 2 * mass * speed * speed / (2 * w) / unit_layers.volume(0);
   EXPECT_NEAR(of.phi, 1 / (1 + 2 * 0.625), 1e-14);
   EXPECT_EQ(of.psi_kinetic, 0);
   EXPECT_NEAR(of.b_kinetic, -1 / (1 - of.phi), 1e-13);
@@ -184,7 +184,7 @@ TEST(BalanceTable, KineticStressCountsFromTheMeanOfBothSpecies)
   scene.grain(Species::large, 0.1, {2, 0.5}, {1.7, -0.4});
   scene.frame.force.assign(2, {0, 0});
   const auto balance = balance_of(scene);
-  const double density = pi / 100 / unit_layers.volume();
+  const double density = pi / 100 / unit_layers.volume(0);
   for (const std::string species : {"S", "L"}) {
     EXPECT_NEAR(cell(balance, 0, "Sk_" + species + "_xx"), 0.09 * density, 1e-15);
     EXPECT_NEAR(cell(balance, 0, "Sk_" + species + "_xy"), 0.12 * density, 1e-15);

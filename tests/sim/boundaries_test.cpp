@@ -143,6 +143,54 @@ TEST(Boundaries, AShearCellHoldsItsPressureAndItsPlateItsSpeed)
     EXPECT_NEAR(simulation.velocity(row).x(), 0.5, 1e-9);
 }
 
+TEST(Boundaries, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
+{
+  const auto scene = scene_from({"--geometry", "shear", "--length", "30dS", "--depth", "40dS",
+                                 "--plate-speed", "0.1", "--size-ratio", "1", "--spread", "0.4"});
+  auto simulation = released(scene);
+  const auto first = static_cast<int>(bodies_of(scene, simulation.world().grains).front().begin);
+  run_for(simulation, 0.25);
+  Frame frame;
+  double at_plate = 0, elsewhere = 0, count_at_plate = 0, count_elsewhere = 0;
+  for (int step = 0; step < 2000; ++step) {
+    simulation.advance(frame);
+    for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+      const double gap = frame.contacts.gap[c];
+      if (gap >= 0) continue;
+      const bool plate = frame.contacts.j[c] >= first;
+      (plate ? at_plate : elsewhere) -= gap;
+      (plate ? count_at_plate : count_elsewhere) += 1;
+    }
+  }
+  EXPECT_GT(count_at_plate, 1000);
+  EXPECT_LT(at_plate / count_at_plate, elsewhere / count_elsewhere);
+}
+
+TEST(Boundaries, AShearCellTakesItsTimeFromItsPressure)
+{
+  const auto one = scene_from({"--geometry", "shear", "--plate-pressure", "2"});
+  const auto hundred =
+      scene_from({"--geometry", "shear", "--plate-pressure", "200", "--frame-interval", "0.005"});
+  EXPECT_NEAR(one.step, 10 * hundred.step, 1e-12);
+  const auto given = scene_from({"--geometry", "shear", "--gravity", "9.8"});
+  EXPECT_EQ(given.step, scene_from({}).step);
+}
+
+TEST(Boundaries, AShearCellIsReleasedInALinearFlow)
+{
+  const auto scene = scene_from(
+      {"--geometry", "shear", "--length", "10dL", "--depth", "16dS", "--plate-speed", "5"});
+  const auto deposited = deposit(scene);
+  const auto simulation = release(deposited, scene);
+  const auto& grains = simulation.world().grains;
+  const double height = simulation.position(grains.size() - 1).y();
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (!grains.fixed[g]) {
+      const double added = simulation.velocity(g).x() - deposited.velocity(g).x();
+      EXPECT_NEAR(added, 5 * simulation.position(g).y() / height, 1e-12);
+    }
+}
+
 TEST(Boundaries, AShakenBaseMovesAsAskedAndThrowsItsBed)
 {
   const auto scene = scene_from({"--length", "6dL", "--depth", "8dS", "--shake-amplitude", "1dS",

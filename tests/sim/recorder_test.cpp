@@ -79,6 +79,31 @@ TEST_F(RecorderFile, EveryNumberOfAStepIsFoundUnderItsName)
     EXPECT_DOUBLE_EQ(record(report, name), value) << name;
 }
 
+TEST_F(RecorderFile, WhatMovingBoundariesDoIsRecorded)
+{
+  world = world_of({{{0, 0.5}, 0.5}, {{0, -0.5}, 0.5, true}});
+  Simulation simulation(world, {{0, 0.5}, {0, -0.4995}});
+  BoundaryBody base;
+  base.begin = 1;
+  base.end = 2;
+  base.velocity = {0, 2};
+  simulation.drive({base});
+  Frame frame;
+  {
+    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
+    Recorder recorder(writer, 1);
+    recorder.add(simulation.advance(frame));
+    recorder.write(frame, simulation);
+    writer.close();
+  }
+  // Struck without rebound it moves on with the base: force m v/h along v h.
+  const TrajectoryReader file(path);
+  const double mass = world.grains.mass[0];
+  EXPECT_NEAR(file.observable("work_of_boundaries")[0], mass * 4, 1e-12);
+  EXPECT_NEAR(file.observable("work_of_contacts")[0], -mass * 2, 1e-12);
+  EXPECT_NEAR(file.observable("translational_energy")[0], mass * 2, 1e-12);
+}
+
 TEST_F(RecorderFile, ARunThatOverlapsOrTunnelsIsStopped)
 {
   StepReport report;
