@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/archive.hpp"
 #include "formats/import/lammps_archive.hpp"
+#include "formats/import/siconos_archive.hpp"
 #include "formats/tool.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ struct Format {
 /// One line per format.
 constexpr Format formats[] = {
     {"lammps", open_lammps},
+    {"siconos", open_siconos},
 };
 
 }  // namespace
