@@ -54,6 +54,7 @@ class SiconosArchive : public Archive {
 
  private:
   double size_of(const SiconosBody& body) const;
+  std::int64_t id_of(std::size_t body) const;
   std::size_t body_of(std::int64_t id, const char* table, hsize_t row) const;
   bool follows_previous(double time) const;
   void add_grain(std::size_t body, const Vec3& position, ArchiveGrains& grains);
@@ -119,6 +120,12 @@ double SiconosArchive::size_of(const SiconosBody& body) const
   return bodies_.discs ? body.radius * body.radius : std::pow(body.radius, 3);
 }
 
+std::int64_t SiconosArchive::id_of(std::size_t body) const
+{
+  const auto id = bodies_.all[body].id;
+  return id > 0 ? id : bodies_.all.back().id - id;
+}
+
 std::size_t SiconosArchive::body_of(std::int64_t id, const char* table, hsize_t row) const
 {
   const auto at = std::lower_bound(bodies_.all.begin(), bodies_.all.end(), id,
@@ -140,7 +147,7 @@ void SiconosArchive::add_grain(std::size_t body, const Vec3& position, ArchiveGr
 {
   const auto& of = bodies_.all[body];
   grain_of_[body] = static_cast<std::ptrdiff_t>(grains.size());
-  grains.id.push_back(of.id);
+  grains.id.push_back(id_of(body));
   grains.radius.push_back(of.radius);
   grains.mass.push_back(of.mass > 0 ? of.mass : static_mass_per_size_ * size_of(of));
   grains.fixed.push_back(of.mass == 0);
@@ -262,8 +269,8 @@ void SiconosArchive::fill_contacts(double time, hsize_t first_row, const Archive
     const Vec3 branch = wall_[second] < 0
                             ? Vec3(x - grains.position[static_cast<std::size_t>(grain_of_[second])])
                             : Vec3(normal * normal.dot(x - vector_at(row, second_point_at)));
-    contacts.i.push_back(bodies_.all[first].id);
-    contacts.j.push_back(bodies_.all[second].id);
+    contacts.i.push_back(id_of(first));
+    contacts.j.push_back(id_of(second));
     contacts.wall.push_back(wall_[second]);
     contacts.force.push_back(force);
     contacts.branch.push_back(branch);

@@ -16,9 +16,10 @@ namespace grseg {
 /// * Moments: the times of /data/dynamic at which a step was solved. The initial state has no
 ///   contacts and is none.
 /// * Partners: ds1 == ds2 says that the partner stands still, not which: it is the static disc or
-///   box that the row's second point lies on. Static discs are grains with `fixed` set, and weigh
-///   what their size would at the density of the first mobile grain; boxes are walls, numbered in
-///   the order in which they were added.
+///   box that the row's second point lies on. Static discs are grains with `fixed` set; they weigh
+///   what their size would at the density of the first mobile grain, and their ids, which are
+///   negative, are counted on from the last mobile one. Boxes are walls, numbered in the order in
+///   which they were added.
 /// * Points: a sphere and a box may touch in several; their impulses are added.
 /// * A contact that has just opened stands in the table for one more step, with the geometry and
 ///   relative velocity of the step before and an impulse that no body felt. Such rows are left out;
