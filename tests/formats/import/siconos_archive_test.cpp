@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace archive_balance;
 
-const std::string inputs = GRSEG_TEST_INPUTS "/archives/";
-const std::string discs = inputs + "siconos-discs.hdf5", spheres = inputs + "siconos-spheres.hdf5";
+const std::string inputs = GRSEG_TEST_INPUTS "/siconos/";
+const std::string discs = inputs + "discs.hdf5", spheres = inputs + "spheres.hdf5";
 constexpr double pi = std::numbers::pi;
 const Vec3 slope{9.81 * std::sin(10 * pi / 180), -9.81 * std::cos(10 * pi / 180), 0};
 

@@ -10,7 +10,7 @@ import siconos.numerics as sn
 
 G, SLOPE, STEP, STEPS = 9.81, math.radians(10), 2e-3, 80
 random.seed(5)
-with MechanicsHdf5Runner(mode='w', io_filename='siconos-discs.hdf5') as io:
+with MechanicsHdf5Runner(mode='w', io_filename='discs.hdf5') as io:
     io._dimension = 2
     io._out.attrs['dimension'] = 2
     io.add_Newton_impact_friction_nsl('contact', mu=0.5, e=0.0)
@@ -46,6 +46,6 @@ bullet.worldScale = 1.0
 bullet.contactBreakingThreshold = 0.01
 bullet.perturbationIterations = 0  # one point per pair
 bullet.minimumPointsPerturbationThreshold = 0
-with MechanicsHdf5Runner(mode='r+', io_filename='siconos-discs.hdf5') as io:
+with MechanicsHdf5Runner(mode='r+', io_filename='discs.hdf5') as io:
     io.run(t0=0, T=STEP * STEPS, h=STEP, theta=0.5, Newton_max_iter=1, set_external_forces=pull,
            solver_options=solver, output_frequency=1, bullet_options=bullet)
