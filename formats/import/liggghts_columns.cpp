@@ -75,6 +75,14 @@ struct Layout {
   }
 };
 
+/// 0: it is none.
+std::size_t number_of(const std::string& text)
+{
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? number : 0;
+}
+
 Layout layout_of(const std::string& columns)
 {
   std::array<std::size_t, std::size(blocks)> width{};
@@ -85,10 +93,8 @@ Layout layout_of(const std::string& columns)
     const auto* const block = std::find_if(std::begin(blocks), std::end(blocks),
                                            [&](const Block& b) { return name == b.keyword; });
     std::size_t count = block == std::end(blocks) ? 0 : block->columns;
-    if (colon != std::string::npos && name == "history")
-      std::from_chars(word.data() + colon + 1, word.data() + word.size(), count);
-    else if (colon != std::string::npos)
-      count = 0;
+    if (colon != std::string::npos)
+      count = name == "history" ? number_of(word.substr(colon + 1)) : 0;
     if (block == std::end(blocks) || count < 1 || count > 100) {
       std::vector<std::string> known;
       for (const auto& b : blocks) known.emplace_back(b.keyword);
@@ -109,11 +115,9 @@ Layout layout_of(const std::string& columns)
 /// "c_cp[13]" is column 13 of a compute; 0: the name does not tell.
 std::size_t number_in(const std::string& name)
 {
-  std::size_t number = 0;
   const auto open = name.find('[');
   if (open == std::string::npos || !name.starts_with("c_") || !name.ends_with(']')) return 0;
-  std::from_chars(name.data() + open + 1, name.data() + name.size() - 1, number);
-  return number;
+  return number_of(name.substr(open + 1, name.size() - open - 2));
 }
 
 /// Columns of the dump by columns of the compute.
@@ -122,7 +126,7 @@ class Dumped {
   explicit Dumped(const DumpHeader& header) : count_(header.columns.size())
   {
     for (const auto& name : header.columns) numbers_.push_back(number_in(name));
-    numbered_ = std::find(numbers_.begin(), numbers_.end(), 0U) == numbers_.end();
+    numbered_ = count_ > 0 && std::find(numbers_.begin(), numbers_.end(), 0U) == numbers_.end();
   }
   /// From 1; 0: it was not dumped.
   std::size_t column(std::size_t of_compute) const
@@ -131,11 +135,11 @@ class Dumped {
     const auto at = std::find(numbers_.begin(), numbers_.end(), of_compute);
     return at == numbers_.end() ? 0 : static_cast<std::size_t>(at - numbers_.begin()) + 1;
   }
-  /// How many columns the compute has at least, or exactly where names do not tell.
+  /// Whether they may be of a compute of so many columns: of all, or of a selection by name.
   bool fits(std::size_t columns) const
   {
-    return numbered_ ? *std::max_element(numbers_.begin(), numbers_.end()) <= columns
-                     : count_ == columns;
+    const auto last = numbered_ ? *std::max_element(numbers_.begin(), numbers_.end()) : count_;
+    return last == columns || (last < columns && last != count_);
   }
 
  private:

@@ -51,17 +51,19 @@ inline std::vector<Vec3> contact_forces(const ArchiveMoment& moment)
 }
 
 /// Largest |contact forces + m g - force| of a grain that is not held, over the largest contact
-/// force; 0 where nothing touches.
+/// force or weight.
 inline double residual(const ArchiveMoment& moment, const Vec3& gravity)
 {
   const auto& grains = moment.grains;
   const auto sum = contact_forces(moment);
-  double worst = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (grains.fixed.empty() || !grains.fixed[g])
-      worst = std::max(worst, (sum[g] + grains.mass[g] * gravity - grains.force[g]).norm());
-  const double scale = largest_force(moment.contacts);
-  return scale > 0 ? worst / scale : 0;
+  double worst = 0, scale = largest_force(moment.contacts);
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!grains.fixed.empty() && grains.fixed[g]) continue;
+    const Vec3 weight = grains.mass[g] * gravity;
+    worst = std::max(worst, (sum[g] + weight - grains.force[g]).norm());
+    scale = std::max(scale, weight.norm());
+  }
+  return worst / scale;
 }
 
 }  // namespace grseg::archive_balance
