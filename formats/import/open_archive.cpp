@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/archive.hpp"
+#include "formats/import/csv_archive.hpp"
 #include "formats/import/lammps_archive.hpp"
 #include "formats/import/liggghts_archive.hpp"
 #include "formats/import/mercury_archive.hpp"
@@ -23,6 +24,7 @@ constexpr Format formats[] = {
     {"liggghts", open_liggghts},
     {"mercury", open_mercury},
     {"siconos", open_siconos},
+    {"csv", open_csv},
 };
 
 }  // namespace

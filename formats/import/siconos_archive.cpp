@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/siconos_archive.hpp"
 
+#include "formats/import/enclosing_cell.hpp"
 #include "formats/import/file_list.hpp"
 #include "formats/import/siconos_bodies.hpp"
 #include "formats/import/siconos_table.hpp"
@@ -296,12 +297,7 @@ bool SiconosArchive::next(ArchiveMoment& moment)
       fill_places(place, moment.grains);
       fill_velocities(*time, velocity, moment.grains);
       fill_contacts(*time, point, moment.grains, moment.contacts);
-      moment.low = moment.high = moment.grains.position.front();
-      for (std::size_t g = 0; g < moment.grains.size(); ++g) {
-        const Vec3 reach = Vec3::Constant(moment.grains.radius[g]);
-        moment.low = moment.low.cwiseMin(moment.grains.position[g] - reach);
-        moment.high = moment.high.cwiseMax(moment.grains.position[g] + reach);
-      }
+      enclose_grains(moment);
     }
     previous_time_ = *time;
     if (whole) return true;
