@@ -13,11 +13,11 @@ namespace {
 
 class DumpArchive : public Archive {
  public:
-  DumpArchive(const ArchiveFiles& files, const DumpDialect& dialect)
+  DumpArchive(const std::vector<std::string>& grains, const std::vector<std::string>& contacts,
+              std::string columns, const DumpDialect& dialect)
       : dialect_(dialect),
-        dumps_(archive_files(files.grains, "--grains"),
-               archive_files(files.contacts, "--contacts")),
-        told_(files.columns),
+        dumps_(grains, contacts),
+        told_(std::move(columns)),
         facts_(dialect.facts)
   {
     facts_.step = dumps_.step();
@@ -83,7 +83,9 @@ class DumpArchive : public Archive {
 
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect)
 {
-  return std::make_unique<DumpArchive>(files, dialect);
+  const auto grains = archive_files(files.grains, "--grains");
+  return std::make_unique<DumpArchive>(grains, archive_files(files.contacts, "--contacts"),
+                                       files.columns, dialect);
 }
 
 }  // namespace grseg
