@@ -189,6 +189,24 @@ TEST(SiconosArchive, DiscsThatStandStillWeighAsTheOthersDo)
   EXPECT_EQ(held, 5);
 }
 
+TEST_F(DamagedSiconos, TimesThatDifferInTheLastPlaceAreTheSame)
+{
+  const auto one_off = [](hid_t file) {
+    const hid_t id = H5Dopen2(file, "/data/velocities", H5P_DEFAULT);
+    std::vector<std::array<float, 8>> rows(984);
+    const hid_t space = H5Dget_space(id);
+    EXPECT_EQ(H5Sget_simple_extent_npoints(space), 8 * 984);
+    H5Dread(id, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data());
+    for (auto& row : rows)
+      if (row[0] > 0) row[0] = std::nextafter(row[0], 1.0F);
+    H5Dwrite(id, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data());
+    H5Sclose(space);
+    H5Dclose(id);
+  };
+  EXPECT_EQ(complaint(one_off), "no complaint");
+  EXPECT_EQ(all_of(*open(path)).size(), 80u);
+}
+
 TEST_F(DamagedSiconos, WithoutTableOfContactsNamesTheSwitchThatWritesIt)
 {
   const auto said = complaint([](hid_t file) { H5Ldelete(file, "/data/cf", H5P_DEFAULT); });
