@@ -37,6 +37,14 @@ void write_attribute(hid_t object, const std::string& name, hid_t type,
   check_written(H5Awrite(attribute, type, data), "attribute " + name);
 }
 
+constexpr hssize_t most_in_attribute = 4096;  // entries, or bytes of a text of fixed length
+
+Attribute attribute_of(hid_t parent, const std::string& path, const std::string& name)
+{
+  if (!exists(parent, path)) return {};
+  return Attribute(H5Aopen_by_name(parent, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
+}
+
 Properties with_parents()
 {
   Properties links(H5Pcreate(H5P_LINK_CREATE));
@@ -240,6 +248,44 @@ bool exists(hid_t parent, const std::string& path)
     if (H5Lexists(parent, path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
     if (slash == std::string::npos) return true;
   }
+}
+
+std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
+                                         const std::string& name, const std::string& file)
+{
+  const auto attribute = attribute_of(parent, path, name);
+  if (!attribute.valid()) return {};
+  const Type type(H5Aget_type(attribute));
+  const auto kind = H5Tget_class(type);
+  const auto count = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute)));
+  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || count < 0 || count > most_in_attribute)
+    throw FormatError(fmt::format("{}: '{}' of {} should hold numbers", file, name, path));
+  std::vector<double> numbers(static_cast<std::size_t>(count));
+  if (count > 0 && H5Aread(attribute, H5T_NATIVE_DOUBLE, numbers.data()) < 0)
+    throw FormatError(fmt::format("{}: '{}' of {} cannot be read", file, name, path));
+  return numbers;
+}
+
+std::string text_in_attribute(hid_t parent, const std::string& path, const std::string& name,
+                              const std::string& file)
+{
+  const auto attribute = attribute_of(parent, path, name);
+  if (!attribute.valid()) return {};
+  const Type type(H5Aget_type(attribute));
+  const bool one = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute))) == 1;
+  if (!one || H5Tget_class(type) != H5T_STRING || H5Tget_size(type) > most_in_attribute)
+    throw FormatError(fmt::format("{}: '{}' of {} should hold a text", file, name, path));
+  std::string text(H5Tget_size(type), '\0');
+  char* grown = nullptr;
+  const bool variable = H5Tis_variable_str(type) > 0;
+  if (H5Aread(attribute, type, variable ? static_cast<void*>(&grown) : text.data()) < 0 ||
+      (variable && grown == nullptr))
+    throw FormatError(fmt::format("{}: '{}' of {} cannot be read", file, name, path));
+  if (variable) {
+    text = grown;
+    H5free_memory(grown);
+  }
+  return text.c_str();  // up to the padding
 }
 
 std::vector<std::string> names_in(hid_t parent, const std::string& path)

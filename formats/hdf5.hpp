@@ -110,6 +110,12 @@ class CheckedDataset {
 };
 
 bool exists(hid_t parent, const std::string& path);
+/// What the attribute `name` of the object at `path` holds; empty where there is none. FormatError
+/// naming `file` where it holds something else, or more of it than a description of a body does.
+std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
+                                         const std::string& name, const std::string& file);
+std::string text_in_attribute(hid_t parent, const std::string& path, const std::string& name,
+                              const std::string& file);
 /// The names linked in a group, in alphabetical order.
 std::vector<std::string> names_in(hid_t parent, const std::string& path);
 

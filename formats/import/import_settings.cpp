@@ -33,7 +33,8 @@ po::options_description import_options(ImportSettings& s)
       "contacts", files(s.files.contacts), "files with the contacts")(
       "restart", po::value(&s.files.restart)->value_name("FILE"), "MercuryDPM: its .restart")(
       "columns", po::value(&s.files.columns)->value_name("MAP"),
-      "what the columns of the contacts mean: i=2,j=3,dist=4,force=5,tangential=8")(
+      "what the columns of the contacts mean: i=2,j=3,dist=4,force=5,tangential=8; liggghts: the "
+      "keywords of its compute, too")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
       "an archive that ends inside a moment is imported up to there");
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/archive.hpp"
+#include "formats/import/csv_archive.hpp"
 #include "formats/import/lammps_archive.hpp"
+#include "formats/import/liggghts_archive.hpp"
+#include "formats/import/mercury_archive.hpp"
+#include "formats/import/siconos_archive.hpp"
 #include "formats/tool.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +21,10 @@ struct Format {
 /// One line per format.
 constexpr Format formats[] = {
     {"lammps", open_lammps},
+    {"liggghts", open_liggghts},
+    {"mercury", open_mercury},
+    {"siconos", open_siconos},
+    {"csv", open_csv},
 };
 
 }  // namespace

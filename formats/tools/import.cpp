@@ -19,7 +19,22 @@ constexpr ToolInfo info{
     "    --gravity 9.8 --slope 23 --boundary 3 -o run.h5\n"
     "  grseg-import --format lammps --grains 'atoms.*.gz' --contacts 'contacts.*.gz' --units si "
     "\\\n"
-    "    --step 1e-5 --gravity 3.83,-9.02,0 --small 1 --large 2 --boundary 3 -o run.h5\n"};
+    "    --step 1e-5 --gravity 3.83,-9.02,0 --small 1 --large 2 --boundary 3 -o run.h5\n"
+    "  grseg-import --format liggghts --grains 'atoms_*' --contacts 'contacts_*' --units si "
+    "\\\n"
+    "    --columns pos,id,force,delta --step 5e-6 --gravity 9.81 --slope 23 --axes xz \\\n"
+    "    --boundary 3 -o run.h5\n"
+    "  grseg-import --format mercury --grains run.data --contacts run.fstat \\\n"
+    "    --restart run.restart --units si -o run.h5\n"
+    "  grseg-import --format siconos --grains run.hdf5 --units si --gravity 9.81 --slope 23 "
+    "-o run.h5\n"
+    "  grseg-import --format csv --grains grains.csv --contacts contacts.csv --units si \\\n"
+    "    --step 1e-5 --gravity 9.81 --slope 23 -o run.h5\n\n"
+    "  csv: tables of named columns (grains: time id x y vx vy radius|diameter; and z vz omega "
+    "mass\n"
+    "  type fixed fx fy fz; contacts: time i j fx fy; and fz overlap bx by bz); more names and "
+    "all\n"
+    "  formats: docs/archives.md\n"};
 
 void check(const ImportSettings& settings, const po::variables_map& values)
 {
