@@ -21,7 +21,7 @@ do for [quantity in "contact kinetic"] {
   sign = quantity eq "contact" ? 1 : -1
   set ylabel quantity eq "contact" ? "B, by size" : "-B_κ"
   paper = quantity eq "contact" ? 0.0345 : 0.373
-  set yrange [paper - 0.12:paper + 0.12]
+  set yrange [sign > 0 ? -0.05 : 0.2:sign > 0 ? 0.12 : 0.45]
   set xlabel "Φ_L of the flow (23°)"
   set xrange [0:0.8]
   plot for [k = 1:3] fits using (only(mixture(0) && takes(quantity, word(stages, k)), column("phi") + 0.012 * (k - 2))):(sign * column("B_half")):(sign * column(sign > 0 ? "B_half_low" : "B_half_high")):(sign * column(sign > 0 ? "B_half_high" : "B_half_low")) with yerrorbars pt 7 lc rgb word(colours, k) title word(titles, k), \

@@ -21,14 +21,17 @@ plot time using (middle(0)):(bed(column("yL/H"))) with lines lw 2 lc rgb large n
      0.677 with lines dt 3 lc rgb "gray" title "above it blind forces would make f_S > f_L (φ_L = 0.45)"
 set yrange [0:*]
 set ylabel "contacts per grain"
+set key bottom right
 plot time using (middle(0)):(bed(column("z_L"))) with lines lw 2 lc rgb large title "z_L", \
      "" using (middle(0)):(bed(column("z_S"))) with lines lw 2 lc rgb small title "z_S"
 set ylabel "f / (m_S g)"
+set key top right
 plot time using (middle(0)):(bed(column("f_weight_L"))) with lines lw 2 lc rgb large title "f_L", \
      "" using (middle(0)):(bed(column("f_weight_neutral_L"))) with lines lw 1 dt 2 lc rgb large title "blind", \
      "" using (middle(0)):(bed(column("f_weight_S"))) with lines lw 2 lc rgb small title "f_S", \
      "" using (middle(0)):(bed(column("f_weight_neutral_S"))) with lines lw 1 dt 2 lc rgb small title "blind"
 set ylabel "f / (ρ g cosθ (H − y) d_S)"
+set key bottom right
 plot time using (middle(0)):(bed(column("f_depth_L"))) with lines lw 2 lc rgb large title "f_L", \
      "" using (middle(0)):(bed(column("f_depth_neutral_L"))) with lines lw 1 dt 2 lc rgb large title "blind, π r/z_L", \
      "" using (middle(0)):(bed(column("f_depth_S"))) with lines lw 2 lc rgb small title "f_S", \
