@@ -82,6 +82,8 @@ $(work)/fits.tsv: $(every) fits $(scripts) | $(work)
 	./fits $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP)
 $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
 	./flows $(tables) $< -o $@ --bin $(bin) --begin $(BEGIN)
+$(work)/choices.tsv: $(every) choices $(scripts) | $(work)
+	./choices $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP)
 $(work)/numbers.tsv: $(every) numbers $(scripts) | $(work)
 	./numbers $(tables) -o $@ --bin $(bin) --late $(LATE)
 
@@ -103,7 +105,7 @@ $(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/str
 	$(call draw,stress-ratio) kinetic
 
 # The document: its generated parts anew, all else as it is.
-document: $(pictures) $(work)/flows.tsv $(work)/fits.tsv $(work)/numbers.tsv $(work)/scan.tsv
+document: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv profile.tsv choices.tsv)
 	mkdir -p $(root)/docs/figures/reproduction
 	cp $(pictures) $(root)/docs/figures/reproduction
 	./document $(work) $(root)/docs/reproduction.md

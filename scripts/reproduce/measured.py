@@ -48,13 +48,8 @@ class Measured:
         self.fits, self.flows, numbers = at("fits")[1], at("flows")[1], at("numbers")[1]
         self.scan, _ = at("scan")
         self.profile_header, self.profile = at("profile")
-        self.sensitivities = self._sensitivities(folder)
+        self.choices = at("choices")[1]
         self._numbers = {(row["of"], row["name"]): row for row in numbers}
-
-    @staticmethod
-    def _sensitivities(folder):
-        path = os.path.join(folder, "sensitivities.tsv")
-        return tables.read(path)[1] if os.path.exists(path) else []
 
     def number(self, of, name):
         row = self._numbers.get((of, name))
