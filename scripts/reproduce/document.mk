@@ -28,7 +28,7 @@ names := snapshots pressure-profile stress-ratio mixed-share kinetic-profile kin
   pressure-estimates micro-over-time b-of-p b-of-flows balance step
 pictures := $(names:%=$(work)/%.png)
 
-.PHONY: document figures kept unpacked $(names:%=figures/%.png)
+.PHONY: reproduction.md figures kept $(names:%=figures/%.png)
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -82,8 +82,9 @@ $(work)/fits.tsv: $(every) fits $(scripts) | $(work)
 	./fits $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP)
 $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
 	./flows $(tables) $< -o $@ --bin $(bin) --begin $(BEGIN)
+# Of tables that are not kept; what they say is.
 $(work)/choices.tsv: $(every) choices $(scripts) | $(work)
-	./choices $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP)
+	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP),cp $(KEPT)/choices.tsv $@)
 $(work)/numbers.tsv: $(every) numbers $(scripts) | $(work)
 	./numbers $(tables) -o $@ --bin $(bin) --late $(LATE)
 
@@ -105,12 +106,13 @@ $(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/str
 	$(call draw,stress-ratio) kinetic
 
 # The document: its generated parts anew, all else as it is.
-document: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv profile.tsv choices.tsv)
+reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv profile.tsv choices.tsv)
 	mkdir -p $(root)/docs/figures/reproduction
 	cp $(pictures) $(root)/docs/figures/reproduction
 	./document $(work) $(root)/docs/reproduction.md
 
-kept: keep $(scripts)
+kept: keep $(scripts) $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }
 	mkdir -p $(KEPT)
 	./keep $(tables) $(KEPT)/tables.tar.xz
+	cp $(work)/choices.tsv $(KEPT)

@@ -75,6 +75,10 @@ class Measured:
     def flow(self, name):
         return next((row for row in self.flows if row["flow"] == name), None)
 
+    def of_scan(self, name):
+        """A number that stands before the rows of B(p)."""
+        return Value(*(float(self.scan.get(name + end, "nan")) for end in ("", "_low", "_high")))
+
     def of_flow(self, name, quantity):
         row = self.flow(name)
         if row is None:
