@@ -13,6 +13,8 @@ BIN ?= $(CURDIR)/../../build/bin
 KEPT := $(CURDIR)/../../data/reproduction
 TABLES ?=
 WORK ?= reproduction-figures
+DOCUMENT ?= $(CURDIR)/../../docs/reproduction.md
+PICTURES ?= $(CURDIR)/../../docs/figures/reproduction
 LATE ?= 100
 BEGIN ?= 10
 BOOTSTRAP ?= 1000
@@ -22,7 +24,6 @@ work := $(call absolute,$(WORK))
 bin := $(call absolute,$(BIN))
 tables := $(if $(TABLES),$(call absolute,$(TABLES)),$(work)/kept)
 gp := ../figures
-root := $(CURDIR)/../..
 
 names := snapshots pressure-profile stress-ratio mixed-share kinetic-profile kinetic-ratio kinetic-shear-rate \
   pressure-estimates micro-over-time b-of-p b-of-flows balance step
@@ -107,9 +108,9 @@ $(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/str
 
 # The document: its generated parts anew, all else as it is.
 reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv profile.tsv choices.tsv)
-	mkdir -p $(root)/docs/figures/reproduction
-	cp $(pictures) $(root)/docs/figures/reproduction
-	./document $(work) $(root)/docs/reproduction.md
+	mkdir -p $(PICTURES)
+	cp $(pictures) $(PICTURES)
+	./document $(work) $(DOCUMENT)
 
 kept: keep $(scripts) $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }
