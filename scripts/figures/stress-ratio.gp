@@ -16,6 +16,7 @@ set format xy "10^{%T}"
 set xlabel "φ_S / φ_L"
 set ylabel kinetic ? "σ^{κS}_{yy} / σ^{κL}_{yy}" : "σ^S_{yy} / σ^L_{yy}"
 set xrange [0.01:100]
+set yrange [0.003:1000]
 set key top left
 c(name) = column(name."[N m]")
 small(dummy) = kinetic ? column("K_S_yy[J]") : c("A_SS_yy") + c("M_yy") - c("Msize_yy") + c("A_Sb_yy")

@@ -25,17 +25,11 @@ bin := $(call absolute,$(BIN))
 tables := $(if $(TABLES),$(call absolute,$(TABLES)),$(work)/kept)
 gp := ../figures
 
-names := snapshots pressure-profile stress-ratio mixed-share kinetic-profile kinetic-ratio kinetic-shear-rate \
-  pressure-estimates micro-over-time b-of-p b-of-flows balance step
-pictures := $(names:%=$(work)/%.png)
-
-.PHONY: reproduction.md figures kept $(names:%=figures/%.png)
+.PHONY: reproduction.md figures kept
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-figures: $(pictures)
-$(names:%=figures/%.png): figures/%.png: $(work)/%.png
-
+reproduction.md:
 # The kept tables, unpacked as the tools read them, before make looks for runs.
 ifeq ($(TABLES),)
 unpacked := $(shell $(CURDIR)/unpack $(KEPT) $(tables) >&2 || echo no)
@@ -47,6 +41,17 @@ $(if $(runs),,$(error $(tables) holds no run that is done))
 # of FLOWS, QUANTITY: tables of all seeds of these flows.
 of = $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(tables)/$(flow)-seed%,$(runs))))
 mixtures := $(foreach phi,0.06 0.15 0.30 0.45 0.60 0.75,phi$(phi)-s23)
+slopes := $(foreach slope,21 22 23 24 25 26,phi0.45-s$(slope))
+
+# The figures for which there are flows.
+names := $(if $(call of,phi0.30-s23,stress),snapshots pressure-profile kinetic-profile balance) \
+  $(if $(call of,$(mixtures),stress),stress-ratio mixed-share kinetic-ratio pressure-estimates b-of-p b-of-flows) \
+  $(if $(call of,phi0.45-s23,stress),micro-over-time step) $(if $(call of,$(slopes),stress),kinetic-shear-rate)
+pictures := $(names:%=$(work)/%.png)
+figures: $(pictures)
+.PHONY: $(names:%=figures/%.png)
+$(names:%=figures/%.png): figures/%.png: $(work)/%.png
+
 inside := --heights 4dS:56dS --quiet
 fit = $(bin)/grseg-fit --bootstrap $(BOOTSTRAP) $(inside) -o $@
 micro = $(bin)/grseg-micro --derived -o $@
@@ -107,7 +112,7 @@ $(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/str
 	$(call draw,stress-ratio) kinetic
 
 # The document: its generated parts anew, all else as it is.
-reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv profile.tsv choices.tsv)
+reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv)
 	mkdir -p $(PICTURES)
 	cp $(pictures) $(PICTURES)
 	./document $(work) $(DOCUMENT)

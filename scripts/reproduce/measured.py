@@ -47,7 +47,6 @@ class Measured:
         at = lambda name: tables.read(os.path.join(folder, name + ".tsv"))
         self.fits, self.flows, numbers = at("fits")[1], at("flows")[1], at("numbers")[1]
         self.scan, _ = at("scan")
-        self.profile_header, self.profile = at("profile")
         self.choices = at("choices")[1]
         self._numbers = {(row["of"], row["name"]): row for row in numbers}
 

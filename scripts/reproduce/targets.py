@@ -7,19 +7,23 @@ import math
 
 from measured import Value, line_fit, plain
 
+NOT_YET = "not measured yet"
+
 
 class Target:
     def __init__(self, name, paper, ours, verdict, why):
         self.name, self.paper, self.ours, self.verdict, self.why = name, paper, ours, verdict, why
 
     def cells(self):
+        if self.verdict == NOT_YET:
+            return [self.name, self.paper, "–", NOT_YET, ""]
         return [self.name, self.paper, self.ours, self.verdict, self.why]
 
 
 def judged(value, paper, tolerance):
     met = value.meets(paper - tolerance, paper + tolerance)
     if met is None:
-        return "not measured yet"
+        return NOT_YET
     if met and value.high - value.low > 2 * tolerance:
         return "undecided"  # the interval is wider than the tolerance
     return "agrees" if met else "**differs**"
@@ -33,7 +37,7 @@ def number(name, text, value, digits, paper, tolerance, why):
 
 def claim(name, text, ours, holds, why, otherwise="**differs**"):
     """A target that is a statement; `holds` may be None where nothing was measured."""
-    verdict = "not measured yet" if holds is None else "agrees" if holds else otherwise
+    verdict = NOT_YET if holds is None else "agrees" if holds else otherwise
     return Target(name, text, ours, verdict, why)
 
 
