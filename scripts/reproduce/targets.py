@@ -47,7 +47,8 @@ def wanted(values):
 
 
 def contact_stress(m):
-    """Figure 2 and section III."""
+    """Figures 1 and 2 and section III."""
+    yield segregated(m)
     b = m.fit("mixtures")
     every = m.fit("mixtures", heights="all")
     pressure = m.fit("mixtures", component="pressure")
@@ -82,6 +83,17 @@ def contact_stress(m):
                      f"{plain(row.get('neutral', math.nan), 3)}, paper {plain(paper - 0.034, 3)}")
     yield slope_and_b(m)
     yield stages(m)
+
+
+def segregated(m):
+    """Figure 1: y_L/H goes from Phi_L/2 to 1 - Phi_L/2 if the species separate."""
+    start, end = (m.of_flow("phi0.30-s23", name) for name in ("yL0", "yL1"))
+    way = (end.value - 0.15) / (0.85 - 0.15)
+    holds = None if math.isnan(way) else way > 0.8
+    return claim("1: large grains on top at last, thin mixed zone", "snapshots at 0 and 150 s",
+                 f"y_L/H from {start.text(3)} to {end.text(3)}", holds,
+                 f"{plain(100 * way, 0)} % of the way from 0.15 to 0.85, where they would be separated; "
+                 "80 % counts as met. The first row stays at the base")
 
 
 def slope_and_b(m):
@@ -123,8 +135,9 @@ def kinetic_stress(m):
     half_sum = m.fit("mixtures", "B_paper", **kinetic)
     yield number("B_κ", "−0.373", half_sum, 3, -0.373, 0.04,
                  "half the sum of the end values, which is what the paper prints; at φ = 1/2 "
-                 f"{m.fit('mixtures', **kinetic).text(3)}; all heights "
-                 f"{m.fit('mixtures', 'B_paper', heights='all', **kinetic).text(3)}")
+                 f"{m.fit('mixtures', **kinetic).text(3)}; all heights, with the row that the base traps, "
+                 f"{m.fit('mixtures', 'B_paper', heights='all', **kinetic).text(3)}. For e and the mean "
+                 "velocity see the choices below")
     ratio = -m.fit("mixtures", **kinetic).value / m.fit("mixtures").value
     yield number("|B_κ| over B".replace("|", "\\|"), "\"more than 10 times\", 10.8", Value(ratio), 1, 10.8, 5,
                  "both at φ = 1/2")
