@@ -15,7 +15,6 @@ TABLES ?=
 WORK ?= reproduction-figures
 DOCUMENT ?= $(CURDIR)/../../docs/reproduction.md
 PICTURES ?= $(CURDIR)/../../docs/figures/reproduction
-LATE ?= 100
 BEGIN ?= 10
 BOOTSTRAP ?= 1000
 
@@ -39,7 +38,7 @@ runs := $(sort $(patsubst %/checksums,%,$(wildcard $(tables)/*/checksums)))
 $(if $(runs),,$(error $(tables) holds no run that is done))
 
 # of FLOWS, QUANTITY: tables of all seeds of these flows.
-of = $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(tables)/$(flow)-seed%,$(runs))))
+of = $(strip $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(tables)/$(flow)-seed%,$(runs)))))
 mixtures := $(foreach phi,0.06 0.15 0.30 0.45 0.60 0.75,phi$(phi)-s23)
 slopes := $(foreach slope,21 22 23 24 25 26,phi0.45-s$(slope))
 
@@ -79,7 +78,7 @@ $(work)/ends.tsv: $(every) | $(work)
 $(work)/time.tsv: $(every) | $(work)
 	$(micro) $(firstword $(call of,phi0.45-s23,micro)) --quiet
 $(work)/profile.tsv: $(every) $(scripts) ../profile | $(work)
-	../profile $(call of,phi0.30-s23,stress) --kinetic $(call of,phi0.30-s23,kinetic) --begin $(LATE) > $@
+	../profile $(call of,phi0.30-s23,stress) --kinetic $(call of,phi0.30-s23,kinetic) --last-third > $@
 $(work)/balance-profile.tsv: $(every) ../balance-profile | $(work)
 	../balance-profile $(call of,phi0.30-s23,balance) > $@
 $(work)/snapshots.tsv: $(every) | $(work)
@@ -92,7 +91,7 @@ $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
 $(work)/choices.tsv: $(every) choices $(scripts) | $(work)
 	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP),cp $(KEPT)/choices.tsv $@)
 $(work)/numbers.tsv: $(every) numbers $(scripts) | $(work)
-	./numbers $(tables) -o $@ --bin $(bin) --late $(LATE)
+	./numbers $(tables) -o $@ --bin $(bin)
 
 # Each figure of its tables.
 draw = gnuplot -c $(gp)/$(1).gp $(work)

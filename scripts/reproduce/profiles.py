@@ -44,6 +44,11 @@ def ratio(rows, above, below):
     return value, math.sqrt(left * n / (n - 1)) / abs(total)
 
 
+def last_third(path):
+    """When the last third of a table's time begins, s."""
+    return max(row["t1"] for row in tables.read(path)[1]) * 2 / 3
+
+
 class Profile:
     """Layers of all windows between begin and end, of one flow's tables."""
 
