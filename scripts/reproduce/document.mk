@@ -15,7 +15,6 @@ TABLES ?=
 WORK ?= reproduction-figures
 DOCUMENT ?= $(CURDIR)/../../docs/reproduction.md
 PICTURES ?= $(CURDIR)/../../docs/figures/reproduction
-BEGIN ?= 10
 BOOTSTRAP ?= 1000
 
 absolute = $(foreach path,$(1),$(if $(filter /%,$(path)),$(path),$(HERE)/$(path)))
@@ -86,7 +85,7 @@ $(work)/snapshots.tsv: $(every) | $(work)
 $(work)/fits.tsv: $(every) fits $(scripts) | $(work)
 	./fits $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP)
 $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
-	./flows $(tables) $< -o $@ --bin $(bin) --begin $(BEGIN)
+	./flows $(tables) $< -o $@ --bin $(bin)
 # Of tables that are not kept; what they say is.
 $(work)/choices.tsv: $(every) choices $(scripts) | $(work)
 	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP),cp $(KEPT)/choices.tsv $@)

@@ -4,7 +4,7 @@ FIGURES ?= yes
 ifeq ($(FIGURES),yes)
 reproduce: $(out)/reproduction.md
 endif
-$(out)/reproduction.md: $(campaign:%=$(out)/%/checksums) $(fits)/.settings
+$(out)/reproduction.md: $(campaign:%=$(out)/%/checksums)
 	cp ../../docs/reproduction.md $@.new
 	+$(MAKE) --no-print-directory -f document.mk reproduction.md TABLES=$(out) WORK=$(out)/figures BIN=$(bin) \
 	  DOCUMENT=$@.new PICTURES=$(out)/figures/reproduction BOOTSTRAP=$(BOOTSTRAP)
