@@ -111,7 +111,8 @@ def stages(m):
     early, late = m.fit("mixtures", stage="early"), m.fit("mixtures", stage="late")
     holds = early.meets(late.low, late.high) if late.has_interval() else None
     return claim("Early and late stages give the same B", "no visible influence",
-                 f"t < 60 s {early.text(3)}, t > 100 s {late.text(3)}", holds, "figure of B by flow")
+                 f"t < 60 s {early.text(3)}, t > 100 s {late.text(3)}", holds,
+                 "figure of B by flow; a later stage has other compositions at other heights")
 
 
 def kinetic_stress(m):
