@@ -44,6 +44,7 @@ def plain(value, digits):
 
 class Measured:
     def __init__(self, folder):
+        self.folder = folder
         at = lambda name: tables.read(os.path.join(folder, name + ".tsv"))
         self.fits, self.flows, numbers = at("fits")[1], at("flows")[1], at("numbers")[1]
         self.scan, _ = at("scan")
