@@ -1,0 +1,17 @@
+# -B_kappa over the mean shear rate of the flows of phi_L = 0.45 at 21 to 26 degrees, of FOLDER/flows.tsv
+# (scripts/reproduce/flows), beside the paper's trend (Staron & Phillips 2015, figure 4):
+#   gnuplot -c scripts/figures/kinetic-shear-rate.gp FOLDER
+folder = ARG1
+flows = folder."/flows.tsv"
+set datafile separator tab
+set terminal pngcairo size 900,700 font "DejaVu Sans,13"
+set output folder."/kinetic-shear-rate.png"
+set xlabel "mean shear rate / (g/d_S)^{1/2}"
+set ylabel "-B_κ"
+set xrange [0:*]
+set yrange [0.2:0.5]
+set key top left
+slope(value) = column("phi") == 0.45 && stringcolumn("variant") eq "none" ? value : NaN
+plot flows using (column("rate")):(slope(-column("K"))):(-column("K_high")):(-column("K_low")) with yerrorbars pt 7 lc rgb "#1f77b4" title "this flow, 95 %", \
+     flows using (column("rate")):(slope(-column("K"))):(sprintf("%g°", column("slope"))) with labels left offset 0.8,0.6 font ",10" notitle, \
+     0.310 + 0.205 * x with lines dt 2 lc rgb "black" title "0.310 + 0.205 x, the paper"

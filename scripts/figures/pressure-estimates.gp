@@ -1,0 +1,20 @@
+# Errors of the pressures that contacts per grain and mean forces give, over composition (Staron & Phillips
+# 2015, figure 5), of FOLDER/paper.tsv and ends.tsv, as docs/microstructure.md makes them:
+#   gnuplot -c scripts/figures/pressure-estimates.gp FOLDER
+folder = ARG1
+set datafile separator tab
+set datafile missing NaN
+set terminal pngcairo size 900,700 font "DejaVu Sans,13"
+set output folder."/pressure-estimates.png"
+small = "#1f77b4"
+large = "#d62728"
+set key top right samplen 2
+set xlabel "φ_L"
+set xrange [0:1]
+set yrange [-3:14]
+set ylabel "Π/P − 1 (%), prefactor 1/(πd)"
+plot folder."/paper.tsv" using "phi_L":(100 * column("error_S")) with linespoints pt 7 lc rgb small title "Π^S, contacts, |f|", \
+     "" using "phi_L":(100 * column("error_L")) with linespoints pt 7 lc rgb large title "Π^L, contacts, |f|", \
+     "" using "phi_L":(100 * column("error")) with linespoints pt 7 lc rgb "black" title "Π, contacts, |f|", \
+     folder."/ends.tsv" using "phi_L":(100 * column("error_S")) with linespoints pt 6 dt 2 lc rgb small title "Π^S, ends, f_n", \
+     "" using "phi_L":(100 * column("error_L")) with linespoints pt 6 dt 2 lc rgb large title "Π^L, ends, f_n"

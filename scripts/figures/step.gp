@@ -1,0 +1,23 @@
+# Contacts per grain, mean force and their product over the time step: whole bed of phi_L = 0.45 at 23 degrees
+# from 10 to 60 s, of FOLDER/flows.tsv (scripts/reproduce/flows):
+#   gnuplot -c scripts/figures/step.gp FOLDER
+folder = ARG1
+flows = folder."/flows.tsv"
+set datafile separator tab
+set terminal pngcairo size 1400,480 font "DejaVu Sans,12"
+set output folder."/step.png"
+set multiplot layout 1,3
+small = "#1f77b4"
+large = "#d62728"
+# Flows that differ in step and accuracy alone.
+steps(value) = column("phi") == 0.45 && column("slope") == 23 && strstrt("none draft reference step0.000125", stringcolumn("variant")) ? value : NaN
+set xlabel "step (10^{-4} s)"
+set xrange [0:5]
+set yrange [0:*]
+set key bottom right
+do for [quantity in "z f zf"] {
+  set ylabel quantity eq "z" ? "contacts per grain, z" : quantity eq "f" ? "mean force f / (m_S g)" : "z f / (m_S g)"
+  plot flows using (1e4 * column("step")):(steps(column(quantity."_L"))):(column("hw_".quantity."_L")) with yerrorbars pt 7 lc rgb large title "large", \
+       flows using (1e4 * column("step")):(steps(column(quantity."_S"))):(column("hw_".quantity."_S")) with yerrorbars pt 7 lc rgb small title "small"
+}
+unset multiplot

@@ -1,0 +1,122 @@
+# Figures, numbers and docs/reproduction.md from the tables of the campaign, or from those kept in
+# data/reproduction: nothing is simulated, no trajectory read.
+#
+#   make -C scripts reproduction.md                    docs/reproduction.md and its figures, of data/reproduction
+#   make -C scripts reproduction.md TABLES=FOLDER      of the tables that make reproduce left in FOLDER
+#   make -C scripts figures/kinetic-profile.png        one figure, into WORK
+#   make -C scripts kept TABLES=FOLDER                 data/reproduction anew from these tables
+#
+# Relative names are those of the folder where make was called.
+
+HERE ?= $(or $(PWD),$(CURDIR))
+BIN ?= $(CURDIR)/../../build/bin
+KEPT := $(CURDIR)/../../data/reproduction
+TABLES ?=
+WORK ?= reproduction-figures
+DOCUMENT ?= $(CURDIR)/../../docs/reproduction.md
+PICTURES ?= $(CURDIR)/../../docs/figures/reproduction
+BOOTSTRAP ?= 1000
+
+absolute = $(foreach path,$(1),$(if $(filter /%,$(path)),$(path),$(HERE)/$(path)))
+work := $(call absolute,$(WORK))
+bin := $(call absolute,$(BIN))
+tables := $(if $(TABLES),$(call absolute,$(TABLES)),$(work)/kept)
+gp := ../figures
+
+.PHONY: reproduction.md figures kept
+.DELETE_ON_ERROR:
+.SUFFIXES:
+
+reproduction.md:
+# The kept tables, unpacked as the tools read them, before make looks for runs.
+ifeq ($(TABLES),)
+unpacked := $(shell $(CURDIR)/unpack $(KEPT) $(tables) >&2 || echo no)
+$(if $(unpacked),$(error data/reproduction holds no tables that can be unpacked; name some: TABLES=FOLDER))
+endif
+runs := $(sort $(patsubst %/checksums,%,$(wildcard $(tables)/*/checksums)))
+$(if $(runs),,$(error $(tables) holds no run that is done))
+
+# of FLOWS, QUANTITY: tables of all seeds of these flows.
+of = $(strip $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(tables)/$(flow)-seed%,$(runs)))))
+mixtures := $(foreach phi,0.06 0.15 0.30 0.45 0.60 0.75,phi$(phi)-s23)
+slopes := $(foreach slope,21 22 23 24 25 26,phi0.45-s$(slope))
+
+# The figures for which there are flows.
+names := $(if $(call of,phi0.30-s23,stress),snapshots pressure-profile kinetic-profile balance) \
+  $(if $(call of,$(mixtures),stress),stress-ratio mixed-share kinetic-ratio pressure-estimates b-of-p b-of-flows) \
+  $(if $(call of,phi0.45-s23,stress),micro-over-time step) $(if $(call of,$(slopes),stress),kinetic-shear-rate)
+pictures := $(names:%=$(work)/%.png)
+figures: $(pictures)
+.PHONY: $(names:%=figures/%.png)
+$(names:%=figures/%.png): figures/%.png: $(work)/%.png
+
+inside := --heights 4dS:56dS --quiet
+fit = $(bin)/grseg-fit --bootstrap $(BOOTSTRAP) $(inside) -o $@
+micro = $(bin)/grseg-micro --derived -o $@
+scripts := $(CURDIR)/tables.py $(CURDIR)/profiles.py
+every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
+
+$(work):
+	mkdir -p $@
+
+# Rows of all mixtures below one another.
+$(work)/stress.tsv $(work)/kinetic.tsv $(work)/micro.tsv: $(work)/%.tsv: $(every) | $(work)
+	awk 'FNR == 1 { body = 0 } /^#/ { next } body++ || !told++' $(call of,$(mixtures),$*) > $@
+$(work)/fit.tsv: $(every) | $(work)
+	$(fit) $(call of,$(mixtures),stress)
+$(work)/scan.tsv: $(every) | $(work)
+	$(fit) $(call of,$(mixtures),stress) --scan 0.4:0.9:0.005
+$(work)/stock.tsv: $(every) | $(work)
+	$(fit) $(call of,$(mixtures),stress) --partition stock
+$(work)/kinetic-fit.tsv: $(every) | $(work)
+	$(fit) $(call of,$(mixtures),kinetic) --quantity kinetic
+$(work)/paper.tsv: $(every) | $(work)
+	$(micro) $(call of,$(mixtures),micro) $(inside) --pool composition --preset paper
+$(work)/ends.tsv: $(every) | $(work)
+	$(micro) $(call of,$(mixtures),micro) $(inside) --pool composition --force normal --average ends
+$(work)/time.tsv: $(every) | $(work)
+	$(micro) $(firstword $(call of,phi0.45-s23,micro)) --quiet
+$(work)/profile.tsv: $(every) $(scripts) ../profile | $(work)
+	../profile $(call of,phi0.30-s23,stress) --kinetic $(call of,phi0.30-s23,kinetic) --last-third > $@
+$(work)/balance-profile.tsv: $(every) ../balance-profile | $(work)
+	../balance-profile $(call of,phi0.30-s23,balance) > $@
+$(work)/snapshots.tsv: $(every) | $(work)
+	cp $(firstword $(call of,phi0.30-s23,snapshots)) $@
+$(work)/fits.tsv: $(every) fits $(scripts) | $(work)
+	./fits $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP)
+$(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
+	./flows $(tables) $< -o $@ --bin $(bin)
+# Of tables that are not kept; what they say is.
+$(work)/choices.tsv: $(every) choices $(scripts) | $(work)
+	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP),cp $(KEPT)/choices.tsv $@)
+$(work)/numbers.tsv: $(every) numbers $(scripts) | $(work)
+	./numbers $(tables) -o $@ --bin $(bin)
+
+# Each figure of its tables.
+draw = gnuplot -c $(gp)/$(1).gp $(work)
+$(work)/snapshots.png: $(work)/snapshots.tsv
+$(work)/pressure-profile.png $(work)/kinetic-profile.png: $(work)/profile.tsv
+$(work)/stress-ratio.png: $(work)/stress.tsv $(work)/fit.tsv
+$(work)/mixed-share.png: $(work)/micro.tsv
+$(work)/kinetic-shear-rate.png $(work)/step.png: $(work)/flows.tsv
+$(work)/pressure-estimates.png: $(work)/paper.tsv $(work)/ends.tsv
+$(work)/micro-over-time.png: $(work)/time.tsv
+$(work)/b-of-p.png: $(work)/scan.tsv $(work)/stock.tsv
+$(work)/b-of-flows.png: $(work)/fits.tsv
+$(work)/balance.png: $(work)/balance-profile.tsv
+$(filter-out $(work)/kinetic-ratio.png,$(pictures)): $(work)/%.png: $(gp)/%.gp
+	$(call draw,$*)
+$(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/stress-ratio.gp
+	$(call draw,stress-ratio) kinetic
+
+# The document: its generated parts anew, all else as it is.
+reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv)
+	mkdir -p $(PICTURES)
+	cp $(pictures) $(PICTURES)
+	./document $(work) $(DOCUMENT)
+
+kept: keep $(scripts) $(work)/choices.tsv
+	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }
+	mkdir -p $(KEPT)
+	./keep $(tables) $(KEPT)/tables.tar.xz
+	cp $(work)/choices.tsv $(KEPT)

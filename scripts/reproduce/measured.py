@@ -1,0 +1,105 @@
+"""What was measured: the tables of fits, flows and numbers, by name, and numbers as text."""
+import math
+import os
+
+import tables
+
+
+class Value:
+    """A number with its 95 % interval; low and high are nan where there is none."""
+
+    def __init__(self, value, low=math.nan, high=math.nan):
+        self.value, self.low, self.high = value, low, high
+
+    def __neg__(self):
+        return Value(-self.value, -self.high, -self.low)
+
+    def has_interval(self):
+        return not math.isnan(self.low + self.high)
+
+    def text(self, digits):
+        if math.isnan(self.value):
+            return "none"
+        if not self.has_interval():
+            return plain(self.value, digits)
+        return f"{plain(self.value, digits)} [{plain(self.low, digits)}, {plain(self.high, digits)}]"
+
+    def meets(self, low, high):
+        """Whether the interval (the value, where there is none) and [low, high] overlap."""
+        if math.isnan(self.value):
+            return None
+        if not self.has_interval():
+            return low <= self.value <= high
+        return self.low <= high and self.high >= low
+
+
+def plain(value, digits):
+    if math.isnan(value):
+        return "none"
+    text = f"{value:.{digits}f}"
+    if not float(text):
+        text = text.lstrip("-")
+    return text.replace("-", "−")
+
+
+class Measured:
+    def __init__(self, folder):
+        self.folder = folder
+        at = lambda name: tables.read(os.path.join(folder, name + ".tsv"))
+        self.fits, self.flows, numbers = at("fits")[1], at("flows")[1], at("numbers")[1]
+        self.scan, _ = at("scan")
+        self.choices = at("choices")[1]
+        self._numbers = {(row["of"], row["name"]): row for row in numbers}
+
+    def number(self, of, name):
+        row = self._numbers.get((of, name))
+        return Value(row["value"], row["low"], row["high"]) if row else Value(math.nan)
+
+    def row(self, which, rule="size", component="yy", heights="inside", stage="all",
+            quantity="contact"):
+        """Row of a fit; None where there is none."""
+        if quantity == "kinetic":
+            rule = "kinetic"
+        for row in self.fits:
+            if (row["set"], row["rule"], row["component"], row["heights"], row["stage"],
+                    row["quantity"]) == (which, rule, component, heights, stage, quantity):
+                return row
+        return None
+
+    def fit(self, which, name="B_half", **how):
+        row = self.row(which, **how)
+        if row is None:
+            return Value(math.nan)
+        return Value(row[name], row.get(f"{name}_low", math.nan), row.get(f"{name}_high", math.nan))
+
+    def flow(self, name):
+        return next((row for row in self.flows if row["flow"] == name), None)
+
+    def of_scan(self, name):
+        """A number that stands before the rows of B(p)."""
+        return Value(*(float(self.scan.get(name + end, "nan")) for end in ("", "_low", "_high")))
+
+    def of_flow(self, name, quantity):
+        row = self.flow(name)
+        if row is None:
+            return Value(math.nan)
+        value, half = row[quantity], row.get(f"hw_{quantity}", math.nan)
+        return Value(value, value - half, value + half)
+
+    def plain_flows(self):
+        return [row for row in self.flows if row["variant"] == "none"]
+
+
+def line_fit(x, y):
+    """Slope and level at x = 0 of the least-squares line, with 95 % intervals from its residuals."""
+    n = len(x)
+    if n < 3:
+        return Value(math.nan), Value(math.nan)
+    mx, my = sum(x) / n, sum(y) / n
+    sxx = sum((a - mx) ** 2 for a in x)
+    slope = sum((a - mx) * (b - my) for a, b in zip(x, y)) / sxx
+    level = my - slope * mx
+    left = sum((b - level - slope * a) ** 2 for a, b in zip(x, y)) / (n - 2)
+    t = tables.student(n - 2)
+    ds, dl = t * math.sqrt(left / sxx), t * math.sqrt(left * (1 / n + mx ** 2 / sxx))
+    return Value(slope, slope - ds, slope + ds), Value(level, level - dl, level + dl)

@@ -1,0 +1,97 @@
+"""Tables of grseg and the runs of the campaign, as the scripts of this folder read them."""
+import glob
+import math
+import os
+import re
+import statistics
+import subprocess
+import sys
+
+# Name of a run: phi0.30-s23-seed1, phi0.45-s23-e0.5-seed2. Its tables are NAME/QUANTITY.tsv.
+NAME = re.compile(r"phi(?P<phi>[\d.]+)-s(?P<slope>[\d.]+)(?:-(?P<variant>.+?))?-seed(?P<seed>\d+)$")
+STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365, 8: 2.306, 9: 2.262,
+           10: 2.228, 15: 2.131, 20: 2.086, 30: 2.042, 60: 2.000, 10**9: 1.960}
+
+
+def student(freedom):
+    """Student's 97.5 % quantile, of the next smaller number of degrees of freedom listed."""
+    return STUDENT[max(n for n in STUDENT if n <= freedom)]
+
+
+class Run:
+    def __init__(self, folder, name, match):
+        self.folder, self.name = folder, name
+        self.flow = name[:name.rindex("-seed")]
+        self.phi, self.slope = float(match["phi"]), float(match["slope"])
+        self.variant, self.seed = match["variant"] or "", int(match["seed"])
+
+    def path(self, quantity):
+        return os.path.join(self.folder, self.name, f"{quantity}.tsv")
+
+
+def runs_in(folder):
+    """All runs that are done, in order of mixture, slope, variant and seed."""
+    found = []
+    for path in glob.glob(os.path.join(glob.escape(folder), "*", "checksums")):
+        name = os.path.basename(os.path.dirname(path))
+        match = NAME.match(name)
+        if match:
+            found.append(Run(folder, name, match))
+    if not found:
+        sys.exit(f"{folder}: no run that is done, such as phi0.30-s23-seed1 with its checksums; "
+                 "name the folder that make reproduce filled")
+    return sorted(found, key=lambda run: (run.phi, run.slope, run.variant, run.seed))
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def parse(text):
+    """Lines '# key: value' (the first of each key) and rows by column name, units left out."""
+    header, names, rows = {}, None, []
+    for line in text.splitlines():
+        if line.startswith("# "):
+            key, _, value = line[2:].partition(": ")
+            header.setdefault(key, value)
+        elif names is None:
+            names = [name.split("[")[0] for name in line.split("\t")]
+        else:
+            rows.append(dict(zip(names, map(number, line.split("\t")))))
+    return header, rows
+
+
+def read(path):
+    with open(path) as table:
+        return parse(table.read())
+
+
+def program(options, name, *words):
+    """Table that a program of grseg prints."""
+    done = subprocess.run([os.path.join(options.bin, name), *map(str, words)], capture_output=True,
+                          text=True)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr.strip())
+    return parse(done.stdout)
+
+
+def mean_and_half_width(values):
+    """Mean and half the width of its 95 % interval by Student's t over independent values."""
+    n = len(values)
+    mean = statistics.fmean(values)
+    if n < 2:
+        return mean, math.nan
+    return mean, student(n - 1) * statistics.stdev(values) / math.sqrt(n)
+
+
+def write(path, command, names, rows):
+    """A table, whole or not at all; cells are texts or numbers."""
+    cell = lambda value: value if isinstance(value, str) else f"{value:.8g}"
+    with open(path + ".part", "w") as out:
+        out.write(f"# {command}\n" + "\t".join(names) + "\n")
+        for row in rows:
+            out.write("\t".join(cell(row[name]) for name in names) + "\n")
+    os.replace(path + ".part", path)

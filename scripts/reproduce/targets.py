@@ -1,0 +1,207 @@
+"""The paper's statements one by one: what it says, what was measured, how far they may differ.
+
+Tolerances are those that the paper's own ambiguities leave (definitions, estimators, contacts at the base),
+not errors of measurement; a target is met where the 95 % interval meets the paper's value +- tolerance.
+"""
+import math
+
+from measured import Value, line_fit, plain
+
+NOT_YET = "not measured yet"
+
+
+class Target:
+    def __init__(self, name, paper, ours, verdict, why):
+        self.name, self.paper, self.ours, self.verdict, self.why = name, paper, ours, verdict, why
+
+    def cells(self):
+        if self.verdict == NOT_YET:
+            return [self.name, self.paper, "–", NOT_YET, ""]
+        return [self.name, self.paper, self.ours, self.verdict, self.why]
+
+
+def judged(value, paper, tolerance):
+    met = value.meets(paper - tolerance, paper + tolerance)
+    if met is None:
+        return NOT_YET
+    if met and value.high - value.low > 2 * tolerance:
+        return "undecided"  # the interval is wider than the tolerance
+    return "agrees" if met else "**differs**"
+
+
+def number(name, text, value, digits, paper, tolerance, why):
+    """A target that is one number."""
+    return Target(name, f"{text} (± {tolerance:g})", value.text(digits),
+                  judged(value, paper, tolerance), why)
+
+
+def claim(name, text, ours, holds, why, otherwise="**differs**"):
+    """A target that is a statement; `holds` may be None where nothing was measured."""
+    verdict = NOT_YET if holds is None else "agrees" if holds else otherwise
+    return Target(name, text, ours, verdict, why)
+
+
+def wanted(values):
+    """None where one of the values is not there, else the values."""
+    return None if any(math.isnan(v) for v in values) else values
+
+
+def contact_stress(m):
+    """Figures 1 and 2 and section III."""
+    yield segregated(m)
+    b = m.fit("mixtures")
+    every = m.fit("mixtures", heights="all")
+    pressure = m.fit("mixtures", component="pressure")
+    slope = m.number("phi0.30-s23", "P_solid_slope")
+    yield number("2a: P(z) falls by ρ g cosθ per unit of height", "0.9205 ρ g", slope, 3, 0.9205, 0.046,
+                 "per area of grains; per bulk volume it is ν times that, "
+                 f"{m.number('phi0.30-s23', 'P_slope').text(3)}. σ_yy + σ^κ_yy is "
+                 f"{m.number('phi0.30-s23', 'weight').text(3)} of the weight above")
+    yield number("2b: slope of σ^S/σ^L over φ_S/φ_L", "0.9660 ± 0.003", m.fit("mixtures", "s"), 3, 0.966,
+                 0.035, f"with the lowest layer and the surface {m.fit('mixtures', 's', heights='all').text(3)}")
+    yield number("2b: B by size", "0.034 to 0.035", b, 3, 0.0345, 0.03,
+                 f"all heights {every.text(3)}: the row that the base traps; "
+                 f"nominal 2/3 instead of actual radii {m.fit('mixtures', rule='uniform:0.66667').text(3)}")
+    sign = None if math.isnan(b.value) else b.low > 0
+    yield claim("2b: B > 0", "\"supports the plausibility of gravity-driven segregation\"", b.text(3), sign,
+                f"less than the share of a mixed contact is worth: B = 0 at p = {m.of_scan('p_zero').text(3)}", "undecided")
+    most = m.number("mixtures", "mixed_most")
+    yield number("2c: largest share of mixed contacts", "\"locally 50 %\"", most, 3, 0.5, 0.04,
+                 f"at φ_L = {m.number('mixtures', 'mixed_most_at').text(2)} (neutral contacts: 0.500 at 2/3); "
+                 f"from the neutral curve {m.number('mixtures', 'mixed_off_least').text(3)} to "
+                 f"{m.number('mixtures', 'mixed_off_most').text(3)}")
+    yield number("B from pressures", "0.045 to 0.047", pressure, 3, 0.046, 0.03,
+                 f"less that from σ_yy: {plain(pressure.value - b.value, 3)} (paper 0.011)")
+    for rule, paper, text in (("uniform:0.8", 0.33, "≈ 0.33"), ("uniform:0.6", -0.1, "≈ −0.1"),
+                              ("half", -0.32, "≈ −0.32")):
+        p = {"half": 0.5}.get(rule) or float(rule.split(":")[1])
+        row = m.row("mixtures", rule=rule) or {}
+        less = Value(*(row.get(f"minus_size{end}", math.nan) for end in ("", "_low", "_high")))
+        yield number(f"B, mixed contacts {p:g} to the large grain", text,
+                     m.fit("mixtures", rule=rule), 3, paper, 0.05,
+                     f"less that by size: {less.text(3)}, of neutral contacts "
+                     f"{plain(row.get('neutral', math.nan), 3)}, paper {plain(paper - 0.034, 3)}")
+    yield slope_and_b(m)
+    yield stages(m)
+
+
+def segregated(m):
+    """Figure 1: y_L/H goes from Phi_L/2 to 1 - Phi_L/2 if the species separate."""
+    start, end = (m.of_flow("phi0.30-s23", name) for name in ("yL0", "yL1"))
+    way = (end.value - 0.15) / (0.85 - 0.15)
+    holds = None if math.isnan(way) else way > 0.8
+    return claim("1: large grains on top at last, thin mixed zone", "snapshots at 0 and 150 s",
+                 f"y_L/H from {start.text(3)} to {end.text(3)}", holds,
+                 f"{plain(100 * way, 0)} % of the way from 0.15 to 0.85, where they would be separated; "
+                 "80 % counts as met. The first row stays at the base")
+
+
+def slope_and_b(m):
+    flows = [row for row in m.plain_flows() if row["phi"] == 0.45 and not math.isnan(row["B"])]
+    trend, _ = line_fit([row["slope"] for row in flows], [row["B"] for row in flows])
+    spread = max((row["B"] for row in flows), default=math.nan) \
+        - min((row["B"] for row in flows), default=math.nan)
+    holds = None if len(flows) < 3 else trend.meets(0, 0)
+    return claim("B does not depend on the slope", "none seen",
+                 f"dB/dθ = {trend.text(4)} per degree over {len(flows)} slopes", holds,
+                 f"B of the slopes lies within {plain(spread, 3)}")
+
+
+def stages(m):
+    early, late = m.fit("mixtures", stage="early"), m.fit("mixtures", stage="late")
+    holds = early.meets(late.low, late.high) if late.has_interval() else None
+    return claim("Early and late stages give the same B", "no visible influence",
+                 f"t < 60 s {early.text(3)}, t > 100 s {late.text(3)}", holds,
+                 "figure of B by flow; a later stage has other compositions at other heights")
+
+
+def kinetic_stress(m):
+    """Figures 3 and 4 and section IV."""
+    at = lambda name: m.number("phi0.30-s23", name)
+    about_layer = (f"about the mean of the layer {at('K_layer_solid_prefactor').text(2)} and "
+                   f"{at('K_layer_solid_decay').text(1)} d_L: the shear inside the layer, "
+                   f"{at('shear_share').text(2)} of P^κ")
+    yield number("3a: P^κ at the base, over ρ g d_S", "0.98", at("K_solid_prefactor"), 2, 0.98, 0.49,
+                 "about the profile of the mean velocity, per area of grains, 4 to 56 d_S; "
+                 + about_layer)
+    yield number("3a: decay length of P^κ, d_L", "14.8", at("K_solid_decay"), 1, 14.8, 5,
+                 "an exponential is a convenience: see the figure")
+    kinetic = {"quantity": "kinetic"}
+    yield number("3b: prefactor of σ^κS/σ^κL", "1.4413 ± 0.0022",
+                 m.fit("mixtures", "prefactor_power", **kinetic), 3, 1.4413, 0.1,
+                 f"logarithmic fit of exponent one {m.fit('mixtures', 's', **kinetic).text(3)}; "
+                 f"with all heights {m.fit('mixtures', 's', heights='all', **kinetic).text(3)}")
+    yield number("3b: its exponent", "1.0057", m.fit("mixtures", "exponent", **kinetic), 3, 1.0057, 0.02,
+                 "a power law, as the paper's")
+    half_sum = m.fit("mixtures", "B_paper", **kinetic)
+    yield number("B_κ", "−0.373", half_sum, 3, -0.373, 0.04,
+                 "half the sum of the end values, which is what the paper prints; at φ = 1/2 "
+                 f"{m.fit('mixtures', **kinetic).text(3)}; all heights, with the row that the base traps, "
+                 f"{m.fit('mixtures', 'B_paper', heights='all', **kinetic).text(3)}. For e and the mean "
+                 "velocity see the choices below")
+    ratio = -m.fit("mixtures", **kinetic).value / m.fit("mixtures").value
+    yield number("|B_κ| over B".replace("|", "\\|"), "\"more than 10 times\", 10.8", Value(ratio), 1, 10.8, 5,
+                 "both at φ = 1/2")
+    least, most = at("Kyy/syy_least"), at("Kyy/syy_most")
+    yield Target("Kinetic stress is \"about four orders of magnitude\" below contact stress", "1e-4",
+                 f"{least.text(4)} at its least, {most.text(4)} at its most, 4 to 56 d_S",
+                 "paper inconsistent", "its figure 3a gives 0.98/55 = 0.018, too")
+    yield from shear_rate(m)
+
+
+def shear_rate(m):
+    flows = [row for row in m.plain_flows()
+             if row["phi"] == 0.45 and not math.isnan(row["K"] + row["rate"])]
+    x, y = [row["rate"] for row in flows], [-row["K"] for row in flows]
+    slope, level = line_fit(x, y)
+    why = (f"γ̇ from {plain(min(x, default=math.nan), 2)} to {plain(max(x, default=math.nan), 2)} √(g/d_S) "
+           f"in {len(flows)} slopes; −B_κ = "
+           + ", ".join(f"{plain(b, 3)} at {row['slope']:g}°" for row, b in zip(flows, y)))
+    yield number("4: slope of −B_κ over γ̇/√(g/d_S)", "0.205", slope, 3, 0.205, 0.15, why)
+    yield number("4: −B_κ at γ̇ = 0", "0.310", level, 3, 0.31, 0.06, "the same line")
+
+
+def micro_structure(m):
+    """Figures 5 and 6 and section V."""
+    at = lambda name: m.number("mixtures", name)
+    for name, end, mean, most in (("Π", "", 2.2, 3), ("Π^L", "_L", 1.9, 5), ("Π^S", "_S", 6.4, 9)):
+        ours = at(f"contacts_error{end}_mean")
+        yield Target(f"5: mean (largest) error of {name}, %", f"{mean:g} ({most:g})",
+                     f"{ours.text(1)} ({at(f'contacts_error{end}_most').text(1)})",
+                     judged(ours, mean, mean),
+                     f"with 1/(πd); as printed, 2/(πd): {at(f'contacts_error{end}_printed_mean').text(0)}; "
+                     f"over ends and with f_n {at(f'ends_error{end}_mean').text(2)}")
+    first = lambda name: m.number("phi0.45-s23", name)
+    yield number("6a: y_L/H at the start", "large grains below: 0.225", first("yL_first"), 3, 0.225, 0.02,
+                 "geometry")
+    yield Target("6a: y_L/H at the end", "no number in the text; 0.775 if separated",
+                 first("yL_last").text(3), NOT_YET if math.isnan(first("yL_last").value) else "–",
+                 f"falls from one window to the next {first('yL_falls').text(0)} times in "
+                 f"{first('windows').text(0)}")
+    yield from orderings(first)
+
+
+def orderings(first):
+    z, f = first("z_least"), first("f_least")
+    none = lambda value, holds: None if math.isnan(value.value) else holds
+    yield claim("6b: z_L > z_S, most where mixed most", "always",
+                f"z_L/z_S {first('z_first').text(2)} at first, at most {first('z_most').text(2)}, "
+                f"{first('z_last').text(2)} at the end", none(z, z.value > 1),
+                f"largest at {first('z_most_at').text(0)} s; neutral contacts: up to 2")
+    last, blind = first("f_last"), first("blind_last")
+    yield claim("6c: f_L > f_S", "always, \"as segregation proceeds\", too",
+                f"f_L/f_S {first('f_first').text(2)} at first, at least {f.text(2)}, {last.text(2)} at the end",
+                none(f, f.value > 1),
+                f"forces blind to size would give {blind.text(2)} at the end: measured over blind is "
+                f"{first('f_over_blind').text(2)} on average, below one in {first('f_below_blind').text(0)} of "
+                f"{first('windows').text(0)} windows")
+    hat = first("hat_last")
+    yield claim("6c, inset: f over the pressure at its depth is larger for large grains", "significantly",
+                f"ratio {first('hat_first').text(2)} at first, at least {first('hat_least').text(2)}, "
+                f"{hat.text(2)} at the end", none(hat, first("hat_least").value > 1),
+                "of neutral contacts r z_S/z_L; f ∝ d/z at a given pressure")
+
+
+SECTIONS = (("Contact stress (section III)", contact_stress),
+            ("Kinetic stress (section IV)", kinetic_stress),
+            ("Micro-structure (section V)", micro_structure))
