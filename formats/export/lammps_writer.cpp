@@ -43,7 +43,7 @@ std::string import_options_for(const TrajectoryReader& run)
     const bool there = std::find(species.begin(), species.end(), kind) != species.end();
     return there ? std::to_string(type_of(kind)) : "none";
   };
-  const auto gravity = run.gravity();
+  const Vec2 gravity = run.gravity().start;
   return fmt::format(
       "--units si --step {} --gravity {},{},0 --grains-are discs --origin 0 --small {} --large {} "
       "--boundary {} --small-diameter {} --large-diameter {}{}",

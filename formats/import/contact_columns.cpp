@@ -25,7 +25,7 @@ std::optional<std::size_t> column_number(const std::string& text)
 }  // namespace
 
 const std::array<const char*, ContactColumns::meanings> ContactColumns::words{
-    "i", "j", "fx", "fy", "fz", "tx", "ty", "tz", "bx", "by", "bz", "dist", "overlap"};
+    "i", "j", "fx", "fy", "fz", "tx", "ty", "tz", "bx", "by", "bz", "dist", "overlap", "wall"};
 
 ContactColumns::ContactColumns(const std::string& text) : text_(text)
 {
@@ -71,6 +71,8 @@ void ContactColumns::require_sense() const
         "--columns '{}' does not say where i, j and a force stand, as in i=2,j=3,force=5", text_));
   if (has(dist) && has(overlap))
     throw UsageError("--columns: dist and overlap both tell the overlap; leave one out");
+  if (has(wall) && !(has(bx) || has(by) || has(bz)))
+    throw UsageError("--columns: wall needs the branch, bx by bz, to where the grain touches it");
 }
 
 void ContactColumns::look_up(const std::vector<std::string>& names, const std::string& place)
@@ -124,13 +126,21 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   };
   ids(i, contacts.i);
   ids(j, contacts.j);
-  contacts.force.assign(contacts.size(), Vec3::Zero());
+  // To -0 everything adds without loss, the sign of 0 included.
+  contacts.force.assign(contacts.size(), Vec3::Constant(-0.0));
   add(fx, contacts.force);
   add(tx, contacts.force);
-  contacts.branch.assign(has(bx) || has(by) || has(bz) ? contacts.size() : 0, Vec3::Zero());
+  contacts.branch.assign(has(bx) || has(by) || has(bz) ? contacts.size() : 0, Vec3::Constant(-0.0));
   add(bx, contacts.branch);
   contacts.overlap = of(overlap, values);
   contacts.distance = of(dist, values);
+  contacts.wall.clear();
+  for (const double number : of(wall, values)) {
+    if (!(std::abs(number) < 1e9) || std::trunc(number) != number)
+      throw FormatError(
+          fmt::format("{}: {:g} in the column of wall is no number of a wall", place, number));
+    contacts.wall.push_back(number < 0 ? -1 : static_cast<std::int32_t>(number));
+  }
 }
 
 }  // namespace grseg

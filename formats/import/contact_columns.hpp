@@ -20,7 +20,8 @@ namespace grseg {
 ///   fx fy fz, tx ty tz   the same one by one, where there are fewer or other columns
 ///   dist          distance of the centres; or
 ///   overlap       how deep the two overlap, positive
-///   bx by bz      branch x_i - x_j, else found from the positions
+///   bx by bz      branch x_i - x_j, else found from the positions; at a wall x_i - contact point
+///   wall          number of the straight wall, negative where j is a grain; needs the branch
 class ContactColumns {
  public:
   /// The text of --columns. UsageError where it does not say i, j and a force.
@@ -38,7 +39,7 @@ class ContactColumns {
   const std::string& text() const { return text_; }
 
  private:
-  enum Meaning { i, j, fx, fy, fz, tx, ty, tz, bx, by, bz, dist, overlap, meanings };
+  enum Meaning { i, j, fx, fy, fz, tx, ty, tz, bx, by, bz, dist, overlap, wall, meanings };
   static const std::array<const char*, meanings> words;
 
   void assign(const std::string& word, const std::string& column);

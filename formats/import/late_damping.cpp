@@ -13,11 +13,6 @@ std::size_t row(std::int32_t index)
   return static_cast<std::size_t>(index);
 }
 
-bool is_mobile(const Grains& grains, std::size_t g)
-{
-  return grains.species[g] != Species::boundary;
-}
-
 /// What a contact pushes with, split along its normal and the tangent a quarter turn to the left.
 struct Split {
   Vec2 n, t;

@@ -23,11 +23,6 @@ std::size_t row(std::int32_t index)
   return static_cast<std::size_t>(index);
 }
 
-bool is_mobile(const Grains& grains, std::size_t g)
-{
-  return grains.species[g] != Species::boundary;
-}
-
 Residual residual_of(const Grains& grains, const std::vector<Vec2>& defect, double scale)
 {
   std::vector<std::pair<double, std::size_t>> sizes;

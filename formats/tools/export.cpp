@@ -75,7 +75,12 @@ void export_run(const Settings& s, const po::variables_map& values)
   } else if (s.format == "lammps") {
     LammpsWriter writer(run, cell, s.output, s.overwrite);
     write(writer);
-    if (!s.quiet) fmt::print(stderr, "{}: a run again: {}\n", info.name, writer.import_command());
+    if (s.quiet) return;
+    if (run.gravity().turns())
+      fmt::print(stderr, "{}: the slope turns, which archives cannot tell grseg-import\n",
+                 info.name);
+    else
+      fmt::print(stderr, "{}: a run again: {}\n", info.name, writer.import_command());
   } else if (s.format == "h5md3d") {
     write(H5md3dWriter(run, cell, s.output, s.overwrite));
   } else {
