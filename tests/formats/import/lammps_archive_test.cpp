@@ -323,7 +323,7 @@ TEST_F(Lammps, UnitsWithoutDimensionNeedToBeSaid)
   EXPECT_NEAR(frame.position[1].y(), 0.005 * 0.5, 1e-17);
   EXPECT_NEAR(frame.contacts.force[0].y(), -small_mass * gy * 2 * 0.5 / 0.01, 1e-12);
   const TrajectoryReader run(s.output);
-  EXPECT_NEAR(run.gravity().x(), gx * 0.5 / 0.01, 1e-10);
+  EXPECT_NEAR(run.gravity().start.x(), gx * 0.5 / 0.01, 1e-10);
   EXPECT_NEAR(run.step(), 1e-6, 1e-20);
   EXPECT_NEAR(run.small_diameter(), 0.0025, 1e-17);
 }

@@ -91,7 +91,7 @@ inline std::string fstat(const Grains& grains, const Frame& frame, const Style& 
 
 inline std::string restart(const Grains& grains, const TrajectoryReader& run)
 {
-  const Vec2 g = run.gravity();
+  const Vec2 g = run.gravity().start;
   const double length = run.box().length_x;
   auto text = fmt::format(
       "MercuryDPM 0.14 name chute revision 5000\n"
