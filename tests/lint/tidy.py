@@ -28,7 +28,7 @@ def names_of(file):
     source = pathlib.Path(file).read_text()
     constants = {re.search(r"(\w+) =", line)[1]: line for line in CONSTANT.findall(source)}
     names = re.findall(r"^(?!namespace)(?:[\w:<>,&*]+ )+[&*]*(\w+)(?= ?[({;=\[])", source, re.MULTILINE)
-    names += re.findall(r"^(?:struct|class|using) (\w+)\b", source, re.MULTILINE)
+    names += re.findall(r"^(?:struct|class|enum class|enum|using) (\w+)\b", source, re.MULTILINE)
     return {name: file for name in names} | constants
 
 
@@ -37,23 +37,38 @@ def stands_alone(source):
     return "foreach_target.h" in source or re.search(r"^int main\(", source, re.MULTILINE)
 
 
+def closure(file, seen):
+    """The file and all of ours that it includes."""
+    if file in seen or not os.path.exists(file):
+        return
+    seen.add(file)
+    for header in re.findall(r'^#include "([^"]+)"', pathlib.Path(file).read_text(), re.MULTILINE):
+        closure(header, seen)
+
+
 def group(files, command_of):
-    """Lists of files that go into one text: compiled alike, no name for two things."""
+    """Lists of files that go into one text: compiled alike, no name for two things, be it a file's own
+    or one of the headers that another includes."""
     groups = []
     for file in files:
         source = pathlib.Path(file).read_text()
-        names, lines = names_of(file), source.count("\n")
-        alone = stands_alone(source)
+        headers = set()
+        closure(file, headers)
+        shared = {name for header in headers - {file} for name in names_of(header)}
+        names = {name: what for name, what in names_of(file).items() if name not in shared}
+        lines, alone = source.count("\n"), stands_alone(source)
         for g in groups:
             if (not alone and g["command"] == command_of[file] and g["lines"] + lines <= MOST_LINES
-                    and all(g["names"].get(name, names[name]) == names[name] for name in names)):
+                    and not names.keys() & g["shared"] and not g["names"].keys() & shared
+                    and all(g["names"].get(name, what) == what for name, what in names.items())):
                 g["files"].append(file)
                 g["names"] |= names
+                g["shared"] |= shared
                 g["lines"] += lines
                 break
         else:
-            command = None if alone else command_of[file]
-            groups.append({"files": [file], "command": command, "names": names, "lines": lines})
+            groups.append({"files": [file], "command": None if alone else command_of[file],
+                           "names": names, "shared": shared, "lines": lines})
     return [g["files"] for g in groups]
 
 
@@ -67,15 +82,6 @@ def together(files):
         return constant[0] if new else ""
 
     return "\n".join(CONSTANT.sub(once, pathlib.Path(f).read_text()) for f in files)
-
-
-def closure(file, seen):
-    """The file and all of ours that it includes."""
-    if file in seen or not os.path.exists(file):
-        return
-    seen.add(file)
-    for header in re.findall(r'^#include "([^"]+)"', pathlib.Path(file).read_text(), re.MULTILINE):
-        closure(header, seen)
 
 
 def fingerprint(files, command):
