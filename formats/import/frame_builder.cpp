@@ -12,6 +12,7 @@
 namespace grseg {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr auto most_ids = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
@@ -85,7 +86,7 @@ void FrameBuilder::make_grains(const ArchiveMoment& first, const RunFacts& facts
 
 void FrameBuilder::require_a_plane(const ArchiveMoment& first) const
 {
-  double low = INFINITY, high = -INFINITY;
+  double low = infinity, high = -infinity;
   for (const auto& x : first.grains.position) {
     low = std::min(low, axes_.out_of_plane(x));
     high = std::max(high, axes_.out_of_plane(x));
@@ -106,7 +107,7 @@ void FrameBuilder::make_box(const ArchiveMoment& first)
     throw UsageError(
         "the cell is periodic but the base does not lie along one of the archive's axes; check "
         "--gravity and --slope");
-  double low = INFINITY, high = -INFINITY, bottom = INFINITY, top = -INFINITY;
+  double low = infinity, high = -infinity, bottom = infinity, top = -infinity;
   for (const auto& position : first.grains.position) {
     const Vec2 x = axes_.in_plane(position);
     low = std::min(low, x.x());
@@ -144,7 +145,7 @@ void FrameBuilder::find_origin(const ArchiveMoment& first, const std::string& te
       sum += height(g);
       ++mobile;
     }
-  origin_ = -INFINITY;
+  origin_ = -infinity;
   for (std::size_t g = 0; g < ids.size(); ++g)
     if (is_boundary(row_of(ids[g], first)) && height(g) * static_cast<double>(mobile) <= sum)
       origin_ = std::max(origin_, height(g) + (text == "top" ? first.grains.radius[g] : 0));

@@ -288,6 +288,16 @@ TEST_F(Lammps, UnwrappedPositionsAreWrappedAndTheirPeriodsCounted)
   EXPECT_EQ(frame.image[0][0], -3);
 }
 
+TEST_F(Lammps, PeriodsThatAreToldAreKept)
+{
+  auto rows = grain_rows();
+  for (auto& row : rows) row += " -2";
+  const auto frame =
+      frame_of(settings(folder, block("ATOMS", 0, grain_columns + " ix", rows), contacts_at(0)));
+  EXPECT_NEAR(frame.position[0].x(), 0.05, 1e-17);
+  EXPECT_EQ(frame.image[0][0], -2);
+}
+
 TEST_F(Lammps, HeightsCountFromTheTopOfTheBaseItsCentresOrAGivenPlace)
 {
   auto s = at_rest();
