@@ -20,11 +20,8 @@ struct Format {
 
 /// One line per format.
 constexpr Format formats[] = {
-    {"lammps", open_lammps},
-    {"liggghts", open_liggghts},
-    {"mercury", open_mercury},
-    {"siconos", open_siconos},
-    {"csv", open_csv},
+    {"lammps", open_lammps},   {"liggghts", open_liggghts}, {"mercury", open_mercury},
+    {"siconos", open_siconos}, {"csv", open_csv},
 };
 
 }  // namespace
