@@ -198,7 +198,7 @@ Simulation chute_with(const Change& change)
 {
   static const auto start = [] {
     auto bed = small_chute::bed(small_chute::scene(
-        {"--lateral", "walls", "--contact-law", "centred", "--depth", "5dS", "--length", "5dL"}));
+        {"--lateral", "walls", "--contact-law", "centred", "--depth", "10dS", "--length", "8dL"}));
     for (int k = 0; k < 300; ++k) bed.advance();
     return bed;
   }();
