@@ -285,7 +285,7 @@ std::string text_in_attribute(hid_t parent, const std::string& path, const std::
     text = grown;
     H5free_memory(grown);
   }
-  return text.c_str();  // up to the padding
+  return text.substr(0, text.find('\0'));  // up to the padding
 }
 
 std::vector<std::string> names_in(hid_t parent, const std::string& path)

@@ -11,7 +11,7 @@ namespace grseg {
 
 static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
 
-PolyData::PolyData(Cells cells, std::vector<float> points, double time)
+PolyData::PolyData(Cells cells, const std::vector<float>& points, double time)
     : kind_(cells),
       points_(points.size() / 3),
       cells_(cells == Cells::vertices ? points_ : points_ / 2),
@@ -29,7 +29,7 @@ template <class Number>
 std::string PolyData::describe(const std::string& name, const std::vector<Number>& values,
                                int components)
 {
-  const auto xml = fmt::format(
+  auto xml = fmt::format(
       "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
       "offset=\"{}\"/>\n",
       std::is_same_v<Number, float> ? "Float32" : "Int32", name, components, bytes_.size());

@@ -17,7 +17,7 @@ class PolyData {
 
   /// `points` holds three coordinates each. Cells are made of the points in their order: a vertex
   /// per point, or a line per pair of points.
-  PolyData(Cells cells, std::vector<float> points, double time);
+  PolyData(Cells cells, const std::vector<float>& points, double time);
 
   void point_array(const std::string& name, const std::vector<float>& values, int components = 1);
   void point_array(const std::string& name, const std::vector<std::int32_t>& values);
