@@ -2,6 +2,7 @@
 #include "sim/run.hpp"
 
 #include "formats/errors.hpp"
+#include "formats/interruption.hpp"
 #include "formats/repack.hpp"
 #include "formats/tool.hpp"
 #include "sim/boundaries.hpp"
@@ -18,7 +19,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -26,13 +26,6 @@
 
 namespace grseg {
 namespace {
-
-volatile std::sig_atomic_t stop_signal = 0;
-
-void remember_signal(int signal)
-{
-  stop_signal = signal;
-}
 
 double seconds_now()
 {
@@ -105,12 +98,6 @@ void require_writable(const std::string& path)
   close(file);
 }
 
-/// What a signal asks for, as an exit code and a sentence.
-ToolError interruption(const std::string& sentence)
-{
-  return {stop_signal == SIGINT ? exit_interrupted : exit_terminated, sentence};
-}
-
 /// A trajectory that nothing has been written to is not left behind.
 class RemoveIfEmpty {
  public:
@@ -138,13 +125,6 @@ void check_outputs(const RunOptions& options)
     refuse_to_overwrite(options.checkpoint, options.overwrite);
   const RemoveIfEmpty trial(options.checkpoint + ".part");
   require_writable(options.checkpoint + ".part");
-}
-
-void listen_to_signals()
-{
-  stop_signal = 0;
-  std::signal(SIGINT, remember_signal);
-  std::signal(SIGTERM, remember_signal);
 }
 
 /// A run that is ready to go on, with the file that its frames go to.
@@ -213,7 +193,7 @@ void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkp
 {
   const auto every = scene.steps_per_frame(), end = scene.steps_in_all();
   Frame frame;
-  while (simulation.steps_done() < end && stop_signal == 0) {
+  while (simulation.steps_done() < end && !interrupted()) {
     const auto since_due = simulation.steps_done() % every;
     const bool due = since_due < scene.burst;
     if (since_due == 0 && checkpoints.due()) checkpoints.write();
@@ -242,7 +222,7 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
   run.writer.add_parameters(to_parameters(summary));
   if (!options.quiet) fmt::print(stderr, "{}", to_text(summary, scene));
   run.writer.close();
-  if (stop_signal != 0)
+  if (interrupted())
     throw interruption(fmt::format(
         "interrupted at t = {:.6g} s; the frames so far are in {}{}", simulation.time(), part,
         options.checkpoint.empty() ? ""
@@ -307,7 +287,7 @@ void simulate(const Scene& scene, const RunOptions& options)
   Progress(0, scene.duration, options.quiet).say("depositing the bed");
   const auto parameters = describe(scene, options);
   const auto listen = [] {
-    if (stop_signal != 0) throw interruption("interrupted while the bed was deposited");
+    if (interrupted()) throw interruption("interrupted while the bed was deposited");
   };
   const auto deposited = deposit(scene, {.each_step = listen, .record = {}});
   const auto simulation = release(deposited, scene);

@@ -83,6 +83,8 @@ class DumpArchive : public Archive {
 
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect)
 {
+  if (!files.restart.empty())
+    throw UsageError("--restart is for MercuryDPM alone; dumps need none, leave it out");
   const auto grains = archive_files(files.grains, "--grains");
   return std::make_unique<DumpArchive>(grains, archive_files(files.contacts, "--contacts"),
                                        files.columns, dialect);

@@ -30,13 +30,15 @@ po::options_description import_options(ImportSettings& s)
   archive.add_options()("format", po::value(&s.format)->value_name("NAME"), formats.c_str())(
       "grains", files(s.files.grains),
       "files with the grains, plain, .gz or .zst; '*' stands for the step of many")(
-      "contacts", files(s.files.contacts), "files with the contacts")(
-      "restart", po::value(&s.files.restart)->value_name("FILE"), "MercuryDPM: its .restart")(
+      "contacts", files(s.files.contacts),
+      "files with the contacts; mercury: .fstat; siconos has them in the file of the grains")(
+      "restart", po::value(&s.files.restart)->value_name("FILE"),
+      "mercury alone: its .restart, which tells step, gravity, masses, species, the base")(
       "columns", po::value(&s.files.columns)->value_name("MAP"),
       "what the columns of the contacts mean: i=2,j=3,dist=4,force=5,tangential=8; liggghts: the "
-      "keywords of its compute, too")(
+      "keywords of its compute, too; mercury: info=species")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
-      "an archive that ends inside a moment is imported up to there");
+      "a text archive that ends inside a moment is imported up to there");
 
   po::options_description facts("What the archive does not tell (in its own units)");
   facts.add_options()("units", optional(s.units, "UNITS"),

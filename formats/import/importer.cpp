@@ -2,6 +2,7 @@
 #include "formats/import/importer.hpp"
 
 #include "formats/import/verified_frames.hpp"
+#include "formats/interruption.hpp"
 #include "formats/tool.hpp"
 
 #include <fmt/format.h>
@@ -211,6 +212,7 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
   TrajectoryWriter writer(output.beside(), run, settings.storage);
   Residuals residuals;
   for (Frame frame; frames.next(frame);) {
+    stop_if_interrupted();
     if (frames.complaint()) refuse(frames, settings, *frames.complaint(), report.frames + 1);
     const double defect = frames.residual() ? frames.residual()->largest : 0;
     if (frames.residual()) residuals.add(*frames.residual());

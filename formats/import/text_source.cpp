@@ -2,6 +2,7 @@
 #include "formats/import/text_source.hpp"
 
 #include "formats/errors.hpp"
+#include "formats/interruption.hpp"
 #include "formats/tool.hpp"
 
 #include <boost/iostreams/device/file.hpp>
@@ -69,6 +70,7 @@ void TextSource::Impl::open_next()
 /// Fills the buffer behind what is left in it; 0 at the end of the file.
 std::size_t TextSource::Impl::read_more()
 {
+  stop_if_interrupted();
   std::memmove(buffer.data(), buffer.data() + begin, end - begin);
   end -= begin;
   begin = 0;

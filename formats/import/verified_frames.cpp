@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verified_frames.hpp"
 
+#include "formats/interruption.hpp"
+
 #include <fmt/format.h>
 
 namespace grseg {
@@ -69,6 +71,8 @@ std::optional<double> residual_with(const ImportSettings& settings, const std::s
         largest = std::max(largest.value_or(0), frames.residual()->unexplained);
     }
     return largest;
+  } catch (const Interruption&) {
+    throw;
   } catch (const ToolError&) {
     return std::nullopt;
   }

@@ -4,6 +4,7 @@
 #include "formats/export/lammps_writer.hpp"
 #include "formats/export/vtp_writer.hpp"
 #include "formats/frame_range.hpp"
+#include "formats/interruption.hpp"
 #include "formats/tool.hpp"
 
 #include <fmt/format.h>
@@ -52,6 +53,7 @@ void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& f
   const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
   Frame frame;
   for (std::size_t k = 0; k < frames.size(); ++k) {
+    stop_if_interrupted();
     run.read(frames[k], frame, {.velocity = true, .contacts = true, .force = true});
     writer.add(frame);
     if (progress && k % 20 == 0)
@@ -67,6 +69,7 @@ void export_run(const Settings& s, const po::variables_map& values)
   if (s.output.empty()) throw UsageError("name what to write: -o NAME");
   const auto frames = s.range.frames_of(run);
   const auto cell = view_cell(run, frames.front());
+  listen_to_signals();
   const auto write = [&](auto&& writer) { write_frames(run, frames, s, writer); };
   if (s.format == "vtp") {
     write(VtpWriter(run, s.output, s.overwrite));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/errors.hpp"
 #include "formats/import/importer.hpp"
+#include "formats/interruption.hpp"
 #include "formats/tool.hpp"
 
 #include <fmt/format.h>
@@ -57,6 +58,7 @@ int main(int argc, char** argv)
   const auto options = import_options(settings);
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
     check(settings, values);
+    listen_to_signals();
     const auto report = import_archive(settings, command_line(argc, argv));
     if (!settings.quiet) fmt::print(stderr, "{}", to_text(report));
   });

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""State of a run at the end of its last frame's step, for other programs.
+"""State of a run at the end of a frame's step, the last one's by default, for other programs.
 
-    scripts/peers/state.py run.h5 --to data|text [-o FILE]
+    scripts/peers/state.py run.h5 --to data|text [--at S] [-o FILE]
 
 Units of what is written: small nominal diameter = gravity = density (mass per area) = 1. A frame
 holds positions of mid-step and velocities after it; the positions go the other half step, wrapped
@@ -15,6 +15,7 @@ Types: 1 boundary, 2 large, 3 small. Ids count from 1 in the order of the run.
 """
 import argparse
 import dataclasses
+import math
 import sys
 
 import h5py
@@ -53,13 +54,14 @@ class Units:
         return self.length / self.time
 
 
-def read_run(path):
-    """The state after the last frame's step, its units and its time in s."""
+def read_run(path, at=math.inf):
+    """The state after the step of the last frame up to `at` s, its units and its time in s."""
     with h5py.File(path, "r") as run:
         grains, parameters = run["particles/grains"], run["parameters"]
-        frames = len(run["grseg/contacts/offset"]) - 1
+        times = grains["position/time"][:len(run["grseg/contacts/offset"]) - 1]
+        frames = int(np.searchsorted(times, at, "right"))
         if frames < 1:
-            sys.exit(f"{path}: holds no frame; let the run flow for at least one step")
+            sys.exit(f"{path}: holds no frame up to {at:g} s; let the run flow for at least one step")
         d = float(parameters["small_diameter"][()])
         g = float(np.hypot(*parameters["gravity"][:]))
         half = float(parameters["step"][()]) / 2
@@ -74,7 +76,7 @@ def read_run(path):
         spin[type_ == BASE] = 0
         state = State(length / d, type_, grains["radius"][:] / d, position / d,
                       velocity / units.velocity, spin * units.time)
-        return state, units, float(grains["position/time"][frames - 1]) + half
+        return state, units, float(times[frames - 1]) + half
 
 
 def write_data(state, out):
@@ -106,9 +108,11 @@ def main():
                                       formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("run")
     options.add_argument("--to", choices=WRITERS, required=True)
+    options.add_argument("--at", type=float, default=math.inf, metavar="S",
+                         help="the last frame up to this time")
     options.add_argument("-o", "--output")
     given = options.parse_args()
-    state, _, _ = read_run(given.run)
+    state, _, _ = read_run(given.run, given.at)
     if given.output is None:
         WRITERS[given.to](state, sys.stdout)
     else:
