@@ -10,8 +10,8 @@ set output folder."/b-of-flows.png"
 set multiplot layout 2,2
 set key top right samplen 1
 is(name, value) = stringcolumn(name) eq value
-mixture(dummy) = column("slope") == 23 && is("variant", "none")
-tilted(dummy) = column("phi") == 0.45 && is("variant", "none")
+mixture(dummy) = column("slope") == 23
+tilted(dummy) = column("phi") == 0.45
 takes(quantity, stage) = is("quantity", quantity) && is("component", "yy") && is("heights", "inside") && is("stage", stage) && (is("rule", "size") || is("rule", "kinetic"))
 only(condition, value) = condition ? value : NaN
 stages = "early all late"

@@ -1,10 +1,13 @@
 # One run, in its own folder: scene.ini -> run.h5 -> TABLES -> checksums. Called by Makefile.
 
+.PHONY: done FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 # Where its tables are there, the trajectory need not be.
 .SECONDARY: run.h5
 
+done: checksums
+	@:
 # Last, when the trajectory is gone: a run that has this file is done.
 checksums: $(TABLES) cost.tsv
 	$(if $(KEEP),,rm -f run.chk run.h5)
@@ -15,31 +18,42 @@ checksums: $(TABLES) cost.tsv
 run.h5: scene.ini
 	$(RUN) $(scripts)/simulate $(bin)/grseg-sim $(CHECKPOINT_EVERY)
 
-stress-branch.tsv: options := --assign branch
-stress-grain.tsv: options := --assign grain
-stress-gauss.tsv: options := --assign gauss
-stress-centre.tsv: options := --composition centre
-stress-2dS.tsv: options := --layer 2dS
-stress-8dS.tsv: options := --layer 8dS
-stress-stride2.tsv: options := --stride 2
-stress-stride5.tsv: options := --stride 5
-kinetic-layer.tsv: options := --mean layer
-kinetic-instant.tsv: options := --mean instant
-check.tsv: options := --physics
-segregation-summary.tsv: options := --summary --heights 4dS:56dS
+options_stress-branch := --assign branch
+options_stress-grain := --assign grain
+options_stress-gauss := --assign gauss
+options_stress-centre := --composition centre
+options_stress-2dS := --layer 2dS
+options_stress-8dS := --layer 8dS
+options_stress-stride2 := --stride 2
+options_stress-stride5 := --stride 5
+options_kinetic-layer := --mean layer
+options_kinetic-instant := --mean instant
+options_check := --physics
+options_segregation-summary := --summary --heights 4dS:56dS
+
+# Of grains that are all alike, any half may be called large.
+trajectory_stress-random := random.h5.part
+
+extracts := record.tsv observables.tsv snapshots.tsv
+sums := $(filter-out $(extracts),$(TABLES))
+# command_of TABLE: as it stands in the history of that table.
+command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_$(1)) --quiet)
+
+# Tables that were made by another command are made anew.
+outdated := $(shell $(scripts)/outdated '$(AGAIN)' $(extracts) $(foreach table,$(sums:.tsv=),'$(table).tsv: $(call command_of,$(table))'))
+$(if $(filter gone,$(outdated)),$(error $(notdir $(CURDIR)): $(filter-out gone,$(outdated)): not there, or made by another \
+  command than now, and the trajectory is deleted; AGAIN=yes simulates it anew))
+$(outdated): FORCE
 
 table = $(RUN) $(scripts)/table $@
-tool = $(bin)/grseg-$(firstword $(subst -, ,$(basename $@)))
-extracts := record.tsv observables.tsv snapshots.tsv
-$(filter-out $(extracts) stress-random.tsv,$(TABLES)): run.h5 ../.window
-	$(table) $(tool) run.h5 --window $(WINDOW) $(options) --quiet
+$(filter-out stress-random.tsv,$(sums)): run.h5
+	$(table) $(bin)/$(call command_of,$(basename $@))
 $(extracts): run.h5
 	$(table) $(scripts)/extract $(basename $@) run.h5
-# Of grains that are all alike, any half may be called large.
-stress-random.tsv: run.h5 ../.window
-	$(RUN) $(scripts)/relabel run.h5 random.h5.part
-	$(table) $(tool) random.h5.part --window $(WINDOW) --quiet
-	rm random.h5.part
+stress-random.tsv: run.h5
+	$(RUN) $(scripts)/relabel run.h5 $(trajectory_stress-random)
+	$(table) $(bin)/$(call command_of,$(basename $@))
+	rm $(trajectory_stress-random)
 
 # Wall time, which no checksum covers: a table is the same whatever befell its run.
 cost.tsv: run.h5 $(TABLES)

@@ -8,6 +8,8 @@ import math
 from measured import Value, line_fit, plain
 
 NOT_YET = "not measured yet"
+DIFFERS = "**differs**"
+WORST = ("agrees", "undecided", DIFFERS, NOT_YET)
 
 
 class Target:
@@ -16,7 +18,7 @@ class Target:
 
     def cells(self):
         if self.verdict == NOT_YET:
-            return [self.name, self.paper, "–", NOT_YET, ""]
+            return [self.name, self.paper, "–", NOT_YET, "its flows have not been run"]
         return [self.name, self.paper, self.ours, self.verdict, self.why]
 
 
@@ -26,7 +28,7 @@ def judged(value, paper, tolerance):
         return NOT_YET
     if met and value.high - value.low > 2 * tolerance:
         return "undecided"  # the interval is wider than the tolerance
-    return "agrees" if met else "**differs**"
+    return "agrees" if met else DIFFERS
 
 
 def number(name, text, value, digits, paper, tolerance, why):
@@ -35,7 +37,7 @@ def number(name, text, value, digits, paper, tolerance, why):
                   judged(value, paper, tolerance), why)
 
 
-def claim(name, text, ours, holds, why, otherwise="**differs**"):
+def claim(name, text, ours, holds, why, otherwise=DIFFERS):
     """A target that is a statement; `holds` may be None where nothing was measured."""
     verdict = NOT_YET if holds is None else "agrees" if holds else otherwise
     return Target(name, text, ours, verdict, why)
@@ -62,27 +64,40 @@ def contact_stress(m):
     yield number("2b: B by size", "0.034 to 0.035", b, 3, 0.0345, 0.03,
                  f"all heights {every.text(3)}: the row that the base traps; "
                  f"nominal 2/3 instead of actual radii {m.fit('mixtures', rule='uniform:0.66667').text(3)}")
-    sign = None if math.isnan(b.value) else b.low > 0
+    seeds = min((row["seeds"] for row in m.plain_flows() if row["slope"] == 23), default=0)
+    sign = None if math.isnan(b.value) else b.low > 0 and seeds >= 4
     yield claim("2b: B > 0", "\"supports the plausibility of gravity-driven segregation\"", b.text(3), sign,
-                f"less than the share of a mixed contact is worth: B = 0 at p = {m.of_scan('p_zero').text(3)}", "undecided")
+                f"of {seeds:.0f} seeds and more; four are asked for. Less than the share of a mixed contact is worth: "
+                f"B = 0 at p = {m.of_scan('p_zero').text(3)}", "undecided")
+    yield number("Control, all grains alike: B", "0 by symmetry", m.fit("control"), 3, 0, 0.03,
+                 "size ratio 1, labels small and large dealt out at random")
     most = m.number("mixtures", "mixed_most")
     yield number("2c: largest share of mixed contacts", "\"locally 50 %\"", most, 3, 0.5, 0.04,
-                 f"at φ_L = {m.number('mixtures', 'mixed_most_at').text(2)} (neutral contacts: 0.500 at 2/3); "
-                 f"from the neutral curve {m.number('mixtures', 'mixed_off_least').text(3)} to "
-                 f"{m.number('mixtures', 'mixed_off_most').text(3)}")
-    yield number("B from pressures", "0.045 to 0.047", pressure, 3, 0.046, 0.03,
-                 f"less that from σ_yy: {plain(pressure.value - b.value, 3)} (paper 0.011)")
+                 "neutral contacts: 0.500")
+    yield number("2c: φ_L where it is largest", "neutral contacts: 2/3", m.number("mixtures", "mixed_most_at"), 2, 0.635,
+                 0.085, "no number in the text; 0.55 to 0.72 counts as met")
+    yield neutral_curve(m)
+    yield number("B from pressures", "0.045 to 0.047", pressure, 3, 0.046, 0.03, "half the trace instead of σ_yy")
+    yield number("B from pressures less B from σ_yy", "0.011", Value(pressure.value - b.value), 3, 0.011, 0.015,
+                 "normal stresses differ")
     for rule, paper, text in (("uniform:0.8", 0.33, "≈ 0.33"), ("uniform:0.6", -0.1, "≈ −0.1"),
                               ("half", -0.32, "≈ −0.32")):
         p = {"half": 0.5}.get(rule) or float(rule.split(":")[1])
         row = m.row("mixtures", rule=rule) or {}
         less = Value(*(row.get(f"minus_size{end}", math.nan) for end in ("", "_low", "_high")))
         yield number(f"B, mixed contacts {p:g} to the large grain", text,
-                     m.fit("mixtures", rule=rule), 3, paper, 0.05,
-                     f"less that by size: {less.text(3)}, of neutral contacts "
-                     f"{plain(row.get('neutral', math.nan), 3)}, paper {plain(paper - 0.034, 3)}")
+                     m.fit("mixtures", rule=rule), 3, paper, 0.05, "at φ = 1/2")
+        yield number("... less B by size", plain(paper - 0.0345, 3), less, 3, paper - 0.0345, 0.05,
+                     f"direct fit; of neutral contacts {plain(row.get('neutral', math.nan), 3)}")
     yield slope_and_b(m)
     yield stages(m)
+
+
+def neutral_curve(m):
+    least, most = (m.number("mixtures", f"mixed_off_{end}") for end in ("least", "most"))
+    holds = None if math.isnan(least.value) else max(-least.value, most.value) <= 0.04
+    return claim("2c: share of mixed contacts over φ_L", "a curve; neutral contacts: 4 φ_L φ_S/(1 + φ_S)² (± 0.04)",
+                 f"from that curve {least.text(3)} to {most.text(3)}", holds, "compositions inside, base contacts left out")
 
 
 def segregated(m):
@@ -99,12 +114,12 @@ def segregated(m):
 def slope_and_b(m):
     flows = [row for row in m.plain_flows() if row["phi"] == 0.45 and not math.isnan(row["B"])]
     trend, _ = line_fit([row["slope"] for row in flows], [row["B"] for row in flows])
-    spread = max((row["B"] for row in flows), default=math.nan) \
-        - min((row["B"] for row in flows), default=math.nan)
-    holds = None if len(flows) < 3 else trend.meets(0, 0)
+    mean = sum(row["B"] for row in flows) / max(1, len(flows))
+    off = max((abs(row["B"] - mean) for row in flows), default=math.nan)
+    holds = None if len(flows) < 3 else trend.meets(0, 0) and off < 0.02
     return claim("B does not depend on the slope", "none seen",
                  f"dB/dθ = {trend.text(4)} per degree over {len(flows)} slopes", holds,
-                 f"B of the slopes lies within {plain(spread, 3)}")
+                 f"the slope farthest from their mean is {plain(off, 3)} off; 0.02 counts as met")
 
 
 def stages(m):
@@ -135,7 +150,8 @@ def kinetic_stress(m):
                  "a power law, as the paper's")
     half_sum = m.fit("mixtures", "B_paper", **kinetic)
     yield number("B_κ", "−0.373", half_sum, 3, -0.373, 0.04,
-                 "half the sum of the end values, which is what the paper prints; at φ = 1/2 "
+                 "half the sum of the end values, which is what the paper prints beside −0.39 of Hill & Tan and −0.38 of "
+                 "Weinhart et al.; at φ = 1/2 "
                  f"{m.fit('mixtures', **kinetic).text(3)}; all heights, with the row that the base traps, "
                  f"{m.fit('mixtures', 'B_paper', heights='all', **kinetic).text(3)}. For e and the mean "
                  "velocity see the choices below")
@@ -159,24 +175,27 @@ def shear_rate(m):
            + ", ".join(f"{plain(b, 3)} at {row['slope']:g}°" for row, b in zip(flows, y)))
     yield number("4: slope of −B_κ over γ̇/√(g/d_S)", "0.205", slope, 3, 0.205, 0.15, why)
     yield number("4: −B_κ at γ̇ = 0", "0.310", level, 3, 0.31, 0.06, "the same line")
+    by_rate = [b for _, b in sorted(zip(x, y))]
+    falls = sum(b < a for a, b in zip(by_rate, by_rate[1:]))
+    yield claim("4: −B_κ grows from slope to slope", "in all six", f"falls {falls} times", falls == 0 if len(y) > 2 else None,
+                "six points in order of γ̇")
 
 
 def micro_structure(m):
     """Figures 5 and 6 and section V."""
     at = lambda name: m.number("mixtures", name)
     for name, end, mean, most in (("Π", "", 2.2, 3), ("Π^L", "_L", 1.9, 5), ("Π^S", "_S", 6.4, 9)):
-        ours = at(f"contacts_error{end}_mean")
-        yield Target(f"5: mean (largest) error of {name}, %", f"{mean:g} ({most:g})",
-                     f"{ours.text(1)} ({at(f'contacts_error{end}_most').text(1)})",
-                     judged(ours, mean, mean),
+        ours, largest = (at(f"contacts_error{end}_{which}") for which in ("mean", "most"))
+        yield Target(f"5: mean (largest) error of {name}, %", f"{mean:g} ({most:g}) (up to twice)",
+                     f"{ours.text(1)} ({largest.text(1)})",
+                     max(judged(ours, mean, mean), judged(largest, most, most), key=WORST.index),
                      f"with 1/(πd); as printed, 2/(πd): {at(f'contacts_error{end}_printed_mean').text(0)}; "
                      f"over ends and with f_n {at(f'ends_error{end}_mean').text(2)}")
     first = lambda name: m.number("phi0.45-s23", name)
     yield number("6a: y_L/H at the start", "large grains below: 0.225", first("yL_first"), 3, 0.225, 0.02,
                  "geometry")
-    yield Target("6a: y_L/H at the end", "no number in the text; 0.775 if separated",
-                 first("yL_last").text(3), NOT_YET if math.isnan(first("yL_last").value) else "–",
-                 f"falls from one window to the next {first('yL_falls').text(0)} times in "
+    yield number("6a: y_L/H at the end", "no number in the text; 0.775 if separated, so 0.705", first("yL_last"), 3,
+                 0.705, 0.055, f"falls from one window to the next {first('yL_falls').text(0)} times in "
                  f"{first('windows').text(0)}")
     yield from orderings(first)
 
@@ -192,7 +211,7 @@ def orderings(first):
     yield claim("6c: f_L > f_S", "always, \"as segregation proceeds\", too",
                 f"f_L/f_S {first('f_first').text(2)} at first, at least {f.text(2)}, {last.text(2)} at the end",
                 none(f, f.value > 1),
-                f"forces blind to size would give {blind.text(2)} at the end: measured over blind is "
+                f"forces blind to size would give {blind.text(2)} at the end, and 1 at y_L/H = 0.677: measured over blind is "
                 f"{first('f_over_blind').text(2)} on average, below one in {first('f_below_blind').text(0)} of "
                 f"{first('windows').text(0)} windows")
     hat = first("hat_last")

@@ -1,7 +1,7 @@
 #!/bin/bash
 # scripts/reproduce, on one small flow and its control: a second call does nothing; a campaign killed
 # while it simulates and while it makes tables goes on and leaves the same bytes; another partition redoes
-# the fits alone, another window the tables. Usage: reproduce_test.sh SOURCE BIN
+# the fits alone; another command its table, but no simulation unless it is asked for. Usage: reproduce_test.sh SOURCE BIN
 set -eu
 source=$1 bin=$2
 folder=$(mktemp -d)
@@ -45,15 +45,31 @@ did grseg-stress 0
 
 campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
 did reproduce/ 0
-did grseg-fit 4
-grep -q '^uniform:0.8' whole/fit/mixtures.tsv || fail "another partition is not in the fits"
-rm whole/phi0.45-s23-seed1/checksums
-campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
-did reproduce/simulate 0
+did ./fits 1
+grep -q 'uniform:0.8' whole/rules.tsv || fail "another partition is not in the fits: $(cat log)"
+
+# refused TABLES WORDS: the campaign stops for want of the trajectory, and leaves what is there.
+refused() {
+  campaign OUT=whole PARTITION=uniform:0.8 "${@:2}" >log 2>&1 && fail "made without a trajectory: $(cat log)"
+  grep -q "phi0.45-s23-seed1: $1: not there, or made by another.*AGAIN=yes" log || fail "not told: $(cat log)"
+  did reproduce/simulate 0
+}
+refused 'check.tsv stress.tsv .*' WINDOW=0.5
+(cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "a refusal changed tables"
 rm whole/phi0.45-s23-seed1/micro.tsv
-campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
+refused micro.tsv
+campaign OUT=whole PARTITION=uniform:0.8 AGAIN=yes KEEP=1 >log 2>&1
 did reproduce/simulate 1
 (cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "a table that was lost came back different"
+sed -i 's/--assign branch/--assign grain/' whole/phi0.45-s23-seed1/stress-branch.tsv
+campaign OUT=whole PARTITION=uniform:0.8 KEEP=1 >log 2>&1
+did reproduce/simulate 0
+did 'reproduce/table' 1
+did 'table stress-branch.tsv' 1
+[ "$(tables whole | grep -v rules.tsv)" = "$(tables killed | grep -v rules.tsv)" ] || fail "a table by another command did not come back"
+campaign OUT=whole PARTITION=uniform:0.8 KEEP=1 WINDOW=0.5 >log 2>&1
+did reproduce/simulate 0
+did 'grseg-.*--window 0.5' 17
 
 code=0
 make -C "$source/scripts/reproduce" run NAME=phi0.45-s23-seed9 BIN="$bin" OUT="$folder/whole" >log 2>&1 || code=$?
