@@ -120,5 +120,5 @@ reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv
 kept: keep $(scripts) $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }
 	mkdir -p $(KEPT)
-	./keep $(tables) $(KEPT)/tables.tar.xz
+	./keep $(tables) $(KEPT)/tables.tar.bz2
 	cp $(work)/choices.tsv $(KEPT)
