@@ -23,7 +23,7 @@ bin := $(call absolute,$(BIN))
 tables := $(if $(TABLES),$(call absolute,$(TABLES)),$(work)/kept)
 gp := ../figures
 
-.PHONY: reproduction.md figures choices kept
+.PHONY: reproduction.md figures choices.tsv kept
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -109,7 +109,7 @@ $(filter-out $(work)/kinetic-ratio.png,$(pictures)): $(work)/%.png: $(gp)/%.gp
 $(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/stress-ratio.gp
 	$(call draw,stress-ratio) kinetic
 
-choices: $(work)/choices.tsv
+choices.tsv: $(work)/choices.tsv
 
 # The document: its generated parts anew, all else as it is.
 reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv)

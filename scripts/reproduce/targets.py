@@ -67,7 +67,7 @@ def contact_stress(m):
     seeds = min((row["seeds"] for row in m.plain_flows() if row["slope"] == 23), default=0)
     sign = None if math.isnan(b.value) else b.low > 0 and seeds >= 4
     yield claim("2b: B > 0", "\"supports the plausibility of gravity-driven segregation\"", b.text(3), sign,
-                f"of {seeds:.0f} seeds and more; four are asked for. Less than the share of a mixed contact is worth: "
+                f"{seeds:.0f} of the four seeds that this asks for. Less than the share of a mixed contact is worth: "
                 f"B = 0 at p = {m.of_scan('p_zero').text(3)}", "undecided")
     yield number("Control, all grains alike: B", "0 by symmetry", m.fit("control"), 3, 0, 0.03,
                  "size ratio 1, labels small and large dealt out at random")
