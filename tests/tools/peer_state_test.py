@@ -62,3 +62,13 @@ assert (atoms[:, 1] == state[:, 1]).all() and (atoms[:, 3] == 1).all()
 assert np.isclose((np.pi * atoms[:, 2]**2 / 4).sum(), mass.sum(), rtol=1e-6)
 assert (atoms[:, 4:6] == state[:, 3:5]).all()
 assert (motion[:, [1, 2, 6]] == state[:, 5:]).all() and (motion[:, 3:6] == 0).all()
+
+# An earlier frame where a time is named: that of the last frame up to it.
+with h5py.File(path, "r") as run:
+    times, grains = run["particles/grains/position/time"][:], run["particles/grains"]
+    early = len(times) // 2
+    velocity = grains["velocity/value"][early][:, 1].astype(float)
+    height = grains["position/value"][early][:, 1] + half_step * velocity
+words = subprocess.run([exporter, path, "--to", "text", "--at", repr(float(times[early]) + half_step)],
+                       capture_output=True, text=True, check=True).stdout.splitlines()[1:]
+assert np.allclose([float(line.split()[4]) for line in words], height / d, rtol=0, atol=1e-9)
