@@ -81,6 +81,17 @@ class DumpArchive : public Archive {
 
 }  // namespace
 
+ArchiveFacts facts_of_late_forces(const std::string& program)
+{
+  ArchiveFacts facts;
+  facts.forces_are_late = true;
+  facts.tolerance = 5e-2;
+  facts.tolerance_reason = program +
+                           " evaluates contact forces anew at output, with the velocities of the "
+                           "end of the step";
+  return facts;
+}
+
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect)
 {
   if (!files.restart.empty())

@@ -23,6 +23,10 @@ struct DumpDialect {
   ArchiveFacts facts;   // as far as they are the same for every run
 };
 
+/// Facts of a program that at output evaluates contact forces anew, with the velocities of the end
+/// of the step, and so half a step after those that moved the grains.
+ArchiveFacts facts_of_late_forces(const std::string& program);
+
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect);
 
 }  // namespace grseg

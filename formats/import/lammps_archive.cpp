@@ -45,19 +45,9 @@ std::vector<std::string> other_columns(const DumpHeader& header)
 
 std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
 {
-  static const DumpDialect dialect = [] {
-    DumpDialect d{assumed_columns,
-                  [](const std::string& columns, const DumpHeader&) { return columns; },
-                  other_columns,
-                  recipe,
-                  {}};
-    d.facts.forces_are_late = true;
-    d.facts.tolerance = 5e-2;
-    d.facts.tolerance_reason =
-        "LAMMPS evaluates contact forces anew at output, with the velocities of the end of the "
-        "step";
-    return d;
-  }();
+  static const DumpDialect dialect{
+      assumed_columns, [](const std::string& columns, const DumpHeader&) { return columns; },
+      other_columns, recipe, facts_of_late_forces("LAMMPS")};
   return open_dumps(files, dialect);
 }
 

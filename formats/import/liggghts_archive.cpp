@@ -18,15 +18,8 @@ std::string assumed_columns(const DumpHeader& contacts, const ArchiveGrains&)
 
 std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
 {
-  static const DumpDialect dialect = [] {
-    DumpDialect d{assumed_columns, liggghts_mapping, liggghts_columns_of, "pos,id,force,delta", {}};
-    d.facts.forces_are_late = true;
-    d.facts.tolerance = 5e-2;
-    d.facts.tolerance_reason =
-        "LIGGGHTS evaluates contact forces anew at output, with the velocities of the end of the "
-        "step";
-    return d;
-  }();
+  static const DumpDialect dialect{assumed_columns, liggghts_mapping, liggghts_columns_of,
+                                   "pos,id,force,delta", facts_of_late_forces("LIGGGHTS")};
   return open_dumps(files, dialect);
 }
 
