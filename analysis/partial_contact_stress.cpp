@@ -26,6 +26,17 @@ constexpr std::array<TensorColumn, 9> tensor_columns{{{"A_SS", &ContactSums::ss}
                                                       {"F_Sb", &ContactSums::whole_small},
                                                       {"F_Lb", &ContactSums::whole_large}}};
 
+struct CentreColumn {
+  const char* name;
+  Tensor2 ContactSums::AtCentres::*member;
+};
+
+constexpr std::array<CentreColumn, 4> centre_columns{
+    {{"HSS", &ContactSums::AtCentres::ss},
+     {"HLL", &ContactSums::AtCentres::ll},
+     {"ML", &ContactSums::AtCentres::mixed_large},
+     {"MS", &ContactSums::AtCentres::mixed_small}}};
+
 void append_names(std::vector<std::string>& names, const std::string& tensor)
 {
   for (const char* component : {"xx", "xy", "yx", "yy"})
@@ -65,12 +76,16 @@ void PartialContactStress::book(Part part, const Contact& contact, const Stretch
   }
 }
 
-void PartialContactStress::add_equal(Part part, const Contact& contact, double y_i, double y_j,
-                                     double share_i)
+void PartialContactStress::add_equal(Species species, const Contact& contact, double y_i,
+                                     double y_j, double share_i)
 {
+  const bool small = species == Species::small;
+  const Part part = small ? A_SS : A_LL, halves = small ? HSS : HLL;
   if (assignment_ != Assignment::grain) return book(part, contact, {y_i, y_j, 1});
   book(part, contact, {y_i, y_j, share_i});
   book(part, contact, {y_j, y_i, 1 - share_i});
+  book(halves, contact, {y_i, y_j, 0.5});
+  book(halves, contact, {y_j, y_i, 0.5});
 }
 
 void PartialContactStress::add_mixed(const Contact& contact, double y_large, double y_small,
@@ -107,7 +122,7 @@ void PartialContactStress::add(const Grains& grains, const Frame& frame)
     sums_[contact.layer].contacts[static_cast<std::size_t>(type)] += 1;
 
     if (type == PairType::SS || type == PairType::LL) {
-      add_equal(type == PairType::SS ? A_SS : A_LL, contact, y_i, y_j, share_i);
+      add_equal(grains.species[i], contact, y_i, y_j, share_i);
     } else if (type == PairType::LS) {
       const bool i_large = grains.species[i] == Species::large;
       const double r_i = grains.radius[i], r_j = grains.radius[static_cast<std::size_t>(list.j[k])];
@@ -155,8 +170,11 @@ PartialContactStress::Mean PartialContactStress::mean(std::size_t layer) const
   mean.sums.base_large = sums.tensor[A_Lb] / frames;
   mean.sums.whole_small = sums.tensor[F_Sb] / frames;
   mean.sums.whole_large = sums.tensor[F_Lb] / frames;
-  mean.mixed_at_large = sums.tensor[ML] / frames;
-  mean.mixed_at_small = sums.tensor[MS] / frames;
+  mean.sums.booked_at_centres = assignment_ == Assignment::grain;
+  mean.sums.at_centres = {.ss = sums.tensor[HSS] / frames,
+                          .ll = sums.tensor[HLL] / frames,
+                          .mixed_large = sums.tensor[ML] / frames,
+                          .mixed_small = sums.tensor[MS] / frames};
   return mean;
 }
 
@@ -166,10 +184,8 @@ std::vector<std::string> PartialContactStress::columns() const
   names.reserve(pair_types);
   for (const char* type : pair_type_names) names.push_back(fmt::format("n_{}", type));
   for (const auto& column : tensor_columns) append_names(names, column.name);
-  if (assignment_ == Assignment::grain) {
-    append_names(names, "ML");
-    append_names(names, "MS");
-  }
+  if (assignment_ == Assignment::grain)
+    for (const auto& column : centre_columns) append_names(names, column.name);
   if (power_) append_names(names, "Mpower");
   return names;
 }
@@ -179,10 +195,8 @@ std::vector<double> PartialContactStress::row(std::size_t layer) const
   const auto mean_here = mean(layer);
   std::vector<double> row(mean_here.contacts.begin(), mean_here.contacts.end());
   for (const auto& column : tensor_columns) append(row, mean_here.sums.*column.member);
-  if (assignment_ == Assignment::grain) {
-    append(row, mean_here.mixed_at_large);
-    append(row, mean_here.mixed_at_small);
-  }
+  if (mean_here.sums.booked_at_centres)
+    for (const auto& column : centre_columns) append(row, mean_here.sums.at_centres.*column.member);
   if (power_) append(row, mean_here.sums.mixed_power);
   return row;
 }

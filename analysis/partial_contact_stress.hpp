@@ -39,16 +39,14 @@ enum class Assignment {
 ///
 /// `grain` books either grain's part of equal grains (cut at the contact point) and of mixed ones
 /// (cut by size, so that `mixed` less `mixed_size` is the small grain's part, at its centre) where
-/// that grain is; mixed_contact, mixed_power where the large grain is.
+/// that grain is; mixed_contact, mixed_power where the large grain is; at_centres is for rules
+/// whose share is the same for all contacts.
 class PartialContactStress {
  public:
   /// Of one layer.
   struct Mean {
     std::array<double, pair_types> contacts{};  // by PairType, booked at the contact point
-    ContactSums sums;                           // without volume and areas
-    // Mixed contacts, whole branch, booked where their large and where their small grain is; only
-    // with Assignment::grain.
-    Tensor2 mixed_at_large = Tensor2::Zero(), mixed_at_small = Tensor2::Zero();
+    ContactSums sums;  // without volume and areas; at_centres only with Assignment::grain
   };
 
   /// With `power` Q, mixed_power takes the share r_L^Q/(r_L^Q + r_S^Q). `kernel` belongs to
@@ -67,8 +65,8 @@ class PartialContactStress {
   std::vector<double> row(std::size_t layer) const;
 
  private:
-  enum Part { A_SS, A_LL, M, Msize, Mcp, Mpower, ML, MS, A_Sb, A_Lb, F_Sb, F_Lb };
-  static constexpr std::size_t parts = 12;
+  enum Part { A_SS, A_LL, M, Msize, Mcp, Mpower, HSS, HLL, ML, MS, A_Sb, A_Lb, F_Sb, F_Lb };
+  static constexpr std::size_t parts = 14;
   struct Sums {
     std::array<double, pair_types> contacts{};
     std::array<Tensor2, parts> tensor;
@@ -87,7 +85,7 @@ class PartialContactStress {
   };
 
   void book(Part part, const Contact& contact, const Stretch& stretch);
-  void add_equal(Part part, const Contact& contact, double y_i, double y_j, double share_i);
+  void add_equal(Species species, const Contact& contact, double y_i, double y_j, double share_i);
   void add_mixed(const Contact& contact, double y_large, double y_small, double by_size,
                  double by_contact);
 

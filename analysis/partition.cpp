@@ -49,23 +49,42 @@ double parse_value(const std::string& text, const std::string& rule)
                                all_rules));
 }
 
-Tensor2 share_of_large(const ContactSums& sums, const PartitionRule& rule)
+/// What contacts between mobile grains give to the species, N m, and what they give to nobody.
+struct Shares {
+  Tensor2 small, large, dropped = Tensor2::Zero();
+};
+
+/// Every mixed contact's share `p` goes to its large grain.
+Shares shares(const ContactSums& sums, double p)
+{
+  if (!sums.booked_at_centres)
+    return {sums.ss + (sums.mixed - p * sums.mixed), sums.ll + p * sums.mixed};
+  const auto& centres = sums.at_centres;
+  return {centres.ss + (1 - p) * centres.mixed_small, centres.ll + p * centres.mixed_large};
+}
+
+Shares shares(const ContactSums& sums, const Tensor2& of_large)
+{
+  return {sums.ss + (sums.mixed - of_large), sums.ll + of_large};
+}
+
+Shares shares(const ContactSums& sums, const PartitionRule& rule)
 {
   switch (rule.kind) {
     case Kind::size:
-      return sums.mixed_size;
+      return shares(sums, sums.mixed_size);
     case Kind::contact_point:
-      return sums.mixed_contact;
+      return shares(sums, sums.mixed_contact);
     case Kind::half:
-      return 0.5 * sums.mixed;
+      return shares(sums, 0.5);
     case Kind::uniform:
-      return rule.value * sums.mixed;
+      return shares(sums, rule.value);
     case Kind::power:
-      return sums.mixed_power;
+      return shares(sums, sums.mixed_power);
     case Kind::drop:
       break;
   }
-  return Tensor2::Zero();
+  return {sums.ss, sums.ll, sums.mixed};
 }
 
 }  // namespace
@@ -152,13 +171,11 @@ PartialStress partial_stress(const ContactSums& sums, const PartitionRule& rule,
     base_small = 0.5 * sums.whole_small;
     base_large = 0.5 * sums.whole_large;
   }
-  const Tensor2 to_large = share_of_large(sums, rule);
-  const Tensor2 to_small =
-      rule.kind == Kind::drop ? Tensor2::Zero() : Tensor2(sums.mixed - to_large);
+  const auto [small, large, dropped] = shares(sums, rule);
   const double v = volume == StressVolume::bulk ? sums.volume : sums.area_small + sums.area_large;
-  return {.small = (sums.ss + to_small + base_small) / v,
-          .large = (sums.ll + to_large + base_large) / v,
-          .total = (sums.ss + sums.ll + sums.mixed + base_small + base_large) / v};
+  return {.small = (small + base_small) / v,
+          .large = (large + base_large) / v,
+          .total = (small + large + dropped + base_small + base_large) / v};
 }
 
 double neutral_b(const PartitionRule& rule, double size_ratio, double phi_large)
@@ -205,6 +222,11 @@ ContactSumsReader::ContactSumsReader(const Table& table, const std::vector<Parti
   whole_small_ = find("F_Sb", remedy);
   whole_large_ = find("F_Lb", remedy);
   for (const auto& rule : rules) {
+    const bool same_for_all = rule.kind == Kind::half || rule.kind == Kind::uniform;
+    if (same_for_all && table.has_column("ML_xx")) {
+      const std::string how = "make the table anew with grseg-stress --assign grain";
+      at_centres_ = {find("HSS", how), find("HLL", how), find("ML", how), find("MS", how)};
+    }
     if (rule.kind != Kind::power) continue;
     const auto how = fmt::format("make the table with grseg-stress --partition {}", rule.name());
     mixed_power_ = find("Mpower", how);
@@ -248,6 +270,12 @@ ContactSums ContactSumsReader::read(std::size_t row) const
   sums.base_large = tensor(row, base_large_);
   sums.whole_small = tensor(row, whole_small_);
   sums.whole_large = tensor(row, whole_large_);
+  sums.booked_at_centres = at_centres_.has_value();
+  if (at_centres_)
+    sums.at_centres = {.ss = tensor(row, at_centres_->ss),
+                       .ll = tensor(row, at_centres_->ll),
+                       .mixed_large = tensor(row, at_centres_->mixed_large),
+                       .mixed_small = tensor(row, at_centres_->mixed_small)};
   return sums;
 }
 

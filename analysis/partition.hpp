@@ -59,6 +59,16 @@ struct ContactSums {
   Tensor2 mixed_power = Tensor2::Zero();    // Mpower, the large grain's part by power:Q
   Tensor2 base_small = Tensor2::Zero(), base_large = Tensor2::Zero();    // A_Sb, A_Lb
   Tensor2 whole_small = Tensor2::Zero(), whole_large = Tensor2::Zero();  // F_Sb, F_Lb
+
+  /// Where each grain's part is booked at that grain's centre (--assign grain), the sums above hold
+  /// parts cut by size. What shares are taken of that are the same for all contacts:
+  struct AtCentres {
+    Tensor2 ss = Tensor2::Zero(), ll = Tensor2::Zero();  // HSS, HLL: half at either grain
+    // ML, MS: the whole branch at the large grain, and once more at the small one
+    Tensor2 mixed_large = Tensor2::Zero(), mixed_small = Tensor2::Zero();
+  };
+  AtCentres at_centres{};
+  bool booked_at_centres = false;  // at_centres is there
 };
 
 enum class StressVolume { bulk, solid };
@@ -69,7 +79,9 @@ struct PartialStress {
 };
 
 /// sigma^L = (A_LL + share + base_L)/V, sigma^S = (A_SS + M - share + base_S)/V, V with voids
-/// (bulk) or the area of the mobile grains in the layer (solid).
+/// (bulk) or the area of the mobile grains in the layer (solid). Of parts booked at the grains'
+/// centres half and uniform:P take P ML and (1 - P) MS, and of equal grains half at either; half is
+/// then compute stress/atom, summed by species and layer.
 PartialStress partial_stress(const ContactSums& sums, const PartitionRule& rule,
                              BasePart base = BasePart::contact_point,
                              StressVolume volume = StressVolume::bulk);
@@ -99,6 +111,10 @@ class ContactSumsReader {
   TensorColumns ss_, ll_, mixed_, mixed_size_, mixed_contact_;
   TensorColumns base_small_, base_large_, whole_small_, whole_large_;
   std::optional<TensorColumns> mixed_power_;
+  struct CentreColumns {
+    TensorColumns ss, ll, mixed_large, mixed_small;
+  };
+  std::optional<CentreColumns> at_centres_;
 };
 
 /// Column number; FormatError that adds `remedy` ("make it with ...") where there is none.

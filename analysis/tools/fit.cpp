@@ -174,7 +174,9 @@ FitReport make_report(const Settings& s, const std::string& preset,
       is_second(s.component, "component", "yy", "pressure") ? Component::pressure : Component::yy;
   const FitSettings settings{report.component, parse_base(base)};
   const auto rules = rules_of(s, tables[0]);
-  const auto data = read_fit_data(tables, report.quantity, s.filters, rules);
+  auto read = rules;
+  if (!s.scan.empty()) read.push_back({PartitionRule::Kind::uniform});
+  const auto data = read_fit_data(tables, report.quantity, s.filters, read);
   const Bootstrap bootstrap(data.runs, static_cast<std::size_t>(s.bootstrap),
                             static_cast<unsigned long>(s.seed));
   for (const auto& rule : rules) report.rules.push_back(fit_rule(data, rule, settings, bootstrap));

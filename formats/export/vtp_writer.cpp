@@ -93,7 +93,7 @@ std::string VtpWriter::contacts_text(const Frame& frame) const
     id_j.push_back(j < 0 ? j : grains.id[static_cast<std::size_t>(j)]);
     type.push_back(static_cast<std::int32_t>(pair_type(grains, frame, c)));
   }
-  PolyData data(PolyData::Cells::lines, std::move(points), frame.time);
+  PolyData data(PolyData::Cells::lines, points, frame.time);
   data.point_array("normal_force", normal_at_points);
   data.cell_array("normal_force", normal);
   data.cell_array("tangential_force", tangential);

@@ -6,13 +6,13 @@ set datafile separator tab
 set terminal pngcairo size 900,560 font "DejaVu Sans,12"
 set output folder."/archives-b.png"
 set ylabel "B at φ = 1/2"
-set xrange [0.5:5.5]
+set xrange [0.5:4.5]
 set yrange [-0.5:0.15]
 set bmargin 4
-set xtics ("size" 1, "contact-point" 2, "half" 3, "half, each in its\ngrain's layer" 4, "printed by\nthe program" 5)
+set xtics ("size" 1, "contact-point" 2, "half" 3, "printed by\nthe program" 4)
 set xzeroaxis dt 2 lc rgb "black"
 set key outside top center horizontal
-place(rule) = rule eq "size" ? 1 : rule eq "contact-point" ? 2 : rule eq "half" ? 3 : rule eq "half-in-its-layer" ? 4 : rule eq "printed" ? 5 : NaN
+place(rule) = rule eq "size" ? 1 : rule eq "contact-point" ? 2 : rule eq "half" ? 3 : rule eq "printed" ? 4 : NaN
 is(program) = strcol("program") eq program
 of(program, name) = is(program) ? column(name) : NaN
 plot folder."/b.tsv" using (place(strcol("rule")) - 0.15):(of("grseg-sim", "B")):(column("low")):(column("high")) with yerrorbars pt 7 ps 1.3 lw 2 lc rgb "#404040" title "grseg-sim (rigid)", \

@@ -30,8 +30,8 @@ TEST(AnnuliStress, ARadialChainPressesOutward)
     EXPECT_TRUE(same(stress.mean(2).sums.mixed, dyad({0, 4}, {0, 1.5})));
     PartialContactStress by_grain(annuli, Assignment::grain);
     by_grain.add(scene.grains, scene.frame);
-    EXPECT_TRUE(same(by_grain.mean(3).mixed_at_large, dyad({0, 4}, {0, 1.5})));
-    EXPECT_TRUE(same(by_grain.mean(2).mixed_at_small, dyad({0, 4}, {0, 1.5})));
+    EXPECT_TRUE(same(by_grain.mean(3).sums.at_centres.mixed_large, dyad({0, 4}, {0, 1.5})));
+    EXPECT_TRUE(same(by_grain.mean(2).sums.at_centres.mixed_small, dyad({0, 4}, {0, 1.5})));
   }
 }
 

@@ -27,7 +27,8 @@ TEST(PartialContactStress, PushingGrainsApartIsPositiveWhoeverComesFirst)
       EXPECT_TRUE(same(here.mean(n).sums.mixed, there.mean(n).sums.mixed));
       EXPECT_TRUE(same(here.mean(n).sums.mixed_size, there.mean(n).sums.mixed_size));
       EXPECT_TRUE(same(here.mean(n).sums.mixed_contact, there.mean(n).sums.mixed_contact));
-      EXPECT_TRUE(same(here.mean(n).mixed_at_large, there.mean(n).mixed_at_large));
+      EXPECT_TRUE(same(here.mean(n).sums.at_centres.mixed_large,
+                       there.mean(n).sums.at_centres.mixed_large));
     }
   }
 }
@@ -66,10 +67,41 @@ TEST(PartialContactStress, EachGrainsPartIsBookedAtItsOwnCentre)
   EXPECT_TRUE(same(stress.mean(2).sums.mixed_contact, mixed * 2 / 3));
   EXPECT_TRUE(same(stress.mean(2).sums.mixed, mixed * 2 / 3));
   EXPECT_TRUE(same(stress.mean(1).sums.mixed, mixed / 3));
-  EXPECT_TRUE(same(stress.mean(2).mixed_at_large, mixed));
-  EXPECT_TRUE(same(stress.mean(1).mixed_at_large, mixed * 0));
-  EXPECT_TRUE(same(stress.mean(1).mixed_at_small, mixed));
-  EXPECT_TRUE(same(stress.mean(2).mixed_at_small, mixed * 0));
+  EXPECT_TRUE(same(stress.mean(2).sums.at_centres.mixed_large, mixed));
+  EXPECT_TRUE(same(stress.mean(1).sums.at_centres.mixed_large, mixed * 0));
+  EXPECT_TRUE(same(stress.mean(1).sums.at_centres.mixed_small, mixed));
+  EXPECT_TRUE(same(stress.mean(2).sums.at_centres.mixed_small, mixed * 0));
+}
+
+// compute stress/atom of LAMMPS: every grain has half of force (x) branch of each of its contacts,
+// whoever the other is; summed by species and layer.
+TEST(PartialContactStress, HalvesAtTheGrainsCentresAreTheStressPerGrainOfLammps)
+{
+  const Scene scene = heap();
+  const auto stress = stress_of(scene, Assignment::grain);
+  std::vector<std::array<Tensor2, 2>> by_hand(stress.layers(), {Tensor2::Zero(), Tensor2::Zero()});
+  const auto& list = scene.frame.contacts;
+  const auto give = [&](std::int32_t grain, std::size_t contact) {
+    const auto g = static_cast<std::size_t>(grain);
+    if (scene.grains.species[g] == Species::boundary) return;
+    by_hand[unit_layers.at(unit_layers.height(scene.frame.position[g]))]
+           [static_cast<std::size_t>(scene.grains.species[g])] +=
+        0.5 * dyad(list.force[contact], list.branch[contact]);
+  };
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    give(list.i[c], c);
+    give(list.j[c], c);
+  }
+  for (std::size_t n = 0; n < stress.layers(); ++n) {
+    auto sums = stress.mean(n).sums;
+    sums.volume = 1;
+    for (const char* rule : {"half", "uniform:0.5"}) {
+      const auto ours = partial_stress(sums, parse_rule(rule), BasePart::half);
+      EXPECT_TRUE(same(ours.small, by_hand[n][0], 1e-12)) << rule;
+      EXPECT_TRUE(same(ours.large, by_hand[n][1], 1e-12)) << rule;
+      EXPECT_TRUE(same(ours.total, by_hand[n][0] + by_hand[n][1], 1e-12)) << rule;
+    }
+  }
 }
 
 // Radii 1 and 0.5 overlapping by 0.3: the contact point halves the overlap, 0.85 from the large
@@ -108,6 +140,9 @@ TEST(PartialContactStress, EqualGrainsAreKeptApartBySpecies)
     EXPECT_TRUE(same(own(stress_of(scene, Assignment::branch), 2), mixed / 2));
     EXPECT_TRUE(same(own(stress_of(scene, Assignment::grain), 1), mixed / 3));
     EXPECT_TRUE(same(own(stress_of(scene, Assignment::grain), 2), mixed * 2 / 3));
+    const auto halves = stress_of(scene, Assignment::grain).mean(2).sums.at_centres;
+    EXPECT_TRUE(same(small ? halves.ss : halves.ll, mixed / 2));
+    EXPECT_TRUE(same(small ? halves.ll : halves.ss, mixed * 0));
     const auto counts = stress_of(scene, Assignment::contact_point).mean(1).contacts;
     EXPECT_EQ(counts[small ? 0 : 2], 1);
     EXPECT_EQ(stress_of(scene, Assignment::branch).mean(1).contacts, counts);

@@ -126,6 +126,40 @@ TEST(Partition, PartialStressesAddUpToTheStressForEveryRuleButDrop)
   }
 }
 
+TEST(Partition, SharesOfPartsBookedAtTheGrainsCentresAreTakenWhereEachGrainIs)
+{
+  ContactSums sums = one_mixed_contact();
+  sums.ss = sums.ll = 100 * any_tensor();
+  sums.booked_at_centres = true;
+  sums.at_centres = {.ss = 1.5 * any_tensor(),
+                     .ll = 2.5 * any_tensor(),
+                     .mixed_large = 10 * any_tensor(),
+                     .mixed_small = 20 * any_tensor()};
+  const auto stress = partial_stress(sums, parse_rule("uniform:0.8"), BasePart::none);
+  EXPECT_LT((stress.large - (2.5 + 8) / sums.volume * any_tensor()).norm(), 1e-14);
+  EXPECT_LT((stress.small - (1.5 + 4) / sums.volume * any_tensor()).norm(), 1e-14);
+  EXPECT_LT((stress.total - stress.large - stress.small).norm(), 1e-14);
+}
+
+TEST(Partition, ATableOfGrainsWithoutTheirHalvesIsReadForSizeAndRefusedForHalf)
+{
+  auto table = stress_table({{0, 1, 1, one_mixed_contact()}});
+  for (const char* name : {"ML", "MS"})
+    for (const char* component : {"_xx[N m]", "_xy[N m]", "_yx[N m]", "_yy[N m]"}) {
+      table.columns.push_back(std::string(name) + component);
+      table.rows[0].push_back(1);
+    }
+  EXPECT_FALSE(ContactSumsReader(table, {parse_rule("size")}).read(0).booked_at_centres);
+  try {
+    const ContactSumsReader reader(table, {parse_rule("half")});
+    ADD_FAILURE() << "the table was read";
+  } catch (const FormatError& error) {
+    EXPECT_STREQ(error.what(),
+                 "sums.tsv: there is no column 'HSS_xx'; make the table anew with grseg-stress "
+                 "--assign grain");
+  }
+}
+
 TEST(Partition, InTheVolumeOfTheGrainsStressIsLargerByOneOverTheSolidFraction)
 {
   const auto sums = neutral_sums(0.3, 2, 0.8);
