@@ -19,6 +19,7 @@ import subprocess
 import sys
 
 MOST_LINES = 2000  # of a text: several of them share the processors out evenly
+NOT_FOR_CLANG = re.compile(r" -o \S+ -c \S+| -Winvalid-pch| -include \S+/cmake_pch\.hxx")  # gcc's own
 CONSTANT = re.compile(r"^constexpr \S+ \w+ = .*;$", re.MULTILINE)
 
 
@@ -97,13 +98,13 @@ def clang_tidy(folder, file):
                           text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
-def look(build, lint, text, files, mark):
+def look(lint, text, files, mark):
     """What clang-tidy says of these files, or "" where it has nothing to say."""
     if mark.exists():
         return ""
     found = ""
     if len(files) == 1 or clang_tidy(lint, text).returncode != 0:
-        results = [clang_tidy(build, file) for file in files]
+        results = [clang_tidy(lint, os.path.abspath(file)) for file in files]
         found = "".join(r.stdout for r in results if r.returncode != 0)
         if len(files) > 1 and not found:
             print("lint: passed alone, but not together:", *files, file=sys.stderr)
@@ -118,15 +119,17 @@ def main():
     lint.mkdir(exist_ok=True)
     entries = {e["file"]: e for e in json.load(open(f"{build}/compile_commands.json"))}
     entry_of = {f: entries[os.path.abspath(f)] for f in files}
-    command_of = {f: re.sub(r" -o \S+ -c \S+", "", entry_of[f]["command"]) for f in files}
-    groups, database, work = group(files, command_of), [], []
+    command_of = {f: NOT_FOR_CLANG.sub("", entry_of[f]["command"]) for f in files}
+    database = [{"directory": entry_of[f]["directory"], "file": os.path.abspath(f),
+                 "command": f"{command_of[f]} -c {os.path.abspath(f)}"} for f in files]
+    groups, work = group(files, command_of), []
     for number, members in enumerate(groups):
         text = (lint / f"{number}.cpp").absolute()
         text.write_text(together(members))
         command = command_of[members[0]]
         database.append({"directory": entry_of[members[0]]["directory"], "file": str(text),
                          "command": f"{command} -c {text}"})
-        work.append((build, str(lint), str(text), members, lint / fingerprint(members, command)))
+        work.append((str(lint), str(text), members, lint / fingerprint(members, command)))
     (lint / "compile_commands.json").write_text(json.dumps(database, indent=1))
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         found = list(pool.map(lambda w: look(*w), work))
