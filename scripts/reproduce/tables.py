@@ -80,10 +80,11 @@ def program(options, name, *words):
 
 
 def mean_and_half_width(values):
-    """Mean and half the width of its 95 % interval by Student's t over independent values."""
+    """Mean and half the width of its 95 % interval by Student's t over independent values; neither
+    where one of these could not be had."""
     n = len(values)
     mean = statistics.fmean(values)
-    if n < 2:
+    if n < 2 or math.isnan(mean):
         return mean, math.nan
     return mean, student(n - 1) * statistics.stdev(values) / math.sqrt(n)
 

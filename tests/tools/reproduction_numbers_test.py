@@ -15,6 +15,7 @@ scripts = sys.argv.pop(1)
 sys.path.insert(0, os.path.join(scripts, "reproduce"))
 import measured  # noqa: E402
 import profiles  # noqa: E402
+import tables  # noqa: E402
 import targets  # noqa: E402
 
 
@@ -48,6 +49,12 @@ def at_rest(path, frames=(1, 1)):
 
 
 class Reproduction(unittest.TestCase):
+    def test_a_number_that_one_seed_lacks_is_none_of_the_flow(self):
+        mean, half = tables.mean_and_half_width([1, 2, 3])
+        self.assertAlmostEqual(mean, 2)
+        self.assertAlmostEqual(half, 4.3026527 / math.sqrt(3), 3)
+        self.assertTrue(all(math.isnan(x) for x in tables.mean_and_half_width([1, math.nan, 3])))
+
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.table = os.path.join(self.folder.name, "stress.tsv")
