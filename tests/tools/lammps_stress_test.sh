@@ -28,3 +28,8 @@ for table in sums printed; do
     awk '/^half/ { printf "%.12g\n", $3 }' | tee $table.slope
 done
 [ -s sums.slope ] && cmp sums.slope printed.slope
+
+# A scan takes its shares where the grains are, too.
+fit() { "$bin/grseg-fit" sums-2dS.tsv --base half --bootstrap 0 --min-solid 0 --quiet "$@" | grep -v '^#'; }
+b=$(fit --partition half | awk -F'\t' 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k } NR == 2 { print $at["B_half"] }')
+[ "$(fit --scan 0.5:0.6:0.1 | awk 'NR == 2 { print $2 }')" = "$b" ]
