@@ -48,6 +48,17 @@ inline Scene large_on_small()
 }
 inline const Tensor2 mixed = dyad(push, {0, 1.5});
 
+/// A small grain of radius 0.5 at height 1.25 on a base grain of radius 1 at -0.25, touching at
+/// 0.75; force (x) branch is `mixed`, too.
+inline Scene small_on_base()
+{
+  Scene scene;
+  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
+  const auto base = scene.grain(Species::boundary, 1, {5, -0.25});
+  scene.contact(small, base, push);
+  return scene;
+}
+
 /// A heap of grains in a cell of 10 x 5 with forces at random contacts; nothing is in balance,
 /// which sums do not mind.
 inline Scene heap()

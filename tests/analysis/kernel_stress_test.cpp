@@ -36,11 +36,7 @@ TEST(KernelStress, AKernelSpreadsTheBranchAndEachGrainsPartOfIt)
 // point, here 1.25 to 0.75; the rest of the branch is none of the flow's.
 TEST(KernelStress, UnderAKernelTheBaseBranchEndsAtTheContactPoint)
 {
-  Scene scene;
-  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
-  const auto base = scene.grain(Species::boundary, 1, {5, -0.25});
-  scene.contact(small, base, push);
-  const auto stress = stress_of(scene, Assignment::kernel);
+  const auto stress = stress_of(small_on_base(), Assignment::kernel);
   for (const std::size_t n : {0, 1}) {
     const double below = smooth.below_along(1, 0.75, 1.25),
                  whole = smooth.below_along(1, -0.25, 1.25);

@@ -149,15 +149,9 @@ TEST(PartialContactStress, EqualGrainsAreKeptApartBySpecies)
   }
 }
 
-// A small grain of radius 0.5 at height 1.25 on a base grain of radius 1 at -0.25, touching at
-// 0.75.
 TEST(PartialContactStress, TheBaseBranchIsCutAtTheContactPointAndAlsoGivenWhole)
 {
-  Scene scene;
-  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
-  const auto base = scene.grain(Species::boundary, 1, {5, -0.25});
-  scene.contact(small, base, push);
-
+  const Scene scene = small_on_base();
   const auto at_point = stress_of(scene, Assignment::contact_point);
   EXPECT_TRUE(same(at_point.mean(0).sums.base_small, mixed / 3));
   EXPECT_TRUE(same(at_point.mean(0).sums.whole_small, mixed));
