@@ -7,8 +7,10 @@ namespace grseg {
 
 /// Mean flow of the mobile grains in one layer, weighted by mass; NaN where there are none.
 struct LayerFlow {
-  double u, v;   // m/s, down-slope and along y
-  double du_dy;  // 1/s, slope of the least-squares line u(y); NaN for less than two heights
+  double u,
+      v;  // m/s, along and across the layer: down-slope and along y, in annuli round and outward
+  double du_dy;  // 1/s, slope of the least-squares line u(y); NaN for less than two heights. In
+                 // annuli no shear rate: a body that turns as a whole has du_dy = u/y
 };
 
 /// The sums it is made of. Heights are counted from the layer's bottom, so that little cancels.

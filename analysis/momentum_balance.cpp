@@ -58,9 +58,10 @@ void MomentumBalance::add(const Grains& grains, const Frame& frame)
   sums_.resize(std::max(sums_.size(), count));
   pull_.assign(grains.size(), Vec2::Zero());
   for (std::size_t k = 0; k < frame.contacts.size(); ++k) add_contact(grains, frame, k, count);
+  const Vec2 gravity = gravity_.at(frame.time);
   Instant before{frame.time, {count, {Vec2::Zero(), Vec2::Zero()}}};
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g)) add_grain(grains, frame, g, before);
+    if (is_mobile(grains, g)) add_grain(grains, frame, g, gravity, before);
   if (!first_) first_ = before;
   last_ = std::move(before);
 }
@@ -109,12 +110,11 @@ void MomentumBalance::add_stress(Species species, const Tensor2& force_by_arm, d
 }
 
 void MomentumBalance::add_grain(const Grains& grains, const Frame& frame, std::size_t grain,
-                                Instant& before)
+                                const Vec2& gravity, Instant& before)
 {
   const std::size_t species = index(grains.species[grain]), count = before.momentum.size();
   const double mass = grains.mass[grain], y = frame.position[grain].y();
   const Vec2 &velocity = frame.velocity[grain], &force = frame.force[grain];
-  const Vec2 gravity = gravity_.at(frame.time);
   const Vec2 momentum = mass * velocity, momentum_before = momentum - step_ * force;
   share_kernel(layers_, kernel_, y, y, count, [&](std::size_t n, double share) {
     auto& sums = sums_[n][species];

@@ -88,7 +88,8 @@ class MomentumBalance {
                    std::size_t count);
   void add_stress(Species species, const Tensor2& force_by_arm, double from, double to,
                   std::size_t count);
-  void add_grain(const Grains& grains, const Frame& frame, std::size_t grain, Instant& before);
+  void add_grain(const Grains& grains, const Frame& frame, std::size_t grain, const Vec2& gravity,
+                 Instant& before);
 
   Layers layers_;
   Kernel kernel_;

@@ -23,7 +23,8 @@ class SpecificationCheck {
   /// Any frame, with contacts.
   void add(std::size_t index, const Frame& frame);
 
-  /// `specification`, the number of paths that depart; then a line of that name for each path.
+  /// `specification`, the number of paths that depart; then for each a line named by the path, with
+  /// how often it departs.
   std::vector<CheckLine> lines() const;
 
  private:

@@ -10,7 +10,7 @@ namespace grseg {
 /// Gravity of a run: that of a slope which stands still, or which from t = 0 on becomes steeper at
 /// a constant rate. A step feels that of its middle, which is the time of a frame.
 struct Gravity {
-  Vec2 start = Vec2::Zero();  ///< m/s^2, until t = 0
+  Vec2 start = Vec2::Zero();  ///< m/s^2, at t = 0
   double slope_rate = 0;      ///< rad/s
 
   Gravity() = default;

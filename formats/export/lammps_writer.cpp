@@ -126,6 +126,8 @@ void LammpsWriter::add_contacts(const Frame& frame)
 
 void LammpsWriter::publish()
 {
+  contacts_file_.close();
+  grains_file_.close();
   contacts_file_.publish();
   grains_file_.publish();
 }

@@ -4,7 +4,7 @@
 #include "formats/errors.hpp"
 #include "formats/tool.hpp"
 
-#include <boost/iostreams/device/file_descriptor.hpp>
+#include <boost/iostreams/categories.hpp>
 #include <boost/iostreams/filter/zlib.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
 #include <fcntl.h>
@@ -46,28 +46,47 @@ void rename(const std::string& from, const std::string& to)
   if (error) throw RunError(fmt::format("cannot rename {} to {}: {}", from, to, error.message()));
 }
 
+std::string without_last_slashes(std::string path)
+{
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return path;
+}
+
+/// A file that remembers whether it failed, and takes all that comes thereafter: of what happens
+/// while a chain of filters is closed Boost tells nothing.
+struct Descriptor {
+  using char_type = char;
+  using category = io::sink_tag;
+
+  int file;
+  bool* failed;
+
+  std::streamsize write(const char* bytes, std::streamsize count) const
+  {
+    for (std::streamsize done = 0; done < count && !*failed;) {
+      const auto n = ::write(file, bytes + done, static_cast<std::size_t>(count - done));
+      if (n > 0)
+        done += n;
+      else
+        *failed = n == 0 || errno != EINTR;
+    }
+    return count;
+  }
+};
+
 }  // namespace
-
-Output::Output(std::string place, bool overwrite)
-    : place_(std::move(place)), beside_(place_ + ".part")
-{
-  refuse_to_overwrite(place_, overwrite);
-}
-
-Output::~Output()
-{
-  std::error_code ignored;
-  fs::remove(beside_, ignored);
-}
-
-void Output::publish()
-{
-  publish_file(beside_, place_);
-}
 
 struct ByteSink::Impl {
   std::string path;
-  io::filtering_ostream stream;
+  int file = -1;
+  bool failed = false;
+  io::filtering_ostream stream;  // last: it writes to the file when it goes
+
+  void close_file()
+  {
+    if (file >= 0 && ::close(file) != 0) failed = true;
+    file = -1;
+  }
 };
 
 ByteSink::ByteSink(const std::string& path, const std::string& name)
@@ -75,40 +94,42 @@ ByteSink::ByteSink(const std::string& path, const std::string& name)
 {
   auto& my = *impl_;
   my.path = path;
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) fail("create", path, std::strerror(errno));
+  my.file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (my.file < 0) fail("create", name, std::strerror(errno));
   if (name.ends_with(".gz")) {
     io::zlib_params gzip(io::zlib::best_speed);  // digits of reals hardly pack better, only slower
     gzip.window_bits = 16 + 15;  // zlib's deflateInit2: 16 more ask for the frame of gzip
     my.stream.push(io::zlib_compressor(gzip), buffer_size);
   }
-  my.stream.push(io::file_descriptor_sink(file, io::close_handle), buffer_size);
+  my.stream.push(Descriptor{my.file, &my.failed}, buffer_size);
   my.stream.exceptions(std::ios_base::badbit | std::ios_base::failbit);
 }
 
-ByteSink::~ByteSink() = default;
+ByteSink::~ByteSink()
+{
+  impl_->stream.reset();
+  impl_->close_file();
+}
 
 void ByteSink::write(std::string_view bytes)
 {
-  try {
-    impl_->stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  } catch (const std::ios_base::failure&) {
-    fail("write", impl_->path, "is the disk full?");
-  }
+  impl_->stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (impl_->failed) fail("write", impl_->path, "is the disk full?");
 }
 
 void ByteSink::close()
 {
-  try {
-    impl_->stream.flush();
-    io::close(impl_->stream);
-  } catch (const std::ios_base::failure&) {
-    fail("write", impl_->path, "is the disk full?");
-  }
+  auto& my = *impl_;
+  if (my.file < 0) return;
+  my.stream.reset();
+  my.close_file();
+  if (my.failed) fail("write", my.path, "is the disk full?");
 }
 
 OutputFolder::OutputFolder(std::string path, std::string mark, bool overwrite)
-    : path_(std::move(path)), mark_(std::move(mark)), beside_(path_ + ".part")
+    : path_(without_last_slashes(std::move(path))),
+      mark_(std::move(mark)),
+      beside_(name_beside(path_))
 {
   std::error_code error;
   if (fs::exists(path_, error) && !(overwrite && fs::exists(fs::path(path_) / mark_, error)))
@@ -119,7 +140,6 @@ OutputFolder::OutputFolder(std::string path, std::string mark, bool overwrite)
                           path_, mark_)
             : fmt::format("{} is there already; choose another name, remove it, or say --overwrite",
                           path_));
-  fs::remove_all(beside_, error);
   if (!fs::create_directory(beside_, error)) fail("create", beside_, error.message());
 }
 
@@ -147,11 +167,16 @@ void OutputFolder::add_file(const std::string& name, std::string_view bytes) con
 void OutputFolder::publish()
 {
   bring_file_system_to_disk(beside_);
-  const auto old = path_ + ".old";
+  const auto old = fmt::format("{}.old.{}", path_, getpid());
   std::error_code error;
   const bool replaces = fs::exists(path_, error);
   if (replaces) rename(path_, old);
-  rename(beside_, path_);
+  try {
+    rename(beside_, path_);
+  } catch (const RunError&) {
+    if (replaces) fs::rename(old, path_, error);
+    throw;
+  }
   if (replaces) fs::remove_all(old, error);
 }
 

@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/output.hpp"
+
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace grseg {
-
-/// A place that a file or folder will have once it is whole: it is made beside, as PLACE.part, and
-/// renamed by `publish`; what was not published is removed.
-class Output {
- public:
-  /// UsageError where something else is at `place`, unless `overwrite` allows to replace a file.
-  Output(std::string place, bool overwrite);
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-  ~Output();
-
-  const std::string& beside() const { return beside_; }
-  /// Everything must have been written and closed. RunError where the system refuses.
-  void publish();
-
- private:
-  std::string place_, beside_;
-};
 
 /// Bytes written in order to a file, gzip where its name ends in .gz (without a time in its header:
 /// the same content gives the same bytes).
@@ -35,6 +19,7 @@ class ByteSink {
 
   /// RunError where the disk is full.
   void write(std::string_view bytes);
+  /// RunError likewise: only then are all bytes with the system. Once closed it stays so.
   void close();
 
  private:
@@ -50,9 +35,11 @@ class OutputFile {
   {
   }
   void write(std::string_view bytes) { sink_.write(bytes); }
+  /// Of several files that belong together all are closed before one is published.
+  void close() { sink_.close(); }
   void publish()
   {
-    sink_.close();
+    close();
     output_.publish();
   }
 

@@ -3,15 +3,14 @@
 
 #include "formats/import/verified_frames.hpp"
 #include "formats/interruption.hpp"
+#include "formats/output.hpp"
 #include "formats/tool.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 namespace grseg {
@@ -98,33 +97,6 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   return run;
 }
 
-/// The trajectory under way, which is no more if it does not become whole.
-class Output {
- public:
-  Output(const std::string& path, bool overwrite)
-      : path_(path), beside_(fmt::format("{}.tmp.{}", path, getpid()))
-  {
-    if (path.empty()) throw UsageError("name the trajectory to write with -o, e.g. -o run.h5");
-    if (std::filesystem::is_directory(path))
-      throw UsageError(fmt::format("{} is a folder; name a file in it", path));
-    if (!overwrite && std::filesystem::exists(path))
-      throw UsageError(fmt::format(
-          "{} is there already; choose another name, remove it, or say --overwrite", path));
-  }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-  ~Output()
-  {
-    std::error_code ignored;
-    std::filesystem::remove(beside_, ignored);
-  }
-  const std::string& beside() const { return beside_; }
-  void publish() const { publish_file(beside_, path_); }
-
- private:
-  std::string path_, beside_;
-};
-
 [[noreturn]] void refuse(const VerifiedFrames& frames, const ImportSettings& settings,
                          const Complaint& complaint, std::size_t moments)
 {
@@ -199,7 +171,9 @@ void finish(TrajectoryWriter& writer, const VerifiedFrames& frames, ImportReport
 
 ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
 {
-  const Output output(settings.output, settings.overwrite);
+  if (settings.output.empty())
+    throw UsageError("name the trajectory to write with -o, e.g. -o run.h5");
+  Output output(settings.output, settings.overwrite);
   VerifiedFrames frames(settings, settings.files.columns);
   const auto run = describe(frames, settings, command_line);
   ImportReport report;

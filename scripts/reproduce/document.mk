@@ -119,6 +119,7 @@ reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv
 
 kept: keep $(scripts) $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }
+	@test -n "$(filter $(tables)/phi0.45-s23-e%,$(runs))" || { echo "$(tables) holds no sensitivities, which data/reproduction has: make -C scripts sensitivities" >&2; exit 2; }
 	mkdir -p $(KEPT)
 	./keep $(tables) $(KEPT)/tables.tar.bz2
 	cp $(work)/choices.tsv $(KEPT)

@@ -18,5 +18,8 @@ for export in "vtp -o view" "extxyz -o run.xyz" "extxyz -o run.xyz.gz" "lammps -
   fails "$bin/grseg-export" "$source/data/sample/chute.h5" --to $export --quiet
   [ -z "$(ls)" ] || { echo "$export leaves $(ls)" >&2; exit 1; }
 done
+# One frame packed fits into the buffers: only when the file is closed does it reach the disk.
+fails "$bin/grseg-export" "$source/data/sample/chute.h5" --begin 19.85 --to extxyz -o run.xyz.gz --quiet
+[ -z "$(ls)" ] || { echo "a small packed export leaves $(ls)" >&2; exit 1; }
 fails "$bin/grseg-sim" "$source/sim/scenes/chute.ini" --depth 6dS --length 6dL --accuracy draft \
   --duration 5 --quiet -o run.h5
