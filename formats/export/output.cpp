@@ -74,19 +74,25 @@ struct Descriptor {
   }
 };
 
+struct OpenFile {
+  int number = -1;
+
+  ~OpenFile() { close(); }
+  bool close()
+  {
+    const bool closed = number < 0 || ::close(number) == 0;
+    number = -1;
+    return closed;
+  }
+};
+
 }  // namespace
 
 struct ByteSink::Impl {
   std::string path;
-  int file = -1;
+  OpenFile file;
   bool failed = false;
-  io::filtering_ostream stream;  // last: it writes to the file when it goes
-
-  void close_file()
-  {
-    if (file >= 0 && ::close(file) != 0) failed = true;
-    file = -1;
-  }
+  io::filtering_ostream stream;  // last: when it goes it writes to the file
 };
 
 ByteSink::ByteSink(const std::string& path, const std::string& name)
@@ -94,22 +100,18 @@ ByteSink::ByteSink(const std::string& path, const std::string& name)
 {
   auto& my = *impl_;
   my.path = path;
-  my.file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (my.file < 0) fail("create", name, std::strerror(errno));
+  my.file.number = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (my.file.number < 0) fail("create", name, std::strerror(errno));
   if (name.ends_with(".gz")) {
     io::zlib_params gzip(io::zlib::best_speed);  // digits of reals hardly pack better, only slower
     gzip.window_bits = 16 + 15;  // zlib's deflateInit2: 16 more ask for the frame of gzip
     my.stream.push(io::zlib_compressor(gzip), buffer_size);
   }
-  my.stream.push(Descriptor{my.file, &my.failed}, buffer_size);
+  my.stream.push(Descriptor{my.file.number, &my.failed}, buffer_size);
   my.stream.exceptions(std::ios_base::badbit | std::ios_base::failbit);
 }
 
-ByteSink::~ByteSink()
-{
-  impl_->stream.reset();
-  impl_->close_file();
-}
+ByteSink::~ByteSink() = default;
 
 void ByteSink::write(std::string_view bytes)
 {
@@ -120,10 +122,9 @@ void ByteSink::write(std::string_view bytes)
 void ByteSink::close()
 {
   auto& my = *impl_;
-  if (my.file < 0) return;
+  if (my.file.number < 0) return;
   my.stream.reset();
-  my.close_file();
-  if (my.failed) fail("write", my.path, "is the disk full?");
+  if (!my.file.close() || my.failed) fail("write", my.path, "is the disk full?");
 }
 
 OutputFolder::OutputFolder(std::string path, std::string mark, bool overwrite)
