@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/tool.hpp"
-#include "sim/run.hpp"
-#include "sim/sweep.hpp"
+#include "formats/cli/tool.hpp"
+#include "sim/run/run.hpp"
+#include "sim/solver/sweep.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/trajectory_writer.hpp"
+#include "formats/trajectory/writer.hpp"
 
 #include <cmath>
 #include <cstdint>

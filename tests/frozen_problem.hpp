@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "sim/contact_law.hpp"
+#include "sim/contact/contact_law.hpp"
 
 #include <fstream>
 #include <stdexcept>

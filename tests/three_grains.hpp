@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/frame.hpp"
-#include "formats/trajectory_writer.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/trajectory/writer.hpp"
 
 #include <numbers>
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance_summary.hpp"
-#include "analysis/balance_table.hpp"
-#include "analysis/frame_loop.hpp"
-#include "analysis/presets.hpp"
-#include "formats/length.hpp"
+#include "analysis/balance/balance_summary.hpp"
+#include "analysis/balance/balance_table.hpp"
+#include "analysis/frames/frame_loop.hpp"
+#include "analysis/frames/presets.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/length.hpp"
 
 #include <fmt/format.h>
 

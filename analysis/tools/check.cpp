@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/content_check.hpp"
-#include "analysis/physics_check.hpp"
-#include "analysis/specification_check.hpp"
-#include "formats/digest.hpp"
-#include "formats/errors.hpp"
-#include "formats/table.hpp"
-#include "formats/tool.hpp"
-#include "formats/trajectory_reader.hpp"
+#include "analysis/check/content_check.hpp"
+#include "analysis/check/physics_check.hpp"
+#include "analysis/check/specification_check.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/table.hpp"
+#include "formats/cli/tool.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/core/version.hpp"
+#include "formats/trajectory/digest.hpp"
+#include "formats/trajectory/reader.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -116,7 +118,7 @@ int main(int argc, char** argv)
   Settings settings;
   const auto options = options_into(settings);
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
-    const TrajectoryReader run(the_run(values, "check one at a time"));
+    const TrajectoryReader run(only_run(values, "check one at a time"));
     const auto report = check(run, settings, command_line(argc, argv));
     write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));
     std::cout.flush();

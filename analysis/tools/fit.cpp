@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit_data.hpp"
-#include "analysis/fit_report.hpp"
-#include "analysis/partition.hpp"
-#include "analysis/partition_scan.hpp"
-#include "analysis/presets.hpp"
-#include "analysis/rule_fit.hpp"
-#include "formats/errors.hpp"
-#include "formats/table.hpp"
-#include "formats/tool.hpp"
+#include "analysis/fit/fit_data.hpp"
+#include "analysis/fit/fit_report.hpp"
+#include "analysis/fit/partition_scan.hpp"
+#include "analysis/fit/rule_fit.hpp"
+#include "analysis/frames/presets.hpp"
+#include "analysis/stress/partition.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/table.hpp"
+#include "formats/cli/tool.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/core/version.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/frame_loop.hpp"
-#include "analysis/kinetic_stress.hpp"
-#include "analysis/presets.hpp"
+#include "analysis/frames/frame_loop.hpp"
+#include "analysis/frames/presets.hpp"
+#include "analysis/stress/kinetic_stress.hpp"
+#include "formats/cli/words.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/force_distribution.hpp"
-#include "analysis/frame_loop.hpp"
-#include "analysis/micro_report.hpp"
-#include "analysis/micro_structure.hpp"
-#include "analysis/presets.hpp"
+#include "analysis/frames/frame_loop.hpp"
+#include "analysis/frames/presets.hpp"
+#include "analysis/micro/force_distribution.hpp"
+#include "analysis/micro/micro_report.hpp"
+#include "analysis/micro/micro_structure.hpp"
+#include "formats/cli/words.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/frame_loop.hpp"
-#include "analysis/presets.hpp"
-#include "analysis/segregation_run.hpp"
-#include "formats/length.hpp"
+#include "analysis/frames/frame_loop.hpp"
+#include "analysis/frames/presets.hpp"
+#include "analysis/segregation/run.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/core/length.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/booking.hpp"
-#include "analysis/frame_loop.hpp"
-#include "analysis/merge_tables.hpp"
-#include "analysis/partition.hpp"
-#include "analysis/presets.hpp"
-#include "formats/errors.hpp"
+#include "analysis/frames/frame_loop.hpp"
+#include "analysis/frames/presets.hpp"
+#include "analysis/stress/contact_assignment.hpp"
+#include "analysis/stress/merge_tables.hpp"
+#include "analysis/stress/partition.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/core/version.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +31,7 @@ constexpr ToolInfo info{
 
 struct Settings {
   FrameOptions frames;
-  BookingOptions booking;
+  ContactAssignmentOptions assignment;
   std::string base = "contact-point", volume = "bulk", partition = "size";
   bool merge = false, all_windows = false;
 };
@@ -39,7 +42,7 @@ po::options_description options_into(Settings& s)
   const auto word = [](std::string& place) {
     return po::value(&place)->default_value(place)->value_name("WORD");
   };
-  s.booking.add_to(options);
+  s.assignment.add_to(options);
   options.add_options()("partition", word(s.partition),
                         "the rule grseg-fit takes unless told otherwise; power:Q adds Mpower_*");
   options.add_options()("base", word(s.base),
@@ -68,15 +71,15 @@ std::optional<double> power_of(Settings& s)
   return rule.value;
 }
 
-void require_layers(const Settings& s, const Booking& booking)
+void require_layers(const Settings& s, const ContactAssignment& chosen)
 {
   const bool whole =
-      booking.assignment == Assignment::contact_point || booking.assignment == Assignment::grain;
+      chosen.assignment == Assignment::contact_point || chosen.assignment == Assignment::grain;
   if (s.frames.annuli() && !whole)
     throw UsageError(fmt::format(
         "--assign {} spreads contacts over layers, not over annuli; with --bins {} take "
         "contact-point or grain",
-        s.booking.assign, s.frames.bins));
+        s.assignment.assign, s.frames.bins));
 }
 
 template <class T>
@@ -88,21 +91,22 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
 
 void tabulate(Settings s, const po::variables_map& values, const std::string& command)
 {
-  const auto booking = s.booking.booking(values);
-  require_layers(s, booking);
+  const auto chosen = s.assignment.contact_assignment(values);
+  require_layers(s, chosen);
   const auto power = power_of(s);
   FrameLoop loop(info, values, s.frames);
-  std::vector<std::pair<std::string, std::string>> settings{{"assign", s.booking.assign},
-                                                            {"composition", s.booking.composition},
-                                                            {"partition", s.partition},
-                                                            {"base", s.base},
-                                                            {"volume", s.volume}};
+  std::vector<std::pair<std::string, std::string>> settings{
+      {"assign", s.assignment.assign},
+      {"composition", s.assignment.composition},
+      {"partition", s.partition},
+      {"base", s.base},
+      {"volume", s.volume}};
   if (power) settings.emplace_back("power", format_number(*power));
   const auto kernel =
-      s.booking.kernel(booking, {loop.run().small_diameter(), loop.run().large_diameter()});
+      s.assignment.kernel(chosen, {loop.run().small_diameter(), loop.run().large_diameter()});
   if (kernel) settings.emplace_back("width", format_number(kernel->width()));
-  const Composition no_grains(loop.layers(), booking.area, kernel);
-  const PartialContactStress no_contacts(loop.layers(), booking.assignment, power, kernel);
+  const Composition no_grains(loop.layers(), chosen.area, kernel);
+  const PartialContactStress no_contacts(loop.layers(), chosen.assignment, power, kernel);
   auto table = loop.make_table(command, settings,
                                joined({"area_S[m^2]", "area_L[m^2]"}, no_contacts.columns()));
 

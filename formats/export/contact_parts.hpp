@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/frame.hpp"
+#include "formats/core/frame.hpp"
 
 namespace grseg {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/export/h5md3d_writer.hpp"
 
-#include "formats/errors.hpp"
-#include "formats/h5md.hpp"
-#include "formats/hdf5.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/trajectory/h5md.hpp"
+#include "formats/trajectory/hdf5.hpp"
 
 #include <fmt/format.h>
 

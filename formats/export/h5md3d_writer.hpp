@@ -3,7 +3,7 @@
 
 #include "formats/export/output.hpp"
 #include "formats/export/view_cell.hpp"
-#include "formats/trajectory_reader.hpp"
+#include "formats/trajectory/reader.hpp"
 
 #include <memory>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/export/output.hpp"
 
-#include "formats/errors.hpp"
-#include "formats/tool.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
 
 #include <boost/iostreams/categories.hpp>
 #include <boost/iostreams/filter/zlib.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/output.hpp"
+#include "formats/cli/output.hpp"
 
 #include <memory>
 #include <string>

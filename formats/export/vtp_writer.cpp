@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/export/vtp_writer.hpp"
 
+#include "formats/core/pair_type.hpp"
 #include "formats/export/contact_parts.hpp"
 #include "formats/export/poly_data.hpp"
-#include "formats/pair_type.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/export/output.hpp"
-#include "formats/trajectory_reader.hpp"
+#include "formats/trajectory/reader.hpp"
 
 #include <cstddef>
 #include <string>

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/archive.hpp"
-#include "formats/import/csv_archive.hpp"
-#include "formats/import/lammps_archive.hpp"
-#include "formats/import/liggghts_archive.hpp"
-#include "formats/import/mercury_archive.hpp"
-#include "formats/import/siconos_archive.hpp"
-#include "formats/tool.hpp"
+#include "formats/import/open_archive.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/import/common/archive.hpp"
+#include "formats/import/csv/csv_archive.hpp"
+#include "formats/import/lammps/lammps_archive.hpp"
+#include "formats/import/liggghts/liggghts_archive.hpp"
+#include "formats/import/mercury/mercury_archive.hpp"
+#include "formats/import/siconos/siconos_archive.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/frame_range.hpp"
+#include "formats/cli/interruption.hpp"
+#include "formats/cli/tool.hpp"
 #include "formats/export/extxyz_writer.hpp"
 #include "formats/export/h5md3d_writer.hpp"
 #include "formats/export/lammps_writer.hpp"
 #include "formats/export/vtp_writer.hpp"
-#include "formats/frame_range.hpp"
-#include "formats/interruption.hpp"
-#include "formats/tool.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -65,7 +65,7 @@ void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& f
 
 void export_run(const Settings& s, const po::variables_map& values)
 {
-  const TrajectoryReader run(the_run(values, "export one at a time"));
+  const TrajectoryReader run(only_run(values, "export one at a time"));
   if (s.output.empty()) throw UsageError("name what to write: -o NAME");
   const auto frames = s.range.frames_of(run);
   const auto cell = view_cell(run, frames.front());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/errors.hpp"
-#include "formats/import/importer.hpp"
-#include "formats/interruption.hpp"
-#include "formats/tool.hpp"
+#include "formats/cli/interruption.hpp"
+#include "formats/cli/tool.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/import/convert/importer.hpp"
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ constexpr ToolInfo info{
     "mass\n"
     "  type fixed fx fy fz; contacts: time i j fx fy; and fz overlap bx by bz); more names and "
     "all\n"
-    "  formats: docs/archives.md\n"};
+    "  formats: docs/studies/archives.md\n"};
 
 void check(const ImportSettings& settings, const po::variables_map& values)
 {

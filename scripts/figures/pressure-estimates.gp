@@ -1,5 +1,5 @@
 # Errors of the pressures that contacts per grain and mean forces give, over composition (Staron & Phillips
-# 2015, figure 5), of FOLDER/paper.tsv and ends.tsv, as docs/microstructure.md makes them:
+# 2015, figure 5), of FOLDER/paper.tsv and ends.tsv, as docs/studies/microstructure.md makes them:
 #   gnuplot -c scripts/figures/pressure-estimates.gp FOLDER
 folder = ARG1
 set datafile separator tab

@@ -1,7 +1,7 @@
-# Figures, numbers and docs/reproduction.md from the tables of the campaign, or from those kept in
+# Figures, numbers and docs/studies/reproduction.md from the tables of the campaign, or from those kept in
 # data/reproduction: nothing is simulated, no trajectory read.
 #
-#   make -C scripts reproduction.md                    docs/reproduction.md and its figures, of data/reproduction
+#   make -C scripts reproduction.md                    docs/studies/reproduction.md and its figures, of data/reproduction
 #   make -C scripts reproduction.md TABLES=FOLDER      of the tables that make reproduce left in FOLDER
 #   make -C scripts figures/kinetic-profile.png        one figure, into WORK
 #   make -C scripts kept TABLES=FOLDER                 data/reproduction anew from these tables
@@ -13,8 +13,8 @@ BIN ?= $(CURDIR)/../../build/bin
 KEPT := $(CURDIR)/../../data/reproduction
 TABLES ?=
 WORK ?= reproduction-figures
-DOCUMENT ?= $(CURDIR)/../../docs/reproduction.md
-PICTURES ?= $(CURDIR)/../../docs/figures/reproduction
+DOCUMENT ?= $(CURDIR)/../../docs/studies/reproduction.md
+PICTURES ?= $(CURDIR)/../../docs/studies/figures/reproduction
 BOOTSTRAP ?= 1000
 
 absolute = $(foreach path,$(1),$(if $(filter /%,$(path)),$(path),$(HERE)/$(path)))

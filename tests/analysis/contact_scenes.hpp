@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/partial_contact_stress.hpp"
+#include "analysis/stress/partial_contact_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/bootstrap.hpp"
-#include "analysis/rule_fit.hpp"
+#include "analysis/fit/rule_fit.hpp"
+#include "analysis/statistics/bootstrap.hpp"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_randist.h>

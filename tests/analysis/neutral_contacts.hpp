@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/micro_sums.hpp"
+#include "analysis/micro/micro_sums.hpp"
 
 #include <numbers>
 

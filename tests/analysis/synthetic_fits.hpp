@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/fit_data.hpp"
-#include "analysis/rule_fit.hpp"
+#include "analysis/fit/fit_data.hpp"
+#include "analysis/fit/rule_fit.hpp"
 #include "tests/analysis/synthetic_sums.hpp"
 
 #include <cmath>

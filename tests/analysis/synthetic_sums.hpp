@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/partition.hpp"
-#include "formats/table.hpp"
+#include "analysis/stress/partition.hpp"
+#include "formats/cli/table.hpp"
 
 #include <string>
 #include <utility>

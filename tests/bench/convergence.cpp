@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/contact_blocks.hpp"
-#include "sim/sweep.hpp"
+#include "sim/contact/contact_blocks.hpp"
+#include "sim/solver/sweep.hpp"
 #include "tests/frozen_problem.hpp"
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// How often intervals of 95 % hold the truth, on windows of known correlation: the tables of
-/// docs/uncertainty.md.
+/// docs/studies/uncertainty.md.
 namespace grseg {
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/detection.hpp"
+#include "sim/neighbours/detection.hpp"
 #include "tests/bench/flow.hpp"
 
 #include <benchmark/benchmark.h>

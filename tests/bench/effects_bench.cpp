@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/effects_report.hpp"
-#include "sim/recorder.hpp"
+#include "sim/run/effects_report.hpp"
+#include "sim/run/recorder.hpp"
 #include "tests/bench/flow.hpp"
 
 #include <benchmark/benchmark.h>
@@ -14,7 +14,7 @@
 
 /// What it gains to leave out an effect that a chute does not call for. Two runs from one state
 /// take the same steps to the same bytes, in turn: `with` in kernels that see to the effect, at its
-/// neutral coefficient, `without` in those that leave it out (tests/sim/effects_test.cpp). Times
+/// neutral coefficient, `without` in those that leave it out (tests/sim/solver/effects_test.cpp). Times
 /// are processor time per step, s; `gain` is with / without.
 namespace grseg {
 namespace {
@@ -118,7 +118,7 @@ void frames_in_a_file(benchmark::State& state)
 
 /// A scene in kernels that see to all that the simulator knows, bodies that move among it (here
 /// they stand), against its own. Where there is no gravity a faint one would not give the same
-/// bytes (tests/sim/effects_test.cpp), so that this is left out of both.
+/// bytes (tests/sim/solver/effects_test.cpp), so that this is left out of both.
 void whole_scene(benchmark::State& state, const std::string& name, double time)
 {
   const auto& start = scene_at(time, name);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "sim/boundaries.hpp"
-#include "sim/deposition.hpp"
-#include "sim/scene.hpp"
+#include "sim/scene/boundaries.hpp"
+#include "sim/scene/deposition.hpp"
+#include "sim/scene/scene.hpp"
 
 #include <cmath>
 #include <map>

@@ -10,13 +10,13 @@
 
 namespace grseg::hard_cases {
 
-/// One line of docs/hard-cases.md: what is expected of a hard case and what was found. Each check
+/// One line of docs/studies/hard-cases.md: what is expected of a hard case and what was found. Each check
 /// is an expectation of the test, too; the one that came nearest to its bound is recorded as a
 /// property of the test, key "H13: what", value "expected<tab>measured<tab>bound", for
 /// scripts/hard-cases to collect.
 class Case {
  public:
-  /// `name` as in docs/hard-cases.md.
+  /// `name` as in docs/studies/hard-cases.md.
   Case(const std::string& name, const std::string& what) : key_(name + ": " + what) {}
   Case(const Case&) = delete;
   Case& operator=(const Case&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "sim/simulation.hpp"
+#include "sim/step/simulation.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/errors.hpp"
-#include "sim/recorder.hpp"
+#include "formats/core/errors.hpp"
+#include "sim/run/recorder.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/laws.hpp"
 #include "tests/hard_cases/observed.hpp"

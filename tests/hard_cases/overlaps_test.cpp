@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/errors.hpp"
+#include "formats/core/errors.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/flows.hpp"
 #include "tests/hard_cases/observed.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/errors.hpp"
-#include "sim/recorder.hpp"
+#include "formats/core/errors.hpp"
+#include "sim/run/recorder.hpp"
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/solver.hpp"
+#include "sim/solver/solver.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/contact_problem.hpp"
 #include "tests/sim/worlds.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "sim/checkpoint.hpp"
-#include "sim/deposition.hpp"
+#include "sim/run/checkpoint.hpp"
+#include "sim/scene/deposition.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What grseg-import writes, of every format, is as specified: grseg-check --deep passes it.
-#include "formats/trajectory_reader.hpp"
+#include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 #include "tests/formats/import/mercury_files.hpp"
 #include "tests/shell.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/import/archive.hpp"
+#include "formats/import/common/archive.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/import/importer.hpp"
+#include "formats/import/convert/importer.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/trajectory_reader.hpp"
+#include "formats/trajectory/reader.hpp"
 
 #include <fmt/format.h>
 

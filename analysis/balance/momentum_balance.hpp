@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/coarse_graining.hpp"
+#include "analysis/frames/layers.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/core/gravity.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace grseg {
+
+/// Coarse-grained fields of one species in one layer: means over the layer and over frames. What
+/// changes its momentum density are the force densities, N/m^2.
+struct SpeciesMomentum {
+  double density = 0;                        // kg/m^2
+  Vec2 momentum = Vec2::Zero();              // kg/(m s)
+  Tensor2 contact_stress = Tensor2::Zero();  // N/m, compression positive
+  Tensor2 momentum_flux = Tensor2::Zero();   // N/m, m v (x) v
+
+  Vec2 rate = Vec2::Zero();         // change of the momentum density in one step, over h
+  Vec2 gravity = Vec2::Zero();      // its weight
+  Vec2 contact = Vec2::Zero();      // -d/dy of its contact stress
+  Vec2 kinetic = Vec2::Zero();      // -d/dy of the momentum that its grains carry along
+  Vec2 interaction = Vec2::Zero();  // from the other species
+  Vec2 base = Vec2::Zero();         // from boundary grains and walls
+  Vec2 force = Vec2::Zero();        // the stored forces of its grains; rate - kinetic
+
+  /// What the balance leaves: round-off.
+  Vec2 residual() const { return rate - (gravity + contact + kinetic + interaction + base); }
+
+  SpeciesMomentum& operator+=(const SpeciesMomentum& other);
+  SpeciesMomentum& operator*=(double factor);
+};
+
+/// Momentum balance of each species by coarse graining over height (Goldhirsch 2010; Weinhart et
+/// al. 2012; for species Tunuguntla, Thornton & Weinhart 2016). S(y') is the part of the kernel of
+/// a point at height y' that lies in the layer (share_kernel). With y_i the stored height of a
+/// grain (mid-step), v its velocity after the solve, F = m (v - v_before)/h its stored force, f_ij
+/// a contact force and c the height of its contact point, and all sums divided by V:
+///
+///   rate         sum (m/h) [v S(y_i + h v_y) - v_before S(y_i)]
+///   gravity      sum m g S(y_i)
+///   contact      sum f_ij [S(y_i) - S(c)]              over all contacts
+///   kinetic      sum (m/h) v [S(y_i + h v_y) - S(y_i)]
+///   interaction  sum f_ij S(c)                         over contacts with the other species
+///   base         sum f_ij S(c)                         over contacts with the boundary
+///
+///   rate = gravity + contact + kinetic + interaction + base
+///
+/// to round-off in every frame: F = m g + sum f_ij for every grain, and what two grains of one
+/// species exert on each other at c cancels. The step reaches from just before the impulses of this
+/// mid-step to just before those of the next, h later; in between grains fly straight, so that
+/// nothing is neglected. `contact` is exactly what flows in at the bottom of the layer less what
+/// flows out at its top, of the contact stress f_ij (x) (r_i - c_ij) on the line from r_i to c_ij,
+/// and `kinetic` the same of the mean of sum m v v_y psi over that flight, which differs by O(h)
+/// from `momentum_flux` at its beginning.
+///
+/// Over frames of consecutive steps the rates add up to the change of momentum; over frames further
+/// apart they are a sample of it, and `change` is what they sample.
+class MomentumBalance {
+ public:
+  /// Gravity in m/s^2, step h in s.
+  MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity& gravity, double step);
+
+  /// Frames come in order of time, with velocities, forces and contacts.
+  void add(const Grains& grains, const Frame& frame);
+  /// Adds the frames of `later`, which come after those here.
+  void merge(const MomentumBalance& later);
+
+  std::size_t layers() const { return sums_.size(); }
+  SpeciesMomentum mean(std::size_t layer, Species species) const;
+  /// Change of the momentum density from the first frame to the last over the time between them,
+  /// N/m^2; NaN of a single frame.
+  Vec2 change(std::size_t layer, Species species) const;
+
+ private:
+  /// Momentum just before the impulses of one frame, kg m/s, by layer and species.
+  struct Instant {
+    double time;  // s
+    std::vector<std::array<Vec2, 2>> momentum;
+    Vec2 at(std::size_t layer, Species species) const;
+  };
+
+  void add_contact(const Grains& grains, const Frame& frame, std::size_t contact,
+                   std::size_t count);
+  void add_stress(Species species, const Tensor2& force_by_arm, double from, double to,
+                  std::size_t count);
+  void add_grain(const Grains& grains, const Frame& frame, std::size_t grain, const Vec2& gravity,
+                 Instant& before);
+
+  Layers layers_;
+  Kernel kernel_;
+  Gravity gravity_;
+  double step_;
+  std::size_t frames_ = 0;
+  std::vector<std::array<SpeciesMomentum, 2>> sums_;  // by layer and species, times V
+  std::optional<Instant> first_, last_;
+  std::vector<Vec2> pull_;  // N, of all contacts of a grain of this frame
+};
+
+}  // namespace grseg

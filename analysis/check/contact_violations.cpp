@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/check/contact_violations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+/// Relative velocities of i against j, m/s, after the step and before it.
+struct Approach {
+  Vec2 after, before;
+};
+
+Approach approach_of(const Grains& grains, const Frame& frame, std::size_t contact, double step)
+{
+  Approach relative{Vec2::Zero(), Vec2::Zero()};
+  const auto add = [&](std::size_t g, double sign) {
+    const Vec2 change = step * frame.force[g] / grains.mass[g];
+    relative.after += sign * frame.velocity[g];
+    relative.before += sign * (frame.velocity[g] - change);
+  };
+  add(static_cast<std::size_t>(frame.contacts.i[contact]), 1);
+  const auto j = frame.contacts.j[contact];
+  if (j >= 0) add(static_cast<std::size_t>(j), -1);
+  return relative;
+}
+
+}  // namespace
+
+void ContactViolations::add(const Grains& grains, const Frame& frame)
+{
+  const auto& contacts = frame.contacts;
+  double scale = 0;
+  for (const auto& force : contacts.force) scale = std::max(scale, force.norm());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts.gap[c] < 0) overlap_.add(-contacts.gap[c], frame.time, c);
+    if (scale > 0 && !contacts.force[c].isZero(0)) add_forces(frame, c, scale);
+    if (!frame.force.empty()) add_motion(grains, frame, c);
+  }
+}
+
+void ContactViolations::add_forces(const Frame& frame, std::size_t contact, double scale)
+{
+  const Vec2 n = frame.contacts.branch[contact].normalized();
+  const Vec2& force = frame.contacts.force[contact];
+  const double normal = force.dot(n), tangential = n.x() * force.y() - n.y() * force.x();
+  tension_.add(std::max(0.0, -normal) / scale, frame.time, contact);
+  if (rules_.friction)
+    coulomb_.add(
+        std::max(0.0, std::abs(tangential) - *rules_.friction * std::max(0.0, normal)) / scale,
+        frame.time, contact);
+}
+
+void ContactViolations::add_motion(const Grains& grains, const Frame& frame, std::size_t contact)
+{
+  const auto& contacts = frame.contacts;
+  const double gap = contacts.gap[contact], reach = contacts.branch[contact].norm() - gap;
+  const Vec2& branch = contacts.branch[contact];
+  const Vec2 n = branch.normalized();
+  const bool bears = !contacts.force[contact].isZero(0);
+  const auto relative = approach_of(grains, frame, contact, rules_.step);
+  if (bears) {
+    const Vec2 flight = rules_.look_ahead * rules_.step * relative.before;
+    // From a straight wall distance is counted along its normal.
+    const double distance =
+        contacts.j[contact] < 0 ? branch.norm() + flight.dot(n) : (branch + flight).norm();
+    open_gap_.add(std::max(0.0, distance - reach - rules_.margin), frame.time, contact);
+  }
+  if (!rules_.restitution) return;
+  // Files of other programs may list pairs that are near each other and no more.
+  if (gap > 0 && !bears && rules_.horizon == 0) return;
+  double least = *rules_.restitution * std::max(0.0, -relative.before.dot(n));
+  if (gap > 0) least = rules_.horizon > 0 ? -gap / (rules_.horizon * rules_.step) : 0;
+  approach_.add(std::max(0.0, least - relative.after.dot(n)) * rules_.step, frame.time, contact);
+}
+
+void ContactViolations::merge(const ContactViolations& later)
+{
+  coulomb_.merge(later.coulomb_);
+  tension_.merge(later.tension_);
+  open_gap_.merge(later.open_gap_);
+  approach_.merge(later.approach_);
+  overlap_.merge(later.overlap_);
+}
+
+}  // namespace grseg

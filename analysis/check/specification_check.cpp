@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/check/specification_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace grseg {
+
+SpecificationCheck::SpecificationCheck(const TrajectoryReader& run)
+    : run_(run), layout_(check_layout(run))
+{
+  check_grains();
+  check_parameters();
+  check_observables();
+}
+
+/// A path that departs more than once keeps what was found first.
+void SpecificationCheck::depart(const std::string& path, const std::string& what)
+{
+  auto& all = layout_.departures;
+  const auto same = [&](const Departure& d) { return d.path == path; };
+  if (const auto known = std::find_if(all.begin(), all.end(), same); known != all.end())
+    ++known->count;
+  else
+    all.push_back({path, what});
+}
+
+void SpecificationCheck::check_grains()
+{
+  const auto& grains = run_.grains();
+  std::unordered_set<std::int32_t> ids;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!ids.insert(grains.id[g]).second)
+      depart("/particles/grains/id", fmt::format("holds {} twice", grains.id[g]));
+    const bool boundary = grains.species[g] == Species::boundary;
+    if (grains.fixed[g] > 1 || (boundary && grains.fixed[g] == 0))
+      depart("/particles/grains/fixed",
+             fmt::format("is {} for grain {}, {}", grains.fixed[g], g,
+                         boundary ? "which belongs to the boundary" : "and may be 0 or 1"));
+  }
+}
+
+void SpecificationCheck::check_parameters()
+{
+  const auto& numbers = run_.parameters().numbers;
+  for (const char* name : {"small_diameter", "large_diameter", "step"}) {
+    const auto found = numbers.find(name);
+    if (found == numbers.end() || found->second.size() != 1 || !(found->second[0] > 0))
+      depart(fmt::format("/parameters/{}", name), "should be a positive number");
+  }
+  const auto gravity = numbers.find("gravity");
+  if (gravity == numbers.end() || gravity->second.size() != 2)
+    depart("/parameters/gravity", "should be two numbers");
+}
+
+void SpecificationCheck::check_observables()
+{
+  for (const auto& [name, unit] : run_.observables()) {
+    const auto values = run_.observable(name);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (!std::isfinite(values[k]))
+        depart(fmt::format("/observables/{}/value", name),
+               fmt::format("is not a finite number in frame {}", k));
+  }
+}
+
+void SpecificationCheck::add(std::size_t index, const Frame& frame)
+{
+  const double length = run_.box().length_x;
+  // Single precision rounds what is just below the length up to it.
+  const bool rounded = run_.stores_float32();
+  const auto wrapped = [&](double x) {
+    return x >= 0 && (rounded ? x <= static_cast<float>(length) : x < length);
+  };
+  for (std::size_t g = 0; g < frame.position.size() && run_.box().periodic_x; ++g)
+    if (const double x = frame.position[g].x(); !wrapped(x))
+      depart("/particles/grains/position/value",
+             fmt::format("has x = {} for grain {} in frame {}, which is not in [0, {})", x, g,
+                         index, length));
+  const auto& grains = run_.grains();
+  const auto& i = frame.contacts.i;
+  for (std::size_t k = 0; k < i.size(); ++k)
+    if (grains.fixed[static_cast<std::size_t>(i[k])] != 0)
+      depart(
+          "/grseg/contacts/i",
+          fmt::format("is {} for contact {} of frame {}, a grain that is fixed", i[k], k, index));
+}
+
+std::vector<CheckLine> SpecificationCheck::lines() const
+{
+  std::vector<CheckLine> lines;
+  const auto add = [&](const std::string& quantity, std::size_t count, const std::string& remark) {
+    CheckLine line;
+    line.quantity = quantity;
+    line.measured = static_cast<double>(count);
+    line.tolerance = 0;
+    line.verdict = count == 0 ? Verdict::passed : Verdict::failed;
+    line.remark = remark;
+    lines.push_back(line);
+  };
+  add("specification", layout_.departures.size(),
+      fmt::format("{} datasets read whole; {} of their {} chunks carry checksums, which agree",
+                  layout_.datasets, layout_.checksums, layout_.chunks));
+  for (const auto& departure : layout_.departures)
+    add(departure.path, departure.count, departure.what);
+  return lines;
+}
+
+}  // namespace grseg

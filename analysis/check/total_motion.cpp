@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/check/total_motion.hpp"
+
+#include "analysis/frames/layers.hpp"
+
+#include <algorithm>
+
+namespace grseg {
+
+TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& box)
+{
+  TotalMotion total;
+  total.step = frame.step;
+  total.time = frame.time;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    total.mass += grains.mass[g];
+    total.momentum += grains.mass[g] * frame.velocity[g];
+    total.energy += grains.mass[g] * frame.velocity[g].squaredNorm() / 2;
+    total.x += grains.mass[g] * (frame.position[g].x() + frame.image[g][0] * box.length_x);
+  }
+  if (total.mass > 0) total.x /= total.mass;
+  return total;
+}
+
+void MotionBalance::add(const TotalMotion& now, const std::optional<Vec2>& base_force)
+{
+  ++frames_;
+  if (!first_) {
+    first_ = last_ = now;
+    return;
+  }
+  if (base_force) {
+    const auto steps = now.step - last_.step;
+    const double between = static_cast<double>(steps) * step_;
+    const Vec2 weight = now.mass * gravity_.mean(now.time, steps, step_);
+    const double scale = between * std::max(weight.norm(), base_force->norm());
+    const double defect = (now.momentum - last_.momentum - between * (weight + *base_force)).norm();
+    momentum_.add(scale > 0 ? defect / scale : defect, now.time, 0);
+  }
+  if (now.mass > 0)
+    way_ += (now.momentum.x() + last_.momentum.x()) / 2 / now.mass * (now.time - last_.time);
+  last_ = now;
+}
+
+}  // namespace grseg

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/check/worst_case.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/core/gravity.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace grseg {
+
+/// The mobile grains of a frame as one body. Velocities are those after the step.
+struct TotalMotion {
+  std::int64_t step = 0;
+  double time = 0;               // s
+  double mass = 0;               // kg
+  Vec2 momentum = Vec2::Zero();  // kg m/s
+  double energy = 0;             // J, kinetic, of translation
+  double x = 0;                  // m, of the centre of mass, periods counted
+};
+TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& box);
+
+/// The mobile grains as one body from frame to frame:
+///   momentum now - momentum before = (time between) (M g + mean force of base and walls),
+/// which holds to round-off where that mean (/observables/base_force_x, _y) is over all the steps
+/// between; and the way that the centre of mass goes along x, against the sum of its velocity
+/// times time (trapezium rule).
+class MotionBalance {
+ public:
+  /// Gravity and the step, s.
+  MotionBalance(const Gravity& gravity, double step) : gravity_(gravity), step_(step) {}
+
+  /// Frames in order; `base_force` (N) is the mean over the steps since the frame before.
+  void add(const TotalMotion& now, const std::optional<Vec2>& base_force);
+
+  /// |defect| over the larger of the impulses of gravity and of the base, by frame.
+  const WorstCase& momentum() const { return momentum_; }
+
+  std::size_t frames() const { return frames_; }
+  /// m: the way along x less the way by velocity, since the first frame.
+  double stray() const { return first_ ? last_.x - first_->x - way_ : 0; }
+
+ private:
+  Gravity gravity_;
+  double step_;
+  std::size_t frames_ = 0;
+  std::optional<TotalMotion> first_;
+  TotalMotion last_;
+  double way_ = 0;  // m
+  WorstCase momentum_;
+};
+
+}  // namespace grseg

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/check/weight_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+/// sum (what) l by layer, over the mobile grains.
+template <class What, class Of>
+std::vector<What> moments_above(const Grains& grains, const Frame& frame, const Layers& layers,
+                                const What& zero, const Of& of)
+{
+  const std::size_t count = layers.count(grains, frame);
+  std::vector<What> whole(count, zero), moment(count, zero);
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    const double y = frame.position[g].y();
+    const std::size_t layer = layers.at(y);
+    whole[layer] += of(g);
+    moment[layer] += of(g) * (y - layers.bottom(layer));
+  }
+  What above = zero;
+  for (std::size_t n = count; n-- > 0;) {
+    moment[n] += layers.thickness() * above;
+    above += whole[n];
+  }
+  return moment;
+}
+
+Vec2 mean_of(const std::vector<Vec2>& values)
+{
+  Vec2 sum = Vec2::Zero();
+  for (const auto& value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// What windows say of one layer: what it carries and what the balance asks for, (xy, yy), N/m.
+struct Series {
+  std::vector<Vec2> carried, asked;
+};
+
+/// Standard error of a mean from the deviations of its parts, which add up to 0.
+template <class Deviation>
+double standard_error(std::size_t count, const Deviation& deviation)
+{
+  double squares = 0;
+  for (std::size_t k = 0; k < count; ++k) squares += deviation(k) * deviation(k);
+  const auto n = static_cast<double>(count);
+  return std::sqrt(squares / (n * (n - 1)));
+}
+
+Series series_of(const std::vector<WeightWindow>& windows, std::size_t layer)
+{
+  Series series;
+  for (std::size_t k = 0; k + 1 < windows.size(); ++k) {
+    const auto &window = windows[k], &next = windows[k + 1];
+    const Vec2 rate = (next.momentum[layer] - window.momentum[layer]) / (next.time - window.time);
+    series.carried.push_back(window.stress[layer]);
+    series.asked.push_back(window.weight[layer] + rate);
+  }
+  return series;
+}
+
+LayerBalance balance_of(const Series& series)
+{
+  const Vec2 carried = mean_of(series.carried), asked = mean_of(series.asked);
+  const std::size_t n = series.carried.size();
+  LayerBalance balance;
+  balance.carried = carried.y() / asked.y();
+  balance.carried_error = standard_error(n, [&](std::size_t k) {
+    return (series.carried[k].y() - balance.carried * series.asked[k].y()) / asked.y();
+  });
+  balance.ratio = -carried.x() / carried.y();
+  balance.slope = -asked.x() / asked.y();
+  // The quotients' changes with one window's numbers.
+  const auto change = [&](const Vec2& part, double ratio, const Vec2& whole) {
+    return (-part.x() - ratio * part.y()) / whole.y();
+  };
+  balance.ratio_error = standard_error(n, [&](std::size_t k) {
+    return change(series.carried[k], balance.ratio, carried) -
+           change(series.asked[k], balance.slope, asked);
+  });
+  return balance;
+}
+
+}  // namespace
+
+WeightSums::WeightSums(const Layers& layers, const Vec2& gravity, double bin)
+    : layers_(layers), gravity_(gravity), mean_(layers, bin), contact_(layers, Assignment::branch)
+{
+}
+
+void WeightSums::add_to_mean(const Grains& grains, const Frame& frame)
+{
+  mean_.add(grains, frame);
+  if (!momentum_.empty()) return;
+  time_ = frame.time;
+  momentum_ = moments_above(grains, frame, layers_, Vec2(0, 0), [&](std::size_t g) -> Vec2 {
+    return grains.mass[g] * frame.velocity[g];
+  });
+}
+
+void WeightSums::add(const Grains& grains, const Frame& frame)
+{
+  if (!kinetic_) {
+    mean_.finish();
+    kinetic_.emplace(layers_, MeanFlow::profile, mean_);
+  }
+  kinetic_->add(grains, frame);
+  contact_.add(grains, frame);
+  ++frames_;
+  const auto mass =
+      moments_above(grains, frame, layers_, 0.0, [&](std::size_t g) { return grains.mass[g]; });
+  mass_above_.resize(std::max(mass_above_.size(), mass.size()));
+  for (std::size_t n = 0; n < mass.size(); ++n) mass_above_[n] += mass[n];
+}
+
+WeightWindow WeightSums::window() const
+{
+  WeightWindow window;
+  window.time = time_;
+  const std::size_t count = mass_above_.size();
+  for (std::size_t n = 0; n < count; ++n) {
+    const double volume = layers_.volume(n);
+    const auto sums = contact_.mean(n).sums;
+    const Tensor2 all = sums.ss + sums.ll + sums.mixed + sums.whole_small + sums.whole_large +
+                        kinetic_->mean(n, Species::small).about_mean.kinetic +
+                        kinetic_->mean(n, Species::large).about_mean.kinetic;
+    window.stress.emplace_back(all.col(1) / volume);
+    window.weight.emplace_back(-mass_above_[n] / static_cast<double>(frames_) / volume * gravity_);
+    window.momentum.emplace_back(n < momentum_.size() ? Vec2(momentum_[n] / volume) : Vec2(0, 0));
+  }
+  return window;
+}
+
+std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& windows,
+                                         const Layers& layers, double least_load)
+{
+  std::vector<LayerBalance> balances;
+  if (windows.size() < 3) return balances;
+  std::size_t count = windows.front().stress.size();
+  for (const auto& window : windows) count = std::min(count, window.stress.size());
+  if (count == 0) return balances;
+  const auto load = [](const Series& series) { return mean_of(series.asked).y(); };
+  const double least = least_load * load(series_of(windows, 0));
+  for (std::size_t n = 1; n < count; ++n) {
+    const auto series = series_of(windows, n);
+    if (!(load(series) > 0) || load(series) < least) continue;
+    auto balance = balance_of(series);
+    balance.y0 = layers.bottom(n);
+    balance.y1 = layers.top(n);
+    balances.push_back(balance);
+  }
+  return balances;
+}
+
+}  // namespace grseg

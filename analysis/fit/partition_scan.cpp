@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/partition_scan.hpp"
+
+#include "analysis/statistics/composition_noise.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace grseg {
+namespace {
+
+PartitionRule uniform(double share)
+{
+  return {PartitionRule::Kind::uniform, share};
+}
+
+/// ln(y/x) of the points and its derivatives by p: sigma^L and sigma^S are linear in p.
+struct LogSlopes {
+  Eigen::VectorXd phi_large, weight, value, first, second;
+  std::vector<std::size_t> window;
+
+  double mean(const Eigen::VectorXd& quantity) const { return weight.dot(quantity) / weight.sum(); }
+  /// What each window adds to the noise of that mean.
+  Eigen::VectorXd noise(const Eigen::VectorXd& quantity, std::size_t windows) const
+  {
+    const Eigen::VectorXd part =
+        composition_noise(phi_large, quantity, weight).cwiseProduct(weight) / weight.sum();
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(windows));
+    for (std::size_t k = 0; k < window.size(); ++k)
+      sums[static_cast<Eigen::Index>(window[k])] += part[static_cast<Eigen::Index>(k)];
+    return sums;
+  }
+};
+
+LogSlopes log_slopes(const FitData& data, double share, const FitSettings& settings)
+{
+  const auto points = fit_points(data, uniform(share), settings);
+  const auto none = fit_points(data, uniform(0), settings);
+  const auto all = fit_points(data, uniform(1), settings);
+  const auto size = static_cast<Eigen::Index>(points.size());
+  LogSlopes at;
+  for (auto* list : {&at.phi_large, &at.weight, &at.value, &at.first, &at.second})
+    list->resize(size);
+  Eigen::Index used = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto& point = points[k];
+    if (!point.has_logarithm()) continue;
+    const double mixed = all[k].large - none[k].large;
+    const double to_small = mixed / point.small, to_large = mixed / point.large;
+    at.window.push_back(point.window);
+    at.phi_large[used] = point.phi_large;
+    at.weight[used] = point.weight;
+    at.value[used] = std::log(point.small / point.large / point.ratio());
+    at.first[used] = -to_small - to_large;
+    at.second[used] = to_large * to_large - to_small * to_small;
+    ++used;
+  }
+  for (auto* list : {&at.phi_large, &at.weight, &at.value, &at.first, &at.second})
+    list->conservativeResize(used);
+  return at;
+}
+
+/// Newton's method from a start that is already near.
+double refine_zero(double share, const FitData& data, const FitSettings& settings)
+{
+  for (int step = 0; step < 8; ++step) {
+    const auto at = log_slopes(data, share, settings);
+    const double change = at.mean(at.value) / at.mean(at.first);
+    if (!std::isfinite(change)) break;
+    share -= change;
+    if (std::abs(change) < 1e-14) break;
+  }
+  return share;
+}
+
+/// The share at which B is, of those listed, nearest to 0; exactly 0 where B changes its sign
+/// between two of them, and then `crosses`.
+struct Nearest {
+  double share;
+  bool crosses;
+};
+
+Nearest nearest_to_zero(const FitData& data, const std::vector<double>& shares,
+                        const FitSettings& settings)
+{
+  std::vector<double> mean;
+  for (const double share : shares) {
+    const auto at = log_slopes(data, share, settings);
+    mean.push_back(at.mean(at.value));
+  }
+  std::size_t least = 0;
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    if (std::abs(mean[k]) < std::abs(mean[least])) least = k;
+    if (k > 0 && mean[k - 1] * mean[k] <= 0) return {refine_zero(shares[k], data, settings), true};
+  }
+  return {shares[least], mean[least] == 0};
+}
+
+/// The slope at the zero and both intervals. B_half = 2 (1 - s)/(1 + s) and s = 1, hence
+/// dB/dp = -d ln s/dp; a sample has its zero a Newton step away and its slope there.
+void add_slope(PartitionScan& scan, const FitData& data, const FitSettings& settings,
+               const Bootstrap& bootstrap, const Dependence& dependence)
+{
+  const auto at = log_slopes(data, scan.p_zero, settings);
+  const double first = at.mean(at.first), second = at.mean(at.second);
+  scan.dB_dp = -first;
+  if (bootstrap.count() == 0) return;
+  const Eigen::MatrixXd& times = bootstrap.samples(dependence);
+  const Eigen::ArrayXd value = times * at.noise(at.value, bootstrap.windows());
+  const Eigen::ArrayXd slope = first + (times * at.noise(at.first, bootstrap.windows())).array();
+  const Eigen::ArrayXd step = -value / slope;
+  scan.p_zero_interval = bootstrap.interval(scan.p_zero, scan.p_zero + step, dependence);
+  scan.dB_dp_interval = bootstrap.interval(scan.dB_dp, -slope - second * step, dependence);
+}
+
+}  // namespace
+
+std::vector<double> ScanRange::shares() const
+{
+  const auto count = static_cast<std::size_t>(std::floor((last - first) / step + 1e-6)) + 1;
+  std::vector<double> all(count);
+  // Multiplying, not adding up: steps stay exact; 0.4 + 40 x 0.005 is to print as 0.6.
+  for (std::size_t k = 0; k < count; ++k)
+    all[k] = std::round((first + static_cast<double>(k) * step) * 1e12) / 1e12;
+  return all;
+}
+
+ScanRange parse_scan(const std::string& text)
+{
+  ScanRange range;
+  int used = 0;
+  const int read =
+      std::sscanf(text.c_str(), "%lf:%lf:%lf%n", &range.first, &range.last, &range.step, &used);
+  const bool whole = read == 3 && static_cast<std::size_t>(used) == text.size();
+  if (!whole || !(range.first >= 0 && range.first <= range.last && range.last <= 1) ||
+      !(range.step > 0))
+    throw UsageError(
+        fmt::format("--scan {}: write first:last:step with 0 <= first <= last <= 1, "
+                    "e.g. 0.4:0.9:0.005",
+                    text));
+  if ((range.last - range.first) / range.step > 1e5)
+    throw UsageError(fmt::format("--scan {}: more than 100000 shares; take a larger step", text));
+  return range;
+}
+
+PartitionScan scan_partition(const FitData& data, const ScanRange& range,
+                             const FitSettings& settings, const Bootstrap& bootstrap)
+{
+  const auto shares = range.shares();
+  const auto nearest = nearest_to_zero(data, shares, settings);
+  PartitionScan scan;
+  const auto at_nearest = dependence(data, uniform(nearest.share), settings);
+  scan.dependence = at_nearest;
+  if (bootstrap.count() > 0)
+    for (const double share : shares)
+      scan.dependence = worse(scan.dependence, dependence(data, uniform(share), settings));
+  scan.dependence.block = at_nearest.block;
+  for (const double share : shares)
+    scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
+  if (nearest.crosses) {
+    scan.p_zero = nearest.share;
+    add_slope(scan, data, settings, bootstrap, at_nearest);
+  }
+  return scan;
+}
+
+}  // namespace grseg

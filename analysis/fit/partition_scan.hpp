@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit/rule_fit.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// The shares p0, p0 + dp, ... up to and including p1.
+struct ScanRange {
+  double first = 0, last = 0, step = 0;
+
+  std::vector<double> shares() const;
+};
+/// "0.4:0.9:0.005"; UsageError otherwise.
+ScanRange parse_scan(const std::string& text);
+
+/// B as a function of the share p that the large grain of a mixed contact gets.
+struct PartitionScan {
+  std::vector<RuleFit> fits;       // uniform:p, one per share
+  Dependence dependence;           // common to all fits, see scan_partition
+  double p_zero = Estimates::nan;  // B_half(p) = 0; NaN: not in range
+  double dB_dp = Estimates::nan;   // of B_half, at p_zero
+  Interval p_zero_interval{Estimates::nan, Estimates::nan};
+  Interval dB_dp_interval{Estimates::nan, Estimates::nan};
+};
+
+/// The band of B(p) must not jump where the block length of a single fit would, so all shares have
+/// one: that of the share nearest to B = 0, with the longest autocorrelation time of all. The
+/// intervals of p_zero and dB_dp are those of a fit at p_zero, whatever the range.
+PartitionScan scan_partition(const FitData& data, const ScanRange& range,
+                             const FitSettings& settings, const Bootstrap& bootstrap);
+
+}  // namespace grseg

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/rule_fit.hpp"
+
+#include <algorithm>
+
+namespace grseg {
+namespace {
+
+bool adds_up(const PartitionRule& rule)
+{
+  return rule.kind != PartitionRule::Kind::drop;
+}
+
+/// Removes what has no meaning where the partial stresses do not add up.
+void forget_b(RuleFit& fit)
+{
+  for (auto* all : {&fit.value, &fit.low, &fit.high})
+    for (const auto& [name, place] : estimator_names)
+      if (name[0] == 'B') all->*place = Estimates::nan;
+  fit.B_half_windows = {Estimates::nan, Estimates::nan};
+}
+
+/// Weighted mean of what a rule gives to the large grains, over that of all mixed stress.
+double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
+                      const FitSettings& settings)
+{
+  const auto none = fit_points(data, {PartitionRule::Kind::uniform, 0}, settings);
+  const auto all = fit_points(data, {PartitionRule::Kind::uniform, 1}, settings);
+  double given = 0, mixed = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    given += points[k].weight * (points[k].large - none[k].large);
+    mixed += points[k].weight * (all[k].large - none[k].large);
+  }
+  return given / mixed;
+}
+
+std::vector<Estimates> replicate(const Eigen::MatrixXd& times, const WindowSums& windows)
+{
+  const Eigen::MatrixXd totals = windows.totals(times);
+  std::vector<Estimates> replicates;
+  replicates.reserve(static_cast<std::size_t>(totals.rows()));
+  for (Eigen::Index sample = 0; sample < totals.rows(); ++sample)
+    replicates.push_back(estimate_from_sums(totals.row(sample)));
+  return replicates;
+}
+
+Eigen::VectorXd column_of(const std::vector<Estimates>& replicates, double Estimates::*place)
+{
+  Eigen::VectorXd values(static_cast<Eigen::Index>(replicates.size()));
+  for (std::size_t k = 0; k < replicates.size(); ++k)
+    values[static_cast<Eigen::Index>(k)] = replicates[k].*place;
+  return values;
+}
+
+void add_intervals(RuleFit& fit, const WindowSums& windows, const Bootstrap& bootstrap)
+{
+  const auto replicates = replicate(bootstrap.samples(fit.dependence), windows);
+  for (const auto& [name, place] : estimator_names) {
+    const auto interval =
+        bootstrap.interval(fit.value.*place, column_of(replicates, place), fit.dependence);
+    fit.low.*place = interval.low;
+    fit.high.*place = interval.high;
+  }
+  const auto inside = replicate(bootstrap.blocks(fit.dependence.block), windows);
+  fit.B_half_windows = bootstrap.over_windows(
+      fit.value.B_half, column_of(inside, &Estimates::B_half), fit.dependence);
+}
+
+void add_minus_size(RuleFit& fit, const WindowSums& windows,
+                    const std::vector<FitPoint>& size_points, const Bootstrap& bootstrap)
+{
+  fit.minus_size = fit.value.B_direct - estimate(size_points).B_direct;
+  if (bootstrap.count() == 0) return;
+  const auto by_size = window_sums(size_points, bootstrap.runs());
+  const auto& times = bootstrap.samples(fit.dependence);
+  fit.minus_size_interval =
+      bootstrap.interval(fit.minus_size,
+                         column_of(replicate(times, windows), &Estimates::B_direct) -
+                             column_of(replicate(times, by_size), &Estimates::B_direct),
+                         fit.dependence);
+}
+
+}  // namespace
+
+Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
+{
+  return dependence(window_sums(fit_points(data, rule, settings), data.runs), data.runs,
+                    adds_up(rule));
+}
+
+RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
+                 const Bootstrap& bootstrap, const std::optional<Dependence>& common)
+{
+  const auto points = fit_points(data, rule, settings);
+  const auto windows = window_sums(points, data.runs);
+  RuleFit fit;
+  fit.rule = rule;
+  fit.points = static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_logarithm(); }));
+  fit.not_positive = points.size() - fit.points;
+  fit.value = estimate(points);
+  fit.dependence = common ? *common : dependence(windows, data.runs, adds_up(rule));
+  fit.doubt = bootstrap.doubt(fit.dependence);
+  if (bootstrap.count() > 0) add_intervals(fit, windows, bootstrap);
+  if (!adds_up(rule)) {
+    forget_b(fit);
+  } else if (data.quantity == Quantity::contact) {
+    fit.share = share_of_large(data, points, settings);
+    fit.neutral = neutral_mean(points, rule);
+    add_minus_size(fit, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
+  }
+  return fit;
+}
+
+}  // namespace grseg

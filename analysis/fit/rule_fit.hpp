@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit/estimators.hpp"
+
+#include <optional>
+#include <string>
+
+namespace grseg {
+
+/// What one partition rule makes of the data.
+struct RuleFit {
+  PartitionRule rule;
+  std::size_t points = 0;         // with both stresses positive
+  std::size_t not_positive = 0;   // the others
+  double share = Estimates::nan;  // of the mixed contacts' stress given to large grains, drop: NaN
+  // Intervals of 95 %, of several runs by their scatter.
+  Estimates value, low, high;
+  Interval B_half_windows{Estimates::nan, Estimates::nan};  // by the windows' scatter inside runs
+  double neutral = Estimates::nan;
+  double minus_size = Estimates::nan;  // B_direct less that of rule size, same samples
+  Interval minus_size_interval{Estimates::nan, Estimates::nan};
+  Dependence dependence;
+  std::string doubt;  // a sentence on the intervals, mostly empty
+};
+
+/// How far the windows are from independent under this rule.
+Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
+
+/// For `drop` every B is NaN: its partial stresses do not add up to the whole. `common`: where
+/// several fits are to share it; otherwise the dependence is that of the fit.
+RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
+                 const Bootstrap& bootstrap, const std::optional<Dependence>& common = {});
+
+}  // namespace grseg

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/layers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace grseg {
+
+/// Shapes of psi(u) for u = y - y_i in units of the width w, all even and of integral 1:
+///   gauss      exp(-u^2/2) / (sqrt(2 pi) w); w is its standard deviation. It is not cut off, but
+///              what lies beyond 8.5 w is less than round-off.
+///   lucy       5/4 (1 + 3|u|)(1 - |u|)^3 / w for |u| < 1, 0 beyond; w is half its support, its
+///              standard deviation is sqrt(2/21) w = 0.31 w.
+///   heaviside  1/2 / w for |u| < 1, 0 beyond; w is half its support, its standard deviation is
+///              w/sqrt(3) = 0.58 w.
+enum class KernelShape { gauss, lucy, heaviside };
+constexpr std::array<const char*, 3> kernel_names{"gauss", "lucy", "heaviside"};
+
+/// The coarse-graining function psi over the height y. The cell is periodic in x, and fields are
+/// averaged over its length Lx, so that they depend on y alone:
+///   density of a sum over grains   (1/Lx) sum_i a_i psi(y - y_i)
+///   contact stress                 (1/Lx) sum_k force_k (x) branch_k A_k(y)
+///   with the line integral         A(y) = int_0^1 psi(y - y_a - s (y_b - y_a)) ds
+/// along a branch, or a grain's part of it, from height y_a to height y_b (Goldhirsch 2010,
+/// Granular Matter 12:239; Weinhart, Thornton, Luding & Bokhove 2012, Granular Matter 14:289).
+/// Since dA/dy = (psi(y - y_a) - psi(y - y_b))/(y_b - y_a), the divergence of this stress is the
+/// density of the contact forces, exactly and at every y. Heights in m, psi in 1/m.
+class Kernel {
+ public:
+  /// UsageError unless the width (m, see KernelShape) is positive.
+  Kernel(KernelShape shape, double width);
+
+  KernelShape shape() const { return shape_; }
+  double width() const { return width_; }
+  /// Distance beyond which nothing is left but round-off, m.
+  double reach() const;
+
+  /// psi(u), and its integral from minus infinity to u, 0 to 1.
+  double value(double u) const;
+  double below(double u) const;
+
+  /// The line integral A(y) above, 1/m, in closed form: to round-off for branches of any length,
+  /// level ones too, and in the tails.
+  double along(double y, double from, double to) const;
+  /// Its integral over all heights up to y, 0 to 1. What lies above y is below_along(from + to - y,
+  /// from, to), which loses no digits where it is small.
+  double below_along(double y, double from, double to) const;
+
+ private:
+  KernelShape shape_;
+  double width_;
+};
+
+/// Calls book(layer, share) with the integrals over each of `count` layers of the kernel spread
+/// from one height to another; `from` = `to` is a grain's own kernel. The shares add up to 1: as
+/// with all that is booked (layers.hpp), the first layer also takes what lies below it and the last
+/// what lies above. A share over the layer's thickness is thus the mean of the field over the
+/// layer, which tends to Layers::share_segment as the width tends to 0.
+template <class Book>
+void share_kernel(const Layers& layers, const Kernel& kernel, double from, double to,
+                  std::size_t count, const Book& book)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double middle = from + (to - from) / 2;
+  const double farthest = std::abs(to - from) / 2 + kernel.reach();
+  const std::size_t first = std::min(layers.at(middle - farthest), count - 1);
+  const std::size_t last = std::min(layers.at(middle + farthest), count - 1);
+  // Tails are measured from the nearer end, so that small shares keep their digits.
+  double bottom = -infinity, tail_at_bottom = 0;
+  for (std::size_t n = first; n <= last; ++n) {
+    const double top = n == last ? infinity : layers.top(n);
+    const double tail_at_top =
+        n == last ? 0 : kernel.below_along(middle - std::abs(top - middle), from, to);
+    if (top <= middle)
+      book(n, tail_at_top - tail_at_bottom);
+    else if (bottom >= middle)
+      book(n, tail_at_bottom - tail_at_top);
+    else
+      book(n, 1 - tail_at_bottom - tail_at_top);
+    bottom = top;
+    tail_at_bottom = tail_at_top;
+  }
+}
+
+}  // namespace grseg

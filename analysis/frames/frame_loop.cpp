@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frames/frame_loop.hpp"
+
+#include "formats/cli/output.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/core/length.hpp"
+#include "formats/core/version.hpp"
+#include "formats/trajectory/digest.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+#include <thread>
+
+namespace grseg {
+namespace {
+
+/// The axis that --bins names.
+Vec2 axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits units)
+{
+  const std::string word = bins.substr(0, bins.find(':'));
+  if (word != "radius")
+    throw UsageError(fmt::format(
+        "--bins: there is no '{}'; it is layers, radius (about a drum's axis) or radius:X,Y",
+        bins));
+  if (bins == word) {
+    const auto& numbers = run.parameters().numbers;
+    const auto centre = numbers.find("drum_centre");
+    if (centre == numbers.end() || centre->second.size() != 2)
+      throw UsageError(
+          "--bins radius: the run tells of no drum; name the axis, as in --bins radius:0.1,0.2");
+    return {centre->second[0], centre->second[1]};
+  }
+  const std::string place = bins.substr(word.size() + 1);
+  const auto comma = place.find(',');
+  if (comma == std::string::npos)
+    throw UsageError(
+        fmt::format("--bins {}: an axis has two coordinates, as in radius:0.1,0.2", bins));
+  return {parse_length(place.substr(0, comma), "--bins radius:", units),
+          parse_length(place.substr(comma + 1), "--bins radius:", units)};
+}
+
+Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
+{
+  const LengthUnits units{run.small_diameter(), run.large_diameter()};
+  const double thickness = parse_length(options.layer, "--layer", units);
+  if (!options.annuli()) return {thickness, run.box().length_x};
+  const Vec2 axis = axis_of(run, options.bins, units);
+  if (run.box().periodic_x)
+    throw UsageError(fmt::format(
+        "--bins {}: the cell is periodic along x, so that nothing lies at one distance from an "
+        "axis; take layers",
+        options.bins));
+  return Layers::annuli(thickness, run.box().length_x, axis);
+}
+
+RunTimes times_of(const TrajectoryReader& run)
+{
+  const auto& numbers = run.parameters().numbers;
+  const auto interval = numbers.find("frame_interval");
+  const bool known = interval != numbers.end() && interval->second.size() == 1;
+  return {run.steps(), run.step(), known ? interval->second[0] : 0};
+}
+
+}  // namespace
+
+void FrameOptions::add_to(po::options_description& options)
+{
+  options.add_options()("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
+                        "thickness of the layers: 4dS, 2dL, 20mm, or metres");
+  options.add_options()("window",
+                        po::value(&windows.length)->default_value(windows.length)->value_name("s"),
+                        "time that is averaged over; windows that the run does not fill are left "
+                        "out");
+  options.add_options()("begin", time_option(windows.begin),
+                        "first window begins here (default: t = 0)");
+  options.add_options()("end", time_option(windows.end),
+                        "no window ends after this (default: the run)");
+  options.add_options()("stride", po::value(&windows.stride)->default_value(1)->value_name("N"),
+                        "use one frame in N");
+  options.add_options()("threads", po::value(&threads)->default_value(1)->value_name("N"),
+                        "share the frames out to N threads, 0: as many as there are processors; "
+                        "changes no byte");
+  options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
+  options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
+  options.add_options()("output,o", po::value(&output)->value_name("FILE"),
+                        "instead of standard output");
+}
+
+void FrameOptions::add_bins_to(po::options_description& options)
+{
+  options.add_options()(
+      "bins", po::value(&bins)->default_value(bins)->value_name("WORD"),
+      "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
+      "this "
+      "one), of thickness --layer; in annuli y is the distance from the axis and x goes round it, "
+      "clockwise");
+}
+
+FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
+                     const FrameOptions& options)
+    : info_(info),
+      options_(options),
+      preset_(preset_of(values)),
+      run_(only_run(values, "one table is made of one run")),
+      layers_(layers_of(run_, options)),
+      windows_(cut_into_windows(times_of(run_), options.windows)),
+      progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
+{
+  if (options.threads < 0 || options.threads > 1024)
+    throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", options.threads));
+  if (options.threads == 0)
+    options_.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+FrameLoop::~FrameLoop()
+{
+  if (progress_) fmt::print(stderr, "\r\033[K");
+}
+
+void FrameLoop::read(std::size_t index, Frame& frame, TrajectoryReader::Fields fields)
+{
+  const std::lock_guard lock(reading_);
+  run_.read(index, frame, fields);
+}
+
+void FrameLoop::report_progress(const Window& window)
+{
+  if (!progress_) return;
+  fmt::print(stderr, "\r{}: {} of {} windows", info_.name, &window - windows_.data() + 1,
+             windows_.size());
+  std::fflush(stderr);
+}
+
+Table FrameLoop::make_table(const std::string& command,
+                            const std::vector<std::pair<std::string, std::string>>& settings,
+                            const std::vector<std::string>& columns) const
+{
+  Table table;
+  auto& header = table.header;
+  header.emplace_back("program", fmt::format("{} {}", info_.name, version()));
+  header.emplace_back("preset", preset_);
+  std::istringstream history(run_.parameters().text("history"));
+  for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
+  header.emplace_back("history", command);
+  header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run_.digest())));
+
+  const auto& first = windows_.front();
+  constexpr double no_one = std::numeric_limits<double>::quiet_NaN();
+  const Vec2 gravity = run_.gravity().turns() ? Vec2(no_one, no_one) : run_.gravity().start;
+  for (const auto& [key, value] : {std::pair{"small_diameter", run_.small_diameter()},
+                                   {"large_diameter", run_.large_diameter()},
+                                   {"gravity_x", gravity.x()},
+                                   {"gravity_y", gravity.y()},
+                                   {"step", run_.step()},
+                                   {"length", layers_.length()},
+                                   {"layer", layers_.thickness()},
+                                   {"window", first.end - first.begin},
+                                   {"stride", static_cast<double>(options_.windows.stride)}})
+    header.emplace_back(key, format_number(value));
+  if (const auto& axis = layers_.axis())
+    header.emplace_back(
+        "bins", fmt::format("radius {} {}", format_number(axis->x()), format_number(axis->y())));
+  const auto origin = run_.parameters().text("origin");
+  header.emplace_back("origin", origin.empty() ? "unknown" : origin);
+  header.insert(header.end(), settings.begin(), settings.end());
+
+  table.columns = {"t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames", "V[m^2]"};
+  table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+  return table;
+}
+
+std::vector<double> FrameLoop::row(const Window& window, std::size_t layer,
+                                   const std::vector<double>& values) const
+{
+  std::vector<double> row{window.begin,
+                          window.end,
+                          layers_.bottom(layer),
+                          layers_.top(layer),
+                          static_cast<double>(window.frames.size()),
+                          layers_.volume(layer)};
+  row.insert(row.end(), values.begin(), values.end());
+  return row;
+}
+
+std::vector<double> FrameLoop::bed_row(const Window& window, double height,
+                                       const std::vector<double>& values) const
+{
+  auto whole = row(window, 0, values);
+  whole[2] = whole[3] = std::numeric_limits<double>::quiet_NaN();
+  whole[5] = layers_.length() * height;
+  return whole;
+}
+
+void FrameLoop::write(const Table& table) const
+{
+  write_whole(options_.output, options_.json ? table.to_json() : table.to_text());
+}
+
+}  // namespace grseg

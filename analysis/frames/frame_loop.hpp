@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/in_order.hpp"
+#include "analysis/frames/layers.hpp"
+#include "analysis/frames/windows.hpp"
+#include "formats/cli/table.hpp"
+#include "formats/cli/tool.hpp"
+#include "formats/trajectory/reader.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace grseg {
+
+/// The options of every tool that goes through the frames of a run by layer and window.
+struct FrameOptions {
+  std::string output, layer = "4dS", bins = "layers";
+  WindowSettings windows;
+  int threads = 1;
+  bool json = false, quiet = false;
+
+  /// Adds --output --begin --end --stride --layer --window --threads --json --quiet.
+  void add_to(po::options_description& options);
+  /// Adds --bins, for tools that also know annuli.
+  void add_bins_to(po::options_description& options);
+  bool annuli() const { return bins != "layers"; }
+};
+
+/// A run cut into layers and windows. All tools get theirs here, so that their rows join on
+/// (t0, t1, y0, y1).
+class FrameLoop {
+ public:
+  /// Opens the one run that the command line names. UsageError where it names none or several.
+  FrameLoop(const ToolInfo& info, const po::variables_map& values, const FrameOptions& options);
+  ~FrameLoop();
+
+  const TrajectoryReader& run() const { return run_; }
+  const Layers& layers() const { return layers_; }
+  const std::vector<Window>& windows() const { return windows_; }
+
+  /// Sums over the frames of a window. Each of `empty`, accumulators that have seen nothing, comes
+  /// back having seen all frames:
+  ///
+  ///   const auto [areas, stress] =
+  ///       loop.sum(window, fields, Composition(...), PartialContactStress(...));
+  ///
+  /// An accumulator has add(grains, frame) and merge(others), which adds the sums of another one.
+  /// --threads share the frames out in blocks, and the blocks' sums are merged in order; a block is
+  /// of so many frames whatever the number of threads, so that this changes no byte. As many frames
+  /// are held as there are threads.
+  template <class... Sums>
+  std::tuple<Sums...> sum(const Window& window, TrajectoryReader::Fields fields,
+                          const Sums&... empty);
+
+  /// A table without rows: header with program, preset, history, content digest of the run, the
+  /// numbers that later tools need and `settings` of the tool; key columns, then `columns`.
+  Table make_table(const std::string& command,
+                   const std::vector<std::pair<std::string, std::string>>& settings,
+                   const std::vector<std::string>& columns) const;
+  /// The key columns t0 t1 y0 y1 frames V of a layer, followed by `values`.
+  std::vector<double> row(const Window& window, std::size_t layer,
+                          const std::vector<double>& values) const;
+  /// The same for the whole bed of a given height: y0 = y1 = nan, V = Lx times the height.
+  std::vector<double> bed_row(const Window& window, double height,
+                              const std::vector<double>& values) const;
+  /// To the file of --output, or to standard output.
+  void write(const Table& table) const;
+
+ private:
+  void read(std::size_t index, Frame& frame, TrajectoryReader::Fields fields);
+  void report_progress(const Window& window);
+
+  ToolInfo info_;
+  FrameOptions options_;
+  std::string preset_;
+  TrajectoryReader run_;
+  Layers layers_;
+  std::vector<Window> windows_;
+  bool progress_;
+  std::mutex reading_;  // the HDF5 library knows no threads
+};
+
+template <class... Sums>
+std::tuple<Sums...> FrameLoop::sum(const Window& window, TrajectoryReader::Fields fields,
+                                   const Sums&... empty)
+{
+  constexpr std::size_t block = 4;
+  const auto& frames = window.frames;
+  const auto sums_of_block = [&](std::size_t number) {
+    std::tuple<Sums...> sums(empty...);
+    Frame frame;
+    const std::size_t end = std::min(frames.size(), (number + 1) * block);
+    for (std::size_t k = number * block; k < end; ++k) {
+      read(frames[k], frame, fields);
+      std::apply([&](Sums&... each) { (each.add(run_.grains(), frame), ...); }, sums);
+    }
+    return sums;
+  };
+  std::tuple<Sums...> total(empty...);
+  const auto merge = [&](const std::tuple<Sums...>& sums) {
+    std::apply(
+        [&](Sums&... all) {
+          std::apply([&](const Sums&... each) { (all.merge(each), ...); }, sums);
+        },
+        total);
+  };
+  in_order(options_.threads, (frames.size() + block - 1) / block, sums_of_block, merge);
+  report_progress(window);
+  return total;
+}
+
+}  // namespace grseg

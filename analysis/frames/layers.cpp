@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frames/layers.hpp"
+
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+constexpr double most_layers = 100000;
+
+}  // namespace
+
+double disc_area_below(double radius, double height)
+{
+  const double square = radius * radius;
+  if (height >= radius) return std::numbers::pi * square;
+  const double d = std::max(height, -radius);
+  return square * (std::numbers::pi / 2 + std::asin(d / radius)) + d * std::sqrt(square - d * d);
+}
+
+double disc_area_within(double radius, double distance, double limit)
+{
+  const double smaller = std::min(radius, limit);
+  if (distance >= radius + limit) return 0;
+  if (distance <= std::abs(radius - limit)) return std::numbers::pi * smaller * smaller;
+  const double disc = radius * radius, circle = limit * limit, square = distance * distance;
+  // Four times the triangle of the centres and a point where the circles meet (Heron).
+  const double triangle = std::sqrt((radius + limit - distance) * (distance + radius - limit) *
+                                    (distance - radius + limit) * (distance + radius + limit));
+  // An arc cosine would lose the small angle of a large circle.
+  return disc * std::atan2(triangle, square + disc - circle) +
+         circle * std::atan2(triangle, square + circle - disc) - triangle / 2;
+}
+
+Layers::Layers(double thickness, double length) : thickness_(thickness), length_(length)
+{
+  if (!(thickness > 0) || !std::isfinite(thickness))
+    throw UsageError(fmt::format("a layer of {:g} m has no thickness; give e.g. 4dS", thickness));
+  if (!(length > 0) || !std::isfinite(length))
+    throw UsageError(fmt::format("a cell of {:g} m has no length", length));
+}
+
+Layers Layers::annuli(double thickness, double length, const Vec2& axis)
+{
+  Layers layers(thickness, length);
+  layers.axis_ = axis;
+  return layers;
+}
+
+Layers Layers::with_thickness(double thickness) const
+{
+  Layers layers(thickness, length_);
+  layers.axis_ = axis_;
+  return layers;
+}
+
+double Layers::volume(std::size_t layer) const
+{
+  const double n = static_cast<double>(layer);
+  return axis_ ? std::numbers::pi * thickness_ * thickness_ * (2 * n + 1) : thickness_ * length_;
+}
+
+Vec2 Layers::turned(const Vec2& vector, const Vec2& position) const
+{
+  if (!axis_) return vector;
+  const Vec2 arm = position - *axis_;
+  const double distance = arm.norm();
+  const Vec2 outward = distance > 0 ? Vec2(arm / distance) : Vec2(0, 1);
+  return {outward.y() * vector.x() - outward.x() * vector.y(), outward.dot(vector)};
+}
+
+std::size_t Layers::count(const Grains& grains, const Frame& frame) const
+{
+  double highest = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (is_mobile(grains, g))
+      highest = std::max(highest, height(frame.position[g]) + grains.radius[g]);
+  if (!(highest < most_layers * thickness_))
+    throw RunError(
+        fmt::format("at t = {:.6g} s a grain is {:.3g} m {}, more than {:g} layers; is "
+                    "it lost, or are the layers too thin?",
+                    frame.time, highest, axis_ ? "from the axis" : "above the base", most_layers));
+  const std::size_t n = at(highest);
+  return highest > bottom(n) ? n + 1 : std::max<std::size_t>(n, 1);
+}
+
+}  // namespace grseg

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/layers.hpp"
+#include "formats/core/frame.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grseg {
+
+/// About which mean velocity fluctuations are counted. The paper does not say.
+enum class MeanFlow {
+  profile,  ///< a fine profile over height, over all frames
+  layer,    ///< the layer's mean over all frames; leaves the mean shear inside the layer in K_xx,
+            ///< nu rho (du/dy h)^2/12
+  instant,  ///< the layer's mean in each frame; leaves the same shear, takes away what the whole
+            ///< layer does together and, of n grains, 1/n of the fluctuations
+  species,  ///< the layer's mean of each species over all frames
+};
+
+/// Down-slope velocity u and velocity v along y, m/s, and spin, rad/s.
+using Motion = Eigen::Vector3d;
+
+/// Mass-weighted mean motion of the mobile grains over the frames that were added: as a profile
+/// over height, by layer, and by layer and species.
+///
+/// The profile joins, by straight lines, one point per bin of height: mean height and mean motion
+/// of the grains in it. Empty bins have no point, so that the line passes over them; beyond the
+/// outer points it goes on with the slope of the outer two bins. Taking the mean height rather than
+/// the middle of the bin, a linear profile comes out as it is, however the grains lie in their
+/// bins.
+class MeanVelocity {
+ public:
+  /// Bins no thicker than `bin` (m), a whole number of them per layer.
+  MeanVelocity(const Layers& layers, double bin);
+
+  void add(const Grains& grains, const Frame& frame);
+  void merge(const MeanVelocity& others);
+  /// Takes the means; nothing can be added after that.
+  void finish();
+
+  /// At height y; NaN without grains.
+  Motion on_profile(double y) const;
+  /// Of a layer, and of one species in it; of layers with grains that were added only.
+  Motion of_layer(std::size_t layer) const;
+  Motion of_species(std::size_t layer, Species species) const;
+
+ private:
+  struct Sum {
+    double mass = 0;  // kg
+    Motion momentum = Motion::Zero();
+    Sum& operator+=(const Sum& other);
+  };
+  struct BinSum {
+    Sum motion;
+    double moment = 0;  // kg m
+    BinSum& operator+=(const BinSum& other);
+  };
+  struct Point {
+    double y;
+    Motion motion;
+  };
+
+  Layers layers_, bins_;
+  std::vector<BinSum> of_bin_;
+  std::vector<std::array<Sum, 2>> of_layer_;  // by species
+  std::vector<Point> profile_;
+};
+
+}  // namespace grseg

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/micro/force_distribution.hpp"
+
+#include "analysis/frames/accumulate.hpp"
+#include "analysis/micro/micro_structure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace grseg {
+namespace {
+
+/// Calls use(layer, type, f_n) for every contact that carries a force.
+template <class Use>
+void each_loaded_contact(const Grains& grains, const Frame& frame, const Layers& layers,
+                         std::size_t count, const Use& use)
+{
+  const auto& list = frame.contacts;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (list.force[k].x() == 0 && list.force[k].y() == 0) continue;
+    const std::size_t layer = layers.at(contact_point(grains, frame, k).y());
+    use(std::min(layer, count - 1), static_cast<std::size_t>(pair_type(grains, frame, k)),
+        force_parts(list, k).f_n);
+  }
+}
+
+double mean_of(double force, double contacts)
+{
+  return contacts > 0 ? force / contacts : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+MeanNormalForce::Sum& MeanNormalForce::Sum::operator+=(const Sum& other)
+{
+  contacts += other.contacts;
+  force += other.force;
+  return *this;
+}
+
+void MeanNormalForce::add(const Grains& grains, const Frame& frame)
+{
+  sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));
+  each_loaded_contact(grains, frame, layers_, sums_.size(),
+                      [&](std::size_t layer, std::size_t type, double f_n) {
+                        sums_[layer][type] += {1, f_n};
+                      });
+}
+
+void MeanNormalForce::merge(const MeanNormalForce& others)
+{
+  accumulate(sums_, others.sums_);
+}
+
+double MeanNormalForce::of(std::size_t layer, PairType type) const
+{
+  const auto& sum = sums_[layer][static_cast<std::size_t>(type)];
+  return mean_of(sum.force, sum.contacts);
+}
+
+double MeanNormalForce::between_grains(std::size_t layer) const
+{
+  Sum all;
+  for (const auto type : {PairType::SS, PairType::LS, PairType::LL})
+    all += sums_[layer][static_cast<std::size_t>(type)];
+  return mean_of(all.force, all.contacts);
+}
+
+ForceDistribution::ForceDistribution(const Layers& layers, const MeanNormalForce& mean,
+                                     ForceUnit unit, double width)
+    : layers_(layers), mean_(mean), unit_(unit), width_(width)
+{
+}
+
+double ForceDistribution::edge(std::size_t bin) const
+{
+  return bin == bins ? std::numeric_limits<double>::infinity() : static_cast<double>(bin) * width_;
+}
+
+std::size_t ForceDistribution::bin_of(double x) const
+{
+  if (!(x > 0)) return 0;
+  if (x >= edge(bins - 1)) return bins - 1;
+  auto bin = static_cast<std::size_t>(x / width_);
+  // The quotient may be rounded to the wrong side of an edge.
+  if (x < edge(bin)) --bin;
+  if (x >= edge(bin + 1)) ++bin;
+  return bin;
+}
+
+void ForceDistribution::add(const Grains& grains, const Frame& frame)
+{
+  ++frames_;
+  counts_.resize(std::max(counts_.size(), layers_.count(grains, frame)));
+  each_loaded_contact(
+      grains, frame, layers_, counts_.size(), [&](std::size_t layer, std::size_t type, double f_n) {
+        const double unit = unit_ == ForceUnit::type ? mean_.of(layer, static_cast<PairType>(type))
+                                                     : mean_.between_grains(layer);
+        if (unit > 0) counts_[layer][bin_of(f_n / unit)][type] += 1;
+      });
+}
+
+void ForceDistribution::merge(const ForceDistribution& others)
+{
+  frames_ += others.frames_;
+  accumulate(counts_, others.counts_);
+}
+
+std::vector<std::string> ForceDistribution::columns()
+{
+  std::vector<std::string> names{"x0", "x1"};
+  for (const char* kind : {"n_{}", "P_{}", "tail_{}"})
+    for (const char* type : pair_type_names) names.push_back(fmt::format(fmt::runtime(kind), type));
+  return names;
+}
+
+std::vector<std::vector<double>> ForceDistribution::rows(const Counts& counts) const
+{
+  std::array<double, pair_types> total{}, below{};
+  for (const auto& bin : counts) accumulate(total, bin);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    std::vector<double> row{edge(bin), edge(bin + 1)};
+    for (const double n : counts[bin]) row.push_back(n / static_cast<double>(frames_));
+    for (std::size_t type = 0; type < pair_types; ++type)
+      row.push_back(counts[bin][type] / total[type] / (edge(bin + 1) - edge(bin)));
+    for (std::size_t type = 0; type < pair_types; ++type)
+      row.push_back((total[type] - below[type]) / total[type]);
+    accumulate(below, counts[bin]);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<std::vector<double>> ForceDistribution::rows(std::size_t layer) const
+{
+  return rows(counts_[layer]);
+}
+
+std::vector<std::vector<double>> ForceDistribution::bed_rows() const
+{
+  Counts all{};
+  for (const auto& counts : counts_) accumulate(all, counts);
+  return rows(all);
+}
+
+}  // namespace grseg

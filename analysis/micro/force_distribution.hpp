@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/layers.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/core/pair_type.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// Mean normal force of the contacts of a layer, by its pair types and of all between mobile
+/// grains. Only contacts that carry a force count; they are booked where the contact point is.
+class MeanNormalForce {
+ public:
+  explicit MeanNormalForce(const Layers& layers) : layers_(layers) {}
+
+  void add(const Grains& grains, const Frame& frame);
+  void merge(const MeanNormalForce& others);
+  /// N; NaN without contacts.
+  double of(std::size_t layer, PairType type) const;
+  double between_grains(std::size_t layer) const;
+
+ private:
+  struct Sum {
+    double contacts = 0, force = 0;
+    Sum& operator+=(const Sum& other);
+  };
+  Layers layers_;
+  std::vector<std::array<Sum, pair_types>> sums_;
+};
+
+/// What the normal force of a contact is divided by: the mean in the same layer over ...
+enum class ForceUnit {
+  layer,  ///< all contacts between mobile grains
+  type,   ///< the contacts of its own pair type
+};
+
+/// Distribution of x = f_n/<f_n> by pair type: counts of contacts in bins of x, per frame, the last
+/// bin open above. All frames of a window are gone through twice: first for the mean, then for the
+/// counts. One bin's lower edge is exactly 1 where 1 is a multiple of the width: above it are the
+/// strong contacts (Radjai et al. 1998).
+class ForceDistribution {
+ public:
+  static constexpr std::size_t bins = 101;
+
+  /// `width` of the bins, in units of x.
+  ForceDistribution(const Layers& layers, const MeanNormalForce& mean, ForceUnit unit,
+                    double width);
+
+  void add(const Grains& grains, const Frame& frame);
+  void merge(const ForceDistribution& others);
+  std::size_t layers() const { return counts_.size(); }
+
+  /// x0, x1 (inf for the last bin); n_* counts per frame; P_* their density, so that the sum of
+  /// P (x1 - x0) is the share below the open bin; tail_* the share of contacts with x >= x0. P is 0
+  /// in the open bin; P and tail are NaN where there are no contacts.
+  static std::vector<std::string> columns();
+  /// One row per bin, of a layer and of the whole bed, each contact in units of its own layer.
+  std::vector<std::vector<double>> rows(std::size_t layer) const;
+  std::vector<std::vector<double>> bed_rows() const;
+
+ private:
+  using Counts = std::array<std::array<double, pair_types>, bins>;
+  std::size_t bin_of(double x) const;
+  double edge(std::size_t bin) const;
+  std::vector<std::vector<double>> rows(const Counts& counts) const;
+
+  Layers layers_;
+  MeanNormalForce mean_;
+  ForceUnit unit_;
+  double width_;
+  std::size_t frames_ = 0;
+  std::vector<Counts> counts_;
+};
+
+}  // namespace grseg

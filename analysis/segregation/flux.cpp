@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/segregation/flux.hpp"
+
+#include "analysis/frames/accumulate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double ratio(double a, double b)
+{
+  return b > 0 ? a / b : nan;
+}
+
+/// Name, unit and place of what is printed with an error.
+struct Quantity {
+  const char *name, *unit;
+  double LayerSegregation::*place;
+};
+constexpr std::array quantities{Quantity{"phi_L", "", &LayerSegregation::phi_large},
+                                Quantity{"w_S", "[m/s]", &LayerSegregation::w_small},
+                                Quantity{"w_L", "[m/s]", &LayerSegregation::w_large},
+                                Quantity{"q_S", "[m/s]", &LayerSegregation::q_small},
+                                Quantity{"q_L", "[m/s]", &LayerSegregation::q_large},
+                                Quantity{"D_S", "[m^2/s]", &LayerSegregation::D_small},
+                                Quantity{"D_L", "[m^2/s]", &LayerSegregation::D_large},
+                                Quantity{"D2_S", "[m^2/s]", &LayerSegregation::D2_small},
+                                Quantity{"D2_L", "[m^2/s]", &LayerSegregation::D2_large},
+                                Quantity{"Dhat_S", "", &LayerSegregation::Dhat_small},
+                                Quantity{"Dhat_L", "", &LayerSegregation::Dhat_large},
+                                Quantity{"D", "[m^2/s]", &LayerSegregation::D},
+                                Quantity{"dphi_dy", "[1/m]", &LayerSegregation::gradient},
+                                Quantity{"S", "[m/s]", &LayerSegregation::S},
+                                Quantity{"Pe", "", &LayerSegregation::peclet}};
+
+/// Standard errors from the values that come out when one part after the other is left out.
+LayerSegregation jackknife(const std::vector<LayerSegregation>& left_out)
+{
+  LayerSegregation error{};
+  const auto n = static_cast<double>(left_out.size());
+  for (const auto& [name, unit, place] : quantities) {
+    double mean = 0, squares = 0;
+    for (const auto& value : left_out) mean += value.*place / n;
+    for (const auto& value : left_out) squares += std::pow(value.*place - mean, 2);
+    error.*place = n > 1 ? std::sqrt((n - 1) / n * squares) : nan;
+  }
+  return error;
+}
+
+}  // namespace
+
+SegregationFlux::Sums& SegregationFlux::Sums::operator+=(const Sums& others)
+{
+  accumulate(area, others.area);
+  accumulate(mass, others.mass);
+  excess += others.excess;
+  flow += others.flow;
+  accumulate(squares, others.squares);
+  accumulate(number, others.number);
+  return *this;
+}
+
+SegregationFlux::SegregationFlux(const Layers& layers, const Window& window, double small_diameter,
+                                 double large_diameter)
+    : layers_(layers),
+      begin_(window.begin),
+      length_(window.end - window.begin),
+      diameter_{small_diameter, large_diameter}
+{
+}
+
+void SegregationFlux::add(const Grains& grains, const Frame& frame)
+{
+  ++frames_;
+  const double passed = (frame.time - begin_) / length_ * static_cast<double>(parts);
+  const auto part = static_cast<std::size_t>(std::clamp(passed, 0.0, parts - 1.0));
+  Profile now(layers_.count(grains, frame));
+  std::vector<double> large_momentum(now.size());
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    const auto species = static_cast<std::size_t>(grains.species[g]);
+    const double y = frame.position[g].y(), radius = grains.radius[g], mass = grains.mass[g];
+    const std::size_t layer = layers_.at(y);
+    now[layer].area[species] += std::numbers::pi * radius * radius;
+    now[layer].mass[species] += mass;
+    now[layer].flow.add(mass, y - layers_.bottom(layer), frame.velocity[g]);
+    if (grains.species[g] == Species::large) large_momentum[layer] += mass * frame.velocity[g].y();
+  }
+  for (std::size_t n = 0; n < now.size(); ++n)
+    if (now[n].mass[0] > 0 && now[n].mass[1] > 0)
+      now[n].excess = large_momentum[n] - now[n].mass[1] * now[n].flow.mv / now[n].flow.mass;
+  accumulate(profile_[part], now);
+
+  auto& [time, heights] = snapshot_[part];
+  if (!heights.empty() && time <= frame.time) return;
+  time = frame.time;
+  heights.clear();
+  for (const auto& position : frame.position) heights.push_back(position.y());
+}
+
+void SegregationFlux::merge(const SegregationFlux& others)
+{
+  frames_ += others.frames_;
+  for (std::size_t part = 0; part < parts; ++part) {
+    accumulate(profile_[part], others.profile_[part]);
+    const auto &own = snapshot_[part], &other = others.snapshot_[part];
+    if (!other.y.empty() && (own.y.empty() || other.time < own.time)) snapshot_[part] = other;
+  }
+}
+
+void SegregationFlux::add_displacements(const Grains& grains, std::size_t part, std::size_t lag,
+                                        Profile& profile) const
+{
+  if (part + lag >= parts) return;
+  const auto &from = snapshot_[part], &to = snapshot_[part + lag];
+  if (from.y.empty() || to.y.empty()) return;
+  struct Drift {
+    double number = 0, sum = 0;
+  };
+  std::vector<std::array<Drift, 2>> drift(profile.size());
+  const auto for_each_grain = [&](const auto& use) {
+    for (std::size_t g = 0; g < grains.size(); ++g)
+      if (is_mobile(grains, g))
+        use(layers_.at(from.y[g]), static_cast<std::size_t>(grains.species[g]),
+            to.y[g] - from.y[g]);
+  };
+  for_each_grain([&](std::size_t layer, std::size_t species, double dy) {
+    drift[layer][species].number += 1;
+    drift[layer][species].sum += dy;
+  });
+  for_each_grain([&](std::size_t layer, std::size_t species, double dy) {
+    const auto [number, sum] = drift[layer][species];
+    const double excess = dy - sum / number;
+    profile[layer].squares[lag - 1][species] += excess * excess / (2 * (to.time - from.time));
+  });
+  for (std::size_t n = 0; n < profile.size(); ++n)
+    for (std::size_t species = 0; species < 2; ++species)
+      profile[n].number[lag - 1][species] += std::max(drift[n][species].number - 1, 0.0);
+}
+
+double SegregationFlux::gradient(const Profile& profile, std::size_t layer) const
+{
+  // A neighbour with less than half as many grains, as the spray above the bed, is not asked.
+  const auto area = [&](std::size_t n) { return profile[n].area[0] + profile[n].area[1]; };
+  const auto asked = [&](std::size_t n) {
+    return n < profile.size() && area(n) > 0 && area(n) >= area(layer) / 2;
+  };
+  const auto height = [&](std::size_t n) {
+    return layers_.bottom(n) + profile[n].flow.my / profile[n].flow.mass;
+  };
+  const std::size_t below = layer > 0 && asked(layer - 1) ? layer - 1 : layer;
+  const std::size_t above = asked(layer + 1) ? layer + 1 : layer;
+  if (below == above) return nan;
+  return (profile[above].phi_large() - profile[below].phi_large()) /
+         (height(above) - height(below));
+}
+
+LayerSegregation SegregationFlux::evaluate(const Profile& profile, std::size_t layer,
+                                           double bed) const
+{
+  const auto& sums = profile[layer];
+  const auto diffusivity = [&](std::size_t lag, std::size_t species) {
+    return ratio(sums.squares[lag][species], sums.number[lag][species]);
+  };
+  LayerSegregation r{};
+  r.phi_large = ratio(sums.area[1], sums.area[0] + sums.area[1]);
+  const double phi_small = 1 - r.phi_large;
+  r.w_small = ratio(-sums.excess, sums.mass[0]);
+  r.w_large = ratio(sums.excess, sums.mass[1]);
+  r.q_small = phi_small > 0 ? phi_small * r.w_small : 0 * phi_small;
+  r.q_large = r.phi_large > 0 ? r.phi_large * r.w_large : 0 * r.phi_large;
+  r.D_small = diffusivity(0, 0);
+  r.D_large = diffusivity(0, 1);
+  r.D2_small = diffusivity(1, 0);
+  r.D2_large = diffusivity(1, 1);
+  const double d = phi_small * diameter_[0] + r.phi_large * diameter_[1];
+  const double unit = std::abs(sums.flow.mean(layers_.thickness()).du_dy) * d * d;
+  r.Dhat_small = r.D_small / unit;
+  r.Dhat_large = r.D_large / unit;
+  r.D = std::isnan(r.D_large)   ? r.D_small
+        : std::isnan(r.D_small) ? r.D_large
+                                : phi_small * r.D_large + r.phi_large * r.D_small;
+  r.gradient = gradient(profile, layer);
+  const double both = r.phi_large * phi_small;
+  r.S = both > 0 ? (r.q_large + r.D * r.gradient) / both : nan;
+  r.peclet = r.S * bed / r.D;
+  return r;
+}
+
+std::vector<SegregationFlux::Result> SegregationFlux::results(const Grains& grains,
+                                                              double bed) const
+{
+  auto profile = profile_;
+  std::size_t layers = 0;
+  for (const auto& own : profile) layers = std::max(layers, own.size());
+  for (std::size_t part = 0; part < parts; ++part) {
+    profile[part].resize(layers);
+    for (const std::size_t lag : {1, 2}) add_displacements(grains, part, lag, profile[part]);
+  }
+  const auto without = [&](std::size_t part) {
+    Profile sum(layers);
+    for (std::size_t k = 0; k < parts; ++k)
+      if (k != part) accumulate(sum, profile[k]);
+    return sum;
+  };
+  const Profile all = without(parts);
+  std::vector<Profile> left_out;
+  for (std::size_t part = 0; part < parts; ++part)
+    if (!snapshot_[part].y.empty()) left_out.push_back(without(part));
+
+  std::vector<Result> results;
+  for (std::size_t n = 0; n < layers; ++n) {
+    std::vector<LayerSegregation> values;
+    values.reserve(left_out.size());
+    for (const auto& others : left_out) values.push_back(evaluate(others, n, bed));
+    const auto frames = static_cast<double>(frames_);
+    const auto& sums = all[n];
+    results.push_back({sums.area[0] / frames, sums.area[1] / frames, sums.flow.mass / frames,
+                       sums.flow.mean(layers_.thickness()), sums.number[0], evaluate(all, n, bed),
+                       jackknife(values)});
+  }
+  return results;
+}
+
+std::vector<std::string> SegregationFlux::columns()
+{
+  std::vector<std::string> names{"area_S[m^2]", "area_L[m^2]",     "u[m/s]",         "v[m/s]",
+                                 "du_dy[1/s]",  "displacements_S", "displacements_L"};
+  for (const auto& [name, unit, place] : quantities) {
+    names.push_back(fmt::format("{}{}", name, unit));
+    names.push_back(fmt::format("{}_error{}", name, unit));
+  }
+  return names;
+}
+
+std::vector<double> SegregationFlux::row(const Result& result)
+{
+  std::vector<double> row{result.area_small,      result.area_large, result.flow.u,
+                          result.flow.v,          result.flow.du_dy, result.displacements[0],
+                          result.displacements[1]};
+  for (const auto& [name, unit, place] : quantities)
+    row.insert(row.end(), {result.value.*place, result.error.*place});
+  return row;
+}
+
+}  // namespace grseg

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/segregation/rates.hpp"
+
+#include <gsl/gsl_statistics.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+/// weight (y - x . coefficients)^2 is made small.
+struct Equation {
+  double weight;
+  Eigen::VectorXd x;
+  double y;
+};
+
+/// Weighted least squares over the points; influences by window.
+class Regression {
+ public:
+  template <class MakeEquation>
+  Regression(const std::vector<RatePoint>& points, Eigen::Index unknowns, const MakeEquation& make)
+      : value(Eigen::VectorXd::Constant(unknowns, std::nan("")))
+  {
+    std::vector<std::pair<std::size_t, Equation>> equations;
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(unknowns, unknowns);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+    std::map<std::size_t, Eigen::Index> rows;  // of the windows that take part
+    for (const auto& point : points) {
+      const Equation e = make(point);
+      if (!(e.weight > 0) || !e.x.allFinite() || !std::isfinite(e.y)) continue;
+      matrix += e.weight * e.x * e.x.transpose();
+      right += e.weight * e.x * e.y;
+      rows.emplace(point.window, static_cast<Eigen::Index>(rows.size()));
+      equations.emplace_back(point.window, e);
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(matrix);
+    influence = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), unknowns);
+    if (rows.empty() || !solver.isInvertible()) return;
+    value = solver.solve(right);
+    for (const auto& [window, e] : equations)
+      influence.row(rows[window]) += e.weight * (e.y - e.x.dot(value)) * solver.solve(e.x);
+  }
+
+  Estimate estimate(Eigen::Index unknown = 0) const
+  {
+    return error_about_trend(influence.col(unknown)).around(value[unknown]);
+  }
+
+  Eigen::VectorXd value;
+  Eigen::MatrixXd influence;  // row: window
+};
+
+Eigen::VectorXd numbers(std::initializer_list<double> list)
+{
+  Eigen::VectorXd vector(static_cast<Eigen::Index>(list.size()));
+  std::copy(list.begin(), list.end(), vector.begin());
+  return vector;
+}
+
+double both(const RatePoint& point)
+{
+  const double phi = point.layer.value.phi_large;
+  return phi * (1 - phi);
+}
+
+Regression mean(const std::vector<RatePoint>& points, std::size_t species,
+                double LayerSegregation::*place)
+{
+  return {points, 1, [&](const RatePoint& point) -> Equation {
+            return {point.layer.displacements[species], numbers({1}), point.layer.value.*place};
+          }};
+}
+
+double advected(const LayerSegregation& layer)
+{
+  return layer.q_large + layer.D * layer.gradient;
+}
+
+/// Of a quotient a/b times `factor`.
+Estimate quotient(const Regression& a, const Regression& b, double factor)
+{
+  const double value = factor * a.value[0] / b.value[0];
+  if (a.influence.rows() != b.influence.rows()) return {value};
+  const Eigen::VectorXd influence =
+      value * (a.influence.col(0) / a.value[0] - b.influence.col(0) / b.value[0]);
+  return error_about_trend(influence).around(value);
+}
+
+}  // namespace
+
+std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter)
+{
+  std::vector<double> solid;
+  for (const auto& point : points)
+    if (point.solid > 0) solid.push_back(point.solid);
+  const double median = solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
+  std::erase_if(points, [&](const RatePoint& point) {
+    const double slack = 1e-9 * (point.top - point.bottom);
+    return point.bottom < filter.lowest - slack || point.top > filter.highest + slack ||
+           !(point.solid >= filter.min_solid * median);
+  });
+  return points;
+}
+
+SegregationSummary segregation_rates(const std::vector<RatePoint>& points)
+{
+  using Values = LayerSegregation;
+  const Regression velocity(points, 1, [](const RatePoint& p) -> Equation {
+    return {p.layer.mass, numbers({both(p)}), advected(p.layer.value)};
+  });
+  const Regression scaled(points, 1, [](const RatePoint& p) -> Equation {
+    const double unit = std::abs(p.layer.flow.du_dy) * p.diameter;
+    return {p.layer.mass, numbers({both(p)}), advected(p.layer.value) / unit};
+  });
+  // Where the gradient is not known the point takes part in neither S nor D.
+  const Regression diffusivity(points, 1, [](const RatePoint& p) -> Equation {
+    const double weight = std::isfinite(advected(p.layer.value)) ? p.layer.mass : 0;
+    return {weight * both(p) * both(p), numbers({1}), p.layer.value.D};
+  });
+  const Regression flux(points, 2, [](const RatePoint& p) -> Equation {
+    return {p.layer.mass, numbers({both(p), -p.layer.value.gradient}), p.layer.value.q_large};
+  });
+  double bed = 0;
+  for (const auto& point : points) bed += point.bed / static_cast<double>(points.size());
+
+  SegregationSummary summary;
+  summary.numbers = {{"D_S[m^2/s]", mean(points, 0, &Values::D_small).estimate()},
+                     {"D_L[m^2/s]", mean(points, 1, &Values::D_large).estimate()},
+                     {"Dhat_S", mean(points, 0, &Values::Dhat_small).estimate()},
+                     {"Dhat_L", mean(points, 1, &Values::Dhat_large).estimate()},
+                     {"S[m/s]", velocity.estimate()},
+                     {"Shat", scaled.estimate()},
+                     {"D[m^2/s]", diffusivity.estimate()},
+                     {"Pe", quotient(velocity, diffusivity, bed)},
+                     {"lambda[m]", quotient(diffusivity, velocity, 1)},
+                     {"S_flux[m/s]", flux.estimate(0)},
+                     {"D_flux[m^2/s]", flux.estimate(1)}};
+  for (const auto& [name, estimate] : summary.numbers)
+    if (!std::isfinite(estimate.low))
+      summary.remarks.push_back(name + ": too few windows with both species for " +
+                                (std::isfinite(estimate.value) ? "an interval" : "a value"));
+  return summary;
+}
+
+}  // namespace grseg

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/segregation/flux.hpp"
+#include "analysis/segregation/rates.hpp"
+#include "analysis/segregation/series.hpp"
+#include "analysis/segregation/summary.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// The windows of a run one after the other, and what they say together. Keeps a few numbers per
+/// frame and per layer and window.
+class SegregationRun {
+ public:
+  /// Nominal diameters, m.
+  SegregationRun(const Layers& layers, double small_diameter, double large_diameter);
+
+  /// The next window.
+  void add(const Grains& grains, const SegregationSeries& series, const SegregationFlux& flux);
+
+  /// The columns of grseg-segregation from area_S on, and the numbers of the last window under
+  /// them: those of a layer, and those of the whole bed, which are means over the window's frames.
+  static std::vector<std::string> columns();
+  std::size_t layers() const { return results_.size(); }
+  std::vector<double> row(std::size_t layer) const;
+  std::vector<double> bed_row() const;
+  double bed() const { return bed_.bed; }  // height, m
+
+  SegregationSummary summary(const RateFilter& filter) const;
+
+ private:
+  Layers layers_;
+  double small_diameter_, large_diameter_;
+  SegregationSeries series_;
+  std::vector<std::size_t> windows_;  // how many moments each has
+  std::vector<RatePoint> points_;
+  std::vector<SegregationFlux::Result> results_;  // of the last window
+  SegregationSeries::Moment bed_;                 // likewise
+};
+
+}  // namespace grseg

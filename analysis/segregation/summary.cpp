@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/segregation/summary.hpp"
+
+#include "formats/cli/table.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace grseg {
+
+std::string to_tsv(const SegregationSummary& summary, TableHeader header)
+{
+  for (const auto& remark : summary.remarks) header.emplace_back("remark", remark);
+  Table table;
+  table.header = std::move(header);
+  table.columns = {"quantity", "value", "low", "high"};
+  std::string text = table.to_text();
+  for (const auto& [name, number] : summary.numbers)
+    text += fmt::format("{}\t{}\t{}\t{}\n", name, format_number(number.value),
+                        format_number(number.low), format_number(number.high));
+  return text;
+}
+
+std::string to_json(const SegregationSummary& summary, const TableHeader& header)
+{
+  using Json = nlohmann::ordered_json;
+  Json numbers = Json::object();
+  for (const auto& [name, number] : summary.numbers)
+    numbers[name] = {{"value", number.value}, {"interval", {number.low, number.high}}};
+  Table table;
+  table.header = header;
+  Json all{{"numbers", numbers}, {"remarks", summary.remarks}};
+  const auto rest = Json::parse(table.to_json());
+  for (const char* key : {"settings", "inputs", "history"}) all[key] = rest[key];
+  return all.dump(2) + '\n';
+}
+
+}  // namespace grseg

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+/// Error bars for means over correlated windows: moving blocks of consecutive windows (Kuensch
+/// 1989) and, where there are several, whole runs are drawn with replacement. What is drawn is how
+/// often each window counts, so a statistic made of sums over windows costs one matrix product.
+/// How often the intervals hold the truth: docs/studies/uncertainty.md.
+namespace grseg {
+
+/// Windows per run. A series lists the windows of all runs, one run after the other.
+using RunLengths = std::vector<std::size_t>;
+
+/// How far the windows of a series are from independent.
+struct Dependence {
+  double time = 1;               // integrated autocorrelation time in windows, at least 1
+  std::size_t block = 1;         // windows drawn together
+  double effective_windows = 0;  // (sum b)^2 / sum b^2 of the windows' weights b
+  double effective_runs = 0;     // the same of the runs' weights
+
+  double independent_windows() const { return effective_windows / time; }
+};
+
+/// 1 + 2 sum of the autocorrelation function; each run about its own mean, all runs together. The
+/// larger of the sum up to the first lag >= 5 times the result (Madras & Sokal 1988), corrected for
+/// the subtracted mean (Wolff 2004), and of (1 + rho)/(1 - rho) with rho the correlation of
+/// neighbours, corrected for its bias (Kendall 1954). Never below 1.
+double autocorrelation_time(const Eigen::VectorXd& series, const RunLengths& runs);
+
+/// The block length with the least error of the variance for an AR(1) series of the same
+/// autocorrelation time tau: (sqrt(6) rho/(1 - rho^2))^(2/3) n^(1/3), rho = (tau - 1)/(tau + 1), n
+/// windows per run (Carlstein 1986), at least 1, and short enough to leave two blocks per degree
+/// of freedom.
+std::size_t block_length(double time, const RunLengths& runs);
+
+/// Of `influence`, the windows' shares in the deviation of a statistic (they add up to 0), and
+/// their `weight` in it.
+Dependence dependence(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight,
+                      const RunLengths& runs);
+
+/// Of each the part that leads to the wider interval.
+Dependence worse(const Dependence& a, const Dependence& b);
+
+/// 95 % interval; NaN where there are too few windows to tell.
+struct Interval {
+  double low, high;
+};
+
+class Bootstrap {
+ public:
+  /// samples = 0: no intervals. The same seed draws the same samples in any order of calls.
+  Bootstrap(RunLengths runs, std::size_t samples, unsigned long seed);
+
+  const RunLengths& runs() const { return runs_; }
+  std::size_t count() const { return samples_; }  // of samples
+  std::size_t windows() const;
+
+  /// Row = sample, column = window: how often the window counts when blocks of `length`
+  /// consecutive windows are drawn inside each run.
+  const Eigen::MatrixXd& blocks(std::size_t length) const;
+  /// The same where whole runs are drawn; no rows for a single run.
+  const Eigen::MatrixXd& whole_runs() const;
+
+  /// The samples and the interval that grseg reports: of several runs those of runs, of a single
+  /// one those of windows.
+  const Eigen::MatrixXd& samples(const Dependence& dependence) const;
+  Interval interval(double estimate, const Eigen::VectorXd& samples,
+                    const Dependence& dependence) const;
+
+  /// What the windows alone tell: estimate -+ t sqrt(V), with V the variance of the statistic over
+  /// samples of blocks(), times m/(m - R) for the means of R runs that were fitted (m = effective
+  /// windows/block), over the share of the variance that blocks of b windows of an AR(1) series
+  /// keep at their cuts, 1 - 2 rho (1 - rho^b)/(b (1 - rho^2)); t is Student's quantile of m - R
+  /// degrees of freedom. NaN where these are less than one half. With several runs it holds only
+  /// if runs do not differ.
+  Interval over_windows(double estimate, const Eigen::VectorXd& samples,
+                        const Dependence& dependence) const;
+  /// What several runs tell: the same with samples of whole_runs(), m = effective runs and m - 1
+  /// degrees of freedom. Each run is one observation, whatever goes on inside it.
+  Interval over_runs(double estimate, const Eigen::VectorXd& samples,
+                     const Dependence& dependence) const;
+
+  /// A sentence where an interval may say more than it knows, or far less: too few windows for
+  /// their correlation, two or three runs. Empty otherwise and for samples = 0.
+  std::string doubt(const Dependence& dependence) const;
+
+ private:
+  double window_degrees(const Dependence& dependence) const;
+
+  RunLengths runs_;
+  std::size_t samples_;
+  unsigned long seed_;
+  mutable std::map<std::size_t, Eigen::MatrixXd> blocks_;
+  mutable Eigen::MatrixXd whole_runs_;
+};
+
+}  // namespace grseg

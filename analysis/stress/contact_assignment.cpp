@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/stress/contact_assignment.hpp"
+
+#include "analysis/frames/frame_loop.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace grseg {
+
+void ContactAssignmentOptions::add_to(po::options_description& options)
+{
+  options.add_options()("assign", po::value(&assign)->default_value(assign)->value_name("WORD"),
+                        "where a contact is booked: contact-point, branch (by the length in each "
+                        "layer), gauss, lucy, heaviside (spread along the branch by this kernel) "
+                        "or grain (each grain's part at its centre)");
+  options.add_options()("width", po::value(&width)->default_value(width)->value_name("LENGTH"),
+                        "of the kernel: standard deviation of gauss, half the support of lucy and "
+                        "heaviside");
+  options.add_options()("composition", po::value(&composition)->value_name("WORD"),
+                        "a grain's area is clipped at the layers' edges (default), put whole at "
+                        "its centre, or spread from there by the kernel (default where there is "
+                        "one): clipped, centre or kernel");
+}
+
+ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values)
+{
+  constexpr std::array assignments{Assignment::contact_point, Assignment::branch,
+                                   Assignment::grain,         Assignment::kernel,
+                                   Assignment::kernel,        Assignment::kernel};
+  constexpr std::size_t first_kernel = 3;
+  const auto word = choose(
+      assign, "--assign",
+      {"contact-point", "branch", "grain", kernel_names[0], kernel_names[1], kernel_names[2]});
+  ContactAssignment chosen{assignments[word], {}, {}};
+  if (word >= first_kernel) chosen.shape = static_cast<KernelShape>(word - first_kernel);
+  if (composition.empty()) composition = chosen.shape ? "kernel" : "clipped";
+  chosen.area =
+      static_cast<GrainArea>(choose(composition, "--composition", {"clipped", "centre", "kernel"}));
+  for (const auto& [given, option] :
+       {std::pair{chosen.area == GrainArea::kernel, "--composition kernel"},
+        {!values["width"].defaulted(), "--width"}})
+    if (given && !chosen.shape)
+      throw UsageError(fmt::format("{} needs a kernel: --assign gauss, lucy or heaviside", option));
+  return chosen;
+}
+
+std::optional<Kernel> ContactAssignmentOptions::kernel(const ContactAssignment& chosen,
+                                                       const LengthUnits& units) const
+{
+  if (!chosen.shape) return {};
+  return Kernel(*chosen.shape, parse_length(width, "--width", units));
+}
+
+}  // namespace grseg

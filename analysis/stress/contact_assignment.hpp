@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/coarse_graining.hpp"
+#include "analysis/frames/composition.hpp"
+#include "analysis/stress/partial_contact_stress.hpp"
+#include "formats/cli/tool.hpp"
+#include "formats/core/length.hpp"
+
+#include <optional>
+#include <string>
+
+namespace grseg {
+
+/// Where contacts and grains count, as the command line says it.
+struct ContactAssignment {
+  Assignment assignment;
+  std::optional<KernelShape> shape;  // where the assignment is a kernel
+  GrainArea area;
+};
+
+/// The options from which a ContactAssignment follows.
+struct ContactAssignmentOptions {
+  std::string assign = "contact-point", width = "1dS", composition;
+
+  /// Adds --assign --width --composition.
+  void add_to(po::options_description& options);
+  /// UsageError where a word is none of those known, or a width is given without a kernel. Sets
+  /// `composition` to what follows from `assign` where it was not given.
+  ContactAssignment contact_assignment(const po::variables_map& values);
+  /// The kernel of `contact_assignment`, if it has one; UsageError where --width is no length.
+  std::optional<Kernel> kernel(const ContactAssignment& chosen, const LengthUnits& units) const;
+};
+
+}  // namespace grseg

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/stress/merge_tables.hpp"
+
+#include "analysis/stress/partition.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+
+namespace grseg {
+namespace {
+
+const std::vector<std::string> key_columns{"t0", "t1", "y0", "y1", "frames", "V"};
+enum KeyColumn { t0, t1, y0, y1, frames, volume };
+
+/// Times in whole steps, since 3 * 0.1 s and 0.3 s are the same window.
+using Times = std::pair<std::int64_t, std::int64_t>;
+
+/// One window of one table.
+struct Part {
+  double begin = 0, end = 0, frames = 0;
+  std::map<std::int64_t, const std::vector<double>*> layers;  // rows by number of the layer
+};
+
+/// The windows of one table.
+using Parts = std::map<Times, Part>;
+
+bool is_source(const std::string& key)
+{
+  return key == "history" || key == "input";
+}
+
+std::vector<std::string> inputs_of(const Table& table)
+{
+  std::vector<std::string> inputs;
+  for (const auto& [key, value] : table.header)
+    if (key == "input") inputs.push_back(value);
+  return inputs;
+}
+
+/// "# key: value" lines that say how the table was made.
+std::vector<std::pair<std::string, std::string>> settings_of(const Table& table)
+{
+  auto settings = table.header;
+  std::erase_if(settings,
+                [](const auto& line) { return is_source(line.first) || line.first == "program"; });
+  return settings;
+}
+
+void require_stress_table(const Table& table)
+{
+  const auto& program = table.header_text("program");
+  if (program.substr(0, program.find(' ')) != "grseg-stress")
+    throw FormatError(fmt::format(
+        "{}: was made by {}; only tables of grseg-stress merge, whose columns all are means per "
+        "frame",
+        table.name, program));
+  for (std::size_t c = 0; c < key_columns.size(); ++c)
+    if (table.column(key_columns[c]) != c)
+      throw FormatError(fmt::format("{}: column {} is '{}' where a table of grseg-stress has '{}'",
+                                    table.name, c + 1, table.columns[c], key_columns[c]));
+}
+
+void require_same_settings(const Table& a, const Table& b)
+{
+  const auto line = [](const auto& setting) {
+    return fmt::format("'# {}: {}'", setting.first, setting.second);
+  };
+  const auto refuse = [&](const std::string& of_a, const std::string& of_b) {
+    throw FormatError(
+        fmt::format("{} and {} were made differently: {} and {}; tables merge whose layers, "
+                    "windows and rules are the same",
+                    a.name, b.name, of_a, of_b));
+  };
+  const auto all_a = settings_of(a), all_b = settings_of(b);
+  for (std::size_t k = 0; k < std::max(all_a.size(), all_b.size()); ++k) {
+    if (k >= all_a.size()) refuse("nothing", line(all_b[k]));
+    if (k >= all_b.size()) refuse(line(all_a[k]), "nothing");
+    if (all_a[k] != all_b[k]) refuse(line(all_a[k]), line(all_b[k]));
+  }
+  if (a.columns != b.columns)
+    throw FormatError(fmt::format("{} and {} have different columns", a.name, b.name));
+}
+
+Parts parts_of(const Table& table)
+{
+  const double step = table.header_number("step"), thickness = table.header_number("layer");
+  Parts parts;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    for (std::size_t column = 0; column < table.columns.size(); ++column)
+      finite_cell(table, row, column);
+    const auto& cells = table.rows[row];
+    auto& part = parts[{std::llround(cells[t0] / step), std::llround(cells[t1] / step)}];
+    if (part.layers.empty()) part = {cells[t0], cells[t1], cells[frames], {}};
+    if (cells[frames] != part.frames || !(part.frames > 0))
+      throw FormatError(fmt::format("{}: row {}: {} frames where others of its window have {}",
+                                    table.name, row + 1, format_number(cells[frames]),
+                                    format_number(part.frames)));
+    if (!part.layers.emplace(std::llround(cells[y0] / thickness), &cells).second)
+      throw FormatError(fmt::format("{}: row {} repeats a window and layer", table.name, row + 1));
+  }
+  return parts;
+}
+
+void refuse_same_time_of_same_run(const Table& a, const Parts& of_a, const Table& b,
+                                  const Parts& of_b)
+{
+  const auto inputs = inputs_of(a);
+  for (const auto& input : inputs_of(b)) {
+    if (std::find(inputs.begin(), inputs.end(), input) == inputs.end()) continue;
+    for (const auto& [one, part] : of_a)
+      for (const auto& [other, unused] : of_b)
+        if (one.first < other.second && other.first < one.second)
+          throw UsageError(fmt::format(
+              "{} and {} both hold the time from {:g} s of the same run ({}); counted twice it "
+              "would feign certainty",
+              a.name, b.name, part.begin, input));
+  }
+}
+
+/// Means over the parts, weighted by frames.
+std::vector<std::vector<double>> merged_rows(const std::vector<const Part*>& parts)
+{
+  Part all{parts[0]->begin, parts[0]->end, 0, {}};
+  for (const auto* part : parts) {
+    all.begin = std::min(all.begin, part->begin);
+    all.end = std::max(all.end, part->end);
+    all.frames += part->frames;
+    all.layers.insert(part->layers.begin(), part->layers.end());
+  }
+  std::vector<std::vector<double>> rows;
+  for (const auto& [layer, keys] : all.layers) {
+    std::vector<double> row(keys->size(), 0.0);
+    for (const auto* part : parts) {
+      const auto found = part->layers.find(layer);
+      if (found == part->layers.end()) continue;
+      for (std::size_t c = key_columns.size(); c < row.size(); ++c)
+        row[c] += part->frames / all.frames * (*found->second)[c];
+    }
+    row[t0] = all.begin;
+    row[t1] = all.end;
+    row[y0] = (*keys)[y0];
+    row[y1] = (*keys)[y1];
+    row[frames] = all.frames;
+    row[volume] = (*keys)[volume];
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+Table merge_tables(std::vector<Table> tables, bool all_windows, const std::string& program,
+                   const std::string& command)
+{
+  if (tables.empty()) throw UsageError("no tables given to merge; name some, e.g. a.tsv b.tsv");
+  for (const auto& table : tables) {
+    require_stress_table(table);
+    require_same_settings(tables[0], table);
+  }
+  // Sums are made in an order that does not depend on that of the arguments.
+  std::stable_sort(tables.begin(), tables.end(), [](const Table& a, const Table& b) {
+    return std::pair(inputs_of(a), a.to_text()) < std::pair(inputs_of(b), b.to_text());
+  });
+
+  std::vector<Parts> parts;
+  for (const auto& table : tables) {
+    parts.push_back(parts_of(table));
+    for (std::size_t earlier = 0; earlier + 1 < parts.size(); ++earlier)
+      refuse_same_time_of_same_run(tables[earlier], parts[earlier], table, parts.back());
+  }
+  std::map<Times, std::vector<const Part*>> windows;
+  for (const auto& of_table : parts)
+    for (const auto& [window, part] : of_table)
+      windows[all_windows ? Times{} : window].push_back(&part);
+
+  Table merged;
+  merged.header.emplace_back("program", program);
+  for (const auto& table : tables)
+    for (const auto& line : table.header)
+      if (is_source(line.first)) merged.header.push_back(line);
+  merged.header.emplace_back("history", command);
+  for (const auto& line : settings_of(tables[0])) merged.header.push_back(line);
+  merged.columns = tables[0].columns;
+  for (const auto& [window, of_window] : windows)
+    for (auto& row : merged_rows(of_window)) merged.rows.push_back(std::move(row));
+  if (all_windows && !merged.rows.empty())
+    for (auto& [key, value] : merged.header)
+      if (key == "window") value = format_number(merged.rows[0][t1] - merged.rows[0][t0]);
+  return merged;
+}
+
+}  // namespace grseg

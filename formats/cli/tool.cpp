@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/tool.hpp"
+
+#include "formats/cli/words.hpp"
+#include "formats/core/version.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <numeric>
+
+namespace grseg {
+namespace {
+
+std::vector<std::string> names_of(const po::options_description& options)
+{
+  std::vector<std::string> names;
+  for (const auto& option : options.options()) names.push_back("--" + option->long_name());
+  return names;
+}
+
+/// What the preset sets of the options that are not given themselves: option and value.
+std::vector<std::pair<std::string, std::string>> preset_values(const ToolInfo& info,
+                                                               const po::variables_map& given)
+{
+  const auto name = preset_of(given);
+  if (name == "none") return {};
+  if (name != "paper" && name != "rigorous")
+    throw UsageError(fmt::format("--preset: there is no '{}'; it is paper or rigorous", name));
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const auto& [option, paper, rigorous] : info.presets) {
+    const std::string value = name == "paper" ? paper : rigorous;
+    if (!value.empty() && (!given.contains(option) || given[option].defaulted()))
+      values.emplace_back(option, value);
+  }
+  return values;
+}
+
+/// Gives `values` what the preset sets, as defaults.
+void take_preset(const ToolInfo& info, const po::options_description& options,
+                 po::variables_map& values)
+{
+  const auto preset = preset_values(info, values);
+  std::vector<std::string> words;
+  words.reserve(preset.size());
+  for (const auto& [option, value] : preset) words.push_back(fmt::format("--{}={}", option, value));
+  po::store(po::command_line_parser(words).options(options).run(), values);
+  po::notify(values);
+  std::map<std::string, po::variable_value>& all = values;
+  for (const auto& [option, value] : preset)
+    all[option] = po::variable_value(all[option].value(), true);
+}
+
+std::string help_of(const std::span<const PresetOption> presets)
+{
+  std::string paper = "paper:", rigorous = "rigorous:";
+  for (const auto& row : presets) {
+    if (*row.paper != '\0') paper += fmt::format(" --{} {}", row.option, row.paper);
+    if (*row.rigorous != '\0') rigorous += fmt::format(" --{} {}", row.option, row.rigorous);
+  }
+  return fmt::format("{}; {}; options that are given go before", paper, rigorous);
+}
+
+po::variables_map parse(int argc, char** argv, const ToolInfo& info,
+                        const po::options_description& options)
+{
+  namespace style = po::command_line_style;
+  po::options_description all;
+  all.add(options);
+  all.add_options()("input", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("input", -1);
+
+  po::variables_map values;
+  try {
+    po::store(po::command_line_parser(argc, argv)
+                  .options(all)
+                  .positional(positional)
+                  .style(style::unix_style & ~style::allow_guessing)
+                  .run(),
+              values);
+    take_preset(info, all, values);
+  } catch (const po::unknown_option& unknown) {
+    const auto& option = unknown.get_option_name();
+    const auto suggestion = nearest(option, names_of(options));
+    throw UsageError(
+        fmt::format("unknown option {}{}; --help lists all", option,
+                    suggestion.empty() ? "" : fmt::format(", did you mean {}?", suggestion)));
+  } catch (const po::error& wrong) {
+    throw UsageError(fmt::format("{}; --help lists all options", wrong.what()));
+  }
+  return values;
+}
+
+void print_help(const ToolInfo& info, const po::options_description& options)
+{
+  std::cout << fmt::format("{}: {}\n\nUsage: {}\n\nExamples:\n{}\n", info.name, info.summary,
+                           info.usage, info.examples)
+            << options
+            << "\nExit codes: 0 done; 1 trouble while running; 2 command line wrong or input "
+               "missing;\n3 content of a file wrong; 4 a check or tolerance missed; 130/143 "
+               "interrupted.\n";
+}
+
+}  // namespace
+
+int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
+             const std::function<void(const po::variables_map&)>& body)
+{
+  po::options_description all = options;
+  const auto presets = help_of(info.presets);
+  if (!info.presets.empty())
+    all.add_options()("preset", po::value<std::string>()->value_name("NAME"), presets.c_str());
+  all.add_options()("version", "print the version and stop")("help,h", "print this text and stop");
+  try {
+    const auto values = parse(argc, argv, info, all);
+    if (values.count("help") > 0) {
+      print_help(info, all);
+    } else if (values.count("version") > 0) {
+      std::cout << info.name << ' ' << version_with_hash() << '\n';
+    } else {
+      body(values);
+    }
+    std::cout.flush();
+    if (!std::cout) throw RunError("cannot write to standard output");
+    return exit_done;
+  } catch (const ToolError& error) {
+    std::cerr << info.name << ": " << error.what() << '\n';
+    return error.code();
+  } catch (const std::bad_alloc&) {
+    std::cerr << info.name << ": out of memory; use fewer frames or a smaller scene\n";
+  } catch (const std::exception& error) {
+    std::cerr << info.name << ": " << error.what() << '\n';
+  }
+  return exit_trouble;
+}
+
+std::string preset_of(const po::variables_map& values)
+{
+  return values.contains("preset") ? values["preset"].as<std::string>() : "none";
+}
+
+std::string command_line(int argc, char** argv)
+{
+  std::string line = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "";
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    if (word == "--threads") ++k;
+    if (word.starts_with("--threads")) continue;
+    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$*") == std::string::npos;
+    line += plain ? " " + word : " '" + word + "'";
+  }
+  return line;
+}
+
+std::string only_run(const po::variables_map& values, const char* remedy)
+{
+  if (values.count("input") == 0)
+    throw UsageError("no run given; name a trajectory file, e.g. run.h5");
+  const auto& inputs = values["input"].as<std::vector<std::string>>();
+  if (inputs.size() != 1) throw UsageError(fmt::format("{} runs given; {}", inputs.size(), remedy));
+  return inputs[0];
+}
+
+po::typed_value<double>* time_option(std::optional<double>& place)
+{
+  return po::value<double>()->value_name("s")->notifier([&place](double time) { place = time; });
+}
+
+}  // namespace grseg

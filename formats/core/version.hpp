@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace grseg {
+
+/// "0.1.0"; with the git hash: "0.1.0 (1a2b3c4)".
+std::string version();
+std::string version_with_hash();
+
+}  // namespace grseg

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/axes.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+/// Along a unit vector; exact, signs of zeros included, where that is one of the axes.
+double component(const Vec3& vector, const Vec3& direction)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(direction[axis]) == 1) return direction[axis] * vector[axis];
+  return vector.dot(direction);
+}
+
+/// A gravity vector is written with a few digits: what differs by less is meant to be the same.
+constexpr double smallest_turn = 1e-3;
+
+Vec2 down_a_slope(double gravity, double slope)
+{
+  const double angle = slope * std::numbers::pi / 180;
+  return {gravity * std::sin(angle), -gravity * std::cos(angle)};
+}
+
+}  // namespace
+
+Axes::Axes(const std::string& letters)
+{
+  const auto axis = [&](char letter) {
+    const auto number = std::string("xyz").find(letter);
+    if (letters.size() != 2 || letters[0] == letters[1] || number == std::string::npos)
+      throw UsageError(fmt::format(
+          "--axes '{}' are not two of the letters x, y, z: along the base and away from it",
+          letters));
+    return Vec3(Vec3::Unit(static_cast<Eigen::Index>(number)));
+  };
+  x_ = axis(letters.empty() ? ' ' : letters[0]);
+  y_ = axis(letters.back());
+}
+
+void Axes::turn_to_slope(const Vec3& gravity, double slope)
+{
+  const Vec2 now = in_plane(gravity), wanted = down_a_slope(1, slope);
+  // The angle from what gravity should be in the axes to what it is.
+  const double turn = std::atan2(wanted.x() * now.y() - wanted.y() * now.x(), wanted.dot(now));
+  if (std::abs(turn) < smallest_turn) return;
+  const Vec3 x = x_;
+  x_ = std::cos(turn) * x + std::sin(turn) * y_;
+  y_ = std::cos(turn) * y_ - std::sin(turn) * x;
+}
+
+void Axes::look_from_behind()
+{
+  x_ = -x_;
+}
+
+Vec2 Axes::in_plane(const Vec3& vector) const
+{
+  return {component(vector, x_), component(vector, y_)};
+}
+
+double Axes::out_of_plane(const Vec3& vector) const
+{
+  return component(vector, x_.cross(y_));
+}
+
+double Axes::counter_clockwise(const Vec3& angular_velocity) const
+{
+  return out_of_plane(angular_velocity);
+}
+
+std::optional<int> Axes::axis_of_x() const
+{
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(x_[axis]) == 1) return axis;
+  return std::nullopt;
+}
+
+GravityText parse_gravity(const std::string& text)
+{
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  bool good = !text.empty();
+  for (std::string part; std::getline(parts, part, ',');) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    good = good && error == std::errc() && end == part.data() + part.size() && std::isfinite(value);
+    numbers.push_back(value);
+  }
+  if (good && numbers.size() == 1 && numbers[0] >= 0) return {numbers[0], std::nullopt};
+  if (good && numbers.size() == 3) return {std::nullopt, Vec3(numbers[0], numbers[1], numbers[2])};
+  throw UsageError(fmt::format(
+      "--gravity '{}' is neither a magnitude nor three components, as in 9.8 or 3.8,-9.0,0", text));
+}
+
+Plane plane_of(const std::string& letters, const GravityText& gravity, std::optional<double> slope)
+{
+  Axes axes(letters);
+  if (gravity.magnitude) {
+    if (!slope)
+      throw UsageError(
+          "--gravity is a magnitude: add the inclination of the base with --slope, or give the "
+          "vector, as in 3.8,-9.0,0");
+    return {axes, down_a_slope(*gravity.magnitude, *slope)};
+  }
+  const Vec3 g = *gravity.vector;
+  if (std::abs(axes.out_of_plane(g)) > 1e-6 * g.norm())
+    throw UsageError(fmt::format(
+        "gravity ({:g}, {:g}, {:g}) leaves the plane of --axes {}; name the plane of the flow",
+        g.x(), g.y(), g.z(), letters));
+  if (axes.in_plane(g).x() < 0 && slope.value_or(1) > 0) axes.look_from_behind();
+  if (slope) axes.turn_to_slope(g, *slope);
+  return {axes, axes.in_plane(g)};
+}
+
+}  // namespace grseg

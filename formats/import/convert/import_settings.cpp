@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/import_settings.hpp"
+
+#include "formats/import/open_archive.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace grseg {
+namespace {
+
+namespace po = boost::program_options;
+
+/// An option without default: `place` stays empty unless it is given.
+template <class Value>
+auto optional(std::optional<Value>& place, const char* name)
+{
+  return po::value<Value>()->value_name(name)->notifier([&place](const Value& v) { place = v; });
+}
+
+auto files(std::vector<std::string>& place)
+{
+  return po::value(&place)->multitoken()->value_name("FILES");
+}
+
+}  // namespace
+
+po::options_description import_options(ImportSettings& s)
+{
+  static const auto formats = fmt::format("program: {}", fmt::join(archive_formats(), ", "));
+  po::options_description archive("The archive");
+  archive.add_options()("format", po::value(&s.format)->value_name("NAME"), formats.c_str())(
+      "grains", files(s.files.grains),
+      "files with the grains, plain, .gz or .zst; '*' stands for the step of many")(
+      "contacts", files(s.files.contacts),
+      "files with the contacts; mercury: .fstat; siconos has them in the file of the grains")(
+      "restart", po::value(&s.files.restart)->value_name("FILE"),
+      "mercury alone: its .restart, which tells step, gravity, masses, species, the base")(
+      "columns", po::value(&s.files.columns)->value_name("MAP"),
+      "what the columns of the contacts mean: i=2,j=3,dist=4,force=5,tangential=8; liggghts: the "
+      "keywords of its compute, too; mercury: info=species")(
+      "drop-incomplete", po::bool_switch(&s.drop_incomplete),
+      "a text archive that ends inside a moment is imported up to there");
+
+  po::options_description facts("What the archive does not tell (in its own units)");
+  facts.add_options()("units", optional(s.units, "UNITS"),
+                      "si, cgs, or LENGTH:TIME:MASS of its units in m, s, kg")(
+      "step", optional(s.step, "DT"), "length of a time step")(
+      "gravity", optional(s.gravity, "G"), "vector GX,GY,GZ, or its magnitude beside --slope")(
+      "slope", optional(s.slope, "DEGREES"),
+      "of the base; with a vector the axes are turned to it")(
+      "grains-are", optional(s.grains, "WHAT"), "discs or spheres")(
+      "density", optional(s.density, "RHO"), "of discs per area, of spheres per volume")(
+      "axes", po::value(&s.axes)->default_value(s.axes)->value_name("XY"),
+      "the plane of the flow: along the base, away from it")(
+      "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),
+      "y = 0: top or centre of the base grains, or a height in the archive");
+
+  auto& species = s.species;
+  po::options_description sizes("Species");
+  sizes.add_options()("small", optional(species.small, "TYPES"),
+                      "types of small grains: 1 or 1,4-6")(
+      "large", optional(species.large, "TYPES"), "types of large grains")(
+      "split-diameter", optional(species.split_diameter, "D"),
+      "small below, large from here on (default: two sizes far apart)")(
+      "boundary", optional(species.boundary, "TYPES"),
+      "types of base grains; none: there are none")(
+      "boundary-ids", optional(species.boundary_ids, "IDS"), "base grains by id: 1-35,70")(
+      "small-diameter", optional(s.small_diameter, "D"),
+      "nominal, unit of lengths in analyses (default: the middle of what is there)")(
+      "large-diameter", optional(s.large_diameter, "D"), "likewise");
+
+  po::options_description output("The trajectory");
+  output.add_options()("output,o", po::value(&s.output)->value_name("FILE"), "to be written")(
+      "accept-residual", optional(s.accept_residual, "R"),
+      "grains need to balance to R of the largest force, rather than to what the program's "
+      "faithful "
+      "output does")("compression",
+                     po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
+                     "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
+                                              "single precision, half the size")(
+      "overwrite", po::bool_switch(&s.overwrite), "replace the file if it is there")(
+      "quiet", po::bool_switch(&s.quiet), "no summary on standard error");
+
+  po::options_description all;
+  all.add(archive).add(facts).add(sizes).add(output);
+  return all;
+}
+
+}  // namespace grseg

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/common/archive.hpp"
+#include "formats/import/convert/species.hpp"
+#include "formats/trajectory/writer.hpp"
+
+#include <boost/program_options.hpp>
+
+#include <optional>
+#include <string>
+
+namespace grseg {
+
+/// What the command line of grseg-import says. Numbers are in the units of the archive, as they
+/// stand in the other program's input; the trajectory is SI.
+struct ImportSettings {
+  std::string format;
+  ArchiveFiles files;
+
+  std::optional<std::string> units;    // units.hpp
+  std::optional<double> step;          // length of a time step
+  std::optional<double> density;       // of discs per area, of spheres per volume
+  std::optional<std::string> grains;   // "discs", "spheres"
+  std::optional<std::string> gravity;  // axes.hpp
+  std::optional<double> slope;         // degrees
+  std::string axes = "xy";
+  std::string origin = "top";  // or "centre", or a height in the archive
+  SpeciesSettings species;
+  std::optional<double> small_diameter, large_diameter;  // nominal
+
+  std::optional<double> accept_residual;
+  bool drop_incomplete = false;
+  std::string output;
+  StorageSettings storage;
+  bool overwrite = false, quiet = false;
+};
+
+/// The options that fill `settings`, in groups as --help shows them.
+boost::program_options::options_description import_options(ImportSettings& settings);
+
+}  // namespace grseg

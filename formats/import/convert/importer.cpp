@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/importer.hpp"
+
+#include "formats/cli/interruption.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/tool.hpp"
+#include "formats/core/version.hpp"
+#include "formats/import/convert/verified_frames.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+/// The middle between the smallest and the largest diameter of a species; 0 where it has no grains.
+double nominal_diameter(const Grains& grains, Species species)
+{
+  double low = INFINITY, high = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (grains.species[g] != species) continue;
+    low = std::min(low, 2 * grains.radius[g]);
+    high = std::max(high, 2 * grains.radius[g]);
+  }
+  return high > 0 ? (low + high) / 2 : 0;
+}
+
+/// Mass over area of the mobile grains, kg/m^2.
+double areal_density(const Grains& grains)
+{
+  double mass = 0, area = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (grains.species[g] == Species::boundary) continue;
+    mass += grains.mass[g];
+    area += std::numbers::pi * grains.radius[g] * grains.radius[g];
+  }
+  return area > 0 ? mass / area : 0;
+}
+
+/// Nominal diameters; of a species that has no grains it is that of the other.
+void add_diameters(const Grains& grains, const ImportSettings& settings, const Units& units,
+                   Parameters& parameters)
+{
+  const auto nominal = [&](const std::optional<double>& given, Species species) {
+    return given ? *given * units.length : nominal_diameter(grains, species);
+  };
+  const double small = nominal(settings.small_diameter, Species::small);
+  const double large = nominal(settings.large_diameter, Species::large);
+  parameters.numbers["small_diameter"] = {small > 0 ? small : large};
+  parameters.numbers["large_diameter"] = {large > 0 ? large : small};
+}
+
+/// The description of the run, in SI.
+RunDescription describe(const VerifiedFrames& frames, const ImportSettings& settings,
+                        const std::string& command_line)
+{
+  const auto& facts = frames.facts();
+  const auto& units = facts.units;
+  RunDescription run;
+  run.grains = frames.builder().grains();
+  units.convert(run.grains);
+  run.box = frames.builder().box();
+  run.box.length_x *= units.length;
+  run.box.length_y *= units.length;
+  run.has_force = frames.has_force();
+  run.observables = {{"momentum_defect", ""}};
+
+  auto& numbers = run.parameters.numbers;
+  const Vec2 gravity = facts.plane.gravity * units.acceleration();
+  numbers["gravity"] = {gravity.x(), gravity.y()};
+  numbers["slope"] = {std::atan2(gravity.x(), -gravity.y()) * 180 / std::numbers::pi};
+  numbers["step"] = {facts.step * units.time};
+  numbers["density"] = {areal_density(run.grains)};
+  add_diameters(run.grains, settings, units, run.parameters);
+  numbers["import_tolerance"] = {frames.tolerance()};
+  numbers["import_origin"] = {frames.builder().origin()};
+  numbers["import_units"] = {units.length, units.time, units.mass};
+
+  auto& texts = run.parameters.texts;
+  texts["program"] = "grseg-import " + version_with_hash();
+  texts["command_line"] = command_line;
+  texts["history"] = command_line;
+  texts["origin"] = settings.origin;
+  texts["import_format"] = settings.format;
+  texts["import_axes"] = settings.axes;
+  texts["import_units_as_told"] = facts.units_as_told;
+  texts["import_grains"] = facts.discs ? "discs" : "spheres";
+  texts["import_base"] = frames.builder().species().base;
+  texts["import_sizes"] = frames.builder().species().sizes;
+  texts["import_columns"] = frames.archive().columns();
+  texts["import_instant"] =
+      "positions, velocities and forces are those of the archive at `time`, not of the middle of a "
+      "step";
+  return run;
+}
+
+[[noreturn]] void refuse(const VerifiedFrames& frames, const ImportSettings& settings,
+                         const Complaint& complaint, std::size_t moments)
+{
+  const auto fitting =
+      complaint.of_columns ? columns_that_fit(settings, frames.archive(), moments) : std::string();
+  const bool of_balance = frames.residual() && frames.residual()->unexplained > frames.tolerance();
+  throw CheckError(fmt::format(
+      "{}: {}{}{}", frames.place(), complaint.sentence, fitting,
+      fitting.empty() && of_balance ? "; --accept-residual R imports what balances to R" : ""));
+}
+
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Residuals of all moments.
+class Residuals {
+ public:
+  void add(const Residual& residual)
+  {
+    largest_ = std::max(largest_, residual.largest);
+    medians_.push_back(residual.median);
+    if (!residual.late) return;
+    unexplained_ = std::max(unexplained_, residual.unexplained);
+    normal_.push_back(residual.late->normal);
+    tangential_.push_back(residual.late->tangential);
+  }
+  void tell(ImportReport& report, const Units& units) const
+  {
+    if (medians_.empty()) return;
+    report.largest_residual = largest_;
+    report.median_residual = median(medians_);
+    if (normal_.empty()) return;
+    report.unexplained_residual = unexplained_;
+    report.late = {median(normal_) / units.time, median(tangential_) / units.time};
+  }
+
+ private:
+  double largest_ = 0, unexplained_ = 0;
+  std::vector<double> medians_, normal_, tangential_;
+};
+
+/// What is known only at the end.
+void finish(TrajectoryWriter& writer, const VerifiedFrames& frames, ImportReport& report)
+{
+  report.remarks = frames.archive().remarks();
+  if (!frames.has_force())
+    report.remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
+  if (!frames.has_angular_velocity())
+    report.remarks.emplace_back("the archive has no angular velocities; they are written as 0");
+  Parameters last;
+  if (report.largest_residual) {
+    last.numbers["import_residual_largest"] = {*report.largest_residual};
+    last.numbers["import_residual_median"] = {*report.median_residual};
+  }
+  if (report.unexplained_residual) {
+    last.numbers["import_residual_unexplained"] = {*report.unexplained_residual};
+    last.numbers["import_late_damping"] = {report.late.normal, report.late.tangential};
+  }
+  if (report.frames > 1)
+    last.numbers["frame_interval"] = {(report.last_time - report.first_time) /
+                                      static_cast<double>(report.frames - 1)};
+  if (!report.remarks.empty())
+    last.texts["import_remarks"] = fmt::format("{}", fmt::join(report.remarks, "; "));
+  writer.add_parameters(last);
+}
+
+}  // namespace
+
+ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
+{
+  if (settings.output.empty())
+    throw UsageError("name the trajectory to write with -o, e.g. -o run.h5");
+  Output output(settings.output, settings.overwrite);
+  VerifiedFrames frames(settings, settings.files.columns);
+  const auto run = describe(frames, settings, command_line);
+  ImportReport report;
+  report.grains = run.grains.size();
+  report.tolerance = frames.tolerance();
+  report.tolerance_reason = frames.archive().facts().tolerance_reason;
+  report.columns = frames.archive().columns();
+  report.base = frames.builder().species().base;
+  report.sizes = frames.builder().species().sizes;
+  TrajectoryWriter writer(output.beside(), run, settings.storage);
+  Residuals residuals;
+  for (Frame frame; frames.next(frame);) {
+    stop_if_interrupted();
+    if (frames.complaint()) refuse(frames, settings, *frames.complaint(), report.frames + 1);
+    const double defect = frames.residual() ? frames.residual()->largest : 0;
+    if (frames.residual()) residuals.add(*frames.residual());
+    frames.facts().units.convert(frame);
+    if (report.frames == 0) report.first_time = frame.time;
+    report.last_time = frame.time;
+    ++report.frames;
+    report.contacts += frame.contacts.size();
+    writer.append(frame, {&defect, 1});
+  }
+  residuals.tell(report, frames.facts().units);
+  finish(writer, frames, report);
+  writer.close();
+  output.publish();
+  return report;
+}
+
+std::string to_text(const ImportReport& report)
+{
+  std::string text =
+      fmt::format("{} frames from {:g} to {:g} s, {} grains, {} contacts\n", report.frames,
+                  report.first_time, report.last_time, report.grains, report.contacts);
+  if (!report.columns.empty()) text += fmt::format("columns: {}\n", report.columns);
+  text += fmt::format("base: {}; {}\n", report.base, report.sizes);
+  if (report.largest_residual)
+    text +=
+        fmt::format("grains balance: largest residual {:.3g}, median {:.3g} of the largest force\n",
+                    *report.largest_residual, *report.median_residual);
+  if (report.unexplained_residual)
+    text += fmt::format(
+        "of the largest, {:.3g} is not explained by damping of {:.4g} 1/s (normal) and {:.4g} 1/s "
+        "(tangential) half a step late\n",
+        *report.unexplained_residual, report.late.normal, report.late.tangential);
+  if (report.largest_residual)
+    text += fmt::format("tolerance {:g}: {}\n", report.tolerance, report.tolerance_reason);
+  for (const auto& remark : report.remarks) text += remark + "\n";
+  return text;
+}
+
+}  // namespace grseg

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/convert/import_settings.hpp"
+#include "formats/import/verify/late_damping.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// How an import went.
+struct ImportReport {
+  std::size_t frames = 0, grains = 0, contacts = 0;
+  double first_time = 0, last_time = 0;  // s
+  /// Residuals of grains' balances (verification.hpp): the largest, and the median over the moments
+  /// of the median over grains. None where there was nothing to compare with.
+  std::optional<double> largest_residual, median_residual;
+  /// The largest that late damping does not explain, and the damping that does (late_damping.hpp;
+  /// 1/s, medians over the moments), where the program's forces are late.
+  std::optional<double> unexplained_residual;
+  LateDamping late;
+  double tolerance = 0;
+  std::string tolerance_reason, columns, base, sizes;
+  std::vector<std::string> remarks;
+};
+
+/// Imports the archive that `settings` name into the trajectory file `settings.output`, whole or
+/// not at all, moment by moment. `command_line` goes into its history. Throws what readers, facts
+/// and builder throw, and CheckError where a moment does not verify, saying which other reading
+/// would.
+ImportReport import_archive(const ImportSettings& settings, const std::string& command_line);
+
+/// What a user wants to know of it, some lines.
+std::string to_text(const ImportReport& report);
+
+}  // namespace grseg

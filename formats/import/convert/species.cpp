@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/species.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+constexpr double far_apart = 1.2;
+
+std::optional<std::int64_t> whole(std::string_view text)
+{
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+void require_types(const ArchiveGrains& grains, const char* option)
+{
+  if (grains.type.empty())
+    throw UsageError(
+        fmt::format("{} names types, but the grains of the archive have none", option));
+}
+
+std::vector<bool> boundary_grains(const ArchiveGrains& grains, const SpeciesSettings& settings,
+                                  std::string& how)
+{
+  std::vector<bool> boundary(grains.size());
+  if (settings.boundary_ids) {
+    const NumberList ids(*settings.boundary_ids, "--boundary-ids");
+    for (std::size_t g = 0; g < grains.size(); ++g) boundary[g] = ids.contains(grains.id[g]);
+    how = "ids " + *settings.boundary_ids;
+  } else if (settings.boundary) {
+    const NumberList types(*settings.boundary, "--boundary");
+    if (*settings.boundary != "none") require_types(grains, "--boundary");
+    for (std::size_t g = 0; g < grains.type.size(); ++g)
+      boundary[g] = types.contains(grains.type[g]);
+    how = *settings.boundary == "none" ? "none" : "types " + *settings.boundary;
+  } else {
+    for (std::size_t g = 0; g < grains.fixed.size(); ++g) boundary[g] = grains.fixed[g] != 0;
+    how = "grains that the archive marks as fixed";
+  }
+  const bool any = std::find(boundary.begin(), boundary.end(), true) != boundary.end();
+  if (!any && how != "none")
+    throw UsageError(
+        fmt::format("no grain is of the base ({}); if there is none, say --boundary none", how));
+  return boundary;
+}
+
+/// The diameter that parts two sizes, half-way; none where they are not far apart.
+std::optional<double> gap_between_sizes(std::vector<double> diameter)
+{
+  std::sort(diameter.begin(), diameter.end());
+  std::size_t widest = 0;
+  double factor = 1;
+  for (std::size_t k = 1; k < diameter.size(); ++k)
+    if (diameter[k] > factor * diameter[k - 1]) {
+      factor = diameter[k] / diameter[k - 1];
+      widest = k;
+    }
+  if (factor < far_apart) return std::nullopt;
+  const double below = diameter[widest - 1] / diameter.front();
+  const double above = diameter.back() / diameter[widest];
+  if (std::max(below * below, above * above) >= factor) return std::nullopt;
+  return (diameter[widest - 1] + diameter[widest]) / 2;
+}
+
+Species by_type(const ArchiveGrains& grains, std::size_t g, const NumberList& small,
+                const NumberList& large)
+{
+  const auto type = grains.type[g];
+  if (small.contains(type) == large.contains(type))
+    throw UsageError(fmt::format(
+        "type {} of grain {} is {}; every type of a mobile grain belongs in one of them", type,
+        grains.id[g],
+        small.contains(type) ? "in --small and in --large" : "neither in --small nor in --large"));
+  return large.contains(type) ? Species::large : Species::small;
+}
+
+double diameter_that_splits(const std::vector<double>& diameter, const SpeciesSettings& settings)
+{
+  if (settings.split_diameter) return *settings.split_diameter;
+  if (const auto gap = gap_between_sizes(diameter)) return *gap;
+  throw UsageError(fmt::format(
+      "diameters do not fall into two sizes far apart ({}); tell species apart by --small and "
+      "--large TYPES or by --split-diameter",
+      histogram(diameter)));
+}
+
+}  // namespace
+
+NumberList::NumberList(const std::string& text, const std::string& option)
+{
+  if (text == "none") return;
+  bool good = !text.empty() && text.back() != ',';
+  std::istringstream parts(text);
+  for (std::string part; good && std::getline(parts, part, ',');) {
+    const auto dash = part.find('-');
+    const auto first = whole(std::string_view(part).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : whole(part.substr(dash + 1));
+    good = first && last && *first <= *last;
+    if (good) ranges_.emplace_back(*first, *last);
+  }
+  if (!good)
+    throw UsageError(
+        fmt::format("{} '{}' is no list of numbers, as in 3 or 1,4-9, or none", option, text));
+}
+
+bool NumberList::contains(std::int64_t number) const
+{
+  return std::any_of(ranges_.begin(), ranges_.end(), [&](const auto& range) {
+    return range.first <= number && number <= range.second;
+  });
+}
+
+SpeciesFound tell_species(const ArchiveGrains& grains, const SpeciesSettings& settings)
+{
+  SpeciesFound found;
+  const auto boundary = boundary_grains(grains, settings, found.base);
+  if (settings.small || settings.large) {
+    require_types(grains, settings.small ? "--small" : "--large");
+    const auto small = settings.small.value_or("none"), large = settings.large.value_or("none");
+    const NumberList small_types(small, "--small"), large_types(large, "--large");
+    for (std::size_t g = 0; g < grains.size(); ++g)
+      found.species.push_back(boundary[g] ? Species::boundary
+                                          : by_type(grains, g, small_types, large_types));
+    found.sizes = fmt::format("small are types {}, large types {}", small, large);
+    return found;
+  }
+  std::vector<double> diameter;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (!boundary[g]) diameter.push_back(2 * grains.radius[g]);
+  const double split = diameter_that_splits(diameter, settings);
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    found.species.push_back(boundary[g]                    ? Species::boundary
+                            : 2 * grains.radius[g] < split ? Species::small
+                                                           : Species::large);
+  found.sizes =
+      fmt::format("small are diameters below {:g}{}", split,
+                  settings.split_diameter ? "" : ", half-way between two sizes far apart");
+  return found;
+}
+
+std::string histogram(std::vector<double> values)
+{
+  if (values.empty()) return "there are none";
+  std::sort(values.begin(), values.end());
+  const double low = values.front(), width = (values.back() - low) / 10;
+  if (!(width > 0)) return fmt::format("{:g}: {}", low, values.size());
+  std::string text;
+  for (std::size_t k = 0; k < values.size();) {
+    const double bin = std::min(9.0, std::floor((values[k] - low) / width));
+    const auto begin = k;
+    while (k < values.size() && std::min(9.0, std::floor((values[k] - low) / width)) == bin) ++k;
+    text += fmt::format("{}{:.4g} to {:.4g}: {}", text.empty() ? "" : ", ", low + bin * width,
+                        low + (bin + 1) * width, k - begin);
+  }
+  return text;
+}
+
+}  // namespace grseg

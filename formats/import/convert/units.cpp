@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/units.hpp"
+
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+template <class Values>
+void multiply(Values& values, double factor)
+{
+  for (auto& value : values) value *= factor;
+}
+
+}  // namespace
+
+void Units::convert(Frame& frame) const
+{
+  frame.time *= time;
+  multiply(frame.position, length);
+  multiply(frame.velocity, velocity());
+  multiply(frame.angular_velocity, 1 / time);
+  multiply(frame.force, force());
+  multiply(frame.contacts.force, force());
+  multiply(frame.contacts.branch, length);
+  multiply(frame.contacts.gap, length);
+}
+
+void Units::convert(Grains& grains) const
+{
+  multiply(grains.radius, length);
+  multiply(grains.mass, mass);
+}
+
+Units parse_units(const std::string& text)
+{
+  if (text == "si") return {};
+  if (text == "cgs") return {.length = 0.01, .time = 1, .mass = 0.001};
+  std::array<double, 3> value{};
+  std::size_t count = 0;
+  bool good = true;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ':'); ++count) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+    good = good && count < 3 && error == std::errc() && end == part.data() + part.size() &&
+           number > 0 && std::isfinite(number);
+    if (good) value[count] = number;
+  }
+  if (!good || count != 3)
+    throw UsageError(fmt::format(
+        "--units '{}' is not si, cgs, or LENGTH:TIME:MASS, what the archive's units are in m, s "
+        "and kg, as in 0.005:0.02259:2.5e-5",
+        text));
+  return {value[0], value[1], value[2]};
+}
+
+}  // namespace grseg

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/convert/frame_builder.hpp"
+#include "formats/import/verify/verification.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace grseg {
+
+/// The moments of an archive as frames, each verified, in the archive's units.
+class VerifiedFrames {
+ public:
+  /// Opens the archive and reads its first moment. UsageError, FormatError as readers and facts
+  /// throw them; FormatError where the archive holds no moment.
+  VerifiedFrames(const ImportSettings& settings, const std::string& columns);
+
+  /// False at the end. `complaint` says what is wrong with the frame.
+  bool next(Frame& frame);
+  const std::optional<Complaint>& complaint() const { return complaint_; }
+  const std::optional<Residual>& residual() const { return verification_->residual(); }
+  const std::string& place() const { return moment_.place; }
+
+  const Archive& archive() const { return *archive_; }
+  const RunFacts& facts() const { return facts_; }
+  const FrameBuilder& builder() const { return *builder_; }
+  double tolerance() const { return tolerance_; }
+  bool has_force() const { return has_force_; }
+  bool has_angular_velocity() const { return has_angular_velocity_; }
+
+ private:
+  bool read_moment();
+
+  ImportSettings settings_;
+  std::unique_ptr<Archive> archive_;
+  ArchiveMoment moment_;
+  RunFacts facts_;
+  std::unique_ptr<FrameBuilder> builder_;
+  std::unique_ptr<Verification> verification_;
+  std::optional<Complaint> complaint_;
+  std::optional<std::pair<std::int64_t, double>> last_;  // step and time of the frame before
+  double tolerance_ = 0;
+  bool first_ = true, has_force_ = false, has_angular_velocity_ = false;
+};
+
+/// The value of --columns with which the first `moments` moments of the archive verify best, if
+/// with any: as a part of a sentence, or "".
+std::string columns_that_fit(const ImportSettings& settings, const Archive& archive,
+                             std::size_t moments);
+
+}  // namespace grseg

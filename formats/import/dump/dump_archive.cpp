@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/dump/dump_archive.hpp"
+
+#include "formats/import/common/file_list.hpp"
+#include "formats/import/dump/contact_columns.hpp"
+#include "formats/import/dump/dump_grains.hpp"
+#include "formats/import/dump/dump_pair.hpp"
+
+#include <fmt/format.h>
+
+namespace grseg {
+namespace {
+
+class DumpArchive : public Archive {
+ public:
+  DumpArchive(const std::vector<std::string>& grains, const std::vector<std::string>& contacts,
+              std::string columns, const DumpDialect& dialect)
+      : dialect_(dialect),
+        dumps_(grains, contacts),
+        told_(std::move(columns)),
+        facts_(dialect.facts)
+  {
+    facts_.step = dumps_.step();
+  }
+
+  const ArchiveFacts& facts() const override { return facts_; }
+  std::string columns() const override { return told_; }
+  std::vector<std::string> remarks() const override { return dumps_.remarks(); }
+  std::vector<std::string> other_columns() const override { return dialect_.others(header_); }
+
+  bool next(ArchiveMoment& moment) override
+  {
+    if (!dumps_.next()) return false;
+    facts_.units = dumps_.units();
+    const auto& header = dumps_.grains().header();
+    moment.step = header.step;
+    moment.time = header.time;
+    moment.low = header.low;
+    moment.high = header.high;
+    moment.periodic = header.periodic;
+    moment.place = fmt::format("step {} ({}; {})", header.step, header.place,
+                               dumps_.contacts().header().place);
+    grains_.read(dumps_.grains(), moment.grains);
+    read_contacts(moment);
+    return true;
+  }
+
+ private:
+  void read_contacts(ArchiveMoment& moment)
+  {
+    const auto header = dumps_.contacts().header();
+    if (!columns_ || header.columns != header_.columns) {
+      if (told_.empty()) told_ = assumed_columns(header, moment.grains);
+      columns_.emplace(dialect_.told(told_, header));
+      columns_->look_up(header.columns, header.place);
+      header_ = header;
+    }
+    dumps_.contacts().read_rows(columns_->wanted(), values_);
+    columns_->fill(values_, header.place, moment.contacts);
+  }
+
+  std::string assumed_columns(const DumpHeader& header, const ArchiveGrains& grains) const
+  {
+    auto assumed = dialect_.assumed(header, grains);
+    if (!assumed.empty()) return assumed;
+    throw UsageError(
+        fmt::format("{}: the names of the {} columns do not tell what they mean; say it with "
+                    "--columns, as in {}",
+                    header.place, header.columns.size(), dialect_.example));
+  }
+
+  const DumpDialect& dialect_;
+  DumpPair dumps_;
+  DumpGrains grains_;
+  std::string told_;  // as --columns says it
+  std::optional<ContactColumns> columns_;
+  DumpHeader header_;  // of the contacts, whose columns were looked up
+  std::vector<std::vector<double>> values_;
+  ArchiveFacts facts_;
+};
+
+}  // namespace
+
+ArchiveFacts facts_of_late_forces(const std::string& program)
+{
+  ArchiveFacts facts;
+  facts.forces_are_late = true;
+  facts.tolerance = 5e-2;
+  facts.tolerance_reason = program +
+                           " evaluates contact forces anew at output, with the velocities of the "
+                           "end of the step";
+  return facts;
+}
+
+std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect)
+{
+  if (!files.restart.empty())
+    throw UsageError("--restart is for MercuryDPM alone; dumps need none, leave it out");
+  const auto grains = archive_files(files.grains, "--grains");
+  return std::make_unique<DumpArchive>(grains, archive_files(files.contacts, "--contacts"),
+                                       files.columns, dialect);
+}
+
+}  // namespace grseg

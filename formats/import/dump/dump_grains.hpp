@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/dump/dump_reader.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grseg {
+
+/// Reads blocks of `dump custom` by the names of their columns, which are those of LAMMPS and
+/// LIGGGHTS: id, type, mass, radius or diameter; x y z, or unwrapped xu yu zu, or xs ys zs in parts
+/// of the cell; ix iy iz; vx vy vz; omegax omegay omegaz; fx fy fz. id and positions must be there,
+/// a missing component is 0, other columns are passed over.
+class DumpGrains {
+ public:
+  /// Takes the rows of the block that `dump` stands at.
+  void read(DumpReader& dump, ArchiveGrains& grains);
+
+ private:
+  enum class Positions { plain, scaled };
+  using Triple = std::array<int, 3>;  // places in wanted_, -1: the column is missing
+  void look_up(const DumpHeader& header);
+  int want(const DumpHeader& header, std::string_view name);
+  Triple want(const DumpHeader& header, const std::array<const char*, 3>& names);
+  void want_positions(const DumpHeader& header);
+  void take(const Triple& columns, std::vector<Vec3>& out) const;
+
+  std::vector<std::string> names_;  // for which the rest was looked up
+  std::vector<std::size_t> wanted_;
+  int id_ = -1, type_ = -1, mass_ = -1, radius_ = -1, diameter_ = -1;
+  Triple position_{}, image_{}, velocity_{}, spin_{}, force_{};
+  Positions positions_ = Positions::plain;
+  std::vector<std::vector<double>> values_;
+};
+
+}  // namespace grseg

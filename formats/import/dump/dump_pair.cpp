@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/dump/dump_pair.hpp"
+
+#include <fmt/format.h>
+
+namespace grseg {
+namespace {
+
+/// From the first two blocks, read ahead of the import.
+std::optional<double> step_by_times(const std::vector<std::string>& files)
+{
+  DumpReader dump(files);
+  if (!dump.next() || !dump.header().time) return std::nullopt;
+  const auto first = dump.header();
+  if (!dump.next() || !dump.header().time) return std::nullopt;
+  const auto& second = dump.header();
+  return (*second.time - *first.time) / static_cast<double>(second.step - first.step);
+}
+
+}  // namespace
+
+DumpPair::DumpPair(const std::vector<std::string>& grain_files,
+                   const std::vector<std::string>& contact_files)
+    : grains_(grain_files), contacts_(contact_files)
+{
+  try {
+    step_ = step_by_times(grain_files);
+  } catch (const FormatError&) {  // to be told when it is that block's turn
+  }
+}
+
+bool DumpPair::next()
+{
+  bool more_grains = grains_.next(), more_contacts = contacts_.next();
+  while (more_grains || more_contacts) {
+    const bool both = more_grains && more_contacts;
+    const auto g = grains_.header().step, c = contacts_.header().step;
+    if (both && g == c) return true;
+    if (!more_contacts || (both && g < c)) {
+      grains_alone_.add(g);
+      more_grains = grains_.next();
+    } else {
+      contacts_alone_.add(c);
+      more_contacts = contacts_.next();
+    }
+  }
+  return false;
+}
+
+std::optional<std::string> DumpPair::units() const
+{
+  const auto &a = grains_.units(), &b = contacts_.units();
+  if (a && b && *a != *b)
+    throw FormatError(fmt::format(
+        "{}: the grains are in units {} and the contacts in units {}: they are not of one run",
+        contacts_.header().place, printable(*a), printable(*b)));
+  return a ? a : b;
+}
+
+std::vector<std::string> DumpPair::remarks() const
+{
+  std::vector<std::string> remarks;
+  const auto add = [&](const Unmatched& alone, const char* what, const char* without) {
+    if (alone.count > 0)
+      remarks.push_back(
+          fmt::format("{} moments have {} but no {} and are left out, the first at "
+                      "step {}",
+                      alone.count, what, without, alone.first));
+  };
+  add(grains_alone_, "grains", "contacts");
+  add(contacts_alone_, "contacts", "grains");
+  return remarks;
+}
+
+}  // namespace grseg

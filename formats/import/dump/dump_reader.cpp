@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/dump/dump_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+constexpr std::string_view item_word = "ITEM: ";
+constexpr std::size_t most_rows = std::size_t{1} << 31;
+
+template <class Number>
+std::optional<Number> parse(std::string_view word)
+{
+  Number value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+bool is_blank(char c)
+{
+  return c == ' ' || c == '\t';
+}
+
+}  // namespace
+
+std::vector<std::string_view> words_of(std::string_view line)
+{
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0; at < line.size();) {
+    const auto begin = at;
+    while (at < line.size() && !is_blank(line[at])) ++at;
+    if (at > begin) words.push_back(line.substr(begin, at - begin));
+    while (at < line.size() && is_blank(line[at])) ++at;
+  }
+  return words;
+}
+
+std::optional<std::size_t> DumpHeader::find(std::string_view name) const
+{
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+void DumpReader::fail(const std::string& why) const
+{
+  throw FormatError(fmt::format("{}: {}", source_.place(), why));
+}
+
+void DumpReader::next_line(const char* what)
+{
+  const bool there = source_.next();
+  if (there && source_.line_is_whole()) return;
+  throw TruncatedArchive(
+      fmt::format("{}: the archive ends in {}; copy it again, or leave out the moment that is not "
+                  "whole by --drop-incomplete",
+                  source_.place(), what));
+}
+
+bool DumpReader::next()
+{
+  for (; rows_left_ > 0; --rows_left_) next_line("a row");
+  do {
+    if (!source_.next()) return false;
+  } while (source_.line().empty());
+  if (!source_.line_is_whole()) {
+    rows_left_ = 0;
+    throw TruncatedArchive(
+        fmt::format("{}: the archive ends in a header; copy it again, or leave out the moment that "
+                    "is not whole by --drop-incomplete",
+                    source_.place()));
+  }
+  read_header();
+  rows_left_ = header_.rows;
+  return true;
+}
+
+/// From the line that the source stands at to the one above the rows.
+void DumpReader::read_header()
+{
+  header_ = {};
+  header_.place = source_.place();
+  std::string label;
+  for (bool has_step = false, has_box = false;; next_line("a header")) {
+    const auto line = source_.line();
+    if (!line.starts_with(item_word))
+      fail(fmt::format("{} stands where a line 'ITEM: ...' of a text dump is expected",
+                       printable(line)));
+    const auto item = line.substr(item_word.size());
+    if (!label.empty() && item.starts_with(label) &&
+        (item.size() == label.size() || is_blank(item[label.size()]))) {
+      for (const auto name : words_of(item.substr(label.size())))
+        header_.columns.emplace_back(name);
+      if (!has_step || !has_box) fail("no TIMESTEP and BOX BOUNDS stand above the rows");
+      if (header_.columns.empty()) fail("names no columns");
+      return;
+    }
+    has_step = has_step || item == "TIMESTEP";
+    has_box = has_box || item.starts_with("BOX BOUNDS");
+    read_item(std::string(item), label);
+  }
+}
+
+void DumpReader::read_item(std::string_view item, std::string& label)
+{
+  constexpr std::string_view number_of = "NUMBER OF ";
+  if (item == "UNITS") return read_units();
+  if (item.starts_with("BOX BOUNDS")) return read_box(item);
+  if (item.starts_with(number_of)) {
+    label = item.substr(number_of.size());
+    next_line("a header");
+    const auto rows = parse<std::size_t>(source_.line());
+    if (!rows || *rows > most_rows)
+      fail(fmt::format("{} is no number of rows", printable(source_.line())));
+    header_.rows = *rows;
+  } else if (item == "TIMESTEP") {
+    next_line("a header");
+    const auto step = parse<std::int64_t>(source_.line());
+    if (!step) fail(fmt::format("{} is no time step", printable(source_.line())));
+    header_.step = *step;
+    require_a_later_step();
+  } else if (item == "TIME") {
+    next_line("a header");
+    header_.time = parse<double>(source_.line());
+    if (!header_.time || !std::isfinite(*header_.time))
+      fail(fmt::format("{} is no time", printable(source_.line())));
+  } else {
+    fail(fmt::format("{} is no part of a dump", printable(source_.line())));
+  }
+}
+
+void DumpReader::read_units()
+{
+  next_line("a header");
+  const std::string now(source_.line());
+  if (units_ && *units_ != now)
+    fail(fmt::format("units {} after units {}: import the parts of this archive one by one",
+                     printable(now), printable(*units_)));
+  units_ = now;
+}
+
+void DumpReader::require_a_later_step()
+{
+  if (last_step_ && header_.step <= *last_step_)
+    fail(
+        fmt::format("step {} comes after step {}: steps must increase; remove the moment that is "
+                    "there twice (after a restart), or name the files in order of time",
+                    header_.step, *last_step_));
+  last_step_ = header_.step;
+}
+
+/// "BOX BOUNDS pp ff pp" or, tilted, "BOX BOUNDS xy xz yz pp ff pp"; then a line per axis.
+void DumpReader::read_box(std::string_view item)
+{
+  const auto words = words_of(item);
+  const std::size_t letters = words.size() > 2 && words[2] == "xy" ? 5 : 2;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Dumps from before 2010 have no letters: then nothing is periodic as far as is known.
+    if (letters + axis < words.size()) header_.periodic[axis] = words[letters + axis] == "pp";
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    next_line("a header");
+    const auto bounds = words_of(source_.line());
+    std::array<double, 3> value{};
+    bool good = bounds.size() == 2 || bounds.size() == 3;
+    for (std::size_t k = 0; good && k < bounds.size(); ++k) {
+      const auto number = parse<double>(bounds[k]);
+      good = number && std::isfinite(*number);
+      if (good) value[k] = *number;
+    }
+    if (!good || value[0] > value[1])
+      fail(fmt::format("{} is no pair of bounds of the cell", printable(source_.line())));
+    if (value[2] != 0) fail("the cell is tilted; grseg knows rectangular cells alone");
+    header_.low[axis] = value[0];
+    header_.high[axis] = value[1];
+  }
+}
+
+void DumpReader::read_rows(std::span<const std::size_t> wanted,
+                           std::vector<std::vector<double>>& values)
+{
+  std::vector<int> role(header_.columns.size(), -1);
+  for (std::size_t k = 0; k < wanted.size(); ++k) role.at(wanted[k]) = static_cast<int>(k);
+  values.resize(wanted.size());
+  for (auto& column : values) column.clear();
+  for (; rows_left_ > 0; --rows_left_) {
+    next_line("a row");
+    read_row(role, values);
+  }
+}
+
+void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<double>>& values)
+{
+  const auto line = source_.line();
+  const char *at = line.data(), *const end = at + line.size();
+  std::size_t column = 0;
+  for (;; ++column) {
+    while (at < end && is_blank(*at)) ++at;
+    if (at == end) break;
+    const char* word = at;
+    if (column < role.size() && role[column] >= 0) {
+      double value = 0;
+      const auto parsed = std::from_chars(at, end, value);
+      at = parsed.ptr;
+      if (parsed.ec != std::errc() || !std::isfinite(value) || (at < end && !is_blank(*at)))
+        fail(fmt::format("{} in column {} ({}) is no finite number",
+                         printable({word, std::find_if(word, end, is_blank)}), column + 1,
+                         header_.columns[column]));
+      values[static_cast<std::size_t>(role[column])].push_back(value);
+    } else {
+      while (at < end && !is_blank(*at)) ++at;
+    }
+  }
+  if (column == role.size()) return;
+  if (line.starts_with(item_word))
+    fail(fmt::format("a new block begins with {} of {} rows missing", rows_left_, header_.rows));
+  fail(fmt::format("a row of {} columns where {} are named", column, role.size()));
+}
+
+}  // namespace grseg

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/common/archive.hpp"
+#include "formats/import/common/text_source.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace grseg {
+
+/// What stands above the rows of one block of a text dump.
+struct DumpHeader {
+  std::int64_t step = 0;
+  std::optional<double> time;
+  std::size_t rows = 0;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+  std::array<bool, 3> periodic{};
+  std::vector<std::string> columns;  // names
+  std::string place;                 // "atoms.dump, line 1"
+
+  /// 0-based, of the column of this name.
+  std::optional<std::size_t> find(std::string_view name) const;
+};
+
+/// The blocks of text dumps (`dump custom`, `dump local`) of LAMMPS and LIGGGHTS, by the grammar of
+/// LAMMPS' doc/src/dump.rst:
+///   [ITEM: UNITS] [ITEM: TIME] ITEM: TIMESTEP, ITEM: NUMBER OF label, ITEM: BOX BOUNDS,
+///   ITEM: label names of columns, rows,
+/// label being ATOMS, ENTRIES or what `dump_modify label` makes of it. Steps must increase.
+/// FormatError naming file, line and remedy where a block is damaged, TruncatedArchive where the
+/// archive ends in it.
+class DumpReader {
+ public:
+  explicit DumpReader(std::vector<std::string> files) : source_(std::move(files)) {}
+
+  /// Goes to the next block, over rows that were not read; false at the end.
+  bool next();
+  const DumpHeader& header() const { return header_; }
+  /// Of ITEM: UNITS, which stands above the first block alone.
+  const std::optional<std::string>& units() const { return units_; }
+
+  /// Reads the rows of the block: values[k] becomes column `wanted[k]` of all rows. What else
+  /// stands in a row is counted and not looked at.
+  void read_rows(std::span<const std::size_t> wanted, std::vector<std::vector<double>>& values);
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const;
+  void next_line(const char* what);
+  void read_header();
+  void read_item(std::string_view item, std::string& label);
+  void read_units();
+  void read_box(std::string_view item);
+  void read_row(std::span<const int> role, std::vector<std::vector<double>>& values);
+  void require_a_later_step();
+
+  TextSource source_;
+  DumpHeader header_;
+  std::optional<std::string> units_;
+  std::optional<std::int64_t> last_step_;
+  std::size_t rows_left_ = 0;
+};
+
+/// The blanks-separated words of a line.
+std::vector<std::string_view> words_of(std::string_view line);
+
+}  // namespace grseg

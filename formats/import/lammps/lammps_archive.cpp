@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/lammps/lammps_archive.hpp"
+
+#include "formats/import/dump/dump_archive.hpp"
+
+#include <fmt/format.h>
+
+namespace grseg {
+namespace {
+
+constexpr const char* recipe = "i=2,j=3,dist=4,force=5,tangential=8";
+constexpr std::size_t recipe_columns = 10;
+
+/// What the header itself says, where its columns have been named by the words of --columns.
+std::string columns_by_name(const DumpHeader& header)
+{
+  std::string text;
+  for (const char* word :
+       {"i", "j", "fx", "fy", "fz", "tx", "ty", "tz", "bx", "by", "bz", "dist", "overlap"})
+    if (header.find(word)) text += fmt::format("{}{}={}", text.empty() ? "" : ",", word, word);
+  return header.find("i") && header.find("j") && header.find("fx") ? text : "";
+}
+
+std::string assumed_columns(const DumpHeader& header, const ArchiveGrains& grains)
+{
+  if (auto named = columns_by_name(header); !named.empty()) return named;
+  return header.columns.size() >= recipe_columns && !grains.force.empty() ? recipe : "";
+}
+
+std::vector<std::string> other_columns(const DumpHeader& header)
+{
+  std::vector<std::string> others;
+  const auto last = header.columns.size();
+  for (const std::size_t i : {2, 1})
+    for (auto f = i + 2; f + 2 <= last; ++f) {
+      const auto force = fmt::format("i={},j={},force={}", i, i + 1, f);
+      others.push_back(force);
+      for (auto t = i + 2; t + 2 <= last; ++t)
+        if (t >= f + 3 || f >= t + 3) others.push_back(fmt::format("{},tangential={}", force, t));
+    }
+  return others;
+}
+
+}  // namespace
+
+std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
+{
+  static const DumpDialect dialect{
+      assumed_columns, [](const std::string& columns, const DumpHeader&) { return columns; },
+      other_columns, recipe, facts_of_late_forces("LAMMPS")};
+  return open_dumps(files, dialect);
+}
+
+}  // namespace grseg

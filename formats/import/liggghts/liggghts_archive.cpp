@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/liggghts/liggghts_archive.hpp"
+
+#include "formats/import/dump/dump_archive.hpp"
+#include "formats/import/liggghts/liggghts_columns.hpp"
+
+namespace grseg {
+namespace {
+
+std::string assumed_columns(const DumpHeader& contacts, const ArchiveGrains&)
+{
+  for (auto& columns : liggghts_columns_of(contacts))
+    if (columns.find(',') == std::string::npos) return columns;  // a preset
+  return "";
+}
+
+}  // namespace
+
+std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
+{
+  static const DumpDialect dialect{assumed_columns, liggghts_mapping, liggghts_columns_of,
+                                   "pos,id,force,delta", facts_of_late_forces("LIGGGHTS")};
+  return open_dumps(files, dialect);
+}
+
+}  // namespace grseg

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/liggghts/liggghts_columns.hpp"
+
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+struct Block {
+  const char* keyword;
+  std::size_t columns;
+};
+
+/// In the order of the source, not of the manual.
+constexpr Block blocks[] = {
+    {"pos", 6},
+    {"vel", 6},
+    {"id", 3},  // the third: 1 across a periodic boundary
+    {"force", 3},
+    {"force_normal", 3},
+    {"force_tangential", 3},
+    {"torque", 3},
+    {"torque_normal", 3},
+    {"torque_tangential", 3},
+    {"history", 3},
+    {"contactArea", 1},
+    {"delta", 1},
+    {"contactPoint", 3},
+    {"ms_id", 2},
+};
+
+constexpr std::pair<const char*, const char*> presets[] = {
+    {"forcechain12", "pos,id,force"},
+    {"liggghts-default", "pos,vel,id,force,torque,history,contactArea"},
+    {"liggghts-full35",
+     "pos,vel,id,force,force_normal,force_tangential,torque,history,contactArea,delta,"
+     "contactPoint"},
+};
+
+/// Lists worth trying where a preset does not fit; the first is what versions before 2 wrote.
+constexpr const char* often[] = {"pos,id,force,torque,history,contactArea",
+                                 "pos,id,force,delta",
+                                 "id,force",
+                                 "id,force,delta",
+                                 "id,force,force_normal,force_tangential",
+                                 "id,force_normal,force_tangential",
+                                 "pos,id,force,force_normal,force_tangential",
+                                 "pos,vel,id,force",
+                                 "pos,id,force,contactPoint"};
+
+std::string keywords_of(const std::string& columns)
+{
+  for (const auto& [name, keywords] : presets)
+    if (columns == name) return keywords;
+  return columns;
+}
+
+/// Where each block begins, from 1; 0: it is not there.
+struct Layout {
+  std::array<std::size_t, std::size(blocks)> first{};
+  std::size_t columns = 0;
+
+  std::size_t operator[](std::string_view keyword) const
+  {
+    for (std::size_t b = 0; b < std::size(blocks); ++b)
+      if (keyword == blocks[b].keyword) return first[b];
+    return 0;
+  }
+};
+
+/// 0: it is none.
+std::size_t number_of(const std::string& text)
+{
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? number : 0;
+}
+
+Layout layout_of(const std::string& columns)
+{
+  std::array<std::size_t, std::size(blocks)> width{};
+  std::istringstream words(keywords_of(columns));
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto colon = word.find(':');
+    const auto name = word.substr(0, colon);
+    const auto* const block = std::find_if(std::begin(blocks), std::end(blocks),
+                                           [&](const Block& b) { return name == b.keyword; });
+    std::size_t count = block == std::end(blocks) ? 0 : block->columns;
+    if (colon != std::string::npos)
+      count = name == "history" ? number_of(word.substr(colon + 1)) : 0;
+    if (block == std::end(blocks) || count < 1 || count > 100) {
+      std::vector<std::string> known;
+      for (const auto& b : blocks) known.emplace_back(b.keyword);
+      for (const auto& preset : presets) known.emplace_back(preset.first);
+      throw UsageError(fmt::format("--columns: '{}' is no keyword of pair/gran/local; they are {}",
+                                   word, fmt::join(known, ", ")));
+    }
+    width[static_cast<std::size_t>(block - std::begin(blocks))] = count;
+  }
+  Layout layout;
+  for (std::size_t b = 0; b < width.size(); ++b) {
+    if (width[b] > 0) layout.first[b] = layout.columns + 1;
+    layout.columns += width[b];
+  }
+  return layout;
+}
+
+/// "c_cp[13]" is column 13 of a compute; 0: the name does not tell.
+std::size_t number_in(const std::string& name)
+{
+  const auto open = name.find('[');
+  if (open == std::string::npos || !name.starts_with("c_") || !name.ends_with(']')) return 0;
+  return number_of(name.substr(open + 1, name.size() - open - 2));
+}
+
+/// Columns of the dump by columns of the compute.
+class Dumped {
+ public:
+  explicit Dumped(const DumpHeader& header) : count_(header.columns.size())
+  {
+    for (const auto& name : header.columns) numbers_.push_back(number_in(name));
+    numbered_ = count_ > 0 && std::find(numbers_.begin(), numbers_.end(), 0U) == numbers_.end();
+  }
+  /// From 1; 0: it was not dumped.
+  std::size_t column(std::size_t of_compute) const
+  {
+    if (!numbered_) return of_compute <= count_ ? of_compute : 0;
+    const auto at = std::find(numbers_.begin(), numbers_.end(), of_compute);
+    return at == numbers_.end() ? 0 : static_cast<std::size_t>(at - numbers_.begin()) + 1;
+  }
+  /// Whether they may be of a compute of so many columns: of all, or of a selection by name.
+  bool fits(std::size_t columns) const
+  {
+    const auto last = numbered_ ? *std::max_element(numbers_.begin(), numbers_.end()) : count_;
+    return last == columns || (last < columns && last != count_);
+  }
+
+ private:
+  std::size_t count_;
+  std::vector<std::size_t> numbers_;
+  bool numbered_ = false;
+};
+
+}  // namespace
+
+std::string liggghts_mapping(const std::string& columns, const DumpHeader& contacts)
+{
+  if (columns.find('=') != std::string::npos) return columns;
+  const auto layout = layout_of(columns);
+  const Dumped dumped(contacts);
+  if (!dumped.fits(layout.columns))
+    throw UsageError(fmt::format("--columns {}: these are {} columns, but {} has {}", columns,
+                                 layout.columns, contacts.place, fmt::join(contacts.columns, " ")));
+  std::string mapping;
+  const auto add = [&](const char* meaning, std::size_t of_compute) {
+    const auto column = of_compute > 0 ? dumped.column(of_compute) : 0;
+    if (column > 0) mapping += fmt::format("{}{}={}", mapping.empty() ? "" : ",", meaning, column);
+  };
+  const auto add_vector = [&](const std::array<const char*, 3>& meanings, std::size_t first) {
+    for (std::size_t k = 0; first > 0 && k < 3; ++k) add(meanings[k], first + k);
+  };
+  add("i", layout["id"]);
+  add("j", layout["id"] > 0 ? layout["id"] + 1 : 0);
+  if (layout["force"] > 0) {
+    add_vector({"fx", "fy", "fz"}, layout["force"]);
+  } else if (layout["force_normal"] > 0 && layout["force_tangential"] > 0) {
+    add_vector({"fx", "fy", "fz"}, layout["force_normal"]);
+    add_vector({"tx", "ty", "tz"}, layout["force_tangential"]);
+  }
+  add("overlap", layout["delta"]);
+  if (mapping.find("j=") == std::string::npos || mapping.find("fx=") == std::string::npos)
+    throw UsageError(fmt::format(
+        "--columns {}: id, and force or its normal and tangential part, are needed and have to be "
+        "in {}",
+        columns, contacts.place));
+  return mapping;
+}
+
+std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts)
+{
+  std::vector<std::string> fitting;
+  const Dumped dumped(contacts);
+  const auto count = contacts.columns.size();
+  for (const auto& preset : presets)
+    if (layout_of(preset.first).columns == count && dumped.fits(count))
+      fitting.emplace_back(preset.first);
+  for (const char* keywords : often)
+    if (layout_of(keywords).columns == count && dumped.fits(count)) fitting.emplace_back(keywords);
+  return fitting;
+}
+
+}  // namespace grseg

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/dump/dump_reader.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// Columns of LIGGGHTS's `compute pair/gran/local` as a mapping of contact_columns.hpp. `columns`
+/// is
+///   the keywords of the compute, in any order: pos,vel,id,force,force_normal,force_tangential,
+///     torque,torque_normal,torque_tangential,history,contactArea,delta,contactPoint,ms_id;
+///     history:N where the model keeps N values instead of 3;
+///   a preset: liggghts-default (25 columns, no keywords), liggghts-full35, forcechain12;
+///   a mapping, which is given back.
+/// Blocks stand in the order above whatever that of the keywords (compute_pair_gran_local.cpp; the
+/// manual's order is another one). Names like c_cp[13] tell which of the compute's columns were
+/// dumped. UsageError naming what does not fit: an unknown keyword, ids or force not among them or
+/// not dumped, another number of columns.
+std::string liggghts_mapping(const std::string& columns, const DumpHeader& contacts);
+
+/// Presets and lists of keywords that have as many columns as the header.
+std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts);
+
+}  // namespace grseg

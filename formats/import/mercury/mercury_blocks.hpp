@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/common/archive.hpp"
+#include "formats/import/common/text_source.hpp"
+
+#include <string>
+#include <vector>
+
+/// The two tables of a MercuryDPM run, block by block.
+namespace grseg {
+
+/// One block of .data. Grain g is row g, and g its id.
+struct MercuryGrains {
+  double time = 0;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // of the domain
+  ArchiveGrains grains;                          // position, velocity, angular velocity, radius
+  std::vector<double> info;  // by default the species, but every program may write what it likes
+  std::string place;
+};
+
+/// Reads .data by the number of columns (DPMBase::outputXBallsData, readNextDataFile):
+///   format 8 (2D)  N t xmin ymin xmax ymax;            x y vx vy radius angle -omega info
+///   format 7       N t xmin ymin zmin xmax ymax zmax;  x z y vx vz vy radius info
+///   format 14      the same header;  x y z vx vy vz radius alpha beta gamma wx wy wz info
+///   format 15      the same with one more number before info
+/// and the first and the last two with the two flags behind each row that parallel builds append.
+/// FormatError naming the line where a block is none of these, TruncatedArchive where the file ends
+/// inside a block.
+class MercuryData {
+ public:
+  explicit MercuryData(std::vector<std::string> files) : source_(std::move(files)) {}
+  bool next(MercuryGrains& block);
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const;
+  void read_row(MercuryGrains& block);
+
+  TextSource source_;
+  bool plane_ = false;  // six numbers in the header
+  std::vector<double> numbers_;
+};
+
+/// A row of .fstat (BaseInteraction::writeToFStat).
+struct MercuryContact {
+  std::int64_t i, j;  // rows of .data; j < 0: wall -j-1
+  Vec3 point;
+  double overlap, normal_force, tangential_force;
+  Vec3 normal, tangent;
+  std::size_t line;  // within its block, from 1
+};
+
+struct MercuryForces {
+  double time = 0;
+  std::vector<MercuryContact> contacts;  // as they stand there
+  std::string place;
+};
+
+/// Reads .fstat: three lines of comments, the first with the time, then a row per contact
+///   t i j cx cy cz delta delta_t fn ft nx ny nz tx ty tz
+class MercuryFStat {
+ public:
+  explicit MercuryFStat(std::vector<std::string> files) : source_(std::move(files)) {}
+  bool next(MercuryForces& block);
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const;
+  bool next_line();
+  double read_header();
+
+  TextSource source_;
+  bool waiting_ = false;  // the line at hand begins the next block
+  std::vector<double> numbers_;
+};
+
+}  // namespace grseg

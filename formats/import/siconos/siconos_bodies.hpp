@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/common/archive.hpp"
+#include "formats/trajectory/hdf5.hpp"
+
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace grseg {
+
+/// A body of a Siconos run as /data/input describes it (mechanics_hdf5.py, add_object): a grain,
+/// or something that never moves.
+struct SiconosBody {
+  std::int64_t id = 0;  // negative: static
+  double mass = 0;      // kg; 0: static
+  double radius = 0;    // m; 0: a box
+  Vec3 half_sides{0, 0, 0};
+  Vec3 position{0, 0, 0};  // of the shape's centre, at the beginning
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Vec3 velocity{0, 0, 0};  // at the beginning
+};
+
+struct SiconosBodies {
+  std::vector<SiconosBody> all;  // in order of id: the static ones first
+  bool discs = false;            // false: spheres
+};
+
+/// Grains are a Disk or a Sphere each, static bodies also a Box2d or a Box. FormatError naming the
+/// body where it is anything else, lacks an attribute or carries several shapes.
+SiconosBodies read_siconos_bodies(hid_t file, const std::string& path);
+
+/// How far `point` is from the surface of `body`.
+double distance_to_surface(const SiconosBody& body, const Vec3& point);
+
+}  // namespace grseg

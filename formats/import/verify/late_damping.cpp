@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/verify/late_damping.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+std::size_t row(std::int32_t index)
+{
+  return static_cast<std::size_t>(index);
+}
+
+/// What a contact pushes with, split along its normal and the tangent a quarter turn to the left.
+struct Split {
+  Vec2 n, t;
+  double normal, tangential;
+};
+Split split(const ContactList& contacts, std::size_t c)
+{
+  const Vec2 n = contacts.branch[c].normalized(), t(-n.y(), n.x());
+  return {n, t, contacts.force[c].dot(n), contacts.force[c].dot(t)};
+}
+
+std::vector<double> angular_accelerations(const Grains& grains, const ContactList& contacts,
+                                          double inertia)
+{
+  std::vector<double> acceleration(grains.size());
+  const auto add = [&](std::size_t g, double tangential) {
+    if (is_mobile(grains, g))
+      acceleration[g] -= tangential / (inertia * grains.mass[g] * grains.radius[g]);
+  };
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const double tangential = split(contacts, c).tangential;
+    add(row(contacts.i[c]), tangential);
+    if (contacts.j[c] >= 0) add(row(contacts.j[c]), tangential);
+  }
+  return acceleration;
+}
+
+/// Largest ratio of friction to normal force: where it is reached, contacts slide.
+double friction_of(const ContactList& contacts)
+{
+  double largest = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto force = split(contacts, c);
+    if (force.normal > 0) largest = std::max(largest, std::abs(force.tangential) / force.normal);
+  }
+  return largest;
+}
+
+}  // namespace
+
+LateDamping take_late_damping(const Grains& grains, const Frame& frame, double step, double inertia,
+                              std::vector<Vec2>& defect)
+{
+  const auto& contacts = frame.contacts;
+  const auto spin_up = angular_accelerations(grains, contacts, inertia);
+  const double friction = friction_of(contacts);
+  // The force that is missing on every grain per unit of c_n and of c_t.
+  std::vector<Vec2> per_normal(grains.size(), Vec2::Zero()), per_tangential = per_normal;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = row(contacts.i[c]);
+    const bool wall = contacts.j[c] < 0;
+    const auto j = wall ? i : row(contacts.j[c]);
+    const bool pair = !wall && is_mobile(grains, j);
+    const double m = grains.mass[i];
+    const double mass = pair ? m * grains.mass[j] / (m + grains.mass[j]) : m;
+    const auto force = split(contacts, c);
+    Vec2 a = frame.force[i] / m;
+    double rims = grains.radius[i] * spin_up[i];
+    if (pair) {
+      a -= frame.force[j] / grains.mass[j];
+      rims += grains.radius[j] * spin_up[j];
+    }
+    const bool slides = std::abs(force.tangential) > 0.99 * friction * std::abs(force.normal);
+    const Vec2 along_n = -mass * step / 2 * a.dot(force.n) * force.n;
+    const Vec2 along_t =
+        slides ? Vec2::Zero() : Vec2(-mass * step / 2 * (a.dot(force.t) - rims) * force.t);
+    per_normal[i] += along_n;
+    per_tangential[i] += along_t;
+    if (!pair) continue;
+    per_normal[j] -= along_n;
+    per_tangential[j] -= along_t;
+  }
+  Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
+  Vec2 projections = Vec2::Zero();
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    Eigen::Matrix2d columns;
+    columns << per_normal[g], per_tangential[g];
+    products += columns.transpose() * columns;
+    projections += columns.transpose() * defect[g];
+  }
+  Vec2 c = products.fullPivLu().solve(projections);
+  if (!(c.y() >= 0)) c = {products(0, 0) > 0 ? projections.x() / products(0, 0) : 0, 0};
+  if (!(c.x() >= 0))
+    c = {0, products(1, 1) > 0 ? std::max(0.0, projections.y() / products(1, 1)) : 0};
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    defect[g] -= c.x() * per_normal[g] + c.y() * per_tangential[g];
+  return {c.x(), c.y()};
+}
+
+}  // namespace grseg

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/verify/verification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+/// Parts of the smaller radius: how far distances may be from what radii and overlap say (digits of
+/// the text), and, where no overlap is told, how deep soft grains overlap and how far they are
+/// apart.
+constexpr double distance_tolerance = 0.01, deepest = 0.3, furthest = 0.05;
+/// Part of all normal force that may pull: damping of soft grains that separate.
+constexpr double most_pull = 0.2;
+
+std::size_t row(std::int32_t index)
+{
+  return static_cast<std::size_t>(index);
+}
+
+Residual residual_of(const Grains& grains, const std::vector<Vec2>& defect, double scale)
+{
+  std::vector<std::pair<double, std::size_t>> sizes;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (is_mobile(grains, g)) sizes.emplace_back(defect[g].norm() / scale, g);
+  if (sizes.empty()) return {};
+  const auto largest = *std::max_element(sizes.begin(), sizes.end());
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return {largest.first, middle->first, largest.second, largest.first, std::nullopt};
+}
+
+}  // namespace
+
+Verification::Verification(const Grains& grains, const Box& box, const Vec2& gravity,
+                           const Faithful& faithful)
+    : grains_(grains), box_(box), gravity_(gravity), faithful_(faithful)
+{
+}
+
+std::optional<Complaint> Verification::check(const Frame& frame)
+{
+  residual_ = residual_with(frame, frame.contacts.force);
+  auto complaint = geometry(frame);
+  if (!complaint) complaint = double_rows(frame);
+  if (!complaint) complaint = pull(frame);
+  if (!complaint) complaint = balance(frame);
+  if (frame.force.empty())
+    before_ = {frame.time, frame.velocity, sums(frame.contacts, frame.contacts.force)};
+  return complaint;
+}
+
+std::string Verification::pair_of(const ContactList& contacts, std::size_t c) const
+{
+  const auto i = grains_.id[row(contacts.i[c])];
+  if (contacts.j[c] < 0) return fmt::format("grain {} and wall {}", i, -contacts.j[c] - 1);
+  return fmt::format("grains {} and {}", i, grains_.id[row(contacts.j[c])]);
+}
+
+/// Contacts that carry force join grains that touch. Wall contacts are as the archive says.
+std::optional<Complaint> Verification::geometry(const Frame& frame) const
+{
+  const auto& contacts = frame.contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts.j[c] < 0 || contacts.force[c].norm() == 0) continue;
+    const auto i = row(contacts.i[c]), j = row(contacts.j[c]);
+    const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
+    const double radii = grains_.radius[i] + grains_.radius[j];
+    Vec2 between = frame.position[i] - frame.position[j];
+    if (box_.periodic_x) between.x() -= box_.length_x * std::round(between.x() / box_.length_x);
+    const double told = radii + contacts.gap[c], distance = between.norm();
+    const bool as_told = std::abs(distance - told) <= distance_tolerance * smaller &&
+                         (contacts.branch[c] - between).norm() <= distance_tolerance * smaller;
+    const bool touching =
+        contacts.gap[c] >= -deepest * smaller && contacts.gap[c] <= furthest * smaller;
+    if (as_told && touching) continue;
+    return Complaint{
+        fmt::format(
+            "{} are said to touch, but their centres are {:.6g} apart where the radii add up "
+            "to {:.6g}{}: are i and j their ids, and is the cell periodic as the archive says?",
+            pair_of(contacts, c), distance, radii,
+            as_told ? "" : fmt::format(" and the archive makes it {:.6g}", told)),
+        true};
+  }
+  return std::nullopt;
+}
+
+std::optional<Complaint> Verification::double_rows(const Frame& frame) const
+{
+  const auto& contacts = frame.contacts;
+  std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, std::size_t>> pairs;
+  pairs.reserve(contacts.size());
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    pairs.push_back({std::minmax(contacts.i[c], contacts.j[c]), c});
+  std::sort(pairs.begin(), pairs.end());
+  for (std::size_t k = 1; k < pairs.size(); ++k)
+    if (pairs[k].first == pairs[k - 1].first)
+      return Complaint{fmt::format("the contact of {} is there twice; each must be listed once",
+                                   pair_of(contacts, pairs[k].second)),
+                       false};
+  return std::nullopt;
+}
+
+std::optional<Complaint> Verification::pull(const Frame& frame) const
+{
+  const auto& contacts = frame.contacts;
+  double pushing = 0, pulling = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const double normal = contacts.force[c].dot(contacts.branch[c].normalized());
+    (normal < 0 ? pulling : pushing) += std::abs(normal);
+  }
+  if (pulling <= most_pull * (pulling + pushing)) return std::nullopt;
+  return Complaint{fmt::format("contacts pull: {:.0f} % of the normal force is attractive{}",
+                               100 * pulling / (pulling + pushing), other_readings(frame)),
+                   true};
+}
+
+std::vector<Vec2> Verification::sums(const ContactList& contacts,
+                                     const std::vector<Vec2>& forces) const
+{
+  std::vector<Vec2> sum(grains_.size(), Vec2::Zero());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    sum[row(contacts.i[c])] += forces[c];
+    if (contacts.j[c] >= 0) sum[row(contacts.j[c])] -= forces[c];
+  }
+  return sum;
+}
+
+std::optional<Residual> Verification::residual_with(const Frame& frame,
+                                                    const std::vector<Vec2>& forces) const
+{
+  const bool told = !frame.force.empty();
+  if (!told && !before_) return std::nullopt;
+  const auto sum = sums(frame.contacts, forces);
+  double scale = 0;
+  for (const auto& force : forces) scale = std::max(scale, force.norm());
+  std::vector<Vec2> defect(grains_.size(), Vec2::Zero());
+  for (std::size_t g = 0; g < grains_.size(); ++g) {
+    if (!is_mobile(grains_, g)) continue;
+    const Vec2 weight = grains_.mass[g] * gravity_;
+    scale = std::max(scale, weight.norm());
+    if (told)
+      defect[g] = sum[g] + weight - frame.force[g];
+    else
+      defect[g] = (sum[g] + before_->sums[g]) / 2 + weight -
+                  grains_.mass[g] * (frame.velocity[g] - before_->velocity[g]) /
+                      (frame.time - before_->time);
+  }
+  if (!(scale > 0)) return std::nullopt;
+  auto residual = residual_of(grains_, defect, scale);
+  if (told && faithful_.late_forces) {
+    residual.late = take_late_damping(grains_, frame, faithful_.step, faithful_.inertia, defect);
+    residual.unexplained = residual_of(grains_, defect, scale).largest;
+  }
+  return residual;
+}
+
+std::optional<Complaint> Verification::balance(const Frame& frame) const
+{
+  if (!residual_ || residual_->unexplained <= faithful_.tolerance) return std::nullopt;
+  return Complaint{
+      fmt::format("the forces on grain {} do not add up: {:.3g} of the largest force is missing "
+                  "(tolerance {:g}){}{}{}",
+                  grains_.id[residual_->grain], residual_->largest, faithful_.tolerance,
+                  residual_->late
+                      ? fmt::format(", and {:.3g} that damping evaluated half a step late does not "
+                                    "explain",
+                                    residual_->unexplained)
+                      : "",
+                  frame.force.empty()
+                      ? ", its acceleration being the difference of velocities between "
+                        "two moments, which need to be close together"
+                      : "",
+                  other_readings(frame)),
+      true};
+}
+
+/// What else the rows may mean, if with one of it the grains balance.
+std::string Verification::other_readings(const Frame& frame) const
+{
+  using Reading = std::pair<const char*, std::function<Vec2(const Vec2& force, const Vec2& n)>>;
+  const auto normal = [](const Vec2& f, const Vec2& n) { return Vec2(f.dot(n) * n); };
+  const Reading readings[] = {
+      {"with the opposite sign, the force being that on j: exchange i and j",
+       [](const Vec2& f, const Vec2&) { return Vec2(-f); }},
+      {"with half of every force: is each contact in two rows?",
+       [](const Vec2& f, const Vec2&) { return Vec2(f / 2); }},
+      {"with the normal part alone", [&](const Vec2& f, const Vec2& n) { return normal(f, n); }},
+      {"with the tangential part reversed",
+       [&](const Vec2& f, const Vec2& n) { return Vec2(2 * normal(f, n) - f); }},
+  };
+  const auto& contacts = frame.contacts;
+  std::vector<Vec2> forces(contacts.size());
+  for (const auto& [what, reading] : readings) {
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
+    const auto residual = residual_with(frame, forces);
+    if (residual && residual->unexplained <= faithful_.tolerance)
+      return fmt::format("; they balance to {:.2g} {}", residual->unexplained, what);
+  }
+  return "";
+}
+
+}  // namespace grseg

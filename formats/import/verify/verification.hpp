@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+#include "formats/import/verify/late_damping.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// How well the mobile grains of a frame obey sum of contact forces + m g - force = 0: |defect|
+/// over the largest of the frame's contact forces and of the mobile grains' weights.
+struct Residual {
+  double largest = 0, median = 0;
+  std::size_t grain = 0;            // row of the largest
+  double unexplained = 0;           // the largest without what late damping explains
+  std::optional<LateDamping> late;  // where that was looked for
+};
+
+/// What is wrong with a frame, as a sentence about the reading of its archive.
+struct Complaint {
+  std::string sentence;
+  bool of_columns = false;  // another reading of the columns might cure it
+};
+
+/// What faithful output of a program may miss.
+struct Faithful {
+  double tolerance = 0;      // largest residual that late damping does not explain
+  bool late_forces = false;  // late_damping.hpp
+  double step = 0;           // of the integration, then needed
+  double inertia = 0.5;      // I/(m r^2) of the grains, likewise
+};
+
+/// Holds each frame of an import against what must be true of it if the archive has been read as it
+/// was meant: contacts join grains that touch, each once, push rather than pull, and add up to the
+/// force on each grain. Where the archive has no forces on grains, these are m times the difference
+/// of velocities from the frame before, and contact forces the mean of the two frames.
+class Verification {
+ public:
+  /// In any units.
+  Verification(const Grains& grains, const Box& box, const Vec2& gravity, const Faithful& faithful);
+
+  /// Frames in order; what is wrong with this one, if anything.
+  std::optional<Complaint> check(const Frame& frame);
+
+  /// Of the last frame; none where there is nothing to compare with.
+  const std::optional<Residual>& residual() const { return residual_; }
+
+ private:
+  std::optional<Complaint> geometry(const Frame& frame) const;
+  std::optional<Complaint> double_rows(const Frame& frame) const;
+  std::optional<Complaint> pull(const Frame& frame) const;
+  std::optional<Complaint> balance(const Frame& frame) const;
+
+  /// Contact forces on every grain if `forces` are those of the frame's contacts.
+  std::vector<Vec2> sums(const ContactList& contacts, const std::vector<Vec2>& forces) const;
+  std::optional<Residual> residual_with(const Frame& frame, const std::vector<Vec2>& forces) const;
+  std::string other_readings(const Frame& frame) const;
+  std::string pair_of(const ContactList& contacts, std::size_t c) const;
+
+  const Grains& grains_;
+  Box box_;
+  Vec2 gravity_;
+  Faithful faithful_;
+  std::optional<Residual> residual_;
+
+  struct Before {
+    double time = 0;
+    std::vector<Vec2> velocity, sums;
+  };
+  std::optional<Before> before_;
+};
+
+}  // namespace grseg

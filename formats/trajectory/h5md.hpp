@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/trajectory/hdf5.hpp"
+
+#include <string>
+#include <vector>
+
+/// What all H5MD 1.1 files have in common (h5md.nongnu.org). RunError where the file cannot be
+/// written.
+namespace grseg::h5md {
+
+/// A group, with those above it.
+hdf5::Group make_group(hid_t file, const std::string& path);
+
+/// /h5md: version, author, creator, and module units of system SI.
+void write_root(hid_t file);
+
+/// /particles/NAME/box with its `boundary`, one word per dimension.
+void write_box(hid_t file, const std::string& particles, const std::vector<std::string>& boundary);
+
+/// Gives `element` the step and time of the element `of` by hard links, as H5MD asks for.
+void link_times(hid_t file, const std::string& of, const std::string& element);
+
+}  // namespace grseg::h5md

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/trajectory/layout_check.hpp"
+
+#include "formats/trajectory/hdf5.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+namespace grseg {
+namespace {
+
+using namespace hdf5;
+
+struct NumberType {
+  const char* name;
+  H5T_class_t kind;
+  std::size_t bytes;
+  H5T_sign_t sign = H5T_SGN_ERROR;  // of integers
+};
+constexpr NumberType int32{"int32", H5T_INTEGER, 4, H5T_SGN_2};
+constexpr NumberType int64{"int64", H5T_INTEGER, 8, H5T_SGN_2};
+constexpr NumberType uint8{"uint8", H5T_INTEGER, 1, H5T_SGN_NONE};
+constexpr NumberType uint64{"uint64", H5T_INTEGER, 8, H5T_SGN_NONE};
+constexpr NumberType float32{"float32", H5T_FLOAT, 4};
+constexpr NumberType float64{"float64", H5T_FLOAT, 8};
+
+/// A row of the table of formats/README.md. A letter of `shape` is F frames, O = F+1, N grains, C
+/// contacts, or 2. `stored`: float32 where the run says so.
+struct Row {
+  const char* path;
+  NumberType type;
+  bool stored;
+  const char* shape;
+  const char* unit;
+};
+constexpr std::array table{
+    Row{"/particles/grains/box/edges", float64, false, "2", ""},
+    Row{"/particles/grains/id", int32, false, "N", ""},
+    Row{"/particles/grains/species", int32, false, "N", ""},
+    Row{"/particles/grains/radius", float64, false, "N", ""},
+    Row{"/particles/grains/mass", float64, false, "N", ""},
+    Row{"/particles/grains/fixed", uint8, false, "N", ""},
+    Row{"/particles/grains/position/value", float64, true, "FN2", "m"},
+    Row{"/particles/grains/position/step", int64, false, "F", ""},
+    Row{"/particles/grains/position/time", float64, false, "F", "s"},
+    Row{"/particles/grains/image/value", int32, false, "FN2", ""},
+    Row{"/particles/grains/velocity/value", float64, true, "FN2", "m s-1"},
+    Row{"/particles/grains/angular_velocity/value", float64, true, "FN", "s-1"},
+    Row{"/particles/grains/force/value", float64, true, "FN2", "N"},
+    Row{"/grseg/contacts/offset", uint64, false, "O", ""},
+    Row{"/grseg/contacts/i", int32, false, "C", ""},
+    Row{"/grseg/contacts/j", int32, false, "C", ""},
+    Row{"/grseg/contacts/force", float64, true, "C2", "N"},
+    Row{"/grseg/contacts/branch", float64, true, "C2", "m"},
+    Row{"/grseg/contacts/gap", float64, true, "C", "m"},
+    Row{"/grseg/digest", uint64, false, "F", ""},
+};
+
+bool is_of(const Type& type, const NumberType& wanted)
+{
+  return H5Tget_class(type) == wanted.kind && H5Tget_size(type) == wanted.bytes &&
+         (wanted.kind != H5T_INTEGER || H5Tget_sign(type) == wanted.sign);
+}
+
+std::vector<hsize_t> dims_of(const Dataset& dataset)
+{
+  const Space space(H5Dget_space(dataset));
+  std::vector<hsize_t> dims(
+      static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
+  if (!dims.empty()) H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+  return dims;
+}
+
+class LayoutCheck {
+ public:
+  explicit LayoutCheck(const TrajectoryReader& run)
+      : run_(run), file_(H5Fopen(run.path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT))
+  {
+  }
+
+  LayoutReport report()
+  {
+    check_attributes();
+    for (const auto& row : table)
+      if (run_.has_force() || std::string(row.path) != "/particles/grains/force/value")
+        check_row(row);
+    for (const char* element : {"velocity", "angular_velocity", "image", "force"})
+      if (run_.has_force() || std::string(element) != "force")
+        check_times(std::string("/particles/grains/") + element);
+    for (const auto& [name, unit] : run_.observables()) {
+      check_row({("/observables/" + name + "/value").c_str(), float64, false, "F", unit.c_str()});
+      check_times("/observables/" + name);
+    }
+    read_all_in("");
+    return report_;
+  }
+
+ private:
+  void depart(const std::string& path, const std::string& what)
+  {
+    report_.departures.push_back({path, what});
+  }
+  void check_attributes();
+  void check_text(const std::string& path, const std::string& name, const std::string& wanted);
+  void check_row(const Row& row);
+  void check_times(const std::string& element);
+  void read_all_in(const std::string& group);
+  hsize_t count_chunks(const Dataset& dataset, std::size_t rank);
+  void read_whole(const std::string& path);
+  std::vector<hsize_t> shape_of(const std::string& letters) const;
+
+  const TrajectoryReader& run_;
+  File file_;
+  LayoutReport report_;
+};
+
+/// An empty `wanted`: anything that is not empty.
+void LayoutCheck::check_text(const std::string& path, const std::string& name,
+                             const std::string& wanted)
+{
+  const auto found = read_texts(Object(H5Oopen(file_, path.c_str(), H5P_DEFAULT)), name);
+  const bool right = found.size() == 1 && (wanted.empty() ? !found[0].empty() : found[0] == wanted);
+  if (right) return;
+  depart(path, wanted.empty() ? fmt::format("has no text `{}`", name)
+                              : fmt::format("should have the {} \"{}\", and has \"{}\"", name,
+                                            wanted, fmt::join(found, "\", \"")));
+}
+
+void LayoutCheck::check_attributes()
+{
+  check_text("/h5md/author", "name", "");
+  check_text("/h5md/creator", "name", "");
+  check_text("/h5md/creator", "version", "");
+  check_text("/h5md/modules/units", "system", "SI");
+  const auto numbers = [&](const char* path, const char* name, const std::vector<int>& wanted) {
+    const auto found = read_integers(Object(H5Oopen(file_, path, H5P_DEFAULT)), name);
+    if (found != wanted)
+      depart(path, fmt::format("should have the {} {}, and has {}", name, wanted, found));
+  };
+  numbers("/h5md", "version", {1, 1});
+  numbers("/h5md/modules/units", "version", {1, 0});
+  numbers("/h5md/modules/grseg", "version", {1, 0});
+  numbers("/particles/grains/box", "dimension", {2});
+}
+
+std::vector<hsize_t> LayoutCheck::shape_of(const std::string& letters) const
+{
+  std::vector<hsize_t> shape;
+  for (const char letter : letters) {
+    if (letter == 'F') shape.push_back(run_.size());
+    if (letter == 'O') shape.push_back(run_.size() + 1);
+    if (letter == 'N') shape.push_back(run_.grains().size());
+    if (letter == 'C') shape.push_back(run_.contacts());
+    if (letter == '2') shape.push_back(2);
+  }
+  return shape;
+}
+
+/// What an interrupted run wrote after its last committed frame may lie beyond.
+void LayoutCheck::check_row(const Row& row)
+{
+  const Dataset dataset(H5Dopen2(file_, row.path, H5P_DEFAULT));
+  if (!dataset.valid()) return depart(row.path, "is missing, or no dataset");
+  const auto& type = row.stored && run_.stores_float32() ? float32 : row.type;
+  if (!is_of(Type(H5Dget_type(dataset)), type))
+    depart(row.path, fmt::format("should be of type {}", type.name));
+  auto found = dims_of(dataset);
+  const auto wanted = shape_of(row.shape);
+  const bool closed = run_.parameters().numbers.contains("complete");
+  if (!closed && !found.empty() && found[0] > wanted[0]) found[0] = wanted[0];
+  if (found != wanted)
+    depart(row.path, fmt::format("should have the shape {}, and has {}", wanted, found));
+  if (*row.unit != '\0') check_text(row.path, "unit", row.unit);
+}
+
+void LayoutCheck::check_times(const std::string& element)
+{
+  for (const std::string name : {"step", "time"}) {
+    const auto own = fmt::format("{}/{}", element, name);
+    const auto first = fmt::format("/particles/grains/position/{}", name);
+    H5O_info_t a, b;
+    if (!exists(file_, own) || H5Oget_info_by_name(file_, own.c_str(), &a, H5P_DEFAULT) < 0 ||
+        H5Oget_info_by_name(file_, first.c_str(), &b, H5P_DEFAULT) < 0 || a.addr != b.addr ||
+        a.fileno != b.fileno)
+      depart(own, "is no hard link to " + first);
+  }
+}
+
+void LayoutCheck::read_all_in(const std::string& group)
+{
+  for (const auto& name : names_in(file_, group.empty() ? "/" : group)) {
+    const auto path = fmt::format("{}/{}", group, name);
+    H5L_info_t link;
+    if (H5Lget_info(file_, path.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
+      depart(path, "is a soft or external link, which readers do not follow");
+      continue;
+    }
+    const Object object(H5Oopen(file_, path.c_str(), H5P_DEFAULT));
+    const auto kind = H5Iget_type(object);
+    if (kind == H5I_GROUP) read_all_in(path);
+    if (kind == H5I_DATASET) read_whole(path);
+    if (kind != H5I_GROUP && kind != H5I_DATASET) depart(path, "is neither group nor dataset");
+  }
+}
+
+/// Rows of a chunk.
+hsize_t LayoutCheck::count_chunks(const Dataset& dataset, std::size_t rank)
+{
+  const Properties create(H5Dget_create_plist(dataset));
+  if (H5Pget_layout(create) != H5D_CHUNKED) return 1;
+  std::vector<hsize_t> chunk(rank);
+  H5Pget_chunk(create, static_cast<int>(rank), chunk.data());
+  hsize_t chunks = 0;
+  H5Dget_num_chunks(dataset, Space(H5Dget_space(dataset)), &chunks);
+  report_.chunks += chunks;
+  unsigned flags = 0;
+  std::size_t values = 0;
+  if (H5Pget_filter_by_id2(create, H5Z_FILTER_FLETCHER32, &flags, &values, nullptr, 0, nullptr,
+                           nullptr) >= 0)
+    report_.checksums += chunks;
+  return chunk[0];
+}
+
+void LayoutCheck::read_whole(const std::string& path)
+{
+  constexpr hsize_t at_a_time = 1 << 23;  // bytes
+  const Dataset dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
+  const Type type(H5Dget_type(dataset));
+  const auto kind = H5Tget_class(type);
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_STRING)
+    return depart(path, "is neither numbers nor text");
+  const auto dims = dims_of(dataset);
+  const CheckedDataset checked(file_, path, kind, static_cast<int>(dims.size()), run_.path());
+  ++report_.datasets;
+  const hsize_t chunk = count_chunks(dataset, dims.size());
+  hsize_t bytes = H5Tget_size(type);  // of a row
+  for (std::size_t k = 1; k < dims.size(); ++k) bytes *= std::max<hsize_t>(dims[k], 1);
+  const hsize_t rows = std::max<hsize_t>(at_a_time / (bytes * chunk), 1) * chunk;
+  std::vector<char> buffer(bytes * (dims.empty() ? 1 : std::min(rows, dims[0])));
+  if (dims.empty()) return checked.read_all(type, buffer.data());
+  for (hsize_t first = 0; first < dims[0]; first += rows)
+    checked.read_rows(type, first, std::min(rows, dims[0] - first), buffer.data());
+}
+
+}  // namespace
+
+LayoutReport check_layout(const TrajectoryReader& run)
+{
+  return LayoutCheck(run).report();
+}
+
+}  // namespace grseg

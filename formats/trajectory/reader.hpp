@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+#include "formats/core/gravity.hpp"
+#include "formats/core/parameters.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// Reads a trajectory file (formats/README.md). Every size, type and filter is checked before
+/// anything is read, frame contents (indices in range, all numbers finite) while it is read.
+/// Throws UsageError where the file is missing, FormatError naming file, path in the file and frame
+/// where its content is wrong. Only committed frames exist; an interrupted one is invisible.
+class TrajectoryReader {
+ public:
+  /// What `read` should fetch; what is not asked for is left empty.
+  struct Fields {
+    bool velocity = true;  // velocity, angular_velocity
+    bool contacts = true;
+    bool force = false;  // force and image
+  };
+
+  explicit TrajectoryReader(const std::string& path);
+  ~TrajectoryReader();
+  TrajectoryReader(TrajectoryReader&&) noexcept;
+
+  const std::string& path() const;
+  std::size_t size() const;      ///< committed frames
+  std::size_t contacts() const;  ///< of all committed frames
+  const Grains& grains() const;
+  const Box& box() const;
+  const Parameters& parameters() const;
+  bool has_force() const;  ///< an import may have none; `force` of its frames is then empty
+
+  /// Steps and times (s) of the committed frames.
+  const std::vector<std::int64_t>& steps() const;
+  const std::vector<double>& times() const;
+
+  /// Shorthands of /parameters: nominal diameters (m), step (s), gravity.
+  double small_diameter() const;
+  double large_diameter() const;
+  double step() const;
+  Gravity gravity() const;
+
+  void read(std::size_t index, Frame& frame, Fields fields) const;
+  void read(std::size_t index, Frame& frame) const { read(index, frame, Fields{}); }
+
+  /// What /observables holds, in alphabetical order.
+  std::vector<Observable> observables() const;
+  /// One number per committed frame from /observables.
+  std::vector<double> observable(const std::string& name) const;
+  bool has_observable(const std::string& name) const;
+
+  /// xxh3 chain up to and including the last committed frame: the content digest of the run.
+  std::uint64_t digest() const;
+  /// The chain itself, one entry per committed frame (formats/trajectory/digest.hpp).
+  std::vector<std::uint64_t> digests() const;
+  /// Whether the numbers of grains and contacts are stored in single precision.
+  bool stores_float32() const;
+
+ private:
+  void drop_damaged_end();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace grseg

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Vector instructions that several files share. It is compiled once per instruction set, by files
+// that include themselves so (hwy/foreach_target.h).
+#if defined(GRSEG_SIM_LANES) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRSEG_SIM_LANES
+#undef GRSEG_SIM_LANES
+#else
+#define GRSEG_SIM_LANES
+#endif
+
+#include "sim/contact/contact_blocks.hpp"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace grseg {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, block_lanes>;
+using Vector = hn::Vec<D>;
+using Lanes = ContactBlock::Lanes;
+
+/// All bodies as one row of doubles.
+HWY_INLINE double* members(Motion* motion)
+{
+  return reinterpret_cast<double*>(motion);
+}
+
+/// Entries of Motion, one member per vector.
+struct Bodies {
+  Vector vx, vy, rim_speed, inverse_mass;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_INLINE Bodies load_bodies(D d, const double* motion, const std::uint32_t* at)
+{
+  const double* body = motion + *at;
+  return {hn::Load(d, body), hn::Load(d, body + 1), hn::Load(d, body + 2), hn::Load(d, body + 3)};
+}
+
+HWY_INLINE void store_bodies(D d, const Bodies& b, double* motion, const std::uint32_t* at)
+{
+  double* body = motion + *at;
+  hn::Store(b.vx, d, body);
+  hn::Store(b.vy, d, body + 1);
+  hn::Store(b.rim_speed, d, body + 2);
+}
+
+#else
+
+/// Whole bodies are loaded and their members sorted into vectors, since that takes fewer operations
+/// than gathering member by member.
+template <class Tag>
+HWY_INLINE Bodies load_bodies(Tag d, const double* motion, const std::uint32_t* at)
+{
+  if constexpr (hn::MaxLanes(d) == 8) {
+    const hn::Half<Tag> h;
+    const auto body = [&](int k) HWY_ATTR { return hn::Load(h, motion + at[k]); };
+    const auto r01 = hn::Combine(d, body(1), body(0)), r23 = hn::Combine(d, body(3), body(2));
+    const auto r45 = hn::Combine(d, body(5), body(4)), r67 = hn::Combine(d, body(7), body(6));
+    const auto even03 = hn::ConcatEven(d, r23, r01), odd03 = hn::ConcatOdd(d, r23, r01);
+    const auto even47 = hn::ConcatEven(d, r67, r45), odd47 = hn::ConcatOdd(d, r67, r45);
+    return {hn::ConcatEven(d, even47, even03), hn::ConcatEven(d, odd47, odd03),
+            hn::ConcatOdd(d, even47, even03), hn::ConcatOdd(d, odd47, odd03)};
+  } else if constexpr (hn::MaxLanes(d) == 4) {
+    const auto r0 = hn::Load(d, motion + at[0]), r1 = hn::Load(d, motion + at[1]);
+    const auto r2 = hn::Load(d, motion + at[2]), r3 = hn::Load(d, motion + at[3]);
+    const auto low01 = hn::InterleaveLower(d, r0, r1), high01 = hn::InterleaveUpper(d, r0, r1);
+    const auto low23 = hn::InterleaveLower(d, r2, r3), high23 = hn::InterleaveUpper(d, r2, r3);
+    return {hn::ConcatLowerLower(d, low23, low01), hn::ConcatLowerLower(d, high23, high01),
+            hn::ConcatUpperUpper(d, low23, low01), hn::ConcatUpperUpper(d, high23, high01)};
+  } else {
+    static_assert(hn::MaxLanes(d) == 2);
+    const auto v0 = hn::Load(d, motion + at[0]), s0 = hn::Load(d, motion + at[0] + 2);
+    const auto v1 = hn::Load(d, motion + at[1]), s1 = hn::Load(d, motion + at[1] + 2);
+    return {hn::InterleaveLower(d, v0, v1), hn::InterleaveUpper(d, v0, v1),
+            hn::InterleaveLower(d, s0, s1), hn::InterleaveUpper(d, s0, s1)};
+  }
+}
+
+/// The way back. Two lanes with the same immobile body write the same.
+template <class Tag>
+HWY_INLINE void store_bodies(Tag d, const Bodies& b, double* motion, const std::uint32_t* at)
+{
+  const auto v_low = hn::InterleaveLower(d, b.vx, b.vy);
+  const auto v_high = hn::InterleaveUpper(d, b.vx, b.vy);
+  const auto s_low = hn::InterleaveLower(d, b.rim_speed, b.inverse_mass);
+  const auto s_high = hn::InterleaveUpper(d, b.rim_speed, b.inverse_mass);
+  if constexpr (hn::MaxLanes(d) == 8) {
+    const hn::Half<Tag> h;
+    const auto r04 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(s_low), v_low);
+    const auto r15 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(s_high), v_high);
+    const auto r26 = hn::OddEvenBlocks(s_low, hn::SwapAdjacentBlocks(v_low));
+    const auto r37 = hn::OddEvenBlocks(s_high, hn::SwapAdjacentBlocks(v_high));
+    hn::Store(hn::LowerHalf(h, r04), h, motion + at[0]);
+    hn::Store(hn::LowerHalf(h, r15), h, motion + at[1]);
+    hn::Store(hn::LowerHalf(h, r26), h, motion + at[2]);
+    hn::Store(hn::LowerHalf(h, r37), h, motion + at[3]);
+    hn::Store(hn::UpperHalf(h, r04), h, motion + at[4]);
+    hn::Store(hn::UpperHalf(h, r15), h, motion + at[5]);
+    hn::Store(hn::UpperHalf(h, r26), h, motion + at[6]);
+    hn::Store(hn::UpperHalf(h, r37), h, motion + at[7]);
+  } else if constexpr (hn::MaxLanes(d) == 4) {
+    hn::Store(hn::ConcatLowerLower(d, s_low, v_low), d, motion + at[0]);
+    hn::Store(hn::ConcatLowerLower(d, s_high, v_high), d, motion + at[1]);
+    hn::Store(hn::ConcatUpperUpper(d, s_low, v_low), d, motion + at[2]);
+    hn::Store(hn::ConcatUpperUpper(d, s_high, v_high), d, motion + at[3]);
+  } else {
+    hn::Store(v_low, d, motion + at[0]);
+    hn::Store(s_low, d, motion + at[0] + 2);
+    hn::Store(v_high, d, motion + at[1]);
+    hn::Store(s_high, d, motion + at[1] + 2);
+  }
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+/// Two members of eight or fewer rows of doubles.
+struct Two {
+  Vector first, second;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+
+/// The two doubles that begin at `row + at`, one row per lane.
+HWY_INLINE Two load_rows(D d, const double* row, const std::uint32_t* at)
+{
+  return {hn::Load(d, row + *at), hn::Load(d, row + *at + 1)};
+}
+
+/// The two doubles at `row + scale i` less those at `row + scale j`.
+template <std::size_t scale>
+HWY_INLINE Two load_differences(D d, const double* row, const std::uint32_t* i,
+                                const std::uint32_t* j)
+{
+  const double *a = row + scale * *i, *b = row + scale * *j;
+  return {hn::Sub(hn::Load(d, a), hn::Load(d, b)), hn::Sub(hn::Load(d, a + 1), hn::Load(d, b + 1))};
+}
+
+/// As many rows of two as there are lanes, one behind the other.
+HWY_INLINE Two load_next_rows(D d, const double* row)
+{
+  return {hn::Load(d, row), hn::Load(d, row + 1)};
+}
+
+HWY_INLINE void store_rows(D d, Two rows, double* row, const std::uint32_t* at)
+{
+  hn::Store(rows.first, d, row + *at);
+  hn::Store(rows.second, d, row + *at + 1);
+}
+
+#else
+
+/// First and second members of the rows that `row(lane)` gives.
+template <class Tag, class Row>
+HWY_INLINE Two sort_rows(Tag d, const Row& row)
+{
+  auto even = row(0), odd = row(1);
+  if constexpr (hn::MaxLanes(d) == 2) {
+    return {hn::InterleaveLower(d, even, odd), hn::InterleaveUpper(d, even, odd)};
+  } else if constexpr (hn::MaxLanes(d) == 4) {
+    const auto e = hn::Combine(d, row(2), even), o = hn::Combine(d, row(3), odd);
+    return {hn::InterleaveLower(d, e, o), hn::InterleaveUpper(d, e, o)};
+  } else {
+    static_assert(hn::MaxLanes(d) == 8);
+    const hn::Half<Tag> h;
+    const auto e = hn::Combine(d, hn::Combine(h, row(6), row(4)), hn::Combine(h, row(2), even));
+    const auto o = hn::Combine(d, hn::Combine(h, row(7), row(5)), hn::Combine(h, row(3), odd));
+    return {hn::InterleaveLower(d, e, o), hn::InterleaveUpper(d, e, o)};
+  }
+}
+
+using Row = hn::FixedTag<double, 2>;
+
+/// The two doubles that begin at `row + at`, one row per lane.
+template <class Tag>
+HWY_INLINE Two load_rows(Tag d, const double* row, const std::uint32_t* at)
+{
+  return sort_rows(d, [&](int k) HWY_ATTR { return hn::Load(Row(), row + at[k]); });
+}
+
+/// The two doubles at `row + scale i` less those at `row + scale j`.
+template <std::size_t scale, class Tag>
+HWY_INLINE Two load_differences(Tag d, const double* row, const std::uint32_t* i,
+                                const std::uint32_t* j)
+{
+  return sort_rows(d, [&](int k) HWY_ATTR {
+    return hn::Sub(hn::Load(Row(), row + scale * i[k]), hn::Load(Row(), row + scale * j[k]));
+  });
+}
+
+/// As many rows of two as there are lanes, one behind the other.
+template <class Tag>
+HWY_INLINE Two load_next_rows(Tag d, const double* row)
+{
+  const auto low = hn::LoadU(d, row), high = hn::LoadU(d, row + hn::MaxLanes(d));
+  return {hn::ConcatEven(d, high, low), hn::ConcatOdd(d, high, low)};
+}
+
+template <class Tag>
+HWY_INLINE void store_rows(Tag d, Two rows, double* row, const std::uint32_t* at)
+{
+  const auto even = hn::InterleaveLower(d, rows.first, rows.second);
+  const auto odd = hn::InterleaveUpper(d, rows.first, rows.second);
+  const auto store = [&](auto r, int k) HWY_ATTR { hn::Store(r, Row(), row + at[k]); };
+  if constexpr (hn::MaxLanes(d) == 2) {
+    store(even, 0), store(odd, 1);
+  } else if constexpr (hn::MaxLanes(d) == 4) {
+    store(hn::LowerHalf(Row(), even), 0), store(hn::LowerHalf(Row(), odd), 1);
+    store(hn::UpperHalf(Row(), even), 2), store(hn::UpperHalf(Row(), odd), 3);
+  } else {
+    const hn::Half<Tag> h;
+    const auto e0 = hn::LowerHalf(h, even), e1 = hn::UpperHalf(h, even);
+    const auto o0 = hn::LowerHalf(h, odd), o1 = hn::UpperHalf(h, odd);
+    store(hn::LowerHalf(Row(), e0), 0), store(hn::LowerHalf(Row(), o0), 1);
+    store(hn::UpperHalf(Row(), e0), 2), store(hn::UpperHalf(Row(), o0), 3);
+    store(hn::LowerHalf(Row(), e1), 4), store(hn::LowerHalf(Row(), o1), 5);
+    store(hn::UpperHalf(Row(), e1), 6), store(hn::UpperHalf(Row(), o1), 7);
+  }
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
+
+/// The lanes of a mask as bits, the first lane's lowest.
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask)
+{
+  std::uint8_t bits[8];
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
+
+/// Per byte: the numbers of the bits that are set, in order, a byte each.
+constexpr auto set_bits = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> table{};
+  for (std::size_t byte = 0; byte < table.size(); ++byte)
+    for (std::uint8_t bit = 0, count = 0; bit < 8; ++bit)
+      if ((byte >> bit & 1) != 0) table[byte][count++] = bit;
+  return table;
+}();
+
+using D32 = hn::CappedTag<std::uint32_t, block_lanes>;
+
+/// Writes `scale` (first + bit) for every bit of a byte that is set, and then anything, to the
+/// eight entries at `to`. (hn::Compress copies its tables to the stack each time with g++ 12.)
+template <std::uint32_t scale>
+HWY_INLINE void store_set_bits(std::uint32_t byte, std::size_t first, std::uint32_t* to)
+{
+  const D32 d;
+  const hn::Rebind<std::uint8_t, D32> bytes;
+  const auto begin = hn::Set(d, static_cast<std::uint32_t>(scale * first));
+  for (std::size_t k = 0; k < block_lanes; k += hn::MaxLanes(d)) {
+    const auto bits = hn::PromoteTo(d, hn::LoadU(bytes, &set_bits[byte][k]));
+    hn::StoreU(hn::Add(begin, scale == 1 ? bits : hn::Add(bits, bits)), d, to + k);
+  }
+}
+
+/// Writes those of eight numbers whose bits are set, and then anything, to the eight entries at
+/// `to`.
+HWY_INLINE void store_chosen(std::uint32_t byte, const std::uint32_t* from, std::uint32_t* to)
+{
+  const D32 d;
+  if constexpr (hn::MaxLanes(d) == block_lanes) {
+    const hn::Rebind<std::uint8_t, D32> bytes;
+    const auto bits = hn::PromoteTo(d, hn::LoadU(bytes, set_bits[byte].data()));
+    hn::StoreU(hn::TableLookupLanes(hn::LoadU(d, from), hn::IndicesFromVec(d, bits)), d, to);
+  } else {
+    for (std::size_t k = 0; k < block_lanes; ++k) to[k] = from[set_bits[byte][k]];
+  }
+}
+
+/// Sum over lanes, always in this order.
+HWY_INLINE double sum(const Lanes& s)
+{
+  static_assert(block_lanes == 8);
+  return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}
+
+/// Clears the upper halves of vector registers, which would slow down all code outside that uses
+/// their lower halves: left dirty, they made the whole program a quarter slower. Compilers see to
+/// it as a rule, but g++ 12 did not where the last thing a function did was a call.
+HWY_INLINE void leave_vectors()
+{
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  _mm256_zeroupper();
+#endif
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace grseg
+HWY_AFTER_NAMESPACE();
+
+#endif

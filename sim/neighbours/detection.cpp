@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/neighbours/detection.hpp"
+
+#include "sim/contact/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+// Highway compiles what follows once per instruction set.
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/neighbours/detection.cpp"
+// In this order.
+// clang-format off
+#include <hwy/foreach_target.h>
+#include "sim/contact/lanes-inl.hpp"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace grseg {
+namespace HWY_NAMESPACE {
+namespace {
+
+using Mask = hn::Mask<D>;
+
+/// What a scene's detection has to see to; what it has not costs nothing.
+struct Variant {
+  bool periodic, rotation, restitution, foresight;
+};
+
+/// DetectionSums, lane by lane.
+struct alignas(64) LaneSums {
+  Lanes overlap{}, largest_overlap{}, fastest_approach{};
+  std::size_t touching = 0;
+  bool coincident = false;
+};
+
+/// Impulse, geometry and inertia of pairs as rows of doubles.
+HWY_INLINE const double* rows(const Pairs::Geometry* g)
+{
+  return &g->shift;
+}
+HWY_INLINE const double* rows(const Pairs::Inertia* g)
+{
+  return &g->inverse_reach;
+}
+HWY_INLINE const double* rows(const Pairs::Memory* g)
+{
+  return &g->approach;
+}
+HWY_INLINE const double* rows(const Pairs::Impulse* g)
+{
+  return &g->n;
+}
+
+/// Writes the pairs of grains that are closer than reach + margin to `near`; returns their number.
+template <bool periodic>
+HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c,
+                                       const DetectionRule& rule, NearPairs& near)
+{
+  const D d;
+  const auto* position = rule.looked_at.data()->data();
+  const auto margin = hn::Set(d, rule.margin);
+  std::size_t count = 0;
+  for (std::size_t k = c.begin; k < c.end; k += block_lanes) {
+    std::uint32_t bits = 0;
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+      const std::size_t at = k + lane;
+      auto [x, y] = load_differences<1>(d, position, &pairs.i[at], &pairs.j[at]);
+      const auto [shift, reach] = load_next_rows(d, rows(&pairs.geometry[at]));
+      if constexpr (periodic) x = hn::Add(x, shift);
+      const auto squared = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+      const auto limit = hn::Add(reach, margin);
+      bits |= bits_of(d, hn::Le(squared, hn::Mul(limit, limit))) << lane;
+    }
+    store_set_bits<2>(bits, k, &near.row[count]);
+    store_chosen(bits, &pairs.i[k], &near.i[count]);
+    store_chosen(bits, &pairs.j[k], &near.j[count]);
+    count += hwy::PopCount(std::uint64_t{bits});
+  }
+  return count;
+}
+
+std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const DetectionRule& rule,
+                           NearPairs& near)
+{
+  const auto& wall = rule.walls[static_cast<std::size_t>(c.wall)];
+  std::size_t count = 0;
+  for (auto k = c.begin; k < c.end; ++k) {
+    const auto& x = rule.looked_at[pairs.i[k] / 2];
+    const double distance = (x - wall.point).dot(wall.normal);
+    if (!(distance <= pairs.geometry[k].reach + rule.margin)) continue;
+    near.row[count] = 2 * k;
+    near.i[count] = pairs.i[k];
+    near.j[count] = pairs.j[k];
+    ++count;
+  }
+  return count;
+}
+
+/// What a contact asks for, and what it has to remember until the next step.
+struct Demand {
+  Vector rebound;   // m/s, the least separation velocity after the step
+  Vector approach;  // m/s
+};
+
+/// Newton's restitution for a pair that touches or was slowed down in the step before; for one that
+/// is still apart, that it does not get beyond touching within the horizon.
+template <Variant with>
+HWY_INLINE Demand demand_of(Vector gap, Vector separation, Vector impulse_n, Vector remembered,
+                            const DetectionRule& rule)
+{
+  const D d;
+  const auto zero = hn::Zero(d);
+  auto approach = hn::Max(hn::Neg(separation), zero);
+  if constexpr (with.foresight) approach = hn::Max(approach, remembered);
+  const auto newton = with.restitution ? hn::Mul(hn::Set(d, rule.restitution), approach) : zero;
+  if constexpr (!with.foresight) return {newton, zero};
+  const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, rule.horizon));
+  const auto apart = hn::AndNot(hn::Gt(remembered, zero), hn::Gt(gap, zero));
+  // A pair under load has been slowed down before; only a newcomer has a velocity to lose.
+  const auto newcomer = hn::And(hn::Eq(impulse_n, zero), hn::Lt(separation, closing));
+  return {hn::IfThenElse(apart, closing, newton),
+          hn::IfThenElseZero(hn::And(apart, newcomer), approach)};
+}
+
+struct Normals {
+  Vector nx, ny, distance;
+};
+
+template <bool periodic>
+HWY_INLINE Normals normals_of_grains(const DetectionRule& rule, const std::uint32_t* i,
+                                     const std::uint32_t* j, Vector shift, Mask used,
+                                     LaneSums& sums)
+{
+  const D d;
+  auto [x, y] = load_differences<1>(d, rule.middle.data()->data(), i, j);
+  if constexpr (periodic) x = hn::Add(x, shift);
+  const auto distance = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+  const auto one = hn::Set(d, 1.0);
+  sums.coincident |= !hn::AllFalse(d, hn::And(used, hn::Eq(distance, hn::Zero(d))));
+  const auto inverse = hn::Div(one, hn::IfThenElse(used, distance, one));
+  return {hn::Mul(x, inverse), hn::Mul(y, inverse), distance};
+}
+
+HWY_INLINE Normals normals_of_wall(const DetectionRule& rule, const Wall& wall,
+                                   const std::uint32_t* i)
+{
+  const D d;
+  const auto [x, y] = load_rows(d, rule.middle.data()->data(), i);
+  const auto nx = hn::Set(d, wall.normal.x()), ny = hn::Set(d, wall.normal.y());
+  const auto across_x = hn::Mul(hn::Sub(x, hn::Set(d, wall.point.x())), nx);
+  const auto across_y = hn::Mul(hn::Sub(y, hn::Set(d, wall.point.y())), ny);
+  return {nx, ny, hn::Add(across_x, across_y)};
+}
+
+/// Bodies, normals and lever arms of the eight pairs of a class that begin at `near`.
+template <bool periodic>
+HWY_INLINE void set_geometry(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
+                             std::size_t first, const DetectionRule& rule, ContactBlock& block,
+                             BlockOrigin& origin, LaneSums& sums)
+{
+  const D d;
+  const D32 d32;
+  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d32)) {
+    const auto i = hn::LoadU(d32, &near.i[first + lane]);
+    const auto j = hn::LoadU(d32, &near.j[first + lane]);
+    hn::Store(hn::Add(i, i), d32, &block.i[lane]);
+    hn::Store(hn::Add(j, j), d32, &block.j[lane]);
+    hn::Store(hn::LoadU(d32, &near.row[first + lane]), d32, &origin.row[lane]);
+  }
+  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+    const auto *row = &near.row[first + lane], *i = &near.i[first + lane],
+               *j = &near.j[first + lane];
+    const auto [shift, reach] = load_rows(d, rows(pairs.geometry.data()), row);
+    const auto [inverse_reach, mass] = load_rows(d, rows(pairs.inertia.data()), row);
+    const auto used = hn::Gt(mass, hn::Zero(d));
+    const auto n = c.wall < 0
+                       ? normals_of_grains<periodic>(rule, i, j, shift, used, sums)
+                       : normals_of_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], i);
+    const auto kappa = c.wall < 0 ? hn::Mul(n.distance, inverse_reach) : hn::Set(d, 1.0);
+    hn::Store(n.nx, d, &block.nx[lane]);
+    hn::Store(n.ny, d, &block.ny[lane]);
+    hn::Store(kappa, d, &block.kappa[lane]);
+    hn::Store(mass, d, &block.mass_n[lane]);
+    hn::Store(hn::Sub(n.distance, reach), d, &origin.gap[lane]);
+  }
+}
+
+HWY_INLINE void accumulate(Vector gap, Vector approach, Mask used, std::size_t lane, LaneSums& sums)
+{
+  const D d;
+  const auto add = [&](Lanes& to, Vector what)
+                       HWY_ATTR { hn::Store(hn::Add(hn::Load(d, &to[lane]), what), d, &to[lane]); };
+  const auto keep_most = [&](Lanes& of, Vector what) HWY_ATTR {
+    hn::Store(hn::Max(hn::Load(d, &of[lane]), what), d, &of[lane]);
+  };
+  const auto touching = hn::And(used, hn::Le(gap, hn::Zero(d)));
+  const auto overlap = hn::IfThenElseZero(touching, hn::Neg(gap));
+  sums.touching += hn::CountTrue(d, touching);
+  add(sums.overlap, overlap);
+  keep_most(sums.largest_overlap, overlap);
+  keep_most(sums.fastest_approach, approach);
+}
+
+/// The rest of a contact: how it approaches, what it asks for and the first guess of its impulse.
+template <Variant with>
+HWY_INLINE void set_dynamics(const Pairs& pairs, const DetectionRule& rule, ContactBlock& block,
+                             BlockOrigin& origin, LaneSums& sums)
+{
+  const D d;
+  const auto* velocity = reinterpret_cast<const double*>(rule.motion.data());
+  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+    const auto mass = hn::Load(d, &block.mass_n[lane]);
+    auto mass_t = mass;
+    if constexpr (with.rotation) {
+      const auto kappa = hn::Load(d, &block.kappa[lane]);
+      const auto lever = hn::Mul(hn::Set(d, rule.rim_factor), hn::Mul(kappa, kappa));
+      mass_t = hn::Div(mass, hn::Add(hn::Set(d, 1.0), lever));
+    }
+    hn::Store(mass_t, d, &block.mass_t[lane]);
+    const auto [vx, vy] = load_differences<1>(d, velocity, &block.i[lane], &block.j[lane]);
+    const auto separation = hn::Add(hn::Mul(vx, hn::Load(d, &block.nx[lane])),
+                                    hn::Mul(vy, hn::Load(d, &block.ny[lane])));
+    const auto approach = hn::Max(hn::Neg(separation), hn::Zero(d));
+    const auto [n, t] = load_rows(d, rows(pairs.impulse.data()), &origin.row[lane]);
+    auto remembered = hn::Zero(d);
+    if constexpr (with.foresight)
+      remembered = load_rows(d, rows(pairs.memory.data()), &origin.row[lane]).first;
+    const auto gap = hn::Load(d, &origin.gap[lane]);
+    const auto demand = demand_of<with>(gap, separation, n, remembered, rule);
+    hn::Store(demand.rebound, d, &block.rebound[lane]);
+    if constexpr (with.foresight) hn::Store(demand.approach, d, &origin.approach[lane]);
+    hn::Store(n, d, &block.impulse_n[lane]);
+    hn::Store(t, d, &block.impulse_t[lane]);
+    const auto used = hn::Gt(mass, hn::Zero(d));
+    accumulate(gap, approach, used, lane, sums);
+  }
+}
+
+/// Fills the last block of a class up with the neutral pair. Pairs that stand alone get a block
+/// each: they are drawn apart, from the last one on. Returns the number of blocks.
+std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs& near)
+{
+  const auto neutral = static_cast<std::uint32_t>(2 * pairs.size()), nobody = pairs.i.back();
+  const auto clear = [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k)
+      near.row[k] = neutral, near.i[k] = nobody, near.j[k] = nobody;
+  };
+  if (!alone) {
+    const std::size_t blocks = (count + block_lanes - 1) / block_lanes;
+    clear(count, blocks * block_lanes);
+    return blocks;
+  }
+  for (std::size_t k = count; k-- > 0;) {
+    for (auto* numbers : {&near.row, &near.i, &near.j}) (*numbers)[k * block_lanes] = (*numbers)[k];
+    clear(k * block_lanes + 1, (k + 1) * block_lanes);
+  }
+  return count;
+}
+
+template <Variant with>
+void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, StripContacts& contacts,
+          DetectionSums& total)
+{
+  LaneSums sums;
+  auto& near = contacts.near;
+  bool base_seen = false;
+  contacts.ends.clear();
+  for (const auto& c : pairs.classes_of(strip)) {
+    if (c.on_base && !base_seen) contacts.on_base = contacts.size;
+    base_seen |= c.on_base;
+    const auto count = c.wall < 0 ? find_near_pairs<with.periodic>(pairs, c, rule, near)
+                                  : find_near_wall(pairs, c, rule, near);
+    const auto blocks = fill_up(pairs, c.alone, count, near);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      auto& block = contacts.blocks[contacts.size + b];
+      auto& origin = contacts.origins[contacts.size + b];
+      set_geometry<with.periodic>(pairs, c, near, b * block_lanes, rule, block, origin, sums);
+      set_dynamics<with>(pairs, rule, block, origin, sums);
+    }
+    for (std::size_t b = 0; b < blocks; ++b)
+      if (c.alone || b + 1 == blocks)
+        contacts.ends.push_back(static_cast<std::uint32_t>(contacts.size + b + 1));
+    contacts.size += blocks;
+    contacts.count += count;
+  }
+  if (!base_seen) contacts.on_base = contacts.size;
+  const auto most = [](const Lanes& l) { return *std::max_element(l.begin(), l.end()); };
+  total = {sums.touching, sum(sums.overlap), most(sums.largest_overlap),
+           most(sums.fastest_approach), sums.coincident};
+  leave_vectors();
+}
+
+/// The only place where a scene's effects become a compile-time choice.
+void find_for(const Pairs& pairs, std::size_t strip, const DetectionRule& rule,
+              StripContacts& contacts, DetectionSums& total)
+{
+  using Find =
+      void (*)(const Pairs&, std::size_t, const DetectionRule&, StripContacts&, DetectionSums&);
+  // [periodic][rotation][restitution][foresight]
+  static constexpr Find table[2][2][2][2] = {
+      {{{find<Variant{false, false, false, false}>, find<Variant{false, false, false, true}>},
+        {find<Variant{false, false, true, false}>, find<Variant{false, false, true, true}>}},
+       {{find<Variant{false, true, false, false}>, find<Variant{false, true, false, true}>},
+        {find<Variant{false, true, true, false}>, find<Variant{false, true, true, true}>}}},
+      {{{find<Variant{true, false, false, false}>, find<Variant{true, false, false, true}>},
+        {find<Variant{true, false, true, false}>, find<Variant{true, false, true, true}>}},
+       {{find<Variant{true, true, false, false}>, find<Variant{true, true, false, true}>},
+        {find<Variant{true, true, true, false}>, find<Variant{true, true, true, true}>}}}};
+  table[rule.periodic][rule.effects.rotation][rule.effects.restitution][rule.horizon > 0](
+      pairs, strip, rule, contacts, total);
+}
+
+void keep(const StripContacts& contacts, Pairs::Impulse* impulses, Pairs::Memory* memories,
+          ImpulseSums& total)
+{
+  const D d;
+  auto* remembered = reinterpret_cast<double*>(memories);
+  alignas(64) Lanes gaps{}, base_x{}, base_y{};
+  for (std::size_t b = 0; b < contacts.size; ++b) {
+    const auto& block = contacts.blocks[b];
+    const auto& origin = contacts.origins[b];
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+      const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
+      store_rows(d, {n, t}, &impulses->n, &origin.row[lane]);
+      const auto bearing = hn::Gt(n, hn::Zero(d));
+      if (remembered != nullptr) {
+        const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
+        store_rows(d, {approach, hn::Zero(d)}, remembered, &origin.row[lane]);
+      }
+      const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
+      const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
+      hn::Store(sum_gap, d, &gaps[lane]);
+      total.force_bearing += hn::CountTrue(d, bearing);
+      if (b < contacts.on_base) continue;
+      const auto nx = hn::Load(d, &block.nx[lane]), ny = hn::Load(d, &block.ny[lane]);
+      const auto px = hn::Sub(hn::Mul(n, nx), hn::Mul(t, ny));
+      const auto py = hn::Add(hn::Mul(n, ny), hn::Mul(t, nx));
+      hn::Store(hn::Add(hn::Load(d, &base_x[lane]), px), d, &base_x[lane]);
+      hn::Store(hn::Add(hn::Load(d, &base_y[lane]), py), d, &base_y[lane]);
+    }
+  }
+  total.gap_bearing = sum(gaps);
+  total.on_base_side = {sum(base_x), sum(base_y)};
+  leave_vectors();
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace grseg
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace grseg {
+namespace {
+
+HWY_EXPORT(find_for);
+HWY_EXPORT(keep);
+
+/// Room for all pairs of the strip.
+void make_room(std::span<const Pairs::Class> classes, StripContacts& contacts)
+{
+  std::size_t most = 0, largest_class = 0;
+  for (const auto& c : classes) {
+    const std::size_t size = c.end - c.begin;
+    most += c.alone ? size : size / block_lanes;
+    largest_class = std::max(largest_class, c.alone ? size * block_lanes : size);
+  }
+  if (contacts.blocks.size() < most) contacts.blocks.resize(most);
+  if (contacts.origins.size() < most) contacts.origins.resize(most);
+  for (auto* numbers : {&contacts.near.row, &contacts.near.i, &contacts.near.j})
+    numbers->resize(largest_class + block_lanes);
+}
+
+}  // namespace
+
+DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
+                            std::vector<StripContacts>& contacts, int threads)
+{
+  contacts.resize(pairs.strip_count());
+  std::vector<DetectionSums> sums(contacts.size());
+  for_each_part(threads, contacts.size(), [&](std::size_t s) {
+    auto& strip = contacts[s];
+    std::swap(strip.origins, strip.previous_origins);
+    strip.previous_size = strip.size;
+    strip.size = strip.count = 0;
+    make_room(pairs.classes_of(s), strip);
+    HWY_DYNAMIC_DISPATCH(find_for)(pairs, s, rule, strip, sums[s]);
+  });
+  DetectionSums total;
+  for (const auto& s : sums) {
+    total.touching += s.touching;
+    total.overlap += s.overlap;
+    total.largest_overlap = std::max(total.largest_overlap, s.largest_overlap);
+    total.fastest_approach = std::max(total.fastest_approach, s.fastest_approach);
+    total.coincident |= s.coincident;
+  }
+  return total;
+}
+
+ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
+                          std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
+                          int threads)
+{
+  std::vector<ImpulseSums> sums(contacts.size());
+  for_each_part(threads, contacts.size(), [&](std::size_t s) {
+    HWY_DYNAMIC_DISPATCH(keep)(contacts[s], impulses.data(), memories.data(), sums[s]);
+  });
+  ImpulseSums total;
+  for (const auto& s : sums) {
+    total.force_bearing += s.force_bearing;
+    total.gap_bearing += s.gap_bearing;
+    total.on_base_side += s.on_base_side;
+  }
+  return total;
+}
+
+void forget_impulses(std::span<const StripContacts> contacts, std::span<Pairs::Impulse> impulses,
+                     std::span<Pairs::Memory> memories, int threads)
+{
+  for_each_part(threads, contacts.size(), [&](std::size_t s) {
+    const auto& strip = contacts[s];
+    for (std::size_t b = 0; b < strip.previous_size; ++b)
+      for (const auto row : strip.previous_origins[b].row) {
+        impulses[row / 2] = {0, 0};
+        if (!memories.empty()) memories[row / 2] = {0, 0};
+      }
+  });
+}
+
+}  // namespace grseg
+#endif  // HWY_ONCE

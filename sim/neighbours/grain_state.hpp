@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+#include "sim/contact/contact_law.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace grseg {
+
+/// What moves, in the order in which it lies in memory: along the cells of the pair list, so that
+/// what is near in space is near in memory. Behind the grains stands one body that never moves; it
+/// stands for all walls, and for both partners in lanes that nothing else uses.
+struct GrainState {
+  std::vector<Vec2> position;       // m; one more than there are grains
+  std::vector<Motion> motion;       // one more than there are grains
+  std::vector<double> radius;       // m
+  std::vector<std::int32_t> image;  // periods to add to x
+  std::vector<std::int32_t> row;    // of Grains
+
+  std::size_t size() const { return row.size(); }
+  /// Index of the body that never moves.
+  std::size_t still() const { return row.size(); }
+  /// Room for as many grains as `other` has, at rest.
+  void resize_like(const GrainState& other);
+};
+
+/// Grains at rest at `position`, m, in the order of their rows.
+GrainState make_state(const Grains& grains, const std::vector<Vec2>& position);
+
+}  // namespace grseg

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run/checkpoint.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
+#include "formats/trajectory/digest.hpp"
+#include "formats/trajectory/hdf5.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <type_traits>
+
+namespace grseg {
+namespace {
+
+using namespace hdf5;
+
+constexpr std::int32_t format_version = 2;
+// A damaged size is refused before memory is asked for.
+constexpr hsize_t most_values = 1'000'000'000;
+
+/// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of
+/// `columns` numbers.
+template <class T>
+struct Layout;
+template <>
+struct Layout<double> {
+  static constexpr hsize_t columns = 1;
+  static constexpr H5T_class_t kind = H5T_FLOAT;
+  static hid_t file() { return H5T_IEEE_F64LE; }
+  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
+};
+template <>
+struct Layout<std::int32_t> {
+  static constexpr hsize_t columns = 1;
+  static constexpr H5T_class_t kind = H5T_INTEGER;
+  static hid_t file() { return H5T_STD_I32LE; }
+  static hid_t memory() { return H5T_NATIVE_INT32; }
+};
+template <>
+struct Layout<std::uint8_t> : Layout<std::int32_t> {
+  static hid_t file() { return H5T_STD_U8LE; }
+  static hid_t memory() { return H5T_NATIVE_UINT8; }
+};
+template <>
+struct Layout<bool> : Layout<std::uint8_t> {
+};
+template <>
+struct Layout<std::int64_t> : Layout<std::int32_t> {
+  static hid_t file() { return H5T_STD_I64LE; }
+  static hid_t memory() { return H5T_NATIVE_INT64; }
+};
+template <>
+struct Layout<std::uint64_t> : Layout<std::int32_t> {
+  static hid_t file() { return H5T_STD_U64LE; }
+  static hid_t memory() { return H5T_NATIVE_UINT64; }
+};
+template <>
+struct Layout<Species> : Layout<std::int32_t> {
+};
+template <>
+struct Layout<Vec2> : Layout<double> {
+  static constexpr hsize_t columns = 2;
+};
+template <>
+struct Layout<Wall> : Layout<double> {
+  static constexpr hsize_t columns = 4;
+};
+template <>
+struct Layout<std::uint32_t> : Layout<std::int32_t> {
+  static hid_t file() { return H5T_STD_U32LE; }
+  static hid_t memory() { return H5T_NATIVE_UINT32; }
+};
+
+template <class T>
+constexpr int rank_of = Layout<T>::columns > 1 ? 2 : 1;
+
+/// Chains the bytes of everything it is shown, sizes included.
+class Digester {
+ public:
+  void operator()(const char*, const std::string& text) { add(text.data(), text.size()); }
+  template <class T>
+  void operator()(const char*, const std::vector<T>& values)
+  {
+    add(values.data(), values.size() * sizeof(T));
+  }
+  template <class T>
+  void operator()(const char*, const T& value)
+  {
+    add(&value, sizeof value);
+  }
+  std::uint64_t digest() const { return digest_; }
+
+ private:
+  void add(const void* data, std::size_t bytes)
+  {
+    const std::uint64_t size = bytes;
+    digest_ = chain_digest(&size, sizeof size, digest_);
+    digest_ = chain_digest(data, bytes, digest_);
+  }
+  std::uint64_t digest_ = 0;
+};
+
+class Writer {
+ public:
+  explicit Writer(hid_t file) : file_(file) {}
+
+  void operator()(const char* path, const std::string& text) const
+  {
+    const auto type = string_type(text.size());
+    write_fixed(file_, path, type, type, {}, text.c_str());
+  }
+  template <class T>
+  void operator()(const char* path, const std::vector<T>& values) const
+  {
+    std::vector<hsize_t> shape{values.size()};
+    if (rank_of<T> == 2) shape.push_back(Layout<T>::columns);
+    write_fixed(file_, path, Layout<T>::file(), Layout<T>::memory(), shape, values.data());
+  }
+  template <class T>
+  void operator()(const char* path, const T& value) const
+  {
+    write_fixed(file_, path, Layout<T>::file(), Layout<T>::memory(), {}, &value);
+  }
+
+ private:
+  hid_t file_;
+};
+
+class Reader {
+ public:
+  Reader(hid_t file, std::string name) : file_(file), name_(std::move(name)) {}
+
+  void operator()(const char* path, std::string& text) const
+  {
+    const CheckedDataset dataset(file_, path, H5T_STRING, 0, name_);
+    const Type type(H5Dget_type(dataset.id()));
+    text.resize(std::min<std::size_t>(H5Tget_size(type), most_values));
+    dataset.read_all(type, text.data());
+    text.erase(std::min(text.find('\0'), text.size()));  // padding
+  }
+  template <class T>
+  void operator()(const char* path, std::vector<T>& values) const
+  {
+    const CheckedDataset dataset(file_, path, Layout<T>::kind, rank_of<T>, name_);
+    if (rank_of<T> == 2) dataset.require(1, Layout<T>::columns);
+    if (dataset.dims()[0] > most_values)
+      throw FormatError(fmt::format("{}: {} has an impossible length", name_, path));
+    values.resize(dataset.dims()[0]);
+    dataset.read_all(Layout<T>::memory(), values.data());
+  }
+  template <class T>
+  void operator()(const char* path, T& value) const
+  {
+    CheckedDataset(file_, path, Layout<T>::kind, 0, name_).read_all(Layout<T>::memory(), &value);
+  }
+  void operator()(const char* path, bool& value) const
+  {
+    std::uint8_t number = 0;
+    (*this)(path, number);
+    value = number != 0;
+  }
+
+ private:
+  hid_t file_;
+  std::string name_;
+};
+
+template <class Visitor, class Totals>
+void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
+{
+  const auto at = [&](const char* name, auto& value) { visit((group + name).c_str(), value); };
+  at("steps", totals.steps);
+  at("missed", totals.missed);
+  at("sweeps", totals.sweeps);
+  at("residual_rms", totals.residual_rms);
+  at("touching", totals.touching);
+  at("force_bearing", totals.force_bearing);
+  at("sum_overlap", totals.sum_overlap);
+  at("sum_gap_bearing", totals.sum_gap_bearing);
+  at("largest_residual", totals.largest_residual);
+  at("largest_overlap", totals.largest_overlap);
+  at("fastest_approach", totals.fastest_approach);
+  at("base_impulse_x", totals.base_impulse.x());
+  at("base_impulse_y", totals.base_impulse.y());
+}
+
+/// Shows every entry of a checkpoint with its path to `visit`: the one list that writing, reading
+/// and the digest share.
+template <class Visitor, class SomeCheckpoint>
+void visit_all(Visitor& visit, SomeCheckpoint& c)
+{
+  visit("/scene", c.scene);
+  visit("/program", c.program);
+  visit("/history", c.history);
+  visit("/deposited_height", c.deposited_height);
+  visit("/grains/id", c.grains.id);
+  visit("/grains/species", c.grains.species);
+  visit("/grains/radius", c.grains.radius);
+  visit("/grains/mass", c.grains.mass);
+  visit("/grains/fixed", c.grains.fixed);
+  visit("/walls", c.walls);
+  visit("/box/length_x", c.box.length_x);
+  visit("/box/length_y", c.box.length_y);
+  visit("/box/periodic_x", c.box.periodic_x);
+  visit("/state/steps_done", c.state.steps_done);
+  visit("/state/position", c.state.position);
+  visit("/state/image", c.state.image);
+  visit("/state/velocity", c.state.velocity);
+  visit("/state/rim_speed", c.state.rim_speed);
+  visit("/state/row", c.state.row);
+  visit("/state/pairs/made_at", c.state.pairs.made_at);
+  visit("/state/pairs/i", c.state.pairs.i);
+  visit("/state/pairs/j", c.state.pairs.j);
+  visit("/state/pairs/impulse_n", c.state.pairs.impulse_n);
+  visit("/state/pairs/impulse_t", c.state.pairs.impulse_t);
+  visit("/state/pairs/approach", c.state.pairs.approach);
+  visit("/state/pairs/renewals", c.state.pairs.renewals);
+  visit("/state/pairs/age", c.state.pairs.age);
+  visit("/trajectory/frames", c.trajectory.frames);
+  visit("/trajectory/digest", c.trajectory.digest);
+  visit("/trajectory/begin", c.trajectory.begin);
+  visit("/trajectory/wall", c.trajectory.wall);
+  visit_totals(visit, "/trajectory/since_frame/", c.trajectory.recorder.since_frame);
+  visit_totals(visit, "/trajectory/totals/", c.trajectory.recorder.totals);
+}
+
+std::uint64_t digest_of(const Checkpoint& checkpoint)
+{
+  Digester digester;
+  visit_all(digester, checkpoint);
+  return digester.digest();
+}
+
+/// The digest vouches for the values; this, for a file by other hands, that they can be used.
+bool consistent(const Checkpoint& c)
+{
+  const auto n = c.grains.size(), pairs = c.state.pairs.i.size();
+  const auto& made_at = c.state.pairs.made_at;
+  return n > 0 && c.grains.id.size() == n && c.grains.species.size() == n &&
+         c.grains.mass.size() == n && c.grains.fixed.size() == n && c.state.position.size() == n &&
+         c.state.image.size() == n && c.state.velocity.size() == n &&
+         c.state.rim_speed.size() == n && c.state.row.size() == n &&
+         (made_at.empty() || made_at.size() > n) && c.state.pairs.impulse_n.size() == pairs &&
+         c.state.pairs.impulse_t.size() == pairs && c.state.pairs.approach.size() == pairs;
+}
+
+void write_parts(const std::string& path, const Checkpoint& checkpoint)
+{
+  File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  if (!file.valid())
+    throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
+  Writer writer(file);
+  writer("/version", format_version);
+  visit_all(writer, checkpoint);
+  writer("/digest", digest_of(checkpoint));
+  if (H5Fclose(file.release()) < 0)
+    throw RunError(fmt::format("cannot write {}: is the disk full?", path));
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
+{
+  silence();
+  const std::string beside = path + ".part";
+  try {
+    write_parts(beside, checkpoint);
+    publish_file(beside, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    throw;
+  }
+}
+
+Checkpoint read_checkpoint(const std::string& path)
+{
+  silence();
+  require_file(path);
+  const auto fail = [&](const std::string& why) {
+    throw FormatError(fmt::format("{}: {}", path, why));
+  };
+  const File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  if (!file.valid()) fail("is no checkpoint, or is truncated or damaged");
+  if (!exists(file, "/version") || !exists(file, "/state"))
+    fail("is no checkpoint of grseg-sim; name the file that --checkpoint wrote");
+  const Reader read(file, path);
+  std::int32_t version = 0;
+  read("/version", version);
+  if (version != format_version)
+    fail(
+        fmt::format("is a checkpoint of version {}, and this grseg-sim reads version {}; go on "
+                    "with the program that wrote it",
+                    version, format_version));
+  Checkpoint checkpoint;
+  visit_all(read, checkpoint);
+  std::uint64_t digest = 0;
+  read("/digest", digest);
+  if (digest != digest_of(checkpoint) || !consistent(checkpoint))
+    fail("does not have the content that its digest names: it is damaged; use an older checkpoint");
+  return checkpoint;
+}
+
+}  // namespace grseg

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/run/recorder.hpp"
+#include "sim/step/simulation.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// How far the trajectory is that a run writes.
+struct TrajectoryProgress {
+  std::uint64_t frames = 0;  ///< written
+  std::uint64_t digest = 0;  ///< chained over them
+  Recorder::State recorder;
+  double begin = 0;  ///< s, time of the run at which this trajectory begins
+  double wall = 0;   ///< s, spent on it
+};
+
+/// A run between two steps: all that the steps to come depend on, and all that their frames will
+/// say of those before. No random number is drawn after the deposition, so no random state is here.
+struct Checkpoint {
+  std::string scene;    ///< as resolved, itself a scene file
+  std::string program;  ///< that wrote it
+  std::string history;  ///< one line per program run that led here
+  Grains grains;
+  std::vector<Wall> walls;
+  Box box;
+  double deposited_height = 0;  ///< m
+  Simulation::State state;
+  TrajectoryProgress trajectory;
+};
+
+/// Writes `checkpoint` whole or not at all: as PATH.part, brought to the disk, then renamed. An
+/// HDF5 file, laid out as formats/README.md says. RunError where it cannot be written.
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+
+/// UsageError where `path` is missing, FormatError where it is no checkpoint, is damaged (its
+/// digest tells any changed bit), or is of another version.
+Checkpoint read_checkpoint(const std::string& path);
+
+}  // namespace grseg

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run/recorder.hpp"
+
+#include "formats/core/errors.hpp"
+#include "sim/step/energy_balance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+constexpr double most_overlap = 0.01;  // mean, in d_S
+constexpr double most_approach = 0.5;  // per step, in d_S: a grain must not pass through another
+
+bool all_finite(const std::vector<Vec2>& values)
+{
+  return std::all_of(values.begin(), values.end(), [](const Vec2& v) { return v.allFinite(); });
+}
+
+}  // namespace
+
+void StepTotals::add(const StepReport& report)
+{
+  ++steps;
+  missed += !report.solver.converged;
+  sweeps += report.solver.sweeps;
+  residual_rms += report.solver.residual_rms;
+  touching += static_cast<double>(report.touching);
+  force_bearing += static_cast<double>(report.force_bearing);
+  sum_overlap += report.sum_overlap;
+  sum_gap_bearing += report.sum_gap_bearing;
+  largest_residual = std::max(largest_residual, report.solver.residual);
+  largest_overlap = std::max(largest_overlap, report.largest_overlap);
+  fastest_approach = std::max(fastest_approach, report.fastest_approach);
+  base_impulse += report.base_impulse;
+}
+
+void StepTotals::add(const StepTotals& other)
+{
+  steps += other.steps;
+  missed += other.missed;
+  sweeps += other.sweeps;
+  residual_rms += other.residual_rms;
+  touching += other.touching;
+  force_bearing += other.force_bearing;
+  sum_overlap += other.sum_overlap;
+  sum_gap_bearing += other.sum_gap_bearing;
+  largest_residual = std::max(largest_residual, other.largest_residual);
+  largest_overlap = std::max(largest_overlap, other.largest_overlap);
+  fastest_approach = std::max(fastest_approach, other.fastest_approach);
+  base_impulse += other.base_impulse;
+}
+
+std::vector<Observable> Recorder::observables()
+{
+  return {{"translational_energy", "J"},
+          {"rotational_energy", "J"},
+          {"potential_energy", "J"},
+          {"momentum_defect", ""},
+          {"energy_defect", ""},
+          {"work_of_contacts", "J"},
+          {"work_of_boundaries", "J"},
+          {"steps", ""},
+          {"missed_steps", ""},
+          {"sweeps", ""},
+          {"residual", ""},
+          {"residual_rms", ""},
+          {"touching", ""},
+          {"contacts", ""},
+          {"mean_overlap", "m"},
+          {"largest_overlap", "m"},
+          {"mean_gap", "m"},
+          {"fastest_approach", "m s-1"},
+          {"base_force_x", "N"},
+          {"base_force_y", "N"}};
+}
+
+Recorder::Recorder(TrajectoryWriter& writer, double small_diameter, const State& state)
+    : writer_(writer), small_diameter_(small_diameter), state_(state)
+{
+}
+
+void Recorder::write(const Frame& frame, const Simulation& simulation)
+{
+  check_bounds(frame, simulation);
+  const auto& t = state_.since_frame;
+  const auto& world = simulation.world();
+  const auto energy =
+      energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
+  const std::vector<double> values{
+      simulation.translational_energy(),
+      simulation.rotational_energy(),
+      simulation.potential_energy(),
+      momentum_defect(simulation.world().grains, frame, simulation.world().gravity),
+      energy.defect(),
+      energy.work_of_contacts,
+      energy.work_of_boundaries,
+      static_cast<double>(t.steps),
+      static_cast<double>(t.missed),
+      t.per_step(t.sweeps),
+      t.largest_residual,
+      t.per_step(t.residual_rms),
+      t.per_step(t.touching),
+      t.per_step(t.force_bearing),
+      t.mean_overlap(),
+      t.largest_overlap,
+      t.mean_gap_bearing(),
+      t.fastest_approach,
+      t.per_step(t.base_impulse.x()) / simulation.world().step,
+      t.per_step(t.base_impulse.y()) / simulation.world().step};
+  writer_.append(frame, values);
+  state_.totals.add(state_.since_frame);
+  state_.since_frame = {};
+}
+
+void Recorder::check_bounds(const Frame& frame, const Simulation& simulation) const
+{
+  if (!all_finite(frame.position) || !all_finite(frame.velocity))
+    throw RunError(fmt::format(
+        "a position or velocity is not finite at t = {:.6g} s; use a smaller step", frame.time));
+  const double overlap = state_.since_frame.mean_overlap() / small_diameter_;
+  if (overlap > most_overlap)
+    throw RunError(
+        fmt::format("the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S; use a "
+                    "smaller step or tolerance",
+                    overlap, frame.time, most_overlap));
+  const double crossing =
+      state_.since_frame.fastest_approach * simulation.world().step / small_diameter_;
+  if (crossing > most_approach)
+    throw RunError(fmt::format(
+        "grains approach each other by {:.2g} d_S per step at t = {:.6g} s, above {} d_S; use a "
+        "step below {:.2g} s",
+        crossing, frame.time, most_approach, simulation.world().step * most_approach / crossing));
+}
+
+double momentum_defect(const Grains& grains, const Frame& frame, const Vec2& gravity)
+{
+  std::vector<Vec2> defect(grains.size());
+  double largest_force = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    defect[g] = grains.mass[g] * gravity - frame.force[g];
+  const auto& contacts = frame.contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    defect[static_cast<std::size_t>(contacts.i[c])] += contacts.force[c];
+    if (contacts.j[c] >= 0) defect[static_cast<std::size_t>(contacts.j[c])] -= contacts.force[c];
+    largest_force = std::max(largest_force, contacts.force[c].norm());
+  }
+  double largest = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (!grains.fixed[g]) largest = std::max(largest, defect[g].norm());
+  return largest_force > 0 ? largest / largest_force : largest;
+}
+
+}  // namespace grseg

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/run/restart.hpp"
+#include "sim/scene/scene.hpp"
+
+#include <string>
+
+namespace grseg {
+
+struct RunOptions {
+  std::string output;
+  std::string command_line;
+  bool overwrite = false;
+  bool strict = false;
+  bool quiet = false;
+  std::string instruction_set;   ///< "" for the best
+  std::string checkpoint;        ///< file to write, "" for none
+  double checkpoint_every = 60;  ///< s of wall time
+  std::string restart;           ///< name of the checkpoint that `resume` goes on from
+  Perturbation perturbation;     ///< for `resume`
+};
+
+/// Deposits, tilts and runs `scene` into `options.output`. While it runs the file is called
+/// output.part; a run that is interrupted (SIGINT, SIGTERM) or stops out of bounds leaves its
+/// frames there, readable. A summary goes to standard error and, as numbers, into /parameters.
+///
+/// Checkpoints are written at the beginning, then at the first frame after every
+/// `checkpoint_every`, on a signal and at the end.
+void simulate(const Scene& scene, const RunOptions& options);
+
+/// Goes on from `checkpoint` under `scene`, which must have the same bed. With the scene as it was,
+/// an output.part of the same run is cut back to the frames that the checkpoint knows, and ends as
+/// the run would have ended undisturbed; UsageError where output.part is of another run. In all
+/// other cases a new trajectory begins with the frames after the checkpoint.
+void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& options);
+
+}  // namespace grseg

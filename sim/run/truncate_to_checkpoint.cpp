@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run/truncate_to_checkpoint.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
+#include "formats/trajectory/repack.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace grseg {
+namespace {
+
+/// Whether `run` is that of `checkpoint`, as far as can be told without its frames.
+bool same_run(const TrajectoryReader& run, const Checkpoint& checkpoint)
+{
+  return run.parameters().text("scene") == checkpoint.scene &&
+         run.grains().radius == checkpoint.grains.radius &&
+         run.size() >= checkpoint.trajectory.frames;
+}
+
+/// What a file says of itself when its run goes on: no longer that it is complete.
+Parameters going_on(Parameters parameters, const std::string& history)
+{
+  std::erase_if(parameters.numbers, [](const auto& number) {
+    return number.first == "complete" || number.first.starts_with("summary_");
+  });
+  parameters.texts["history"] = history;
+  return parameters;
+}
+
+/// Removes the file at the end, unless it has got another name by then.
+struct Removal {
+  std::string path;
+  ~Removal()
+  {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
+}  // namespace
+
+TrajectoryWriter truncate_to_checkpoint(const std::string& part, const Checkpoint& checkpoint,
+                                        const std::string& name, const std::string& history,
+                                        const StorageSettings& storage)
+{
+  const auto require = [&](bool belongs) {
+    if (!belongs)
+      throw UsageError(fmt::format(
+          "{} does not hold the frames of {}; move it away to begin a new trajectory, or choose "
+          "another name for --output",
+          part, name));
+  };
+  const Removal copy{part + ".part"};
+  try {
+    const TrajectoryReader run(part);
+    require(same_run(run, checkpoint));
+    auto writer =
+        copy_frames(run, checkpoint.trajectory.frames, copy.path,
+                    going_on(run.parameters(), history), Recorder::observables(), storage);
+    require(writer.digest() == checkpoint.trajectory.digest);
+    writer.flush();
+    publish_file(copy.path, part);
+    return writer;
+  } catch (const FormatError& torn) {
+    throw FormatError(
+        fmt::format("{}; move it away to begin a new trajectory at the checkpoint", torn.what()));
+  }
+}
+
+}  // namespace grseg

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes as files: where a key stands in its file, and what is wrong with it there.
+#include "formats/cli/tool.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/files.hpp"
+#include "sim/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+/// "file:12" of the line that sets `key`, or "file" where none does.
+std::string place_of(const std::string& path, const std::string& key)
+{
+  std::ifstream file(path);
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const auto begin = line.find_first_not_of(" \t");
+    const auto end = line.find_first_of(" \t=", begin);
+    if (begin != std::string::npos && line.substr(begin, end - begin) == key)
+      return fmt::format("{}:{}", path, number);
+  }
+  return path;
+}
+
+std::string bare(std::string option)
+{
+  option.erase(0, option.find_first_not_of('-'));
+  return option;
+}
+
+/// Stores the keys that `in` sets, but those in `leave_out`. `place` says where a key is set.
+void read_keys(std::istream& in, const std::string& name,
+               const std::function<std::string(const std::string&)>& place,
+               const std::vector<std::string>& leave_out, po::variables_map& values)
+{
+  const auto keys = scene_options();
+  try {
+    auto parsed = po::parse_config_file(in, keys);
+    std::erase_if(parsed.options, [&](const auto& option) {
+      return std::find(leave_out.begin(), leave_out.end(), option.string_key) != leave_out.end();
+    });
+    po::store(parsed, values);
+    po::notify(values);
+  } catch (const po::unknown_option& unknown) {
+    const auto key = bare(unknown.get_option_name());
+    std::vector<std::string> known;
+    for (const auto& option : keys.options()) known.push_back(option->long_name());
+    const auto suggestion = nearest(key, known);
+    throw FormatError(fmt::format("{}: unknown key '{}'{}", place(key), key,
+                                  suggestion.empty()
+                                      ? "; grseg-sim --help lists all"
+                                      : fmt::format(", did you mean '{}'?", suggestion)));
+  } catch (const po::error_with_option_name& wrong) {
+    throw FormatError(fmt::format("{}: {}", place(bare(wrong.get_option_name())), wrong.what()));
+  } catch (const po::error& wrong) {
+    throw FormatError(
+        fmt::format("{}: {}; lines are 'key = value' or '# comment'", name, wrong.what()));
+  }
+}
+
+}  // namespace
+
+void read_scene_file(const std::string& path, po::variables_map& values)
+{
+  require_file(path);
+  std::ifstream file(path);
+  read_keys(
+      file, path, [&](const std::string& key) { return place_of(path, key); }, {}, values);
+}
+
+void read_scene_text(const std::string& text, const std::string& name,
+                     const std::vector<std::string>& leave_out, po::variables_map& values)
+{
+  std::istringstream in(text);
+  read_keys(
+      in, name, [&](const std::string&) { return name; }, leave_out, values);
+}
+
+Scene resolve_scene(const std::string& path, const po::variables_map& given)
+{
+  auto values = given;
+  read_scene_file(path, values);
+  try {
+    return resolve_scene(values);
+  } catch (const SceneError& wrong) {
+    const bool from_command_line = given.count(wrong.key) > 0 && !given[wrong.key].defaulted();
+    const auto place = place_of(path, wrong.key);
+    if (from_command_line || place == path) throw;
+    throw FormatError(fmt::format("{}: {}", place, wrong.what()));
+  }
+}
+
+}  // namespace grseg

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/solver/solver.hpp"
+
+#include "sim/contact/parallel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace grseg {
+namespace {
+
+// Sweeps come no closer than to the last digits of velocities, and where loads fade, as in a gas,
+// no tolerance relative to them lets any number of sweeps suffice. After so many sweeps it is worth
+// a look at the velocities.
+constexpr double last_digits = 8 * std::numeric_limits<double>::epsilon();
+constexpr int patience = 32;
+
+/// m/s, the largest component of all velocities.
+double fastest(std::span<const Motion> motion)
+{
+  double largest = 0;
+  for (const auto& m : motion)
+    largest = std::max({largest, std::abs(m.vx), std::abs(m.vy), std::abs(m.rim_speed)});
+  return largest;
+}
+
+SweepResult total(const std::vector<SweepResult>& strips)
+{
+  SweepResult total;
+  for (const auto& s : strips) {
+    total.largest = std::max(total.largest, s.largest);
+    total.sum_squares += s.sum_squares;
+    total.sum_reference += s.sum_reference;
+  }
+  return total;
+}
+
+/// Which strips are swept. All, until few have changes above the tolerance; then only these and
+/// their neighbours: somewhere in a wide scene there is always a contact that needs more sweeps.
+class LocalWork {
+ public:
+  explicit LocalWork(std::span<const BlockRuns> strips) : strips_(strips), swept_(strips.size(), 1)
+  {
+    count_blocks();
+    all_ = relaxed_;
+  }
+
+  bool swept(std::size_t strip) const { return swept_[strip] != 0; }
+  bool local() const { return local_; }
+  /// As many as if every strip had been swept as often.
+  int rounds() const { return static_cast<int>((relaxed_ + all_ - 1) / all_); }
+
+  /// After a sweep; `enough` of all strips have been made.
+  void choose(const std::vector<SweepResult>& results, double limit, bool enough)
+  {
+    const auto unsettled = [&](std::size_t s) { return results[s].largest > limit; };
+    const std::size_t strips = results.size();
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < strips; ++s) count += unsettled(s) ? 1 : 0;
+    local_ = local_ || (enough && 4 * count <= strips);
+    if (local_)
+      for (std::size_t s = 0; s < strips; ++s)
+        swept_[s] =
+            unsettled(s) || unsettled((s + 1) % strips) || unsettled((s + strips - 1) % strips) ? 1
+                                                                                                : 0;
+    count_blocks();
+  }
+
+ private:
+  void count_blocks()
+  {
+    for (std::size_t s = 0; s < strips_.size(); ++s)
+      if (swept(s)) relaxed_ += strips_[s].blocks.size();
+  }
+
+  std::span<const BlockRuns> strips_;
+  std::vector<std::uint8_t> swept_;
+  std::size_t relaxed_ = 0, all_ = 0;  // blocks
+  bool local_ = false;
+};
+
+}  // namespace
+
+SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
+                            std::span<Motion> motion, double friction, Effects effects,
+                            const SolverSettings& settings, double floor,
+                            Extrapolation& extrapolation, int threads, FreeBodies* free)
+{
+  SolverReport report;
+  if (count == 0) return report;
+  for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
+    apply_impulses(strips[s].blocks, motion.data(), effects);
+  });
+  if (free != nullptr) free->give_way(motion);
+  const auto sweep = choose_sweep(effects);
+  const auto contact_count = static_cast<double>(count);
+  std::vector<SweepResult> results(strips.size());
+  LocalWork work(strips);
+  if (settings.acceleration) extrapolation.begin();
+  double round_off = 0;  // m/s, once it is asked for
+  // The second sweep of a strip finds its contacts in the cache.
+  const int at_a_time = strips.size() > 1 ? 2 : 1;
+  for (int sweeps = at_a_time;; sweeps += at_a_time) {
+    for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
+      for (int k = 0; work.swept(s) && k < at_a_time; ++k)
+        results[s] = sweep(strips[s], motion.data(), friction);
+    });
+    auto result = total(results);
+    if (free != nullptr) {
+      result.largest = std::max(result.largest, free->give_way(motion));
+      free->relax_contacts(motion, friction, effects);
+      free->give_way(motion);
+    }
+    const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
+    // Without gravity the sweep that lets the last contact go leaves a reference of 0.
+    const auto relative = [&](double change) { return change == 0 ? 0 : change / reference; };
+    report.sweeps = at_a_time * work.rounds();
+    report.residual = relative(result.largest);
+    report.residual_rms = relative(std::sqrt(result.sum_squares / contact_count));
+    report.converged = report.residual <= settings.tolerance;
+    if (!report.converged && sweeps >= patience) {
+      if (round_off == 0) round_off = last_digits * fastest(motion);
+      report.converged = result.largest <= round_off;
+    }
+    const bool enough = sweeps >= settings.min_sweeps || result.largest == 0;
+    if ((report.converged && enough) || sweeps >= settings.max_sweeps) return report;
+    work.choose(results, settings.tolerance * reference, enough && free == nullptr);
+    if (settings.acceleration && !work.local())
+      extrapolation.go_on(strips, motion, result.sum_squares, threads);
+  }
+}
+
+SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
+                            double friction, Effects effects, const SolverSettings& settings,
+                            double floor)
+{
+  if (!effects.friction)
+    for (auto& c : contacts) c.impulse_t = 0;
+  const std::size_t bodies = motion.size();
+  motion.emplace_back();  // what the lanes left over act on
+  ContactBlocks packed;
+  packed.pack(contacts, motion, bodies);
+  const std::array strips{packed.runs()};
+  Extrapolation extrapolation;
+  const auto report = solve_contacts(strips, contacts.size(), motion, friction, effects, settings,
+                                     floor, extrapolation);
+  motion.pop_back();
+  packed.unpack(contacts);
+  return report;
+}
+
+double contact_residual(const std::vector<Contact>& contacts, const std::vector<Motion>& motion,
+                        double friction, Effects effects)
+{
+  const auto relax_alone = choose_relax(effects);
+  double largest = 0;
+  for (auto alone : contacts) {
+    auto a = motion[static_cast<std::size_t>(alone.i)],
+         b = motion[static_cast<std::size_t>(alone.j)];
+    if (!effects.restitution) alone.rebound = 0;
+    const auto change = relax_alone(alone, a, b, friction);
+    largest = std::max({largest, change.normal, change.tangential});
+  }
+  return largest;
+}
+
+}  // namespace grseg

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/contact/contact_blocks.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+/// The contact law, relax() of contact_law.hpp, on blocks of contacts with vector instructions. The
+/// instruction set is chosen when the program runs. All give the same bytes: products and sums are
+/// never fused, and sums over contacts are kept per lane of a block and added in one order.
+namespace grseg {
+
+/// What one pass over all contacts found.
+struct SweepResult {
+  double largest = 0;        // m/s
+  double sum_squares = 0;    // (m/s)^2, of the changes
+  double sum_reference = 0;  // (m/s)^2, of W p
+};
+
+/// Relaxes all contacts once, block after block.
+using Sweep = SweepResult (*)(const BlockRuns&, Motion*, double friction);
+Sweep choose_sweep(Effects effects);
+
+/// Applies the impulses of the blocks to the bodies.
+void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects);
+
+/// Instruction sets that both this build and this machine have, best first: of avx512, avx2, sse4
+/// and scalar.
+std::vector<std::string> instruction_sets();
+/// The one in use.
+std::string instruction_set();
+/// Takes the named one from now on, "" the best. Not to be called while a sweep runs.
+void use_instruction_set(const std::string& name);
+
+}  // namespace grseg

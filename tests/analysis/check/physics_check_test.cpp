@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What grseg-check measures on a column of discs at rest is known. Then one thing is spoilt at a
+// time.
+#include "analysis/check/physics_check.hpp"
+
+#include "analysis/check/content_check.hpp"
+#include "tests/column.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace column;
+using Names = std::set<std::string>;
+
+class Check : public testing::Test {
+ protected:
+  std::string path =
+      (fs::temp_directory_path() / fmt::format("grseg_physics_check_{}.h5", getpid())).string();
+  void TearDown() override { fs::remove(path); }
+
+  std::vector<CheckLine> lines_of_file() const
+  {
+    const TrajectoryReader run(path);
+    PhysicsSettings settings;
+    settings.layer = "10mm";
+    settings.windows.length = run.parameters().number("frame_interval", path) * 4;
+    ContentCheck content(run);
+    PhysicsCheck physics(run, settings);
+    Frame frame;
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
+      content.add(k, frame);
+      physics.add(k, frame);
+    }
+    auto lines = content.lines();
+    for (const auto& line : physics.lines()) lines.push_back(line);
+    return lines;
+  }
+  std::vector<CheckLine> lines_of(const Column& column) const
+  {
+    column.write(path);
+    return lines_of_file();
+  }
+  static Names with(Verdict verdict, const std::vector<CheckLine>& lines)
+  {
+    Names names;
+    for (const auto& line : lines)
+      if (line.verdict == verdict) names.insert(line.quantity);
+    return names;
+  }
+  Names failed(const Column& column) const { return with(Verdict::failed, lines_of(column)); }
+
+  template <class Damage>
+  void tamper(const Damage& damage) const
+  {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(file, 0);
+    damage(file);
+    H5Fclose(file);
+  }
+};
+
+TEST_F(Check, AColumnAtRestPassesEveryLineThatItsFileAllows)
+{
+  const auto lines = lines_of(Column());
+  EXPECT_EQ(with(Verdict::failed, lines), Names{});
+  EXPECT_EQ(with(Verdict::skipped, lines), Names{"torque_balance"});
+  for (const auto& line : lines) {
+    if (line.verdict == Verdict::skipped) continue;
+    EXPECT_LE(line.measured, 1e-12) << line.quantity;
+  }
+}
+
+// Between the middles of discs n and n+1 the contact carries n_above discs, so that the layer that
+// spans a disc carries those above and half of itself.
+TEST_F(Check, ALayerOfTheColumnCarriesTheDiscsAboveAndHalfItsOwn)
+{
+  const Column column({3, -weight});
+  const Layers layers(2 * radius, length);
+  WeightSums sums(layers, {3, -weight}, small / 2);
+  const auto& grains = column.description.grains;
+  for (const auto& frame : column.frames) sums.add_to_mean(grains, frame);
+  for (const auto& frame : column.frames) sums.add(grains, frame);
+  const auto window = sums.window();
+  ASSERT_EQ(window.stress.size(), discs);
+  for (std::size_t n = 1; n < discs; ++n) {
+    const double load = (static_cast<double>(discs - n) - 0.5) * grains.mass[1] / length;
+    EXPECT_NEAR(window.stress[n].y(), load * weight, 1e-15);
+    EXPECT_NEAR(window.stress[n].x(), -load * 3, 1e-15);
+    EXPECT_NEAR(window.weight[n].y(), load * weight, 1e-15);
+  }
+}
+
+TEST_F(Check, TheStressRatioOfASlidingColumnIsTheSlopeLessItsAcceleration)
+{
+  const double g_x = 4, a = 1.5;
+  const auto lines = lines_of(Column({g_x, -weight}, a));
+  EXPECT_EQ(with(Verdict::failed, lines), Names{});
+  int layers = 0;
+  for (const auto& line : lines) {
+    if (line.quantity != "slope") continue;
+    ++layers;
+    EXPECT_LE(line.measured, 1e-12);
+    EXPECT_EQ(line.remark, fmt::format("stress ratio {0:.5f}, slope less acceleration {0:.5f}",
+                                       (g_x - a) / weight));
+  }
+  EXPECT_EQ(layers, static_cast<int>(discs) - 1);
+}
+
+// --- One thing spoilt at a time: that line fails, and no other. ---
+
+TEST_F(Check, AForceThatIsChangedBreaksTheForceBalance)
+{
+  Column column;
+  column.frames[7].contacts.force[2] *= 1.01;
+  EXPECT_EQ(failed(column), Names{"force_balance"});
+}
+
+TEST_F(Check, AForceWithItsSignFlippedIsATensionToo)
+{
+  Column column;
+  column.frames[7].contacts.force[2] *= -1;
+  EXPECT_EQ(failed(column), (Names{"force_balance", "tension_largest", "tension_mean"}));
+}
+
+TEST_F(Check, AContactThatPullsIsFoundThoughForcesBalance)
+{
+  Column column;
+  auto& frame = column.frames[7];
+  Column::push(frame, 2, -2 * frame.contacts.force[2]);
+  EXPECT_EQ(failed(column), (Names{"tension_largest", "tension_mean"}));
+}
+
+TEST_F(Check, FrictionBeyondCoulombsConeIsFoundThoughForcesBalance)
+{
+  Column column;
+  auto& frame = column.frames[7];
+  const double normal = frame.contacts.force[2].y();
+  Column::push(frame, 2, {0.49 * normal, 0});
+  EXPECT_EQ(failed(column), Names{});
+  Column::push(frame, 2, {0.02 * normal, 0});
+  EXPECT_EQ(failed(column), (Names{"coulomb_largest", "coulomb_mean"}));
+}
+
+TEST_F(Check, ABranchThatIsNotTheDistanceOfItsGrainsBreaksTheSumOfPartials)
+{
+  Column column;
+  column.frames[7].contacts.branch[2] *= 1 + 1e-8;
+  EXPECT_EQ(failed(column), Names{"sum_of_partials"});
+}
+
+TEST_F(Check, ABaseForceThatDoesNotChangeTheMomentumIsFound)
+{
+  Column column;
+  column.observables[7][0] += 1e-6 * column.observables[7][1];
+  EXPECT_EQ(failed(column), Names{"total_momentum"});
+}
+
+TEST_F(Check, AForceAcrossAGapIsFoundWhereThePairDidNotTouch)
+{
+  Column column;
+  Column::lift_top(column.frames[7], 1e-6 * small);
+  EXPECT_EQ(failed(column), (Names{"open_gap_largest", "open_gap_mean"}));
+}
+
+// A gap of 30 micrometres, of which gravity alone excuses 0.75 h sqrt(g d_S); the rest takes an
+// approach of (gap - that)/(0.75 h) = 0.234 m/s before the step.
+TEST_F(Check, TheSpeculativeLawAllowsTheGapThatFreeFlightWouldClose)
+{
+  const double gap = 30e-6, flight = 0.75 * h;
+  const double excused = flight * std::sqrt(weight * small);
+  const double approach = (gap - excused) / flight;
+  for (const double faster : {-1e-3, 1e-3}) {
+    Column column;
+    column.description.parameters.texts["contact_law"] = "speculative";
+    column.description.parameters.numbers["horizon"] = {0.75};
+    auto& frame = column.frames[7];
+    Column::lift_top(frame, gap);
+    // The disc below keeps its velocity: its force balances that of the contact further down.
+    for (std::size_t c = 0; c < discs; ++c)
+      Column::push(frame, c, {0, column.description.grains.mass[1] * (approach + faster) / h});
+    EXPECT_EQ(failed(column), faster > 0 ? Names{} : (Names{"open_gap_largest", "open_gap_mean"}));
+  }
+}
+
+// The plate of a shear cell gives way within the step, and without gravity the file tells the
+// margin.
+TEST_F(Check, ABoundaryThatGivesWayIsTakenAsItMovedBeforeTheStep)
+{
+  const double gap = 30e-6, flight = 0.75 * h;
+  for (const double margin : {29e-6, 31e-6}) {
+    Column column;
+    column.description.parameters.texts["contact_law"] = "speculative";
+    column.description.parameters.numbers["horizon"] = {0.75};
+    column.description.parameters.numbers["contact_margin"] = {margin};
+    Column::lift_top(column.frames[7], gap);
+    EXPECT_EQ(failed(column),
+              margin > gap ? Names{} : (Names{"open_gap_largest", "open_gap_mean"}));
+  }
+  ContactRules rules;
+  rules.step = h;
+  rules.look_ahead = rules.horizon = 0.75;
+  Column column;
+  auto& frame = column.frames[0];
+  frame.contacts.gap[0] = gap;
+  frame.contacts.branch[0].y() += gap;
+  frame.velocity[0].y() = 0.1;
+  frame.force[0].y() = column.description.grains.mass[0] * (0.1 - 1.01 * gap / flight) / h;
+  ContactViolations violations(rules);
+  violations.add(column.description.grains, frame);
+  EXPECT_EQ(violations.open_gap().largest, 0);
+}
+
+TEST_F(Check, DiscsThatGoOnApproachingAreFound)
+{
+  Column column;
+  for (auto& frame : column.frames) frame.velocity[discs] = {0, -4};
+  EXPECT_EQ(failed(column), (Names{"approach_largest", "approach_mean"}));
+}
+
+// A disc that touches after an approach at 0.4 m/s owes 0.1 m/s at e = 1/4; one that is 30
+// micrometres away may close its gap within 0.75 steps, at 0.4 m/s.
+TEST_F(Check, WhatAPairLacksOfItsSeparationVelocityIsNewtonsOrThatOfItsGap)
+{
+  ContactRules rules;
+  rules.restitution = 0.25;
+  rules.step = h;
+  rules.horizon = rules.look_ahead = 0.75;
+  const auto lacking = [&](double gap, double before, double after) {
+    Column column;
+    auto& frame = column.frames[0];
+    Column::lift_top(frame, gap);
+    frame.velocity[discs].y() = after;
+    frame.force[discs].y() = column.description.grains.mass[discs] * (after - before) / h;
+    ContactViolations violations(rules);
+    violations.add(column.description.grains, frame);
+    return violations.approach().largest / h;
+  };
+  EXPECT_NEAR(lacking(0, -0.4, 0.1), 0, 1e-12);
+  EXPECT_NEAR(lacking(0, -0.4, 0.04), 0.06, 1e-12);
+  EXPECT_NEAR(lacking(0, -0.4, -0.04), 0.14, 1e-12);
+  EXPECT_NEAR(lacking(30e-6, -0.6, -0.4), 0, 1e-12);
+  EXPECT_NEAR(lacking(30e-6, -0.6, -0.5), 0.1, 1e-12);
+}
+
+TEST_F(Check, FramesBeforeTheTiltAreNotHeldAgainstTheTiltedGravity)
+{
+  Column column;
+  for (std::size_t k = 0; k < column.frames.size(); ++k) {
+    auto& frame = column.frames[k];
+    frame.step -= 1500;
+    frame.time -= 1500 * h;
+    if (k < 3)
+      for (auto& force : frame.contacts.force) force *= 1.1;
+  }
+  EXPECT_EQ(failed(column), Names{});
+}
+
+TEST_F(Check, DeepOverlapIsFound)
+{
+  Column column;
+  for (auto& frame : column.frames) Column::lift_top(frame, -0.11 * small);
+  EXPECT_EQ(failed(column), (Names{"overlap_largest", "overlap_mean"}));
+}
+
+TEST_F(Check, OverlapThatGrowsIsFoundWhileItIsStillSmall)
+{
+  Column column;
+  for (std::size_t k = 0; k < column.frames.size(); ++k)
+    Column::lift_top(column.frames[k], -1e-4 * small * static_cast<double>(k));
+  EXPECT_EQ(failed(column), Names{"overlap_drift"});
+}
+
+TEST_F(Check, LayersThatCarryTooLittleAreFoundThoughForcesBalance)
+{
+  Column column;
+  for (auto& frame : column.frames)
+    for (std::size_t c = 0; c < discs; ++c) Column::push(frame, c, -0.02 * frame.contacts.force[c]);
+  EXPECT_EQ(failed(column), Names{"weight"});
+}
+
+TEST_F(Check, AStressRatioThatIsNotTheSlopeIsFoundThoughForcesBalance)
+{
+  Column column({3, -weight});
+  for (auto& frame : column.frames)
+    for (std::size_t c = 0; c < discs; ++c)
+      Column::push(frame, c, {-0.02 * frame.contacts.force[c].x(), 0});
+  EXPECT_EQ(failed(column), Names{"slope"});
+}
+
+TEST_F(Check, GrainsThatMoveWithoutVelocityAreFound)
+{
+  Column column;
+  for (std::size_t k = 0; k < column.frames.size(); ++k)
+    column.frames[k].image[1][0] = static_cast<std::int32_t>(k);
+  EXPECT_EQ(failed(column), Names{"x_drift"});
+}
+
+TEST_F(Check, EnergyThatIsMissingIsFoundUnlessNothingMoves)
+{
+  Column column({3, -weight}, 0.5);
+  column.observables[7][2] = 1e-9;
+  EXPECT_EQ(failed(column), Names{"energy_defect"});
+  Column at_rest;
+  at_rest.observables[7][2] = 1e-9;
+  EXPECT_EQ(failed(at_rest), Names{});
+}
+
+TEST_F(Check, EnergyThatGoesMissingMoreAndMoreIsFound)
+{
+  Column column({3, -weight}, 0.5);
+  for (std::size_t k = 0; k < column.frames.size(); ++k)
+    column.observables[k][2] = 1e-11 * static_cast<double>(k);
+  EXPECT_EQ(failed(column), (Names{"energy_defect", "energy_defect_drift"}));
+}
+
+// A disc whose contact has the friction f_x turns by f_x r per inertia m r^2/2 and time; so do the
+// two of every other contact.
+TEST_F(Check, TorquesAreHeldAgainstTheSpinsOfConsecutiveSteps)
+{
+  const double g_x = 2;
+  const auto turning = [&] {
+    Column column({g_x, -weight}, 0, 1);
+    const double mass = column.description.grains.mass[1];
+    for (std::size_t k = 0; k < column.frames.size(); ++k) {
+      for (std::size_t g = 1; g <= discs; ++g) {
+        const auto& force = column.frames[k].contacts.force;
+        const double sum = force[g - 1].x() + (g < discs ? force[g].x() : 0);
+        column.frames[k].angular_velocity[g] =
+            sum * radius / (mass * radius * radius / 2) * h * static_cast<double>(k);
+      }
+    }
+    return column;
+  };
+  const auto lines = lines_of(turning());
+  EXPECT_EQ(with(Verdict::failed, lines), Names{});
+  EXPECT_EQ(with(Verdict::skipped, lines), Names{});
+  auto column = turning();
+  column.frames[7].angular_velocity[3] *= 1 + 1e-6;
+  EXPECT_EQ(failed(column), Names{"torque_balance"});
+}
+
+// --- Files that tell less, or that were damaged. ---
+
+TEST_F(Check, AFileWithoutForcesOfGrainsSkipsWhatNeedsThemAndSaysSo)
+{
+  Column().write(path);
+  tamper([](hid_t file) { H5Ldelete(file, "/particles/grains/force", H5P_DEFAULT); });
+  const auto lines = lines_of_file();
+  EXPECT_EQ(with(Verdict::failed, lines), Names{"damaged_frames"});  // no longer as written
+  EXPECT_EQ(with(Verdict::skipped, lines),
+            (Names{"approach_largest", "approach_mean", "force_balance", "open_gap_largest",
+                   "open_gap_mean", "torque_balance"}));
+  for (const auto& line : lines) {
+    if (line.quantity == "force_balance") {
+      EXPECT_EQ(line.remark, "the file holds no `force` of grains");
+    }
+  }
+}
+
+TEST_F(Check, AFileWithoutObservablesAndFrictionSkipsWhatNeedsThem)
+{
+  Column column;
+  column.description.observables.clear();
+  for (auto& values : column.observables) values.clear();
+  column.description.parameters.numbers.erase("friction");
+  const auto lines = lines_of(column);
+  EXPECT_EQ(with(Verdict::failed, lines), Names{});
+  EXPECT_EQ(with(Verdict::skipped, lines),
+            (Names{"coulomb_largest", "coulomb_mean", "energy_defect", "energy_defect_drift",
+                   "torque_balance", "total_momentum"}));
+}
+
+TEST_F(Check, AFewFramesSkipWhatNeedsWindows)
+{
+  Column column;
+  column.frames.resize(7);
+  const auto lines = lines_of(column);
+  EXPECT_EQ(with(Verdict::failed, lines), Names{});
+  EXPECT_EQ(with(Verdict::skipped, lines), (Names{"energy_defect_drift", "overlap_drift", "slope",
+                                                  "torque_balance", "weight", "x_drift"}));
+}
+
+TEST_F(Check, ARunWithoutFramesIsNamed)
+{
+  Column column;
+  column.frames.clear();
+  const auto lines = lines_of(column);
+  EXPECT_EQ(with(Verdict::failed, lines), Names{"no_frames"});
+  EXPECT_EQ(with(Verdict::skipped, lines), Names{"physics"});
+}
+
+TEST_F(Check, AFrameThatIsNotAsWrittenDisagreesWithItsDigest)
+{
+  Column().write(path);
+  tamper([](hid_t file) {
+    const hid_t spins = H5Dopen2(file, "/particles/grains/angular_velocity/value", H5P_DEFAULT);
+    std::vector<double> values(20 * (discs + 1));
+    H5Dread(spins, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    values[7 * (discs + 1) + 3] = 1e-300;
+    H5Dwrite(spins, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Dclose(spins);
+  });
+  const auto lines = lines_of_file();
+  EXPECT_EQ(with(Verdict::failed, lines), Names{"damaged_frames"});
+  EXPECT_EQ(lines.at(2).remark, "frame 7 is the first that is not as written");
+}
+
+TEST_F(Check, ARunThatWasNeverClosedIsNamed)
+{
+  Column().write(path);
+  tamper([](hid_t file) { H5Ldelete(file, "/parameters/complete", H5P_DEFAULT); });
+  EXPECT_EQ(with(Verdict::failed, lines_of_file()), Names{"not_closed"});
+}
+
+// Balances of blocks of frames that are merged see the pairs of frames across the blocks as well.
+TEST_F(Check, BalancesOfTwoHalvesMergeIntoThatOfTheWhole)
+{
+  Column column({2, -weight}, 0, 1);
+  column.frames[10].angular_velocity[3] = 5;
+  column.frames[3].contacts.force[2] *= 1.5;
+  const auto& grains = column.description.grains;
+  ForceBalance whole(Vec2(2, -weight), h), first = whole, second = whole;
+  for (std::size_t k = 0; k < 20; ++k) {
+    whole.add(grains, column.frames[k]);
+    (k < 10 ? first : second).add(grains, column.frames[k]);
+  }
+  first.merge(second);
+  for (const auto& [a, b] :
+       {std::pair{whole.forces(), first.forces()}, std::pair{whole.torques(), first.torques()}}) {
+    EXPECT_EQ(a.largest, b.largest);
+    EXPECT_EQ(a.count, b.count);
+    EXPECT_EQ(a.time, b.time);
+    EXPECT_EQ(a.number, b.number);
+  }
+}
+
+}  // namespace
+}  // namespace grseg

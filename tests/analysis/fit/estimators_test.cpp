@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/rule_fit.hpp"
+#include "tests/analysis/synthetic_fits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+using synthetic::any_tensor;
+using synthetic::fit;
+using synthetic::neutral_data;
+using synthetic::neutral_sums;
+using synthetic::power_law;
+using synthetic::read;
+using synthetic::scatter;
+using synthetic::separate_sums;
+using synthetic::stress_table;
+using synthetic::TableRow;
+
+// ---- estimators ---------------------------------------------------------------------------------
+
+TEST(Estimators, AnExactSlopeComesBackFromEveryFit)
+{
+  const double s = 0.83;
+  const auto b = estimate(power_law(s, 1));
+  EXPECT_NEAR(b.slope, s, 1e-13);
+  EXPECT_NEAR(b.slope_linear, s, 1e-13);
+  EXPECT_NEAR(b.prefactor_power, s, 1e-13);
+  EXPECT_NEAR(b.exponent, 1, 1e-13);
+  EXPECT_NEAR(b.B_half, 2 * (1 - s) / (1 + s), 1e-13);
+  EXPECT_NEAR(b.B_mean, -std::log(s), 1e-13);
+  EXPECT_NEAR(b.B_pure_large, 1 - s, 1e-13);
+  EXPECT_NEAR(b.B_pure_small, (1 - s) / s, 1e-13);
+  EXPECT_NEAR(b.B_linear, b.B_half, 1e-13);
+  EXPECT_NEAR(b.B_power, b.B_half, 1e-13);
+}
+
+TEST(Estimators, APowerLawKeepsItsExponentWhateverTheWeights)
+{
+  const auto b = estimate(power_law(1.44, 1.0057));
+  EXPECT_NEAR(b.exponent, 1.0057, 1e-12);
+  EXPECT_NEAR(b.prefactor_power, 1.44, 1e-12);
+}
+
+// Staron & Phillips (2015): slope 0.9660 "B between 0.034 and 0.035"; slope 1.4413 "B = -0.373",
+// the half-sum of the ends of a range from -0.4413 to -0.3062.
+TEST(Estimators, ThePapersSlopesGiveThePapersB)
+{
+  const auto contact = estimate(power_law(0.966, 1));
+  EXPECT_NEAR(contact.B_pure_large, 0.0340, 5e-5);
+  EXPECT_NEAR(contact.B_pure_small, 0.0352, 5e-5);
+  const auto kinetic = estimate(power_law(1.4413, 1));
+  EXPECT_NEAR(kinetic.B_pure_large, -0.4413, 5e-5);
+  EXPECT_NEAR(kinetic.B_pure_small, -0.3062, 5e-5);
+  EXPECT_NEAR(kinetic.B_paper, -0.3737, 1e-4);
+  EXPECT_NEAR(kinetic.B_half, -0.3615, 1e-4);
+}
+
+// Gray & Thornton (2005) itself, psi_L = phi_L (1 + B phi_S): the direct estimate is exact for it.
+TEST(Estimators, ConstantBOfGrayAndThorntonIsFoundDirectly)
+{
+  const double b = 0.31;
+  auto points = power_law(1, 1);
+  for (auto& point : points) {
+    const double psi = point.phi_large * (1 + b * (1 - point.phi_large));
+    point.total = 5;
+    point.large = 5 * psi;
+    point.small = 5 * (1 - psi);
+  }
+  EXPECT_NEAR(estimate(points).B_direct, b, 1e-13);
+}
+
+// Two layers: (x, y) = (1/4, 1/2) of weight 3 and (4, 2) of weight 1. ln(y/x) = ln 2 and -ln 2, so
+// the weighted mean is (3 - 1)/4 ln 2. The line through the origin: (1/8 + 8)/(1/16 + 16).
+// Power law: the logarithms lie on a line of slope ln 4/ln 16.
+// B_direct: psi_L - phi_L = 2/3 - 4/5 and 1/3 - 1/5, phi_L phi_S = 4/25 in both.
+TEST(Estimators, TwoLayersByHand)
+{
+  const std::vector<FitPoint> points{
+      {.phi_large = 0.8, .weight = 3, .size_ratio = 2, .small = 1, .large = 2, .total = 3},
+      {.phi_large = 0.2, .weight = 1, .size_ratio = 2, .small = 2, .large = 1, .total = 3}};
+  const auto b = estimate(points);
+  EXPECT_NEAR(b.slope, std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(b.slope_linear, (1. / 8 + 8) / (1. / 16 + 16), 1e-14);
+  EXPECT_NEAR(b.exponent, 0.5, 1e-14);
+  EXPECT_NEAR(b.prefactor_power, 1, 1e-14);
+  EXPECT_NEAR(b.B_direct, (3 * (2. / 3 - 0.8) + (1. / 3 - 0.2)) / (4 * 0.16), 1e-14);
+}
+
+TEST(Estimators, SumsOverWindowsSayTheSameAsGslsFitsOfThePoints)
+{
+  std::vector<FitPoint> points;
+  for (std::size_t k = 0; k < 200; ++k) {
+    FitPoint point{.window = k % 11, .phi_large = 0.5 + 0.49 * scatter(k), .size_ratio = 2};
+    point.weight = 2 + scatter(3 * k);
+    point.large = point.phi_large * (1 + 0.2 * scatter(7 * k + 1));
+    point.small = 1 - point.phi_large + (k == 17 ? -1 : 0);  // one without a logarithm
+    point.total = point.large + point.small;
+    points.push_back(point);
+  }
+  const auto by_points = estimate(points);
+  const auto by_sums = estimate_from_sums(window_sums(points, {4, 7}).total());
+  for (const auto& [name, place] : estimator_names)
+    EXPECT_NEAR(by_sums.*place, by_points.*place, 1e-12) << name;
+}
+
+TEST(Estimators, AStressThatIsNotPositiveCountsForTheDirectEstimateOnly)
+{
+  auto points = power_law(0.9, 1);
+  const auto before = estimate(points);
+  points.push_back(
+      {.phi_large = 0.02, .weight = 1, .size_ratio = 2, .small = 3, .large = -0.1, .total = 2.9});
+  const auto after = estimate(points);
+  EXPECT_EQ(after.slope, before.slope);
+  EXPECT_EQ(after.slope_linear, before.slope_linear);
+  EXPECT_LT(after.B_direct, before.B_direct);
+}
+
+TEST(Estimators, OneCompositionHasASlopeButNoExponent)
+{
+  const std::vector<FitPoint> points(
+      3, {.phi_large = 0.3, .weight = 1, .size_ratio = 2, .small = 2, .large = 1, .total = 3});
+  EXPECT_NEAR(estimate(points).slope, 2 / (0.7 / 0.3), 1e-14);
+  EXPECT_TRUE(std::isnan(estimate(points).exponent));
+  EXPECT_TRUE(std::isnan(estimate_from_sums(window_sums(points, {1}).total()).exponent));
+}
+
+// ---- rules on neutral contacts ------------------------------------------------------------------
+
+TEST(NeutralContacts, SharedBySizeDoNotSegregateByAnyEstimator)
+{
+  const auto data = neutral_data(0);
+  for (const char* rule : {"size", "contact-point"})
+    for (const auto component : {Component::yy, Component::pressure}) {
+      const auto b = fit(data, rule, {.component = component}).value;
+      for (const double value : {b.B_half, b.B_mean, b.B_paper, b.B_linear, b.B_power, b.B_direct})
+        EXPECT_NEAR(value, 0, 1e-12);
+      EXPECT_NEAR(b.exponent, 1, 1e-12);
+    }
+}
+
+TEST(NeutralContacts, SharedOtherwiseShowExactlyTheClosedForm)
+{
+  const auto data = neutral_data(0);
+  for (const char* rule : {"uniform:0.8", "uniform:0.6", "uniform:0.5", "half"}) {
+    const auto result = fit(data, rule);
+    EXPECT_NEAR(result.value.B_direct, result.neutral, 1e-12) << rule;
+    EXPECT_NEAR(result.minus_size, result.neutral, 1e-12) << rule;
+  }
+  EXPECT_EQ(fit(data, "size").neutral, 0);
+  EXPECT_EQ(fit(data, "half").neutral, fit(data, "uniform:0.5").neutral);
+}
+
+TEST(NeutralContacts, GiveLargeGrainsTheShareOfTheRule)
+{
+  const auto data = neutral_data(0.1);
+  EXPECT_NEAR(fit(data, "size").share, 2. / 3, 1e-14);
+  EXPECT_NEAR(fit(data, "half").share, 0.5, 1e-14);
+  EXPECT_NEAR(fit(data, "uniform:0.8").share, 0.8, 1e-14);
+  EXPECT_TRUE(std::isnan(fit(data, "drop").share));
+}
+
+TEST(NeutralContacts, DisturbedOnesShowInTheDifferenceToSizeWhatTheRuleAdds)
+{
+  const auto data = neutral_data(0.1);
+  const auto size = fit(data, "size"), other = fit(data, "uniform:0.8");
+  EXPECT_GT(std::abs(size.value.B_direct), 1e-4);
+  EXPECT_NEAR(other.minus_size, other.value.B_direct - size.value.B_direct, 1e-15);
+  EXPECT_EQ(size.minus_size, 0);
+}
+
+// r = 2: (0.8 - 2/3) 3/(1 + phi_S) with the weights w (phi_L phi_S)^2 of two layers, where w is the
+// number of the rarer grains: phi_L/4 of large ones at 0.2, at 0.8 phi_S = 0.2 of small against
+// 0.8/4 of large, i.e. four times as many.
+TEST(NeutralContacts, TheClosedFormIsAveragedWithTheWeightsOfTheDirectEstimate)
+{
+  const auto data =
+      read({stress_table({{0, 1, 10, neutral_sums(0.2, 2)}, {0, 1, 10, neutral_sums(0.8, 2)}})});
+  const double low = (0.8 - 2. / 3) * 3 / 1.8, high = (0.8 - 2. / 3) * 3 / 1.2;
+  EXPECT_NEAR(fit(data, "uniform:0.8").neutral, (low + 4 * high) / 5, 1e-14);
+}
+
+// Without mixed contacts y = A_SS/A_LL = (x_S/x_L)^2 2/(2 r), and x_S/x_L = r phi_S/phi_L.
+TEST(NeutralContacts, DroppedMixedContactsLeaveAParabolaAndNoB)
+{
+  const auto result = fit(neutral_data(0), "drop");
+  EXPECT_NEAR(result.value.exponent, 2, 1e-12);
+  EXPECT_NEAR(result.value.prefactor_power, 2, 1e-12);
+  EXPECT_FALSE(std::isnan(result.value.slope));
+  for (const auto& [name, place] : estimator_names)
+    EXPECT_EQ(std::isnan(result.value.*place), name[0] == 'B') << name;
+  EXPECT_TRUE(std::isnan(result.neutral));
+  EXPECT_TRUE(std::isnan(result.minus_size));
+}
+
+// ---- intervals ----------------------------------------------------------------------------------
+
+// One layer per window, all of one composition and weight: B_mean is the plain mean of -ln(y/x), so
+// its interval is that of a mean. 40 windows with ln(y/x) = +-0.1 in an order without correlation:
+// standard deviation 0.1 sqrt(40/39), Student's t for 39 degrees of freedom 2.0227.
+TEST(Intervals, OfIndependentWindowsAreThoseOfAMean)
+{
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 40; ++k) {
+    // + - + + - - - + and its negative: correlations of neighbours cancel to a few per cent.
+    const double sign = "+-++---+-+--+++-"[k % 16] == '+' ? 1 : -1;
+    rows.push_back({1.0 * k, k + 1.0, 10,
+                    separate_sums(0.5, std::exp(0.1 * sign) * any_tensor(), any_tensor())});
+  }
+  const auto data = read({stress_table(rows)});
+  const auto result = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
+  EXPECT_EQ(result.dependence.block, 1u);
+  EXPECT_NEAR(result.dependence.effective_windows, 40, 1e-9);
+  EXPECT_NEAR(result.value.B_mean, 0, 1e-14);
+  const double expected = 2.0227 * 0.1 * std::sqrt(1 / 39.0);
+  EXPECT_NEAR((result.high.B_mean - result.low.B_mean) / 2 / expected, 1, 0.05);
+}
+
+TEST(Intervals, HoldEachEstimateAndExistForAll)
+{
+  const auto data = neutral_data(0.1);
+  const auto result = fit_rule(data, parse_rule("uniform:0.8"), {}, Bootstrap(data.runs, 300, 1));
+  for (const auto& [name, place] : estimator_names) {
+    EXPECT_LT(result.low.*place, result.value.*place) << name;
+    EXPECT_GT(result.high.*place, result.value.*place) << name;
+  }
+  EXPECT_LT(result.minus_size_interval.low, result.minus_size);
+  // The same samples for both rules: the difference is known better than either.
+  EXPECT_LT(result.minus_size_interval.high - result.minus_size_interval.low,
+            result.high.B_direct - result.low.B_direct);
+}
+
+TEST(Intervals, BLiesInTheIntervalOfItsSlope)
+{
+  const auto data = neutral_data(0.1);
+  const auto result = fit_rule(data, {}, {}, Bootstrap(data.runs, 1000, 1));
+  // dB_half/ds = -4/(1 + s)^2, so both intervals are one but for curvature.
+  const double s = result.value.slope;
+  EXPECT_NEAR((result.high.B_half - result.low.B_half) /
+                  ((result.high.slope - result.low.slope) * 4 / ((1 + s) * (1 + s))),
+              1, 0.01);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/fit_data.hpp"
+
+#include "formats/core/errors.hpp"
+#include "tests/analysis/synthetic_fits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+using synthetic::any_tensor;
+using synthetic::compositions;
+using synthetic::fit;
+using synthetic::holds;
+using synthetic::neutral_rows;
+using synthetic::neutral_sums;
+using synthetic::read;
+using synthetic::sentence_of;
+using synthetic::separate_sums;
+using synthetic::stress_table;
+using synthetic::TableRow;
+
+TEST(FitData, AWeightIsFramesTimesGrainsOfTheRarerSpecies)
+{
+  const auto data =
+      read({stress_table({{0, 1, 10, neutral_sums(0.2, 2)}, {0, 1, 30, neutral_sums(0.9, 2)}})});
+  // Large grains per small area: phi_L/4 = 0.05 against 0.8; then 0.225 against phi_S = 0.1.
+  EXPECT_NEAR(data.samples[1].weight / data.samples[0].weight, 3 * 0.1 / 0.05, 1e-12);
+  EXPECT_NEAR(data.samples[0].phi_large, 0.2, 1e-15);
+  EXPECT_EQ(data.samples[0].size_ratio, 2);
+}
+
+TEST(FitData, LayersOfOneWindowShareItAndRunsFollowOneAnother)
+{
+  const auto sums = neutral_sums(0.3, 2);
+  const auto a = stress_table({{0, 1, 9, sums}, {0, 1, 9, sums}, {1, 2, 9, sums}});
+  const auto b = stress_table({{1, 2, 9, sums}, {0, 1, 9, sums}});
+  const auto data = read({a, b});
+  EXPECT_EQ(data.runs, (RunLengths{2, 2}));
+  std::vector<std::size_t> windows;
+  for (const auto& sample : data.samples) windows.push_back(sample.window);
+  EXPECT_EQ(windows, (std::vector<std::size_t>{0, 0, 1, 3, 2}));
+}
+
+TEST(FitData, EachFilterCountsWhatItRemoves)
+{
+  auto rows = std::vector<TableRow>(5, {2, 3, 9, neutral_sums(0.5, 2)});
+  rows.push_back({0, 1, 9, neutral_sums(0.5, 2)});        // too early
+  rows.push_back({8, 9, 9, neutral_sums(0.5, 2)});        // too late
+  rows.push_back({2, 3, 9, neutral_sums(0.5, 2, 0.39)});  // thin: below half of 0.8
+  rows.push_back({2, 3, 9, neutral_sums(0.5, 2, 0.41)});  // just not
+  rows.push_back({2, 3, 9, neutral_sums(0.005, 2)});      // x = 199
+  rows.push_back({2, 3, 9, separate_sums(0, any_tensor(), Tensor2::Zero())});
+  rows.push_back({2, 3, 9, separate_sums(1, Tensor2::Zero(), any_tensor())});
+  ContactSums nothing;
+  nothing.volume = 1;
+  rows.push_back({2, 3, 9, nothing});
+  const auto data = read({stress_table(rows)}, {.begin = 2, .end = 8});
+  EXPECT_EQ(data.count.sentence(),
+            "13 rows, 2 outside --begin and --end, 1 without grains, 1 without small grains, 1 "
+            "without large grains, 1 outside --ratio-range, 1 below --min-solid");
+  EXPECT_EQ(data.count.used, 6u);
+  EXPECT_EQ(data.samples.size(), 6u);
+}
+
+TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
+{
+  std::vector<TableRow> rows;
+  for (int layer = 0; layer < 4; ++layer)
+    rows.push_back({0, 1, 9, neutral_sums(0.5, 2), 0.02 * layer, 0.02 * (layer + 1)});
+  const auto used = [&](const char* lowest, const char* highest) {
+    return read({stress_table(rows)}, {.lowest = lowest, .highest = highest}).count.used;
+  };
+  EXPECT_EQ(used("", ""), 4u);
+  EXPECT_EQ(used("4dS", ""), 3u);
+  EXPECT_EQ(used("4dS", "12dS"), 2u);
+  EXPECT_EQ(used("", "0.059"), 2u);
+  const auto sentence = sentence_of<RunError>({stress_table(rows)}, {.lowest = "1"});
+  EXPECT_TRUE(holds(sentence, "4 outside --heights"));
+  EXPECT_THROW(used("4", "five"), UsageError);
+}
+
+TEST(FitData, WhereNothingIsLeftTheSentenceNamesTheFilter)
+{
+  const auto table = stress_table(neutral_rows(0));
+  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.ratio_low = 500, .ratio_high = 600}),
+                    "210 outside --ratio-range"));
+  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.min_solid = 1.5}), "210 below --min-solid"));
+  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.begin = 1000}), "--begin"));
+  EXPECT_TRUE(holds(sentence_of<RunError>({stress_table({})}), "0 rows"));
+}
+
+TEST(FitData, AnEmptySpeciesIsNamed)
+{
+  const auto only_small =
+      stress_table({{0, 1, 9, separate_sums(0, any_tensor(), Tensor2::Zero())}});
+  const auto sentence = sentence_of<RunError>({only_small});
+  EXPECT_TRUE(holds(sentence, "1 without large grains"));
+  EXPECT_TRUE(holds(sentence, "both species"));
+}
+
+TEST(FitData, TheSameWindowsOfTheSameRunAreNotCountedTwice)
+{
+  auto early = stress_table({{0, 1, 9, neutral_sums(0.5, 2)}});
+  auto late = stress_table({{1, 2, 9, neutral_sums(0.5, 2)}});
+  early.header.emplace_back("input", "run.h5 0123456789abcdef");
+  late.header.emplace_back("input", "run.h5 0123456789abcdef");
+  EXPECT_EQ(sentence_of<UsageError>({early, late}), "");
+  EXPECT_TRUE(holds(sentence_of<UsageError>({early, late, early}), "counted twice"));
+}
+
+Table kinetic_table(double slope)
+{
+  Table table;
+  table.name = "kinetic.tsv";
+  table.header = {{"small_diameter", "0.005"}, {"large_diameter", "0.01"}};
+  table.columns = {"t0[s]",      "t1[s]",      "y0[m]",     "y1[m]",     "frames",    "V[m^2]",
+                   "mass_S[kg]", "mass_L[kg]", "K_S_xx[J]", "K_S_yy[J]", "K_L_xx[J]", "K_L_yy[J]"};
+  for (const double phi : compositions)
+    table.rows.push_back(
+        {0, 1, 0, 0.02, 25, 2, 1 - phi, phi, 9 * (1 - phi), slope * (1 - phi), phi, phi});
+  return table;
+}
+
+// The slope of the kinetic stresses is the ratio of the mean squared fluctuations (mass-weighted).
+TEST(FitData, KineticStressesAreFittedWithMassesForComposition)
+{
+  const auto data = read({kinetic_table(1.44)}, {}, Quantity::kinetic);
+  const auto yy = fit(data, "size");
+  EXPECT_NEAR(yy.value.slope, 1.44, 1e-13);
+  EXPECT_NEAR(yy.value.B_half, 2 * (1 - 1.44) / 2.44, 1e-13);
+  EXPECT_TRUE(std::isnan(yy.neutral));
+  EXPECT_TRUE(std::isnan(yy.minus_size));
+  EXPECT_NEAR(fit(data, "size", {.component = Component::pressure}).value.slope, (9 + 1.44) / 2,
+              1e-13);
+}
+
+TEST(FitData, ATableOfAnotherToolIsRefusedWithTheNameOfTheRightOne)
+{
+  EXPECT_TRUE(
+      holds(sentence_of<FormatError>({stress_table(neutral_rows(0))}, {}, Quantity::kinetic),
+            "grseg-kinetic"));
+  EXPECT_TRUE(holds(sentence_of<FormatError>({kinetic_table(1)}), "grseg-stress"));
+}
+
+TEST(FitData, BaseContactsCountAsFarAsTheChosenBaseSays)
+{
+  auto sums = separate_sums(0.5, Tensor2::Identity(), Tensor2::Identity());
+  sums.base_small = 2 * Tensor2::Identity();
+  sums.whole_small = 6 * Tensor2::Identity();
+  const auto data = read({stress_table({{0, 1, 9, sums}})});
+  EXPECT_NEAR(fit(data, "size", {.base = BasePart::contact_point}).value.slope, 3, 1e-14);
+  EXPECT_NEAR(fit(data, "size", {.base = BasePart::half}).value.slope, 4, 1e-14);
+  EXPECT_NEAR(fit(data, "size", {.base = BasePart::none}).value.slope, 1, 1e-14);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/partition_scan.hpp"
+
+#include "formats/core/errors.hpp"
+#include "tests/analysis/correlated_windows.hpp"
+#include "tests/analysis/synthetic_fits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+using synthetic::neutral_data;
+using synthetic::neutral_rows;
+using synthetic::no_bootstrap;
+using synthetic::read;
+using synthetic::stress_table;
+
+PartitionRule uniform(double share)
+{
+  return {PartitionRule::Kind::uniform, share};
+}
+
+TEST(PartitionScan, EveryShareIsTheSingleFitOfItsRuleInBlocksOfTheScan)
+{
+  const auto data = neutral_data(0.1);
+  const Bootstrap bootstrap(data.runs, 200, 4);
+  const auto scan = scan_partition(data, parse_scan("0.4:0.9:0.1"), {}, bootstrap);
+  ASSERT_EQ(scan.fits.size(), 6u);
+  for (const auto& one : scan.fits) {
+    const auto single = fit_rule(data, uniform(one.rule.value), {}, bootstrap, scan.dependence);
+    EXPECT_NEAR(one.value.B_half, single.value.B_half, 1e-12);
+    EXPECT_NEAR(one.low.B_half, single.low.B_half, 1e-12);
+    EXPECT_NEAR(one.high.B_direct, single.high.B_direct, 1e-12);
+  }
+}
+
+/// 120 windows in which contacts of large grains remember for ten windows and mixed ones nothing.
+FitData of_two_memories()
+{
+  synthetic::Ar1 slow(0.8), quick(0);
+  const Eigen::VectorXd large = slow.series(120), mixed = quick.series(120);
+  std::vector<synthetic::TableRow> rows;
+  for (Eigen::Index window = 0; window < 120; ++window) {
+    auto sums = synthetic::neutral_sums(0.5, 2);
+    sums.ll *= 1 + 0.02 * large[window];
+    for (auto* part : {&sums.mixed, &sums.mixed_size, &sums.mixed_contact})
+      *part *= 1 + 0.1 * mixed[window];
+    const auto begin = static_cast<double>(window);
+    rows.push_back({begin, begin + 1, 25, sums});
+  }
+  return read({stress_table(rows)});
+}
+
+// The block length changes with the share; were each share to take its own, the band would jump
+// there. With one for all it changes as smoothly as B: a step of 0.002 moves its half-width, which
+// halves over some tenths, by less than two per cent.
+TEST(PartitionScan, TheBandOfBIsSmooth)
+{
+  const auto data = of_two_memories();
+  const Bootstrap bootstrap(data.runs, 1000, 4);
+  const auto scan = scan_partition(data, parse_scan("0.5:0.8:0.002"), {}, bootstrap);
+  const auto half_width = [](const RuleFit& fit) { return (fit.high.B_half - fit.low.B_half) / 2; };
+  double jump = 0, own_jump = 0;
+  for (std::size_t k = 1; k < scan.fits.size(); ++k) {
+    const auto &fit = scan.fits[k], &before = scan.fits[k - 1];
+    jump = std::max(jump, std::abs(half_width(fit) / half_width(before) - 1));
+    const auto own = [&](const RuleFit& of) {
+      return half_width(fit_rule(data, of.rule, {}, bootstrap));
+    };
+    own_jump = std::max(own_jump, std::abs(own(fit) / own(before) - 1));
+  }
+  EXPECT_LT(jump, 0.02);
+  EXPECT_GT(own_jump, 2 * jump);
+}
+
+// B_half = 2 (1 - s)/(1 + s) has the slope of -ln s at s = 1, and there the neutral model gives
+// -d ln(y)/dp = m/(psi_S psi_L) = (1 + r)/(phi_L + r phi_S), averaged with the weights of the
+// slope.
+TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
+{
+  for (const double r : {2.0, 3.0}) {
+    const auto data = read({stress_table(neutral_rows(0, r), 0.005, 0.005 * r)});
+    const auto scan = scan_partition(data, parse_scan("0.4:0.9:0.005"), {}, no_bootstrap(data));
+    double weight = 0, slope = 0;
+    for (const auto& sample : data.samples) {
+      weight += sample.weight;
+      slope += sample.weight * (1 + r) / (sample.phi_large + r * (1 - sample.phi_large));
+    }
+    EXPECT_NEAR(scan.p_zero, r / (1 + r), 1e-12);
+    EXPECT_NEAR(scan.dB_dp, slope / weight, 1e-10);
+    EXPECT_TRUE(std::isnan(scan.p_zero_interval.low));
+  }
+}
+
+TEST(PartitionScan, TheIntervalOfTheZeroHoldsIt)
+{
+  const auto data = neutral_data(0.2);
+  const auto scan =
+      scan_partition(data, parse_scan("0.5:0.8:0.01"), {}, Bootstrap(data.runs, 500, 1));
+  EXPECT_LT(scan.p_zero_interval.low, scan.p_zero);
+  EXPECT_GT(scan.p_zero_interval.high, scan.p_zero);
+}
+
+// dB = dB/dp dp: the interval of the zero is that of B there.
+TEST(PartitionScan, TheIntervalOfTheZeroIsThatOfBOverItsSlope)
+{
+  const auto data = neutral_data(0.2);
+  const Bootstrap bootstrap(data.runs, 2000, 1);
+  const auto scan = scan_partition(data, parse_scan("0.5:0.8:0.01"), {}, bootstrap);
+  const auto at_zero = fit_rule(data, uniform(scan.p_zero), {}, bootstrap);
+  EXPECT_NEAR(at_zero.value.B_half, 0, 1e-12);
+  EXPECT_NEAR((scan.p_zero_interval.high - scan.p_zero_interval.low) * scan.dB_dp /
+                  (at_zero.high.B_half - at_zero.low.B_half),
+              1, 0.01);
+}
+
+/// 48 windows of seven layers of neutral contacts; each kind of contact scatters by two per cent.
+FitData scattered_neutral_data(synthetic::Ar1& noise)
+{
+  std::vector<synthetic::TableRow> rows;
+  for (const double phi : synthetic::compositions) {
+    const Eigen::MatrixX3d normal = noise.series({48, 48, 48}, 0).reshaped(48, 3);
+    for (Eigen::Index window = 0; window < 48; ++window) {
+      auto sums = synthetic::neutral_sums(phi, 2);
+      sums.ll *= 1 + 0.02 * normal(window, 0);
+      sums.ss *= 1 + 0.02 * normal(window, 1);
+      sums.mixed *= 1 + 0.02 * normal(window, 2);
+      rows.push_back(
+          {1. * static_cast<double>(window), 1. + static_cast<double>(window), 25, sums});
+    }
+  }
+  return read({stress_table(rows)});
+}
+
+// Three standard deviations of 300 trials about 93 and 97 %.
+TEST(PartitionScan, TheIntervalsOfZeroAndSlopeHoldTheTruth)
+{
+  const auto known = neutral_data(0);
+  const double slope =
+      scan_partition(known, parse_scan("0.6:0.7:0.1"), {}, no_bootstrap(known)).dB_dp;
+  synthetic::Ar1 noise(0.5);
+  double zero_held = 0, slope_held = 0;
+  for (unsigned k = 1; k <= 300; ++k) {
+    const auto data = scattered_neutral_data(noise);
+    const auto scan =
+        scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 200, k));
+    zero_held += synthetic::holds(scan.p_zero_interval, 2. / 3) / 300.;
+    slope_held += synthetic::holds(scan.dB_dp_interval, slope) / 300.;
+  }
+  for (const double held : {zero_held, slope_held}) {
+    EXPECT_GT(held, 0.93 - 3 * std::sqrt(0.93 * 0.07 / 300));
+    EXPECT_LE(held, 0.97 + 3 * std::sqrt(0.97 * 0.03 / 300));
+  }
+}
+
+TEST(PartitionScan, ARangeWithoutAZeroSaysSo)
+{
+  const auto data = neutral_data(0);
+  const auto scan = scan_partition(data, parse_scan("0.7:0.9:0.1"), {}, no_bootstrap(data));
+  EXPECT_TRUE(std::isnan(scan.p_zero));
+  EXPECT_TRUE(std::isnan(scan.dB_dp));
+}
+
+TEST(PartitionScan, SharesAreExactAndIncludeTheLast)
+{
+  const auto shares = parse_scan("0.4:0.9:0.005").shares();
+  ASSERT_EQ(shares.size(), 101u);
+  EXPECT_EQ(shares[40], 0.6);
+  EXPECT_EQ(shares[100], 0.9);
+  EXPECT_EQ(parse_scan("0:0.3:0.1").shares().size(), 4u);  // 0.3/0.1 is below 3 in binary
+  for (const char* wrong : {"0.4:0.9", "0.4:0.9:0", "0.9:0.4:0.1", "0:1.1:0.1", "a:b:c", "0:1:0.1x",
+                            "0:1:1e-9", "nan:1:0.1"})
+    EXPECT_THROW(parse_scan(wrong), UsageError) << wrong;
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frames/layers.hpp"
+
+#include "formats/core/errors.hpp"
+#include "tests/analysis/grain_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+using std::numbers::pi;
+
+TEST(Layers, HalfADiscLiesBelowItsCentre)
+{
+  EXPECT_DOUBLE_EQ(disc_area_below(2, 0), 2 * pi);
+  EXPECT_DOUBLE_EQ(disc_area_below(2, 2), 4 * pi);
+  EXPECT_DOUBLE_EQ(disc_area_below(2, 7), 4 * pi);
+  EXPECT_NEAR(disc_area_below(2, -2), 0, 1e-15);
+  EXPECT_NEAR(disc_area_below(2, -7), 0, 1e-15);
+}
+
+// A chord at half the radius is seen under 120 degrees: sector pi/3 less triangle sqrt(3)/4.
+TEST(Layers, TheCapBeyondHalfARadiusIsSectorLessTriangle)
+{
+  EXPECT_NEAR(disc_area_below(1, -0.5), pi / 3 - std::sqrt(3) / 4, 1e-15);
+  EXPECT_NEAR(disc_area_below(1, 0.5), pi - (pi / 3 - std::sqrt(3) / 4), 1e-15);
+}
+
+TEST(Layers, AHeightOnAnEdgeBelongsToTheLayerAbove)
+{
+  const Layers layers(0.02, 0.35);
+  for (std::size_t n = 0; n < 2000; ++n) {
+    EXPECT_EQ(layers.at(layers.bottom(n)), n);
+    if (n > 0) {
+      EXPECT_EQ(layers.at(std::nextafter(layers.bottom(n), 0.0)), n - 1);
+    }
+  }
+}
+
+TEST(Layers, TheFirstLayerTakesAllBelowTheBase)
+{
+  EXPECT_EQ(Layers(0.02, 0.35).at(-3), 0u);
+}
+
+TEST(Layers, TheVolumeOfALayerIsItsThicknessTimesTheCell)
+{
+  EXPECT_DOUBLE_EQ(Layers(0.02, 0.35).volume(0), 0.007);
+}
+
+TEST(Layers, TheLastLayerIsReachedByTheTopOfTheHighestMobileGrain)
+{
+  const Layers layers(1, 10);
+  Scene scene;
+  scene.grain(Species::boundary, 1, {0, 7});
+  EXPECT_EQ(layers.count(scene.grains, scene.frame), 1u);
+  scene.grain(Species::small, 0.5, {0, 1.25});
+  EXPECT_EQ(layers.count(scene.grains, scene.frame), 2u);
+  scene.frame.position[1].y() = 1.5;  // just touches the edge at 2
+  EXPECT_EQ(layers.count(scene.grains, scene.frame), 2u);
+  scene.frame.position[1].y() = 1.75;
+  EXPECT_EQ(layers.count(scene.grains, scene.frame), 3u);
+}
+
+TEST(Layers, ALostGrainIsReportedAndNotCounted)
+{
+  Scene scene;
+  scene.grain(Species::small, 0.5, {0, 1e9});
+  EXPECT_THROW(Layers(1, 10).count(scene.grains, scene.frame), RunError);
+}
+
+TEST(Layers, ADiscKeepsItsAreaHoweverTheLayersCutIt)
+{
+  for (const double thickness : {0.07, 0.3, 1.0, 2.5, 40.0})
+    for (const double y : {-0.4, 0.0, 0.35, 2.5, 3.3}) {
+      const Layers layers(thickness, 1);
+      const std::size_t count = layers.at(y + 1) + 1;
+      double sum = 0;
+      layers.share_disc(y, 1, count, [&](std::size_t n, double area) {
+        EXPECT_LT(n, count);
+        EXPECT_GE(area, 0);
+        sum += area;
+      });
+      EXPECT_NEAR(sum, pi, 1e-13);
+    }
+}
+
+TEST(Layers, ADiscIsCutWhereTheEdgeIs)
+{
+  std::vector<double> areas(3);
+  Layers(1, 1).share_disc(1.5, 1, 3, [&](std::size_t n, double area) { areas[n] = area; });
+  const double cap = pi / 3 - std::sqrt(3) / 4;
+  EXPECT_NEAR(areas[0], cap, 1e-14);
+  EXPECT_NEAR(areas[1], pi - 2 * cap, 1e-14);
+  EXPECT_NEAR(areas[2], cap, 1e-14);
+}
+
+TEST(Layers, ASegmentIsSharedByLengthWhicheverWayItRuns)
+{
+  const Layers layers(1, 1);
+  for (const bool up : {true, false}) {
+    std::vector<double> shares(4);
+    layers.share_segment(up ? 0.5 : 2.5, up ? 2.5 : 0.5, 4,
+                         [&](std::size_t n, double share) { shares[n] += share; });
+    EXPECT_EQ(shares, (std::vector<double>{0.25, 0.5, 0.25, 0}));
+  }
+}
+
+TEST(Layers, ALevelSegmentIsWhole)
+{
+  double sum = 0;
+  Layers(1, 1).share_segment(2, 2, 4, [&](std::size_t n, double share) {
+    EXPECT_EQ(n, 2u);
+    sum += share;
+  });
+  EXPECT_EQ(sum, 1);
+}
+
+TEST(Layers, WhatLiesBelowTheBaseGoesToTheFirstLayerAndAboveToTheLast)
+{
+  std::vector<double> shares(2);
+  Layers(1, 1).share_segment(-1, 3, 2, [&](std::size_t n, double share) { shares[n] += share; });
+  EXPECT_EQ(shares, (std::vector<double>{0.5, 0.5}));
+}
+
+// Two unit circles through each other's centres share two segments of 120 degrees.
+TEST(Annuli, ADiscAndACircleShareTheirTwoSegments)
+{
+  EXPECT_NEAR(disc_area_within(1, 1, 1), 2 * pi / 3 - std::sqrt(3) / 2, 1e-15);
+  EXPECT_DOUBLE_EQ(disc_area_within(1, 0.5, 2), pi);
+  EXPECT_DOUBLE_EQ(disc_area_within(2, 0.5, 1), pi);
+  EXPECT_EQ(disc_area_within(1, 3, 1.5), 0);
+  // A large circle through the centre halves the disc, less what its curvature y^2/(2 R) takes.
+  EXPECT_NEAR(disc_area_within(1, 1e4, 1e4), pi / 2 - 1 / 3e4, 1e-10);
+}
+
+TEST(Annuli, ADiscAboutTheAxisFillsAnnuliFromTheInside)
+{
+  const auto annuli = Layers::annuli(1, 10, {5, 5});
+  std::vector<double> areas(3);
+  annuli.share_disc(0, 2.5, 3, [&](std::size_t n, double area) { areas[n] = area; });
+  EXPECT_NEAR(areas[0], pi, 1e-14);
+  EXPECT_NEAR(areas[1], 3 * pi, 1e-14);
+  EXPECT_NEAR(areas[2], 2.25 * pi, 1e-14);
+}
+
+TEST(Annuli, ADiscKeepsItsAreaHoweverTheAnnuliCutIt)
+{
+  for (const double thickness : {0.07, 0.3, 1.0, 2.5, 40.0})
+    for (const double distance : {0.0, 0.4, 1.0, 2.5, 33.3}) {
+      const auto annuli = Layers::annuli(thickness, 1, {0, 0});
+      double sum = 0;
+      annuli.share_disc(distance, 1, annuli.at(distance + 1) + 1, [&](std::size_t, double area) {
+        EXPECT_GE(area, -1e-12);
+        sum += area;
+      });
+      EXPECT_NEAR(sum, pi, 1e-11);
+    }
+}
+
+TEST(Annuli, VolumesAddUpToADisc)
+{
+  const auto annuli = Layers::annuli(0.3, 1, {0, 0});
+  double sum = 0;
+  for (std::size_t n = 0; n < 7; ++n) sum += annuli.volume(n);
+  EXPECT_NEAR(sum, pi * 2.1 * 2.1, 1e-13);
+}
+
+TEST(Annuli, AcrossIsOutwardAndAlongIsClockwise)
+{
+  const auto annuli = Layers::annuli(1, 10, {5, 5});
+  EXPECT_EQ(annuli.height({8, 9}), 5);
+  EXPECT_EQ(annuli.turned({2, 3}, {5, 7}), Vec2(2, 3));    // above the axis: as over a base
+  EXPECT_EQ(annuli.turned({2, 3}, {5, 1}), Vec2(-2, -3));  // below it
+  EXPECT_EQ(annuli.turned({2, 3}, {6, 5}), Vec2(-3, 2));   // on its right
+  EXPECT_EQ(Layers(1, 10).turned({2, 3}, {6, 5}), Vec2(2, 3));
+}
+
+TEST(Annuli, TheyReachToTheFarthestMobileGrain)
+{
+  Scene scene;
+  scene.grain(Species::boundary, 1, {50, 5});
+  scene.grain(Species::small, 0.5, {5, 1.75});
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 4u);
+  scene.frame.position[1].x() = 6;
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 4u);
+  scene.frame.position[1].x() = 9;
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 6u);
+}
+
+TEST(Layers, ThicknessAndLengthMustBePositive)
+{
+  EXPECT_THROW(Layers(0, 1), UsageError);
+  EXPECT_THROW(Layers(-1, 1), UsageError);
+  EXPECT_THROW(Layers(std::nan(""), 1), UsageError);
+  EXPECT_THROW(Layers(1, 0), UsageError);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/statistics/composition_noise.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+/// phi_L from 0.01 to 0.99.
+Eigen::VectorXd compositions(Eigen::Index count)
+{
+  return Eigen::VectorXd::LinSpaced(count, 0.01, 0.99);
+}
+
+Eigen::VectorXd ratio(const Eigen::VectorXd& phi)
+{
+  return (1 - phi.array()) / phi.array();
+}
+
+/// 1, 2, 3, 1, 2, 3, ...
+Eigen::VectorXd weights(Eigen::Index count)
+{
+  Eigen::VectorXd values(count);
+  for (Eigen::Index k = 0; k < count; ++k) values[k] = static_cast<double>(1 + k % 3);
+  return values;
+}
+
+// A power law y = k x^a and a B that grows with phi_L are known from the composition alone.
+TEST(CompositionNoise, APowerLawAndALineOverCompositionAreNone)
+{
+  const auto phi = compositions(50);
+  const Eigen::VectorXd law = 0.3 + 0.7 * ratio(phi).array().log() - 1.1 * phi.array();
+  EXPECT_LT(composition_noise(phi, law, weights(50)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(CompositionNoise, AddsUpToZero)
+{
+  const auto phi = compositions(40);
+  const Eigen::VectorXd value = (37 * phi.array()).sin(), weight = weights(40);
+  const Eigen::VectorXd noise = composition_noise(phi, value, weight);
+  EXPECT_NEAR(noise.dot(weight), 0, 1e-12);
+  EXPECT_NEAR(noise.cwiseProduct(weight).dot(phi), 0, 1e-12);
+  EXPECT_GT(noise.norm(), 0.8 * value.norm());
+}
+
+TEST(CompositionNoise, OfOneCompositionIsTheDeviationFromTheMean)
+{
+  const Eigen::VectorXd phi = Eigen::VectorXd::Constant(60, 0.3), weight = weights(60);
+  const Eigen::VectorXd value = Eigen::VectorXd::LinSpaced(60, -1, 5);
+  const Eigen::VectorXd deviation = value.array() - value.dot(weight) / weight.sum();
+  EXPECT_LT((composition_noise(phi, value, weight) - deviation).norm(), 1e-12);
+}
+
+// Ten points per coefficient: fewer than 30 points are not fitted away.
+TEST(CompositionNoise, OfFewPointsIsTheDeviationFromTheMean)
+{
+  const auto phi = compositions(29);
+  const Eigen::VectorXd weight = Eigen::VectorXd::Ones(29);
+  EXPECT_NEAR(composition_noise(phi, phi, weight)[0], 0.01 - 0.5, 1e-15);
+}
+
+}  // namespace
+}  // namespace grseg

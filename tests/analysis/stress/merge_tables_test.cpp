@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/stress/merge_tables.hpp"
+
+#include "formats/core/errors.hpp"
+#include "tests/analysis/synthetic_sums.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace grseg {
+namespace {
+
+using synthetic::TableRow;
+
+ContactSums sums(double large)
+{
+  auto some = synthetic::neutral_sums(0.5, 2);
+  some.ll = large * synthetic::any_tensor();
+  return some;
+}
+
+/// Row of window `window` (0.1 s) and layer `layer` (0.02 m).
+TableRow row(int window, int layer, double frames, double large)
+{
+  return {0.1 * window, 0.1 * window + 0.1, frames, sums(large), 0.02 * layer, 0.02 * layer + 0.02};
+}
+
+Table table(const std::string& input, const std::vector<TableRow>& rows)
+{
+  auto made = synthetic::stress_table(rows);
+  made.name = input + ".tsv";
+  made.header = {{"program", "grseg-stress 0.1.0"},
+                 {"history", "grseg-sim of " + input},
+                 {"input", "xxh3 " + input},
+                 {"step", "0.001"},
+                 {"layer", "0.02"},
+                 {"window", "0.1"},
+                 {"assign", "contact-point"}};
+  return made;
+}
+
+Table merged(const std::vector<Table>& tables, bool all_windows = false)
+{
+  return merge_tables(tables, all_windows, "grseg-stress 9.9", "grseg-stress --merge");
+}
+
+double cell(const Table& table, std::size_t row, const std::string& column)
+{
+  return table.rows.at(row).at(table.column(column));
+}
+
+/// What the Error says that merging ends with; "" where it ends well.
+template <class Error>
+std::string sentence(const std::vector<Table>& tables)
+{
+  try {
+    merged(tables);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool holds(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+TEST(MergeTables, OneWindowOfTwoRunsIsTheirMeanWeightedByFrames)
+{
+  const auto t = merged({table("a", {row(0, 0, 10, 1)}), table("b", {row(0, 0, 30, 5)})});
+  ASSERT_EQ(t.rows.size(), 1u);
+  EXPECT_EQ(cell(t, 0, "frames"), 40);
+  EXPECT_DOUBLE_EQ(cell(t, 0, "A_LL_yy"), 4 * 1.1);
+  EXPECT_DOUBLE_EQ(cell(t, 0, "A_LL_xy"), 4 * -0.41);
+  EXPECT_DOUBLE_EQ(cell(t, 0, "area_L"), 0.8);
+  EXPECT_EQ(cell(t, 0, "V"), 2);
+  EXPECT_EQ(cell(t, 0, "t1"), 0.1);
+  EXPECT_EQ(cell(t, 0, "y1"), 0.02);
+}
+
+// The frames in which the layer held nothing count, as they do within a run.
+TEST(MergeTables, ALayerThatOneRunDoesNotReachIsEmptyThere)
+{
+  const auto t =
+      merged({table("a", {row(0, 0, 10, 1)}), table("b", {row(0, 0, 30, 1), row(0, 1, 30, 4)})});
+  ASSERT_EQ(t.rows.size(), 2u);
+  EXPECT_EQ(cell(t, 1, "frames"), 40);
+  EXPECT_DOUBLE_EQ(cell(t, 1, "A_LL_yy"), 3 * 1.1);
+  EXPECT_DOUBLE_EQ(cell(t, 1, "area_S"), 0.75 * 0.8);
+}
+
+TEST(MergeTables, WindowsStayApartUnlessAllAreAsked)
+{
+  const std::vector<Table> tables{table("a", {row(2, 0, 10, 1), row(3, 0, 10, 2)}),
+                                  table("b", {row(3, 0, 10, 6)})};
+  const auto apart = merged(tables), together = merged(tables, true);
+  ASSERT_EQ(apart.rows.size(), 2u);
+  EXPECT_EQ(apart.rows[0], tables[0].rows[0]);  // not a bit changes in a window of one run
+  EXPECT_DOUBLE_EQ(cell(apart, 1, "A_LL_yy"), 4 * 1.1);
+  ASSERT_EQ(together.rows.size(), 1u);
+  EXPECT_EQ(cell(together, 0, "frames"), 30);
+  EXPECT_DOUBLE_EQ(cell(together, 0, "A_LL_yy"), 3 * 1.1);
+  EXPECT_EQ(cell(together, 0, "t0"), 0.2);
+  EXPECT_EQ(cell(together, 0, "t1"), 0.1 * 3 + 0.1);
+  EXPECT_DOUBLE_EQ(together.header_number("window"), 0.2);
+}
+
+TEST(MergeTables, TimesThatDifferByRoundingAreTheSameWindow)
+{
+  auto b = table("b", {row(3, 0, 10, 3)});
+  b.rows[0][0] = 0.3 - 1e-15;  // where a has 0.1 * 3
+  const auto a = table("a", {row(3, 0, 10, 1)});
+  ASSERT_NE(a.rows[0][0], b.rows[0][0]);
+  EXPECT_EQ(merged({a, b}).rows.size(), 1u);
+}
+
+TEST(MergeTables, TheOrderOfTablesChangesNoByte)
+{
+  std::vector<Table> tables{table("b", {row(0, 0, 7, 0.1), row(0, 1, 7, 1e-9)}),
+                            table("c", {row(0, 0, 11, 0.3), row(1, 0, 11, 3)}),
+                            table("a", {row(0, 0, 13, 1e3), row(1, 1, 13, 0.7)})};
+  const auto text = merged(tables).to_text();
+  const auto by_name = [](const Table& a, const Table& b) { return a.name < b.name; };
+  std::sort(tables.begin(), tables.end(), by_name);
+  do EXPECT_EQ(merged(tables).to_text(), text);
+  while (std::next_permutation(tables.begin(), tables.end(), by_name));
+}
+
+TEST(MergeTables, MergingStepByStepIsMergingAtOnce)
+{
+  const auto a = table("a", {row(0, 0, 7, 0.1)}), b = table("b", {row(0, 0, 5, 0.7)}),
+             c = table("c", {row(0, 0, 3, 0.3), row(0, 1, 3, 2)});
+  const auto at_once = merged({a, b, c}), in_steps = merged({merged({a, b}), c});
+  ASSERT_EQ(in_steps.rows.size(), at_once.rows.size());
+  for (std::size_t k = 0; k < at_once.rows.size(); ++k)
+    for (std::size_t column = 0; column < at_once.columns.size(); ++column)
+      EXPECT_NEAR(in_steps.rows[k][column], at_once.rows[k][column], 1e-14);
+}
+
+TEST(MergeTables, HistoriesAndDigestsOfAllTablesAreKept)
+{
+  const auto t = merged({table("b", {row(0, 0, 1, 1)}), table("a", {row(0, 0, 1, 1)})});
+  const std::vector<std::pair<std::string, std::string>> header{{"program", "grseg-stress 9.9"},
+                                                                {"history", "grseg-sim of a"},
+                                                                {"input", "xxh3 a"},
+                                                                {"history", "grseg-sim of b"},
+                                                                {"input", "xxh3 b"},
+                                                                {"history", "grseg-stress --merge"},
+                                                                {"step", "0.001"},
+                                                                {"layer", "0.02"},
+                                                                {"window", "0.1"},
+                                                                {"assign", "contact-point"}};
+  EXPECT_EQ(t.header, header);
+}
+
+TEST(MergeTables, TablesMadeDifferentlyAreRefusedWithBothNames)
+{
+  const auto a = table("a", {row(0, 0, 1, 1)});
+  auto b = table("b", {row(0, 0, 1, 1)});
+  b.header[4].second = "0.01";
+  EXPECT_EQ(sentence<FormatError>({a, b}),
+            "a.tsv and b.tsv were made differently: '# layer: 0.02' and '# layer: 0.01'; tables "
+            "merge whose layers, windows and rules are the same");
+  b = table("b", {row(0, 0, 1, 1)});
+  b.header.emplace_back("width", "0.005");
+  EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "nothing and '# width: 0.005'"));
+  EXPECT_TRUE(holds(sentence<FormatError>({b, a}), "'# width: 0.005' and nothing"));
+  b = table("b", {row(0, 0, 1, 1)});
+  b.columns.back() = "another";
+  EXPECT_EQ(sentence<FormatError>({a, b}), "a.tsv and b.tsv have different columns");
+  b = table("b", {row(0, 0, 1, 1)});
+  b.header[0].second = "grseg-kinetic 0.1.0";
+  EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "b.tsv: was made by grseg-kinetic 0.1.0"));
+}
+
+TEST(MergeTables, TheSameTimeOfOneRunDoesNotCountTwice)
+{
+  const auto a = table("a", {row(0, 0, 1, 1), row(1, 0, 1, 1)});
+  EXPECT_TRUE(holds(sentence<UsageError>({a, a}), "a.tsv and a.tsv both hold the time from 0 s"));
+  const auto rest = table("a", {row(2, 0, 1, 1)}), part = table("a", {row(1, 0, 1, 1)});
+  EXPECT_EQ(merged({a, rest}).rows.size(), 3u);
+  EXPECT_TRUE(holds(sentence<UsageError>({a, rest, part}), "the time from 0.1 s"));
+  const auto shifted = table("a", {{0.25, 0.35, 1, sums(1)}});  // half in the last window of `rest`
+  EXPECT_TRUE(holds(sentence<UsageError>({rest, shifted}), "both hold the time from 0.2"));
+  const auto with_b = merged({a, table("b", {row(0, 0, 1, 1)})});
+  EXPECT_TRUE(holds(sentence<UsageError>({with_b, part}), "of the same run (xxh3 a)"));
+}
+
+TEST(MergeTables, DamagedTablesAreNamedWithTheRow)
+{
+  const auto a = table("a", {row(0, 0, 1, 1)});
+  EXPECT_TRUE(holds(sentence<FormatError>({a, table("b", {row(0, 0, 1, 1), row(0, 1, 2, 1)})}),
+                    "b.tsv: row 2: 2 frames where others of its window have 1"));
+  EXPECT_TRUE(holds(sentence<FormatError>({a, table("b", {row(0, 0, 0, 1)})}), "b.tsv: row 1"));
+  EXPECT_TRUE(holds(sentence<FormatError>({a, table("b", {row(0, 0, 1, 1), row(0, 0, 1, 1)})}),
+                    "b.tsv: row 2 repeats a window and layer"));
+  auto b = table("b", {row(0, 0, 1, 1)});
+  b.rows[0][12] = std::nan("");
+  EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "b.tsv: row 1, column"));
+  b = table("b", {row(0, 0, 1, 1)});
+  std::swap(b.columns[4], b.columns[5]);
+  EXPECT_TRUE(holds(sentence<FormatError>({b}), "column 5 is 'V[m^2]' where"));
+  EXPECT_TRUE(holds(sentence<UsageError>({}), "no tables given"));
+}
+
+}  // namespace
+}  // namespace grseg

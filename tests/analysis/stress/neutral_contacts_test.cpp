@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The neutral contact model as lists of contacts: what large and small grains carry where nothing
+// but their size tells them apart.
+#include "analysis/frames/composition.hpp"
+#include "analysis/stress/partial_contact_stress.hpp"
+#include "analysis/stress/partition.hpp"
+#include "tests/analysis/grain_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+const Layers thick_layers(100, 10);
+constexpr double small_radius = 0.5;
+
+/// Pairs whose kinds are those of random pairing where of a + b contact ends a belong to large
+/// grains, all with the same forces, in every direction, about the middle of a thick layer.
+void add_layer(Scene& scene, int layer, int a, int b, int r)
+{
+  constexpr int directions = 7;
+  const double y = 100 * layer + 50;
+  const double radius[] = {small_radius, r * small_radius};
+  const Species species[] = {Species::small, Species::large};
+  const int pairs[][3] = {{1, 1, a * a}, {1, 0, a * b}, {0, 1, a * b}, {0, 0, b * b}};
+  for (const auto& [first, second, number] : pairs)
+    for (int k = 0; k < number * directions; ++k) {
+      const double angle = 2 * std::numbers::pi * (k % directions) / directions + 0.1;
+      const Vec2 normal{std::cos(angle), std::sin(angle)}, tangent{-normal.y(), normal.x()};
+      const auto j = scene.grain(species[second], radius[second], {5, y});
+      const auto i = scene.grain(species[first], radius[first],
+                                 Vec2(5, y) + (radius[first] + radius[second]) * normal);
+      scene.contact(i, j, (1 + 0.3 * std::sin(angle)) * normal + 0.2 * tangent);
+    }
+  // A large grain has r times the ends of a small one; here each has one, so the small ones of
+  // (r - 1)/r have none.
+  for (int k = 0; k < (r - 1) * 2 * b * (a + b) * directions; ++k)
+    scene.grain(Species::small, small_radius, {5, y});
+}
+
+/// B of one layer: psi_L = phi_L (1 + B phi_S).
+double b_of(const PartialStress& stress, const Composition::Areas& areas)
+{
+  const double phi = areas.phi_large();
+  return (stress.large(1, 1) / stress.total(1, 1) - phi) / (phi * (1 - phi));
+}
+
+TEST(NeutralContacts, LargeGrainsCarryTheirShareBySizeAndByOtherRulesWhatTheFormulaSays)
+{
+  const int ends[][2] = {{1, 3}, {1, 1}, {2, 1}};
+  for (const int r : {2, 3}) {
+    Scene scene;
+    for (int layer = 0; layer < 3; ++layer)
+      add_layer(scene, layer, ends[layer][0], ends[layer][1], r);
+    for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside})
+      for (const auto assignment :
+           {Assignment::contact_point, Assignment::branch, Assignment::grain, Assignment::kernel}) {
+        const bool by_kernel = assignment == Assignment::kernel;
+        const Kernel kernel(shape, 4);
+        Composition composition(thick_layers, by_kernel ? GrainArea::kernel : GrainArea::clipped,
+                                kernel);
+        PartialContactStress stress(thick_layers, assignment, 2, kernel);
+        composition.add(scene.grains, scene.frame);
+        stress.add(scene.grains, scene.frame);
+        for (std::size_t n = 0; n < 3; ++n) {
+          const auto areas = composition.mean(n);
+          // phi_L/phi_S = r x_L/x_S, as ends are in proportion to perimeter.
+          EXPECT_NEAR(areas.large / areas.small, static_cast<double>(r * ends[n][0]) / ends[n][1],
+                      1e-12);
+          auto sums = stress.mean(n).sums;
+          sums.volume = thick_layers.volume(0);
+          for (const auto& rule : parse_rules(
+                   {"size", "contact-point", "half", "uniform:0.8", "uniform:0.6", "power:2"})) {
+            const double b = b_of(partial_stress(sums, rule), areas);
+            EXPECT_NEAR(b, neutral_b(rule, r, areas.phi_large()), 1e-12) << rule.name();
+            if (rule.kind == PartitionRule::Kind::size) {
+              EXPECT_NEAR(b, 0, 1e-12);
+            }
+            if (rule.kind == PartitionRule::Kind::uniform && r == 2) {
+              EXPECT_NEAR(b, (rule.value - 2.0 / 3) * 3 / (2 - areas.phi_large()), 1e-12);
+            }
+          }
+        }
+      }
+  }
+}
+
+}  // namespace
+}  // namespace grseg

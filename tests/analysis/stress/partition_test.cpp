@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/stress/partition.hpp"
+
+#include "formats/core/errors.hpp"
+#include "tests/analysis/synthetic_sums.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+using synthetic::any_tensor;
+using synthetic::neutral_sums;
+using synthetic::stress_table;
+
+/// A large grain of radius 2 presses on a small one of radius 1; they overlap by 0.3, so that the
+/// contact point lies 2 - 0.15 from the centre of the large grain on a branch of 2.7.
+ContactSums one_mixed_contact()
+{
+  const Vec2 force{-0.5, 3}, branch{0, 2.7};
+  ContactSums sums;
+  sums.volume = 10;
+  sums.area_large = 4;
+  sums.area_small = 1;
+  sums.mixed = force * branch.transpose();
+  sums.mixed_size = 2.0 / 3 * sums.mixed;
+  sums.mixed_contact = 1.85 / 2.7 * sums.mixed;
+  sums.mixed_power = 4.0 / 5 * sums.mixed;  // Q = 2
+  return sums;
+}
+
+void expect_share_of_large(const std::string& rule, double share)
+{
+  const auto stress = partial_stress(one_mixed_contact(), parse_rule(rule));
+  // sigma_yy = f_y l_y / V = 3 x 2.7 / 10, sigma_xy = f_x l_y / V.
+  EXPECT_NEAR(stress.large(1, 1), share * 0.81, 1e-15) << rule;
+  EXPECT_NEAR(stress.small(1, 1), (1 - share) * 0.81, 1e-15) << rule;
+  EXPECT_NEAR(stress.large(0, 1), share * -0.135, 1e-15) << rule;
+  EXPECT_NEAR(stress.total(1, 1), 0.81, 1e-15) << rule;
+}
+
+std::string sentence_of(const std::string& rule)
+{
+  try {
+    parse_rule(rule);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Partition, BySizeTheLargeGrainGetsItsPartOfTheRadii)
+{
+  expect_share_of_large("size", 2. / 3);
+}
+
+TEST(Partition, ByContactPointTheBranchIsCutWhereTheGrainsTouchAsInMercuryCG)
+{
+  expect_share_of_large("contact-point", 1.85 / 2.7);
+}
+
+TEST(Partition, HalfGivesBothTheSameAsStressPerAtomInLammps)
+{
+  expect_share_of_large("half", 0.5);
+}
+
+TEST(Partition, UniformGivesTheLargeGrainTheStatedShare)
+{
+  expect_share_of_large("uniform:0.8", 0.8);
+  expect_share_of_large("uniform:0", 0);
+  expect_share_of_large("uniform:1", 1);
+}
+
+TEST(Partition, PowerTwoSharesByTheAreasOfTheGrains)
+{
+  expect_share_of_large("power:2", 0.8);
+}
+
+TEST(Partition, DropLeavesMixedContactsToNobodyAsAGroupOfContinuumChunk)
+{
+  const auto stress = partial_stress(one_mixed_contact(), parse_rule("drop"));
+  EXPECT_EQ(stress.large, Tensor2::Zero());
+  EXPECT_EQ(stress.small, Tensor2::Zero());
+  EXPECT_NEAR(stress.total(1, 1), 0.81, 1e-15);
+}
+
+TEST(Partition, BaseContactsGoToTheMobileGrainAsFarAsTheChosenBaseSays)
+{
+  ContactSums sums;
+  sums.volume = 1;
+  sums.base_small = 2 * any_tensor();
+  sums.whole_small = 6 * any_tensor();
+  sums.base_large = 3 * any_tensor();
+  sums.whole_large = 5 * any_tensor();
+  const auto small = [&](BasePart base) { return partial_stress(sums, {}, base).small; };
+  const auto large = [&](BasePart base) { return partial_stress(sums, {}, base).large; };
+  EXPECT_EQ(small(BasePart::contact_point), 2 * any_tensor());
+  EXPECT_EQ(large(BasePart::contact_point), 3 * any_tensor());
+  EXPECT_EQ(small(BasePart::half), 3 * any_tensor());
+  EXPECT_EQ(large(BasePart::half), 2.5 * any_tensor());
+  EXPECT_EQ(small(BasePart::none), Tensor2::Zero());
+  EXPECT_EQ(large(BasePart::none), Tensor2::Zero());
+}
+
+TEST(Partition, PartialStressesAddUpToTheStressForEveryRuleButDrop)
+{
+  ContactSums sums = one_mixed_contact();
+  sums.ss = 1.7 * any_tensor();
+  sums.ll << 3.1, 0.2, -0.3, 4.4;
+  sums.base_small = 0.9 * any_tensor().transpose();
+  sums.base_large = 0.3 * any_tensor();
+  sums.whole_small = 1.1 * any_tensor();
+  sums.whole_large = 0.7 * any_tensor();
+  const auto defect = [&](const char* rule, BasePart base) {
+    const auto stress = partial_stress(sums, parse_rule(rule), base);
+    return (stress.small + stress.large - stress.total).norm() / stress.total.norm();
+  };
+  for (const auto base : {BasePart::contact_point, BasePart::half, BasePart::none}) {
+    for (const char* rule : {"size", "contact-point", "half", "uniform:0.37", "power:2"})
+      EXPECT_LT(defect(rule, base), 1e-12) << rule;
+    EXPECT_GT(defect("drop", base), 0.05);
+  }
+}
+
+TEST(Partition, SharesOfPartsBookedAtTheGrainsCentresAreTakenWhereEachGrainIs)
+{
+  ContactSums sums = one_mixed_contact();
+  sums.ss = sums.ll = 100 * any_tensor();
+  sums.booked_at_centres = true;
+  sums.at_centres = {.ss = 1.5 * any_tensor(),
+                     .ll = 2.5 * any_tensor(),
+                     .mixed_large = 10 * any_tensor(),
+                     .mixed_small = 20 * any_tensor()};
+  const auto stress = partial_stress(sums, parse_rule("uniform:0.8"), BasePart::none);
+  EXPECT_LT((stress.large - (2.5 + 8) / sums.volume * any_tensor()).norm(), 1e-14);
+  EXPECT_LT((stress.small - (1.5 + 4) / sums.volume * any_tensor()).norm(), 1e-14);
+  EXPECT_LT((stress.total - stress.large - stress.small).norm(), 1e-14);
+}
+
+TEST(Partition, ATableOfGrainsWithoutTheirHalvesIsReadForSizeAndRefusedForHalf)
+{
+  auto table = stress_table({{0, 1, 1, one_mixed_contact()}});
+  for (const char* name : {"ML", "MS"})
+    for (const char* component : {"_xx[N m]", "_xy[N m]", "_yx[N m]", "_yy[N m]"}) {
+      table.columns.push_back(std::string(name) + component);
+      table.rows[0].push_back(1);
+    }
+  EXPECT_FALSE(ContactSumsReader(table, {parse_rule("size")}).read(0).booked_at_centres);
+  try {
+    const ContactSumsReader reader(table, {parse_rule("half")});
+    ADD_FAILURE() << "the table was read";
+  } catch (const FormatError& error) {
+    EXPECT_STREQ(error.what(),
+                 "sums.tsv: there is no column 'HSS_xx'; make the table anew with grseg-stress "
+                 "--assign grain");
+  }
+}
+
+TEST(Partition, InTheVolumeOfTheGrainsStressIsLargerByOneOverTheSolidFraction)
+{
+  const auto sums = neutral_sums(0.3, 2, 0.8);
+  const auto bulk = partial_stress(sums, {}, BasePart::none, StressVolume::bulk);
+  const auto solid = partial_stress(sums, {}, BasePart::none, StressVolume::solid);
+  EXPECT_NEAR(solid.total(1, 1) / bulk.total(1, 1), 1 / 0.8, 1e-14);
+  EXPECT_NEAR(solid.small(1, 1) / bulk.small(1, 1), 1 / 0.8, 1e-14);
+  EXPECT_NEAR(solid.large(1, 1) / bulk.large(1, 1), 1 / 0.8, 1e-14);
+}
+
+// Staron & Phillips (2015) with contacts blind to type: psi_L = phi_L, so nothing segregates.
+TEST(Partition, NeutralContactsSharedBySizeLoadEachSpeciesByItsConcentration)
+{
+  for (const double r : {1.0, 2.0, 3.5})
+    for (double phi = 0.02; phi < 1; phi += 0.07) {
+      const auto stress = partial_stress(neutral_sums(phi, r), {});
+      EXPECT_NEAR(stress.large(1, 1) / stress.total(1, 1), phi, 1e-12);
+      EXPECT_NEAR(stress.small(0, 1) / stress.total(0, 1), 1 - phi, 1e-12);
+      EXPECT_EQ(neutral_b({}, r, phi), 0);
+    }
+}
+
+TEST(Partition, NeutralContactsSharedOtherwiseShowTheBOfTheClosedForm)
+{
+  for (const char* text : {"uniform:0.8", "uniform:0.6", "uniform:0.5", "half", "power:1"})
+    for (double phi = 0.02; phi < 1; phi += 0.07) {
+      auto sums = neutral_sums(phi, 2);
+      sums.mixed_power = sums.mixed_size;  // Q = 1
+      const auto stress = partial_stress(sums, parse_rule(text));
+      const double psi = stress.large(1, 1) / stress.total(1, 1);
+      EXPECT_NEAR(neutral_b(parse_rule(text), 2, phi), (psi - phi) / (phi * (1 - phi)), 1e-12)
+          << text;
+    }
+}
+
+// (P - 2/3) 3/(1 + phi_S) for size ratio 2, by hand.
+TEST(Partition, TheNeutralBOfFourFifthsIsThreeTenthsHalfWay)
+{
+  EXPECT_NEAR(neutral_b(parse_rule("uniform:0.8"), 2, 0.5), (0.8 - 2. / 3) * 2, 1e-15);
+  EXPECT_NEAR(neutral_b(parse_rule("half"), 2, 1), (0.5 - 2. / 3) * 3, 1e-15);
+  EXPECT_TRUE(std::isnan(neutral_b(parse_rule("drop"), 2, 0.5)));
+}
+
+TEST(PartitionRule, NamesAreWhatIsTyped)
+{
+  for (const char* text :
+       {"size", "contact-point", "half", "drop", "uniform:0.66667", "power:-1.5"})
+    EXPECT_EQ(parse_rule(text).name(), text);
+  const auto rules = parse_rules({"size,uniform:0.8", "half"});
+  ASSERT_EQ(rules.size(), 3u);
+  EXPECT_EQ(rules[1].name(), "uniform:0.8");
+  EXPECT_EQ(rules[2].name(), "half");
+}
+
+TEST(PartitionRule, StockStandsForThoseOfPublishedCodes)
+{
+  const auto rules = parse_rules({"stock,uniform:0.8"});
+  ASSERT_EQ(rules.size(), 5u);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NE(rules[k].used_by(), "") << rules[k].name();
+  EXPECT_EQ(rules[2].name(), "half");
+  EXPECT_EQ(rules[2].used_by(), "LAMMPS, LIGGGHTS compute stress/atom");
+  EXPECT_EQ(rules[4].used_by(), "");
+}
+
+TEST(PartitionRule, WrongTextIsAnsweredWithTheNearestRule)
+{
+  EXPECT_NE(sentence_of("siez").find("did you mean size?"), std::string::npos);
+  EXPECT_NE(sentence_of("contactpoint").find("did you mean contact-point?"), std::string::npos);
+  EXPECT_NE(sentence_of("uniform").find("takes a number"), std::string::npos);
+  EXPECT_NE(sentence_of("half:0.5").find("takes no number"), std::string::npos);
+  EXPECT_NE(sentence_of("uniform:1.2").find("between 0 and 1"), std::string::npos);
+  EXPECT_NE(sentence_of("uniform:0,8").find("no number"), std::string::npos);
+  EXPECT_NE(sentence_of("power:nan").find("no number"), std::string::npos);
+  EXPECT_NE(sentence_of("uniform:").find("no number"), std::string::npos);
+  EXPECT_NE(sentence_of("").find("the rules are"), std::string::npos);
+  EXPECT_THROW(parse_rules({"size,,half"}), UsageError);
+  EXPECT_THROW(parse_base("point"), UsageError);
+}
+
+TEST(ContactSumsReader, AStressIsTheSameThroughTheTableAndBack)
+{
+  ContactSums sums = one_mixed_contact();
+  sums.ss = any_tensor() / 3;
+  sums.whole_large = any_tensor() / 7;
+  sums.base_large = any_tensor() / 11;
+  const auto table = Table::parse(stress_table({{0, 1, 25, sums}}).to_text(), "sums.tsv");
+  const auto power = parse_rule("power:2");
+  const auto back = ContactSumsReader(table, {power}).read(0);
+  for (const char* text : {"size", "contact-point", "half", "drop", "uniform:0.3", "power:2"}) {
+    const auto a = partial_stress(sums, parse_rule(text)),
+               b = partial_stress(back, parse_rule(text));
+    EXPECT_EQ(a.small, b.small) << text;
+    EXPECT_EQ(a.large, b.large) << text;
+    EXPECT_EQ(a.total, b.total) << text;
+  }
+  EXPECT_EQ(partial_stress(sums, power, BasePart::half, StressVolume::solid).large,
+            partial_stress(back, power, BasePart::half, StressVolume::solid).large);
+}
+
+std::string reader_sentence(const Table& table, const std::vector<PartitionRule>& rules)
+{
+  try {
+    ContactSumsReader(table, rules).read(0);
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ContactSumsReader, AMissingColumnIsNamedTogetherWithItsRemedy)
+{
+  auto table = stress_table({{0, 1, 25, one_mixed_contact()}});
+  EXPECT_EQ(reader_sentence(table, {parse_rule("power:2")}), "");
+  EXPECT_NE(reader_sentence(table, {parse_rule("power:3")}).find("--partition power:3"),
+            std::string::npos);
+  for (auto& column : table.columns)
+    if (column == "Mpower_xx[N m]") column = "other";
+  EXPECT_EQ(reader_sentence(table, {parse_rule("size")}), "");
+  const auto sentence = reader_sentence(table, {parse_rule("power:2")});
+  EXPECT_NE(sentence.find("Mpower_xx"), std::string::npos);
+  EXPECT_NE(sentence.find("grseg-stress --partition power:2"), std::string::npos);
+  for (auto& column : table.columns)
+    if (column == "Mcp_yy[N m]") column = "other";
+  EXPECT_NE(reader_sentence(table, {}).find("Mcp_yy"), std::string::npos);
+}
+
+TEST(ContactSumsReader, ASumThatIsNotFiniteIsNamedByRowAndColumn)
+{
+  auto table = stress_table({{0, 1, 25, one_mixed_contact()}});
+  table.rows[0][table.column("A_LL_yy")] = std::numeric_limits<double>::quiet_NaN();
+  const auto sentence = reader_sentence(table, {});
+  EXPECT_NE(sentence.find("row 1"), std::string::npos);
+  EXPECT_NE(sentence.find("A_LL_yy"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace grseg

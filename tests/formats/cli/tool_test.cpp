@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/tool.hpp"
+
+#include "formats/cli/output.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+
+int run(std::vector<std::string> words, const std::function<void(const po::variables_map&)>& body)
+{
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  po::options_description options("Options");
+  options.add_options()("layer", po::value<std::string>(), "height");
+  options.add_options()("rule", po::value<std::vector<std::string>>()->composing(), "rules");
+  options.add_options()("mean", po::value<std::string>()->default_value("own"), "mean");
+  static constexpr PresetOption presets[] = {
+      {"layer", "4dS", "2dS"}, {"rule", "half", ""}, {"mean", "", "profile"}};
+  const ToolInfo info{"grseg-test", "does nothing.", "grseg-test", "  grseg-test\n", presets};
+  return run_tool(static_cast<int>(argv.size()), argv.data(), info, options, body);
+}
+
+TEST(Tool, ReturnsTheExitCodeOfWhatWentWrong)
+{
+  EXPECT_EQ(run({"grseg-test"}, [](const auto&) {}), 0);
+  EXPECT_EQ(run({"grseg-test"}, [](const auto&) { throw RunError("disk full"); }), 1);
+  EXPECT_EQ(run({"grseg-test"}, [](const auto&) { throw UsageError("wrong"); }), 2);
+  EXPECT_EQ(run({"grseg-test"}, [](const auto&) { throw FormatError("corrupt"); }), 3);
+  EXPECT_EQ(run({"grseg-test"}, [](const auto&) { throw CheckError("missed"); }), 4);
+}
+
+TEST(Tool, RefusesAnUnknownOptionAndNamesTheNearest)
+{
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run({"grseg-test", "--layr", "4dS"}, [](const auto&) { FAIL(); }), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "grseg-test: unknown option --layr, did you mean --layer?; --help lists all\n");
+}
+
+TEST(Tool, DoesNotGuessAbbreviatedOptions)
+{
+  EXPECT_EQ(run({"grseg-test", "--lay", "4dS"}, [](const auto&) { FAIL(); }), 2);
+}
+
+TEST(Tool, APresetSetsWhatIsNotGivenAndCountsAsDefault)
+{
+  const auto given = [](const po::variables_map& values, const char* option) {
+    return values.contains(option) && !values[option].defaulted();
+  };
+  EXPECT_EQ(run({"grseg-test", "--preset", "paper", "--rule", "size"},
+                [&](const auto& values) {
+                  EXPECT_EQ(preset_of(values), "paper");
+                  EXPECT_EQ(values["layer"].template as<std::string>(), "4dS");
+                  EXPECT_FALSE(given(values, "layer"));
+                  EXPECT_EQ(values["rule"].template as<std::vector<std::string>>(),
+                            std::vector<std::string>{"size"});
+                  EXPECT_TRUE(given(values, "rule"));
+                  EXPECT_EQ(values["mean"].template as<std::string>(), "own");
+                }),
+            0);
+  EXPECT_EQ(run({"grseg-test", "--layer", "1dS", "--preset", "rigorous"},
+                [&](const auto& values) {
+                  EXPECT_EQ(values["layer"].template as<std::string>(), "1dS");
+                  EXPECT_FALSE(values.contains("rule"));
+                  EXPECT_EQ(values["mean"].template as<std::string>(), "profile");
+                }),
+            0);
+  EXPECT_EQ(run({"grseg-test"}, [](const auto& values) { EXPECT_EQ(preset_of(values), "none"); }),
+            0);
+}
+
+TEST(Tool, RefusesAPresetThatThereIsNot)
+{
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run({"grseg-test", "--preset", "loose"}, [](const auto&) { FAIL(); }), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "grseg-test: --preset: there is no 'loose'; it is paper or rigorous\n");
+}
+
+TEST(Tool, TheHistoryDoesNotTellHowManyThreadsThereWere)
+{
+  const auto line = [](std::vector<std::string> words) {
+    std::vector<char*> argv;
+    for (auto& word : words) argv.push_back(word.data());
+    return command_line(static_cast<int>(argv.size()), argv.data());
+  };
+  EXPECT_EQ(line({"bin/t", "run.h5", "--threads", "7", "--layer", "4 dS"}),
+            "t run.h5 --layer '4 dS'");
+  EXPECT_EQ(line({"t", "--threads=7", "run.h5"}), "t run.h5");
+  EXPECT_EQ(line({"t", "run.h5", "--threads"}), "t run.h5");
+}
+
+TEST(Tool, HelpShowsExamplesAndRunsNothing)
+{
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run({"grseg-test", "--help"}, [](const auto&) { FAIL(); }), 0);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("Examples:"), std::string::npos);
+}
+
+TEST(Output, AppearsWholeOrNotAtAll)
+{
+  const auto folder = fs::temp_directory_path() / ("grseg_tool_test_" + std::to_string(getpid()));
+  fs::create_directory(folder);
+  const auto path = (folder / "t.tsv").string();
+  write_whole(path, "first\n");
+  write_whole(path, "second\n");
+  std::ifstream file(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "second\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+  EXPECT_THROW(write_whole((folder / "missing" / "t.tsv").string(), "x"), RunError);
+  fs::create_directory(folder / "taken");
+  EXPECT_THROW(write_whole((folder / "taken").string(), "x"), RunError);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace grseg

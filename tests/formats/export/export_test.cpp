@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/frame_range.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/export/extxyz_writer.hpp"
+#include "formats/export/h5md3d_writer.hpp"
+#include "formats/export/lammps_writer.hpp"
+#include "formats/export/poly_data.hpp"
+#include "formats/export/vtp_writer.hpp"
+#include "tests/three_grains.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The array `name` of a .vtp, found by its offset behind the underscore.
+template <class Number>
+std::vector<Number> array_in(const std::string& vtp, const std::string& name)
+{
+  const auto at = vtp.find("offset=\"", vtp.find("Name=\"" + name + "\"")) + 8;
+  const auto begin = vtp.find("\n_") + 2 + std::stoul(vtp.substr(at));
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, vtp.data() + begin, sizeof bytes);
+  std::vector<Number> values(bytes / sizeof(Number));
+  std::memcpy(values.data(), vtp.data() + begin + sizeof bytes, bytes);
+  return values;
+}
+
+/// Three grains, of which the large one (row 0, id 7) also touches straight wall 1 on its left, and
+/// the small one (row 1) a periodic image of the large one: the one at x = 0.001, the other at
+/// 0.345.
+class Export : public testing::Test {
+ protected:
+  fs::path folder = fs::temp_directory_path() / ("grseg_export_test_" + std::to_string(getpid()));
+  std::string run_path = (folder / "run.h5").string();
+
+  void SetUp() override
+  {
+    fs::create_directories(folder);
+    auto frame = three_grains::frame(0);
+    frame.position[0].x() = 0.001;
+    frame.position[1] = {0.345, 0.01};
+    frame.contacts.i = {0, 1};
+    frame.contacts.j = {-2, 0};
+    frame.contacts.force = {{2, 1}, {-3, 4}};
+    frame.contacts.branch = {{0.005, 0}, {-0.006, 0.0045}};  // normals (1, 0) and (-0.8, 0.6)
+    frame.contacts.gap = {0, 0.000125};
+    TrajectoryWriter writer(run_path, three_grains::description());
+    writer.append(frame, std::vector<double>{0.25});
+    writer.append(three_grains::frame(1), std::vector<double>{0.5});
+    writer.append(three_grains::frame(2), std::vector<double>{0.75});
+    writer.close();
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string at(const char* name) const { return (folder / name).string(); }
+  std::size_t files() const
+  {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+  }
+  template <class Writer>
+  void write(Writer&& writer, const TrajectoryReader& run, std::size_t count)
+  {
+    Frame frame;
+    for (std::size_t k = 0; k < count; ++k) {
+      run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
+      writer.add(frame);
+    }
+    writer.publish();
+  }
+};
+
+TEST_F(Export, AContactAcrossThePeriodicEdgeLeavesTheCellRatherThanCrossThePicture)
+{
+  const TrajectoryReader run(run_path);
+  write(VtpWriter(run, at("view"), false), run, 1);
+  const auto vtp = content(folder / "view/contacts/000000.vtp");
+  const auto points = array_in<float>(vtp, "Points");
+  ASSERT_EQ(points.size(), 12U);  // two lines of two points
+  EXPECT_FLOAT_EQ(points[6], 0.345F);
+  EXPECT_FLOAT_EQ(points[9], 0.351F);  // the image of x = 0.001
+  EXPECT_FLOAT_EQ(points[10], 0.0055F);
+}
+
+TEST_F(Export, AContactWithAWallEndsWhereTheGrainTouches)
+{
+  const TrajectoryReader run(run_path);
+  write(VtpWriter(run, at("view"), false), run, 1);
+  const auto vtp = content(folder / "view/contacts/000000.vtp");
+  const auto points = array_in<float>(vtp, "Points");
+  EXPECT_FLOAT_EQ(points[0], 0.001F);
+  EXPECT_FLOAT_EQ(points[3], -0.004F);
+  EXPECT_EQ(array_in<std::int32_t>(vtp, "j"), (std::vector<std::int32_t>{-2, 7}));
+  EXPECT_EQ(array_in<std::int32_t>(vtp, "pair_type"), (std::vector<std::int32_t>{4, 1}));  // Lb, LS
+}
+
+// On the normals (1, 0) and (-0.8, 0.6): (2, 1) is 2 along and 1 across, (-3, 4) is 4.8 and -1.4.
+TEST_F(Export, TheNormalForcePushesApartAndTheTangentialOneIsAcross)
+{
+  const TrajectoryReader run(run_path);
+  write(VtpWriter(run, at("view"), false), run, 1);
+  const auto vtp = content(folder / "view/contacts/000000.vtp");
+  const auto at_points = array_in<float>(vtp, "normal_force");
+  ASSERT_EQ(at_points.size(), 4U);
+  EXPECT_FLOAT_EQ(at_points[0], 2);
+  EXPECT_FLOAT_EQ(at_points[3], 4.8F);
+  const auto tangential = array_in<float>(vtp, "tangential_force");
+  EXPECT_FLOAT_EQ(tangential[0], 1);
+  EXPECT_FLOAT_EQ(tangential[1], -1.4F);
+}
+
+TEST_F(Export, TheListOfTimesNamesEveryFile)
+{
+  const TrajectoryReader run(run_path);
+  write(VtpWriter(run, at("view"), false), run, 2);
+  const auto list = content(folder / "view/grains.pvd");
+  EXPECT_NE(list.find("timestep=\"5e-05\" part=\"0\" file=\"grains/000000.vtp\""), list.npos);
+  const auto second = list.find("timestep=\"", list.find("grains/000000.vtp")) + 10;
+  EXPECT_EQ(std::stod(list.substr(second)), run.times()[1]);
+  EXPECT_EQ(list.find("grains/000001.vtp", second), list.find("grains/", second));
+  EXPECT_TRUE(fs::exists(folder / "view/grains/000001.vtp"));
+  EXPECT_FALSE(fs::exists(folder / "view/grains/000002.vtp"));
+}
+
+TEST_F(Export, NormalAndTangentialForceOfALammpsRowAddUp)
+{
+  const TrajectoryReader run(run_path);
+  write(LammpsWriter(run, view_cell(run, 0), at("run.dump"), false), run, 1);
+  const auto lines = lines_of(content(folder / "run.contacts.dump"));
+  ASSERT_EQ(lines.size(), 15U);
+  EXPECT_EQ(lines[2], "ITEM: TIME");
+  EXPECT_EQ(lines[3], "5e-05");
+  EXPECT_EQ(lines[7], "2");
+  EXPECT_EQ(lines[8], "ITEM: BOX BOUNDS pp ff pp");
+  std::istringstream header(lines[12]), row(lines[13]);
+  std::string word;
+  std::map<std::string, double> value;
+  header >> word >> word;  // ITEM: ENTRIES
+  while (header >> word) row >> value[word];
+  // A wall's row: its grain twice.
+  EXPECT_EQ(value["batom1"], 7);
+  EXPECT_EQ(value["batom2"], 7);
+  EXPECT_EQ(value["wall"], 1);
+  EXPECT_EQ(value["dist"], 0.005);
+  EXPECT_EQ(value["fx"], 2);
+  EXPECT_EQ(value["fy"], 0);
+  EXPECT_EQ(value["p1"], 0);
+  EXPECT_EQ(value["p2"], 1);
+  EXPECT_EQ(value["forcex"], 2);
+  EXPECT_EQ(value["forcey"], 1);
+  EXPECT_EQ(value["branchx"], 0.005);
+  EXPECT_EQ(value["overlap"], 0);
+}
+
+TEST_F(Export, ADumpsEndingStaysBehindThatOfItsContacts)
+{
+  const TrajectoryReader run(run_path);
+  write(LammpsWriter(run, view_cell(run, 0), at("a.dump.gz"), false), run, 1);
+  EXPECT_TRUE(fs::exists(folder / "a.contacts.dump.gz"));
+  write(LammpsWriter(run, view_cell(run, 0), at("b"), false), run, 1);
+  EXPECT_TRUE(fs::exists(folder / "b.contacts"));
+  EXPECT_EQ(content(folder / "a.dump.gz").substr(0, 2), "\x1f\x8b");
+}
+
+// The lowest grain ends at y = -0.01, the box is 0.5 high, and along z there is room for a sphere.
+TEST_F(Export, TheCellHoldsEveryGrainAndKeepsItsPeriod)
+{
+  const TrajectoryReader run(run_path);
+  const auto cell = view_cell(run, 0);
+  EXPECT_EQ(cell.low, (std::array<double, 3>{0, -0.01, -0.005}));
+  EXPECT_EQ(cell.high, (std::array<double, 3>{0.35, 0.5, 0.005}));
+  write(ExtxyzWriter(run, cell, at("run.xyz"), false), run, 1);
+  const auto lines = lines_of(content(folder / "run.xyz"));
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[0], "3");
+  EXPECT_EQ(
+      lines[1].find(R"(Lattice="0.35 0 0 0 0.51 0 0 0 0.01" Origin="0 -0.01 -0.005" pbc="T F F")"),
+      0U);
+  EXPECT_EQ(lines[2].find("7 2 0.001 0.005 0 0.1 0.2 0 0.005 "), 0U);
+}
+
+TEST_F(Export, WhatIsNotFinishedLeavesNothingBehind)
+{
+  const TrajectoryReader run(run_path);
+  const auto cell = view_cell(run, 0);
+  Frame frame;
+  run.read(0, frame, {.velocity = true, .contacts = true, .force = true});
+  {
+    VtpWriter vtp(run, at("view"), false);
+    ExtxyzWriter xyz(run, cell, at("run.xyz.gz"), false);
+    LammpsWriter lammps(run, cell, at("run.dump"), false);
+    H5md3dWriter h5md(run, cell, at("view.h5md"), false);
+    vtp.add(frame);
+    xyz.add(frame);
+    lammps.add(frame);
+    h5md.add(frame);
+    EXPECT_EQ(files(), 1U + 5U);
+  }
+  EXPECT_EQ(files(), 1U);  // the run
+}
+
+TEST_F(Export, OverwritingReplacesAnExportAndNoOtherFolder)
+{
+  const TrajectoryReader run(run_path);
+  write(VtpWriter(run, at("view"), false), run, 3);
+  EXPECT_THROW(VtpWriter(run, at("view"), false), UsageError);
+  write(VtpWriter(run, at("view"), true), run, 1);
+  EXPECT_TRUE(fs::exists(folder / "view/grains/000000.vtp"));
+  EXPECT_FALSE(fs::exists(folder / "view/grains/000002.vtp"));
+  EXPECT_FALSE(fs::exists(folder / "view.old"));
+  fs::create_directory(folder / "letters");
+  EXPECT_THROW(VtpWriter(run, at("letters"), true), UsageError);
+}
+
+TEST_F(Export, FramesAreChosenByWholeSteps)
+{
+  const TrajectoryReader run(run_path);  // steps 0, 500, 1000 of 1e-4 s
+  using Frames = std::vector<std::size_t>;
+  EXPECT_EQ(FrameRange{}.frames_of(run), (Frames{0, 1, 2}));
+  EXPECT_EQ((FrameRange{.begin = 0.05, .end = 0.1}).frames_of(run), (Frames{1}));
+  EXPECT_EQ((FrameRange{.begin = 0.0501}).frames_of(run), (Frames{2}));
+  EXPECT_EQ((FrameRange{.stride = 2}).frames_of(run), (Frames{0, 2}));
+  EXPECT_THROW((FrameRange{.begin = 7}).frames_of(run), RunError);
+  EXPECT_THROW((FrameRange{.stride = 0}).frames_of(run), UsageError);
+}
+
+}  // namespace
+}  // namespace grseg

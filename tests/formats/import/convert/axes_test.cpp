@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/axes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+const double sin_30 = 0.5, cos_30 = std::sqrt(3) / 2;
+
+Plane plane(const std::string& letters, const Vec3& gravity, std::optional<double> slope = {})
+{
+  return plane_of(letters, GravityText{std::nullopt, gravity}, slope);
+}
+
+/// Velocity of the point of a disc that touches a base below it, in the plane of the flow.
+double slip(const Axes& axes, const Vec3& velocity, const Vec3& angular_velocity, double radius)
+{
+  return axes.in_plane(velocity).x() + axes.counter_clockwise(angular_velocity) * radius;
+}
+
+// Without slip v + omega x (r_contact - x) = 0, a product that is right-handed in whatever axes.
+TEST(Axes, ADiscThatRollsDoesSoInEveryPlane)
+{
+  const double radius = 0.25;
+  for (const auto& [letters, normal] : {std::pair{"xy", Vec3(0, 1, 0)},
+                                        {"xz", Vec3(0, 0, 1)},
+                                        std::pair{"yz", Vec3(0, 0, 1)},
+                                        {"zx", Vec3(1, 0, 0)}}) {
+    const Axes axes(letters);
+    for (const Vec3& spin : {Vec3(0, 0, 3), Vec3(0, 2, 0), Vec3(-1, 0, 0)}) {
+      const Vec3 arm = -radius * normal;
+      const Vec3 velocity(-(spin.y() * arm.z() - spin.z() * arm.y()),
+                          -(spin.z() * arm.x() - spin.x() * arm.z()),
+                          -(spin.x() * arm.y() - spin.y() * arm.x()));
+      EXPECT_DOUBLE_EQ(slip(axes, velocity, spin, radius), 0) << letters;
+    }
+  }
+  EXPECT_EQ(Axes("xz").counter_clockwise({0, 2, 0}), -2);
+  EXPECT_EQ(Axes("xy").counter_clockwise({0, 0, 2}), 2);
+}
+
+TEST(Axes, GravityAloneTurnsNothing)
+{
+  const auto p = plane("xz", {5, 0, -8});
+  EXPECT_EQ(p.gravity, Vec2(5, -8));
+  EXPECT_EQ(p.axes.in_plane({1, 2, 3}), Vec2(1, 3));
+  EXPECT_EQ(p.axes.axis_of_x(), 0);
+}
+
+TEST(Axes, FlowToTheLeftIsLookedAtFromBehind)
+{
+  const auto p = plane("xy", {-5, -8, 0});
+  EXPECT_EQ(p.gravity, Vec2(5, -8));
+  EXPECT_EQ(p.axes.in_plane({1, 2, 0}), Vec2(-1, 2));
+  EXPECT_EQ(p.axes.counter_clockwise({0, 0, 3}), -3);
+  EXPECT_FALSE(p.axes.x_is_forward());
+}
+
+TEST(Axes, VerticalGravityIsTurnedToTheSlopeOfTheBase)
+{
+  const auto p = plane("xy", {0, -10, 0}, 30);
+  EXPECT_TRUE(p.gravity.isApprox(Vec2(10 * sin_30, -10 * cos_30)));
+  // Down the slope of a base that falls to the right.
+  EXPECT_TRUE(p.axes.in_plane({cos_30, -sin_30, 0}).isApprox(Vec2(1, 0)));
+  EXPECT_TRUE(p.axes.in_plane({sin_30, cos_30, 0}).isApprox(Vec2(0, 1)));
+  EXPECT_NEAR(p.axes.counter_clockwise({0, 0, 3}), 3, 1e-15);
+  EXPECT_FALSE(p.axes.axis_of_x());
+}
+
+TEST(Axes, AVectorOfFewDigitsThatHasTheSlopeTurnsNothing)
+{
+  const auto p = plane("xy", {3.83, -9.02, 0}, 23);
+  EXPECT_EQ(p.axes.axis_of_x(), 0);
+  EXPECT_EQ(p.gravity, Vec2(3.83, -9.02));
+}
+
+TEST(Axes, AMagnitudeNeedsASlope)
+{
+  const auto p = plane_of("xy", parse_gravity("10"), 30);
+  EXPECT_TRUE(p.gravity.isApprox(Vec2(5, -10 * cos_30)));
+  EXPECT_THROW(plane_of("xy", parse_gravity("10"), std::nullopt), UsageError);
+}
+
+TEST(Axes, SignsOfZerosSurvive)
+{
+  EXPECT_TRUE(std::signbit(Axes("xy").in_plane({-0.0, 1, 2}).x()));
+}
+
+TEST(Axes, WhatIsNoPlaneOrGravityIsRefused)
+{
+  for (const char* letters : {"", "x", "xx", "xw", "xyz"})
+    EXPECT_THROW(Axes{letters}, UsageError) << letters;
+  EXPECT_THROW(plane("xy", {0, 0, -10}), UsageError);
+  for (const char* text : {"", "down", "1,2", "1,2,3,4", "1,,2", "-9.8", "nan", "1,2,x"})
+    EXPECT_THROW(parse_gravity(text), UsageError) << text;
+  EXPECT_EQ(*parse_gravity("1,-2,0.5").vector, Vec3(1, -2, 0.5));
+}
+
+}  // namespace
+}  // namespace grseg

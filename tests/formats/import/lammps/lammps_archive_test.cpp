@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/trajectory/reader.hpp"
+#include "tests/formats/import/lammps_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+using namespace lammps_text;
+
+constexpr const char* recipe = "i=2,j=3,dist=4,force=5,tangential=8";
+
+constexpr const char* without_forces = "id type mass radius x y vx vy omegaz";
+
+std::vector<std::string> rows_without_forces()
+{
+  auto rows = grain_rows();
+  for (auto& row : rows)
+    for (int k = 0; k < 2; ++k) row.resize(row.rfind(' '));
+  return rows;
+}
+
+class Lammps : public testing::Test {
+ protected:
+  Folder folder;
+
+  Frame frame_of(const ImportSettings& s, std::size_t index = 0)
+  {
+    import_archive(s, "grseg-import");
+    const TrajectoryReader run(s.output);
+    Frame frame;
+    run.read(index, frame, {.velocity = true, .contacts = true, .force = true});
+    return frame;
+  }
+  ImportSettings at_rest()
+  {
+    return settings(folder, grains_at(0) + grains_at(100), contacts_at(0) + contacts_at(100));
+  }
+};
+
+TEST_F(Lammps, ForceOnTheFirstGrainIsTheNormalPlusTheTangentialPart)
+{
+  const auto frame = frame_of(at_rest());
+  const auto& contacts = frame.contacts;  // rows: 0 small (id 4), 1 large (7), 2 base (9)
+  ASSERT_EQ(contacts.i, (std::vector<std::int32_t>{0, 1}));
+  ASSERT_EQ(contacts.j, (std::vector<std::int32_t>{1, 2}));
+  EXPECT_TRUE(contacts.force[0].isApprox(small_mass * Vec2(-gx, -gy)));
+  EXPECT_TRUE(contacts.force[1].isApprox((small_mass + large_mass) * Vec2(-gx, -gy)));
+  EXPECT_NEAR(contacts.gap[0], 0, 1e-17);
+}
+
+// property/local lists a pair in whatever order; the force is that on the one it calls patom1, and
+// the sign of dx depended on tags.
+TEST_F(Lammps, BranchPointsFromTheSecondGrainToTheFirstWhateverDxSays)
+{
+  auto rows = contact_rows();
+  rows[0] = contact_row(4, 7, 0.0075, small_mass, true) + " 0 0.0075 0";
+  rows[1] += " 0 -0.01 0";
+  auto s = settings(folder, grains_at(0),
+                    block("ENTRIES", 0, contact_columns + " c_dx[1] c_dx[2] c_dx[3]", rows));
+  s.files.columns = recipe;
+  const auto frame = frame_of(s);
+  EXPECT_TRUE(frame.contacts.branch[0].isApprox(Vec2(0, -0.0075)));
+  EXPECT_TRUE(frame.contacts.force[0].isApprox(small_mass * Vec2(gx, gy)));
+  EXPECT_EQ(frame.contacts.i[0], 1);
+  EXPECT_TRUE(frame.contacts.branch[1].isApprox(Vec2(0, 0.01))) << "i is the mobile one";
+  EXPECT_EQ(frame.contacts.i[1], 1);
+}
+
+TEST_F(Lammps, NormalForcesAloneAreRefusedAndTheColumnsThatFitAreNamed)
+{
+  auto s = at_rest();
+  s.files.columns = "i=2,j=3,dist=4,force=5";
+  const auto refused = refusal(s);
+  EXPECT_EQ(refused.code, exit_check);
+  EXPECT_TRUE(mentions(refused.sentence, "the forces on grain 7 do not add up"));
+  EXPECT_TRUE(
+      mentions(refused.sentence, "with --columns i=2,j=3,force=5,tangential=8 they balance"));
+  EXPECT_EQ(folder.files(), 2u) << "nothing is written";
+}
+
+// Headers are c_pl[3]: thirteen columns may be the ten with others between them.
+TEST_F(Lammps, TheRecipeIsTakenOnlyWhereGrainsBalanceForNamesCarryNoMeaning)
+{
+  EXPECT_EQ(import_archive(at_rest(), "").columns, recipe);
+  std::vector<std::string> rows;
+  for (auto row : contact_rows()) rows.push_back(row.insert(row.find(" 0.0"), " 2 3"));
+  auto s = settings(folder, grains_at(0),
+                    block("ENTRIES", 0, contact_columns + " c_pl[8] c_pl[9]", rows));
+  s.overwrite = true;
+  const auto refused = refusal(s);
+  EXPECT_EQ(refused.code, exit_check);
+  EXPECT_TRUE(mentions(refused.sentence, "with --columns i=2,j=3,force=7,tangential=10 they"));
+  s.files.columns = "i=2,j=3,dist=6,force=7,tangential=10";
+  EXPECT_EQ(refusal(s).code, 0) << refusal(s).sentence;
+}
+
+TEST_F(Lammps, FewerThanTheTenColumnsNeedAWord)
+{
+  auto s = settings(folder, grains_at(0),
+                    block("ENTRIES", 0, "index a b c d", {"1 4 7 0 0", "2 7 9 0 0"}));
+  EXPECT_EQ(refusal(s).code, exit_usage);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "say it with --columns, as in i=2,j=3"));
+}
+
+TEST_F(Lammps, ColumnsMayBeToldByNameAndOneByOne)
+{
+  auto s = at_rest();
+  s.files.columns = "i=c_pr[1],j=c_pr[2],fx=c_pl[2],fy=c_pl[3],tx=8,ty=9";
+  EXPECT_EQ(refusal(s).code, 0) << refusal(s).sentence;
+  s.overwrite = true;
+  s.files.columns = "i=c_pr[1],j=c_pr[7],force=5";
+  EXPECT_TRUE(mentions(refusal(s).sentence, "j=c_pr[7], but"));
+}
+
+TEST_F(Lammps, ColumnsThatCarryTheirMeaningInTheirNamesNeedNoWord)
+{
+  auto s = settings(folder, grains_at(0),
+                    block("ENTRIES", 0, "index i j dist fx fy fz tx ty tz", contact_rows()));
+  EXPECT_EQ(import_archive(s, "").columns, "i=i,j=j,fx=fx,fy=fy,fz=fz,tx=tx,ty=ty,tz=tz,dist=dist");
+}
+
+TEST_F(Lammps, ForceOnTheOtherGrainIsFoundOut)
+{
+  auto s = at_rest();
+  s.files.columns = "i=3,j=2,dist=4,force=5,tangential=8";
+  const auto refused = refusal(s);
+  EXPECT_EQ(refused.code, exit_check);
+  EXPECT_TRUE(mentions(refused.sentence, "contacts pull: 100 %"));
+  EXPECT_TRUE(mentions(refused.sentence, "with the opposite sign, the force being that on j"));
+}
+
+TEST_F(Lammps, ContactsInTwoRowsAreFoundOut)
+{
+  auto rows = contact_rows();
+  rows.push_back(contact_row(4, 7, 0.0075, small_mass, true));
+  const auto s = settings(folder, grains_at(0), block("ENTRIES", 0, contact_columns, rows));
+  EXPECT_TRUE(mentions(refusal(s).sentence, "the contact of grains 7 and 4 is there twice"));
+}
+
+TEST_F(Lammps, ContactsOfBaseGrainsAmongThemselvesAreLeftOut)
+{
+  auto grains = grain_rows();
+  grains.push_back(fmt::format("2 3 {} 0.005 0.06 -0.005 0 0 0 0 0", large_mass));
+  auto contacts = contact_rows();
+  contacts.emplace_back("3 2 9 0.01 0 0 0 0 0 0");
+  const auto frame = frame_of(settings(folder, block("ATOMS", 0, grain_columns, grains),
+                                       block("ENTRIES", 0, contact_columns, contacts)));
+  EXPECT_EQ(frame.contacts.size(), 2u);
+  EXPECT_EQ(frame.position.size(), 4u);
+}
+
+// `fix freeze` before `fix gravity` leaves m g on them, the other way round nothing.
+TEST_F(Lammps, ForcesOnFrozenGrainsCountForNothing)
+{
+  const auto frame = frame_of(at_rest());
+  EXPECT_EQ(frame.force[2], Vec2(0, 0));
+}
+
+// Contacts of fix wall/gran are in no dump local.
+TEST_F(Lammps, AGrainOnAWallThatIsNotInTheDumpDoesNotBalance)
+{
+  auto grains = grain_rows();
+  grains.push_back(fmt::format("2 2 {} 0.005 0.08 0.005 0 0 0 0 0", large_mass));
+  const auto s = settings(folder, block("ATOMS", 0, grain_columns, grains), contacts_at(0));
+  EXPECT_EQ(refusal(s).code, exit_check);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "the forces on grain 2 do not add up"));
+}
+
+TEST_F(Lammps, ABalanceToFivePercentIsFaithfulAndMoreIsNotUnlessAccepted)
+{
+  const auto missing = [&](double part) {
+    auto contacts = contact_rows();
+    contacts[1] = contact_row(7, 9, 0.01, (1 - part) * (small_mass + large_mass));
+    return settings(folder, grains_at(0), block("ENTRIES", 0, contact_columns, contacts));
+  };
+  const auto report = import_archive(missing(0.04), "");
+  EXPECT_NEAR(*report.largest_residual, 0.04 / (1 - 0.04), 1e-12);
+  EXPECT_EQ(report.median_residual, report.largest_residual) << "of two grains the upper";
+  auto s = missing(0.06);
+  s.overwrite = true;
+  EXPECT_EQ(refusal(s).code, exit_check);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "--accept-residual R"));
+  s.accept_residual = 0.07;
+  EXPECT_EQ(refusal(s).code, 0);
+}
+
+// 2D discs need density/disc, or else LAMMPS gives them the mass of spheres.
+TEST_F(Lammps, MassesTellDiscsFromSpheres)
+{
+  auto s = at_rest();
+  s.grains = "spheres";
+  EXPECT_EQ(refusal(s).code, exit_usage);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "masses grow as its square"));
+  import_archive(at_rest(), "");
+  const TrajectoryReader run(s.output);
+  EXPECT_EQ(run.parameters().text("import_grains"), "discs");
+  EXPECT_NEAR(run.parameters().number("density", ""), 1, 1e-12);
+}
+
+TEST_F(Lammps, AnArchiveWithoutForcesOnGrainsMakesATrajectoryWithoutThem)
+{
+  auto s = at_rest();
+  std::string grains;
+  for (const int step : {0, 100})
+    grains += block("ATOMS", step, without_forces, rows_without_forces());
+  s.files.grains = {folder.write("atoms.dump", grains)};
+  EXPECT_EQ(refusal(s).code, exit_usage) << "nothing to hold the ten columns against";
+  s.files.columns = recipe;
+  const auto report = import_archive(s, "");
+  EXPECT_LT(*report.largest_residual, 1e-15) << "grains stay at rest";
+  EXPECT_FALSE(TrajectoryReader(s.output).has_force());
+  s.overwrite = true;
+  s.files.columns = "i=2,j=3,dist=4,force=5";
+  EXPECT_TRUE(mentions(refusal(s).sentence, "difference of velocities between two moments"));
+}
+
+TEST_F(Lammps, TimesThatGoBackAreRefused)
+{
+  const auto at = [](const char* time, int step) {
+    return fmt::format("ITEM: TIME\n{}\n", time) + grains_at(step);
+  };
+  const auto s = settings(folder, at("0", 0) + at("0.001", 100) + at("0.0005", 200),
+                          contacts_at(0) + contacts_at(100) + contacts_at(200));
+  EXPECT_EQ(refusal(s).code, exit_content);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "step 200 at 0.0005 comes after step 100 at 0.001"));
+  EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST_F(Lammps, MomentsAreMatchedByStepAndTimedByIt)
+{
+  const auto s = settings(folder, grains_at(0) + grains_at(100) + grains_at(300),
+                          contacts_at(50) + contacts_at(100) + contacts_at(200) + contacts_at(300));
+  const auto report = import_archive(s, "");
+  EXPECT_EQ(report.frames, 2u);
+  EXPECT_EQ(report.remarks.size(), 2u);
+  const TrajectoryReader run(s.output);
+  EXPECT_EQ(run.steps(), (std::vector<std::int64_t>{100, 300}));
+  EXPECT_EQ(run.times(), (std::vector<double>{100 * 1e-5, 300 * 1e-5}));
+  EXPECT_NEAR(run.parameters().number("frame_interval", ""), 0.002, 1e-15);
+}
+
+TEST_F(Lammps, RowsStandInAnyOrder)
+{
+  auto rows = grain_rows();
+  std::string grains = block("ATOMS", 0, grain_columns, rows);
+  std::reverse(rows.begin(), rows.end());
+  grains += block("ATOMS", 100, grain_columns, rows);
+  const auto s = settings(folder, grains, contacts_at(0) + contacts_at(100));
+  import_archive(s, "");
+  const TrajectoryReader run(s.output);
+  EXPECT_EQ(run.grains().id, (std::vector<std::int32_t>{4, 7, 9}));
+  EXPECT_EQ(run.grains().species, (std::vector{Species::small, Species::large, Species::boundary}));
+  Frame first, second;
+  run.read(0, first);
+  run.read(1, second);
+  EXPECT_EQ(first.position, second.position);
+}
+
+TEST_F(Lammps, APairAcrossThePeriodicBoundaryIsCloseTogether)
+{
+  auto grains = grain_rows();
+  grains[1] = fmt::format("4 1 {} 0.0025 0.0995 0.012433034373659253 0 0 0 0 0", small_mass);
+  grains[2] = fmt::format("7 2 {} 0.005 0.0005 0.005 0 0 0 0 0", large_mass);
+  grains[0] = fmt::format("9 3 {} 0.005 0.0005 -0.005 0 0 0 0 0", large_mass);
+  auto s = settings(folder, block("ATOMS", 0, grain_columns, grains), contacts_at(0));
+  s.files.columns = recipe;
+  auto frame = frame_of(s);
+  EXPECT_TRUE(frame.contacts.branch[0].isApprox(Vec2(-0.001, 0.007433034373659253)));
+
+  s = settings(folder, block("ATOMS", 0, grain_columns, grains, "ff ff pp"), contacts_at(0));
+  s.overwrite = true;
+  EXPECT_TRUE(mentions(refusal(s).sentence, "is the cell periodic"));
+}
+
+TEST_F(Lammps, UnwrappedPositionsAreWrappedAndTheirPeriodsCounted)
+{
+  auto rows = grain_rows(0.05 - 0.1 * 3);
+  const auto s =
+      settings(folder, block("ATOMS", 0, "id type mass radius xu yu vx vy omegaz fx fy", rows),
+               contacts_at(0));
+  const auto frame = frame_of(s);
+  EXPECT_NEAR(frame.position[0].x(), 0.05, 1e-15);
+  EXPECT_EQ(frame.image[0][0], -3);
+}
+
+TEST_F(Lammps, PeriodsThatAreToldAreKept)
+{
+  auto rows = grain_rows();
+  for (auto& row : rows) row += " -2";
+  const auto frame =
+      frame_of(settings(folder, block("ATOMS", 0, grain_columns + " ix", rows), contacts_at(0)));
+  EXPECT_NEAR(frame.position[0].x(), 0.05, 1e-17);
+  EXPECT_EQ(frame.image[0][0], -2);
+}
+
+TEST_F(Lammps, HeightsCountFromTheTopOfTheBaseItsCentresOrAGivenPlace)
+{
+  auto s = at_rest();
+  s.overwrite = true;
+  EXPECT_NEAR(frame_of(s).position[1].y(), 0.005, 1e-17);
+  s.origin = "centre";
+  EXPECT_NEAR(frame_of(s).position[1].y(), 0.010, 1e-17);
+  s.origin = "0.001";
+  EXPECT_NEAR(frame_of(s).position[1].y(), 0.004, 1e-17);
+}
+
+TEST_F(Lammps, AllThatIsMissingIsNamedInOneSentence)
+{
+  auto s = at_rest();
+  s.units.reset();
+  s.step.reset();
+  s.gravity.reset();
+  s.species.boundary.reset();
+  const auto refused = refusal(s);
+  EXPECT_EQ(refused.code, exit_usage);
+  for (const char* option : {"--units", "--step", "--gravity", "--boundary"})
+    EXPECT_TRUE(mentions(refused.sentence, option));
+  EXPECT_FALSE(mentions(refused.sentence, "--density")) << "masses are in the archive";
+}
+
+TEST_F(Lammps, UnitsWithoutDimensionNeedToBeSaid)
+{
+  auto s = settings(folder, "ITEM: UNITS\nlj\n" + grains_at(0), contacts_at(0));
+  s.units.reset();
+  EXPECT_TRUE(mentions(refusal(s).sentence, "units lj: say what they are in m, s and kg"));
+  s.units = "0.5:0.1:2";
+  const auto frame = frame_of(s);
+  EXPECT_NEAR(frame.position[1].y(), 0.005 * 0.5, 1e-17);
+  EXPECT_NEAR(frame.contacts.force[0].y(), -small_mass * gy * 2 * 0.5 / 0.01, 1e-12);
+  const TrajectoryReader run(s.output);
+  EXPECT_NEAR(run.gravity().start.x(), gx * 0.5 / 0.01, 1e-10);
+  EXPECT_NEAR(run.step(), 1e-6, 1e-20);
+  EXPECT_NEAR(run.small_diameter(), 0.0025, 1e-17);
+}
+
+// The true thing: Debian's lammps on chute.in, whose gran/hooke has gamma_n = 100 and
+// gamma_t = 50, and without
+// damping.
+TEST_F(Lammps, WhatATrueArchiveMissesIsTheDampingOfItsInput)
+{
+  ImportSettings s;
+  s.format = "lammps";
+  const std::string at = GRSEG_TEST_INPUTS "/lammps/";
+  s.files.grains = {at + "atoms.dump"};
+  s.files.contacts = {at + "contacts.dump"};
+  s.files.columns = "i=2,j=3,dist=6,force=7,tangential=10";
+  s.units = "si";
+  s.step = 1e-5;
+  s.gravity = "3.8291634756966717,-9.020948235988865,0";
+  s.species.boundary = "3";
+  s.output = folder / "run.h5";
+  const auto damped = import_archive(s, "");
+  EXPECT_EQ(damped.frames, 7u);
+  EXPECT_LT(*damped.largest_residual, 2e-3);
+  EXPECT_LT(*damped.unexplained_residual, *damped.largest_residual / 3);
+  EXPECT_NEAR(damped.late.normal, 100, 1);
+  EXPECT_NEAR(damped.late.tangential, 50, 10);
+
+  s.files.grains = {at + "elastic-atoms.dump.gz"};
+  s.files.contacts = {at + "elastic-contacts.dump.zst"};
+  s.overwrite = true;
+  const auto elastic = import_archive(s, "");
+  EXPECT_EQ(elastic.frames, 4u);
+  EXPECT_LT(*elastic.largest_residual, 1e-13);
+}
+
+}  // namespace
+}  // namespace grseg

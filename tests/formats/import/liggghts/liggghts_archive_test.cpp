@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/liggghts/liggghts_archive.hpp"
+
+#include "formats/import/convert/importer.hpp"
+#include "formats/import/liggghts/liggghts_columns.hpp"
+#include "formats/trajectory/reader.hpp"
+#include "tests/formats/import/archive_balance.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace archive_balance;
+
+const std::string inputs = GRSEG_TEST_INPUTS "/liggghts/";
+const Vec3 pull = 9.81 * Vec3(0.390731, 0, -0.920505);
+constexpr const char* full =
+    "pos,vel,id,force,force_normal,force_tangential,torque,history,contactArea,delta,contactPoint";
+
+DumpHeader header_of(std::size_t columns, const std::string& compute = "c_cp")
+{
+  DumpHeader header;
+  header.place = "contacts.dump, line 1";
+  for (std::size_t k = 1; k <= columns; ++k)
+    header.columns.push_back(compute + "[" + std::to_string(k) + "]");
+  return header;
+}
+
+std::string refusal(const std::string& columns, const DumpHeader& header)
+{
+  try {
+    return liggghts_mapping(columns, header);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+}
+
+class Liggghts : public testing::Test {
+ protected:
+  fs::path folder = fs::temp_directory_path() / ("grseg_liggghts_" + std::to_string(getpid()));
+  void SetUp() override { fs::create_directory(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  static ArchiveFiles files(const std::string& contacts, const std::string& columns = "")
+  {
+    ArchiveFiles all;
+    all.grains = {inputs + "atoms.dump"};
+    all.contacts = {inputs + contacts};
+    all.columns = columns;
+    return all;
+  }
+  ImportSettings settings(const ArchiveFiles& archive) const
+  {
+    ImportSettings s;
+    s.format = "liggghts";
+    s.files = archive;
+    s.units = "si";
+    s.step = 5e-6;
+    s.gravity = fmt::format("{},{},{}", pull.x(), pull.y(), pull.z());
+    s.axes = "xz";
+    s.species.boundary = "3";
+    s.output = (folder / "run.h5").string();
+    s.overwrite = true;
+    return s;
+  }
+};
+
+TEST(LiggghtsColumns, StandInTheOrderOfTheSourceWhateverThatOfTheKeywords)
+{
+  const auto header = header_of(13);
+  const std::string mapping = "i=7,j=8,fx=10,fy=11,fz=12,overlap=13";
+  EXPECT_EQ(liggghts_mapping("pos,id,force,delta", header), mapping);
+  EXPECT_EQ(liggghts_mapping("delta,force,id,pos", header), mapping);
+}
+
+TEST(LiggghtsColumns, DeltaStandsBeforeTheContactPointNotBehindIt)
+{
+  // The manual: contactArea, heatFlux, contactPoint, and no delta.
+  EXPECT_EQ(liggghts_mapping("id,force,contactPoint,delta,contactArea", header_of(11)),
+            "i=1,j=2,fx=4,fy=5,fz=6,overlap=8");
+}
+
+TEST(LiggghtsColumns, PresetsAreTheKnownSelections)
+{
+  EXPECT_EQ(liggghts_mapping("liggghts-default", header_of(25)), "i=13,j=14,fx=16,fy=17,fz=18");
+  EXPECT_EQ(liggghts_mapping("liggghts-full35", header_of(35)),
+            "i=13,j=14,fx=16,fy=17,fz=18,overlap=32");
+  EXPECT_EQ(liggghts_mapping("forcechain12", header_of(12)), "i=7,j=8,fx=10,fy=11,fz=12");
+}
+
+TEST(LiggghtsColumns, PartsOfTheForceAreAddedWhereTheWholeIsMissing)
+{
+  EXPECT_EQ(liggghts_mapping("id,force_tangential,force_normal", header_of(9)),
+            "i=1,j=2,fx=4,fy=5,fz=6,tx=7,ty=8,tz=9");
+}
+
+TEST(LiggghtsColumns, LengthOfTheHistoryDependsOnTheModel)
+{
+  EXPECT_EQ(liggghts_mapping("id,force,history:1,delta", header_of(8)),
+            "i=1,j=2,fx=4,fy=5,fz=6,overlap=8");
+  EXPECT_NE(refusal("id,force,history:x", header_of(8)).find("no keyword"), std::string::npos);
+}
+
+TEST(LiggghtsColumns, WithoutVelocitiesTheSameNumberMeansSomethingElse)
+{
+  // What 1.5.1 wrote by default has c_cp[13] in the middle of the force.
+  const auto header = header_of(19);
+  EXPECT_NE(refusal("liggghts-default", header).find("25 columns"), std::string::npos);
+  EXPECT_EQ(liggghts_mapping("pos,id,force,torque,history,contactArea", header),
+            "i=7,j=8,fx=10,fy=11,fz=12");
+}
+
+TEST(LiggghtsColumns, WhatIsMissingIsNamed)
+{
+  EXPECT_NE(refusal("pos,force", header_of(9)).find("id, and force"), std::string::npos);
+  EXPECT_NE(refusal("id,forces", header_of(6)).find("'forces' is no keyword"), std::string::npos);
+  EXPECT_NE(refusal("id,force", header_of(12)).find("6 columns"), std::string::npos);
+  EXPECT_NE(refusal("id,force", header_of(6, "v_x")).find("fx=4"), std::string::npos)
+      << "names that do not tell count from the left";
+}
+
+TEST_F(Liggghts, EverySelectionOfColumnsIsTheSameContacts)
+{
+  const auto whole = all_of(*open_liggghts(files("contacts-full35.dump")));
+  ASSERT_EQ(whole.size(), 4u);
+  for (const char* name : {"default25", "forcechain12", "part"}) {
+    const bool part = std::string(name) == "part";
+    const auto read =
+        all_of(*open_liggghts(files("contacts-" + std::string(name) + ".dump", part ? full : "")));
+    ASSERT_EQ(read.size(), whole.size()) << name;
+    for (std::size_t k = 0; k < read.size(); ++k) {
+      EXPECT_EQ(read[k].contacts.i, whole[k].contacts.i) << name;
+      EXPECT_EQ(read[k].contacts.j, whole[k].contacts.j) << name;
+      EXPECT_EQ(read[k].contacts.force, whole[k].contacts.force) << name;
+    }
+  }
+}
+
+TEST_F(Liggghts, GrainsBalanceAsFarAsForcesEvaluatedAnewDo)
+{
+  double worst = 0;
+  for (const auto& moment : all_of(*open_liggghts(files("contacts-full35.dump")))) {
+    auto mobile = moment;
+    for (const auto type : moment.grains.type) mobile.grains.fixed.push_back(type == 3);
+    worst = std::max(worst, residual(mobile, pull));
+  }
+  EXPECT_LT(worst, 0.007);
+  EXPECT_GT(worst, 1e-4);
+}
+
+TEST_F(Liggghts, OverlapIsTheDeltaOfSixDigitsNotADifferenceOfPositionsOfSix)
+{
+  const auto frame_of = [this](const char* contacts) {
+    const auto s = settings(files(contacts));
+    import_archive(s, "grseg-import");
+    const TrajectoryReader run(s.output);
+    Frame frame;
+    run.read(3, frame);
+    return frame;
+  };
+  const auto told = frame_of("contacts-full35.dump").contacts;
+  const auto found = frame_of("contacts-default25.dump").contacts;
+  ASSERT_EQ(told.size(), 4u);  // two more are between grains of the base
+  EXPECT_EQ(told.gap[0], -5.6389e-05);
+  // Differences of the 6-digit positions beside them are off by 2e-8.
+  for (std::size_t c = 0; c < told.size(); ++c) EXPECT_NEAR(told.gap[c], found.gap[c], 1e-10);
+}
+
+TEST_F(Liggghts, AWrongReadingIsRefusedAndTheRightOneNamed)
+{
+  const auto s = settings(files("contacts-full35.dump", "i=13,j=14,force=22"));
+  try {
+    import_archive(s, "grseg-import");
+    ADD_FAILURE() << "friction alone should not balance";
+  } catch (const CheckError& error) {
+    EXPECT_NE(std::string(error.what()).find("with --columns liggghts-full35"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_FALSE(fs::exists(s.output));
+}
+
+TEST_F(Liggghts, ColumnsOfAnotherNumberHaveToBeTold)
+{
+  try {
+    all_of(*open_liggghts(files("contacts-part.dump")));
+    ADD_FAILURE() << "six columns tell nothing";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("say it with --columns"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace grseg

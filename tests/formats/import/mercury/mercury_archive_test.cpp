@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/mercury/mercury_archive.hpp"
+
+#include "tests/formats/import/archive_balance.hpp"
+#include "tests/formats/import/mercury_files.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace archive_balance;
+using mercury_files::Style;
+
+/// Frames of the sample run with a wall under one grain, in files of MercuryDPM.
+class Mercury : public testing::Test {
+ protected:
+  TrajectoryReader run{GRSEG_TEST_INPUTS "/../../data/sample/chute.h5"};
+  fs::path folder = fs::temp_directory_path() / ("grseg_mercury_" + std::to_string(getpid()));
+  std::vector<Frame> frames;
+
+  void SetUp() override
+  {
+    fs::create_directory(folder);
+    for (const std::size_t k : {5, 6, 7}) {
+      Frame frame;
+      run.read(k, frame);
+      auto& contacts = frame.contacts;
+      std::size_t mobile = 0;
+      while (run.grains().fixed[mobile]) ++mobile;
+      contacts.i.push_back(static_cast<std::int32_t>(mobile));
+      contacts.j.push_back(-3);
+      contacts.force.emplace_back(-0.01, 0.03);
+      contacts.gap.push_back(-1e-5);
+      contacts.branch.emplace_back(0, run.grains().radius[mobile] - 1e-5);
+      frames.push_back(frame);
+    }
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string file(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+  }
+  std::string data(const Style& style) const
+  {
+    std::string text;
+    for (const auto& frame : frames)
+      text += mercury_files::data(run.grains(), run.box(), frame, style);
+    return text;
+  }
+  std::string fstat(const Style& style) const
+  {
+    std::string text;
+    for (const auto& frame : frames) text += mercury_files::fstat(run.grains(), frame, style);
+    return text;
+  }
+  ArchiveFiles files(const Style& style) const
+  {
+    ArchiveFiles all;
+    all.grains = {file("chute.data", data(style))};
+    all.contacts = {file("chute.fstat", fstat(style))};
+    all.restart = file("chute.restart", mercury_files::restart(run.grains(), run));
+    return all;
+  }
+  std::string complaint(const ArchiveFiles& all) const
+  {
+    try {
+      all_of(*open_mercury(all));
+    } catch (const ToolError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+  void expect_frames(const ArchiveFiles& all, bool with_spin = true) const;
+};
+
+void expect_contacts(const ContactList& meant, const ArchiveContacts& read, const std::string& what)
+{
+  ASSERT_EQ(read.size(), meant.size()) << what;
+  const double scale = largest_force(read);
+  for (std::size_t c = 0; c < meant.size(); ++c) {
+    EXPECT_EQ(read.i[c], meant.i[c]) << what;
+    const auto j = read.wall[c] < 0 ? read.j[c] : -read.wall[c] - 1;
+    EXPECT_EQ(j, meant.j[c]) << what;
+    EXPECT_LT((read.force[c].head<2>() - meant.force[c]).norm(), 1e-8 * scale) << what;
+    EXPECT_LT((read.branch[c].head<2>() - meant.branch[c]).norm(), 1e-9) << what;
+    EXPECT_NEAR(read.overlap[c], -meant.gap[c], 1e-9) << what;
+  }
+}
+
+void Mercury::expect_frames(const ArchiveFiles& all, bool with_spin) const
+{
+  const auto moments = all_of(*open_mercury(all));
+  ASSERT_EQ(moments.size(), frames.size());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const auto& grains = moments[k].grains;
+    EXPECT_NEAR(*moments[k].time, frames[k].time, 1e-8);
+    ASSERT_EQ(grains.size(), run.grains().size());
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      EXPECT_EQ(grains.id[g], static_cast<std::int64_t>(g));
+      EXPECT_LT((grains.position[g].head<2>() - frames[k].position[g]).norm(), 1e-14);
+      EXPECT_LT((grains.velocity[g].head<2>() - frames[k].velocity[g]).norm(), 1e-8);
+      EXPECT_EQ(grains.position[g].z(), 0);
+      const double spin = with_spin ? frames[k].angular_velocity[g] : 0;
+      EXPECT_NEAR(grains.angular_velocity[g].z(), spin, 1e-7);
+      EXPECT_NEAR(grains.radius[g], run.grains().radius[g], 1e-11);
+    }
+    expect_contacts(frames[k].contacts, moments[k].contacts, std::to_string(k));
+  }
+}
+
+TEST_F(Mercury, PlaneFormatNegatesSpinAndWritesPairsTwice)
+{
+  expect_frames(files({.format = 8}));
+}
+
+TEST_F(Mercury, SpatialFormatDoesNotNegateSpin)
+{
+  expect_frames(files({.format = 14}));
+}
+
+TEST_F(Mercury, FormatFifteenHasAnotherColumnBeforeInfo)
+{
+  expect_frames(files({.format = 15}));
+}
+
+TEST_F(Mercury, FormatSevenSwapsYAndZ)
+{
+  expect_frames(files({.format = 7}), false);
+}
+
+TEST_F(Mercury, ParallelBuildsAppendTwoFlags)
+{
+  for (const int format : {8, 14, 15}) expect_frames(files({.format = format, .flags = true}));
+}
+
+TEST_F(Mercury, OldFilesWithTheMiddleOfCentresMeanTheSameContacts)
+{
+  expect_frames(files({.point = 0}));
+}
+
+TEST_F(Mercury, DoubleRowsAreOneContactWithItsWholeForce)
+{
+  const auto text = fstat({});
+  const auto rows = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 9;
+  std::size_t contacts = 0;
+  for (const auto& frame : frames) contacts += frame.contacts.size();
+  EXPECT_GT(rows, contacts + contacts / 2);  // most pairs stand there twice
+  expect_frames(files({}));
+}
+
+TEST_F(Mercury, WallRowsAreWrittenTheOtherWayRound)
+{
+  // Rows of a true archive: grain 27 sits on wall 2 at y = 0.
+  const std::string block =
+      "# 0.02 1\n# 0 0 0 1 1 0\n# 0.05 0.05 0 0 0 0\n"
+      "0.02 1 0 0.3685998372 0.192813987 0 0.00688691534 0 0.005373722573 0 0.994345469 "
+      "0.1061936358 0 0 0 0\n"
+      "0.02 0 1 0.3685998372 0.192813987 0 0.00688691534 0 0.005373722573 0 -0.994345469 "
+      "-0.1061936358 -0 -0 -0 -0\n"
+      "0.02 1 -3 0.4600585605 -0.003160952164 0 0.006321904327 0 0.00302676824 0 0 -1 -0 -0 -0 "
+      "-0\n";
+  ArchiveFiles all;
+  all.grains = {file(
+      "w.data", "2 0.02 0 0 1 1\n0.3217 0.1878 0 0 0.05 0 0 0\n0.4149 0.1977 0 0 0.05 0 0 0\n")};
+  all.contacts = {file("w.fstat", block)};
+  const auto contacts = all_of(*open_mercury(all)).at(0).contacts;
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_EQ(contacts.wall, (std::vector<std::int32_t>{-1, 2}));
+  EXPECT_EQ(contacts.force[1], Vec3(0, 0.00302676824, 0));
+  EXPECT_NEAR(contacts.branch[1].y(), 0.05 - 0.006321904327, 1e-15);
+  EXPECT_NEAR(contacts.force[0].x(), 0.005373722573 * 0.994345469, 1e-15);
+}
+
+TEST_F(Mercury, RestartTellsMassesFixedGrainsAndThePeriod)
+{
+  const auto archive = open_mercury(files({}));
+  const auto moment = all_of(*archive).front();
+  const auto& facts = archive->facts();
+  EXPECT_DOUBLE_EQ(*facts.step, run.step());
+  EXPECT_LT((facts.gravity->head<2>() - run.gravity().start).norm(), 1e-13);
+  EXPECT_TRUE(*facts.discs);
+  EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, false, false}));
+  EXPECT_NEAR(moment.high.x() - moment.low.x(), run.box().length_x, 1e-14);
+  for (std::size_t g = 0; g < moment.grains.size(); ++g) {
+    const double r = run.grains().radius[g];
+    EXPECT_EQ(moment.grains.fixed[g], run.grains().fixed[g]);
+    EXPECT_EQ(moment.grains.type[g], static_cast<std::int32_t>(run.grains().species[g]));
+    EXPECT_NEAR(moment.grains.mass[g], std::numbers::pi * r * r, 1e-6 * r * r);
+  }
+}
+
+TEST_F(Mercury, InfoIsASpeciesOnlyWhereItIsSaid)
+{
+  auto all = files({.info = 7});
+  EXPECT_NE(all_of(*open_mercury(all)).at(0).grains.type.at(0), 7);
+  all.columns = "info=species";
+  EXPECT_EQ(all_of(*open_mercury(all)).at(0).grains.type.at(0), 7);
+  all.columns = "i=1";
+  EXPECT_NE(complaint(all).find("info=species"), std::string::npos);
+}
+
+TEST_F(Mercury, BlocksAreMatchedByTimeNotByOrder)
+{
+  auto all = files({});
+  Frame early = frames[0], late = frames[2];
+  early.time -= 0.01;
+  late.time += 0.01;
+  all.contacts = {file("more.fstat", mercury_files::fstat(run.grains(), early, {}) + fstat({}))};
+  all.grains = {
+      file("more.data", data({}) + mercury_files::data(run.grains(), run.box(), late, {}))};
+  expect_frames(all);
+  const auto archive = open_mercury(all);
+  all_of(*archive);
+  ASSERT_EQ(archive->remarks().size(), 1u);
+  EXPECT_NE(archive->remarks()[0].find("1 moments are in .fstat but not in .data"),
+            std::string::npos);
+}
+
+TEST_F(Mercury, WithoutRestartPairsAcrossThePeriodAreRefused)
+{
+  auto all = files({});
+  all.restart.clear();
+  EXPECT_FALSE(open_mercury(all)->facts().step);
+  EXPECT_NE(complaint(all).find("give --restart"), std::string::npos) << complaint(all);
+}
+
+TEST_F(Mercury, ABlockThatIsCutOffEndsTheArchiveAfterTheWholeOnes)
+{
+  auto all = files({});
+  const auto text = data({});
+  for (const std::size_t cut : {1, 40, 5000}) {
+    all.grains = {file("cut.data", text.substr(0, text.size() - cut))};
+    const auto archive = open_mercury(all);
+    ArchiveMoment moment;
+    EXPECT_TRUE(archive->next(moment));
+    EXPECT_TRUE(archive->next(moment));
+    EXPECT_THROW(archive->next(moment), TruncatedArchive) << cut;
+  }
+  EXPECT_NE(complaint(all).find("--drop-incomplete"), std::string::npos);
+}
+
+TEST_F(Mercury, FilesOfDifferentRunsAndDamageAreNamedByLine)
+{
+  auto all = files({});
+  const auto with_data = [&](const std::string& text) {
+    auto other = all;
+    other.grains = {file("bad.data", text)};
+    return complaint(other);
+  };
+  EXPECT_NE(with_data("3 0.5\n").find("bad.data, line 1: 2 numbers"), std::string::npos);
+  EXPECT_NE(with_data("1 0.5 0 0 1 1\n1 2 3\n").find("line 2: a row of 3 numbers"),
+            std::string::npos);
+  EXPECT_NE(with_data("1 0.5 0 0 1 1\n1 nan 0 0 1 0 0 0\n").find("'nan' in column 2"),
+            std::string::npos);
+  EXPECT_NE(with_data("-4 0.5 0 0 1 1\n").find("no number of grains"), std::string::npos);
+  auto other = all;
+  other.contacts = {file("bad.fstat", "0.5 1 2\n")};
+  EXPECT_NE(complaint(other).find("begins with '# time 1'"), std::string::npos);
+  other = all;
+  other.restart = all.grains[0];
+  EXPECT_NE(complaint(other).find("is no .restart of MercuryDPM"), std::string::npos);
+  auto fewer = run.grains();
+  fewer.radius.pop_back();
+  other.restart = file("fewer.restart", mercury_files::restart(fewer, run));
+  EXPECT_NE(complaint(other).find("the number of grains must not change"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace grseg

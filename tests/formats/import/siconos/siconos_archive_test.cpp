@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/siconos/siconos_archive.hpp"
+
+#include "tests/formats/import/archive_balance.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace archive_balance;
+
+const std::string inputs = GRSEG_TEST_INPUTS "/siconos/";
+const std::string discs = inputs + "discs.hdf5", spheres = inputs + "spheres.hdf5";
+constexpr double pi = std::numbers::pi;
+const Vec3 slope{9.81 * std::sin(10 * pi / 180), -9.81 * std::cos(10 * pi / 180), 0};
+
+std::unique_ptr<Archive> open(const std::string& path)
+{
+  ArchiveFiles files;
+  files.grains = {path};
+  return open_siconos(files);
+}
+
+/// A copy of the file after some damage.
+class DamagedSiconos : public testing::Test {
+ protected:
+  std::string path =
+      (fs::temp_directory_path() / ("grseg_siconos_" + std::to_string(getpid()) + ".hdf5"))
+          .string();
+  void TearDown() override { fs::remove(path); }
+
+  template <class Damage>
+  std::string complaint(Damage damage)
+  {
+    fs::copy_file(discs, path);
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    damage(file);
+    H5Fclose(file);
+    return complaint();
+  }
+  std::string complaint() const
+  {
+    try {
+      all_of(*open(path));
+    } catch (const FormatError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+  static void put(hid_t file, const char* table, std::size_t flat, float value)
+  {
+    const hid_t id = H5Dopen2(file, table, H5P_DEFAULT);
+    const hid_t space = H5Dget_space(id);
+    std::vector<float> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    H5Dread(id, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    values.at(flat) = value;
+    H5Dwrite(id, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Sclose(space);
+    H5Dclose(id);
+  }
+};
+
+TEST(SiconosArchive, ImpulsesOverTheStepAreTheWeightsOfAStack)
+{
+  const auto archive = open(spheres);
+  const auto last = all_of(*archive).back();
+  EXPECT_NEAR(*archive->facts().step, 0.005, 1e-9);
+  ASSERT_EQ(last.contacts.size(), 2u);
+  for (std::size_t c = 0; c < 2; ++c) {
+    // 9.80665 is what the program itself pulls with; its solver stopped at 3e-5.
+    const double weight = (at_wall(last.contacts, c) ? 5 : -3) * 9.80665;
+    EXPECT_EQ(last.contacts.i[c], 1);
+    EXPECT_NEAR(last.contacts.force[c].z(), weight, 1e-3 * std::abs(weight));
+  }
+}
+
+TEST(SiconosArchive, PointsOfOnePairAddUpToOneContact)
+{
+  // The table has three rows of the sphere on the plate and one of the two spheres.
+  for (const auto& moment : all_of(*open(spheres))) {
+    if (*moment.time < 0.024) continue;
+    EXPECT_EQ(moment.contacts.size(), 2u);
+  }
+}
+
+TEST(SiconosArchive, TimesInSinglePrecisionFindEachOther)
+{
+  const auto moments = all_of(*open(discs));
+  ASSERT_EQ(moments.size(), 80u);  // the initial state was not solved
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    EXPECT_EQ(*moments[k].step, static_cast<std::int64_t>(k + 1));
+    EXPECT_EQ(moments[k].grains.size(), 17u);
+    EXPECT_FALSE(moments[k].grains.force.empty());
+  }
+}
+
+TEST(SiconosArchive, GrainsBalanceInSinglePrecision)
+{
+  const auto archive = open(discs);
+  double worst = 0;
+  for (const auto& moment : all_of(*archive)) worst = std::max(worst, residual(moment, slope));
+  EXPECT_LT(worst, 1e-5);
+  EXPECT_GT(worst, 0);
+  // The file has four rows of contacts that had opened; with them the residual is 0.2.
+  ASSERT_EQ(archive->remarks().size(), 1u);
+  EXPECT_NE(archive->remarks()[0].find("4 rows of /data/cf"), std::string::npos);
+}
+
+TEST(SiconosArchive, TorquesOfTheForcesTurnTheGrains)
+{
+  const auto archive = open(discs);
+  const auto moments = all_of(*archive);
+  int close = 0, apart = 0;
+  for (std::size_t k = 1; k < moments.size(); ++k) {
+    const auto& grains = moments[k].grains;
+    const auto& before = moments[k - 1].grains;
+    const auto& contacts = moments[k].contacts;
+    const auto entry = entries(grains);
+    std::vector<double> torque(grains.size(), 0);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const Vec3 n = contacts.branch[c].normalized();
+      const auto turn = [&](std::int64_t id) {
+        torque[entry.at(id)] -= grains.radius[entry.at(id)] * n.cross(contacts.force[c]).z();
+      };
+      turn(contacts.i[c]);
+      if (!at_wall(contacts, c)) turn(contacts.j[c]);
+    }
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      if (grains.fixed[g]) continue;
+      const double inertia = 0.5 * grains.mass[g] * grains.radius[g] * grains.radius[g];
+      const double change = grains.angular_velocity[g].z() - before.angular_velocity[g].z();
+      const double turned = inertia * change / *archive->facts().step;
+      const double arm = 0.02 * largest_force(contacts) * grains.radius[g] + 1e-6;
+      ++(std::abs(torque[g] - turned) < arm ? close : apart);
+    }
+  }
+  // Its collision library (Bullet) gives some overlapping discs a normal beside the line of
+  // centres.
+  EXPECT_GT(close, 9 * apart);
+}
+
+TEST(SiconosArchive, StaticPartnersAreFoundByTheirSurface)
+{
+  std::size_t with_base = 0, with_plate = 0;
+  for (const auto& moment : all_of(*open(discs))) {
+    const auto& contacts = moment.contacts;
+    const auto entry = entries(moment.grains);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const auto i = entry.at(contacts.i[c]);
+      EXPECT_GT(contacts.i[c], 0);
+      if (at_wall(contacts, c)) {
+        ++with_plate;
+        EXPECT_NEAR(contacts.branch[c].x(), -moment.grains.radius[i], 2e-3);
+        EXPECT_EQ(contacts.wall[c], 0);
+        continue;
+      }
+      const auto j = entry.at(contacts.j[c]);
+      with_base += moment.grains.fixed[j];
+      const double reach = moment.grains.radius[i] + moment.grains.radius[j];
+      EXPECT_NEAR(contacts.branch[c].norm(), reach, 3e-3);  // one step's way
+    }
+  }
+  EXPECT_GT(with_base, 100u);
+  EXPECT_GT(with_plate, 10u);
+}
+
+TEST(SiconosArchive, DiscsThatStandStillWeighAsTheOthersDo)
+{
+  const auto archive = open(discs);
+  const auto grains = all_of(*archive).front().grains;
+  EXPECT_TRUE(*archive->facts().discs);
+  EXPECT_FALSE(*open(spheres)->facts().discs);
+  int held = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    held += grains.fixed[g];
+    EXPECT_EQ(grains.fixed[g] != 0, grains.id[g] > 12);
+    EXPECT_NEAR(grains.mass[g], pi * grains.radius[g] * grains.radius[g], 1e-8);
+  }
+  EXPECT_EQ(held, 5);
+}
+
+TEST_F(DamagedSiconos, TimesThatDifferInTheLastPlaceAreTheSame)
+{
+  const auto one_off = [](hid_t file) {
+    const hid_t id = H5Dopen2(file, "/data/velocities", H5P_DEFAULT);
+    std::vector<std::array<float, 8>> rows(984);
+    const hid_t space = H5Dget_space(id);
+    EXPECT_EQ(H5Sget_simple_extent_npoints(space), 8 * 984);
+    H5Dread(id, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data());
+    for (auto& row : rows)
+      if (row[0] > 0) row[0] = std::nextafter(row[0], 1.0F);
+    H5Dwrite(id, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data());
+    H5Sclose(space);
+    H5Dclose(id);
+  };
+  EXPECT_EQ(complaint(one_off), "no complaint");
+  EXPECT_EQ(all_of(*open(path)).size(), 80u);
+}
+
+TEST_F(DamagedSiconos, WithoutTableOfContactsNamesTheSwitchThatWritesIt)
+{
+  const auto said = complaint([](hid_t file) { H5Ldelete(file, "/data/cf", H5P_DEFAULT); });
+  EXPECT_NE(said.find("/data/cf is missing"), std::string::npos) << said;
+  EXPECT_NE(said.find("output_contact_forces"), std::string::npos) << said;
+}
+
+TEST_F(DamagedSiconos, ValuesThatAreNoNumbersAreNamedByRow)
+{
+  const auto said = complaint([](hid_t file) { put(file, "/data/cf", 26 * 7 + 12, NAN); });
+  EXPECT_NE(said.find("row 7 of /data/cf holds a value that is not finite"), std::string::npos)
+      << said;
+}
+
+TEST_F(DamagedSiconos, StepsOfDifferentLengthGiveNoForces)
+{
+  const auto said = complaint([](hid_t file) { put(file, "/data/solv", 4 * 40, 0.0811F); });
+  EXPECT_NE(said.find("row 40 of /data/solv"), std::string::npos) << said;
+}
+
+TEST_F(DamagedSiconos, UnknownBodiesAreNamed)
+{
+  const auto said = complaint([](hid_t file) { put(file, "/data/cf", 26 * 7 + 24, 99); });
+  EXPECT_NE(said.find("row 7 of /data/cf speaks of body 99"), std::string::npos) << said;
+}
+
+TEST_F(DamagedSiconos, CutOffFilesAndTextAreRefused)
+{
+  fs::copy_file(discs, path);
+  fs::resize_file(path, fs::file_size(discs) / 2);
+  EXPECT_NE(complaint().find("truncated or damaged"), std::string::npos);
+  std::ofstream(path, std::ios::trunc) << "no hdf5";
+  EXPECT_NE(complaint().find("is no HDF5 file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/verify/verification.hpp"
+
+#include "tests/formats/import/lammps_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+using lammps_text::mentions;
+
+/// A disc of mass 2 that falls freely, and one of mass 3 that a base disc holds against gravity (0,
+/// -10).
+struct Scene {
+  Grains grains;
+  Box box{10, 10, true};
+  Vec2 gravity{0, -10};
+  Frame frame;
+
+  Scene()
+  {
+    grains.id = {1, 2, 3};
+    grains.species = {Species::small, Species::large, Species::boundary};
+    grains.radius = {0.5, 1, 1};
+    grains.mass = {2, 3, 3};
+    grains.fixed = {0, 0, 1};
+    frame.position = {{5, 5}, {1, 2}, {1, 0}};
+    frame.velocity = {{0, 0}, {0, 0}, {0, 0}};
+    frame.force = {{0, -20}, {0, 0}, {0, 0}};
+    frame.contacts.i = {1};
+    frame.contacts.j = {2};
+    frame.contacts.force = {{0, 30}};
+    frame.contacts.branch = {{0, 2}};
+    frame.contacts.gap = {0};
+  }
+  Verification verification(double tolerance = 1e-10) const
+  {
+    return {grains, box, gravity, Faithful{tolerance, false, 0, 0.5}};
+  }
+  std::string complaint(double tolerance = 1e-10) const
+  {
+    const auto found = verification(tolerance).check(frame);
+    return found ? found->sentence : "no complaint";
+  }
+};
+
+TEST(Verification, HasNoComplaintWhereForcesAddUp)
+{
+  const Scene scene;
+  auto verification = scene.verification();
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_EQ(verification.residual()->largest, 0);
+}
+
+TEST(Verification, ResidualIsWhatIsMissingOverTheLargestForce)
+{
+  Scene scene;
+  scene.frame.contacts.force[0] = {0, 32};
+  auto verification = scene.verification(0.1);
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_DOUBLE_EQ(verification.residual()->largest, 2.0 / 32);
+  EXPECT_EQ(verification.residual()->grain, 1u);
+  EXPECT_TRUE(mentions(scene.complaint(), "the forces on grain 2 do not add up: 0.0625"));
+}
+
+TEST(Verification, SaysWhichOtherReadingFits)
+{
+  Scene scene;
+  scene.frame.contacts.force[0] = {0, 60};
+  EXPECT_TRUE(mentions(scene.complaint(), "with half of every force"));
+  scene.frame.contacts.force[0] = {7, 30};
+  EXPECT_TRUE(mentions(scene.complaint(), "with the normal part alone"));
+  scene.frame.force[1] = {-7, 0};
+  EXPECT_TRUE(mentions(scene.complaint(), "with the tangential part reversed"));
+  scene.frame.force[1] = {0, 0};
+  scene.frame.contacts.force[0] = {0, -30};
+  EXPECT_TRUE(mentions(scene.complaint(), "contacts pull: 100 %"));
+  EXPECT_TRUE(mentions(scene.complaint(), "with the opposite sign"));
+  scene.frame.contacts.force[0] = {0, 50};
+  EXPECT_FALSE(mentions(scene.complaint(), "with")) << "nothing fits";
+}
+
+TEST(Verification, ContactsJoinGrainsThatTouch)
+{
+  Scene scene;
+  scene.frame.position[1] = {1, 3};
+  EXPECT_TRUE(mentions(scene.complaint(), "grains 2 and 3 are said to touch, but their centres"));
+  scene.frame.contacts.branch[0] = {0, 3};
+  scene.frame.contacts.gap[0] = 1;
+  EXPECT_TRUE(mentions(scene.complaint(), "3 apart where the radii add up to 2: "));
+  scene.frame.contacts.force[0] = {0, 0};
+  EXPECT_FALSE(mentions(scene.complaint(), "said to touch")) << "rows without force may";
+}
+
+TEST(Verification, OverlapOfSoftGrainsIsNoGapInTheGeometry)
+{
+  Scene scene;
+  scene.frame.position[1] = {1, 1.9};
+  scene.frame.contacts.branch[0] = {0, 1.9};
+  scene.frame.contacts.gap[0] = -0.1;
+  EXPECT_EQ(scene.complaint(), "no complaint");
+  scene.frame.contacts.gap[0] = 0.02;
+  EXPECT_TRUE(mentions(scene.complaint(), "and the archive makes it 2.02"));
+}
+
+TEST(Verification, DampingMayPullALittle)
+{
+  Scene scene;
+  scene.frame.contacts.i.push_back(0);
+  scene.frame.contacts.j.push_back(-1);
+  scene.frame.contacts.branch.emplace_back(0, 0.5);
+  scene.frame.contacts.gap.push_back(0);
+  scene.frame.contacts.force.emplace_back(0, -3);
+  scene.frame.force[0] = {0, -23};
+  EXPECT_EQ(scene.complaint(), "no complaint");
+  scene.frame.contacts.force[1] = {0, -13};
+  EXPECT_TRUE(mentions(scene.complaint(), "contacts pull: 30 %"));
+}
+
+// A disc of mass 3 that gains 2 per s upward: half a step of 0.1 later the damping 7 m v is less by
+// 7 * 3 * 2 * 0.05.
+TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsWhatIsMissing)
+{
+  Scene scene;
+  scene.frame.force[1] = {0, 6};
+  scene.frame.contacts.force[0] = {0, 36 - 7 * 3 * 2 * 0.05};
+  Verification verification(scene.grains, scene.box, scene.gravity,
+                            Faithful{1e-10, true, 0.1, 0.5});
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_NEAR(verification.residual()->late->normal, 7, 1e-12);
+  EXPECT_EQ(verification.residual()->late->tangential, 0);
+  EXPECT_NEAR(verification.residual()->largest, 2.1 / 33.9, 1e-12);
+  EXPECT_LT(verification.residual()->unexplained, 1e-14);
+
+  scene.frame.contacts.force[0] = {0, 36 + 7 * 3 * 2 * 0.05};
+  EXPECT_TRUE(verification.check(scene.frame)) << "damping does not drive";
+}
+
+// Without forces on grains a fall from rest has v = g t, and the held grain none.
+TEST(Verification, WithoutForcesVelocitiesOfTwoMomentsTell)
+{
+  Scene scene;
+  scene.frame.force.clear();
+  auto verification = scene.verification();
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_FALSE(verification.residual()) << "nothing to compare with yet";
+  scene.frame.time = 0.5;
+  scene.frame.velocity[0] = {0, -5};
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_LT(verification.residual()->largest, 1e-15);
+  scene.frame.time = 1;
+  const auto complaint = verification.check(scene.frame);
+  ASSERT_TRUE(complaint);
+  EXPECT_TRUE(mentions(complaint->sentence, "difference of velocities between two moments"));
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/contact/contact_law.hpp"
+
+#include "sim/solver/solver.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+/// Two discs whose centres lie along (0.6, 0.8), or one on something immobile (b of mass 0).
+struct TwoDiscs {
+  std::vector<Motion> motion;
+  std::vector<Contact> contacts;
+  double friction = 0.5;
+  double floor = 0;
+
+  TwoDiscs(Motion a, Motion b, double nx = 0.6, double ny = 0.8, double kappa = 1) : motion{a, b}
+  {
+    Contact c{};
+    c.nx = nx;
+    c.ny = ny;
+    c.kappa = kappa;
+    const double w = a.inverse_mass + b.inverse_mass;
+    c.mass_n = 1 / w;
+    c.mass_t = 1 / (w * (1 + 2 * kappa * kappa));
+    c.j = 1;
+    contacts.push_back(c);
+  }
+  double separation() const
+  {
+    return (motion[0].vx - motion[1].vx) * contacts[0].nx +
+           (motion[0].vy - motion[1].vy) * contacts[0].ny;
+  }
+  double sliding() const
+  {
+    return (motion[0].vy - motion[1].vy) * contacts[0].nx -
+           (motion[0].vx - motion[1].vx) * contacts[0].ny -
+           contacts[0].kappa * (motion[0].rim_speed + motion[1].rim_speed);
+  }
+  void collide(double restitution, Effects effects = {})
+  {
+    contacts[0].rebound = restitution * std::max(-separation(), 0.0);
+    solve_contacts(contacts, motion, friction, effects, {1e-14, 100}, floor);
+  }
+};
+
+double mass(const Motion& m)
+{
+  return 1 / m.inverse_mass;
+}
+
+TEST(ContactLaw, AnImpactConservesMomentumAndAngularMomentum)
+{
+  // Radii 2 and 1: masses as their squares; centres 3 apart along (0.6, 0.8).
+  const double ra = 2, rb = 1;
+  TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0});
+  const auto momentum_x = [&] {
+    return mass(s.motion[0]) * s.motion[0].vx + mass(s.motion[1]) * s.motion[1].vx;
+  };
+  const auto momentum_y = [&] {
+    return mass(s.motion[0]) * s.motion[0].vy + mass(s.motion[1]) * s.motion[1].vy;
+  };
+  // About the centre of b: orbital part of a (at 3 n from b) and the spins, I omega = m r v_rim/2.
+  const auto angular = [&] {
+    const double orbital = mass(s.motion[0]) * (1.8 * s.motion[0].vy - 2.4 * s.motion[0].vx);
+    return orbital + mass(s.motion[0]) * ra * s.motion[0].rim_speed / 2 +
+           mass(s.motion[1]) * rb * s.motion[1].rim_speed / 2;
+  };
+  const double px = momentum_x(), py = momentum_y(), l = angular();
+  s.collide(0.25);
+  EXPECT_GT(std::abs(s.contacts[0].impulse_t), 0.1);
+  EXPECT_NEAR(momentum_x(), px, 1e-14);
+  EXPECT_NEAR(momentum_y(), py, 1e-14);
+  EXPECT_NEAR(angular(), l, 1e-13);
+}
+
+TEST(ContactLaw, AngularMomentumIsConservedAlsoWhereDiscsOverlap)
+{
+  // Centres 2.7 apart instead of 3: lever arms kappa r add up to the distance.
+  const double kappa = 0.9;
+  TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0}, 0.6, 0.8, kappa);
+  const auto angular = [&] {
+    const double orbital = 4 * (0.9 * 1.8 * s.motion[0].vy - 0.9 * 2.4 * s.motion[0].vx);
+    return orbital + 4 * 2 * s.motion[0].rim_speed / 2 + 1 * s.motion[1].rim_speed / 2;
+  };
+  const double before = angular();
+  s.collide(0.25);
+  EXPECT_NEAR(angular(), before, 1e-13);
+}
+
+TEST(ContactLaw, TheReboundIsNewtonsRestitution)
+{
+  for (const double e : {0.0, 0.25, 0.5, 1.0}) {
+    TwoDiscs s({-1, -2, 0, 1.0 / 4}, {0.5, 1, 0, 1.0});
+    const double approach = -s.separation();
+    s.collide(e);
+    EXPECT_NEAR(s.separation(), e * approach, 1e-14);
+  }
+}
+
+TEST(ContactLaw, ANormalImpactLosesOneMinusESquaredOfItsRelativeEnergy)
+{
+  const double e = 0.25;
+  TwoDiscs s({-0.6, -0.8, 0, 1.0 / 4}, {0.6, 0.8, 0, 1.0});
+  const auto energy = [&] {
+    double sum = 0;
+    for (const auto& m : s.motion)
+      sum += mass(m) * (m.vx * m.vx + m.vy * m.vy + m.rim_speed * m.rim_speed / 2) / 2;
+    return sum;
+  };
+  const double before = energy(), approach = -s.separation(), reduced = 4.0 * 1.0 / 5.0;
+  s.collide(e);
+  EXPECT_NEAR(before - energy(), (1 - e * e) * reduced * approach * approach / 2, 1e-14);
+}
+
+TEST(ContactLaw, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
+{
+  // On a wall, u_t = v_t: it sticks iff |u_t| <= 3 mu (1 + e) |u_n|, and then v_t' = 2/3 v_t.
+  const double e = 0.25, mu = 0.5, cone = 3 * mu * (1 + e);
+  for (const double slip : {0.5 * cone, 0.999 * cone, 1.001 * cone, 4 * cone}) {
+    TwoDiscs s({-slip, -1, 0, 1}, {0, 0, 0, 0}, 0, 1);  // t = (-1, 0): u_t = slip
+    s.collide(e);
+    if (slip <= cone) {
+      EXPECT_NEAR(s.motion[0].vx, -slip * 2 / 3, 1e-14);
+      EXPECT_NEAR(s.sliding(), 0, 1e-14);
+    } else {
+      EXPECT_NEAR(s.motion[0].vx, -slip + mu * (1 + e), 1e-14);
+      EXPECT_GT(s.sliding(), 0);
+      EXPECT_NEAR(s.contacts[0].impulse_t, -mu * s.contacts[0].impulse_n, 1e-14);
+    }
+  }
+}
+
+TEST(ContactLaw, ASlidingDiscEndsRollingAtTwoThirdsOfItsSpeed)
+{
+  // Enough normal impulse lets friction finish: angular momentum about the contact stays.
+  TwoDiscs s({3, -10, 0, 1}, {0, 0, 0, 0}, 0, 1);
+  s.collide(0);
+  EXPECT_NEAR(s.motion[0].vx, 2, 1e-14);
+  EXPECT_NEAR(s.motion[0].rim_speed, -2, 1e-14);
+}
+
+TEST(ContactLaw, SeparatingDiscsFeelNothing)
+{
+  TwoDiscs s({1, 2, 0.3, 1.0 / 4}, {-0.5, -1, 0.1, 1.0});
+  const auto before = s.motion;
+  s.collide(0.25);
+  EXPECT_EQ(s.contacts[0].impulse_n, 0);
+  EXPECT_EQ(s.motion[0].vx, before[0].vx);
+  EXPECT_EQ(s.motion[1].rim_speed, before[1].rim_speed);
+}
+
+TEST(ContactLaw, ASolvedContactHasNoResidualAndAnUnsolvedOneShowsItsApproach)
+{
+  TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0});
+  const double approach = -s.separation();
+  EXPECT_NEAR(contact_residual(s.contacts, s.motion, s.friction, {}), std::max(approach, 0.0),
+              1.1 * 3 * s.friction * approach);
+  s.collide(0);
+  EXPECT_LT(contact_residual(s.contacts, s.motion, s.friction, {}), 1e-14);
+}
+
+/// Bits of the two motions after an impact.
+std::vector<double> after(TwoDiscs s, Effects effects, double friction, double restitution)
+{
+  s.friction = friction;
+  s.collide(restitution, effects);
+  std::vector<double> bits;
+  for (const auto& m : s.motion) bits.insert(bits.end(), {m.vx, m.vy, m.rim_speed});
+  return bits;
+}
+
+TEST(Effects, FrictionOffEqualsZeroFrictionToTheLastBit)
+{
+  const TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0});
+  EXPECT_EQ(after(s, {.friction = false}, 0.5, 0.25), after(s, {}, 0, 0.25));
+  EXPECT_NE(after(s, {.friction = false}, 0.5, 0.25), after(s, {}, 0.5, 0.25));
+}
+
+TEST(Effects, RestitutionOffEqualsZeroRestitutionToTheLastBit)
+{
+  const TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0});
+  EXPECT_EQ(after(s, {.restitution = false}, 0.5, 0.25), after(s, {}, 0.5, 0));
+  EXPECT_NE(after(s, {.restitution = false}, 0.5, 0.25), after(s, {}, 0.5, 0.25));
+}
+
+}  // namespace
+}  // namespace grseg

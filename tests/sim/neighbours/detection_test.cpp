@@ -1,0 +1,481 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/neighbours/detection.hpp"
+
+#include "sim/solver/sweep.hpp"
+#include "sim/step/simulation.hpp"
+#include "tests/hard_cases/case.hpp"
+#include "tests/sim/worlds.hpp"
+
+#include <gsl/gsl_rng.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+
+namespace grseg {
+namespace {
+
+struct Bed {
+  World world;
+  std::vector<Vec2> position, velocity;
+};
+
+using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+
+Random random_numbers()
+{
+  return {gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free};
+}
+
+/// Discs of several sizes on a jittered lattice above a row of beads, in random motion; every
+/// `flying`-th one shoots away.
+Bed bed_of(double length, double height, bool periodic, int flying)
+{
+  const auto random = random_numbers();
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * gsl_rng_uniform(random.get());
+  };
+  Bed bed;
+  const auto add = [&](const Vec2& at, double radius, bool fixed, const Vec2& velocity) {
+    worlds::add(bed.world, {at, radius, fixed});
+    bed.position.push_back(at);
+    bed.velocity.push_back(velocity);
+  };
+  for (double y = 1.1; y < height; y += 1.05)
+    for (double x = 0.55; x + 0.5 < length; x += 1.05) {
+      const double speed = flying > 0 && bed.position.size() % flying == 0 ? 300 : 3;
+      add({x + between(-0.05, 0.05), y + between(-0.05, 0.05)}, between(0.3, 0.55), false,
+          {between(-speed, speed), between(-speed, speed)});
+    }
+  for (double x = 0.5; x <= length - 0.5; x += 1) add({x, -0.5}, 0.5, true, {0, 0});
+  bed.world.box = {length, 2 * height, periodic};
+  if (!periodic) bed.world.walls = {worlds::floor_at(-2), {{0, 0}, {1, 0}}, {{length, 0}, {-1, 0}}};
+  bed.world.material = {0.5, 0.25};
+  bed.world.gravity = {3, -9.8};
+  bed.world.step = 2e-3;
+  bed.world.solver = {0.1, 100};
+  return bed;
+}
+
+Simulation simulation_of(const Bed& bed)
+{
+  Simulation simulation(bed.world, bed.position);
+  for (std::size_t g = 0; g < bed.velocity.size(); ++g)
+    simulation.set_velocity(g, bed.velocity[g], 1);
+  return simulation;
+}
+
+using Gaps = std::map<std::pair<int, int>, double>;
+
+/// The gap of grain i and grain or wall j.
+double gap_of(const World& world, const std::vector<Vec2>& position, int i, int j)
+{
+  const auto a = static_cast<std::size_t>(i);
+  const double radius = world.grains.radius[a];
+  if (j < 0) {
+    const auto& wall = world.walls[static_cast<std::size_t>(-j - 1)];
+    return (position[a] - wall.point).dot(wall.normal) - radius;
+  }
+  const auto b = static_cast<std::size_t>(j);
+  Vec2 apart = position[a] - position[b];
+  const double length = world.box.length_x;
+  if (world.box.periodic_x) apart.x() -= length * std::round(apart.x() / length);
+  return apart.norm() - radius - world.grains.radius[b];
+}
+
+/// Gaps up to `limit` at `position`, of all pairs that do not lie too far apart along x to be worth
+/// the time; named as in a frame.
+Gaps gaps_by_brute_force(const World& world, const std::vector<Vec2>& position, double limit)
+{
+  Gaps gaps;
+  const auto& grains = world.grains;
+  const double reach = 2 * *std::max_element(grains.radius.begin(), grains.radius.end()) + limit;
+  const double length = world.box.length_x;
+  const auto fixed = [&](int g) { return grains.fixed[static_cast<std::size_t>(g)]; };
+  const auto look_at = [&](int a, int b) {
+    if (fixed(a) && fixed(b)) return;
+    const bool a_first = fixed(a) ? false : fixed(b) || a < b;
+    const double gap = gap_of(world, position, a, b);
+    if (gap <= limit) gaps[{a_first ? a : b, a_first ? b : a}] = gap;
+  };
+  std::vector<std::pair<double, int>> along;
+  for (int g = 0; g < static_cast<int>(position.size()); ++g) {
+    const double x = position[static_cast<std::size_t>(g)].x();
+    along.push_back({world.box.periodic_x ? x - length * std::floor(x / length) : x, g});
+  }
+  std::sort(along.begin(), along.end());
+  if (world.box.periodic_x)  // once more, behind
+    for (std::size_t n = 0; n < position.size() && along[n].first <= reach; ++n)
+      along.push_back({along[n].first + length, along[n].second});
+  for (std::size_t n = 0; n < along.size(); ++n)
+    for (std::size_t m = n + 1; m < along.size(); ++m) {
+      if (along[m].first - along[n].first > reach) break;
+      if (along[m].second != along[n].second) look_at(along[n].second, along[m].second);
+    }
+  for (int g = 0; g < static_cast<int>(position.size()); ++g)
+    for (int w = -static_cast<int>(world.walls.size()); w < 0; ++w)
+      if (!fixed(g) && gap_of(world, position, g, w) <= limit)
+        gaps[{g, w}] = gap_of(world, position, g, w);
+  return gaps;
+}
+
+/// Runs the bed and compares each frame's contacts with those of all pairs.
+void expect_all_contacts(const Bed& bed, int steps)
+{
+  auto simulation = simulation_of(bed);
+  Frame frame;
+  std::size_t seen = 0;
+  for (int step = 0; step < steps; ++step) {
+    std::vector<Vec2> ahead;
+    for (std::size_t g = 0; g < bed.position.size(); ++g)
+      ahead.push_back(bed.world.forecast * bed.world.step * simulation.velocity(g));
+    simulation.advance(frame);
+    for (std::size_t g = 0; g < ahead.size(); ++g) ahead[g] += frame.position[g];
+    const double blurred = 1e-12;  // positions are rounded when they are wrapped
+    const double limit = simulation.world().margin;
+    const auto certain = gaps_by_brute_force(bed.world, ahead, limit - blurred);
+    const auto possible = gaps_by_brute_force(bed.world, ahead, limit + blurred);
+    const auto& contacts = frame.contacts;
+    Gaps found;
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      EXPECT_TRUE(found.insert({{contacts.i[c], contacts.j[c]}, contacts.gap[c]}).second);
+    for (const auto& [names, gap] : certain)
+      EXPECT_TRUE(found.count(names)) << names.first << ' ' << names.second << " step " << step;
+    for (const auto& [names, gap] : found) {
+      EXPECT_TRUE(possible.count(names)) << names.first << ' ' << names.second << " step " << step;
+      EXPECT_NEAR(gap, gap_of(bed.world, frame.position, names.first, names.second), blurred);
+    }
+    seen += found.size();
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(seen, bed.position.size() / 2);
+  EXPECT_GT(simulation.pair_list_renewals(), 2u);
+  EXPECT_LT(simulation.pair_list_renewals(), static_cast<std::size_t>(steps));
+}
+
+TEST(Detection, FindsTheContactsOfAPeriodicBedWhereverItLooks)
+{
+  for (const double forecast : {0.0, 0.5, 1.0}) {
+    auto bed = bed_of(30, 10, true, 0);
+    bed.world.forecast = forecast;
+    expect_all_contacts(bed, 150);
+  }
+}
+
+TEST(Detection, FindsTheContactsBetweenWalls)
+{
+  for (const double forecast : {0.0, 0.5}) {
+    auto bed = bed_of(20, 10, false, 0);
+    bed.world.forecast = forecast;
+    expect_all_contacts(bed, 150);
+  }
+}
+
+TEST(Detection, FindsPairsWithinAMargin)
+{
+  auto bed = bed_of(20, 10, false, 0);
+  bed.world.margin = 0.1;
+  expect_all_contacts(bed, 150);
+}
+
+TEST(Detection, FindsTheContactsInACellOfFewColumns)
+{
+  for (const double length : {3.2, 5.3}) expect_all_contacts(bed_of(length, 40, true, 0), 150);
+}
+
+TEST(Detection, FindsTheContactsOfGrainsThatFlyThroughEverything)
+{
+  auto bed = bed_of(20, 10, true, 40);
+  bed.world.step = 2e-4;
+  expect_all_contacts(bed, 200);
+}
+
+TEST(Detection, FindsTheContactsOfAGiantWithMoreNeighboursThanThereAreColours)
+{
+  Bed bed;
+  const int ring = 150;
+  const double radius = 20, small = std::sin(std::numbers::pi / ring) * radius * 1.01;
+  worlds::add(bed.world, {{0, 0}, radius});
+  bed.position.push_back({0, 0});
+  for (int k = 0; k < ring; ++k) {
+    const double angle = 2 * std::numbers::pi * k / ring;
+    bed.position.push_back((radius + small * 1.02) * Vec2(std::cos(angle), std::sin(angle)));
+    worlds::add(bed.world, {bed.position.back(), small});
+  }
+  bed.velocity.assign(bed.position.size(), Vec2::Zero());
+  for (int k = 1; k <= ring; ++k)
+    bed.velocity[static_cast<std::size_t>(k)] = -bed.position[static_cast<std::size_t>(k)] / 20;
+  bed.world.box = {100, 100, false};
+  bed.world.step = 1e-2;
+  bed.world.skin = 0.02;
+  bed.world.solver = {0.1, 100};
+  expect_all_contacts(bed, 40);
+}
+
+// Beds of more than one strip.
+
+TEST(Detection, FindsTheContactsOfAWideBed)
+{
+  auto periodic = bed_of(4000, 9, true, 0), open = bed_of(6000, 9, false, 0);
+  for (auto* bed : {&periodic, &open}) {
+    ASSERT_GT(bed->position.size(), 30000u);
+    bed->world.threads = 2;
+    bed->world.step = 2e-2;
+    bed->world.forecast = 0.5;
+    expect_all_contacts(*bed, 8);
+  }
+}
+
+TEST(Detection, AnyNumberOfThreadsGivesTheSameBytes)
+{
+  auto bed = bed_of(4000, 12, true, 0);
+  std::vector<double> first;
+  hard_cases::Case same("H38", "bits of 25 steps with 2 and 3 threads are those with one");
+  for (const int threads : {1, 2, 3}) {
+    bed.world.threads = threads;
+    auto simulation = simulation_of(bed);
+    std::vector<double> all;
+    for (int step = 0; step < 25; ++step) {
+      const auto report = simulation.advance();
+      all.insert(all.end(),
+                 {report.solver.residual, report.solver.residual_rms, report.sum_overlap,
+                  report.sum_gap_bearing, report.base_impulse.x(), report.base_impulse.y()});
+    }
+    EXPECT_GT(simulation.pair_list_renewals(), 1u);
+    for (std::size_t g = 0; g < bed.position.size(); ++g) {
+      all.insert(all.end(), {simulation.position(g).x(), simulation.position(g).y(),
+                             simulation.angular_velocity(g)});
+    }
+    if (first.empty()) first = all;
+    same.holds(all == first);
+  }
+}
+
+// --- Blocks, byte by byte ---
+
+/// A list, the state it sorted, and what the step asks for.
+struct Prepared {
+  GrainState state;
+  PairList list;
+  std::vector<Wall> walls;
+  DetectionRule rule;
+
+  /// Grains are 15 % larger than in the bed, so that most touch.
+  explicit Prepared(const Bed& bed)
+      : state(make_state(bed.world.grains, bed.position)),
+        list(bed.world.walls, bed.world.box, 1.15 * 0.55, 0.3),
+        walls(bed.world.walls)
+  {
+    for (std::size_t g = 0; g < bed.position.size(); ++g) {
+      state.motion[g].vx = bed.velocity[g].x();
+      state.motion[g].vy = bed.velocity[g].y();
+      state.radius[g] *= 1.15;
+    }
+    list.renew(state, state.position);
+    for (std::size_t k = 0; k < list.pairs().size(); ++k)
+      if (list.pairs().listed(k))
+        list.impulses()[k] = {1 + static_cast<double>(k), 0.5 - static_cast<double>(k % 7)};
+    rule.looked_at = rule.middle = state.position;
+    rule.motion = state.motion;
+    rule.walls = walls;
+    rule.restitution = 0.25;
+    rule.periodic = bed.world.box.periodic_x;
+  }
+};
+
+using Bits = std::vector<std::uint64_t>;
+
+void append(Bits& bits, double x)
+{
+  bits.push_back(std::bit_cast<std::uint64_t>(x));
+}
+
+Bits bits_of(const StripContacts& contacts, const DetectionSums& sums)
+{
+  Bits bits{contacts.size, contacts.count, contacts.on_base, sums.touching};
+  for (const double x : {sums.overlap, sums.largest_overlap, sums.fastest_approach})
+    append(bits, x);
+  for (std::size_t b = 0; b < contacts.size; ++b) {
+    const auto& block = contacts.blocks[b];
+    for (const auto* lanes :
+         {&block.nx, &block.ny, &block.kappa, &block.mass_n, &block.mass_t, &block.rebound,
+          &block.impulse_n, &block.impulse_t, &contacts.origins[b].gap})
+      for (const double x : *lanes) append(bits, x);
+    for (std::size_t lane = 0; lane < block_lanes; ++lane)
+      for (const auto number : {block.i[lane], block.j[lane], contacts.origins[b].row[lane]})
+        bits.push_back(number);
+  }
+  return bits;
+}
+
+Bits found(Prepared& p)
+{
+  std::vector<StripContacts> contacts;
+  const auto sums = find_contacts(p.list.pairs(), p.rule, contacts);
+  return bits_of(contacts.at(0), sums);
+}
+
+class DetectionOn : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { use_instruction_set(GetParam()); }
+  void TearDown() override { use_instruction_set(""); }
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, DetectionOn, testing::ValuesIn(instruction_sets()),
+                         [](const auto& set) { return set.param; });
+
+TEST_P(DetectionOn, GivesTheBytesOfTheBestInstructionSet)
+{
+  for (const bool periodic : {true, false}) {
+    Prepared here(bed_of(20, 10, periodic, 0));
+    const auto bits = found(here);
+    use_instruction_set("");
+    Prepared best(bed_of(20, 10, periodic, 0));
+    EXPECT_EQ(bits, found(best));
+    use_instruction_set(GetParam());
+  }
+}
+
+/// A lane of a block in the words of the law.
+Contact contact_in_words(const Prepared& p, const Pairs::Class& c, std::size_t k, double& gap)
+{
+  const auto& pairs = p.list.pairs();
+  Contact contact{};
+  const std::size_t i = pairs.i[k] / 2, j = pairs.j[k] / 2;
+  const auto &a = p.state.motion[i], &b = p.state.motion[j];
+  const double reach = pairs.geometry[k].reach;
+  if (c.wall < 0) {
+    const double x = p.state.position[i].x() - p.state.position[j].x() + pairs.geometry[k].shift;
+    const double y = p.state.position[i].y() - p.state.position[j].y();
+    const double distance = std::sqrt(x * x + y * y), inverse = 1 / distance;
+    contact.nx = x * inverse;
+    contact.ny = y * inverse;
+    contact.kappa = distance * (1 / reach);
+    gap = distance - reach;
+  } else {
+    const auto& wall = p.walls[static_cast<std::size_t>(c.wall)];
+    contact.nx = wall.normal.x();
+    contact.ny = wall.normal.y();
+    contact.kappa = 1;
+    gap = (p.state.position[i].x() - wall.point.x()) * wall.normal.x() +
+          (p.state.position[i].y() - wall.point.y()) * wall.normal.y() - reach;
+  }
+  contact.mass_n = 1 / (a.inverse_mass + b.inverse_mass);
+  contact.mass_t = contact.mass_n / (1 + disc_rim_factor * (contact.kappa * contact.kappa));
+  const double separation = (a.vx - b.vx) * contact.nx + (a.vy - b.vy) * contact.ny;
+  contact.rebound = 0.25 * std::max(-separation, 0.0);
+  contact.impulse_n = pairs.impulse[k].n;
+  contact.impulse_t = pairs.impulse[k].t;
+  return contact;
+}
+
+TEST_P(DetectionOn, ContactsAreThoseOfTheLawInWordsToTheLastBit)
+{
+  for (const bool periodic : {true, false}) {
+    Prepared p(bed_of(20, 10, periodic, 0));
+    std::vector<StripContacts> strips;
+    const auto sums = find_contacts(p.list.pairs(), p.rule, strips);
+    const auto& contacts = strips.at(0);
+    const auto& pairs = p.list.pairs();
+    std::size_t count = 0;
+    double overlap = 0, largest = 0;
+    for (std::size_t b = 0; b < contacts.size; ++b) {
+      for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+        const std::size_t k = contacts.origins[b].row[lane] / 2;
+        if (k == pairs.size()) continue;
+        const auto c = std::find_if(pairs.classes.begin(), pairs.classes.end(),
+                                    [&](const auto& one) { return k < one.end; });
+        double gap = 0;
+        const auto words = contact_in_words(p, *c, k, gap);
+        const auto& block = contacts.blocks[b];
+        EXPECT_EQ(block.nx[lane], words.nx);
+        EXPECT_EQ(block.ny[lane], words.ny);
+        EXPECT_EQ(block.kappa[lane], words.kappa);
+        EXPECT_EQ(block.mass_n[lane], words.mass_n);
+        EXPECT_EQ(block.mass_t[lane], words.mass_t);
+        EXPECT_EQ(block.rebound[lane], words.rebound);
+        EXPECT_EQ(block.impulse_n[lane], words.impulse_n);
+        EXPECT_EQ(block.impulse_t[lane], words.impulse_t);
+        EXPECT_EQ(block.i[lane], 2 * pairs.i[k]);
+        EXPECT_EQ(block.j[lane], 2 * pairs.j[k]);
+        EXPECT_EQ(contacts.origins[b].gap[lane], gap);
+        EXPECT_EQ(b >= contacts.on_base, p.state.motion[pairs.j[k] / 2].inverse_mass == 0);
+        ++count;
+        overlap -= gap;
+        largest = std::max(largest, -gap);
+      }
+    }
+    EXPECT_GT(count, 50u);
+    EXPECT_EQ(contacts.count, count);
+    EXPECT_EQ(sums.touching, count);
+    EXPECT_NEAR(sums.overlap, overlap, 1e-12);
+    EXPECT_EQ(sums.largest_overlap, largest);
+  }
+}
+
+TEST_P(DetectionOn, AnEffectLeftOutEqualsItsNeutralCoefficientToTheLastBit)
+{
+  Prepared general(bed_of(20, 10, false, 0)), lean = general;
+  lean.rule.looked_at = lean.rule.middle = lean.state.position;
+  general.rule.restitution = 0;
+  general.rule.rim_factor = 0;
+  general.rule.periodic = true;
+  for (const bool rotation : {true, false})
+    for (const bool restitution : {true, false}) {
+      lean.rule.restitution = 0;
+      lean.rule.rim_factor = 0;
+      lean.rule.effects.rotation = rotation;
+      lean.rule.effects.restitution = restitution;
+      lean.rule.periodic = false;
+      EXPECT_EQ(found(general), found(lean));
+    }
+}
+
+TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
+{
+  Prepared p(bed_of(20, 10, false, 0));
+  std::vector<StripContacts> strips;
+  find_contacts(p.list.pairs(), p.rule, strips);
+  auto& contacts = strips.at(0);
+  double n = 0, gap = 0;
+  Vec2 base = Vec2::Zero();
+  std::size_t bearing = 0;
+  for (std::size_t b = 0; b < contacts.size; ++b) {
+    auto& block = contacts.blocks[b];
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+      if (contacts.origins[b].row[lane] / 2 == p.list.pairs().size()) continue;
+      n = static_cast<double>((b + lane) % 3);
+      block.impulse_n[lane] = n;
+      block.impulse_t[lane] = -n / 2;
+      bearing += n > 0;
+      gap += n > 0 ? std::abs(contacts.origins[b].gap[lane]) : 0;
+      if (b < contacts.on_base) continue;
+      const Vec2 normal{block.nx[lane], block.ny[lane]}, tangent{-normal.y(), normal.x()};
+      base += n * normal - n / 2 * tangent;
+    }
+  }
+  const auto sums = keep_impulses(strips, p.list.impulses(), {});
+  EXPECT_EQ(sums.force_bearing, bearing);
+  EXPECT_NEAR(sums.gap_bearing, gap, 1e-12);
+  EXPECT_NEAR((sums.on_base_side - base).norm(), 0, 1e-12);
+  const auto kept = contacts.used().blocks;
+  for (std::size_t b = 0; b < kept.size(); ++b)
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+      const auto& impulse = p.list.pairs().impulse[contacts.origins[b].row[lane] / 2];
+      EXPECT_EQ(impulse.n, kept[b].impulse_n[lane]);
+      EXPECT_EQ(impulse.t, kept[b].impulse_t[lane]);
+    }
+  const auto origins = contacts.origins;
+  const std::size_t size = contacts.size;
+  find_contacts(p.list.pairs(), p.rule, strips);
+  forget_impulses(strips, p.list.impulses(), {});
+  for (std::size_t b = 0; b < size; ++b)
+    for (const auto row : origins[b].row) EXPECT_EQ(p.list.pairs().impulse[row / 2].n, 0);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/neighbours/pair_list.hpp"
+
+#include "tests/sim/worlds.hpp"
+
+#include <gsl/gsl_rng.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace grseg {
+namespace {
+
+using Named = std::set<std::pair<int, int>>;
+
+/// Grains at rest as the list wants them, and where each is now.
+struct Listed {
+  GrainState state;
+  PairList list;
+
+  Listed(const World& world, const std::vector<Vec2>& at, const std::vector<Wall>& walls,
+         double skin, double margin = 0)
+      : state(make_state(world.grains, at)),
+        list(walls, world.box,
+             *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), skin,
+             margin)
+  {
+  }
+
+  void move_to(const std::vector<Vec2>& at)
+  {
+    for (std::size_t b = 0; b < state.size(); ++b)
+      state.position[b] = at[static_cast<std::size_t>(state.row[b])];
+  }
+  bool complete(const std::vector<Vec2>& at)
+  {
+    move_to(at);
+    return list.complete(state.position);
+  }
+  void renew(const std::vector<Vec2>& at)
+  {
+    move_to(at);
+    list.renew(state, state.position);
+  }
+
+  struct Pair {
+    int i, j;
+    double shift, reach;
+    std::size_t entry;
+  };
+  /// Names grains by their rows, and walls from -1 down.
+  std::vector<Pair> pairs() const
+  {
+    std::vector<Pair> found;
+    const auto& p = list.pairs();
+    for (const auto& c : p.classes)
+      for (std::size_t k = c.begin; k < c.end; ++k)
+        if (p.listed(k))
+          found.push_back({state.row[p.i[k] / 2], c.wall < 0 ? state.row[p.j[k] / 2] : -c.wall - 1,
+                           p.geometry[k].shift, p.geometry[k].reach, k});
+    return found;
+  }
+};
+
+/// Discs of two sizes scattered over a strip, 40 % of its area.
+struct Scattered {
+  World world;
+  std::vector<Vec2> position;
+  gsl_rng* random = gsl_rng_alloc(gsl_rng_mt19937);
+
+  Scattered(double length, double height, bool periodic, double largest)
+  {
+    const double mean_area = std::numbers::pi * (largest * largest + 0.25) / 2;
+    const int count = static_cast<int>(0.4 * length * height / mean_area);
+    for (int k = 0; k < count; ++k) {
+      const Vec2 at{length * gsl_rng_uniform(random), height * gsl_rng_uniform(random)};
+      worlds::add(world, {at, k % 2 == 0 ? largest : 0.5, k % 7 == 0});
+      position.push_back(at);
+    }
+    world.box = {length, height, periodic};
+  }
+  ~Scattered() { gsl_rng_free(random); }
+
+  Named touching_by_brute_force() const
+  {
+    Named found;
+    const double length = world.box.length_x;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      for (std::size_t j = i + 1; j < position.size(); ++j) {
+        if (world.grains.fixed[i] && world.grains.fixed[j]) continue;
+        Vec2 apart = position[i] - position[j];
+        if (world.box.periodic_x) apart.x() -= length * std::round(apart.x() / length);
+        const double reach = world.grains.radius[i] + world.grains.radius[j];
+        if (apart.norm() <= reach) found.insert({static_cast<int>(i), static_cast<int>(j)});
+      }
+    }
+    return found;
+  }
+  Named touching_by(const Listed& list) const
+  {
+    Named found;
+    for (const auto& [i, j, shift, reach, entry] : list.pairs()) {
+      EXPECT_FALSE(world.grains.fixed[static_cast<std::size_t>(i)]);
+      Vec2 apart = position[static_cast<std::size_t>(i)] - position[static_cast<std::size_t>(j)];
+      apart.x() += shift;
+      EXPECT_EQ(reach, world.grains.radius[static_cast<std::size_t>(i)] +
+                           world.grains.radius[static_cast<std::size_t>(j)]);
+      if (apart.norm() <= reach) found.insert(std::minmax(i, j));
+    }
+    return found;
+  }
+};
+
+TEST(PairList, HoldsEveryTouchingPairHoweverTheGrainsMove)
+{
+  for (const bool periodic : {true, false}) {
+    Scattered s(30, 20, periodic, 1);
+    Listed list(s.world, s.position, {}, 0.2);
+    for (int step = 0; step < 200; ++step) {
+      for (auto& x : s.position) {
+        x.x() += 0.01 * x.y() + 0.04 * (gsl_rng_uniform(s.random) - 0.5);
+        x.y() += 0.04 * (gsl_rng_uniform(s.random) - 0.5);
+      }
+      if (!list.complete(s.position)) list.renew(s.position);
+      ASSERT_EQ(s.touching_by(list), s.touching_by_brute_force()) << "step " << step;
+    }
+    EXPECT_LT(list.list.renewals(), 100u);
+  }
+}
+
+TEST(PairList, HoldsEveryPairAtSizeRatioOneHundred)
+{
+  Scattered s(400, 300, true, 50);
+  Listed list(s.world, s.position, {}, 0.2);
+  list.renew(s.position);
+  EXPECT_EQ(s.touching_by(list), s.touching_by_brute_force());
+}
+
+TEST(PairList, HoldsEveryPairInACellOfThreeDiameters)
+{
+  Scattered s(6.5, 60, true, 1);
+  Listed list(s.world, s.position, {}, 0.2);
+  list.renew(s.position);
+  EXPECT_EQ(s.touching_by(list), s.touching_by_brute_force());
+}
+
+TEST(PairList, ABlockThatSlidesRenewsNothing)
+{
+  Scattered s(30, 20, true, 1);
+  Listed list(s.world, s.position, {}, 0.2);
+  list.renew(s.position);
+  for (auto& x : s.position) x.x() += 12.3;
+  EXPECT_TRUE(list.complete(s.position));
+  s.position[5].x() += 0.3;
+  EXPECT_FALSE(list.complete(s.position));
+}
+
+TEST(PairList, FarFlyingGrainsCostNoMemory)
+{
+  Scattered s(30, 20, true, 1);
+  s.position[1].y() = 1e9;
+  Listed list(s.world, s.position, {}, 0.2);
+  list.renew(s.position);
+  EXPECT_EQ(s.touching_by(list), s.touching_by_brute_force());
+}
+
+TEST(PairList, ImpulsesOfPairsThatStaySurviveARenewal)
+{
+  World world;
+  for (const double x : {0.0, 1.0, 2.0}) worlds::add(world, {{x, 0}, 0.5});
+  world.box = {100, 100, false};
+  std::vector<Vec2> position{{0, 0}, {1, 0}, {2, 0}};
+  Listed list(world, position, {}, 0.1);
+  list.renew(position);
+  ASSERT_EQ(list.pairs().size(), 2u);
+  for (const auto& pair : list.pairs())
+    list.list.impulses()[pair.entry] = pair.i == 0 ? Pairs::Impulse{3, -1} : Pairs::Impulse{4, 1};
+  position[2].x() = 5;  // the second pair ends
+  list.renew(position);
+  ASSERT_EQ(list.pairs().size(), 1u);
+  const auto impulse = list.list.impulses()[list.pairs()[0].entry];
+  EXPECT_EQ(impulse.n, 3);
+  EXPECT_EQ(impulse.t, -1);
+}
+
+TEST(PairList, ImpulsesOfPairsThatStaySurviveARenewalWherever)
+{
+  // Every pair of a full bed, across the period and at a wall too, keeps its own impulse.
+  World world;
+  std::vector<Vec2> position;
+  for (int row = 0; row < 12; ++row)
+    for (int k = 0; k < 20; ++k) {
+      position.push_back({0.4 + k, 0.6 + row});
+      worlds::add(world, {position.back(), 0.5, row == 4});
+    }
+  world.box = {20, 100, true};
+  Listed list(world, position, {worlds::floor_at(0)}, 0.2);
+  list.renew(position);
+  const auto own = [](const Listed::Pair& pair) {
+    return Pairs::Impulse{1.0 + std::min(pair.i, pair.j) + 1000 * std::max(pair.i, pair.j),
+                          1.0 + pair.i * pair.j};
+  };
+  const auto before = list.pairs();
+  EXPECT_EQ(before.size(), 12u * 20 - 20 + 11 * 20 + 20);
+  for (const auto& pair : before) {
+    list.list.impulses()[pair.entry] = own(pair);
+    list.list.memories()[pair.entry] = {-own(pair).n, 0};
+  }
+  for (auto& x : position) x.x() += 7.7 - (x.x() + 7.7 >= 20 ? 20 : 0);
+  list.renew(position);
+  EXPECT_EQ(list.pairs().size(), before.size());
+  for (const auto& pair : list.pairs()) {
+    EXPECT_EQ(list.list.impulses()[pair.entry].n, own(pair).n) << pair.i << ' ' << pair.j;
+    EXPECT_EQ(list.list.impulses()[pair.entry].t, own(pair).t);
+    EXPECT_EQ(list.list.memories()[pair.entry].approach, -own(pair).n);
+  }
+}
+
+TEST(PairList, AWallIsMetByWhoeverComesNear)
+{
+  World world;
+  worlds::add(world, {{0, 0.55}, 0.5});
+  worlds::add(world, {{5, 3}, 0.5});
+  world.box = {100, 100, false};
+  const std::vector<Wall> walls{worlds::floor_at(0)};
+  std::vector<Vec2> position{{0, 0.55}, {5, 3}};
+  Listed list(world, position, walls, 0.1);
+  list.renew(position);
+  ASSERT_EQ(list.pairs().size(), 1u);
+  EXPECT_EQ(list.pairs()[0].j, -1);
+  position[1].y() = 0.5;
+  EXPECT_FALSE(list.complete(position));
+}
+
+TEST(PairList, LayersInNeighbouringBandsThatSlideOverEachOtherRenewIt)
+{
+  // d_max + skin = 1.2: y = 0 and y = 1.25 lie in neighbouring bands, each of which moves as a
+  // block.
+  World world;
+  std::vector<Vec2> position;
+  for (const double y : {0.0, 1.25})
+    for (const double x : {0.0, 2.0, 4.0}) {
+      position.push_back({x, y});
+      worlds::add(world, {position.back(), 0.5});
+    }
+  world.box = {100, 100, false};
+  Listed list(world, position, {}, 0.2);
+  list.renew(position);
+  for (int k = 3; k < 6; ++k) position[static_cast<std::size_t>(k)].x() += 0.19;
+  EXPECT_TRUE(list.complete(position));
+  for (int k = 3; k < 6; ++k) position[static_cast<std::size_t>(k)].x() += 0.02;
+  EXPECT_FALSE(list.complete(position));
+}
+
+TEST(PairList, NamesNoPairTwiceInACellOfTwoColumns)
+{
+  World world;
+  std::vector<Vec2> position{{1, 1}, {1.9, 1}, {3.4, 1}};
+  for (const auto& x : position) worlds::add(world, {x, 0.5});
+  worlds::add(world, {{4.4, 3}, 0.5});
+  position.push_back({4.4, 3});
+  world.box = {2.5, 10, true};  // two columns of d + skin = 1.2
+  Listed list(world, position, {}, 0.2);
+  list.renew(position);
+  std::set<std::pair<int, int>> seen;
+  for (const auto& pair : list.pairs())
+    EXPECT_TRUE(seen.insert(std::minmax(pair.i, pair.j)).second);
+}
+
+/// Whether the list of two discs of diameter 1 with skin 0.2 is still complete after the second has
+/// gone from `from` to `to`; the first stays at (0, 0).
+bool complete_after(const Vec2& from, const Vec2& to, double margin = 0)
+{
+  World world;
+  std::vector<Vec2> position{{0, 0}, from};
+  for (const auto& x : position) worlds::add(world, {x, 0.5});
+  world.box = {100, 100, false};
+  Listed list(world, position, {}, 0.2, margin);
+  list.renew(position);
+  position[1] = to;
+  return list.complete(position);
+}
+
+TEST(PairList, PairsWithinAMarginAreKnownToo)
+{
+  EXPECT_TRUE(complete_after({1.3, 0}, {1.22, 0}, 0.1));
+  EXPECT_FALSE(complete_after({1.3, 0}, {1.18, 0}, 0.1));
+}
+
+TEST(PairList, GrainsThatComeFromBandsFurtherAwayRenewItWhenTheyCouldMeet)
+{
+  // Bands are 1.2 high: 4 is in the fourth, and may be 1.2 + 0.2 closer for all the list knows.
+  EXPECT_TRUE(complete_after({0, 4}, {0, 2.7}));
+  EXPECT_FALSE(complete_after({0, 4}, {0, 2.5}));
+  EXPECT_TRUE(complete_after({0, 4}, {0, 50}));
+}
+
+TEST(PairList, GrainsThatComeFromGroupsFurtherAwayRenewIt)
+{
+  EXPECT_TRUE(complete_after({40, 0}, {39, 0}));
+  EXPECT_FALSE(complete_after({40, 0}, {1, 0}));
+}
+
+TEST(PairList, AGrainThatFallsAloneToAWallRenewsTheList)
+{
+  World world;
+  worlds::add(world, {{5, 3}, 0.5});
+  world.box = {100, 100, false};
+  std::vector<Vec2> position{{5, 3}};
+  Listed list(world, position, {worlds::floor_at(0)}, 0.1);
+  list.renew(position);
+  position[0].y() = 4;
+  EXPECT_TRUE(list.complete(position));
+  position[0].y() = 0.5;
+  EXPECT_FALSE(list.complete(position));
+}
+
+}  // namespace
+}  // namespace grseg

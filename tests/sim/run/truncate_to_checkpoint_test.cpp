@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run/truncate_to_checkpoint.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/trajectory/reader.hpp"
+#include "tests/sim/small_chute.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A run of six frames that left its part behind, and a checkpoint from when there were three.
+class CutBack : public testing::Test {
+ protected:
+  std::string part =
+      (fs::temp_directory_path() / ("grseg_cut_back_test_" + std::to_string(getpid()) + ".h5.part"))
+          .string();
+  Scene scene = small_chute::scene();
+  Simulation simulation = small_chute::bed(scene);
+  Checkpoint checkpoint;
+
+  void record(TrajectoryWriter& writer, Recorder& recorder, int frames)
+  {
+    Frame frame;
+    for (int k = 0; k < frames; ++k) {
+      recorder.add(simulation.advance(frame));
+      recorder.write(frame, simulation);
+    }
+    writer.flush();
+  }
+  void SetUp() override
+  {
+    auto parameters = to_parameters(scene);
+    parameters.numbers["summary_mean_gap"] = {1};
+    const auto& world = simulation.world();
+    TrajectoryWriter writer(part, {world.grains, world.box, parameters, Recorder::observables()});
+    Recorder recorder(writer, scene.small_diameter);
+    record(writer, recorder, 3);
+    checkpoint = small_chute::checkpoint_of(simulation, scene);
+    checkpoint.trajectory = {writer.frames(), writer.digest(), recorder.state(), 0, 0};
+    record(writer, recorder, 3);
+    writer.close();
+  }
+  void TearDown() override
+  {
+    EXPECT_FALSE(fs::exists(part + ".part"));
+    fs::remove(part);
+  }
+
+  TrajectoryWriter cut() const
+  {
+    return truncate_to_checkpoint(part, checkpoint, "run.chk", "history", {});
+  }
+  std::string bytes() const
+  {
+    std::ifstream file(part, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void expect_refusal() const
+  {
+    const auto before = bytes();
+    EXPECT_THROW(cut(), UsageError);
+    EXPECT_EQ(bytes(), before);
+  }
+};
+
+TEST_F(CutBack, TheFramesOfTheCheckpointStayAndTheRunGoesOnAsItWent)
+{
+  const auto whole = TrajectoryReader(part).digest();
+  const auto sweeps = TrajectoryReader(part).observable("sweeps");
+  simulation = Simulation(simulation.world(), checkpoint.state);
+  {
+    auto writer = cut();
+    EXPECT_EQ(writer.frames(), 3u);
+    EXPECT_EQ(writer.digest(), checkpoint.trajectory.digest);
+    Recorder recorder(writer, scene.small_diameter, checkpoint.trajectory.recorder);
+    record(writer, recorder, 3);
+  }
+  const TrajectoryReader run(part);
+  EXPECT_EQ(run.digest(), whole);
+  EXPECT_EQ(run.observable("sweeps"), sweeps);
+}
+
+TEST_F(CutBack, TheFileNoLongerSaysThatItIsComplete)
+{
+  cut();
+  const auto parameters = TrajectoryReader(part).parameters();
+  EXPECT_FALSE(parameters.numbers.contains("complete"));
+  EXPECT_FALSE(parameters.numbers.contains("summary_mean_gap"));
+  EXPECT_EQ(parameters.text("history"), "history");
+  EXPECT_EQ(parameters.text("scene"), checkpoint.scene);
+}
+
+TEST_F(CutBack, OneOtherNumberInAnyFrameMakesItAnotherRun)
+{
+  const hid_t file = H5Fopen(part.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t time = H5Dopen2(file, "/particles/grains/position/time", H5P_DEFAULT);
+  std::vector<double> times(6);
+  H5Dread(time, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data());
+  times[1] *= 1 + 1e-15;
+  H5Dwrite(time, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data());
+  H5Dclose(time);
+  H5Fclose(file);
+  expect_refusal();
+}
+
+TEST_F(CutBack, APartWithFewerFramesThanTheCheckpointIsRefused)
+{
+  checkpoint.trajectory.frames = 7;
+  expect_refusal();
+}
+
+TEST_F(CutBack, APartOfAnotherSceneOrOfOtherGrainsIsRefused)
+{
+  const auto own = checkpoint;
+  checkpoint.trajectory = {};  // before its first frame a run is known by its scene and grains only
+  checkpoint.scene += "slope = 21\n";
+  expect_refusal();
+  checkpoint.scene = own.scene;
+  checkpoint.grains.radius[0] *= 2;
+  expect_refusal();
+}
+
+}  // namespace
+}  // namespace grseg

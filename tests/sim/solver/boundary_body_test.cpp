@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/solver/boundary_body.hpp"
+
+#include "sim/step/energy_balance.hpp"
+#include "tests/sim/worlds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+using namespace worlds;
+
+constexpr double pi = std::numbers::pi;
+
+/// Two boundary discs side by side, as one body, over a mobile one that rests on a floor.
+struct UnderAPlate {
+  std::vector<Disc> discs{{{0.5, 0.5}, 0.5}, {{0, 1.5}, 0.5, true}, {{1, 1.5}, 0.5, true}};
+  World world = world_of(discs);
+  BoundaryBody plate;
+  UnderAPlate()
+  {
+    const double lower = std::sqrt(0.75);  // the plate's discs touch the one below
+    discs[1].position.y() = discs[2].position.y() = 0.5 + lower;
+    plate.begin = 1;
+    plate.end = 3;
+    plate.mass = 2;
+    plate.load = -7;
+    world.walls = {floor_at(0)};
+  }
+};
+
+TEST(BoundaryBody, APlateAtRestPutsItsLoadOnTheFloor)
+{
+  UnderAPlate scene;
+  scene.world.gravity = {0, -3};
+  scene.world.material = {0, 0};
+  Simulation simulation(scene.world, positions_of(scene.discs));
+  simulation.drive({scene.plate});
+  Frame frame;
+  for (int step = 0; step < 200; ++step) simulation.advance(frame);
+  Vec2 on_floor = Vec2::Zero();
+  for (std::size_t c = 0; c < frame.contacts.size(); ++c)
+    if (frame.contacts.j[c] < 0) on_floor += frame.contacts.force[c];
+  const double weight = 3 * scene.world.grains.mass[0];
+  EXPECT_NEAR(on_floor.y(), 7 + weight, 1e-8);
+  EXPECT_NEAR(simulation.velocity(1).y(), 0, 1e-10);
+  EXPECT_EQ(simulation.velocity(1), simulation.velocity(2));
+}
+
+TEST(BoundaryBody, AGrainAndAPlateExchangeTheMomentumOfTwoFreeBodies)
+{
+  for (const double e : {0.0, 0.5, 1.0}) {
+    const std::vector<Disc> discs{
+        {{0, 0}, 0.5}, {{0, 1.0004}, 0.5, true}, {{1, 1.0004}, 0.5, true}};
+    auto world = world_of(discs);
+    world.material = {0, e};
+    Simulation simulation(world, positions_of(discs));
+    BoundaryBody plate;
+    plate.begin = 1;
+    plate.end = 3;
+    plate.mass = 2;
+    simulation.drive({plate});
+    simulation.set_velocity(0, {0, 1});
+    for (int step = 0; step < 5; ++step) simulation.advance();
+    const double m = world.grains.mass[0], both = m + plate.mass;
+    EXPECT_NEAR(simulation.velocity(0).y(), (m - e * plate.mass) / both, 1e-10) << e;
+    EXPECT_NEAR(simulation.velocity(2).y(), (1 + e) * m / both, 1e-10) << e;
+    EXPECT_EQ(simulation.velocity(1), simulation.velocity(2));
+  }
+}
+
+TEST(BoundaryBody, APlateWithoutContactsFallsUnderItsLoad)
+{
+  UnderAPlate scene;
+  scene.discs[1].position.y() = scene.discs[2].position.y() = 10;
+  Simulation simulation(scene.world, positions_of(scene.discs));
+  simulation.drive({scene.plate});
+  for (int step = 0; step < 1000; ++step) simulation.advance();
+  EXPECT_NEAR(simulation.velocity(1).y(), -3.5, 1e-12);
+  EXPECT_NEAR(simulation.position(1).y(), 10 - 3.5 / 2, 1e-9);
+}
+
+TEST(BoundaryBody, ATurningRingKeepsItsRadiusAndGoesRoundInItsPeriod)
+{
+  const std::vector<Disc> discs{{{5, 1}, 0.5, true}, {{1, 5}, 0.5, true}, {{100, 100}, 0.5}};
+  Simulation simulation(world_of(discs), positions_of(discs));
+  BoundaryBody ring;
+  ring.begin = 0;
+  ring.end = 2;
+  ring.centre = {5, 5};
+  ring.spin = 2 * pi;  // 1000 steps per turn
+  simulation.drive({ring});
+  for (int step = 0; step < 20250; ++step) simulation.advance();
+  EXPECT_NEAR((simulation.position(0) - ring.centre).norm(), 4, 1e-11);
+  EXPECT_NEAR((simulation.position(0) - Vec2(9, 5)).norm(), 0, 1e-9);
+  EXPECT_NEAR((simulation.position(1) - Vec2(5, 1)).norm(), 0, 1e-9);
+  EXPECT_NEAR(simulation.velocity(0).norm(), 4 * 2 * pi, 1e-3);
+  EXPECT_EQ(simulation.angular_velocity(0), 2 * pi);
+}
+
+TEST(BoundaryBody, AnOscillatingBaseIsWhereTheSineSays)
+{
+  const std::vector<Disc> discs{{{0, 0}, 0.5, true}, {{100, 100}, 0.5}};
+  Simulation simulation(world_of(discs), positions_of(discs));
+  BoundaryBody base;
+  base.end = 1;
+  base.amplitude = {0, 0.3};
+  base.angular_frequency = 17;
+  simulation.drive({base});
+  for (int step = 0; step < 777; ++step) simulation.advance();
+  EXPECT_NEAR(simulation.position(0).y(), 0.3 * std::sin(17 * 0.777), 1e-13);
+}
+
+TEST(BoundaryBody, NothingMovesBeforeTimeZero)
+{
+  const std::vector<Disc> discs{{{0, 0}, 0.5, true}, {{100, 100}, 0.5}};
+  Simulation simulation(world_of(discs), positions_of(discs));
+  BoundaryBody base;
+  base.end = 1;
+  base.velocity = {1, 0};
+  base.spin = 1;
+  base.centre = {3, 3};
+  simulation.drive({base});
+  simulation.set_clock(-50);
+  for (int step = 0; step < 50; ++step) simulation.advance();
+  EXPECT_EQ(simulation.position(0), Vec2(0, 0));
+  simulation.advance();
+  EXPECT_NE(simulation.position(0), Vec2(0, 0));
+}
+
+TEST(BoundaryBody, TheWorkOfAMovingBaseClosesTheEnergyBalance)
+{
+  const std::vector<Disc> discs{{{0, 0}, 0.5, true}, {{0.3, 0.9539}, 0.5}};
+  auto world = world_of(discs);
+  world.material = {0.5, 0.5};
+  world.gravity = {0, -1};
+  Simulation simulation(world, positions_of(discs));
+  BoundaryBody base;
+  base.end = 1;
+  base.velocity = {0.3, 2};
+  base.spin = 5;
+  simulation.drive({base});
+  Frame frame;
+  double work = 0;
+  for (int step = 0; step < 20; ++step) {
+    simulation.advance(frame);
+    const auto balance =
+        energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
+    EXPECT_LT(balance.defect(), 1e-13);
+    work += balance.work_of_boundaries;
+  }
+  EXPECT_GT(work, 0.1);
+}
+
+}  // namespace
+}  // namespace grseg

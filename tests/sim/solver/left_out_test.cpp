@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/solver/sweep.hpp"
+#include "tests/frozen_problem.hpp"
+#include "tests/instructions.hpp"
+#include "tests/sim/small_chute.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <functional>
+#include <limits>
+
+/// What a scene does not call for leaves no work behind: instructions are counted, not timed, and
+/// numbers that only an effect needs are not even read. That it changes no bit either is shown by
+/// effects_test.cpp.
+namespace grseg {
+namespace {
+
+/// Instructions that the sweep takes for one block of eight contacts.
+long per_block(Effects effects)
+{
+  const auto sweep = choose_sweep(effects);
+  const auto count = [&](std::size_t blocks) {
+    std::vector<ContactBlock> all(blocks, ContactBlock{});
+    const std::vector<std::uint32_t> ends{static_cast<std::uint32_t>(blocks)};
+    std::vector<Motion> idle(1);
+    return instructions_of([&] { sweep({all, ends}, idle.data(), 0.5); }).value();
+  };
+  constexpr long blocks = 1;
+  const long more = count(3 * blocks) - count(blocks);
+  EXPECT_EQ(more % (2 * blocks), 0);
+  return more / (2 * blocks);
+}
+
+/// Vectors that make up a block.
+long parts_of_a_block(const std::string& instruction_set)
+{
+  if (instruction_set == "avx512") return 1;
+  if (instruction_set == "avx2") return 2;
+  return instruction_set == "sse4" ? 4 : 8;
+}
+
+bool may_count()
+{
+  return instructions_of([] {}).has_value();
+}
+
+class OnEachInstructionSet : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override
+  {
+    if (!may_count()) GTEST_SKIP() << "no process may trace another here";
+    use_instruction_set(GetParam());
+  }
+  void TearDown() override { use_instruction_set(""); }
+};
+using LeftOut = OnEachInstructionSet;
+
+// Operations are those of relax_lanes() in sim/solver/sweep.cpp that stand behind `if constexpr`; nothing
+// is fused, so each is one instruction at least.
+TEST_P(LeftOut, AnEffectTakesAllOfItsInstructionsOutOfASweep)
+{
+  constexpr long of_friction = 22, of_rotation = 11, of_restitution = 1;
+  const long parts = parts_of_a_block(GetParam());
+  const long all = per_block({true, true, true}), inelastic = per_block({true, true, false}),
+             unturned = per_block({true, false, true}), smooth = per_block({false, true, true}),
+             bare = per_block({false, false, false});
+  // One after the other the compiler runs out of registers elsewhere, and that costs more.
+  if (parts < 8) {
+    EXPECT_GE(all - inelastic, parts * of_restitution);
+  }
+  EXPECT_GE(all - unturned, parts * of_rotation);
+  EXPECT_GE(all - smooth, parts * (of_friction + of_rotation));
+  EXPECT_GE(all - bare, parts * (of_friction + of_rotation + of_restitution));
+  RecordProperty("instructions per block: all; without restitution; rotation; friction; any",
+                 fmt::format("{} {} {} {} {}", all, inelastic, unturned, smooth, bare));
+}
+
+TEST_P(LeftOut, WithoutFrictionRotationCostsNothing)
+{
+  EXPECT_EQ(per_block({false, true, true}), per_block({false, false, true}));
+  EXPECT_EQ(per_block({false, true, false}), per_block({false, false, false}));
+}
+
+std::string plain(const testing::TestParamInfo<std::string>& set)
+{
+  return set.param;
+}
+INSTANTIATE_TEST_SUITE_P(InstructionSets, LeftOut, testing::ValuesIn(instruction_sets()), plain);
+
+constexpr double poison = std::numeric_limits<double>::quiet_NaN();
+
+using Bits = std::vector<std::uint64_t>;
+
+void add_bits(Bits& bits, double x)
+{
+  bits.push_back(std::bit_cast<std::uint64_t>(x));
+}
+
+/// What three sweeps over the frozen problem make of velocities and normal impulses after `spoil`
+/// has been at its blocks and bodies.
+Bits swept(Effects effects, const std::function<void(ContactBlock&)>& spoil_block,
+           const std::function<void(Motion&)>& spoil_body)
+{
+  auto problem = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
+  problem.motion.emplace_back();
+  ContactBlocks packed;
+  packed.pack(problem.contacts, problem.motion, problem.motion.size() - 1);
+  for (auto& block : packed.blocks()) spoil_block(block);
+  for (auto& body : problem.motion) spoil_body(body);
+  Bits bits;
+  for (int k = 0; k < 3; ++k) {
+    const auto found =
+        choose_sweep(effects)(packed.runs(), problem.motion.data(), problem.friction);
+    for (const double x : {found.largest, found.sum_squares, found.sum_reference})
+      add_bits(bits, x);
+  }
+  apply_impulses(packed.blocks(), problem.motion.data(), effects);
+  for (const auto& block : packed.blocks())
+    for (const double n : block.impulse_n) add_bits(bits, n);
+  for (const auto& m : problem.motion)
+    for (const double v : {m.vx, m.vy}) add_bits(bits, v);
+  return bits;
+}
+
+TEST(NotEvenRead, IsWhatFrictionRotationAndRestitutionNeedInSweepsWithoutThem)
+{
+  const auto whole_block = [](ContactBlock&) {};
+  const auto whole_body = [](Motion&) {};
+  const auto of_friction = [](ContactBlock& b) {
+    for (auto* lanes : {&b.kappa, &b.mass_t, &b.impulse_t}) lanes->fill(poison);
+  };
+  const auto of_restitution = [](ContactBlock& b) { b.rebound.fill(poison); };
+  const auto of_rotation = [](Motion& m) { m.rim_speed = poison; };
+  for (const auto& set : instruction_sets()) {
+    use_instruction_set(set);
+    const Effects smooth{false, true, true}, unturned{true, false, true},
+        inelastic{true, true, false}, all{};
+    EXPECT_EQ(swept(smooth, of_friction, of_rotation), swept(smooth, whole_block, whole_body));
+    EXPECT_EQ(swept(unturned, whole_block, of_rotation), swept(unturned, whole_block, whole_body));
+    EXPECT_EQ(swept(inelastic, of_restitution, whole_body),
+              swept(inelastic, whole_block, whole_body));
+    EXPECT_NE(swept(all, of_friction, whole_body), swept(all, whole_block, whole_body));
+    EXPECT_NE(swept(all, whole_block, of_rotation), swept(all, whole_block, whole_body));
+    EXPECT_NE(swept(all, of_restitution, whole_body), swept(all, whole_block, whole_body));
+  }
+  use_instruction_set("");
+}
+
+/// Normals of the contacts of the small chute's bed, found after shifts have been spoilt or not.
+Bits found_in_a_bed(bool periodic, bool spoilt)
+{
+  const auto bed = small_chute::bed(small_chute::scene());
+  const auto& world = bed.world();
+  std::vector<Vec2> position;
+  for (std::size_t g = 0; g < world.grains.size(); ++g) position.push_back(bed.position(g));
+  auto state = make_state(world.grains, position);
+  PairList list({}, {world.box.length_x, world.box.length_y, false}, 0.006, world.skin,
+                world.margin, 1);
+  list.renew(state, state.position);
+  auto pairs = list.pairs();
+  if (spoilt)
+    for (auto& geometry : pairs.geometry) geometry.shift = poison;
+  DetectionRule rule;
+  rule.looked_at = rule.middle = state.position;
+  rule.motion = state.motion;
+  rule.margin = world.margin;
+  rule.periodic = periodic;
+  std::vector<StripContacts> contacts;
+  find_contacts(pairs, rule, contacts);
+  Bits bits;
+  for (const auto& strip : contacts)
+    for (std::size_t b = 0; b < strip.size; ++b)
+      for (const auto* lanes : {&strip.blocks[b].nx, &strip.blocks[b].ny})
+        for (const double x : *lanes) add_bits(bits, x);
+  return bits;
+}
+
+TEST(NotEvenRead, IsThePeriodWhereACellHasEnds)
+{
+  for (const auto& set : instruction_sets()) {
+    use_instruction_set(set);
+    const auto found = found_in_a_bed(false, false);
+    EXPECT_GT(found.size(), 100u);
+    EXPECT_EQ(found_in_a_bed(false, true), found);
+    EXPECT_EQ(found_in_a_bed(true, false), found);
+    EXPECT_NE(found_in_a_bed(true, true), found);
+  }
+  use_instruction_set("");
+}
+
+using Change = std::function<void(World&)>;
+
+/// The small chute in motion between walls, one sweep per step, under other conditions.
+Simulation chute_with(const Change& change)
+{
+  static const auto start = [] {
+    auto bed = small_chute::bed(small_chute::scene(
+        {"--lateral", "walls", "--contact-law", "centred", "--depth", "10dS", "--length", "8dL"}));
+    for (int k = 0; k < 300; ++k) bed.advance();
+    return bed;
+  }();
+  auto world = start.world();
+  world.solver = {1e300, 1};
+  change(world);
+  std::vector<Vec2> position;
+  for (std::size_t g = 0; g < world.grains.size(); ++g) position.push_back(start.position(g));
+  Simulation simulation(world, position);
+  for (std::size_t g = 0; g < position.size(); ++g) simulation.set_velocity(g, start.velocity(g));
+  // The first step makes the list, the second finds all memory that it needs.
+  for (int k = 0; k < 2; ++k) simulation.advance();
+  return simulation;
+}
+
+/// Instructions of a step.
+long step_of(Simulation simulation)
+{
+  return instructions_of([&] { simulation.advance(); }).value();
+}
+
+class LeftOutOfAStep : public testing::Test {
+ protected:
+  void SetUp() override
+  {
+    if (!may_count()) GTEST_SKIP() << "no process may trace another here";
+  }
+};
+
+/// Blocks of eight contacts, at least.
+long blocks_of_a_step(const Change& change)
+{
+  auto simulation = chute_with(change);
+  Frame frame;
+  simulation.advance(frame);
+  return static_cast<long>(frame.contacts.size() / block_lanes);
+}
+
+TEST_F(LeftOutOfAStep, FrictionAndRestitutionLeaveNothingWhereTheirCoefficientIsZero)
+{
+  // Against coefficients so small that they do nothing but have to be seen to.
+  const auto rough = [](double friction) -> Change {
+    return [friction](World& w) { w.material.friction = friction; };
+  };
+  const auto rebounding = [](double e) -> Change {
+    return [e](World& w) { w.material.restitution = e; };
+  };
+  const long blocks = blocks_of_a_step(rough(0));
+  ASSERT_GT(blocks, 1);
+  EXPECT_GE(step_of(chute_with(rough(1e-300))) - step_of(chute_with(rough(0))), 33 * blocks);
+  EXPECT_GE(step_of(chute_with(rebounding(1e-300))) - step_of(chute_with(rebounding(0))), blocks);
+}
+
+TEST_F(LeftOutOfAStep, GravityAndBodiesThatMoveLeaveNothingForAnyGrainWhereThereAreNone)
+{
+  const Change weightless = [](World& w) { w.gravity = Vec2::Zero(); };
+  const Change faint = [](World& w) { w.gravity = {1e-200, -1e-200}; };
+  const auto grains = static_cast<long>(chute_with(weightless).world().grains.size());
+  EXPECT_GE(step_of(chute_with(faint)) - step_of(chute_with(weightless)), grains);
+
+  long fixed = 0;
+  const Change still = [&](World& w) {
+    BoundaryBody base;
+    base.end = static_cast<std::uint32_t>(w.grains.size());
+    while (w.grains.fixed[base.end - 1 - static_cast<std::size_t>(fixed)]) ++fixed;
+    base.begin = base.end - static_cast<std::uint32_t>(fixed);
+    w.bodies = {base};
+  };
+  const long with = step_of(chute_with(still));
+  EXPECT_GE(with - step_of(chute_with([](World&) {})), fixed);
+  EXPECT_GT(fixed, 3);
+}
+
+TEST_F(LeftOutOfAStep, ARecordLeavesNothingWhereNoFrameIsDue)
+{
+  const Change nothing = [](World&) {};
+  auto simulation = chute_with(nothing);
+  Frame frame;
+  auto recorded = simulation;
+  const long with = instructions_of([&] { recorded.advance(frame); }).value();
+  EXPECT_GE(with - step_of(simulation), 10 * static_cast<long>(simulation.world().grains.size()));
+}
+
+}  // namespace
+}  // namespace grseg

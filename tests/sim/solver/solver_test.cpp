@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/solver/solver.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+TEST(Solver, AVelocityFarBelowTheFloorNeedsNoSecondSweep)
+{
+  std::vector<Motion> motion{{0, -1e-12, 0, 1}, {0, 0, 0, 0}};
+  Contact c{};
+  c.ny = c.kappa = c.mass_n = 1;
+  c.mass_t = 1.0 / 3;
+  c.j = 1;
+  std::vector<Contact> contacts{c};
+  EXPECT_EQ(solve_contacts(contacts, motion, 0.5, {}, {1e-2, 100}, 1e-6).sweeps, 1);
+}
+
+TEST(Solver, SweepsOnToTheLeastNumberUnlessOneChangesNothing)
+{
+  // A column of ten discs on a floor, from nothing; the floor alone carries the lowest from the
+  // first sweep on.
+  const auto sweeps = [](int discs, int at_least) {
+    std::vector<Motion> motion(static_cast<std::size_t>(discs), Motion{0, -1, 0, 1});
+    motion.push_back({});
+    std::vector<Contact> contacts;
+    for (int k = 0; k < discs; ++k) {
+      Contact c{};
+      c.ny = c.kappa = 1;
+      c.mass_n = k == 0 ? 1 : 0.5;
+      c.mass_t = c.mass_n / 3;
+      c.i = k, c.j = k == 0 ? discs : k - 1;
+      contacts.push_back(c);
+    }
+    return solve_contacts(contacts, motion, 0, {}, {10, 100, false, at_least}, 0).sweeps;
+  };
+  EXPECT_EQ(sweeps(10, 1), 1);
+  EXPECT_EQ(sweeps(10, 8), 8);
+  EXPECT_EQ(sweeps(1, 8), 2);
+}
+
+/// Rows of ten touching discs, a strip each, of which the first disc of the first row is hit.
+struct Rows {
+  static constexpr std::size_t discs = 10;
+  std::vector<Motion> motion;
+  std::vector<ContactBlocks> packed;
+
+  explicit Rows(std::size_t rows) : motion(rows * discs, Motion{0, 0, 0, 1}), packed(rows)
+  {
+    motion[0].vx = 1;
+    motion.emplace_back();
+    for (std::size_t r = 0; r < rows; ++r) {
+      std::vector<Contact> contacts;
+      for (std::size_t k = discs - 1; k > 0; --k) {
+        Contact c{};
+        c.nx = c.kappa = 1, c.mass_n = 0.5, c.mass_t = 1.0 / 6;
+        c.i = static_cast<std::int32_t>(r * discs + k);
+        c.j = c.i - 1;
+        contacts.push_back(c);
+      }
+      packed[r].pack(contacts, motion, motion.size() - 1);
+    }
+  }
+  SolverReport solve(int threads)
+  {
+    std::vector<BlockRuns> strips;
+    for (auto& p : packed) strips.push_back(p.runs());
+    Extrapolation extrapolation;
+    return solve_contacts(strips, packed.size() * (discs - 1), motion, 0, {}, {1e-6, 10000}, 0,
+                          extrapolation, threads);
+  }
+};
+
+TEST(Solver, AStripThatNeedsManySweepsDoesNotMakeOthersPay)
+{
+  Rows one(1), many(40), shared(40);
+  const auto alone = one.solve(1), among = many.solve(1);
+  EXPECT_TRUE(among.converged);
+  EXPECT_LE(among.residual, 1e-6);
+  EXPECT_GT(alone.sweeps, 100);
+  EXPECT_LT(among.sweeps, alone.sweeps / 5);
+  for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_NEAR(many.motion[k].vx, 0.1, 1e-3);
+  EXPECT_EQ(shared.solve(3).sweeps, among.sweeps);
+  for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_EQ(shared.motion[k].vx, many.motion[k].vx);
+}
+
+TEST(Solver, TheSweepThatLetsTheLastContactGoIsNotTheLastWhereThereIsNoGravity)
+{
+  // Two discs that part, with an impulse between them that was right before.
+  std::vector<Motion> motion{{1, 0, 0, 1}, {-1, 0, 0, 1}};
+  Contact c{};
+  c.nx = c.kappa = c.impulse_n = 1;
+  c.mass_n = 0.5, c.mass_t = 1.0 / 6;
+  c.j = 1;
+  std::vector<Contact> contacts{c};
+  const auto report = solve_contacts(contacts, motion, 0.5, {}, {0.5, 100}, 0);
+  EXPECT_EQ(report.sweeps, 2);
+  EXPECT_EQ(report.residual, 0);
+  EXPECT_EQ(contacts[0].impulse_n, 0);
+  EXPECT_EQ(motion[0].vx, 1);
+}
+
+TEST(Solver, ANewcomerIsNotHiddenByThousandsOfSettledContacts)
+{
+  // 4000 discs that rest on a floor, their impulses known, beside a row of 10 touching discs of
+  // which the first is hit: without restitution all ten end with a tenth of its speed.
+  const int row = 10, settled = 4000;
+  std::vector<Motion> motion;
+  std::vector<Contact> contacts;
+  const auto join = [&](int i, int j, double nx, double ny, double mass, double impulse) {
+    Contact c{};
+    c.nx = nx, c.ny = ny, c.kappa = 1;
+    c.mass_n = mass, c.mass_t = mass / 3;
+    c.impulse_n = impulse;
+    c.i = i, c.j = j;
+    contacts.push_back(c);
+  };
+  for (int k = 0; k < row; ++k) motion.push_back({k == 0 ? 1.0 : 0.0, 0, 0, 1});
+  for (int k = 0; k < settled; ++k) motion.push_back({0, -1, 0, 1});
+  motion.push_back({});
+  for (int k = 0; k < settled; ++k) join(row + k, row + settled, 0, 1, 1, 1);
+  for (int k = row - 2; k >= 0; --k) join(k + 1, k, 1, 0, 0.5, 0);
+  const auto report = solve_contacts(contacts, motion, 0, {}, {1e-3, 100000}, 0);
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.residual, 1e-3);
+  EXPECT_LE(contact_residual(contacts, motion, 0, {}), 1e-3);
+  for (int k = 0; k < row; ++k) EXPECT_NEAR(motion[static_cast<std::size_t>(k)].vx, 0.1, 0.05);
+}
+
+/// n discs in a column on the ground, at rest but for a step's gravity.
+struct Column {
+  std::vector<Motion> motion;
+  std::vector<Contact> contacts;
+
+  explicit Column(int n)
+  {
+    for (int k = 0; k < n; ++k) motion.push_back({0.1 * (k % 3), -1, 0.2, 1});
+    motion.push_back({});
+    for (int k = 0; k < n; ++k) {
+      Contact c{};
+      c.ny = c.kappa = 1;
+      c.mass_n = k == 0 ? 1 : 0.5;
+      c.mass_t = c.mass_n / 3;
+      c.i = k;
+      c.j = k == 0 ? n : k - 1;
+      contacts.push_back(c);
+    }
+  }
+  int sweeps(bool acceleration)
+  {
+    return solve_contacts(contacts, motion, 0.5, {}, {1e-10, 100000, acceleration}, 0).sweeps;
+  }
+};
+
+TEST(Solver, AccelerationReachesTheSameWithAFifthOfTheSweeps)
+{
+  // Plain sweeps contract the error by cos^2(pi/2n), so they need some n^2 of them; extrapolated
+  // ones some n. Odd and even numbers of bodies end differently in vector registers.
+  for (const int n : {40, 41, 42, 43}) {
+    Column plain(n), accelerated(n);
+    const int sweeps = plain.sweeps(false);
+    EXPECT_LT(accelerated.sweeps(true), sweeps / 5);
+    EXPECT_LT(contact_residual(accelerated.contacts, accelerated.motion, 0.5, {}), 1e-8);
+    for (std::size_t k = 0; k < plain.contacts.size(); ++k) {
+      EXPECT_NEAR(accelerated.contacts[k].impulse_n,
+                  static_cast<double>(n) - static_cast<double>(k), 1e-5);
+      EXPECT_NEAR(accelerated.motion[k].vx, plain.motion[k].vx, 1e-5);
+    }
+    EXPECT_EQ(accelerated.motion.size(), plain.motion.size());
+  }
+}
+
+TEST(Solver, AccelerationLeavesASolutionAlone)
+{
+  Column column(10);
+  column.sweeps(true);
+  auto again = column;
+  for (auto& m : again.motion)
+    if (m.inverse_mass > 0) m = {0, -1, 0, 1};
+  for (auto& c : again.contacts) c.impulse_t = 0;
+  EXPECT_LE(again.sweeps(true), 12);
+  for (std::size_t k = 0; k < 10; ++k)
+    EXPECT_NEAR(again.contacts[k].impulse_n, column.contacts[k].impulse_n, 1e-8);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/solver/sweep.hpp"
+
+#include "tests/frozen_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <set>
+
+namespace grseg {
+namespace {
+
+std::vector<std::uint64_t> bits_of(const std::vector<Motion>& motion)
+{
+  std::vector<std::uint64_t> bits;
+  for (const auto& m : motion)
+    for (const double x : {m.vx, m.vy, m.rim_speed, m.inverse_mass})
+      bits.push_back(std::bit_cast<std::uint64_t>(x));
+  return bits;
+}
+
+std::vector<std::uint64_t> bits_of(const std::vector<Contact>& contacts)
+{
+  std::vector<std::uint64_t> bits;
+  for (const auto& c : contacts)
+    for (const double x : {c.impulse_n, c.impulse_t})
+      bits.push_back(std::bit_cast<std::uint64_t>(x));
+  return bits;
+}
+
+/// The first `count` contacts of the frozen problem; the last mobile body is left out and stands
+/// for a wall, which some grains touch.
+FrozenProblem problem(std::size_t count = 5459)
+{
+  static const auto read = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
+  auto p = read;
+  p.contacts.resize(count);
+  const auto wall = static_cast<std::int32_t>(p.motion.size());
+  p.motion.push_back({0.01, -0.02, 0, 0});
+  for (std::int32_t g = 100; g < 120; ++g) {
+    Contact c{};
+    c.nx = 0.6, c.ny = 0.8, c.kappa = 1;
+    c.mass_n = 1 / p.motion[static_cast<std::size_t>(g)].inverse_mass;
+    c.mass_t = c.mass_n / 3;
+    c.rebound = 0.001;
+    c.i = g, c.j = wall;
+    p.contacts.push_back(c);
+  }
+  for (std::size_t k = 0; k < p.contacts.size(); ++k)
+    p.contacts[k].kappa = 0.98 + 0.0005 * static_cast<double>(k % 60);
+  return p;
+}
+
+constexpr int sweeps = 4;
+
+/// Sweeps, and the last one's findings as bits behind those of bodies and contacts.
+std::vector<std::uint64_t> swept(FrozenProblem p, Effects effects)
+{
+  p.motion.emplace_back();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  SweepResult result;
+  for (int s = 0; s < sweeps; ++s)
+    result = choose_sweep(effects)(packed.runs(), p.motion.data(), p.friction);
+  packed.unpack(p.contacts);
+  EXPECT_EQ(bits_of({p.motion.back()}), bits_of(std::vector<Motion>{{}}));
+  auto bits = bits_of(p.motion), impulses = bits_of(p.contacts);
+  bits.insert(bits.end(), impulses.begin(), impulses.end());
+  for (const double x : {result.largest, result.sum_squares, result.sum_reference})
+    bits.push_back(std::bit_cast<std::uint64_t>(x));
+  return bits;
+}
+
+/// The same with relax(), contact by contact in the order of the colours, each sum over the
+/// contacts of one lane first.
+template <Effects with>
+std::vector<std::uint64_t> relaxed(FrozenProblem p)
+{
+  p.motion.emplace_back();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  std::vector<std::size_t> contact_in(packed.blocks().size() * block_lanes, p.contacts.size());
+  for (std::size_t k = 0; k < p.contacts.size(); ++k) contact_in[packed.slots()[k]] = k;
+  double largest = 0;
+  std::array<double, 8> squares{}, reference{};
+  for (int s = 0; s < sweeps; ++s) {
+    largest = 0, squares = {}, reference = {};
+    for (std::size_t slot = 0; slot < contact_in.size(); ++slot) {
+      if (contact_in[slot] == p.contacts.size()) continue;
+      auto& c = p.contacts[contact_in[slot]];
+      auto& a = p.motion[static_cast<std::size_t>(c.i)];
+      auto& b = p.motion[static_cast<std::size_t>(c.j)];
+      const auto change = relax<with>(c, a, b, p.friction);
+      largest = std::max({largest, change.normal, change.tangential});
+      const double w = a.inverse_mass + b.inverse_mass;
+      const double w_t = with.rotation ? w * (1 + 2 * c.kappa * c.kappa) : w;
+      squares[slot % 8] += change.normal * change.normal;
+      reference[slot % 8] += (c.impulse_n * w) * (c.impulse_n * w);
+      if (!with.friction) continue;
+      squares[slot % 8] += change.tangential * change.tangential;
+      reference[slot % 8] += (c.impulse_t * w_t) * (c.impulse_t * w_t);
+    }
+  }
+  auto bits = bits_of(p.motion), impulses = bits_of(p.contacts);
+  bits.insert(bits.end(), impulses.begin(), impulses.end());
+  const auto sum = [](const auto& s) {
+    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+  };
+  for (const double x : {largest, sum(squares), sum(reference)})
+    bits.push_back(std::bit_cast<std::uint64_t>(x));
+  return bits;
+}
+
+/// Every test runs once per instruction set of this machine.
+class SweepOn : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { use_instruction_set(GetParam()); }
+  void TearDown() override { use_instruction_set(""); }
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, SweepOn, testing::ValuesIn(instruction_sets()),
+                         [](const auto& set) { return set.param; });
+
+TEST_P(SweepOn, RunsOnTheInstructionSetAskedFor)
+{
+  EXPECT_EQ(instruction_set(), GetParam());
+}
+
+TEST_P(SweepOn, EveryVariantEqualsTheContactLawInOrderOfColoursToTheLastBit)
+{
+  const auto p = problem();
+  EXPECT_EQ(swept(p, {true, true, true}), (relaxed<Effects{true, true, true}>(p)));
+  EXPECT_EQ(swept(p, {true, true, false}), (relaxed<Effects{true, true, false}>(p)));
+  EXPECT_EQ(swept(p, {true, false, true}), (relaxed<Effects{true, false, true}>(p)));
+  EXPECT_EQ(swept(p, {true, false, false}), (relaxed<Effects{true, false, false}>(p)));
+  EXPECT_EQ(swept(p, {false, true, true}), (relaxed<Effects{false, true, true}>(p)));
+  EXPECT_EQ(swept(p, {false, true, false}), (relaxed<Effects{false, true, false}>(p)));
+  EXPECT_EQ(swept(p, {false, false, true}), (relaxed<Effects{false, false, true}>(p)));
+  EXPECT_EQ(swept(p, {false, false, false}), (relaxed<Effects{false, false, false}>(p)));
+}
+
+TEST_P(SweepOn, AnyNumberOfContactsFitsIntoBlocks)
+{
+  for (std::size_t count = 0; count < 40; ++count)
+    EXPECT_EQ(swept(problem(count), {}), relaxed<Effects{}>(problem(count))) << count;
+}
+
+TEST_P(SweepOn, ABodyWithMoreContactsThanColoursIsSweptOneByOne)
+{
+  FrozenProblem p;
+  p.motion.assign(201, {0, 0, 0, 1});
+  p.motion[0] = {1, -2, 0.5, 0.01};
+  for (std::int32_t g = 1; g <= 200; ++g) {
+    Contact c{};
+    c.nx = std::cos(g), c.ny = std::sin(g), c.kappa = 1;
+    c.mass_n = 1 / 1.01;
+    c.mass_t = c.mass_n / 3;
+    c.i = g, c.j = 0;
+    p.contacts.push_back(c);
+  }
+  EXPECT_EQ(swept(p, {}), relaxed<Effects{}>(p));
+}
+
+TEST_P(SweepOn, AnEffectLeftOutEqualsItsNeutralCoefficientToTheLastBit)
+{
+  auto inelastic = problem();
+  for (auto& c : inelastic.contacts) c.rebound = 0;
+  EXPECT_EQ(swept(inelastic, {}), swept(problem(), {.restitution = false}));
+  // Without rotation: lever arms 0, so that friction turns nothing and rim speeds are not felt.
+  auto pointlike = problem();
+  for (auto& c : pointlike.contacts) c.kappa = 0;
+  EXPECT_EQ(swept(pointlike, {}), swept(problem(), {.rotation = false}));
+}
+
+TEST_P(SweepOn, FrictionLeftOutEqualsZeroFrictionToTheLastBit)
+{
+  auto with = problem(), without = problem();
+  ContactBlocks packed;
+  for (auto* p : {&with, &without}) {
+    p->motion.emplace_back();
+    packed.pack(p->contacts, p->motion, p->motion.size() - 1);
+    const Effects effects{.friction = p == &with};
+    for (int s = 0; s < sweeps; ++s) choose_sweep(effects)(packed.runs(), p->motion.data(), 0);
+    packed.unpack(p->contacts);
+  }
+  EXPECT_EQ(bits_of(with.motion), bits_of(without.motion));
+  EXPECT_EQ(bits_of(with.contacts), bits_of(without.contacts));
+}
+
+TEST_P(SweepOn, ImpulsesAppliedMoveTheBodiesAsRelaxingDid)
+{
+  auto p = problem();
+  p.motion.emplace_back();
+  const auto start = p.motion;
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  for (int s = 0; s < 50; ++s) choose_sweep({})(packed.runs(), p.motion.data(), p.friction);
+  auto again = start;
+  apply_impulses(packed.blocks(), again.data(), {});
+  for (std::size_t g = 0; g < start.size(); ++g) {
+    EXPECT_NEAR(again[g].vx, p.motion[g].vx, 1e-13);
+    EXPECT_NEAR(again[g].vy, p.motion[g].vy, 1e-13);
+    EXPECT_NEAR(again[g].rim_speed, p.motion[g].rim_speed, 1e-13);
+  }
+}
+
+TEST(ContactBlocks, NoMobileBodyAppearsTwiceInABlock)
+{
+  auto p = problem();
+  p.motion.emplace_back();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  std::set<std::pair<std::size_t, std::int32_t>> seen;
+  for (std::size_t k = 0; k < p.contacts.size(); ++k)
+    for (const auto body : {p.contacts[k].i, p.contacts[k].j})
+      if (p.motion[static_cast<std::size_t>(body)].inverse_mass > 0) {
+        EXPECT_TRUE(seen.insert({packed.slots()[k] / block_lanes, body}).second);
+      }
+  EXPECT_LE(packed.blocks().size(), p.contacts.size() / block_lanes + 10);
+}
+
+TEST(InstructionSets, AnUnknownOneIsRefused)
+{
+  EXPECT_THROW(use_instruction_set("mmx"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace grseg

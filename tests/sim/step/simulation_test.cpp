@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/step/simulation.hpp"
+
+#include "sim/run/recorder.hpp"
+#include "tests/sim/worlds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+using worlds::Disc;
+using worlds::floor_at;
+using worlds::positions_of;
+using worlds::world_of;
+
+constexpr double g = 9.8;
+
+void run(Simulation& simulation, double duration)
+{
+  const auto steps = std::llround(duration / simulation.world().step);
+  for (std::int64_t k = 0; k < steps; ++k) simulation.advance();
+}
+
+/// A few dozen discs of several sizes poured onto a floor between walls, at rest.
+Simulation settled_heap(double tolerance)
+{
+  std::vector<Disc> discs;
+  for (int row = 0; row < 8; ++row)
+    for (int k = 0; k < 6; ++k)
+      discs.push_back({{0.75 + 1.2 * k + 0.05 * (row % 3), 0.7 + 1.2 * row},
+                       0.4 + 0.02 * ((5 * row + 3 * k) % 10)});
+  auto world = world_of(discs);
+  world.walls = {floor_at(0), {{0, 0}, {1, 0}}, {{7.5, 0}, {-1, 0}}};
+  world.gravity = {0, -g};
+  world.solver = {tolerance, 20000};
+  Simulation simulation(world, positions_of(discs));
+  run(simulation, 30);  // nothing slows a disc that rolls on the floor until it meets another
+  return simulation;
+}
+
+TEST(Simulation, ASettledBedPressesOnItsBaseWithItsWeightAtEveryStep)
+{
+  auto simulation = settled_heap(1e-9);
+  double weight = 0;
+  for (const double m : simulation.world().grains.mass) weight += m * g;
+  Frame frame;
+  for (int k = 0; k < 20; ++k) {
+    simulation.advance(frame);
+    double base = 0;
+    for (std::size_t c = 0; c < frame.contacts.size(); ++c)
+      if (frame.contacts.j[c] < 0) base += frame.contacts.force[c].y();
+    EXPECT_NEAR(base, weight, 1e-6 * weight);
+  }
+  EXPECT_LT(simulation.translational_energy(), 1e-8 * weight);
+}
+
+TEST(Simulation, ContactForcesAndWeightMakeUpTheForceOfEveryGrainToRoundOff)
+{
+  auto simulation = settled_heap(1e-2);
+  simulation.tilt(Vec2(g * std::sin(0.5), -g * std::cos(0.5)));
+  Frame frame;
+  for (int k = 0; k < 100; ++k) {
+    simulation.advance(frame);
+    EXPECT_LT(momentum_defect(simulation.world().grains, frame, simulation.world().gravity), 1e-12);
+  }
+}
+
+TEST(Simulation, AFrameIsTheMiddleOfItsStep)
+{
+  const std::vector<Disc> discs{{{9.9995, 5}, 0.5}, {{2, 2}, 0.5}};
+  auto world = world_of(discs);
+  world.box = {10, 10, true};
+  Simulation simulation(world, positions_of(discs));
+  simulation.set_velocity(0, {1, 0});
+  Frame frame;
+  simulation.advance(frame);
+  EXPECT_EQ(frame.step, 0);
+  EXPECT_DOUBLE_EQ(frame.time, 0.5e-3);
+  EXPECT_NEAR(frame.position[0].x(), 0, 1e-12);
+  EXPECT_EQ(frame.image[0][0], 1);
+  EXPECT_NEAR(simulation.position(0).x(), 10.0005, 1e-12);
+}
+
+TEST(Simulation, WritingFramesChangesNothing)
+{
+  auto watched = settled_heap(1e-2), alone = watched;
+  Frame frame;
+  for (int k = 0; k < 50; ++k) {
+    watched.advance(frame);
+    alone.advance();
+  }
+  for (std::size_t d = 0; d < watched.world().grains.size(); ++d)
+    EXPECT_EQ(watched.position(d), alone.position(d));
+}
+
+TEST(Simulation, AShiftAlongThePeriodChangesNoForce)
+{
+  // A row of discs on a floor, one of them leaning on two: contacts across the period and not.
+  const auto forces = [](double shift) {
+    std::vector<Disc> discs{
+        {{0.5, 0.5}, 0.5}, {{1.5, 0.5}, 0.5}, {{1.0, 1.3}, 0.5}, {{3.5, 0.5}, 0.5}};
+    for (auto& d : discs) d.position.x() += shift - 4 * std::floor((d.position.x() + shift) / 4);
+    auto world = world_of(discs);
+    world.box = {4, 10, true};
+    world.walls = {floor_at(0)};
+    world.gravity = {1, -g};
+    Simulation simulation(world, positions_of(discs));
+    Frame frame;
+    for (int k = 0; k < 100; ++k) simulation.advance(frame);
+    std::vector<Vec2> on(discs.size(), Vec2::Zero());
+    for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+      on[static_cast<std::size_t>(frame.contacts.i[c])] += frame.contacts.force[c];
+      if (frame.contacts.j[c] >= 0)
+        on[static_cast<std::size_t>(frame.contacts.j[c])] -= frame.contacts.force[c];
+    }
+    return on;
+  };
+  const auto here = forces(0);
+  for (const double shift : {0.3, 2.0, 3.2}) {
+    const auto there = forces(shift);
+    for (std::size_t d = 0; d < here.size(); ++d) EXPECT_NEAR((here[d] - there[d]).norm(), 0, 1e-9);
+  }
+}
+
+TEST(Simulation, ABeadOnTheBaseStaysOnTheBase)
+{
+  // Boundary grains do not move, whatever falls on them.
+  const std::vector<Disc> discs{{{0, 3}, 0.5}, {{-0.5, 0}, 0.5, true}, {{0.5, 0}, 0.5, true}};
+  auto world = world_of(discs);
+  world.material.restitution = 0.25;
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  run(simulation, 2);
+  EXPECT_EQ(simulation.position(1), Vec2(-0.5, 0));
+  EXPECT_EQ(simulation.velocity(2), Vec2(0, 0));
+  EXPECT_NEAR(simulation.position(0).y(), std::sqrt(0.75), 1e-2);
+}
+
+TEST(Simulation, ARestingDiscWithRestitutionCarriesItsWeightAndDoesNotRattle)
+{
+  const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
+  auto world = world_of(discs);
+  world.material.restitution = 0.25;
+  world.walls = {floor_at(0)};
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  Frame frame;
+  for (int k = 0; k < 10; ++k) {
+    simulation.advance(frame);
+    ASSERT_EQ(frame.contacts.size(), 1u);
+    EXPECT_NEAR(frame.contacts.force[0].y(), world.grains.mass[0] * g, 1e-12);
+  }
+}
+
+TEST(Simulation, EnergiesAreThoseOfADiscThatFliesAndSpins)
+{
+  const std::vector<Disc> discs{{{1, 3}, 0.25}, {{9, 9}, 0.5, true}};
+  auto world = world_of(discs);
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  simulation.set_velocity(0, {3, 4}, 8);
+  const double m = world.grains.mass[0];
+  EXPECT_EQ(simulation.angular_velocity(0), 8);
+  EXPECT_NEAR(simulation.translational_energy(), m * 25 / 2, 1e-14);
+  EXPECT_NEAR(simulation.rotational_energy(), m * 0.25 * 0.25 / 2 * 8 * 8 / 2, 1e-14);
+  EXPECT_NEAR(simulation.potential_energy(), m * g * 3, 1e-13);
+}
+
+TEST(Simulation, BranchIsTheDistanceOfTheCentresAndGapNegativeWhereDiscsOverlap)
+{
+  const std::vector<Disc> discs{{{0, 5}, 0.5}, {{0.59, 5.0}, 0.1}, {{0, 0.49}, 0.5}};
+  auto world = world_of(discs);
+  world.walls = {floor_at(0)};
+  Simulation simulation(world, positions_of(discs));
+  Frame frame;
+  simulation.advance(frame);
+  ASSERT_EQ(frame.contacts.size(), 2u);
+  EXPECT_NEAR((frame.contacts.branch[0] - Vec2(-0.59, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR(frame.contacts.gap[0], -0.01, 1e-15);
+  EXPECT_NEAR((frame.contacts.branch[1] - Vec2(0, 0.49)).norm(), 0, 1e-15);
+  EXPECT_NEAR(frame.contacts.gap[1], -0.01, 1e-15);
+}
+
+TEST(Simulation, AFrameUnwrapsToTheTrueWayWhateverTheListRemembers)
+{
+  // The list is made at x > 0; the disc then crosses x = 0 by less than the skin, also by 1e-18.
+  for (const double x : {-1e-3, -1e-18}) {
+    const std::vector<Disc> discs{{{1e-3, 5}, 0.5}};
+    auto world = world_of(discs);
+    world.box = {10, 10, true};
+    Simulation simulation(world, positions_of(discs));
+    Frame frame;
+    simulation.advance(frame);
+    simulation.set_velocity(0, {(x - 1e-3) / (world.step / 2), 0});
+    simulation.advance(frame);
+    EXPECT_GE(frame.position[0].x(), 0);
+    EXPECT_LT(frame.position[0].x(), 10);
+    EXPECT_NEAR(frame.position[0].x() + 10 * frame.image[0][0], x, 1e-12);
+  }
+}
+
+TEST(Simulation, ASlowRiseUnderGravityEndsAtRestNotInTheFloor)
+{
+  const std::vector<Disc> discs{{{0, 0.499}, 0.5}};
+  auto world = world_of(discs);
+  world.material.restitution = 0.25;
+  world.walls = {floor_at(0)};
+  world.gravity = {0, -g};
+  Simulation simulation(world, positions_of(discs));
+  simulation.set_velocity(0, {0, 0.005});  // less than g h = 0.0098
+  simulation.advance();
+  EXPECT_NEAR(simulation.velocity(0).y(), 0, 1e-14);
+}
+
+}  // namespace
+}  // namespace grseg
