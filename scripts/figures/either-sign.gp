@@ -9,7 +9,7 @@ stock = folder."/stock.tsv"
 fits = folder."/fits.tsv"
 set datafile separator tab
 set datafile missing NaN
-set terminal pngcairo size 1200,500 font "DejaVu Sans,12" background rgb "white"
+set terminal pngcairo size 1200,440 font "DejaVu Sans,12" background rgb "white"
 set output ARG2
 blue = "#1f77b4"
 red = "#d62728"
@@ -43,11 +43,11 @@ set key bottom right reverse Left samplen 2 spacing 1.15
 set label "B > 0: large grains carry more\nthan their share of the pressure" at 0.41,0.47 tc rgb grey
 set label "B < 0: small grains do" at 0.415,-0.06 tc rgb grey
 set label "LAMMPS,\nLIGGGHTS\n(half to each)" at cell("half", "share"), cell("half", "B_half") right offset -1.5,3.2 tc rgb red
-set label "the paper (by size);\nMercuryDPM, YADE, PFC\n(up to the contact point)" at cell("size", "share"), cell("size", "B_half") right offset -1.5,3.6 tc rgb red
+set label "Staron \\& Phillips (by size);\nMercuryDPM, YADE, PFC\n(up to the contact point)" at cell("size", "share"), cell("size", "B_half") right offset -1.5,3.9 tc rgb red
 set arrow from p_zero, -0.03 to p_zero, -0.135 backhead size 0.006,25 lc rgb grey
 set label sprintf("B = 0 at p* = %.3f", p_zero) at p_zero, -0.16 offset -0.5,0 tc rgb grey
 plot scan using "p":"low":"high" with filledcurves lc rgb blue notitle, \
-     scan using "p":"B" with lines lw 2.5 lc rgb blue title "24 runs, six mixtures, 23°", \
+     scan using "p":"B" with lines lw 2.5 lc rgb blue title "grseg: 24 runs of six mixtures", \
      fits using (rules(0) ? column("share") : NaN):"B_half" with points pt 7 ps 0.7 lc rgb "#7fb3d9" title "each mixture (4 runs)", \
      $paper using 1:2 with points pt 4 ps 1.7 lw 1.5 lc rgb "black" title "Staron \\& Phillips (2015)", \
      stock using (column("share")):(is("rule", "size") || is("rule", "half") ? column("B_half") : NaN) \
@@ -63,7 +63,7 @@ set xtics 0.2
 set xlabel "large grains, Φ_L of the mixture"
 set ylabel "B by size"
 unset key
-set label "dashed: the paper,\nall mixtures" at 0.8,0.0238 right tc rgb "black"
+set label "dashed: Staron \\& Phillips,\nall mixtures" at 0.8,0.0238 right tc rgb "black"
 plot 0.0345 with lines dt 2 lc rgb "black", \
      fits using (mixture("size") ? column("phi") : NaN):"B_half":"B_half_low":"B_half_high" \
        with yerrorbars pt 7 ps 1.1 lw 1.5 lc rgb blue

@@ -19,8 +19,8 @@ awk '/^<!-- these commands are a test/ { marked = 1; next }
 blocks=$(cat "$folder/blocks")
 [ "$blocks" -ge "$least" ] || { echo "$page: $blocks blocks of commands, expected $least" >&2; exit 1; }
 cd "$folder"
-# make's own: where the programs are, for a build folder elsewhere
-BIN="$build/bin" sh -eu commands >said 2>&1 || {
+# BIN: for make, a build folder elsewhere; PATH: the Python whose packages scripts/setup installs
+BIN="$build/bin" PATH="/usr/bin:$PATH" sh -eu commands >said 2>&1 || {
   cat said >&2
   echo "$page: a command fails" >&2
   exit 1
