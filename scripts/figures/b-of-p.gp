@@ -28,10 +28,10 @@ if (p_zero == p_zero) {
   set label sprintf("B = 0 at p = %.3f", p_zero) at p_zero, graph 0.36 offset 0.5,0 tc rgb "#606060"
 }
 if (marked) {
-  set label "size: grseg, the paper" at cell("size", "share"), cell("size", "B_half") right offset -1,1 tc rgb red
-  set label "contact-point: MercuryCG" at cell("contact-point", "share"), cell("contact-point", "B_half") offset 1.5,-0.7 tc rgb red
+  set label "size: Staron \\& Phillips" at cell("size", "share"), cell("size", "B_half") right offset -1,1 tc rgb red
+  set label "contact-point: MercuryDPM, YADE, PFC" at cell("contact-point", "share"), cell("contact-point", "B_half") offset 1.5,-0.7 tc rgb red
   set label "half: LAMMPS, LIGGGHTS stress/atom" at cell("half", "share"), cell("half", "B_half") offset 1.5,-0.7 tc rgb red
-  set label sprintf("drop (stress of a group) gives mixed contacts to nobody: no p and no B;\nσ_S/σ_L = %.2f (φ_S/φ_L)^{%.2f} instead of φ_S/φ_L", cell("drop", "prefactor_power"), cell("drop", "exponent")) at graph 0.98, graph 0.13 right tc rgb red
+  set label sprintf("drop (pairs inside one species): mixed contacts belong to neither, no p and no B;\nσ_S/σ_L = %.2f (φ_S/φ_L)^{%.2f} instead of φ_S/φ_L", cell("drop", "prefactor_power"), cell("drop", "exponent")) at graph 0.98, graph 0.13 right tc rgb red
 }
 plot scan using "p":"low":"high" with filledcurves lc rgb blue title "95 %", \
      scan using "p":"B" with lines lw 2 lc rgb blue title "this flow", \
