@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/neighbours/neighbours.hpp"
+#include "sim/neighbours/pair_list_lanes.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 // Highway compiles what follows once per instruction set.
 #define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sim/neighbours/neighbours.cpp"
+#define HWY_TARGET_INCLUDE "sim/neighbours/pair_list_lanes.cpp"
 // In this order.
 // clang-format off
 #include <hwy/foreach_target.h>
@@ -21,8 +21,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Displacements of a group of four bodies or more: eight doubles at a time, the last of which may
-/// be among the eight before, too.
+/// Displacements of a group of four bodies or more, eight doubles at a time; the last eight may
+/// overlap those before.
 HWY_INLINE Extent measure_group(const double* from, const double* to, Range group)
 {
   const D d;
@@ -70,8 +70,8 @@ void measure(const double* from, const double* to, std::span<const Range> groups
   leave_vectors();
 }
 
-/// One body with those of a range, whose x is `offset` larger than it says; to the `count` found so
-/// far.
+/// Looks for pairs of body `a` with those of a range, to whose x `offset` is added; appends them to
+/// the `count` found so far.
 template <bool periodic>
 HWY_INLINE void find_with(const Discs& discs, std::size_t a, Range range, double skin,
                           double offset, double length, std::uint32_t* found, std::size_t& count)
@@ -134,20 +134,20 @@ void invert_all(double* values, std::size_t count)
   leave_vectors();
 }
 
-/// Which of eight pairs of doubles are not both zero, as bits.
+/// Which of eight twos of doubles are not both zero, as bits.
 HWY_INLINE std::uint32_t not_zero(const double* values)
 {
   const D d;
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto two = load_next_rows(d, values + 2 * lane);
+    const auto two = load_next_twos(d, values + 2 * lane);
     const auto zero = hn::And(hn::Eq(two.first, hn::Zero(d)), hn::Eq(two.second, hn::Zero(d)));
     bits |= bits_of(d, hn::Not(zero)) << lane;
   }
   return bits;
 }
 
-/// Number of the found pair (a, b), or of none: the number of all.
+/// Index of the found pair (a, b); the number of pairs if there is none.
 HWY_INLINE std::size_t find_pair(const FoundPairs& found, std::uint32_t a, std::uint32_t b)
 {
   const D32 d;
@@ -161,7 +161,7 @@ HWY_INLINE std::size_t find_pair(const FoundPairs& found, std::uint32_t a, std::
   return found.size();
 }
 
-void carry_all(const Carry& task, std::uint32_t first, std::uint32_t last)
+void carry_all(const CarryOver& task, std::uint32_t first, std::uint32_t last)
 {
   const auto& found = *task.found;
   for (std::size_t eight = first; eight < last; eight += block_lanes) {
@@ -217,7 +217,7 @@ void invert(std::span<double> values)
   HWY_DYNAMIC_DISPATCH(invert_all)(values.data(), values.size());
 }
 
-void carry_over(const Carry& task, std::uint32_t first, std::uint32_t last)
+void carry_over(const CarryOver& task, std::uint32_t first, std::uint32_t last)
 {
   HWY_DYNAMIC_DISPATCH(carry_all)(task, first, last);
 }
