@@ -54,7 +54,7 @@ checkout() {
   "command": "$3c++ -I$at -I$at/build/formats $2 -std=c++20 -o formats/clean.o -c $at/formats/clean.cpp"}]
 JSON
 }
-fingerprint() { (cd "$folder/$1" && $tidy build formats/clean.cpp 2>&1 | grep -v '^lint: ' || true; cat build/lint/passed.txt); }
+fingerprint() { (cd "$folder/$1" && $tidy build formats/clean.cpp 2>/dev/null && cat build/lint/passed.txt); }
 checkout one -O3 ''
 first=$(fingerprint one)
 case $first in *"  formats/clean.cpp") ;; *) wrong "a clean file does not pass: $first" ;; esac
