@@ -1,5 +1,6 @@
 #!/bin/sh
-# Runs the commands that README.md promises, in an empty folder. Usage: readme_test.sh SOURCE BUILD
+# Runs the three commands of README.md in an empty folder and looks at what they leave. Usage:
+# readme_test.sh SOURCE BUILD
 set -eu
 source=$1 build=$2
 folder=$(mktemp -d)
