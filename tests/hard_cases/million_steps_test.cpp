@@ -90,7 +90,7 @@ History flow_at(const char* slope)
   return history;
 }
 
-/// How the mean overlap goes over the second half of the run, in twenty blocks of 25,000 steps,
+/// Trend of the mean overlap over the second half of the run, in twenty blocks of 25,000 steps,
 /// which forget one another. Impacts overlap by their speed times the step, and the speed of the
 /// flow still rises as the large grains come up, so what the scheme piles up is what the overlap
 /// gains on the speed, the root of the kinetic energy: the trend of their quotient, and the slope

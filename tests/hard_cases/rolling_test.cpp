@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-/// One disc on a plane: sliding, rolling, and where the one turns into the other.
+/// One disc on a plane: sliding, rolling, and the limit between them.
 namespace grseg::hard_cases {
 namespace {
 
