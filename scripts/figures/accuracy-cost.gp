@@ -1,4 +1,4 @@
-# A front per observable: its difference from the reference over the processor time of a simulated
+# One panel per observable: its difference from the reference over the processor time of a simulated
 # second, with 95 % bars; the presets in red.
 #   gnuplot -c scripts/figures/accuracy-cost.gp accuracy-cost.tsv fronts.png
 table = ARGC > 0 ? ARG1 : "accuracy-cost.tsv"

@@ -1,5 +1,5 @@
-# B of three flows from one start by the share of a mixed contact that goes to its large grain, and as
-# the sums that the programs print themselves have it: FOLDER/b.tsv of scripts/archives/compare.
+# B of three flows that start from the same state, by partition rule and from the per-atom stress that the
+# programs print themselves: FOLDER/b.tsv of scripts/archives/compare.
 #   gnuplot -c scripts/figures/archives-b.gp FOLDER
 folder = ARG1
 set datafile separator tab

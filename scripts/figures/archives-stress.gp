@@ -1,5 +1,5 @@
-# Stress of each species over height as the program that made the flow prints it, and as grseg makes
-# it of the contacts: FOLDER/stress.tsv of scripts/archives/compare.
+# Stress of each species over height, as printed by the program that made the flow and as computed by grseg
+# from its contacts: FOLDER/stress.tsv of scripts/archives/compare.
 #   gnuplot -c scripts/figures/archives-stress.gp FOLDER
 folder = ARG1
 set datafile separator tab

@@ -1,6 +1,6 @@
-# B over the share p of a mixed contact that goes to its large grain, with its 95 % band, of
-# FOLDER/scan.tsv, the neutral model's line, and, where there is a FOLDER/stock.tsv (grseg-fit
-# --partition stock), the rules of published codes; below, how far both are from neutral contacts:
+# B over the share p of a mixed contact that goes to its large grain, with its 95 % band, from
+# FOLDER/scan.tsv, with the line of neutral contacts and, if FOLDER/stock.tsv exists (grseg-fit
+# --partition stock), the rules of published codes; below: the difference from neutral contacts:
 #   gnuplot -c scripts/figures/b-of-p.gp FOLDER
 folder = ARG1
 scan = folder."/scan.tsv"
@@ -28,10 +28,10 @@ if (p_zero == p_zero) {
   set label sprintf("B = 0 at p = %.3f", p_zero) at p_zero, graph 0.36 offset 0.5,0 tc rgb "#606060"
 }
 if (marked) {
-  set label "size: Staron \\& Phillips" at cell("size", "share"), cell("size", "B_half") right offset -1,1 tc rgb red
-  set label "contact-point: MercuryDPM, YADE, PFC" at cell("contact-point", "share"), cell("contact-point", "B_half") offset 1.5,-0.7 tc rgb red
-  set label "half: LAMMPS, LIGGGHTS stress/atom" at cell("half", "share"), cell("half", "B_half") offset 1.5,-0.7 tc rgb red
-  set label sprintf("drop (pairs inside one species): mixed contacts belong to neither, no p and no B;\nσ_S/σ_L = %.2f (φ_S/φ_L)^{%.2f} instead of φ_S/φ_L", cell("drop", "prefactor_power"), cell("drop", "exponent")) at graph 0.98, graph 0.13 right tc rgb red
+  set label "size: grseg, the paper" at cell("size", "share"), cell("size", "B_half") right offset -1,1 tc rgb red
+  set label "contact-point: MercuryCG, YADE, PFC" at cell("contact-point", "share"), cell("contact-point", "B_half") offset 1.5,-1.2 tc rgb red
+  set label "half: LAMMPS, LIGGGHTS stress/atom (also of a group)" at cell("half", "share"), cell("half", "B_half") offset 1.5,-0.7 tc rgb red
+  set label sprintf("drop (only pairs inside a group): no p, no B;\nσ_S/σ_L = %.2f (φ_S/φ_L)^{%.2f} instead of φ_S/φ_L", cell("drop", "prefactor_power"), cell("drop", "exponent")) at graph 0.98, graph 0.12 right tc rgb red
 }
 plot scan using "p":"low":"high" with filledcurves lc rgb blue title "95 %", \
      scan using "p":"B" with lines lw 2 lc rgb blue title "this flow", \
@@ -41,7 +41,7 @@ plot scan using "p":"low":"high" with filledcurves lc rgb blue title "95 %", \
 
 unset label
 unset arrow
-set ylabel "B, direct fit, less that of neutral contacts"
+set ylabel "B (direct fit) minus that of neutral contacts"
 set key top left
 plot scan using "p":(column("B_direct_low") - column("neutral")):(column("B_direct_high") - column("neutral")) \
        with filledcurves lc rgb blue title "95 %", \

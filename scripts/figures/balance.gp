@@ -1,8 +1,8 @@
-# Which mechanism pushes large grains which way, over height, from FOLDER/balance-profile.tsv:
+# Which mechanism pushes large grains in which direction, over height, from FOLDER/balance-profile.tsv:
 #   scripts/balance-profile FOLDER/balance.tsv > FOLDER/balance-profile.tsv
 #   gnuplot -c scripts/figures/balance.gp FOLDER
-# Left: forces on the large grains in units of their weight. Right: B and -B_kappa that they follow from, with
-# the values of Staron & Phillips (2015) dashed. Bars are standard errors over windows.
+# Left: forces on the large grains in units of their weight. Right: the B and -B_kappa behind them, with the
+# values of Staron & Phillips (2015) dashed. Bars are standard errors over windows.
 folder = ARG1
 profile = folder."/balance-profile.tsv"
 set datafile separator tab

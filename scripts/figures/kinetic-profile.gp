@@ -1,5 +1,5 @@
-# Kinetic pressure over height, time mean, for both definitions of the fluctuation, and its part of the
-# contact stress, of FOLDER/profile.tsv (scripts/profile with --kinetic):
+# Kinetic pressure over height, time mean, for both definitions of the fluctuation, and its ratio to the
+# contact stress, from FOLDER/profile.tsv (scripts/profile with --kinetic):
 #   gnuplot -c scripts/figures/kinetic-profile.gp FOLDER
 # Per area of grains, in units of rho g d_S, beside the paper's fit (Staron & Phillips 2015, figure 3a).
 folder = ARG1

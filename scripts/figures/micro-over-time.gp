@@ -11,14 +11,14 @@ small = "#1f77b4"
 large = "#d62728"
 set multiplot layout 2,2
 set key top right samplen 2
-# The whole bed over time: its rows are those without heights of a layer.
+# Rows of the whole bed have no heights of a layer.
 bed(value) = stringcolumn("y0[m]") eq "nan" ? value : NaN
 middle(dummy) = (column("t0[s]") + column("t1[s]")) / 2
 set xlabel "t (s)"
 set yrange [0:1]
 set ylabel "y_L / H"
 plot time using (middle(0)):(bed(column("yL/H"))) with lines lw 2 lc rgb large notitle, \
-     0.677 with lines dt 3 lc rgb "gray" title "above it blind forces would make f_S > f_L (φ_L = 0.45)"
+     0.677 with lines dt 3 lc rgb "gray" title "above it neutral f_S > f_L (φ_L = 0.45)"
 set yrange [0:*]
 set ylabel "contacts per grain"
 set key bottom right
@@ -27,13 +27,13 @@ plot time using (middle(0)):(bed(column("z_L"))) with lines lw 2 lc rgb large ti
 set ylabel "f / (m_S g)"
 set key top right
 plot time using (middle(0)):(bed(column("f_weight_L"))) with lines lw 2 lc rgb large title "f_L", \
-     "" using (middle(0)):(bed(column("f_weight_neutral_L"))) with lines lw 1 dt 2 lc rgb large title "blind", \
+     "" using (middle(0)):(bed(column("f_weight_neutral_L"))) with lines lw 1 dt 2 lc rgb large title "neutral", \
      "" using (middle(0)):(bed(column("f_weight_S"))) with lines lw 2 lc rgb small title "f_S", \
-     "" using (middle(0)):(bed(column("f_weight_neutral_S"))) with lines lw 1 dt 2 lc rgb small title "blind"
+     "" using (middle(0)):(bed(column("f_weight_neutral_S"))) with lines lw 1 dt 2 lc rgb small title "neutral"
 set ylabel "f / (ρ g cosθ (H − y) d_S)"
 set key bottom right
 plot time using (middle(0)):(bed(column("f_depth_L"))) with lines lw 2 lc rgb large title "f_L", \
-     "" using (middle(0)):(bed(column("f_depth_neutral_L"))) with lines lw 1 dt 2 lc rgb large title "blind, π r/z_L", \
+     "" using (middle(0)):(bed(column("f_depth_neutral_L"))) with lines lw 1 dt 2 lc rgb large title "neutral, π r/z_L", \
      "" using (middle(0)):(bed(column("f_depth_S"))) with lines lw 2 lc rgb small title "f_S", \
-     "" using (middle(0)):(bed(column("f_depth_neutral_S"))) with lines lw 1 dt 2 lc rgb small title "blind, π/z_S"
+     "" using (middle(0)):(bed(column("f_depth_neutral_S"))) with lines lw 1 dt 2 lc rgb small title "neutral, π/z_S"
 unset multiplot

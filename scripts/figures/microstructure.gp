@@ -1,6 +1,5 @@
-# What figures 5 and 6 of Staron & Phillips (2015) leave open of the micro-structure: B from it, fabric and
-# forces by type of contact. Of the tables that docs/studies/microstructure.md makes in FOLDER: paper.tsv, ends.tsv,
-# forces.tsv.
+# The micro-structure beyond figures 5 and 6 of Staron & Phillips (2015): B from it, fabric and forces by type
+# of contact, from the tables that docs/studies/microstructure.md makes in FOLDER: paper.tsv, ends.tsv, forces.tsv.
 #   gnuplot -c scripts/figures/microstructure.gp FOLDER
 folder = ARG1
 set datafile separator tab

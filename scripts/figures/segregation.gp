@@ -11,7 +11,7 @@ d = header("small_diameter")
 start = number("y_L_start[m]"); end = number("y_L_end[m]"); tau = number("tau[s]")
 set datafile separator tab
 set datafile missing NaN
-# Rows of the whole bed have y0 = nan; gnuplot is given them and the layers' apart.
+# Rows of the whole bed have y0 = nan; they are read apart from those of layers.
 rows(test) = "< awk -F '\\t' '!/^#/ && (!n++ || $3 ".test." \"nan\")' ".table
 set terminal pngcairo size 1500,500 font "DejaVu Sans,12"
 set output folder."/segregation.png"

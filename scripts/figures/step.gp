@@ -9,7 +9,7 @@ set output folder."/step.png"
 set multiplot layout 1,3
 small = "#1f77b4"
 large = "#d62728"
-# Flows that differ in step and accuracy alone.
+# Flows that differ only in step and accuracy.
 steps(value) = column("phi") == 0.45 && column("slope") == 23 && strstrt("none draft reference step0.000125", stringcolumn("variant")) ? value : NaN
 set xlabel "step (10^{-4} s)"
 set xrange [0:5]

@@ -65,7 +65,7 @@ $(work)/stress.tsv $(work)/kinetic.tsv $(work)/micro.tsv: $(work)/%.tsv: $(every
 $(work)/fit.tsv: $(every) | $(work)
 	$(fit) $(call of,$(mixtures),stress)
 $(work)/scan.tsv: $(every) | $(work)
-	$(fit) $(call of,$(mixtures),stress) --scan 0.4:0.9:0.005
+	$(fit) $(call of,$(mixtures),stress) --scan 0.4:0.9:0.01
 $(work)/stock.tsv: $(every) | $(work)
 	$(fit) $(call of,$(mixtures),stress) --partition stock
 $(work)/kinetic-fit.tsv: $(every) | $(work)

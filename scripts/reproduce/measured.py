@@ -43,6 +43,8 @@ def plain(value, digits):
 
 
 class Measured:
+    """Everything the document quotes, read from the tables in `folder`."""
+
     def __init__(self, folder):
         self.folder = folder
         at = lambda name: tables.read(os.path.join(folder, name + ".tsv"))
@@ -76,7 +78,7 @@ class Measured:
         return next((row for row in self.flows if row["flow"] == name), None)
 
     def of_scan(self, name):
-        """A number that stands before the rows of B(p)."""
+        """A number from the `#` lines above B(p)."""
         return Value(*(float(self.scan.get(name + end, "nan")) for end in ("", "_low", "_high")))
 
     def of_flow(self, name, quantity):
@@ -88,6 +90,14 @@ class Measured:
 
     def plain_flows(self):
         return [row for row in self.flows if row["variant"] == "none"]
+
+    def mixtures(self):
+        """The flows of 23 degrees that have a B, in order of phi_L."""
+        return [row for row in self.plain_flows() if row["slope"] == 23 and not math.isnan(row["B"])]
+
+    def range_over_mixtures(self, digits):
+        found = [row["B"] for row in self.mixtures()] or [math.nan]
+        return f"{plain(min(found), digits)} to {plain(max(found), digits)}"
 
 
 def line_fit(x, y):

@@ -1,4 +1,4 @@
-"""Tables of grseg and the runs of the campaign, as the scripts of this folder read them."""
+"""The campaign's runs and the tables of grseg, as read by the scripts of this folder."""
 import glob
 import math
 import os
@@ -9,13 +9,13 @@ import sys
 
 # Name of a run: phi0.30-s23-seed1, phi0.45-s23-e0.5-seed2. Its tables are NAME/QUANTITY.tsv.
 NAME = re.compile(r"phi(?P<phi>[\d.]+)-s(?P<slope>[\d.]+)(?:-(?P<variant>.+?))?-seed(?P<seed>\d+)$")
-CONTROL = "ratio1"  # the variant whose grains are all alike
+CONTROL = "ratio1"  # the variant with equal grains
 STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365, 8: 2.306, 9: 2.262,
            10: 2.228, 15: 2.131, 20: 2.086, 30: 2.042, 60: 2.000, 10**9: 1.960}
 
 
 def student(freedom):
-    """Student's 97.5 % quantile, of the next smaller number of degrees of freedom listed."""
+    """Student's 97.5 % quantile for the largest listed number of degrees of freedom up to `freedom`."""
     return STUDENT[max(n for n in STUDENT if n <= freedom)]
 
 
@@ -31,7 +31,7 @@ class Run:
 
 
 def runs_in(folder):
-    """All runs that are done, in order of mixture, slope, variant and seed."""
+    """All finished runs, in order of mixture, slope, variant and seed."""
     found = []
     for path in glob.glob(os.path.join(glob.escape(folder), "*", "checksums")):
         name = os.path.basename(os.path.dirname(path))
@@ -39,8 +39,8 @@ def runs_in(folder):
         if match:
             found.append(Run(folder, name, match))
     if not found:
-        sys.exit(f"{folder}: no run that is done, such as phi0.30-s23-seed1 with its checksums; "
-                 "name the folder that make reproduce filled")
+        sys.exit(f"{folder}: no finished run, such as phi0.30-s23-seed1/checksums; "
+                 "give the folder that make reproduce filled")
     return sorted(found, key=lambda run: (run.phi, run.slope, run.variant, run.seed))
 
 
@@ -49,6 +49,15 @@ def number(text):
         return float(text)
     except ValueError:
         return text
+
+
+def numbers(line):
+    """The cells of a row, as numbers where they are numbers."""
+    cells = line.split("\t")
+    try:
+        return [float(cell) for cell in cells]
+    except ValueError:
+        return [number(cell) for cell in cells]
 
 
 def parse(text):
@@ -61,7 +70,7 @@ def parse(text):
         elif names is None:
             names = [name.split("[")[0] for name in line.split("\t")]
         else:
-            rows.append(dict(zip(names, map(number, line.split("\t")))))
+            rows.append(dict(zip(names, numbers(line))))
     return header, rows
 
 
@@ -71,7 +80,7 @@ def read(path):
 
 
 def program(options, name, *words):
-    """Table that a program of grseg prints."""
+    """The table printed by one of grseg's programs."""
     done = subprocess.run([os.path.join(options.bin, name), *map(str, words)], capture_output=True,
                           text=True)
     if done.returncode != 0:
@@ -80,8 +89,8 @@ def program(options, name, *words):
 
 
 def mean_and_half_width(values):
-    """Mean and half the width of its 95 % interval by Student's t over independent values; neither
-    where one of these could not be had."""
+    """Mean and half the width of its 95 % interval, by Student's t over independent values; both are
+    nan where one of the values is."""
     n = len(values)
     mean = statistics.fmean(values)
     if n < 2 or math.isnan(mean):
@@ -90,7 +99,7 @@ def mean_and_half_width(values):
 
 
 def write(path, command, names, rows):
-    """A table, whole or not at all; cells are texts or numbers."""
+    """Writes a table, complete or not at all; cells are strings or numbers."""
     cell = lambda value: value if isinstance(value, str) else f"{value:.8g}"
     with open(path + ".part", "w") as out:
         out.write(f"# {command}\n" + "\t".join(names) + "\n")

@@ -5,9 +5,80 @@
 #include <cmath>
 #include <cstdint>
 
-/// Signorini's condition, Newton's restitution and Coulomb's friction for one contact of two discs
-/// (Moreau 1994, Jean 1999), in the form in which the local problem has an exact solution.
+/// The contact laws: Signorini's condition, Newton's restitution and Coulomb's friction between
+/// rigid discs, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean, Comput.
+/// Methods Appl. Mech. Eng. 177, 235, 1999).
+///
+/// A step of length h leads from positions x and velocities v to v+ and x+ = x + h (v + v+)/2.
+/// Contacts are those of the middle of the step, x_m = x + h v/2. For a pair i, j:
+///
+///   n, t      unit vector from j to i at mid-step (of a wall: its normal), and t = (-n_y, n_x)
+///   gap       |x_m,i - x_m,j| - (r_i + r_j), m; below 0 the discs overlap
+///   u, u+     separation velocity n . (v_i - v_j) before and after the step, m/s
+///   approach  max(-u, 0)
+///   p_n, p_t  impulse on i over the step, along n and t, kg m/s
+///
+/// Every law demands of a pair that acts in a step:
+///
+///   Signorini and Newton  p_n >= 0,  u+ >= rebound,  p_n (u+ - rebound) = 0
+///   Coulomb               |p_t| <= mu p_n; equal where the surfaces slide after the step
+///
+/// The laws differ in which pairs act, and in the rebound of those that are still apart:
+///
+///   acts      if the gap is at most `margin` after `forecast` more steps of free flight:
+///             |x_m,i - x_m,j + forecast h (v_i - v_j)| <= r_i + r_j + margin
+///   rebound   e approach, from the velocity before the step (Newton). If `horizon` > 0, a pair
+///             with gap > 0 is only slowed down, so that its gap lasts `horizon` steps:
+///             rebound = -gap/(horizon h). Its approach is remembered, and in the next step it
+///             rebounds with e times that.
+///
+/// Overlap is never pushed out, so that no energy enters that way.
+/// docs/studies/numerics.md compares the laws in flows and impacts.
 namespace grseg {
+
+/// When a pair acts. Delays are those of an isolated impact, averaged over its phase in the step.
+enum class ContactLaw {
+  /// A pair that would close its gap within `horizon` steps (0.75 by default) is slowed down, and
+  /// rebounds in the next step. Overlap in flows is a quarter of the others' at the same step.
+  speculative,
+  /// A pair that touches at mid-step. Late by (1 + 1/e) h/2; overlap up to |u| h.
+  touch,
+  /// A pair that will have touched by the end of the step. On time; overlap up to |u| h/2.
+  centred,
+  /// A pair that will have touched half a step later. Early by (1 + 1/e) h/2.
+  predictive
+};
+
+/// The numbers a law amounts to; see above. Without a choice, those of ContactLaw::touch.
+struct LawParameters {
+  double forecast = 0;  // steps, from mid-step on
+  double margin = 0;    // m, at least least_margin times the smallest diameter
+  double horizon = 0;   // steps; 0: pairs that are apart rebound like those that touch
+};
+
+/// A contact at rest must not be lost, and its load with it, because the last digit of a position
+/// makes its gap positive. In smallest diameters.
+constexpr double least_margin = 1e-9;
+
+/// The only place that decides what a law means. All but `law` matter to the speculative law alone:
+/// its margin is what neighbours may add to the approach of a pair within the horizon, at a
+/// velocity of sqrt(g d_S). `horizon` in steps, `step` in s, `gravity` in m/s^2, `small_diameter`
+/// in m.
+inline LawParameters law_parameters(ContactLaw law, double horizon, double step, double gravity,
+                                    double small_diameter)
+{
+  switch (law) {
+    case ContactLaw::speculative:
+      return {horizon, horizon * step * std::sqrt(gravity * small_diameter), horizon};
+    case ContactLaw::touch:
+      return {.forecast = 0};
+    case ContactLaw::centred:
+      return {.forecast = 0.5};
+    case ContactLaw::predictive:
+      return {.forecast = 1};
+  }
+  return {};
+}
 
 /// What a contact needs to know of a grain, 32 bytes. With the rim speed r*omega in place of the
 /// angular velocity the moment of inertia of a disc, m r^2/2, leaves the equations. Aligned, so

@@ -184,20 +184,8 @@ void set_conditions(World& world, const Scene& scene)
   world.step = scene.step;
   world.solver = scene.solver;
   world.threads = scene.threads;
-  world.forecast = world.horizon = 0;
-  world.margin = contact_margin(scene);
-  switch (scene.law) {
-    case Scene::Law::touch:
-      break;
-    case Scene::Law::centred:
-      world.forecast = 0.5;
-      break;
-    case Scene::Law::predictive:
-      world.forecast = 1;
-      break;
-    case Scene::Law::speculative:
-      world.horizon = world.forecast = scene.horizon;
-  }
+  world.law =
+      law_parameters(scene.law, scene.horizon, scene.step, scene.gravity, scene.small_diameter);
 }
 
 double bed_height(const Simulation& simulation)

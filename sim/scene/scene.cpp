@@ -280,8 +280,8 @@ Gravity gravity_of(const Scene& scene)
 
 double contact_margin(const Scene& scene)
 {
-  if (scene.law != Scene::Law::speculative) return 0;
-  return scene.horizon * scene.step * std::sqrt(scene.gravity * scene.small_diameter);
+  return law_parameters(scene.law, scene.horizon, scene.step, scene.gravity, scene.small_diameter)
+      .margin;
 }
 
 Vec2 drum_centre(const Scene& scene)

@@ -5,6 +5,7 @@
 #include "formats/core/frame.hpp"
 #include "formats/core/gravity.hpp"
 #include "formats/core/parameters.hpp"
+#include "sim/contact/contact_law.hpp"
 #include "sim/solver/solver.hpp"
 
 #include <boost/program_options.hpp>
@@ -34,7 +35,8 @@ struct Scene {
   double friction = 0;
   double restitution = 0;  // Newton's e
   bool rotation = true;
-  enum class Law { speculative, touch, centred, predictive } law = Law::centred;
+  using Law = ContactLaw;
+  Law law = Law::centred;
   double horizon = 0;  // steps, of the speculative law
   /// A bed on its base; in a drum that turns; sheared by a plate; a column that collapses; over an
   /// outlet.

@@ -18,15 +18,11 @@ namespace {
 // A motionless bed has converged when no velocity changes by this part of g h times the tolerance.
 constexpr double floor_of_reference = 1e-3;
 
-// A contact at rest must not be lost, and its load with it, because the last digit of a position
-// makes its gap positive. In smallest diameters.
-constexpr double least_margin = 1e-9;
-
 World with_defaults(World world)
 {
   const double smallest =
       2 * *std::min_element(world.grains.radius.begin(), world.grains.radius.end());
-  world.margin = std::max(world.margin, least_margin * smallest);
+  world.law.margin = std::max(world.law.margin, least_margin * smallest);
   if (!(world.skin > 0))
     world.skin = 0.5 * smallest;  // whatever the margin: a restart may change that
   return world;
@@ -37,7 +33,7 @@ Effects effects_of(const World& world)
 {
   return {.friction = world.general || world.material.friction > 0,
           .rotation = world.rotation,
-          .restitution = world.general || world.material.restitution > 0 || world.horizon > 0};
+          .restitution = world.general || world.material.restitution > 0 || world.law.horizon > 0};
 }
 
 // Fewer grains are not worth more than one thread.
@@ -63,7 +59,7 @@ Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
       threads_(position.size() < worth_sharing ? 1 : world.threads),
       pairs_(world.walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world_.skin,
-             world_.margin, threads_),
+             world_.law.margin, threads_),
       state_(make_state(world.grains, position)),
       body_of_(position.size())
 {
@@ -176,7 +172,7 @@ void Simulation::apply_loads(double duration)
 
 void Simulation::move_to_middle()
 {
-  const double half = world_.step / 2, onward = world_.forecast * world_.step;
+  const double half = world_.step / 2, onward = world_.law.forecast * world_.step;
   ahead_.resize(state_.position.size());
   // Plain pointers, or the compiler fetches them anew for every grain.
   auto *position = state_.position.data(), *ahead = ahead_.data();
@@ -230,7 +226,7 @@ void Simulation::wrap_positions()
 
 void Simulation::look_ahead()
 {
-  const double onward = world_.forecast * world_.step;
+  const double onward = world_.law.forecast * world_.step;
   for_ranges(threads_, state_.position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
       ahead_[b] = state_.position[b] + onward * Vec2(state_.motion[b].vx, state_.motion[b].vy);
@@ -259,10 +255,10 @@ void Simulation::find_contacts(StepReport& report)
   rule.middle = state_.position;
   rule.motion = state_.motion;
   rule.walls = world_.walls;
-  rule.margin = world_.margin;
+  rule.margin = world_.law.margin;
   rule.effects = effects_;
   rule.restitution = world_.material.restitution;
-  rule.horizon = world_.horizon * world_.step;
+  rule.horizon = world_.law.horizon * world_.step;
   rule.periodic = world_.general || world_.box.periodic_x;
   const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_, threads_);
   if (sums.coincident) stop_at_coincidence();
@@ -286,12 +282,12 @@ double Simulation::unseen_approach() const
     high = high.cwiseMax(Vec2(m.vx, m.vy));
   }
   const double spread = (high - low).norm();
-  return spread * world_.step / 2 > world_.skin - world_.margin ? spread : 0;
+  return spread * world_.step / 2 > world_.skin - world_.law.margin ? spread : 0;
 }
 
 std::span<Pairs::Memory> Simulation::memories()
 {
-  if (world_.horizon > 0) return pairs_.memories();
+  if (world_.law.horizon > 0) return pairs_.memories();
   return {};
 }
 

@@ -25,14 +25,7 @@ struct World {
   Vec2 gravity = Vec2::Zero();  // m/s^2, of the last step where the slope turns
   double step = 0;              // h, s
   SolverSettings solver;
-  /// Where along its free flight, in steps from mid-step on, a pair must touch to act in a step: 0
-  /// where it is at mid-step, 1/2 at the end of the step. Geometry is that of mid-step in any case.
-  double forecast = 0;
-  /// m, within which a pair counts as touching there; at least 1e-9 of the smallest diameter.
-  double margin = 0;
-  /// Steps within which a pair that is still apart may at most close its gap; 0 lets it overlap
-  /// first. Newton's restitution then follows a step later, from the velocity that was lost.
-  double horizon = 0;
+  LawParameters law;
   double skin = 0;  // m, more than margin, of the pair list; 0 chooses half the smallest diameter
   int threads = 1;  // results do not depend on it
   /// Kernels that see to friction, restitution and periodicity whether the world has them or not:
@@ -59,11 +52,7 @@ struct StepReport {
 /// so that resting contacts do not rattle; nothing pushes overlap out, so no energy enters that
 /// way.
 ///
-/// A pair acts when its gap is <= World::margin after a free flight of World::forecast steps from
-/// mid-step, at the velocities of the step's beginning. By itself it then obeys Newton's
-/// restitution. With a World::horizon a pair still apart at mid-step is only slowed down, so
-/// that its gap would last for so many steps; it rebounds in the next step, from the velocity that
-/// it had. docs/studies/numerics.md compares the laws that this makes.
+/// Which pairs act, and how, is stated in sim/contact/contact_law.hpp.
 class Simulation {
  public:
   /// All that changes from step to step and that later steps depend on.

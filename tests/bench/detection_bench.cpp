@@ -28,7 +28,7 @@ struct Instant {
         state(make_state(world.grains, positions_of(simulation))),
         list(world.walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world.skin,
-             world.margin)
+             world.law.margin)
   {
     put(simulation);
     list.renew(state, ahead);
@@ -37,7 +37,7 @@ struct Instant {
     rule.middle = state.position;
     rule.motion = state.motion;
     rule.walls = world.walls;
-    rule.margin = world.margin;
+    rule.margin = world.law.margin;
     rule.restitution = world.material.restitution;
     rule.periodic = world.box.periodic_x;
   }
@@ -55,7 +55,7 @@ struct Instant {
       position.x() -= length * std::floor(position.x() / length);
       state.motion[b].vx = velocity.x();
       state.motion[b].vy = velocity.y();
-      ahead[b] = position + world.forecast * world.step * velocity;
+      ahead[b] = position + world.law.forecast * world.step * velocity;
     }
   }
 

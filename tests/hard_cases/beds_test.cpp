@@ -275,7 +275,7 @@ Simulation silo(double width, int rows, double outlet, double friction)
   world.material = {friction, 0.25};
   world.gravity = {0, -g};
   world.step = 0.01 / std::sqrt(g);
-  world.forecast = 0.5;
+  world.law.forecast = 0.5;
   world.solver = {0.1, 500, false, 4};
   return {world, positions_of(discs)};
 }

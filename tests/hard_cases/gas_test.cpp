@@ -31,7 +31,7 @@ Simulation equilibrium(double restitution)
   world.box = {pitch * columns, pitch * rows, true};
   world.walls = {worlds::floor_at(0), {{0, pitch * rows}, {0, -1}}};
   world.material = {0, 1};
-  world.forecast = 0.5;
+  world.law.forecast = 0.5;
   world.step = 0.01;
   world.solver = {1e-6, 100};
   Simulation elastic(world, worlds::positions_of(discs));

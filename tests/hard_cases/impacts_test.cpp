@@ -96,7 +96,7 @@ TEST_P(EarlyImpact, TwoDiscsReboundHeadOnWithRestitutionEAtEveryPhaseOfTheStep)
         largest_error = std::max(largest_error, std::abs(separation / 3 - e));
       }
   EXPECT_LT(largest_error, 1e-12);
-  const double unforeseen = 1 - world_of(pair_of_discs).forecast;  // steps
+  const double unforeseen = 1 - world_of(pair_of_discs).law.forecast;  // steps
   EXPECT_LT(largest_overlap, (3.0001 * unforeseen + 1e-9) * 1e-3);
 }
 

@@ -15,26 +15,33 @@ namespace grseg::hard_cases {
 
 struct Law {
   std::string name;
-  void (*choose)(World&);
+  LawParameters parameters;
 
   friend void PrintTo(const Law& law, std::ostream* out) { *out << law.name; }
 };
+
+/// The margin of the speculative law allows for neighbours; few discs have none to speak of.
+inline LawParameters without_margin(ContactLaw law, double horizon)
+{
+  return law_parameters(law, horizon, 0, 0, 0);
+}
 
 /// Those that act no earlier than in the step in whose middle the touch lies nearest; the bounds of
 /// the tests are theirs.
 inline std::vector<Law> laws()
 {
-  return {{"touch", [](World&) {}}, {"centred", [](World& w) { w.forecast = 0.5; }}};
+  return {{"touch", without_margin(ContactLaw::touch, 0)},
+          {"centred", without_margin(ContactLaw::centred, 0)}};
 }
 
 /// The others: predictive contacts act earlier, speculative ones are slowed down in one step and
 /// rebound in the next.
 inline std::vector<Law> early_laws()
 {
-  return {{"predictive", [](World& w) { w.forecast = 1; }},
-          {"speculativeHalfStep", [](World& w) { w.horizon = w.forecast = 0.5; }},
-          {"speculative", [](World& w) { w.horizon = w.forecast = 0.75; }},
-          {"speculativeWholeStep", [](World& w) { w.horizon = w.forecast = 1; }}};
+  return {{"predictive", without_margin(ContactLaw::predictive, 0)},
+          {"speculativeHalfStep", without_margin(ContactLaw::speculative, 0.5)},
+          {"speculative", without_margin(ContactLaw::speculative, 0.75)},
+          {"speculativeWholeStep", without_margin(ContactLaw::speculative, 1)}};
 }
 
 class UnderEveryLaw : public testing::TestWithParam<Law> {
@@ -42,7 +49,7 @@ class UnderEveryLaw : public testing::TestWithParam<Law> {
   World world_of(const std::vector<worlds::Disc>& discs) const
   {
     auto world = worlds::world_of(discs);
-    GetParam().choose(world);
+    world.law = GetParam().parameters;
     return world;
   }
 };

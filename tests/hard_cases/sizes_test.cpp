@@ -71,7 +71,7 @@ TEST(SizeRatio, OfTenAndAHundredLosesNoPair)
     for (int step = 0; step < 200; ++step) {
       simulation.advance(frame);
       if (step % 25 != 0) continue;
-      const double margin = simulation.world().margin;
+      const double margin = simulation.world().law.margin;
       std::set<std::pair<int, int>> listed;
       for (std::size_t k = 0; k < frame.contacts.size(); ++k)
         listed.insert({frame.contacts.i[k], frame.contacts.j[k]});

@@ -1,6 +1,6 @@
 #!/bin/sh
-# scripts/assignment-convergence on the sample: one row per setting, the reference differs from
-# itself by nothing, and a kernel as wide as the bed washes the species' profile out.
+# scripts/assignment-convergence on the sample: one row per setting, the reference equals itself, and a
+# kernel as wide as the bed smooths the profile of the species away.
 # Usage: assignment_convergence_test.sh SOURCE BIN
 set -eu
 source=$1 bin=$2
@@ -11,8 +11,8 @@ trap 'rm -f "$out"' EXIT
 [ "$(grep -vc '^#' "$out")" = 10 ] || { cat "$out" >&2; exit 1; }
 awk -F '\t' '
   $1 == "branch" { if ($7 != 0 || $8 != 0) exit 1; sharp = $21 - $22 }
-  $1 == "gauss 8" { if ($7 == 0 || $8 == 0) exit 1; washed = $21 - $22 }
-  END { if (!(sharp > 0.3 && washed < 0.6 * sharp)) { print sharp, washed; exit 1 } }' "$out" || {
+  $1 == "gauss 8" { if ($7 == 0 || $8 == 0) exit 1; smoothed = $21 - $22 }
+  END { if (!(sharp > 0.3 && smoothed < 0.6 * sharp)) { print sharp, smoothed; exit 1 } }' "$out" || {
   cat "$out" >&2
   exit 1
 }

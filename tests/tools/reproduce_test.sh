@@ -1,20 +1,21 @@
 #!/bin/bash
-# scripts/reproduce, on one small flow and its control: a second call does nothing; a campaign killed
-# while it simulates and while it makes tables goes on and leaves the same bytes; another partition redoes
-# the fits alone; another command its table, but no simulation unless it is asked for. Usage: reproduce_test.sh SOURCE BIN
+# scripts/reproduce on one small flow: a second call does nothing; a campaign that is killed while it
+# simulates and again while it makes tables continues and leaves bitwise identical tables; another partition
+# repeats only the fits; another command only its table, and no simulation unless AGAIN=yes asks for it.
+# Usage: reproduce_test.sh SOURCE BIN
 set -eu
 source=$1 bin=$2
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
 fail() { echo "$1" >&2; exit 1; }
 campaign() {
   PWD=$folder make --no-print-directory -C "$source/scripts" reproduce BIN="$bin" MIXTURES=0.45 SLOPES=23 SEEDS=1 \
     CONTROL_SEEDS=0 DURATION=2 DEPTH=12dS LENGTH=16dS ACCURACY=draft WINDOW=0.25 BOOTSTRAP=0 FIGURES=no CHECKPOINT_EVERY=0.05 "$@"
 }
-# did COMMAND NUMBER: how often the last call called it.
-did() { [ "$(grep -c "^[^#]*$1" log)" = "$2" ] || fail "$1 was to be called $2 times: $(cat log)"; }
-# killed_at FILE: the campaign killed, with all it started, when that file of the run is there.
+# did COMMAND NUMBER: the last call ran the command that many times.
+did() { [ "$(grep -c "^[^#]*$1" log)" = "$2" ] || fail "$1 should run $2 times: $(cat log)"; }
+# killed_at FILE: kills the campaign, and all that it started, once that file of the run exists.
 killed_at() {
   set -m
   campaign OUT=killed >log 2>&1 &
@@ -22,52 +23,56 @@ killed_at() {
   while [ ! -e "killed/phi0.45-s23-seed1/$1" ] && kill -0 $! 2>/dev/null; do sleep 0.01; done
   kill -9 -- -$!
   wait $! 2>/dev/null || true
-  [ ! -e killed/phi0.45-s23-seed1/checksums ] || fail "the campaign was done before it was killed"
+  [ ! -e killed/phi0.45-s23-seed1/checksums ] || fail "the campaign ended before it was killed"
 }
 tables() { (cd "$1" && find . -name '*.tsv' ! -name 'cost*.tsv' -exec sha256sum {} + | sort); }
 
-campaign OUT=whole >log 2>&1 || fail "$(cat log)"
-did reproduce/simulate 1
-[ ! -e whole/phi0.45-s23-seed1/run.h5 ] || fail "the trajectory is still there"
-(cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "checksums do not hold"
-campaign OUT=whole >log 2>&1
-did grseg- 0
-
+# The uninterrupted campaign runs beside the one that is killed.
+campaign -j2 OUT=whole >whole.log 2>&1 &
+whole=$!
 killed_at run.chk
 killed_at kinetic.tsv
 h5dump -d /parameters/history killed/phi0.45-s23-seed1/run.h5 | grep -q 'restart run.chk' ||
-  fail "the simulation began anew: $(cat killed/phi0.45-s23-seed1/run.log)"
+  fail "the simulation started from the beginning: $(cat killed/phi0.45-s23-seed1/run.log)"
+wait $whole || fail "$(cat whole.log)"
+cp whole.log log
+did reproduce/simulate 1
+[ ! -e whole/phi0.45-s23-seed1/run.h5 ] || fail "the trajectory was not deleted"
+(cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "the checksums are wrong"
+campaign OUT=whole >log 2>&1
+did grseg- 0
+
 campaign OUT=killed >log 2>&1 || fail "$(cat log)"
 did reproduce/simulate 0
 did grseg-stress 0
-[ "$(tables whole)" = "$(tables killed)" ] || fail "kills changed: $(diff <(tables whole) <(tables killed))"
-[ -z "$(find killed -name '*.part' -o -name 'run.*' ! -name run.log)" ] || fail "something was left behind: $(ls killed/*)"
+[ "$(tables whole)" = "$(tables killed)" ] || fail "tables differ after kills: $(diff <(tables whole) <(tables killed))"
+[ -z "$(find killed -name '*.part' -o -name 'run.*' ! -name run.log)" ] || fail "temporary files remain: $(ls killed/*)"
 
 campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
 did reproduce/ 0
 did ./fits 1
-grep -q 'uniform:0.8' whole/rules.tsv || fail "another partition is not in the fits: $(cat log)"
+grep -q 'uniform:0.8' whole/rules.tsv || fail "the new partition is missing from the fits: $(cat log)"
 
-# refused TABLES WORDS: the campaign stops for want of the trajectory, and leaves what is there.
+# refused TABLES WORDS: the campaign stops because the trajectory is missing, and changes nothing.
 refused() {
-  campaign OUT=whole PARTITION=uniform:0.8 "${@:2}" >log 2>&1 && fail "made without a trajectory: $(cat log)"
-  grep -q "phi0.45-s23-seed1: $1: not there, or made by another.*AGAIN=yes" log || fail "not told: $(cat log)"
+  campaign OUT=whole PARTITION=uniform:0.8 "${@:2}" >log 2>&1 && fail "tables were made without a trajectory: $(cat log)"
+  grep -q "phi0.45-s23-seed1: $1: not there, or made by another.*AGAIN=yes" log || fail "the reason is not given: $(cat log)"
   did reproduce/simulate 0
 }
 refused 'check.tsv stress.tsv .*' WINDOW=0.5
 (cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "a refusal changed tables"
 rm whole/phi0.45-s23-seed1/micro.tsv
 refused micro.tsv
-campaign OUT=whole PARTITION=uniform:0.8 AGAIN=yes KEEP=1 >log 2>&1
+campaign -j2 OUT=whole PARTITION=uniform:0.8 AGAIN=yes KEEP=1 >log 2>&1
 did reproduce/simulate 1
-(cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "a table that was lost came back different"
+(cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "a table that was lost is different after it was made again"
 sed -i 's/--assign branch/--assign grain/' whole/phi0.45-s23-seed1/stress-branch.tsv
 campaign OUT=whole PARTITION=uniform:0.8 KEEP=1 >log 2>&1
 did reproduce/simulate 0
 did 'reproduce/table' 1
 did 'table stress-branch.tsv' 1
-[ "$(tables whole | grep -v rules.tsv)" = "$(tables killed | grep -v rules.tsv)" ] || fail "a table by another command did not come back"
-campaign OUT=whole PARTITION=uniform:0.8 KEEP=1 WINDOW=0.5 >log 2>&1
+[ "$(tables whole | grep -v rules.tsv)" = "$(tables killed | grep -v rules.tsv)" ] || fail "a table made by another command was not made again"
+campaign -j2 OUT=whole PARTITION=uniform:0.8 KEEP=1 WINDOW=0.5 >log 2>&1
 did reproduce/simulate 0
 did 'grseg-.*--window 0.5' 17
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The numbers of the reproduction from tables known by heart.
+"""The numbers of the reproduction, from tables whose results are known in advance.
 
 Usage: reproduction_numbers_test.py SCRIPTS
 """
@@ -104,6 +104,33 @@ class Reproduction(unittest.TestCase):
         self.assertEqual(targets.judged(value(0.2), 0.1, 0.05), "**differs**")
         self.assertEqual(targets.judged(value(math.nan), 0.1, 0.05), "not measured yet")
         self.assertEqual(value(-0.0001, -0.02, 0.01).text(2), "0.00 [−0.02, 0.01]")
+
+    def test_a_line_is_met_only_where_every_measured_point_is(self):
+        value, line = measured.Value, lambda x: 0.310 + 0.205 * x
+        on, low = (0.5, value(0.40, 0.39, 0.41)), (0.3, value(0.28, 0.26, 0.30))
+        self.assertEqual(targets.judged_line([on], line, 0.04), "agrees")
+        self.assertEqual(targets.judged_line([on, low], line, 0.04), "**differs**")
+        self.assertEqual(targets.judged_line([on, (0.3, value(0.28, 0.1, 0.46))], line, 0.04), "undecided")
+        self.assertEqual(targets.judged_line([on, (0.3, value(math.nan))], line, 0.04), "not measured yet")
+
+    def test_figure_4_is_judged_by_its_points_not_by_slope_and_level_of_a_fitted_line(self):
+        # These points rise with the shear rate, and slope and level of their line are near the paper's.
+        flows = [{"phi": 0.45, "slope": 21 + k, "rate": rate, "K": -k_small, "K_low": -k_small - 0.01,
+                  "K_high": -k_small + 0.01}
+                 for k, (rate, k_small) in enumerate([(0.3, 0.2765), (0.5, 0.3125), (0.7, 0.3535)])]
+
+        class Flows:
+            def plain_flows(self):
+                return flows
+
+        [target] = targets.shear_rate(Flows())
+        self.assertEqual(target.verdict, "**differs**")
+        self.assertEqual(target.ours, "below that line by 0.095 to 0.100, 2.4 to 2.5 tolerances")
+        for flow in flows:  # a tenth of a tolerance below the line
+            for name in ("K", "K_low", "K_high"):
+                flow[name] -= 0.09
+        [target] = targets.shear_rate(Flows())
+        self.assertEqual(target.verdict, "agrees")
 
 
 unittest.main()

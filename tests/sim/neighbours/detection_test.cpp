@@ -132,11 +132,11 @@ void expect_all_contacts(const Bed& bed, int steps)
   for (int step = 0; step < steps; ++step) {
     std::vector<Vec2> ahead;
     for (std::size_t g = 0; g < bed.position.size(); ++g)
-      ahead.push_back(bed.world.forecast * bed.world.step * simulation.velocity(g));
+      ahead.push_back(bed.world.law.forecast * bed.world.step * simulation.velocity(g));
     simulation.advance(frame);
     for (std::size_t g = 0; g < ahead.size(); ++g) ahead[g] += frame.position[g];
     const double blurred = 1e-12;  // positions are rounded when they are wrapped
-    const double limit = simulation.world().margin;
+    const double limit = simulation.world().law.margin;
     const auto certain = gaps_by_brute_force(bed.world, ahead, limit - blurred);
     const auto possible = gaps_by_brute_force(bed.world, ahead, limit + blurred);
     const auto& contacts = frame.contacts;
@@ -161,7 +161,7 @@ TEST(Detection, FindsTheContactsOfAPeriodicBedWhereverItLooks)
 {
   for (const double forecast : {0.0, 0.5, 1.0}) {
     auto bed = bed_of(30, 10, true, 0);
-    bed.world.forecast = forecast;
+    bed.world.law.forecast = forecast;
     expect_all_contacts(bed, 150);
   }
 }
@@ -170,7 +170,7 @@ TEST(Detection, FindsTheContactsBetweenWalls)
 {
   for (const double forecast : {0.0, 0.5}) {
     auto bed = bed_of(20, 10, false, 0);
-    bed.world.forecast = forecast;
+    bed.world.law.forecast = forecast;
     expect_all_contacts(bed, 150);
   }
 }
@@ -178,7 +178,7 @@ TEST(Detection, FindsTheContactsBetweenWalls)
 TEST(Detection, FindsPairsWithinAMargin)
 {
   auto bed = bed_of(20, 10, false, 0);
-  bed.world.margin = 0.1;
+  bed.world.law.margin = 0.1;
   expect_all_contacts(bed, 150);
 }
 
@@ -225,7 +225,7 @@ TEST(Detection, FindsTheContactsOfAWideBed)
     ASSERT_GT(bed->position.size(), 30000u);
     bed->world.threads = 2;
     bed->world.step = 2e-2;
-    bed->world.forecast = 0.5;
+    bed->world.law.forecast = 0.5;
     expect_all_contacts(*bed, 8);
   }
 }

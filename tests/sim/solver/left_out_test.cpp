@@ -158,7 +158,7 @@ Bits found_in_a_bed(bool periodic, bool spoilt)
   for (std::size_t g = 0; g < world.grains.size(); ++g) position.push_back(bed.position(g));
   auto state = make_state(world.grains, position);
   PairList list({}, {world.box.length_x, world.box.length_y, false}, 0.006, world.skin,
-                world.margin, 1);
+                world.law.margin, 1);
   list.renew(state, state.position);
   auto pairs = list.pairs();
   if (spoilt)
@@ -166,7 +166,7 @@ Bits found_in_a_bed(bool periodic, bool spoilt)
   DetectionRule rule;
   rule.looked_at = rule.middle = state.position;
   rule.motion = state.motion;
-  rule.margin = world.margin;
+  rule.margin = world.law.margin;
   rule.periodic = periodic;
   std::vector<StripContacts> contacts;
   find_contacts(pairs, rule, contacts);
