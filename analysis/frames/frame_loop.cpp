@@ -2,6 +2,7 @@
 #include "analysis/frames/frame_loop.hpp"
 
 #include "formats/cli/output.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
 #include "formats/core/version.hpp"
@@ -25,9 +26,7 @@ Vec2 axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits u
 {
   const std::string word = bins.substr(0, bins.find(':'));
   if (word != "radius")
-    throw UsageError(fmt::format(
-        "--bins: there is no '{}'; it is layers, radius (about a drum's axis) or radius:X,Y",
-        bins));
+    throw UsageError(unknown_word("--bins", bins, {"layers", "radius", "radius:X,Y"}));
   if (bins == word) {
     const auto& numbers = run.parameters().numbers;
     const auto centre = numbers.find("drum_centre");
