@@ -3,6 +3,7 @@
 
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
 
@@ -23,9 +24,7 @@ Vec2 axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits u
 {
   const std::string word = bins.substr(0, bins.find(':'));
   if (word != "radius")
-    throw UsageError(fmt::format(
-        "--bins: there is no '{}'; it is layers, radius (about a drum's axis) or radius:X,Y",
-        bins));
+    throw UsageError(unknown_word("--bins", bins, {"layers", "radius", "radius:X,Y"}));
   if (bins == word) {
     const auto& numbers = run.parameters().numbers;
     const auto centre = numbers.find("drum_centre");

@@ -23,8 +23,11 @@ std::vector<Table> read_tables(const po::variables_map& values)
 
 ForceMeasure measure_of(const ReportOptions& options)
 {
-  return {static_cast<ContactForce>(choose(options.force, "--force", {"modulus", "normal"})),
-          static_cast<ForceAverage>(choose(options.average, "--average", {"contacts", "ends"}))};
+  return {
+      choose<ContactForce>(options.force, "--force",
+                           {{"modulus", ContactForce::modulus}, {"normal", ContactForce::normal}}),
+      choose<ForceAverage>(options.average, "--average",
+                           {{"contacts", ForceAverage::contacts}, {"ends", ForceAverage::ends}})};
 }
 
 PartitionRule rule_of(const ReportOptions& options)
@@ -140,8 +143,9 @@ void report_derived(const ToolInfo& info, const po::variables_map& values,
                  {"layer", "window", "stride", "threads", "composition", "friction", "unit", "bin",
                   "distribution"},
                  "belongs to the making of the sums; leave it out with --derived");
-  const auto pool =
-      static_cast<Pool>(choose(options.pool, "--pool", {"none", "windows", "composition"}));
+  const auto pool = choose<Pool>(
+      options.pool, "--pool",
+      {{"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}});
   ViewSettings settings{measure_of(options), rule_of(options), 0};
   const auto tables = read_tables(values);
   std::vector<MicroRow> rows;

@@ -41,8 +41,7 @@ po::options_description options_into(Settings& s)
 
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto shape = static_cast<KernelShape>(
-      choose(s.kernel, "--kernel", {kernel_names.begin(), kernel_names.end()}));
+  const auto shape = choose(s.kernel, "--kernel", kernel_shapes);
   FrameLoop loop(info, values, s.frames);
   const auto& run = loop.run();
   if (!run.has_force())

@@ -9,6 +9,7 @@
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -81,15 +82,6 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-/// One of two words, or a sentence that names both.
-bool is_second(const std::string& word, const char* option, const char* first, const char* second)
-{
-  if (word != first && word != second)
-    throw UsageError(
-        fmt::format("--{}: there is no '{}'; it is {} or {}", option, word, first, second));
-  return word == second;
-}
-
 void parse_ratio_range(const std::string& text, FitFilters& filters)
 {
   int used = 0;
@@ -155,10 +147,10 @@ FitReport make_report(const Settings& s, const std::string& preset,
 {
   const auto base = s.base.empty() ? header_or(tables[0], "base", "contact-point") : s.base;
   FitReport report;
-  report.quantity = is_second(s.quantity, "quantity", "contact", "kinetic") ? Quantity::kinetic
-                                                                            : Quantity::contact;
-  report.component =
-      is_second(s.component, "component", "yy", "pressure") ? Component::pressure : Component::yy;
+  report.quantity = choose<Quantity>(
+      s.quantity, "--quantity", {{"contact", Quantity::contact}, {"kinetic", Quantity::kinetic}});
+  report.component = choose<Component>(s.component, "--component",
+                                       {{"yy", Component::yy}, {"pressure", Component::pressure}});
   const FitSettings settings{report.component, parse_base(base)};
   const auto rules = rules_of(s, tables[0]);
   auto read = rules;

@@ -76,7 +76,8 @@ std::string number_or_unknown(double number)
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
   const auto area =
-      static_cast<GrainArea>(choose(s.composition, "--composition", {"clipped", "centre"}));
+      choose<GrainArea>(s.composition, "--composition",
+                        {{"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}});
   FrameLoop loop(info, values, s.frames);
   const auto& parameters = loop.run().parameters();
   const double friction = friction_of(s, parameters);
@@ -102,7 +103,8 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
 
 void distribute(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto unit = static_cast<ForceUnit>(choose(s.unit, "--unit", {"layer", "type"}));
+  const auto unit =
+      choose<ForceUnit>(s.unit, "--unit", {{"layer", ForceUnit::layer}, {"type", ForceUnit::type}});
   if (!(s.bin > 0) || !std::isfinite(s.bin)) throw UsageError("--bin must be positive");
   FrameLoop loop(info, values, s.frames);
   auto table = loop.make_table(command, {{"unit", s.unit}, {"bin", format_number(s.bin)}},

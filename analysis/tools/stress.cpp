@@ -62,7 +62,8 @@ po::options_description options_into(Settings& s)
 /// are only passed on to grseg-fit.
 std::optional<double> power_of(Settings& s)
 {
-  choose(s.volume, "--volume", {"bulk", "solid"});
+  choose<StressVolume>(s.volume, "--volume",
+                       {{"bulk", StressVolume::bulk}, {"solid", StressVolume::solid}});
   parse_base(s.base);
   const auto rule = parse_rule(s.partition);
   s.partition = rule.name();
