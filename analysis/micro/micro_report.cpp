@@ -2,13 +2,11 @@
 #include "analysis/micro/micro_report.hpp"
 
 #include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/length.hpp"
-#include "formats/core/version.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace grseg {
 namespace {
@@ -76,21 +74,12 @@ Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
 {
   Table result;
   auto& header = result.header;
-  header.emplace_back("program", fmt::format("{} {}", info.name, version()));
-  header.emplace_back("preset", preset);
-  const auto collect = [&](const char* key) {
-    for (const auto& table : tables)
-      for (const auto& line : table.header)
-        if (line.first == key && std::find(header.begin(), header.end(), line) == header.end())
-          header.push_back(line);
-  };
-  collect("history");
+  header = {program_line(info), {"preset", preset}};
+  for (const auto& line : header_values(tables, "history")) header.emplace_back("history", line);
   header.emplace_back("history", command);
-  collect("input");
-  for (const auto& line : tables[0].header)
-    if (line.first != "program" && line.first != "preset" && line.first != "history" &&
-        line.first != "input")
-      header.push_back(line);
+  for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
+  for (const auto& line : settings_of(tables[0]))
+    if (line.first != "preset") header.push_back(line);
   const std::string depth = options.depth.empty() ? "height of the bed" : options.depth;
   const std::string heights = options.heights.empty() ? "all" : options.heights;
   for (const auto& [key, value] : {std::pair{"force", options.force},

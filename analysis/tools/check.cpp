@@ -3,11 +3,10 @@
 #include "analysis/check/physics_check.hpp"
 #include "analysis/check/specification_check.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/core/version.hpp"
-#include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +14,6 @@
 
 #include <cstdio>
 #include <iostream>
-#include <sstream>
 
 using namespace grseg;
 
@@ -65,16 +63,9 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-std::vector<std::pair<std::string, std::string>> header_of(const TrajectoryReader& run,
-                                                           const Settings& s,
-                                                           const std::string& command)
+Header header_of(const TrajectoryReader& run, const Settings& s, const std::string& command)
 {
-  std::vector<std::pair<std::string, std::string>> header{
-      {"program", fmt::format("{} {}", info.name, version())}};
-  std::istringstream history(run.parameters().text("history"));
-  for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
-  header.emplace_back("history", command);
-  header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run.digest())));
+  Header header = provenance(info, "", run, command);
   if (!s.with_physics) return header;
   header.emplace_back("layer", s.physics.layer);
   header.emplace_back("window", format_number(s.physics.windows.length));

@@ -6,11 +6,11 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/stress/partition.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/core/version.hpp"
 
 #include <fmt/format.h>
 
@@ -124,26 +124,11 @@ void check(const Settings& s, const po::variables_map& values)
             fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));
 }
 
-std::string header_or(const Table& table, const std::string& key, const std::string& otherwise)
-{
-  for (const auto& [known, value] : table.header)
-    if (known == key) return value;
-  return otherwise;
-}
-
 std::vector<PartitionRule> rules_of(const Settings& s, const Table& first)
 {
   if (s.quantity == "kinetic") return {PartitionRule{}};
   if (!s.partition.empty()) return parse_rules(s.partition);
   return {parse_rule(header_or(first, "partition", "size"))};
-}
-
-void collect(const std::vector<Table>& tables, const char* key, std::vector<std::string>& lines)
-{
-  for (const auto& table : tables)
-    for (const auto& [known, value] : table.header)
-      if (known == key && std::find(lines.begin(), lines.end(), value) == lines.end())
-        lines.push_back(value);
 }
 
 /// Says on standard error what a reader of the numbers should know.
@@ -177,7 +162,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
   if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
 
   report.header = {
-      {"program", fmt::format("grseg-fit {}", version())},
+      program_line(info),
       {"preset", preset},
       {"quantity", s.quantity},
       {"component", s.component},
@@ -193,8 +178,8 @@ FitReport make_report(const Settings& s, const std::string& preset,
       {"seed", fmt::format("{}", s.seed)},
       {"interval", "95 %"}};
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
-  collect(tables, "input", report.inputs);
-  collect(tables, "history", report.history);
+  report.inputs = header_values(tables, "input");
+  report.history = header_values(tables, "history");
   return report;
 }
 
