@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/micro/micro_structure.hpp"
+#include "analysis/micro/structure_by_layer.hpp"
 
 #include "analysis/frames/accumulate.hpp"
+#include "analysis/frames/contact_force.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -20,7 +22,7 @@ bool is_base(PairType type)
   return type == PairType::Sb || type == PairType::Lb;
 }
 
-/// The large grain's share of a mixed contact, r_L/(r_L + r_S).
+/// The large grain's share of a mixed contact by size, r_L/(r_L + r_S).
 double share_by_size(const Grains& grains, const ContactList& list, std::size_t contact)
 {
   const auto i = static_cast<std::size_t>(list.i[contact]);
@@ -29,13 +31,20 @@ double share_by_size(const Grains& grains, const ContactList& list, std::size_t 
   return r_large / (grains.radius[i] + grains.radius[j]);
 }
 
-/// Of the contacts between mobile grains of one layer in one frame.
+/// The contacts between mobile grains of one layer in one frame.
 struct LayerForce {
   double contacts = 0, normal = 0;
 };
 
-/// A contact that has been booked.
-struct Booked {
+std::vector<Cell> cells(const StructureSums& sums, const BedHeights& heights)
+{
+  auto cells = sums.cells();
+  for (auto& cell : grseg::cells(heights)) cells.push_back(std::move(cell));
+  return cells;
+}
+
+/// A contact between mobile grains and the layer it belongs to.
+struct Located {
   std::size_t layer;
   PairType type;
   double f_n;
@@ -43,19 +52,12 @@ struct Booked {
 
 }  // namespace
 
-ForceParts force_parts(const ContactList& contacts, std::size_t contact)
-{
-  const Vec2& f = contacts.force[contact];
-  const Vec2 n = contacts.branch[contact].normalized();
-  return {n, f.dot(n), f.y() * n.x() - f.x() * n.y()};
-}
-
-MicroStructure::MicroStructure(const Layers& layers, GrainArea area, double friction)
+StructureByLayer::StructureByLayer(const Layers& layers, GrainArea area, double friction)
     : layers_(layers), composition_(layers, area), friction_(friction)
 {
 }
 
-void MicroStructure::add(const Grains& grains, const Frame& frame)
+void StructureByLayer::add(const Grains& grains, const Frame& frame)
 {
   ++frames_;
   composition_.add(grains, frame);
@@ -64,7 +66,7 @@ void MicroStructure::add(const Grains& grains, const Frame& frame)
   add_contacts(grains, frame);
 }
 
-void MicroStructure::merge(const MicroStructure& others)
+void StructureByLayer::merge(const StructureByLayer& others)
 {
   frames_ += others.frames_;
   composition_.merge(others.composition_);
@@ -74,27 +76,21 @@ void MicroStructure::merge(const MicroStructure& others)
   heights_.bed += others.heights_.bed;
 }
 
-void MicroStructure::add_grains(const Grains& grains, const Frame& frame)
+void StructureByLayer::add_grains(const Grains& grains, const Frame& frame)
 {
-  std::array<double, 2> mass{}, moment{};
-  double area = 0, area_moment = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
-    const auto species = static_cast<std::size_t>(grains.species[g]);
-    const double y = frame.position[g].y(), square = grains.radius[g] * grains.radius[g];
-    ++sums_[layers_.at(y)].species[species].grains;
-    mass[species] += grains.mass[g];
-    moment[species] += grains.mass[g] * y;
-    area += square;
-    area_moment += square * y;
-  }
-  heights_.small += moment[0] / mass[0];
-  heights_.large += moment[1] / mass[1];
-  heights_.bed += 2 * area_moment / area;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (is_mobile(grains, g))
+      ++sums_[layers_.at(frame.position[g].y())]
+            .species[static_cast<std::size_t>(grains.species[g])]
+            .grains;
+  const auto now = bed_heights(grains, frame);
+  heights_.small += now.small;
+  heights_.large += now.large;
+  heights_.bed += now.bed;
 }
 
-void MicroStructure::add_ends(const Grains& grains, const Frame& frame, std::size_t contact,
-                              PairType type)
+void StructureByLayer::add_ends(const Grains& grains, const Frame& frame, std::size_t contact,
+                                PairType type)
 {
   const auto add_end = [&](std::int32_t grain) {
     const auto g = static_cast<std::size_t>(grain);
@@ -108,21 +104,21 @@ void MicroStructure::add_ends(const Grains& grains, const Frame& frame, std::siz
   if (!is_base(type)) add_end(frame.contacts.j[contact]);
 }
 
-double MicroStructure::slides(double f_n, double f_t) const
+double StructureByLayer::slides(double f_n, double f_t) const
 {
   if (std::isnan(friction_)) return nan;
   return f_n > 0 && std::abs(f_t) >= (1 - sliding_tolerance) * friction_ * f_n ? 1 : 0;
 }
 
-void MicroStructure::add_contacts(const Grains& grains, const Frame& frame)
+void StructureByLayer::add_contacts(const Grains& grains, const Frame& frame)
 {
   const auto& list = frame.contacts;
   std::vector<LayerForce> forces(sums_.size());
-  std::vector<Booked> booked;
-  booked.reserve(list.size());
+  std::vector<Located> between_grains;
+  between_grains.reserve(list.size());
   for (std::size_t k = 0; k < list.size(); ++k) {
+    if (!bears_force(list, k)) continue;
     const Vec2& force = list.force[k];
-    if (force.x() == 0 && force.y() == 0) continue;
     const auto type = pair_type(grains, frame, k);
     const double y = contact_point(grains, frame, k).y();
     const std::size_t layer = std::min(layers_.at(y), sums_.size() - 1);
@@ -142,57 +138,50 @@ void MicroStructure::add_contacts(const Grains& grains, const Frame& frame)
     } else {
       ++forces[layer].contacts;
       forces[layer].normal += f_n;
-      booked.push_back({layer, type, f_n});
+      between_grains.push_back({layer, type, f_n});
     }
     if (type == PairType::LS) sums_[layer].mixed_size += share_by_size(grains, list, k) * stress;
     add_ends(grains, frame, k, type);
   }
-  for (const auto& [layer, type, f_n] : booked)
+  for (const auto& [layer, type, f_n] : between_grains)
     if (f_n * forces[layer].contacts > forces[layer].normal) ++sums_[layer].pair[at(type)].strong;
 }
 
-MicroSums MicroStructure::mean(std::size_t layer) const
+StructureSums StructureByLayer::mean(std::size_t layer) const
 {
-  MicroSums mean = sums_[layer] / static_cast<double>(frames_);
+  StructureSums mean = sums_[layer] / static_cast<double>(frames_);
   const auto areas = composition_.mean(layer);
   mean.species[0].area = areas.small;
   mean.species[1].area = areas.large;
   return mean;
 }
 
-MicroSums MicroStructure::mean() const
+StructureSums StructureByLayer::mean() const
 {
-  MicroSums all;
+  StructureSums all;
   for (std::size_t layer = 0; layer < layers(); ++layer) all += mean(layer);
   return all;
 }
 
-BedHeights MicroStructure::heights() const
+BedHeights StructureByLayer::heights() const
 {
   const auto frames = static_cast<double>(frames_);
   return {heights_.large / frames, heights_.small / frames, heights_.bed / frames};
 }
 
-std::vector<std::string> MicroStructure::columns()
+std::vector<std::string> StructureByLayer::columns()
 {
-  auto names = MicroSums::columns();
-  names.insert(names.end(), {"yL[m]", "yS[m]", "height[m]"});
-  return names;
+  return columns_of(cells({}, {}));
 }
 
-std::vector<double> MicroStructure::row(std::size_t layer) const
+std::vector<double> StructureByLayer::row(std::size_t layer) const
 {
-  auto row = mean(layer).numbers();
-  row.insert(row.end(), {nan, nan, nan});
-  return row;
+  return values_of(cells(mean(layer), {}));
 }
 
-std::vector<double> MicroStructure::bed_row() const
+std::vector<double> StructureByLayer::bed_row() const
 {
-  const auto heights = this->heights();
-  auto row = mean().numbers();
-  row.insert(row.end(), {heights.large, heights.small, heights.bed});
-  return row;
+  return values_of(cells(mean(), heights()));
 }
 
 }  // namespace grseg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/segregation_forces.hpp"
+#include "analysis/balance/driving_forces.hpp"
 
 #include <limits>
 
@@ -7,21 +7,21 @@ namespace grseg {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-// A species whose part is smaller is there by the tail of the kernel alone.
+// A species with a smaller share reaches the layer only by the tail of the kernel.
 constexpr double least_part = 1e-9;
 
-/// A stress that both species share, and its derivative along y.
+/// A stress that both species share and its derivative along y.
 struct Shared {
   double small, large;              // N/m
   double slope_small, slope_large;  // N/m^2
 
   double part() const { return small + large > 0 ? large / (small + large) : nan; }
-  /// Where nothing is shared, nothing pushes by its share.
+  /// 0 where there is no stress to share.
   double push(double phi) const
   {
     return small + large > 0 ? -(part() - phi) * (slope_small + slope_large) : 0;
   }
-  /// What the large grains' part of the mixture's slope and the push leave of their own slope.
+  /// (psi sigma)' - psi sigma'.
   double spread(double phi) const
   {
     return slope_large - phi * (slope_small + slope_large) + push(phi);
@@ -30,7 +30,7 @@ struct Shared {
 
 }  // namespace
 
-SegregationForces segregation_forces(const MomentumBalance& balance, std::size_t layer)
+DrivingForces driving_forces(const MomentumBalance& balance, std::size_t layer)
 {
   const auto small = balance.mean(layer, Species::small);
   const auto large = balance.mean(layer, Species::large);
@@ -38,7 +38,7 @@ SegregationForces segregation_forces(const MomentumBalance& balance, std::size_t
                        -(small.contact + small.base).y(), -(large.contact + large.base).y()};
   const Shared kinetic{small.momentum_flux(1, 1), large.momentum_flux(1, 1), -small.kinetic.y(),
                        -large.kinetic.y()};
-  SegregationForces of{};
+  DrivingForces of{};
   of.phi = large.density / (small.density + large.density);
   if (!(of.phi > least_part && of.phi < 1 - least_part)) of.phi = nan;
   of.psi = contact.part();

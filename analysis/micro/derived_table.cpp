@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/micro/micro_report.hpp"
+#include "analysis/micro/derived_table.hpp"
 
+#include "analysis/micro/pooling.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
@@ -21,7 +22,7 @@ std::vector<Table> read_tables(const po::variables_map& values)
   return tables;
 }
 
-ForceMeasure measure_of(const ReportOptions& options)
+ForceMeasure measure_of(const DerivedOptions& options)
 {
   return {
       choose<ContactForce>(options.force, "--force",
@@ -30,46 +31,37 @@ ForceMeasure measure_of(const ReportOptions& options)
                            {{"contacts", ForceAverage::contacts}, {"ends", ForceAverage::ends}})};
 }
 
-PartitionRule rule_of(const ReportOptions& options)
+PartitionRule rule_of(const DerivedOptions& options)
 {
   using Kind = PartitionRule::Kind;
   const auto rule = parse_rule(options.partition);
   if (rule.kind == Kind::contact_point || rule.kind == Kind::power)
-    throw UsageError(fmt::format(
-        "--partition {}: the table of grseg-micro has the sums for size, half, drop and uniform:P",
-        rule.name()));
+    throw UsageError(fmt::format("--partition {}: grseg-micro knows size, half, drop and uniform:P",
+                                 rule.name()));
   return rule;
 }
 
-RowFilter filter_of(const ReportOptions& options, const FrameOptions& frames,
-                    const LengthUnits& units)
+RowFilter filter_of(const DerivedOptions& options, const FrameOptions& frames, LengthUnits units)
 {
   RowFilter filter;
   filter.begin = frames.windows.begin.value_or(filter.begin);
   filter.end = frames.windows.end.value_or(filter.end);
-  if (options.heights.empty()) return filter;
-  const auto colon = options.heights.find(':');
-  if (colon == std::string::npos)
-    throw UsageError(
-        fmt::format("--heights {}: write low:high, e.g. 4dS:56dS or 4dS:", options.heights));
-  const auto low = options.heights.substr(0, colon), high = options.heights.substr(colon + 1);
-  if (!low.empty()) filter.lowest = parse_length(low, "--heights", units);
-  if (!high.empty()) filter.highest = parse_length(high, "--heights", units);
+  filter.heights = parse_heights(options.heights, units);
   return filter;
 }
 
-void require_same_scale(const Table& first, const Table& other)
+void require_same_constants(const Table& first, const Table& other)
 {
   for (const char* key : {"small_diameter", "large_diameter", "gravity_x", "gravity_y", "density",
                           "friction", "layer", "composition"})
     if (first.header_text(key) != other.header_text(key))
-      throw UsageError(fmt::format("{} and {} differ in '{}'; derive from them one by one",
+      throw UsageError(fmt::format("{} and {} differ in '{}'; derive from each of them separately",
                                    first.name, other.name, key));
 }
 
 /// The header of the first table, with the inputs and histories of all.
 Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
-                  const ReportOptions& options, const std::string& preset,
+                  const DerivedOptions& options, const std::string& preset,
                   const std::string& command)
 {
   Table result;
@@ -92,39 +84,39 @@ Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
   return result;
 }
 
-void add_row(Table& table, const MicroRow& row, const std::vector<Cell>& cells)
+void add_row(Table& table, const SumsRow& row, const std::vector<Cell>& derived)
 {
-  if (table.columns.empty()) {
-    table.columns = {"t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames", "V[m^2]"};
-    for (const auto& cell : cells) table.columns.push_back(cell.name);
-  }
-  auto& values = table.rows.emplace_back(
-      std::vector<double>{row.begin, row.end, row.bottom, row.top, row.frames, row.volume});
-  for (const auto& cell : cells) values.push_back(cell.value);
+  std::vector<Cell> cells{{"t0[s]", row.begin}, {"t1[s]", row.end},     {"y0[m]", row.bottom},
+                          {"y1[m]", row.top},   {"frames", row.frames}, {"V[m^2]", row.volume}};
+  cells.insert(cells.end(), derived.begin(), derived.end());
+  if (table.columns.empty()) table.columns = columns_of(cells);
+  table.rows.push_back(values_of(cells));
 }
 
 }  // namespace
 
-void ReportOptions::add_to(po::options_description& options)
+void DerivedOptions::add_to(po::options_description& options)
 {
   const auto word = [](std::string& place) {
     return po::value(&place)->default_value(place)->value_name("WORD");
   };
   auto add = options.add_options();
-  add("force", word(force), "with --derived, the force of a contact: modulus, or normal part");
+  add("force", word(force),
+      "with --derived: the force of a contact, modulus or normal (its normal part)");
   add("average", word(average),
-      "likewise, f_S and f_L over contacts with at least one such grain, each once, or over ends "
-      "on "
-      "such grains");
+      "with --derived: f_S and f_L are means over contacts (with at least one such grain, each "
+      "counted once) or over ends (contact ends on such grains)");
   add("partition", word(partition),
-      "likewise, the large grain's share of a mixed contact in P_S and P_L: size, half, drop or "
-      "uniform:P");
+      "with --derived: the large grain's share of a mixed contact in P_S and P_L: size, half, drop "
+      "or uniform:P");
   add("pool", word(pool),
-      "likewise, rows as they are: none; or merged by layer: windows; or by phi_L: composition");
+      "with --derived: which rows to merge: none, windows (each layer over all windows) or "
+      "composition (layers by phi_L)");
   add("depth", po::value(&depth)->value_name("LENGTH"),
-      "likewise, H of forces in units of the pressure below H - y (default: the bed's height)");
+      "with --derived: H of the pressure at H - y by which forces are divided (default: height of "
+      "the bed)");
   add("heights", po::value(&heights)->value_name("y0:y1"),
-      "likewise, layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
+      "with --derived: use layers between these heights, e.g. 4dS:56dS or 4dS: (default: all)");
 }
 
 void refuse_options(const po::variables_map& values, const std::vector<const char*>& options,
@@ -135,32 +127,32 @@ void refuse_options(const po::variables_map& values, const std::vector<const cha
       throw UsageError(fmt::format("--{} {}", option, why));
 }
 
-void report_derived(const ToolInfo& info, const po::variables_map& values,
-                    const ReportOptions& options, const FrameOptions& frames,
-                    const std::string& command)
+void write_derived_table(const ToolInfo& info, const po::variables_map& values,
+                         const DerivedOptions& options, const FrameOptions& frames,
+                         const std::string& command)
 {
   refuse_options(values,
                  {"layer", "window", "stride", "threads", "composition", "friction", "unit", "bin",
                   "distribution"},
-                 "belongs to the making of the sums; leave it out with --derived");
+                 "concerns the sums, which the table already holds; leave it out with --derived");
   const auto pool = choose<Pool>(
       options.pool, "--pool",
       {{"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}});
-  ViewSettings settings{measure_of(options), rule_of(options), 0};
+  DerivedSettings settings{measure_of(options), rule_of(options), 0};
   const auto tables = read_tables(values);
-  std::vector<MicroRow> rows;
+  std::vector<SumsRow> rows;
   for (const auto& table : tables) {
-    const auto more = read_micro_rows(table);
-    require_same_scale(tables[0], table);
+    const auto more = read_sums_rows(table);
+    require_same_constants(tables[0], table);
     rows.insert(rows.end(), more.begin(), more.end());
   }
-  const auto scale = read_micro_scale(tables[0]);
-  const LengthUnits units{scale.small_diameter, scale.large_diameter};
+  const auto constants = read_run_constants(tables[0]);
+  const LengthUnits units{constants.small_diameter, constants.large_diameter};
   if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
 
   auto table = empty_table(info, tables, options, preset_of(values), command);
   for (const auto& row : pooled(filtered(std::move(rows), filter_of(options, frames, units)), pool))
-    add_row(table, row, derived(row, scale, settings));
+    add_row(table, row, derived_quantities(row, constants, settings));
   if (table.rows.empty())
     throw RunError("no row is left; choose another --begin, --end or --heights");
   write_whole(frames.output, frames.json ? table.to_json() : table.to_text());

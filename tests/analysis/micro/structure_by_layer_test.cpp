@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/micro/micro_structure.hpp"
+#include "analysis/micro/structure_by_layer.hpp"
 
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <tuple>
 
 namespace grseg {
 namespace {
@@ -14,9 +17,9 @@ namespace {
 const Layers unit_layers(1, 10);
 const Layers one_layer(10, 10);
 
-MicroStructure micro_of(const Scene& scene, const Layers& layers, double friction = 0.5)
+StructureByLayer micro_of(const Scene& scene, const Layers& layers, double friction = 0.5)
 {
-  MicroStructure micro(layers, GrainArea::clipped, friction);
+  StructureByLayer micro(layers, GrainArea::clipped, friction);
   micro.add(scene.grains, scene.frame);
   return micro;
 }
@@ -37,7 +40,7 @@ Scene pyramid()
   return scene;
 }
 
-TEST(MicroStructure, EndsAreCountedOnGrainsAndOnlyUnderForce)
+TEST(StructureByLayer, EndsAreCountedOnGrainsAndOnlyUnderForce)
 {
   const auto sums = micro_of(pyramid(), one_layer).mean();
   const auto &small = sums.of(Species::small), &large = sums.of(Species::large);
@@ -56,7 +59,7 @@ TEST(MicroStructure, EndsAreCountedOnGrainsAndOnlyUnderForce)
   EXPECT_EQ(sums.coordination(Species::large), 1.5);
 }
 
-TEST(MicroStructure, ThePapersMeanForceIsOverContactsWithAtLeastOneSuchGrain)
+TEST(StructureByLayer, ThePapersMeanForceIsOverContactsWithAtLeastOneSuchGrain)
 {
   const auto sums = micro_of(pyramid(), one_layer).mean();
   EXPECT_NEAR(sums.mean_force(Species::small, {}), (2.0 + 4) / 2, 1e-15);
@@ -64,7 +67,7 @@ TEST(MicroStructure, ThePapersMeanForceIsOverContactsWithAtLeastOneSuchGrain)
   EXPECT_EQ(sums.mixed_share(), 1);  // base contacts do not count
 }
 
-TEST(MicroStructure, AContactBetweenTwoLargeGrainsHasTwoEndsOnLargeGrains)
+TEST(StructureByLayer, AContactBetweenTwoLargeGrainsHasTwoEndsOnLargeGrains)
 {
   Scene scene = pyramid();
   scene.frame.contacts.force[3] = {-3, 4};
@@ -75,7 +78,7 @@ TEST(MicroStructure, AContactBetweenTwoLargeGrainsHasTwoEndsOnLargeGrains)
   EXPECT_NEAR(sums.mean_force(Species::small, over_ends), 3, 1e-15);
 }
 
-TEST(MicroStructure, TheNormalPartIsPositiveInRepulsion)
+TEST(StructureByLayer, TheNormalPartIsPositiveInRepulsion)
 {
   const auto sums = micro_of(pyramid(), one_layer).mean();
   EXPECT_NEAR(sums.of(PairType::Lb).normal, 4, 1e-15);
@@ -84,7 +87,7 @@ TEST(MicroStructure, TheNormalPartIsPositiveInRepulsion)
               3 * std::sqrt(1.25) / 1.5, 1e-14);
 }
 
-TEST(MicroStructure, EndsBelongToTheLayerOfTheGrainAndContactsToThatOfTheirPoint)
+TEST(StructureByLayer, EndsBelongToTheLayerOfTheGrainAndContactsToThatOfTheirPoint)
 {
   const auto micro = micro_of(pyramid(), unit_layers);
   EXPECT_EQ(micro.mean(2).of(Species::small).grains, 1);
@@ -96,7 +99,7 @@ TEST(MicroStructure, EndsBelongToTheLayerOfTheGrainAndContactsToThatOfTheirPoint
   EXPECT_TRUE(std::isnan(micro.mean(0).coordination(Species::large)));
 }
 
-TEST(MicroStructure, HeightsAreCentresOfMassAndTwiceTheMeanHeightOfTheArea)
+TEST(StructureByLayer, HeightsAreCentresOfMassAndTwiceTheMeanHeightOfTheArea)
 {
   const double top = 1 + std::sqrt(1.25);
   const auto heights = micro_of(pyramid(), unit_layers).heights();
@@ -127,7 +130,7 @@ Scene hexagonal(const Vec2& along, const Vec2& up, const Vec2& down)
   return scene;
 }
 
-TEST(MicroStructure, InAHexagonalPackingEveryGrainHasSixContactsWithoutADirection)
+TEST(StructureByLayer, InAHexagonalPackingEveryGrainHasSixContactsWithoutADirection)
 {
   const double half = 0.5, rise = std::sqrt(0.75);
   const auto sums = micro_of(hexagonal({1, 0}, {half, rise}, {-half, rise}), one_layer).mean();
@@ -138,7 +141,7 @@ TEST(MicroStructure, InAHexagonalPackingEveryGrainHasSixContactsWithoutADirectio
   EXPECT_EQ(contacts.strong, 0);
 }
 
-TEST(MicroStructure, WhoIsFirstInAContactChangesNothing)
+TEST(StructureByLayer, TheOrderOfTheGrainsInAContactDoesNotMatter)
 {
   Scene scene, reversed;
   for (Scene* s : {&scene, &reversed}) {
@@ -147,25 +150,14 @@ TEST(MicroStructure, WhoIsFirstInAContactChangesNothing)
   }
   scene.contact(0, 1, {-3, -1});
   reversed.contact(1, 0, {3, 1});
-  const auto a = micro_of(scene, one_layer).mean().numbers();
-  const auto b = micro_of(reversed, one_layer).mean().numbers();
+  const auto a = micro_of(scene, one_layer).mean().cells();
+  const auto b = micro_of(reversed, one_layer).mean().cells();
   for (std::size_t k = 0; k < a.size(); ++k)
-    EXPECT_NEAR(a[k], b[k], 1e-15) << MicroSums::columns()[k];
-}
-
-TEST(MicroStructure, AForceIsTakenApartAlongItsBranchAndAcrossCounterClockwise)
-{
-  const Vec2 n{0.6, 0.8}, t{-0.8, 0.6};
-  ContactList contacts;
-  contacts.force = {3 * n + 2 * t};
-  contacts.branch = {1.7 * n};
-  const auto parts = force_parts(contacts, 0);
-  EXPECT_NEAR(parts.f_n, 3, 1e-15);
-  EXPECT_NEAR(parts.f_t, 2, 1e-15);
+    EXPECT_NEAR(a[k].value, b[k].value, 1e-15) << a[k].column;
 }
 
 /// Two grains side by side, the force on the right one from the left.
-MicroSums pressed(const Vec2& force, double friction)
+StructureSums pressed(const Vec2& force, double friction)
 {
   Scene scene;
   scene.grain(Species::small, 1, {1, 1});
@@ -174,7 +166,7 @@ MicroSums pressed(const Vec2& force, double friction)
   return micro_of(scene, one_layer, friction).mean();
 }
 
-TEST(MicroStructure, AContactSlidesAtTheCoulombLimitAndNotBelow)
+TEST(StructureByLayer, AContactSlidesAtTheCoulombLimitAndNotBelow)
 {
   EXPECT_EQ(pressed({2, 1}, 0.5).of(PairType::SS).sliding, 1);
   EXPECT_EQ(pressed({2, -1}, 0.5).of(PairType::SS).sliding, 1);
@@ -184,13 +176,13 @@ TEST(MicroStructure, AContactSlidesAtTheCoulombLimitAndNotBelow)
   EXPECT_EQ(pressed({-2, 1}, 0.5).of(PairType::SS).sliding, 0);  // a cohesive contact
 }
 
-TEST(MicroStructure, WithoutAFrictionCoefficientNobodyKnowsWhatSlides)
+TEST(StructureByLayer, WithoutAFrictionCoefficientSlidingIsUnknown)
 {
   EXPECT_TRUE(std::isnan(pressed({2, 1}, std::nan("")).of(PairType::SS).sliding));
 }
 
 // Forces 1, 4 and 6 on three contacts of one layer: two are above their mean.
-TEST(MicroStructure, AStrongContactBearsMoreThanTheMeanOfItsLayer)
+TEST(StructureByLayer, AStrongContactBearsMoreThanTheMeanOfItsLayer)
 {
   Scene scene;
   for (int g = 0; g < 4; ++g)
@@ -204,7 +196,7 @@ TEST(MicroStructure, AStrongContactBearsMoreThanTheMeanOfItsLayer)
   EXPECT_EQ(sums.of(PairType::LL).strong, 1);
 }
 
-TEST(MicroStructure, StressesAreThoseOfTheContactStressAtTheContactPoint)
+TEST(StructureByLayer, StressesAreThoseOfTheContactStressAtTheContactPoint)
 {
   const auto scene = pyramid();
   const auto micro = micro_of(scene, unit_layers);
@@ -219,7 +211,7 @@ TEST(MicroStructure, StressesAreThoseOfTheContactStressAtTheContactPoint)
   }
 }
 
-TEST(MicroStructure, ResultsAreMeansPerFrame)
+TEST(StructureByLayer, ResultsAreMeansPerFrame)
 {
   const Scene scene = pyramid();
   Scene idle = scene;
@@ -234,7 +226,7 @@ TEST(MicroStructure, ResultsAreMeansPerFrame)
   EXPECT_NEAR(micro.mean(0).phi_large(), 2 / 2.25, 1e-14);
 }
 
-TEST(MicroStructure, MergedSumsAreThoseOfAllFrames)
+TEST(StructureByLayer, MergedSumsAreThoseOfAllFrames)
 {
   const Scene scene = pyramid();
   Scene lifted = scene;  // reaches into two layers more
@@ -245,15 +237,40 @@ TEST(MicroStructure, MergedSumsAreThoseOfAllFrames)
   parts.merge(micro_of(lifted, unit_layers));
   ASSERT_EQ(parts.layers(), whole.layers());
   for (std::size_t layer = 0; layer < whole.layers(); ++layer)
-    EXPECT_EQ(parts.mean(layer).numbers(), whole.mean(layer).numbers()) << layer;
+    EXPECT_EQ(values_of(parts.mean(layer).cells()), values_of(whole.mean(layer).cells())) << layer;
   EXPECT_EQ(parts.bed_row(), whole.bed_row());
 }
 
-TEST(MicroStructure, ColumnsAndNumbersAgreeInCount)
+// Column, value in the layer of the two large grains and value of the whole bed.
+TEST(StructureByLayer, EveryNumberStandsUnderItsColumn)
 {
   const auto micro = micro_of(pyramid(), unit_layers);
-  EXPECT_EQ(MicroStructure::columns().size(), micro.row(0).size());
-  EXPECT_EQ(MicroStructure::columns().size(), micro.bed_row().size());
+  const auto columns = StructureByLayer::columns();
+  const auto layer = micro.row(1), bed = micro.bed_row();
+  ASSERT_EQ(layer.size(), columns.size());
+  ASSERT_EQ(bed.size(), columns.size());
+  const auto at = [&](const char* column) {
+    return std::find(columns.begin(), columns.end(), column) - columns.begin();
+  };
+  for (const auto& [column, in_layer, in_bed] :
+       std::initializer_list<std::tuple<const char*, double, double>>{{"grains_S", 0, 1},
+                                                                      {"grains_L", 2, 2},
+                                                                      {"ends_L", 3, 3},
+                                                                      {"ends_L_mixed", 2, 2},
+                                                                      {"ends_L_base", 1, 1},
+                                                                      {"n_LS", 2, 2},
+                                                                      {"n_Lb", 0, 1},
+                                                                      {"sum_f_LS[N]", 6, 6},
+                                                                      {"M_xx[N m]", 0, 0},
+                                                                      {"base_fx[N]", 0, 3},
+                                                                      {"base_fy[N]", 0, 4}}) {
+    ASSERT_LT(at(column), static_cast<std::ptrdiff_t>(columns.size())) << column;
+    EXPECT_NEAR(layer[static_cast<std::size_t>(at(column))], in_layer, 1e-14) << column;
+    EXPECT_NEAR(bed[static_cast<std::size_t>(at(column))], in_bed, 1e-14) << column;
+  }
+  EXPECT_TRUE(std::isnan(layer[static_cast<std::size_t>(at("yL[m]"))]));
+  EXPECT_NEAR(bed[static_cast<std::size_t>(at("yL[m]"))], 1, 1e-15);
+  EXPECT_NEAR(bed[static_cast<std::size_t>(at("yS[m]"))], 1 + std::sqrt(1.25), 1e-15);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/balance_summary.hpp"
+#include "analysis/balance/summary.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_statistics.h>
@@ -10,7 +10,7 @@
 namespace grseg {
 namespace {
 
-/// "up by 0.012 +- 0.003"; "neither way" where two standard errors hide the sign.
+/// "up by 0.012 +- 0.003", or "neither way" where zero lies within two standard errors.
 std::string direction(const std::vector<double>& push)
 {
   const std::size_t n = push.size();
@@ -58,7 +58,7 @@ void BalanceSummary::add(const MomentumBalance& window)
     add_residual(window.mean(n, Species::small));
     add_residual(large);
     if (layers_.bottom(n) < margin_ - rounding || layers_.top(n) > highest + rounding) continue;
-    const auto forces = segregation_forces(window, n);
+    const auto forces = driving_forces(window, n);
     if (std::isnan(forces.drag)) continue;
     push += forces.push;
     push_kinetic += forces.push_kinetic;
@@ -77,8 +77,8 @@ std::string BalanceSummary::sentence() const
   if (push_.size() < 2) return closed;
   return fmt::format(
       "in units of their weight, large grains are pushed {} by contact stress, {} by kinetic "
-      "stress and {} by drag (two large diameters and more from base and surface, standard errors "
-      "of {} windows); {}",
+      "stress and {} by drag (at least two large diameters from base and surface, standard errors "
+      "over {} windows); {}",
       direction(push_), direction(push_kinetic_), direction(drag_), push_.size(), closed);
 }
 

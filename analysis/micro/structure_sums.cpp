@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/micro/micro_sums.hpp"
+#include "analysis/micro/structure_sums.hpp"
 
 #include "analysis/frames/accumulate.hpp"
+#include "analysis/frames/ratio.hpp"
 
 #include <fmt/format.h>
-
-#include <limits>
 
 namespace grseg {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 2> species_names{"S", "L"};
 // As in the table of grseg-stress.
 constexpr std::array<const char*, pair_types> stress_names{"A_SS", "M", "A_LL", "A_Sb", "A_Lb"};
 
-double ratio(double a, double b)
-{
-  return b > 0 ? a / b : nan;
-}
-
-/// Calls use(name, number), name a format string for `whose`, with every number of a vector.
+/// Calls use(name, whose, number) with both components of a vector; `whose` replaces the {} of a
+/// name.
 template <class Vector, class Use>
 void visit_vector(Vector& v, const char* x, const char* y, const char* whose, const Use& use)
 {
@@ -52,7 +46,8 @@ void visit_pair(Sums& sums, const char* whose, const char* stress, const Use& us
   visit_tensor(sums.stress, stress, use);
 }
 
-/// The one list of all numbers, in the order of the table: use(name, whose, number).
+/// The one list of all sums, in the order of the table: use(name, whose, number). A new sum is
+/// added here and as a member; table, reading, merging and scaling follow.
 template <class Sums, class Use>
 void visit(Sums& sums, const Use& use)
 {
@@ -71,7 +66,7 @@ void visit(Sums& sums, const Use& use)
 }
 
 template <class Change>
-MicroSums changed(MicroSums sums, const Change& change)
+StructureSums changed(StructureSums sums, const Change& change)
 {
   visit(sums, [&](const char*, const char*, double& number) { number = change(number); });
   return sums;
@@ -102,7 +97,7 @@ SpeciesSums& SpeciesSums::operator+=(const SpeciesSums& others)
   return *this;
 }
 
-MicroSums& MicroSums::operator+=(const MicroSums& others)
+StructureSums& StructureSums::operator+=(const StructureSums& others)
 {
   accumulate(species, others.species);
   accumulate(pair, others.pair);
@@ -111,17 +106,17 @@ MicroSums& MicroSums::operator+=(const MicroSums& others)
   return *this;
 }
 
-MicroSums MicroSums::operator*(double factor) const
+StructureSums StructureSums::operator*(double factor) const
 {
   return changed(*this, [factor](double number) { return number * factor; });
 }
 
-MicroSums MicroSums::operator/(double divisor) const
+StructureSums StructureSums::operator/(double divisor) const
 {
   return changed(*this, [divisor](double number) { return number / divisor; });
 }
 
-PairSums MicroSums::between_grains() const
+PairSums StructureSums::between_grains() const
 {
   PairSums all = of(PairType::SS);
   all += of(PairType::LS);
@@ -129,17 +124,17 @@ PairSums MicroSums::between_grains() const
   return all;
 }
 
-double MicroSums::phi_large() const
+double StructureSums::phi_large() const
 {
   return ratio(species[1].area, species[0].area + species[1].area);
 }
 
-double MicroSums::coordination(Species s) const
+double StructureSums::coordination(Species s) const
 {
   return ratio(of(s).ends, of(s).grains);
 }
 
-double MicroSums::mean_force(Species s, const ForceMeasure& measure) const
+double StructureSums::mean_force(Species s, const ForceMeasure& measure) const
 {
   const bool large = s == Species::large;
   const auto& own = of(large ? PairType::LL : PairType::SS);
@@ -151,12 +146,12 @@ double MicroSums::mean_force(Species s, const ForceMeasure& measure) const
                twice * own.contacts + mixed.contacts + base.contacts);
 }
 
-double MicroSums::mixed_share() const
+double StructureSums::mixed_share() const
 {
   return ratio(of(PairType::LS).contacts, between_grains().contacts);
 }
 
-PartialStress MicroSums::stress(const PartitionRule& rule) const
+PartialStress StructureSums::stress(const PartitionRule& rule) const
 {
   ContactSums sums;
   sums.area_small = species[0].area;
@@ -170,27 +165,19 @@ PartialStress MicroSums::stress(const PartitionRule& rule) const
   return partial_stress(sums, rule, BasePart::contact_point, StressVolume::solid);
 }
 
-std::vector<std::string> MicroSums::columns()
+std::vector<Cell> StructureSums::cells() const
 {
-  std::vector<std::string> names;
-  const MicroSums none;
-  visit(none, [&](const char* name, const char* whose, double) {
-    names.push_back(fmt::format(fmt::runtime(name), whose));
+  std::vector<Cell> cells;
+  visit(*this, [&](const char* name, const char* whose, double number) {
+    cells.push_back({fmt::format(fmt::runtime(name), whose), number});
   });
-  return names;
+  return cells;
 }
 
-std::vector<double> MicroSums::numbers() const
+StructureSums StructureSums::from_values(const std::vector<double>& values)
 {
-  std::vector<double> numbers;
-  visit(*this, [&](const char*, const char*, double number) { numbers.push_back(number); });
-  return numbers;
-}
-
-MicroSums MicroSums::from_numbers(const std::vector<double>& numbers)
-{
-  MicroSums sums;
-  auto next = numbers.begin();
+  StructureSums sums;
+  auto next = values.begin();
   visit(sums, [&](const char*, const char*, double& number) { number = *next++; });
   return sums;
 }
