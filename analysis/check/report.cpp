@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/check/check_report.hpp"
+#include "analysis/check/report.hpp"
 
 #include "formats/cli/table.hpp"
 

@@ -1,34 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/cli/provenance.hpp"
+
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace grseg {
 
 enum class Verdict { passed, failed, skipped };
 
-/// One thing that was measured against a tolerance.
+/// A quantity that was held against a tolerance.
 struct CheckLine {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-  std::string quantity;         // "force_balance", or a path inside the file that `remark` is about
+  std::string quantity;         // "force_balance", or the path inside the file that departs
   double y0 = none, y1 = none;  // m, of a layer
   double measured = none;
   double error = none;  // standard error of `measured`, where it is statistical
   double tolerance = none;
   Verdict verdict = Verdict::skipped;
-  std::string remark;  // where the largest is; why it was skipped
+  std::string remark;  // where the largest value is, or why the check was skipped
 };
 
-/// What grseg-check prints.
+/// The output of grseg-check.
 struct CheckReport {
-  std::vector<std::pair<std::string, std::string>> header;  // program, history, input, settings
+  Header header;  // provenance and settings
   std::vector<CheckLine> lines;
 
-  /// One sentence that names every line that failed, or "" where none did.
+  /// One sentence that names every line that failed, or "" if all passed.
   std::string failures() const;
 };
 
