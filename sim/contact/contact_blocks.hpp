@@ -24,8 +24,8 @@ struct alignas(64) ContactBlock {
   std::array<std::uint32_t, block_lanes> i, j;
 };
 
-/// Blocks in the order in which they are relaxed. They come in runs, one behind the other; no two
-/// blocks of a run share a mobile body, so what one of them reads does not wait for the others.
+/// Blocks in the order in which they are relaxed, parted into runs: no two blocks of a run share a
+/// mobile body, so no block has to wait for what another one writes.
 struct BlockRuns {
   std::span<ContactBlock> blocks;
   std::span<const std::uint32_t> ends;  // of the runs, in blocks

@@ -91,7 +91,7 @@ struct alignas(32) Motion {
   double inverse_mass = 0;  // 1/kg; 0 for grains and walls that contacts cannot move
 };
 
-/// A pair that touches, seen from the middle of the step. The normal n points from j to i, the
+/// A pair that acts, seen from the middle of the step. The normal n points from j to i, the
 /// tangent is t = (-ny, nx). Impulses are those ON i, in kg m/s, over the whole step.
 ///
 /// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j), so that they add up

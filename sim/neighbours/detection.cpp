@@ -199,8 +199,8 @@ HWY_INLINE void set_dynamics(const Pairs& pairs, const DetectionRule& rule, Cont
   }
 }
 
-/// Fills the last block of a class up with the neutral pair. Pairs that stand alone get a block
-/// each: they are drawn apart, from the last one on. Returns the number of blocks.
+/// Fills the last block of a class up with the neutral pair. Pairs without a colour get a block
+/// each: they are moved apart, from the last one on. Returns the number of blocks.
 std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs& near)
 {
   const auto neutral = static_cast<std::uint32_t>(2 * pairs.size()), nobody = pairs.i.back();

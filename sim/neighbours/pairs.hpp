@@ -24,7 +24,7 @@ inline double distance_to(const Wall& wall, const Vec2& x)
 }
 
 /// Listed pairs, class by class: a class is a colour, or a wall. No mobile body appears twice in a
-/// class, unless its pairs stand alone. What is read for single pairs lies side by side.
+/// class, except where `alone`. What is read for single pairs lies side by side.
 struct Pairs {
   struct Geometry {
     double shift;  ///< m, to add to x_i - x_j for the nearest periodic image

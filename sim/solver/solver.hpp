@@ -43,7 +43,7 @@ struct SolverReport {
 ///
 /// Impulses in the blocks are the first guess; they are applied to `motion` here. Contacts come in
 /// strips and are swept run after run: those of even strips at a time, then those of odd ones.
-/// Strips that are no neighbours share no mobile body; what is summed is added strip by strip. Of
+/// Strips that are not neighbours share no mobile body; sums are added strip by strip. Of
 /// several strips each is swept twice before the next, and counts as swept twice. When
 /// changes above the tolerance are left in a quarter of the strips or less, only these and their
 /// neighbours are swept further, without extrapolation; with free bodies all are.

@@ -17,11 +17,11 @@ struct EnergyBalance {
   double kinetic_before = 0, kinetic_after = 0, work_of_gravity = 0, work_of_contacts = 0,
          work_of_boundaries = 0;
 
-  /// What is missing, over the largest of the terms; 0 where nothing moves.
+  /// What the terms leave unexplained, over the largest of them; 0 if nothing moves.
   double defect() const;
 };
 
-/// `before` is the motion of each grain at the beginning of the step that `frame` tells of.
+/// `before` is the motion of each grain at the beginning of the step in `frame`.
 EnergyBalance energy_balance(const Grains& grains, const Frame& frame,
                              std::span<const Motion> before, const Vec2& gravity, double step);
 

@@ -27,7 +27,7 @@ World with_defaults(World world)
       2 * *std::min_element(world.grains.radius.begin(), world.grains.radius.end());
   world.law.margin = std::max(world.law.margin, least_margin * smallest);
   if (!(world.skin > 0))
-    world.skin = 0.5 * smallest;  // whatever the margin: a restart may change that
+    world.skin = 0.5 * smallest;  // independent of the margin, which a restart may change
   return world;
 }
 
