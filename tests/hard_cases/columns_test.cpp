@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/solver/solver.hpp"
 #include "tests/hard_cases/case.hpp"
+#include "tests/sim/contact_list.hpp"
 #include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>

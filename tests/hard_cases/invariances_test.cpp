@@ -3,6 +3,7 @@
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/contact_problem.hpp"
 #include "tests/hard_cases/flows.hpp"
+#include "tests/sim/contact_list.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>
