@@ -195,10 +195,4 @@ MicroSums MicroSums::from_numbers(const std::vector<double>& numbers)
   return sums;
 }
 
-double neutral_mixed_share(double phi_large, double size_ratio)
-{
-  const double x_large = phi_large / (phi_large + size_ratio * (1 - phi_large));
-  return 2 * x_large * (1 - x_large);
-}
-
 }  // namespace grseg

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/micro/fabric.hpp"
-#include "analysis/stress/partition.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/pair_type.hpp"
 
@@ -85,10 +85,5 @@ struct BedHeights {
   double large, small;  // y_L, y_S: centres of mass of the species
   double bed;           // twice the mean height of the mobile grains' area
 };
-
-/// Share of mixed contacts in the neutral model, where contact ends are in proportion to perimeter
-/// and pair at random: 2 x_L x_S with x_L = phi_L/(phi_L + r phi_S), r = d_L/d_S. For r = 2 it is
-/// 4 phi_L phi_S/(1 + phi_S)^2, at most 1/2, at phi_L = 2/3.
-double neutral_mixed_share(double phi_large, double size_ratio);
 
 }  // namespace grseg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/micro_table.hpp"
 
-#include "analysis/stress/partition.hpp"
+#include "analysis/frames/layer_key.hpp"
 
 #include <algorithm>
 #include <cmath>

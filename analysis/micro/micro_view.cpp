@@ -2,6 +2,7 @@
 #include "analysis/micro/micro_view.hpp"
 
 #include "analysis/micro/pressure_estimate.hpp"
+#include "analysis/stress/neutral_contacts.hpp"
 
 #include <fmt/format.h>
 

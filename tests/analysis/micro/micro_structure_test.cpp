@@ -14,7 +14,7 @@ namespace {
 const Layers unit_layers(1, 10);
 const Layers one_layer(10, 10);
 
-MicroStructure micro_of(const Scene& scene, const Layers& layers, double friction = 0.5)
+MicroStructure micro_of(const Packing& scene, const Layers& layers, double friction = 0.5)
 {
   MicroStructure micro(layers, GrainArea::clipped, friction);
   micro.add(scene.grains, scene.frame);
@@ -23,9 +23,9 @@ MicroStructure micro_of(const Scene& scene, const Layers& layers, double frictio
 
 /// A pyramid: two large grains on the base, one small between them on top, all contacts loaded but
 /// that between the large ones.
-Scene pyramid()
+Packing pyramid()
 {
-  Scene scene;
+  Packing scene;
   const auto base = scene.grain(Species::boundary, 1, {4, -1});
   const auto left = scene.grain(Species::large, 1, {4, 1});
   const auto right = scene.grain(Species::large, 1, {6, 1});
@@ -66,7 +66,7 @@ TEST(MicroStructure, ThePapersMeanForceIsOverContactsWithAtLeastOneSuchGrain)
 
 TEST(MicroStructure, AContactBetweenTwoLargeGrainsHasTwoEndsOnLargeGrains)
 {
-  Scene scene = pyramid();
+  Packing scene = pyramid();
   scene.frame.contacts.force[3] = {-3, 4};
   const auto sums = micro_of(scene, one_layer).mean();
   const ForceMeasure over_ends{ContactForce::modulus, ForceAverage::ends};
@@ -106,9 +106,9 @@ TEST(MicroStructure, HeightsAreCentresOfMassAndTwiceTheMeanHeightOfTheArea)
 }
 
 /// A hexagonal packing of equal large grains, periodic both ways.
-Scene hexagonal(const Vec2& along, const Vec2& up, const Vec2& down)
+Packing hexagonal(const Vec2& along, const Vec2& up, const Vec2& down)
 {
-  Scene scene;
+  Packing scene;
   constexpr std::int32_t columns = 4, rows = 4;
   const double rise = std::sqrt(3.0);
   for (int row = 0; row < rows; ++row)
@@ -140,8 +140,8 @@ TEST(MicroStructure, InAHexagonalPackingEveryGrainHasSixContactsWithoutADirectio
 
 TEST(MicroStructure, WhoIsFirstInAContactChangesNothing)
 {
-  Scene scene, reversed;
-  for (Scene* s : {&scene, &reversed}) {
+  Packing scene, reversed;
+  for (Packing* s : {&scene, &reversed}) {
     s->grain(Species::small, 0.5, {2, 1});
     s->grain(Species::large, 1, {2.9, 2.2});
   }
@@ -167,7 +167,7 @@ TEST(MicroStructure, AForceIsTakenApartAlongItsBranchAndAcrossCounterClockwise)
 /// Two grains side by side, the force on the right one from the left.
 MicroSums pressed(const Vec2& force, double friction)
 {
-  Scene scene;
+  Packing scene;
   scene.grain(Species::small, 1, {1, 1});
   scene.grain(Species::small, 1, {3, 1});
   scene.contact(1, 0, force);
@@ -192,7 +192,7 @@ TEST(MicroStructure, WithoutAFrictionCoefficientNobodyKnowsWhatSlides)
 // Forces 1, 4 and 6 on three contacts of one layer: two are above their mean.
 TEST(MicroStructure, AStrongContactBearsMoreThanTheMeanOfItsLayer)
 {
-  Scene scene;
+  Packing scene;
   for (int g = 0; g < 4; ++g)
     scene.grain(g < 2 ? Species::small : Species::large, 1, {1.0 + 2 * g, 1});
   scene.contact(1, 0, {1, 0});
@@ -221,8 +221,8 @@ TEST(MicroStructure, StressesAreThoseOfTheContactStressAtTheContactPoint)
 
 TEST(MicroStructure, ResultsAreMeansPerFrame)
 {
-  const Scene scene = pyramid();
-  Scene idle = scene;
+  const Packing scene = pyramid();
+  Packing idle = scene;
   idle.frame.contacts = {};
   auto micro = micro_of(scene, one_layer);
   micro.add(idle.grains, idle.frame);
@@ -236,8 +236,8 @@ TEST(MicroStructure, ResultsAreMeansPerFrame)
 
 TEST(MicroStructure, MergedSumsAreThoseOfAllFrames)
 {
-  const Scene scene = pyramid();
-  Scene lifted = scene;  // reaches into two layers more
+  const Packing scene = pyramid();
+  Packing lifted = scene;  // reaches into two layers more
   lifted.frame.position[3].y() += 2;
   lifted.frame.contacts.force[0] = {0, 0};
   auto whole = micro_of(scene, unit_layers), parts = whole;
