@@ -3,6 +3,7 @@
 
 #include "analysis/frames/layers.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
+#include "analysis/stress/partial_stress.hpp"
 
 #include <algorithm>
 #include <array>

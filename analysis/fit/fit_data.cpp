@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
+#include "analysis/frames/layer_key.hpp"
+#include "analysis/stress/contact_sums_reader.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/core/length.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_statistics.h>
@@ -20,7 +21,7 @@ namespace {
 
 /// One row before the filters.
 struct Row {
-  double begin, end, bottom, top, frames;
+  LayerKey key;
   ContactSums sums;
 
   double solid() const { return (sums.area_small + sums.area_large) / sums.volume; }
@@ -64,18 +65,14 @@ std::vector<Row> read_rows(const Table& table, Quantity quantity,
   else
     sums = [reader = ContactSumsReader(table, rules)](std::size_t row) { return reader.read(row); };
 
-  const std::string remedy = "a table of grseg-stress or grseg-kinetic has it";
-  const auto begin = find_column(table, "t0", remedy);
-  const auto end = find_column(table, "t1", remedy);
-  const auto bottom = find_column(table, "y0", remedy);
-  const auto top = find_column(table, "y1", remedy);
-  const auto frames = find_column(table, "frames", remedy);
+  const LayerKeyReader keys(table, "a table of grseg-stress or grseg-kinetic has it");
+  const auto bottom = table.column("y0");
   std::vector<Row> rows;
   rows.reserve(table.rows.size());
-  for (std::size_t row = 0; row < table.rows.size(); ++row)
-    rows.push_back({finite_cell(table, row, begin), finite_cell(table, row, end),
-                    finite_cell(table, row, bottom), finite_cell(table, row, top),
-                    finite_cell(table, row, frames), sums(row)});
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    finite_cell(table, row, bottom);  // these tables have no row for the whole bed
+    rows.push_back({keys.read(row), sums(row)});
+  }
   return rows;
 }
 
@@ -87,42 +84,20 @@ double median_solid_fraction(const std::vector<Row>& rows)
   return solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
 }
 
-/// Heights between which layers take part, m.
-struct Heights {
-  double lowest = -std::numeric_limits<double>::infinity();
-  double highest = std::numeric_limits<double>::infinity();
-
-  bool hold(const Row& row) const
-  {
-    const double slack = 1e-9 * (row.top - row.bottom);
-    return row.bottom >= lowest - slack && row.top <= highest + slack;
-  }
-};
-
-Heights heights_of(const FitFilters& filters, LengthUnits units)
-{
-  Heights heights;
-  if (!filters.lowest.empty()) heights.lowest = parse_length(filters.lowest, "--heights", units);
-  if (!filters.highest.empty()) heights.highest = parse_length(filters.highest, "--heights", units);
-  return heights;
-}
-
-/// Counts a row where it goes; true if it becomes a point.
-bool passes(const Row& row, const FitFilters& filters, const Heights& heights, double median_solid,
+/// Counts a row under the reason why it is left out, or as used; true if it becomes a point.
+bool passes(const Row& row, const FitFilters& filters, const RowRange& range, double median_solid,
             FilterCount& count)
 {
   const double small = row.sums.area_small, large = row.sums.area_large;
   const double ratio = small / large;
-  const double slack = 1e-9 * (1 + std::abs(row.begin) + std::abs(row.end));
   const auto goes_to = [](std::size_t& place) {
     ++place;
     return false;
   };
   ++count.rows;
-  if (row.begin < filters.begin - slack || row.end > filters.end + slack)
-    return goes_to(count.outside_times);
-  if (!heights.hold(row)) return goes_to(count.outside_heights);
-  if (!(small + large > 0) || !(row.frames > 0)) return goes_to(count.without_grains);
+  if (!range.holds_window(row.key)) return goes_to(count.outside_times);
+  if (!range.holds_layer(row.key)) return goes_to(count.outside_heights);
+  if (!(small + large > 0) || !(row.key.frames > 0)) return goes_to(count.without_grains);
   if (!(small > 0)) return goes_to(count.without_small);
   if (!(large > 0)) return goes_to(count.without_large);
   if (ratio < filters.ratio_low || ratio > filters.ratio_high) return goes_to(count.outside_ratio);
@@ -136,12 +111,13 @@ void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filter
   const double small_diameter = table.header_number("small_diameter");
   const double large_diameter = table.header_number("large_diameter");
   const double median = median_solid_fraction(rows);
-  const auto heights = heights_of(filters, {small_diameter, large_diameter});
+  RowRange range{filters.begin, filters.end};
+  range.set_heights(filters.heights, {small_diameter, large_diameter});
   std::erase_if(rows,
-                [&](const Row& row) { return !passes(row, filters, heights, median, data.count); });
+                [&](const Row& row) { return !passes(row, filters, range, median, data.count); });
 
   std::map<double, std::size_t> window_at;
-  for (const auto& row : rows) window_at[row.begin] = 0;
+  for (const auto& row : rows) window_at[row.key.begin] = 0;
   std::size_t window = 0;
   for (const auto length : data.runs) window += length;
   for (auto& [time, number] : window_at) number = window++;
@@ -151,9 +127,9 @@ void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filter
     const double small = row.sums.area_small, large = row.sums.area_large;
     const double rarer = std::min(small / (small_diameter * small_diameter),
                                   large / (large_diameter * large_diameter));
-    data.samples.push_back({.window = window_at.at(row.begin),
+    data.samples.push_back({.window = window_at.at(row.key.begin),
                             .phi_large = large / (small + large),
-                            .weight = row.frames * rarer,
+                            .weight = row.key.frames * rarer,
                             .size_ratio = large_diameter / small_diameter,
                             .sums = row.sums});
   }
@@ -168,8 +144,8 @@ void refuse_twice_the_same(const Table& a, const Table& b)
   for (const auto& row : b.rows)
     if (times.contains(row[b.column("t0")]))
       throw UsageError(
-          fmt::format("{} and {} hold the same windows of the same run; counted twice "
-                      "they would feign certainty",
+          fmt::format("{} and {} hold the same windows of the same run; counting them twice would "
+                      "make intervals too narrow",
                       a.name, b.name));
 }
 

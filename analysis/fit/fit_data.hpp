@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/statistics/bootstrap.hpp"
-#include "analysis/stress/partition.hpp"
+#include "analysis/statistics/dependence.hpp"
+#include "analysis/stress/contact_sums.hpp"
+#include "analysis/stress/partition_rule.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/cli/table.hpp"
 
 #include <cmath>
@@ -13,7 +15,12 @@
 namespace grseg {
 
 enum class Quantity { contact, kinetic };
-enum class Component { yy, pressure };  ///< pressure: half the trace
+inline constexpr Choice<Quantity> quantities[] = {{"contact", Quantity::contact},
+                                                  {"kinetic", Quantity::kinetic}};
+/// pressure: P = (lambda_1 + lambda_2)/2 (Staron & Phillips 2015, below eq. 1), half the trace.
+enum class Component { yy, pressure };
+inline constexpr Choice<Component> components[] = {
+    {"yy", Component::yy}, {"pressure", Component::pressure, "half the trace"}};
 
 /// Which rows of the tables are points of the fit.
 struct FitFilters {
@@ -21,8 +28,7 @@ struct FitFilters {
   double min_solid = 0.5;                                   // of the run's median solid fraction
   double begin = -std::numeric_limits<double>::infinity();  // s, windows lie in [begin, end]
   double end = std::numeric_limits<double>::infinity();
-  // Layers lie in [lowest, highest]: lengths as on the command line (4dS), "" where open.
-  std::string lowest{}, highest{};
+  std::string heights{};  // between which layers lie, as on the command line: "4dS:56dS"; "": all
 
   bool all_times() const { return std::isinf(begin) && std::isinf(end); }
 };
@@ -36,7 +42,7 @@ struct LayerSample {
   ContactSums sums;        // kinetic: species alone, nothing mixed, so every rule gives the same
 };
 
-/// Where the rows went.
+/// How many rows were used, and why the others were not.
 struct FilterCount {
   std::size_t rows = 0, outside_times = 0, without_grains = 0, without_small = 0, without_large = 0,
               outside_ratio = 0, below_solid = 0, outside_heights = 0, used = 0;

@@ -12,26 +12,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string rule_name(const FitReport& report, const RuleFit& fit)
-{
-  return report.quantity == Quantity::kinetic ? "kinetic" : fit.rule.name();
-}
-
-/// Whose tool makes the same of a mixed contact; "-" where no tool does.
-std::string used_by(const FitReport& report, const RuleFit& fit)
-{
-  const std::string tool = report.quantity == Quantity::kinetic ? "" : fit.rule.used_by();
-  return tool.empty() ? "-" : tool;
-}
-
-const char* word(Quantity quantity)
-{
-  return quantity == Quantity::contact ? "contact" : "kinetic";
-}
-const char* word(Component component)
-{
-  return component == Component::yy ? "yy" : "pressure";
-}
+/// A number of a rule's row behind the estimators. To add one is to add a line here (and a key in
+/// rule_object, where JSON is to have it).
+struct RuleColumn {
+  const char* name;
+  double (*of)(const RuleFit&);
+};
+constexpr RuleColumn rule_columns[] = {
+    {"neutral", [](const RuleFit& fit) { return fit.neutral; }},
+    {"minus_size", [](const RuleFit& fit) { return fit.minus_size; }},
+    {"minus_size_low", [](const RuleFit& fit) { return fit.minus_size_interval.low; }},
+    {"minus_size_high", [](const RuleFit& fit) { return fit.minus_size_interval.high; }},
+    {"not_positive", [](const RuleFit& fit) { return static_cast<double>(fit.not_positive); }},
+    {"autocorrelation_time[windows]", [](const RuleFit& fit) { return fit.dependence.time; }},
+    {"block_length[windows]",
+     [](const RuleFit& fit) { return static_cast<double>(fit.dependence.block); }},
+    {"effective_windows", [](const RuleFit& fit) { return fit.dependence.effective_windows; }},
+    {"B_half_windows_low", [](const RuleFit& fit) { return fit.B_half_windows.low; }},
+    {"B_half_windows_high", [](const RuleFit& fit) { return fit.B_half_windows.high; }},
+    {"share", [](const RuleFit& fit) { return fit.share; }},
+};
 
 std::string header_lines(const FitReport& report)
 {
@@ -54,22 +54,15 @@ std::string cells(const std::vector<double>& numbers)
 std::string rule_table(const FitReport& report)
 {
   std::string text = "rule\tpoints";
-  for (const auto& [name, place] : estimator_names)
+  for (const auto& [name, place] : estimator_columns)
     text += fmt::format("\t{0}\t{0}_low\t{0}_high", name);
-  text +=
-      "\tneutral\tminus_size\tminus_size_low\tminus_size_high\tnot_positive"
-      "\tautocorrelation_time[windows]\tblock_length[windows]\teffective_windows"
-      "\tB_half_windows_low\tB_half_windows_high\tshare\tused_by\n";
+  for (const auto& column : rule_columns) text += fmt::format("\t{}", column.name);
+  text += "\tused_by\n";
   for (const auto& fit : report.rules) {
     std::vector<double> numbers{static_cast<double>(fit.points)};
-    for (const auto& [name, place] : estimator_names)
+    for (const auto& [name, place] : estimator_columns)
       numbers.insert(numbers.end(), {fit.value.*place, fit.low.*place, fit.high.*place});
-    numbers.insert(
-        numbers.end(),
-        {fit.neutral, fit.minus_size, fit.minus_size_interval.low, fit.minus_size_interval.high,
-         static_cast<double>(fit.not_positive), fit.dependence.time,
-         static_cast<double>(fit.dependence.block), fit.dependence.effective_windows,
-         fit.B_half_windows.low, fit.B_half_windows.high, fit.share});
+    for (const auto& column : rule_columns) numbers.push_back(column.of(fit));
     text +=
         fmt::format("{}\t{}\t{}\n", rule_name(report, fit), cells(numbers), used_by(report, fit));
   }
@@ -104,13 +97,13 @@ Json pair(const Interval& interval)
 Json rule_object(const FitReport& report, const RuleFit& fit)
 {
   Json estimators = Json::object();
-  for (const auto& [name, place] : estimator_names)
+  for (const auto& [name, place] : estimator_columns)
     estimators[name] = {{"value", fit.value.*place},
                         {"interval", {fit.low.*place, fit.high.*place}}};
   return {{"rule", rule_name(report, fit)},
           {"used_by", used_by(report, fit)},
-          {"component", word(report.component)},
-          {"quantity", word(report.quantity)},
+          {"component", word_of(report.component, components)},
+          {"quantity", word_of(report.quantity, quantities)},
           {"slope", fit.value.slope},
           {"slope_interval", {fit.low.slope, fit.high.slope}},
           {"exponent", fit.value.exponent},
@@ -132,6 +125,17 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
 }
 
 }  // namespace
+
+std::string rule_name(const FitReport& report, const RuleFit& fit)
+{
+  return report.quantity == Quantity::kinetic ? "kinetic" : fit.rule.name();
+}
+
+std::string used_by(const FitReport& report, const RuleFit& fit)
+{
+  const std::string codes = report.quantity == Quantity::kinetic ? "" : fit.rule.used_by();
+  return codes.empty() ? "-" : codes;
+}
 
 std::vector<std::string> doubts(const FitReport& report)
 {

@@ -5,6 +5,7 @@
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/rule_fit.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,7 +13,7 @@
 
 namespace grseg {
 
-/// What grseg-fit has to say.
+/// What grseg-fit prints.
 struct FitReport {
   std::vector<std::pair<std::string, std::string>> header;  // settings, as "# key: value"
   std::vector<std::string> inputs, history;
@@ -20,10 +21,18 @@ struct FitReport {
   Component component = Component::yy;
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
+  // For the short table only: how much data there is, and p* of contact stress.
+  std::size_t number_of_runs = 0, number_of_windows = 0;
+  std::optional<ZeroOfB> zero;
 };
 
-/// What limits the intervals: a sentence per rule and one for the scan, mostly none. They are among
-/// the lines of the table and in "doubts".
+/// The rule as typed; "kinetic" for kinetic stress, which no rule concerns.
+std::string rule_name(const FitReport& report, const RuleFit& fit);
+/// The codes that share mixed contacts so; "-" where none is known.
+std::string used_by(const FitReport& report, const RuleFit& fit);
+
+/// What limits the intervals: a sentence per rule and one for the scan, mostly none. Both forms
+/// below contain them.
 std::vector<std::string> doubts(const FitReport& report);
 
 /// "# key: value" lines, one line of column[unit] names, a row per rule, whose name stands first;

@@ -101,19 +101,22 @@ Nearest nearest_to_zero(const FitData& data, const std::vector<double>& shares,
 
 /// The slope at the zero and both intervals. B_half = 2 (1 - s)/(1 + s) and s = 1, hence
 /// dB/dp = -d ln s/dp; a sample has its zero a Newton step away and its slope there.
-void add_slope(PartitionScan& scan, const FitData& data, const FitSettings& settings,
-               const Bootstrap& bootstrap, const Dependence& dependence)
+ZeroOfB zero_at(double share, const FitData& data, const FitSettings& settings,
+                const Bootstrap& bootstrap, const Dependence& dependence)
 {
-  const auto at = log_slopes(data, scan.p_zero, settings);
+  const auto at = log_slopes(data, share, settings);
   const double first = at.mean(at.first), second = at.mean(at.second);
-  scan.dB_dp = -first;
-  if (bootstrap.count() == 0) return;
+  ZeroOfB zero;
+  zero.p_zero = share;
+  zero.dB_dp = -first;
+  if (bootstrap.count() == 0) return zero;
   const Eigen::MatrixXd& times = bootstrap.samples(dependence);
   const Eigen::ArrayXd value = times * at.noise(at.value, bootstrap.windows());
   const Eigen::ArrayXd slope = first + (times * at.noise(at.first, bootstrap.windows())).array();
   const Eigen::ArrayXd step = -value / slope;
-  scan.p_zero_interval = bootstrap.interval(scan.p_zero, scan.p_zero + step, dependence);
-  scan.dB_dp_interval = bootstrap.interval(scan.dB_dp, -slope - second * step, dependence);
+  zero.p_zero_interval = bootstrap.interval(share, share + step, dependence);
+  zero.dB_dp_interval = bootstrap.interval(zero.dB_dp, -slope - second * step, dependence);
+  return zero;
 }
 
 }  // namespace
@@ -160,11 +163,18 @@ PartitionScan scan_partition(const FitData& data, const ScanRange& range,
   scan.dependence.block = at_nearest.block;
   for (const double share : shares)
     scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
-  if (nearest.crosses) {
-    scan.p_zero = nearest.share;
-    add_slope(scan, data, settings, bootstrap, at_nearest);
-  }
+  if (nearest.crosses)
+    static_cast<ZeroOfB&>(scan) = zero_at(nearest.share, data, settings, bootstrap, at_nearest);
   return scan;
+}
+
+ZeroOfB find_zero_of_b(const FitData& data, const ScanRange& range, const FitSettings& settings,
+                       const Bootstrap& bootstrap)
+{
+  const auto nearest = nearest_to_zero(data, range.shares(), settings);
+  if (!nearest.crosses) return {};
+  const auto at_zero = dependence(data, uniform(nearest.share), settings);
+  return zero_at(nearest.share, data, settings, bootstrap, at_zero);
 }
 
 }  // namespace grseg

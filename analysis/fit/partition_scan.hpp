@@ -17,15 +17,23 @@ struct ScanRange {
 /// "0.4:0.9:0.005"; UsageError otherwise.
 ScanRange parse_scan(const std::string& text);
 
-/// B as a function of the share p that the large grain of a mixed contact gets.
-struct PartitionScan {
-  std::vector<RuleFit> fits;       // uniform:p, one per share
-  Dependence dependence;           // common to all fits, see scan_partition
-  double p_zero = Estimates::nan;  // B_half(p) = 0; NaN: not in range
-  double dB_dp = Estimates::nan;   // of B_half, at p_zero
-  Interval p_zero_interval{Estimates::nan, Estimates::nan};
-  Interval dB_dp_interval{Estimates::nan, Estimates::nan};
+/// Where B(p) is 0, p being the share that the large grain of a mixed contact gets.
+struct ZeroOfB {
+  double p_zero = Estimators::nan;  // p*: B_half(p) = 0; NaN: not in range
+  double dB_dp = Estimators::nan;   // of B_half, at p_zero
+  Interval p_zero_interval{Estimators::nan, Estimators::nan};
+  Interval dB_dp_interval{Estimators::nan, Estimators::nan};
 };
+
+/// B as a function of the share p.
+struct PartitionScan : ZeroOfB {
+  std::vector<RuleFit> fits;  // uniform:p, one per share
+  Dependence dependence;      // common to all fits, see scan_partition
+};
+
+/// p* and what B does there, looked for between the shares of `range`.
+ZeroOfB find_zero_of_b(const FitData& data, const ScanRange& range, const FitSettings& settings,
+                       const Bootstrap& bootstrap);
 
 /// The band of B(p) must not jump where the block length of a single fit would, so all shares have
 /// one: that of the share nearest to B = 0, with the longest autocorrelation time of all. The

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/rule_fit.hpp"
 
+#include "analysis/fit/window_sums.hpp"
+
 #include <algorithm>
 
 namespace grseg {
 namespace {
 
-bool adds_up(const PartitionRule& rule)
-{
-  return rule.kind != PartitionRule::Kind::drop;
-}
-
 /// Removes what has no meaning where the partial stresses do not add up.
-void forget_b(RuleFit& fit)
+void remove_b(RuleFit& fit)
 {
   for (auto* all : {&fit.value, &fit.low, &fit.high})
-    for (const auto& [name, place] : estimator_names)
-      if (name[0] == 'B') all->*place = Estimates::nan;
-  fit.B_half_windows = {Estimates::nan, Estimates::nan};
+    for (const auto& [name, place] : estimator_columns)
+      if (name[0] == 'B') all->*place = Estimators::nan;
+  fit.B_half_windows = {Estimators::nan, Estimators::nan};
 }
 
 /// Weighted mean of what a rule gives to the large grains, over that of all mixed stress.
@@ -34,17 +31,17 @@ double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
   return given / mixed;
 }
 
-std::vector<Estimates> replicate(const Eigen::MatrixXd& times, const WindowSums& windows)
+std::vector<Estimators> replicate(const Eigen::MatrixXd& times, const WindowSums& windows)
 {
   const Eigen::MatrixXd totals = windows.totals(times);
-  std::vector<Estimates> replicates;
+  std::vector<Estimators> replicates;
   replicates.reserve(static_cast<std::size_t>(totals.rows()));
   for (Eigen::Index sample = 0; sample < totals.rows(); ++sample)
-    replicates.push_back(estimate_from_sums(totals.row(sample)));
+    replicates.push_back(estimators_from_sums(totals.row(sample)));
   return replicates;
 }
 
-Eigen::VectorXd column_of(const std::vector<Estimates>& replicates, double Estimates::*place)
+Eigen::VectorXd column_of(const std::vector<Estimators>& replicates, double Estimators::*place)
 {
   Eigen::VectorXd values(static_cast<Eigen::Index>(replicates.size()));
   for (std::size_t k = 0; k < replicates.size(); ++k)
@@ -55,7 +52,7 @@ Eigen::VectorXd column_of(const std::vector<Estimates>& replicates, double Estim
 void add_intervals(RuleFit& fit, const WindowSums& windows, const Bootstrap& bootstrap)
 {
   const auto replicates = replicate(bootstrap.samples(fit.dependence), windows);
-  for (const auto& [name, place] : estimator_names) {
+  for (const auto& [name, place] : estimator_columns) {
     const auto interval =
         bootstrap.interval(fit.value.*place, column_of(replicates, place), fit.dependence);
     fit.low.*place = interval.low;
@@ -63,20 +60,20 @@ void add_intervals(RuleFit& fit, const WindowSums& windows, const Bootstrap& boo
   }
   const auto inside = replicate(bootstrap.blocks(fit.dependence.block), windows);
   fit.B_half_windows = bootstrap.over_windows(
-      fit.value.B_half, column_of(inside, &Estimates::B_half), fit.dependence);
+      fit.value.B_half, column_of(inside, &Estimators::B_half), fit.dependence);
 }
 
 void add_minus_size(RuleFit& fit, const WindowSums& windows,
                     const std::vector<FitPoint>& size_points, const Bootstrap& bootstrap)
 {
-  fit.minus_size = fit.value.B_direct - estimate(size_points).B_direct;
+  fit.minus_size = fit.value.B_direct - estimators_of(size_points).B_direct;
   if (bootstrap.count() == 0) return;
   const auto by_size = window_sums(size_points, bootstrap.runs());
   const auto& times = bootstrap.samples(fit.dependence);
   fit.minus_size_interval =
       bootstrap.interval(fit.minus_size,
-                         column_of(replicate(times, windows), &Estimates::B_direct) -
-                             column_of(replicate(times, by_size), &Estimates::B_direct),
+                         column_of(replicate(times, windows), &Estimators::B_direct) -
+                             column_of(replicate(times, by_size), &Estimators::B_direct),
                          fit.dependence);
 }
 
@@ -85,7 +82,7 @@ void add_minus_size(RuleFit& fit, const WindowSums& windows,
 Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
 {
   return dependence(window_sums(fit_points(data, rule, settings), data.runs), data.runs,
-                    adds_up(rule));
+                    rule.adds_up());
 }
 
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
@@ -98,12 +95,12 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   fit.points = static_cast<std::size_t>(
       std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_logarithm(); }));
   fit.not_positive = points.size() - fit.points;
-  fit.value = estimate(points);
-  fit.dependence = common ? *common : dependence(windows, data.runs, adds_up(rule));
+  fit.value = estimators_of(points);
+  fit.dependence = common ? *common : dependence(windows, data.runs, rule.adds_up());
   fit.doubt = bootstrap.doubt(fit.dependence);
   if (bootstrap.count() > 0) add_intervals(fit, windows, bootstrap);
-  if (!adds_up(rule)) {
-    forget_b(fit);
+  if (!rule.adds_up()) {
+    remove_b(fit);
   } else if (data.quantity == Quantity::contact) {
     fit.share = share_of_large(data, points, settings);
     fit.neutral = neutral_mean(points, rule);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/fit/estimators.hpp"
+#include "analysis/statistics/bootstrap.hpp"
 
 #include <optional>
 #include <string>
@@ -11,15 +12,15 @@ namespace grseg {
 /// What one partition rule makes of the data.
 struct RuleFit {
   PartitionRule rule;
-  std::size_t points = 0;         // with both stresses positive
-  std::size_t not_positive = 0;   // the others
-  double share = Estimates::nan;  // of the mixed contacts' stress given to large grains, drop: NaN
+  std::size_t points = 0;          // with both stresses positive
+  std::size_t not_positive = 0;    // the others
+  double share = Estimators::nan;  // of the mixed contacts' stress given to large grains, drop: NaN
   // Intervals of 95 %, of several runs by their scatter.
-  Estimates value, low, high;
-  Interval B_half_windows{Estimates::nan, Estimates::nan};  // by the windows' scatter inside runs
-  double neutral = Estimates::nan;
-  double minus_size = Estimates::nan;  // B_direct less that of rule size, same samples
-  Interval minus_size_interval{Estimates::nan, Estimates::nan};
+  Estimators value, low, high;
+  Interval B_half_windows{Estimators::nan, Estimators::nan};  // by the windows' scatter inside runs
+  double neutral = Estimators::nan;
+  double minus_size = Estimators::nan;  // B_direct less that of rule size, same samples
+  Interval minus_size_interval{Estimators::nan, Estimators::nan};
   Dependence dependence;
   std::string doubt;  // a sentence on the intervals, mostly empty
 };

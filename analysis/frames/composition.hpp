@@ -3,6 +3,7 @@
 
 #include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/layers.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
 #include <array>
@@ -15,6 +16,8 @@ namespace grseg {
 /// How the area of a grain is given to layers: cut at their edges, whole where its centre is, or
 /// spread about its centre by a coarse-graining kernel (coarse_graining.hpp).
 enum class GrainArea { clipped, centre, kernel };
+inline constexpr Choice<GrainArea> grain_areas[] = {
+    {"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}, {"kernel", GrainArea::kernel}};
 
 /// Area of small and of large mobile grains in each layer: phi_L = large/(small + large), and the
 /// solid fraction nu = (small + large)/V. Means per frame.

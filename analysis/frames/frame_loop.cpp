@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 
+#include "analysis/frames/layer_key.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
@@ -30,7 +31,7 @@ Vec2 axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits u
     const auto centre = numbers.find("drum_centre");
     if (centre == numbers.end() || centre->second.size() != 2)
       throw UsageError(
-          "--bins radius: the run tells of no drum; name the axis, as in --bins radius:0.1,0.2");
+          "--bins radius: the run has no drum; give the axis, as in --bins radius:0.1,0.2");
     return {centre->second[0], centre->second[1]};
   }
   const std::string place = bins.substr(word.size() + 1);
@@ -72,8 +73,7 @@ void FrameOptions::add_to(po::options_description& options)
                         "thickness of the layers: 4dS, 2dL, 20mm, or metres");
   options.add_options()("window",
                         po::value(&windows.length)->default_value(windows.length)->value_name("s"),
-                        "time that is averaged over; windows that the run does not fill are left "
-                        "out");
+                        "time to average over; windows that the run does not fill are left out");
   options.add_options()("begin", time_option(windows.begin),
                         "first window begins here (default: t = 0)");
   options.add_options()("end", time_option(windows.end),
@@ -81,8 +81,7 @@ void FrameOptions::add_to(po::options_description& options)
   options.add_options()("stride", po::value(&windows.stride)->default_value(1)->value_name("N"),
                         "use one frame in N");
   options.add_options()("threads", po::value(&threads)->default_value(1)->value_name("N"),
-                        "share the frames out to N threads, 0: as many as there are processors; "
-                        "changes no byte");
+                        "number of threads, 0: one per processor; results are bitwise identical");
   options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
   options.add_options()("output,o", po::value(&output)->value_name("FILE"),
@@ -94,9 +93,8 @@ void FrameOptions::add_bins_to(po::options_description& options)
   options.add_options()(
       "bins", po::value(&bins)->default_value(bins)->value_name("WORD"),
       "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
-      "this "
-      "one), of thickness --layer; in annuli y is the distance from the axis and x goes round it, "
-      "clockwise");
+      "this axis), of thickness --layer; in annuli y is the distance from the axis, and x runs "
+      "round it clockwise");
 }
 
 FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
@@ -104,7 +102,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
     : info_(info),
       options_(options),
       preset_(preset_of(values)),
-      run_(only_run(values, "one table is made of one run")),
+      run_(only_run(values, "a table is made of one run")),
       layers_(layers_of(run_, options)),
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
@@ -162,31 +160,25 @@ Table FrameLoop::make_table(const std::string& command,
   header.emplace_back("origin", origin.empty() ? "unknown" : origin);
   header.insert(header.end(), settings.begin(), settings.end());
 
-  table.columns = {"t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames", "V[m^2]"};
-  table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+  table.columns = with_key_columns(columns);
   return table;
 }
 
 std::vector<double> FrameLoop::row(const Window& window, std::size_t layer,
                                    const std::vector<double>& values) const
 {
-  std::vector<double> row{window.begin,
-                          window.end,
-                          layers_.bottom(layer),
-                          layers_.top(layer),
-                          static_cast<double>(window.frames.size()),
-                          layers_.volume(layer)};
-  row.insert(row.end(), values.begin(), values.end());
-  return row;
+  return with_key({window.begin, window.end, layers_.bottom(layer), layers_.top(layer),
+                   static_cast<double>(window.frames.size()), layers_.volume(layer)},
+                  values);
 }
 
 std::vector<double> FrameLoop::bed_row(const Window& window, double height,
                                        const std::vector<double>& values) const
 {
-  auto whole = row(window, 0, values);
-  whole[2] = whole[3] = std::numeric_limits<double>::quiet_NaN();
-  whole[5] = layers_.length() * height;
-  return whole;
+  constexpr double all = std::numeric_limits<double>::quiet_NaN();
+  return with_key({window.begin, window.end, all, all, static_cast<double>(window.frames.size()),
+                   layers_.length() * height},
+                  values);
 }
 
 void FrameLoop::write(const Table& table) const

@@ -19,7 +19,7 @@
 
 namespace grseg {
 
-/// The options of every tool that goes through the frames of a run by layer and window.
+/// The options of every tool that sums over the frames of a run by layer and window.
 struct FrameOptions {
   std::string output, layer = "4dS", bins = "layers";
   WindowSettings windows;
@@ -33,7 +33,7 @@ struct FrameOptions {
   bool annuli() const { return bins != "layers"; }
 };
 
-/// A run cut into layers and windows. All tools get theirs here, so that their rows join on
+/// A run cut into layers and windows. All tools use this class, so that their rows join on
 /// (t0, t1, y0, y1).
 class FrameLoop {
  public:
@@ -45,16 +45,16 @@ class FrameLoop {
   const Layers& layers() const { return layers_; }
   const std::vector<Window>& windows() const { return windows_; }
 
-  /// Sums over the frames of a window. Each of `empty`, accumulators that have seen nothing, comes
-  /// back having seen all frames:
+  /// Sums over the frames of a window. Each of `empty`, accumulators without frames, is returned
+  /// with all frames added:
   ///
   ///   const auto [areas, stress] =
   ///       loop.sum(window, fields, Composition(...), PartialContactStress(...));
   ///
   /// An accumulator has add(grains, frame) and merge(others), which adds the sums of another one.
-  /// --threads share the frames out in blocks, and the blocks' sums are merged in order; a block is
-  /// of so many frames whatever the number of threads, so that this changes no byte. As many frames
-  /// are held as there are threads.
+  /// Threads sum blocks of frames, and the blocks' sums are merged in order. A block has the same
+  /// number of frames whatever the number of threads, so that results are bitwise identical. As
+  /// many frames are in memory as there are threads.
   template <class... Sums>
   std::tuple<Sums...> sum(const Window& window, TrajectoryReader::Fields fields,
                           const Sums&... empty);

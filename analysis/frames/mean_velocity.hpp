@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/frames/layers.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
 #include <array>
@@ -18,6 +19,12 @@ enum class MeanFlow {
             ///< layer does together and, of n grains, 1/n of the fluctuations
   species,  ///< the layer's mean of each species over all frames
 };
+inline constexpr Choice<MeanFlow> mean_flows[] = {
+    {"profile", MeanFlow::profile,
+     "over the window, in bins of at most half a dS, at the grain's own height"},
+    {"layer", MeanFlow::layer, "over the window"},
+    {"instant", MeanFlow::instant, "of the layer in each frame"},
+    {"species", MeanFlow::species, "of the species in the layer, over the window"}};
 
 /// Down-slope velocity u and velocity v along y, m/s, and spin, rad/s.
 using Motion = Eigen::Vector3d;

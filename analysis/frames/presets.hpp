@@ -4,10 +4,9 @@
 #include "formats/cli/tool.hpp"
 
 /// What --preset sets in each tool: `paper` what Staron & Phillips (2015) did, as far as they say
-/// it, `rigorous` what conclusions should rest on. An option that is given itself goes before. What
-/// both leave as it is by default is not here: layers of 4 dS, windows of 1.25 s, 0.01 <=
-/// phi_S/phi_L
-/// <= 100.
+/// so, `rigorous` what conclusions should rest on. Options given on the command line take
+/// precedence. What both leave at its default is not listed here: layers of 4 dS, windows of
+/// 1.25 s, 0.01 <= phi_S/phi_L <= 100.
 namespace grseg::presets {
 
 //   option, paper, rigorous; "": the tool's default

@@ -30,7 +30,7 @@ Step first_step(const RunTimes& run, const WindowSettings& settings)
 
 void check(const RunTimes& run, const WindowSettings& settings)
 {
-  if (run.steps.empty()) throw RunError("the run holds no frame");
+  if (run.steps.empty()) throw RunError("the run has no frames");
   if (!(run.step > 0) || !std::isfinite(run.step))
     throw FormatError(fmt::format("the run's step is {:g} s; it should be positive", run.step));
   if (settings.stride < 1) throw UsageError("--stride must be at least 1");

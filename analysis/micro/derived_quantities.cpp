@@ -3,6 +3,7 @@
 
 #include "analysis/frames/ratio.hpp"
 #include "analysis/micro/pressure_estimate.hpp"
+#include "analysis/stress/neutral_contacts.hpp"
 
 #include <fmt/format.h>
 

@@ -182,10 +182,4 @@ StructureSums StructureSums::from_values(const std::vector<double>& values)
   return sums;
 }
 
-double neutral_mixed_share(double phi_large, double size_ratio)
-{
-  const double x_large = phi_large / (phi_large + size_ratio * (1 - phi_large));
-  return 2 * x_large * (1 - x_large);
-}
-
 }  // namespace grseg

@@ -3,7 +3,7 @@
 
 #include "analysis/frames/cells.hpp"
 #include "analysis/micro/fabric.hpp"
-#include "analysis/stress/partition.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/pair_type.hpp"
 
@@ -84,9 +84,5 @@ struct StructureSums {
   static StructureSums from_values(const std::vector<double>& values);
 };
 
-/// Share of mixed contacts in the neutral contact model (see neutral_b), where contact ends are in
-/// proportion to perimeter and pair at random: 2 x_L x_S with x_L = phi_L/(phi_L + r phi_S),
-/// r = d_L/d_S. For r = 2 it is 4 phi_L phi_S/(1 + phi_S)^2, at most 1/2, at phi_L = 2/3.
-double neutral_mixed_share(double phi_large, double size_ratio);
 
 }  // namespace grseg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/sums_table.hpp"
 
-#include "analysis/stress/partition.hpp"
+#include "analysis/frames/layer_key.hpp"
 
 #include <limits>
 #include <map>

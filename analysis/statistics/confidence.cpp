@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/statistics/confidence.hpp"
 
-#include "analysis/statistics/bootstrap.hpp"
+#include "analysis/statistics/dependence.hpp"
 
 #include <gsl/gsl_cdf.h>
 

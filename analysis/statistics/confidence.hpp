@@ -25,7 +25,7 @@ struct StandardError {
 /// Of a statistic whose deviation is the sum of `influence`, one entry per observation of one run
 /// in order of time, where `fitted` parameters were taken from the same n observations:
 ///   error^2 = tau sum influence^2 / (1 - fitted tau/n),  degrees = n/tau - fitted,
-/// tau the integrated autocorrelation time of the influence (bootstrap.hpp).
+/// tau the integrated autocorrelation time of the influence (dependence.hpp).
 StandardError standard_error(const Eigen::VectorXd& influence, int fitted);
 
 /// Likewise, of observations that are independent but for a slow change, which is no error: from

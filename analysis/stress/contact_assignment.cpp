@@ -10,37 +10,46 @@
 #include <utility>
 
 namespace grseg {
+namespace {
+
+struct AssignmentWord {
+  Assignment assignment;
+  std::optional<KernelShape> shape;
+};
+
+constexpr Choice<AssignmentWord> assignments[] = {
+    {"contact-point", {Assignment::contact_point, {}}},
+    {"branch", {Assignment::branch, {}}, "by the length in each layer"},
+    {"grain", {Assignment::grain, {}}, "each grain's part at its centre"},
+    {kernel_names[0], {Assignment::kernel, KernelShape::gauss}},
+    {kernel_names[1], {Assignment::kernel, KernelShape::lucy}},
+    {kernel_names[2],
+     {Assignment::kernel, KernelShape::heaviside},
+     "spread along the branch by this kernel"},
+};
+
+}  // namespace
 
 void ContactAssignmentOptions::add_to(po::options_description& options)
 {
+  const auto where = "the layer to which a contact counts: " + list_of(assignments);
   options.add_options()("assign", po::value(&assign)->default_value(assign)->value_name("WORD"),
-                        "where a contact is booked: contact-point, branch (by the length in each "
-                        "layer), gauss, lucy, heaviside (spread along the branch by this kernel) "
-                        "or grain (each grain's part at its centre)");
+                        where.c_str());
   options.add_options()("width", po::value(&width)->default_value(width)->value_name("LENGTH"),
                         "of the kernel: standard deviation of gauss, half the support of lucy and "
                         "heaviside");
   options.add_options()("composition", po::value(&composition)->value_name("WORD"),
-                        "a grain's area is clipped at the layers' edges (default), put whole at "
-                        "its centre, or spread from there by the kernel (default where there is "
-                        "one): clipped, centre or kernel");
+                        "a grain's area is clipped at the layers' edges (default), counted whole "
+                        "at its centre, or spread from there by the kernel (default where there "
+                        "is one): clipped, centre or kernel");
 }
 
 ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values)
 {
-  auto chosen =
-      choose<ContactAssignment>(assign, "--assign",
-                                {{"contact-point", {Assignment::contact_point, {}, {}}},
-                                 {"branch", {Assignment::branch, {}, {}}},
-                                 {"grain", {Assignment::grain, {}, {}}},
-                                 {"gauss", {Assignment::kernel, KernelShape::gauss, {}}},
-                                 {"lucy", {Assignment::kernel, KernelShape::lucy, {}}},
-                                 {"heaviside", {Assignment::kernel, KernelShape::heaviside, {}}}});
+  const auto [assignment, shape] = choose(assign, "--assign", assignments);
+  ContactAssignment chosen{assignment, shape, {}};
   if (composition.empty()) composition = chosen.shape ? "kernel" : "clipped";
-  chosen.area = choose<GrainArea>(composition, "--composition",
-                                  {{"clipped", GrainArea::clipped},
-                                   {"centre", GrainArea::centre},
-                                   {"kernel", GrainArea::kernel}});
+  chosen.area = choose(composition, "--composition", grain_areas);
   for (const auto& [given, option] :
        {std::pair{chosen.area == GrainArea::kernel, "--composition kernel"},
         {!values["width"].defaulted(), "--width"}})

@@ -12,7 +12,7 @@
 
 namespace grseg {
 
-/// Where contacts and grains count, as the command line says it.
+/// To which layer contacts and grains count, as given on the command line.
 struct ContactAssignment {
   Assignment assignment;
   std::optional<KernelShape> shape;  // where the assignment is a kernel
@@ -25,10 +25,10 @@ struct ContactAssignmentOptions {
 
   /// Adds --assign --width --composition.
   void add_to(po::options_description& options);
-  /// UsageError where a word is none of those known, or a width is given without a kernel. Sets
-  /// `composition` to what follows from `assign` where it was not given.
+  /// UsageError for an unknown word, or a width without a kernel. Sets `composition` to what
+  /// follows from `assign` where it was not given.
   ContactAssignment contact_assignment(const po::variables_map& values);
-  /// The kernel of `contact_assignment`, if it has one; UsageError where --width is no length.
+  /// The kernel of `contact_assignment`, if it has one; UsageError where --width is not a length.
   std::optional<Kernel> kernel(const ContactAssignment& chosen, const LengthUnits& units) const;
 };
 

@@ -25,6 +25,59 @@ Fluctuations operator-(Fluctuations a, const Fluctuations& b)
   return a;
 }
 
+/// What the columns of a layer are made of.
+struct LayerNumbers {
+  KineticStress::Mean small, large;
+  LayerFlow flow;
+  Eigen::Vector3d equipartition;
+  double shear_bias_small, shear_bias_large;
+};
+
+struct KineticColumn {
+  const char* name;
+  double (*of)(const LayerNumbers&);
+};
+
+/// The one list of the columns of grseg-kinetic behind the key: to add one is to add a line.
+constexpr KineticColumn kinetic_columns[] = {
+    {"mass_S[kg]", [](const LayerNumbers& r) { return r.small.mass; }},
+    {"mass_L[kg]", [](const LayerNumbers& r) { return r.large.mass; }},
+    {"u[m/s]", [](const LayerNumbers& r) { return r.flow.u; }},
+    {"v[m/s]", [](const LayerNumbers& r) { return r.flow.v; }},
+    {"du_dy[1/s]", [](const LayerNumbers& r) { return r.flow.du_dy; }},
+    {"K_S_xx[J]", [](const LayerNumbers& r) { return r.small.about_mean.kinetic(0, 0); }},
+    {"K_S_xy[J]", [](const LayerNumbers& r) { return r.small.about_mean.kinetic(0, 1); }},
+    {"K_S_yx[J]", [](const LayerNumbers& r) { return r.small.about_mean.kinetic(1, 0); }},
+    {"K_S_yy[J]", [](const LayerNumbers& r) { return r.small.about_mean.kinetic(1, 1); }},
+    {"K_L_xx[J]", [](const LayerNumbers& r) { return r.large.about_mean.kinetic(0, 0); }},
+    {"K_L_xy[J]", [](const LayerNumbers& r) { return r.large.about_mean.kinetic(0, 1); }},
+    {"K_L_yx[J]", [](const LayerNumbers& r) { return r.large.about_mean.kinetic(1, 0); }},
+    {"K_L_yy[J]", [](const LayerNumbers& r) { return r.large.about_mean.kinetic(1, 1); }},
+    {"Kr_S[J]", [](const LayerNumbers& r) { return r.small.about_mean.rotational; }},
+    {"Kr_L[J]", [](const LayerNumbers& r) { return r.large.about_mean.rotational; }},
+    {"grains_S", [](const LayerNumbers& r) { return r.small.grains; }},
+    {"grains_L", [](const LayerNumbers& r) { return r.large.grains; }},
+    {"T_S_x[m^2/s^2]", [](const LayerNumbers& r) { return r.small.temperature()[0]; }},
+    {"T_S_y[m^2/s^2]", [](const LayerNumbers& r) { return r.small.temperature()[1]; }},
+    {"T_S_r[m^2/s^2]", [](const LayerNumbers& r) { return r.small.temperature()[2]; }},
+    {"T_L_x[m^2/s^2]", [](const LayerNumbers& r) { return r.large.temperature()[0]; }},
+    {"T_L_y[m^2/s^2]", [](const LayerNumbers& r) { return r.large.temperature()[1]; }},
+    {"T_L_r[m^2/s^2]", [](const LayerNumbers& r) { return r.large.temperature()[2]; }},
+    {"equipartition_x", [](const LayerNumbers& r) { return r.equipartition[0]; }},
+    {"equipartition_y", [](const LayerNumbers& r) { return r.equipartition[1]; }},
+    {"equipartition_r", [](const LayerNumbers& r) { return r.equipartition[2]; }},
+    {"layer_bias_S_xx[J]", [](const LayerNumbers& r) { return r.small.layer_bias.kinetic(0, 0); }},
+    {"layer_bias_S_xy[J]", [](const LayerNumbers& r) { return r.small.layer_bias.kinetic(0, 1); }},
+    {"layer_bias_S_yy[J]", [](const LayerNumbers& r) { return r.small.layer_bias.kinetic(1, 1); }},
+    {"layer_bias_S_r[J]", [](const LayerNumbers& r) { return r.small.layer_bias.rotational; }},
+    {"shear_bias_S_xx[J]", [](const LayerNumbers& r) { return r.shear_bias_small; }},
+    {"layer_bias_L_xx[J]", [](const LayerNumbers& r) { return r.large.layer_bias.kinetic(0, 0); }},
+    {"layer_bias_L_xy[J]", [](const LayerNumbers& r) { return r.large.layer_bias.kinetic(0, 1); }},
+    {"layer_bias_L_yy[J]", [](const LayerNumbers& r) { return r.large.layer_bias.kinetic(1, 1); }},
+    {"layer_bias_L_r[J]", [](const LayerNumbers& r) { return r.large.layer_bias.rotational; }},
+    {"shear_bias_L_xx[J]", [](const LayerNumbers& r) { return r.shear_bias_large; }},
+};
+
 }  // namespace
 
 Fluctuations& Fluctuations::operator+=(const Fluctuations& other)
@@ -145,63 +198,21 @@ double KineticStress::shear_bias(std::size_t layer, Species species) const
 
 std::vector<std::string> KineticStress::columns()
 {
-  return {"mass_S[kg]",
-          "mass_L[kg]",
-          "u[m/s]",
-          "v[m/s]",
-          "du_dy[1/s]",
-          "K_S_xx[J]",
-          "K_S_xy[J]",
-          "K_S_yx[J]",
-          "K_S_yy[J]",
-          "K_L_xx[J]",
-          "K_L_xy[J]",
-          "K_L_yx[J]",
-          "K_L_yy[J]",
-          "Kr_S[J]",
-          "Kr_L[J]",
-          "grains_S",
-          "grains_L",
-          "T_S_x[m^2/s^2]",
-          "T_S_y[m^2/s^2]",
-          "T_S_r[m^2/s^2]",
-          "T_L_x[m^2/s^2]",
-          "T_L_y[m^2/s^2]",
-          "T_L_r[m^2/s^2]",
-          "equipartition_x",
-          "equipartition_y",
-          "equipartition_r",
-          "layer_bias_S_xx[J]",
-          "layer_bias_S_xy[J]",
-          "layer_bias_S_yy[J]",
-          "layer_bias_S_r[J]",
-          "shear_bias_S_xx[J]",
-          "layer_bias_L_xx[J]",
-          "layer_bias_L_xy[J]",
-          "layer_bias_L_yy[J]",
-          "layer_bias_L_r[J]",
-          "shear_bias_L_xx[J]"};
+  std::vector<std::string> names;
+  for (const auto& column : kinetic_columns) names.emplace_back(column.name);
+  return names;
 }
 
 std::vector<double> KineticStress::row(std::size_t layer) const
 {
-  const auto small = mean(layer, Species::small), large = mean(layer, Species::large);
-  const auto here = flow(layer);
-  std::vector<double> row{small.mass, large.mass, here.u, here.v, here.du_dy};
-  for (const auto& own : {small, large}) {
-    const Tensor2& k = own.about_mean.kinetic;
-    row.insert(row.end(), {k(0, 0), k(0, 1), k(1, 0), k(1, 1)});
-  }
-  row.insert(row.end(), {small.about_mean.rotational, large.about_mean.rotational, small.grains,
-                         large.grains});
-  for (const Eigen::Vector3d& three :
-       {small.temperature(), large.temperature(), equipartition(layer)})
-    row.insert(row.end(), three.begin(), three.end());
-  for (const auto species : {Species::small, Species::large}) {
-    const auto [kinetic, rotational] = mean(layer, species).layer_bias;
-    row.insert(row.end(), {kinetic(0, 0), kinetic(0, 1), kinetic(1, 1), rotational,
-                           shear_bias(layer, species)});
-  }
+  const LayerNumbers numbers{.small = mean(layer, Species::small),
+                             .large = mean(layer, Species::large),
+                             .flow = flow(layer),
+                             .equipartition = equipartition(layer),
+                             .shear_bias_small = shear_bias(layer, Species::small),
+                             .shear_bias_large = shear_bias(layer, Species::large)};
+  std::vector<double> row;
+  for (const auto& column : kinetic_columns) row.push_back(column.of(numbers));
   return row;
 }
 

@@ -22,17 +22,16 @@ struct Fluctuations {
 };
 
 /// Kinetic stress by layer and species, sigma^kappa = (1/V) sum m dv (x) dv (Staron & Phillips
-/// 2015, kinetic stress), dv = velocity less a mean velocity (MeanFlow). A grain is booked, whole,
-/// in the layer of its centre. J, not divided by V, means per frame. In annuli velocities are
-/// those along and across the layer, at the grain's centre.
+/// 2015, eq. 5), dv = velocity less a mean velocity (MeanFlow). A grain counts, whole, in the layer
+/// of its centre. J, not divided by V, means per frame. In annuli velocities are those along and
+/// across the layer, at the grain's centre.
 ///
-/// What the mean velocity of a layer adds to the sums about the profile is kept beside them, so
-/// that whatever the mean it is seen: layer bias = sum about the layer's mean - sum about the
+/// What the mean velocity of a layer adds to the sums about the profile is kept beside them,
+/// whatever the mean: layer bias = sum about the layer's mean - sum about the
 /// profile, by definition and exactly. Of a linear shear it is mass (du/dy h)^2/12 in xx, h the
 /// thickness of the layer, and nothing elsewhere.
 ///
-/// All frames of a window are gone through twice: first for the mean flow, then for the
-/// fluctuations.
+/// The frames of a window are read twice: first for the mean flow, then for the fluctuations.
 class KineticStress {
  public:
   /// Of one species in one layer.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/merge_tables.hpp"
 
-#include "analysis/stress/partition.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 
@@ -16,16 +16,19 @@
 namespace grseg {
 namespace {
 
-const std::vector<std::string> key_columns{"t0", "t1", "y0", "y1", "frames", "V"};
-enum KeyColumn { t0, t1, y0, y1, frames, volume };
-
 /// Times in whole steps, since 3 * 0.1 s and 0.3 s are the same window.
 using Times = std::pair<std::int64_t, std::int64_t>;
+
+/// A row and what its first columns say.
+struct Row {
+  LayerKey key;
+  const std::vector<double>* cells;
+};
 
 /// One window of one table.
 struct Part {
   double begin = 0, end = 0, frames = 0;
-  std::map<std::int64_t, const std::vector<double>*> layers;  // rows by number of the layer
+  std::map<std::int64_t, Row> layers;  // by number of the layer
 };
 
 /// The windows of one table.
@@ -46,13 +49,13 @@ void require_stress_table(const Table& table)
   const auto& program = table.header_text("program");
   if (program.substr(0, program.find(' ')) != "grseg-stress")
     throw FormatError(fmt::format(
-        "{}: was made by {}; only tables of grseg-stress merge, whose columns all are means per "
-        "frame",
+        "{}: was made by {}; only tables of grseg-stress can be merged, all of whose columns are "
+        "means per frame",
         table.name, program));
   for (std::size_t c = 0; c < key_columns.size(); ++c)
-    if (table.column(key_columns[c]) != c)
+    if (table.column(key_columns[c].name) != c)
       throw FormatError(fmt::format("{}: column {} is '{}' where a table of grseg-stress has '{}'",
-                                    table.name, c + 1, table.columns[c], key_columns[c]));
+                                    table.name, c + 1, table.columns[c], key_columns[c].name));
 }
 
 void require_same_settings(const Table& a, const Table& b)
@@ -62,8 +65,8 @@ void require_same_settings(const Table& a, const Table& b)
   };
   const auto refuse = [&](const std::string& of_a, const std::string& of_b) {
     throw FormatError(
-        fmt::format("{} and {} were made differently: {} and {}; tables merge whose layers, "
-                    "windows and rules are the same",
+        fmt::format("{} and {} were made differently: {} and {}; only tables with the same layers, "
+                    "windows and rules can be merged",
                     a.name, b.name, of_a, of_b));
   };
   const auto all_a = settings_of(a), all_b = settings_of(b);
@@ -79,18 +82,20 @@ void require_same_settings(const Table& a, const Table& b)
 Parts parts_of(const Table& table)
 {
   const double step = table.header_number("step"), thickness = table.header_number("layer");
+  const LayerKeyReader keys(table, "a table of grseg-stress has it");
   Parts parts;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     for (std::size_t column = 0; column < table.columns.size(); ++column)
       finite_cell(table, row, column);
-    const auto& cells = table.rows[row];
-    auto& part = parts[{std::llround(cells[t0] / step), std::llround(cells[t1] / step)}];
-    if (part.layers.empty()) part = {cells[t0], cells[t1], cells[frames], {}};
-    if (cells[frames] != part.frames || !(part.frames > 0))
+    const LayerKey key = keys.read(row);
+    auto& part = parts[{std::llround(key.begin / step), std::llround(key.end / step)}];
+    if (part.layers.empty()) part = {key.begin, key.end, key.frames, {}};
+    if (key.frames != part.frames || !(part.frames > 0))
       throw FormatError(fmt::format("{}: row {}: {} frames where others of its window have {}",
-                                    table.name, row + 1, format_number(cells[frames]),
+                                    table.name, row + 1, format_number(key.frames),
                                     format_number(part.frames)));
-    if (!part.layers.emplace(std::llround(cells[y0] / thickness), &cells).second)
+    const auto layer = std::llround(key.bottom / thickness);
+    if (!part.layers.emplace(layer, Row{key, &table.rows[row]}).second)
       throw FormatError(fmt::format("{}: row {} repeats a window and layer", table.name, row + 1));
   }
   return parts;
@@ -106,8 +111,8 @@ void refuse_same_time_of_same_run(const Table& a, const Parts& of_a, const Table
       for (const auto& [other, unused] : of_b)
         if (one.first < other.second && other.first < one.second)
           throw UsageError(fmt::format(
-              "{} and {} both hold the time from {:g} s of the same run ({}); counted twice it "
-              "would feign certainty",
+              "{} and {} both hold the time from {:g} s of the same run ({}); counting it twice "
+              "would make intervals too narrow",
               a.name, b.name, part.begin, input));
   }
 }
@@ -123,21 +128,19 @@ std::vector<std::vector<double>> merged_rows(const std::vector<const Part*>& par
     all.layers.insert(part->layers.begin(), part->layers.end());
   }
   std::vector<std::vector<double>> rows;
-  for (const auto& [layer, keys] : all.layers) {
-    std::vector<double> row(keys->size(), 0.0);
+  for (const auto& [layer, first] : all.layers) {
+    std::vector<double> means(first.cells->size() - key_columns.size(), 0.0);
     for (const auto* part : parts) {
       const auto found = part->layers.find(layer);
       if (found == part->layers.end()) continue;
-      for (std::size_t c = key_columns.size(); c < row.size(); ++c)
-        row[c] += part->frames / all.frames * (*found->second)[c];
+      for (std::size_t c = 0; c < means.size(); ++c)
+        means[c] += part->frames / all.frames * (*found->second.cells)[key_columns.size() + c];
     }
-    row[t0] = all.begin;
-    row[t1] = all.end;
-    row[y0] = (*keys)[y0];
-    row[y1] = (*keys)[y1];
-    row[frames] = all.frames;
-    row[volume] = (*keys)[volume];
-    rows.push_back(std::move(row));
+    LayerKey key = first.key;
+    key.begin = all.begin;
+    key.end = all.end;
+    key.frames = all.frames;
+    rows.push_back(with_key(key, means));
   }
   return rows;
 }
@@ -178,9 +181,11 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   merged.columns = tables[0].columns;
   for (const auto& [window, of_window] : windows)
     for (auto& row : merged_rows(of_window)) merged.rows.push_back(std::move(row));
-  if (all_windows && !merged.rows.empty())
+  if (all_windows && !merged.rows.empty()) {
+    const LayerKey whole = LayerKeyReader(merged, "").read(0);
     for (auto& [key, value] : merged.header)
-      if (key == "window") value = format_number(merged.rows[0][t1] - merged.rows[0][t0]);
+      if (key == "window") value = format_number(whole.end - whole.begin);
+  }
   return merged;
 }
 

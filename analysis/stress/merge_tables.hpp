@@ -16,7 +16,8 @@ namespace grseg {
 ///
 /// The # lines hold every table's history and input, and last `command`; all others must be the
 /// same in all tables: FormatError naming two that differ. UsageError where two hold the same time
-/// of the same run. The order of `tables` changes no byte (but that of file names in `command`).
+/// of the same run. The result does not depend on the order of `tables` (but for file names in
+/// `command`).
 Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& info,
                    const std::string& command);
 

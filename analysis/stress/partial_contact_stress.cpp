@@ -9,60 +9,33 @@
 #include <cmath>
 
 namespace grseg {
-namespace {
-
-struct TensorColumn {
-  const char* name;
-  Tensor2 ContactSums::*member;
-};
-
-constexpr std::array<TensorColumn, 9> tensor_columns{{{"A_SS", &ContactSums::ss},
-                                                      {"A_LL", &ContactSums::ll},
-                                                      {"M", &ContactSums::mixed},
-                                                      {"Msize", &ContactSums::mixed_size},
-                                                      {"Mcp", &ContactSums::mixed_contact},
-                                                      {"A_Sb", &ContactSums::base_small},
-                                                      {"A_Lb", &ContactSums::base_large},
-                                                      {"F_Sb", &ContactSums::whole_small},
-                                                      {"F_Lb", &ContactSums::whole_large}}};
-
-struct CentreColumn {
-  const char* name;
-  Tensor2 ContactSums::AtCentres::*member;
-};
-
-constexpr std::array<CentreColumn, 4> centre_columns{
-    {{"HSS", &ContactSums::AtCentres::ss},
-     {"HLL", &ContactSums::AtCentres::ll},
-     {"ML", &ContactSums::AtCentres::mixed_large},
-     {"MS", &ContactSums::AtCentres::mixed_small}}};
-
-void append_names(std::vector<std::string>& names, const std::string& tensor)
-{
-  for (const char* component : {"xx", "xy", "yx", "yy"})
-    names.push_back(fmt::format("{}_{}[N m]", tensor, component));
-}
-
-void append(std::vector<double>& row, const Tensor2& t)
-{
-  row.insert(row.end(), {t(0, 0), t(0, 1), t(1, 0), t(1, 1)});
-}
-
-}  // namespace
-
 PartialContactStress::PartialContactStress(const Layers& layers, Assignment assignment,
                                            std::optional<double> power,
                                            std::optional<Kernel> kernel)
-    : layers_(layers), assignment_(assignment), power_(power), kernel_(kernel)
+    : layers_(layers),
+      assignment_(assignment),
+      power_(power),
+      rules_(summed_rules(power)),
+      kernel_(kernel)
 {
   assert(kernel_ || assignment_ != Assignment::kernel);
 }
 
-void PartialContactStress::book(Part part, const Contact& contact, const Stretch& stretch)
+std::vector<PartialContactStress::SummedRule> PartialContactStress::summed_rules(
+    std::optional<double> power)
+{
+  std::vector<SummedRule> rules;
+  for (const auto& rule : rule_definitions())
+    if (rule.sum != nullptr && (*rule.number == '\0' || power))
+      rules.push_back({&rule, power.value_or(0)});
+  return rules;
+}
+
+void PartialContactStress::add_stretch(Sum sum, const Contact& contact, const Stretch& stretch)
 {
   const Tensor2 stress = stretch.weight * contact.stress;
   const auto share = [&](std::size_t layer, double of_it) {
-    sums_[layer].tensor[part] += of_it * stress;
+    sums_[layer].sums.*sum += of_it * stress;
   };
   switch (assignment_) {
     case Assignment::contact_point:
@@ -80,25 +53,30 @@ void PartialContactStress::add_equal(Species species, const Contact& contact, do
                                      double y_j, double share_i)
 {
   const bool small = species == Species::small;
-  const Part part = small ? A_SS : A_LL, halves = small ? HSS : HLL;
-  if (assignment_ != Assignment::grain) return book(part, contact, {y_i, y_j, 1});
-  book(part, contact, {y_i, y_j, share_i});
-  book(part, contact, {y_j, y_i, 1 - share_i});
-  book(halves, contact, {y_i, y_j, 0.5});
-  book(halves, contact, {y_j, y_i, 0.5});
+  const Sum sum = small ? &ContactSums::ss : &ContactSums::ll;
+  const Sum halves = small ? &ContactSums::halves_ss : &ContactSums::halves_ll;
+  if (assignment_ != Assignment::grain) return add_stretch(sum, contact, {y_i, y_j, 1});
+  add_stretch(sum, contact, {y_i, y_j, share_i});
+  add_stretch(sum, contact, {y_j, y_i, 1 - share_i});
+  add_stretch(halves, contact, {y_i, y_j, 0.5});
+  add_stretch(halves, contact, {y_j, y_i, 0.5});
 }
 
-void PartialContactStress::add_mixed(const Contact& contact, double y_large, double y_small,
-                                     double by_size, double by_contact)
+void PartialContactStress::add_mixed(const Contact& contact, const MixedContact& pair,
+                                     double y_large, double y_small)
 {
-  const auto along = [&](double share) { return y_large + share * (y_small - y_large); };
-  book(Msize, contact, {y_large, along(by_size), by_size});
-  book(Mcp, contact, {y_large, along(by_contact), by_contact});
-  if (assignment_ != Assignment::grain) return book(M, contact, {y_large, y_small, 1});
-  book(M, contact, {y_large, y_small, by_size});
-  book(M, contact, {y_small, y_large, 1 - by_size});
-  book(ML, contact, {y_large, y_small, 1});
-  book(MS, contact, {y_small, y_large, 1});
+  for (const auto& [rule, number] : rules_) {
+    const double share = rule->share(pair, number);
+    const double end = rule->along_own_stretch ? y_large + share * (y_small - y_large) : y_small;
+    add_stretch(rule->sum, contact, {y_large, end, share});
+  }
+  const Sum mixed = &ContactSums::mixed;
+  if (assignment_ != Assignment::grain) return add_stretch(mixed, contact, {y_large, y_small, 1});
+  const double by_size = pair.r_large / (pair.r_large + pair.r_small);
+  add_stretch(mixed, contact, {y_large, y_small, by_size});
+  add_stretch(mixed, contact, {y_small, y_large, 1 - by_size});
+  add_stretch(&ContactSums::mixed_at_large, contact, {y_large, y_small, 1});
+  add_stretch(&ContactSums::mixed_at_small, contact, {y_small, y_large, 1});
 }
 
 void PartialContactStress::add(const Grains& grains, const Frame& frame)
@@ -126,16 +104,15 @@ void PartialContactStress::add(const Grains& grains, const Frame& frame)
     } else if (type == PairType::LS) {
       const bool i_large = grains.species[i] == Species::large;
       const double r_i = grains.radius[i], r_j = grains.radius[static_cast<std::size_t>(list.j[k])];
-      const double r_large = i_large ? r_i : r_j, r_small = i_large ? r_j : r_i;
-      const double y_large = i_large ? y_i : y_j, y_small = i_large ? y_j : y_i;
-      add_mixed(contact, y_large, y_small, r_large / (r_large + r_small),
-                i_large ? share_i : 1 - share_i);
-      if (power_)
-        book(Mpower, contact, {y_large, y_small, 1 / (1 + std::pow(r_small / r_large, *power_))});
+      const MixedContact pair{i_large ? r_i : r_j, i_large ? r_j : r_i,
+                              i_large ? share_i : 1 - share_i};
+      add_mixed(contact, pair, i_large ? y_i : y_j, i_large ? y_j : y_i);
     } else {
       const bool large = type == PairType::Lb;
-      book(large ? A_Lb : A_Sb, contact, {y_i, y_contact, share_i});
-      book(large ? F_Lb : F_Sb, contact, {y_i, y_j, 1});
+      add_stretch(large ? &ContactSums::base_large : &ContactSums::base_small, contact,
+                  {y_i, y_contact, share_i});
+      add_stretch(large ? &ContactSums::whole_large : &ContactSums::whole_small, contact,
+                  {y_i, y_j, 1});
     }
   }
 }
@@ -143,7 +120,7 @@ void PartialContactStress::add(const Grains& grains, const Frame& frame)
 PartialContactStress::Sums& PartialContactStress::Sums::operator+=(const Sums& others)
 {
   accumulate(contacts, others.contacts);
-  accumulate(tensor, others.tensor);
+  sums += others.sums;
   return *this;
 }
 
@@ -155,27 +132,16 @@ void PartialContactStress::merge(const PartialContactStress& others)
 
 PartialContactStress::Mean PartialContactStress::mean(std::size_t layer) const
 {
-  const auto& sums = sums_[layer];
   const auto frames = static_cast<double>(frames_);
-  Mean mean;
-  for (std::size_t type = 0; type < pair_types; ++type)
-    mean.contacts[type] = sums.contacts[type] / frames;
-  mean.sums.ss = sums.tensor[A_SS] / frames;
-  mean.sums.ll = sums.tensor[A_LL] / frames;
-  mean.sums.mixed = sums.tensor[M] / frames;
-  mean.sums.mixed_size = sums.tensor[Msize] / frames;
-  mean.sums.mixed_contact = sums.tensor[Mcp] / frames;
-  mean.sums.mixed_power = sums.tensor[Mpower] / frames;
-  mean.sums.base_small = sums.tensor[A_Sb] / frames;
-  mean.sums.base_large = sums.tensor[A_Lb] / frames;
-  mean.sums.whole_small = sums.tensor[F_Sb] / frames;
-  mean.sums.whole_large = sums.tensor[F_Lb] / frames;
-  mean.sums.booked_at_centres = assignment_ == Assignment::grain;
-  mean.sums.at_centres = {.ss = sums.tensor[HSS] / frames,
-                          .ll = sums.tensor[HLL] / frames,
-                          .mixed_large = sums.tensor[ML] / frames,
-                          .mixed_small = sums.tensor[MS] / frames};
+  Mean mean{sums_[layer].contacts, sums_[layer].sums / frames};
+  for (auto& number : mean.contacts) number /= frames;
+  mean.sums.at_centres = assignment_ == Assignment::grain;
   return mean;
+}
+
+TableKind PartialContactStress::table_kind() const
+{
+  return {.at_centres = assignment_ == Assignment::grain, .power = power_.has_value()};
 }
 
 std::vector<std::string> PartialContactStress::columns() const
@@ -183,10 +149,8 @@ std::vector<std::string> PartialContactStress::columns() const
   std::vector<std::string> names;
   names.reserve(pair_types);
   for (const char* type : pair_type_names) names.push_back(fmt::format("n_{}", type));
-  for (const auto& column : tensor_columns) append_names(names, column.name);
-  if (assignment_ == Assignment::grain)
-    for (const auto& column : centre_columns) append_names(names, column.name);
-  if (power_) append_names(names, "Mpower");
+  const auto sums = sum_column_names(table_kind());
+  names.insert(names.end(), sums.begin(), sums.end());
   return names;
 }
 
@@ -194,10 +158,8 @@ std::vector<double> PartialContactStress::row(std::size_t layer) const
 {
   const auto mean_here = mean(layer);
   std::vector<double> row(mean_here.contacts.begin(), mean_here.contacts.end());
-  for (const auto& column : tensor_columns) append(row, mean_here.sums.*column.member);
-  if (mean_here.sums.booked_at_centres)
-    for (const auto& column : centre_columns) append(row, mean_here.sums.at_centres.*column.member);
-  if (power_) append(row, mean_here.sums.mixed_power);
+  const auto sums = sum_cells(mean_here.sums, table_kind());
+  row.insert(row.end(), sums.begin(), sums.end());
   return row;
 }
 

@@ -3,8 +3,10 @@
 #include "analysis/fit/fit_report.hpp"
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/rule_fit.hpp"
+#include "analysis/fit/short_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/presets.hpp"
-#include "analysis/stress/partition.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
@@ -13,6 +15,7 @@
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +33,7 @@ constexpr ToolInfo info{
     "grseg-fit sums.tsv ... | - [options]",
     "  grseg-fit sums.tsv                               B by size, the default\n"
     "  grseg-fit sums.tsv --partition stock             B by the rules of published codes\n"
+    "  grseg-fit sums.tsv --short -o fit.tsv            a table to read, and all columns in a file\n"
     "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
@@ -38,11 +42,24 @@ constexpr ToolInfo info{
 
 struct Settings {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range, heights, output;
+  std::string component, quantity, base, scan, ratio_range, output;
   int bootstrap = 0;
   long seed = 0;
+  bool json = false, quiet = false, short_form = false;
   FitFilters filters;
 };
+
+std::string rules_help()
+{
+  std::string text = "the large grain's share of a mixed contact; several rules give a row each.";
+  for (const auto& rule : rule_definitions())
+    text += fmt::format("\n{}{}{}{}: {}{}", rule.word, *rule.number == '\0' ? "" : ":", rule.number,
+                        rule.kind == PartitionRule{}.kind ? " (default)" : "", rule.meaning,
+                        *rule.used_by == '\0' ? "" : fmt::format(" [{}]", rule.used_by));
+  text += "\nstock:";
+  for (const auto& rule : parse_rules({"stock"})) text += fmt::format(" {}", rule.name());
+  return text;
+}
 
 po::options_description options_into(Settings& s)
 {
@@ -55,30 +72,32 @@ po::options_description options_into(Settings& s)
   };
   auto add = options.add_options();
   add("partition", po::value(&s.partition)->composing()->value_name("RULE,..."),
-      "share of a mixed contact that goes to its large grain: size (default), contact-point, half, "
-      "drop, uniform:P or power:Q; several give a row each; stock: the first four, as published "
-      "codes have them");
-  add("component", text(s.component, "NAME")->default_value("yy"),
-      "yy or pressure (half the trace)");
-  add("quantity", text(s.quantity, "NAME")->default_value("contact"), "contact or kinetic stress");
+      rules_help().c_str());
+  add("component", text(s.component, "NAME")->default_value("yy"), list_of(components).c_str());
+  add("quantity", text(s.quantity, "NAME")->default_value("contact"),
+      (list_of(quantities) + " stress").c_str());
   add("base", text(s.base, "NAME"),
-      "part of contacts with base and walls: contact-point, half or none (default: what the table "
-      "says)");
+      ("part of contacts with base and walls: " + list_of(base_parts) +
+       " (default: as in the table)")
+          .c_str());
   add("scan", text(s.scan, "p0:p1:dp"), "print B over the share p instead of the rules");
   add("bootstrap", number(s.bootstrap, "N")->default_value(1000),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", number(s.seed, "N")->default_value(1), "seed of the samples");
   add("ratio-range", text(s.ratio_range, "a:b")->default_value("0.01:100"),
       "phi_S/phi_L of the layers that take part");
-  add("heights", text(s.heights, "y0:y1"),
+  add("heights", text(s.filters.heights, "y0:y1"),
       "layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
   add("min-solid", number(s.filters.min_solid, "X")->default_value(0.5, "0.5"),
       "least solid fraction of a layer, in units of the run's median");
   add("begin", number(s.filters.begin, "s"), "first time of the windows that take part");
   add("end", number(s.filters.end, "s"), "last time of the windows that take part");
-  add("json", "print JSON instead of a table");
-  add("quiet", "no remarks on standard error");
-  add("output,o", text(s.output, "FILE"), "write there instead of to standard output");
+  add("short", po::bool_switch(&s.short_form),
+      "print a short table for reading, as on a terminal; with -o beside the whole one in FILE");
+  add("json", po::bool_switch(&s.json), "print JSON instead of a table");
+  add("quiet", po::bool_switch(&s.quiet), "no remarks on standard error");
+  add("output,o", text(s.output, "FILE"),
+      "write the whole table there; -: to standard output, even on a terminal");
   return options;
 }
 
@@ -90,15 +109,6 @@ void parse_ratio_range(const std::string& text, FitFilters& filters)
       !(filters.ratio_low > 0 && filters.ratio_low <= filters.ratio_high))
     throw UsageError(
         fmt::format("--ratio-range {}: write low:high, 0 < low <= high, e.g. 0.01:100", text));
-}
-
-void parse_heights(const std::string& text, FitFilters& filters)
-{
-  const auto colon = text.find(':');
-  if (!text.empty() && colon == std::string::npos)
-    throw UsageError(fmt::format("--heights {}: write low:high, e.g. 4dS:56dS or 4dS:", text));
-  filters.lowest = text.substr(0, colon);
-  filters.highest = text.empty() ? "" : text.substr(colon + 1);
 }
 
 /// Refuses what cannot be meant, before any table is read.
@@ -115,7 +125,9 @@ void check(const Settings& s, const po::variables_map& values)
   if (std::isnan(s.filters.begin) || std::isnan(s.filters.end))
     throw UsageError("--begin and --end are times in seconds");
   if (!(s.filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
+  if (s.json && s.short_form) throw UsageError("--short and --json exclude each other");
   parse_rules(s.partition);
+  RowRange().set_heights(s.filters.heights, {1, 1});
   if (!s.scan.empty()) parse_scan(s.scan);
   if (s.quantity == "kinetic")
     for (const char* option : {"partition", "scan", "base"})
@@ -131,15 +143,32 @@ std::vector<PartitionRule> rules_of(const Settings& s, const Table& first)
   return {parse_rule(header_or(first, "partition", "size"))};
 }
 
-/// Says on standard error what a reader of the numbers should know.
-void remark(const std::vector<Table>& tables, const FitReport& report)
+/// Prints on standard error what a reader of the numbers should know; `with_doubts`: unless they
+/// are part of what is printed.
+void remark(const std::vector<Table>& tables, const FitReport& report, bool with_doubts)
 {
   for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step"})
     for (const auto& table : tables)
       if (header_or(table, key, "") != header_or(tables[0], key, ""))
         std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name, tables[0].name,
                                  table.name, key);
+  if (!with_doubts) return;
   for (const auto& doubt : doubts(report)) std::cerr << fmt::format("{}: {}\n", info.name, doubt);
+}
+
+/// On a terminal, 17 digits of 48 columns are of no use.
+bool prints_short(const Settings& s)
+{
+  return s.short_form || (s.output.empty() && !s.json && isatty(STDOUT_FILENO) == 1);
+}
+
+void add_for_short_table(FitReport& report, const FitData& data, const FitSettings& settings,
+                         const Bootstrap& bootstrap)
+{
+  report.number_of_runs = data.runs.size();
+  report.number_of_windows = bootstrap.windows();
+  if (report.quantity == Quantity::contact && !report.scan)
+    report.zero = find_zero_of_b(data, {0, 1, 0.05}, settings, bootstrap);
 }
 
 FitReport make_report(const Settings& s, const std::string& preset,
@@ -147,11 +176,9 @@ FitReport make_report(const Settings& s, const std::string& preset,
 {
   const auto base = s.base.empty() ? header_or(tables[0], "base", "contact-point") : s.base;
   FitReport report;
-  report.quantity = choose<Quantity>(
-      s.quantity, "--quantity", {{"contact", Quantity::contact}, {"kinetic", Quantity::kinetic}});
-  report.component = choose<Component>(s.component, "--component",
-                                       {{"yy", Component::yy}, {"pressure", Component::pressure}});
-  const FitSettings settings{report.component, parse_base(base)};
+  report.quantity = choose(s.quantity, "--quantity", quantities);
+  report.component = choose(s.component, "--component", components);
+  const FitSettings settings{report.component, choose(base, "--base", base_parts)};
   const auto rules = rules_of(s, tables[0]);
   auto read = rules;
   if (!s.scan.empty()) read.push_back({PartitionRule::Kind::uniform});
@@ -160,6 +187,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
                             static_cast<unsigned long>(s.seed));
   for (const auto& rule : rules) report.rules.push_back(fit_rule(data, rule, settings, bootstrap));
   if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
+  if (prints_short(s)) add_for_short_table(report, data, settings, bootstrap);
 
   report.header = {
       program_line(info),
@@ -167,7 +195,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
       {"quantity", s.quantity},
       {"component", s.component},
       {"ratio_range", s.ratio_range},
-      {"heights", s.heights.empty() ? "all" : s.heights},
+      {"heights", s.filters.heights.empty() ? "all" : s.filters.heights},
       {"times",
        s.filters.all_times() ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
       {"min_solid", format_number(s.filters.min_solid)},
@@ -192,14 +220,16 @@ int main(int argc, char** argv)
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
     check(settings, values);
     parse_ratio_range(settings.ratio_range, settings.filters);
-    parse_heights(settings.heights, settings.filters);
     std::vector<Table> tables;
     for (const auto& path : values["input"].as<std::vector<std::string>>())
       tables.push_back(Table::read(path));
 
     auto report = make_report(settings, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
-    if (!values.contains("quiet")) remark(tables, report);
-    write_whole(settings.output, values.contains("json") ? to_json(report) : to_tsv(report));
+    const bool brief = prints_short(settings);
+    if (!settings.quiet) remark(tables, report, !brief);
+    if (!brief || !settings.output.empty())
+      write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));
+    if (brief) std::cout << short_table(report);
   });
 }

@@ -30,17 +30,15 @@ struct Settings {
 po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
-  options.add_options()(
-      "mean", po::value(&s.mean)->default_value(s.mean)->value_name("WORD"),
-      "mean velocity that fluctuations are counted from: profile (over the window, in bins of at "
-      "most half a dS, at the grain's own height), layer (over the window), instant (of the layer "
-      "in each frame) or species (of the species in the layer, over the window)");
+  const auto means = "mean velocity that fluctuations are counted from: " + list_of(mean_flows);
+  options.add_options()("mean", po::value(&s.mean)->default_value(s.mean)->value_name("WORD"),
+                        means.c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
   return options;
 }
 
-/// A layer's mean takes the shear inside the layer for fluctuations; says how much that is here.
+/// About a layer's mean, the shear inside the layer counts as fluctuations; reports how much.
 struct LayerBias {
   double profile = 0, measured = 0, of_shear = 0;
 
@@ -68,11 +66,7 @@ struct LayerBias {
 
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto flow = choose<MeanFlow>(s.mean, "--mean",
-                                     {{"profile", MeanFlow::profile},
-                                      {"layer", MeanFlow::layer},
-                                      {"instant", MeanFlow::instant},
-                                      {"species", MeanFlow::species}});
+  const auto flow = choose(s.mean, "--mean", mean_flows);
   FrameLoop loop(info, values, s.frames);
   auto table = loop.make_table(command, {{"mean", s.mean}}, KineticStress::columns());
 

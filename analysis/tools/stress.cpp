@@ -3,9 +3,9 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/stress/contact_assignment.hpp"
 #include "analysis/stress/merge_tables.hpp"
-#include "analysis/stress/partition.hpp"
-#include "formats/cli/output.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/cli/output.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -42,13 +42,12 @@ po::options_description options_into(Settings& s)
     return po::value(&place)->default_value(place)->value_name("WORD");
   };
   s.assignment.add_to(options);
+  const auto base = "likewise, the part of contacts with base and walls: " + list_of(base_parts);
+  const auto volume = "likewise, the volume of a stress: " + list_of(stress_volumes);
   options.add_options()("partition", word(s.partition),
-                        "the rule grseg-fit takes unless told otherwise; power:Q adds Mpower_*");
-  options.add_options()("base", word(s.base),
-                        "likewise, the part of contacts with base and walls: contact-point, half "
-                        "or none");
-  options.add_options()("volume", word(s.volume),
-                        "likewise, the volume of a stress: bulk (V) or solid (area_S + area_L)");
+                        "default rule of grseg-fit for this table; power:Q adds columns Mpower_*");
+  options.add_options()("base", word(s.base), base.c_str());
+  options.add_options()("volume", word(s.volume), volume.c_str());
   options.add_options()("merge", po::bool_switch(&s.merge),
                         "of tables instead of a run: means weighted by frames, window by window");
   options.add_options()("all-windows", po::bool_switch(&s.all_windows),
@@ -58,13 +57,12 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-/// The exponent that Mpower_* needs, where --partition asks for them. Other words about partition
-/// are only passed on to grseg-fit.
+/// The exponent of Mpower_*, where --partition asks for these columns. Everything else about
+/// partition is only passed on to grseg-fit.
 std::optional<double> power_of(Settings& s)
 {
-  choose<StressVolume>(s.volume, "--volume",
-                       {{"bulk", StressVolume::bulk}, {"solid", StressVolume::solid}});
-  parse_base(s.base);
+  choose(s.volume, "--volume", stress_volumes);
+  choose(s.base, "--base", base_parts);
   const auto rule = parse_rule(s.partition);
   s.partition = rule.name();
   if (rule.kind != PartitionRule::Kind::power) return {};
@@ -107,16 +105,16 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
   if (kernel) settings.emplace_back("width", format_number(kernel->width()));
   const Composition no_grains(loop.layers(), chosen.area, kernel);
   const PartialContactStress no_contacts(loop.layers(), chosen.assignment, power, kernel);
-  auto table = loop.make_table(command, settings,
-                               joined({"area_S[m^2]", "area_L[m^2]"}, no_contacts.columns()));
+  std::vector<std::string> areas;
+  for (const auto& column : area_columns) areas.push_back(fmt::format("{}[m^2]", column.name));
+  auto table = loop.make_table(command, settings, joined(areas, no_contacts.columns()));
 
   for (const auto& window : loop.windows()) {
     const auto [composition, stress] =
         loop.sum(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
-      const auto areas = composition.mean(layer);
-      table.rows.push_back(
-          loop.row(window, layer, joined({areas.small, areas.large}, stress.row(layer))));
+      const auto [small, large] = composition.mean(layer);
+      table.rows.push_back(loop.row(window, layer, joined({small, large}, stress.row(layer))));
     }
   }
   loop.write(table);

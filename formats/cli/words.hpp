@@ -16,6 +16,7 @@ template <class Value>
 struct Choice {
   const char* word;
   Value value;
+  const char* meaning = "";  // for --help; "" where the word is enough
 };
 
 template <class Value, std::size_t N>
@@ -34,6 +35,27 @@ std::string list_of_words(const std::vector<std::string>& words);
 /// long list the nearest word is suggested first.
 std::string unknown_word(const std::string& what, const std::string& word,
                          const std::vector<std::string>& known);
+
+/// The word of `value`; "" where it has none.
+template <class Value, std::size_t N>
+const char* word_of(Value value, const Choice<Value> (&choices)[N])
+{
+  for (const auto& choice : choices)
+    if (choice.value == value) return choice.word;
+  return "";
+}
+
+/// "profile (over the window), layer or instant", for --help.
+template <class Value, std::size_t N>
+std::string list_of(const Choice<Value> (&choices)[N])
+{
+  std::vector<std::string> words;
+  for (const auto& choice : choices) {
+    words.emplace_back(choice.word);
+    if (*choice.meaning != '\0') words.back() += std::string(" (") + choice.meaning + ")";
+  }
+  return list_of_words(words);
+}
 
 /// What `word` stands for, if anything.
 template <class Value, std::size_t N>

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "analysis/fit/rule_fit.hpp"
+#include "analysis/fit/window_sums.hpp"
 #include "analysis/statistics/bootstrap.hpp"
+#include "analysis/stress/neutral_contacts.hpp"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_randist.h>
@@ -77,7 +79,7 @@ inline bool holds(const Interval& interval, double truth)
 
 inline Interval percentiles(Eigen::VectorXd samples)
 {
-  if (samples.size() == 0) return {Estimates::nan, Estimates::nan};
+  if (samples.size() == 0) return {Estimators::nan, Estimators::nan};
   std::sort(samples.begin(), samples.end());
   const auto tail = static_cast<Eigen::Index>(0.025 * static_cast<double>(samples.size()));
   return {samples[tail], samples[samples.size() - 1 - tail]};
@@ -127,7 +129,7 @@ class ScatteredStress {
   }
 
   /// What infinitely many windows would give, by Gauss-Hermite quadrature over the noise.
-  static Estimates truth(double run_scatter)
+  static Estimators truth(double run_scatter)
   {
     constexpr std::size_t nodes = 60;
     const std::unique_ptr<gsl_integration_fixed_workspace, decltype(&gsl_integration_fixed_free)>
@@ -142,7 +144,7 @@ class ScatteredStress {
             sample(k, phi, deviation * gsl_integration_fixed_nodes(rule.get())[k]));
     const Eigen::Map<const Eigen::RowVectorXd> weights(gsl_integration_fixed_weights(rule.get()),
                                                        nodes);
-    return estimate_from_sums(weights * window_sums(fit_points(data, {}, {}), data.runs).sums);
+    return estimators_from_sums(weights * window_sums(fit_points(data, {}, {}), data.runs).sums);
   }
 
   /// A third of that scatter while layers segregate, from phi_L = 0.3 in all of them, under a rule

@@ -9,7 +9,7 @@
 namespace grseg {
 
 /// Grains and one frame, written by hand.
-struct Scene {
+struct Packing {
   Grains grains;
   Frame frame;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/stress/partition.hpp"
+#include "analysis/frames/layer_key.hpp"
+#include "analysis/stress/contact_sums.hpp"
 #include "formats/cli/table.hpp"
 
 #include <string>
@@ -55,17 +56,6 @@ struct TableRow {
   double bottom = 0, top = 0.02;
 };
 
-inline const std::vector<std::pair<std::string, Tensor2 ContactSums::*>>& tensors()
-{
-  static const std::vector<std::pair<std::string, Tensor2 ContactSums::*>> all{
-      {"A_SS", &ContactSums::ss},           {"A_LL", &ContactSums::ll},
-      {"M", &ContactSums::mixed},           {"Msize", &ContactSums::mixed_size},
-      {"Mcp", &ContactSums::mixed_contact}, {"A_Sb", &ContactSums::base_small},
-      {"A_Lb", &ContactSums::base_large},   {"F_Sb", &ContactSums::whole_small},
-      {"F_Lb", &ContactSums::whole_large},  {"Mpower", &ContactSums::mixed_power}};
-  return all;
-}
-
 /// As grseg-stress --partition power:2 would write it.
 inline Table stress_table(const std::vector<TableRow>& rows, double small_diameter = 0.005,
                           double large_diameter = 0.01)
@@ -76,18 +66,16 @@ inline Table stress_table(const std::vector<TableRow>& rows, double small_diamet
                   {"small_diameter", format_number(small_diameter)},
                   {"large_diameter", format_number(large_diameter)},
                   {"power", "2"}};
-  table.columns = {"t0[s]",  "t1[s]",  "y0[m]",       "y1[m]",
-                   "frames", "V[m^2]", "area_S[m^2]", "area_L[m^2]"};
-  for (const auto& [name, place] : tensors())
-    for (const char* component : {"_xx[N m]", "_xy[N m]", "_yx[N m]", "_yy[N m]"})
-      table.columns.push_back(name + component);
+  const TableKind kind{.at_centres = false, .power = true};
+  std::vector<std::string> names{"area_S[m^2]", "area_L[m^2]"};
+  for (const auto& name : sum_column_names(kind)) names.push_back(name);
+  table.columns = with_key_columns(names);
   for (const auto& row : rows) {
     const auto& sums = row.sums;
-    table.rows.push_back({row.begin, row.end, row.bottom, row.top, row.frames, sums.volume,
-                          sums.area_small, sums.area_large});
-    for (const auto& [name, place] : tensors())
-      for (const auto& [i, j] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}})
-        table.rows.back().push_back((sums.*place)(i, j));
+    std::vector<double> cells{sums.area_small, sums.area_large};
+    for (const double cell : sum_cells(sums, kind)) cells.push_back(cell);
+    table.rows.push_back(
+        with_key({row.begin, row.end, row.bottom, row.top, row.frames, sums.volume}, cells));
   }
   return table;
 }

@@ -44,7 +44,7 @@ class Tally {
   std::vector<double> widths_;
 };
 
-Interval of(const RuleFit& fit, double Estimates::*place)
+Interval of(const RuleFit& fit, double Estimators::*place)
 {
   return {fit.low.*place, fit.high.*place};
 }
@@ -54,12 +54,13 @@ Interval plain_b(const FitData& data, const RuleFit& fit, const Bootstrap& boots
   const Eigen::MatrixXd totals = bootstrap.blocks(fit.dependence.block) *
                                  window_sums(fit_points(data, {}, {}), data.runs).sums;
   Eigen::VectorXd b(totals.rows());
-  for (Eigen::Index k = 0; k < totals.rows(); ++k) b[k] = estimate_from_sums(totals.row(k)).B_half;
+  for (Eigen::Index k = 0; k < totals.rows(); ++k)
+    b[k] = estimators_from_sums(totals.row(k)).B_half;
   return percentiles(b);
 }
 
-constexpr double Estimates::*shown[] = {&Estimates::B_half, &Estimates::B_linear,
-                                        &Estimates::exponent, &Estimates::B_direct};
+constexpr double Estimators::*shown[] = {&Estimators::B_half, &Estimators::B_linear,
+                                         &Estimators::exponent, &Estimators::B_direct};
 
 void print_one_run(double rho, std::size_t windows)
 {
@@ -104,7 +105,7 @@ void print_runs(std::size_t runs, double scatter)
     mean.add(of_mean.estimate, of_mean.interval);
     const auto fit =
         fit_rule(ScatteredStress::windows(lengths, run_scatter, noise), {}, {}, bootstrap);
-    b.add(fit.value.B_half, of(fit, &Estimates::B_half));
+    b.add(fit.value.B_half, of(fit, &Estimators::B_half));
     inside.add(fit.value.B_half, fit.B_half_windows);
   }
   fmt::print("{:4} {:7} {:6.3f} {:6.3f} {:6.2f} {:13.3f} {:6.2f}\n", runs, scatter, mean.coverage(),
@@ -117,13 +118,13 @@ void print_drift(double rho, std::size_t windows)
 {
   Ar1 noise(rho);
   const auto known = ScatteredStress::drifting(windows, nullptr);
-  Tally b(estimate(fit_points(known, {}, {})).B_half), plain = b;
+  Tally b(estimators_of(fit_points(known, {}, {})).B_half), plain = b;
   double time = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const Bootstrap bootstrap({windows}, samples, static_cast<unsigned long>(trial) + 1);
     const auto data = ScatteredStress::drifting(windows, &noise);
     const auto fit = fit_rule(data, {}, {}, bootstrap);
-    b.add(fit.value.B_half, of(fit, &Estimates::B_half));
+    b.add(fit.value.B_half, of(fit, &Estimators::B_half));
     plain.add(fit.value.B_half, plain_b(data, fit, bootstrap));
     time += fit.dependence.time / trials;
   }

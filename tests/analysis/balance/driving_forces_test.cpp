@@ -21,10 +21,10 @@ const Kernel narrow(KernelShape::lucy, 0.3);
 
 /// Two columns of discs of radius 1/2 side by side on the base, one of large grains by name and one
 /// of small. Something presses on the large column with `load` times the weight of a grain.
-Scene columns(int count, double load)
+Packing columns(int count, double load)
 {
   const double weight = 9 * pi / 4;
-  Scene scene;
+  Packing scene;
   for (const auto species : {Species::large, Species::small}) {
     const double x = species == Species::large ? 2 : 6;
     const auto base = scene.grain(Species::boundary, 0.5, {x, -0.5});
@@ -41,14 +41,14 @@ Scene columns(int count, double load)
 }
 
 /// A contact that is not balanced by others: it moves both grains.
-void push_apart(Scene& scene, std::int32_t i, std::int32_t j, const Vec2& force)
+void push_apart(Packing& scene, std::int32_t i, std::int32_t j, const Vec2& force)
 {
   scene.contact(i, j, force);
   scene.frame.force[static_cast<std::size_t>(i)] += force;
   scene.frame.force[static_cast<std::size_t>(j)] -= force;
 }
 
-MomentumBalance balance_of(const std::vector<Scene>& frames, const Kernel& kernel = narrow)
+MomentumBalance balance_of(const std::vector<Packing>& frames, const Kernel& kernel = narrow)
 {
   MomentumBalance balance(unit_layers, kernel, gravity, step);
   for (const auto& scene : frames) balance.add(scene.grains, scene.frame);
@@ -56,9 +56,9 @@ MomentumBalance balance_of(const std::vector<Scene>& frames, const Kernel& kerne
 }
 
 /// Two frames of the same, a second apart.
-MomentumBalance balance_of(const Scene& scene)
+MomentumBalance balance_of(const Packing& scene)
 {
-  Scene later = scene;
+  Packing later = scene;
   later.frame.time = 1;
   return balance_of(std::vector{scene, later});
 }
@@ -111,7 +111,7 @@ TEST(DrivingForces, ASpeciesThatFluctuatesLessIsPushedTowardsTheHotSide)
   constexpr double w = 0.2, speed = 0.5;
   const Kernel box(KernelShape::heaviside, w);
   MomentumBalance balance(unit_layers, box, {}, step);
-  Scene scene;
+  Packing scene;
   scene.grain(Species::large, 0.1, {2, 1.5});
   for (const double sign : {-1, 1}) scene.grain(Species::small, 0.1, {4, 1.05}, {0, sign * speed});
   scene.frame.force.assign(3, {0, 0});
@@ -155,7 +155,7 @@ TEST(DrivingForces, TheInteractionIsSpreadDragAndScatter)
 
 TEST(DrivingForces, ALayerOfOneSpeciesHasNoDrivingForces)
 {
-  Scene scene;
+  Packing scene;
   scene.grain(Species::small, 0.5, {1, 0.5});
   scene.frame.force.assign(1, {0, 0});
   const auto of = driving_forces(balance_of(scene), 0);
@@ -179,7 +179,7 @@ TEST(BalanceTable, ColumnsAndNumbersAgree)
 // Two grains of one mass that part: mean velocity (2, 0), fluctuations (0.3, 0.4) and opposite.
 TEST(BalanceTable, KineticStressCountsFromTheMeanOfBothSpecies)
 {
-  Scene scene;
+  Packing scene;
   scene.grain(Species::small, 0.1, {1, 0.5}, {2.3, 0.4});
   scene.grain(Species::large, 0.1, {2, 0.5}, {1.7, -0.4});
   scene.frame.force.assign(2, {0, 0});

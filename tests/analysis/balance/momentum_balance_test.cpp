@@ -20,7 +20,7 @@ const Layers unit_layers(1, 10);
 const Kernel gauss(KernelShape::gauss, 0.2);
 
 /// Gives every grain the force that its weight and its contacts make.
-Scene moved_by(Scene scene, const Vec2& g)
+Packing moved_by(Packing scene, const Vec2& g)
 {
   auto& force = scene.frame.force;
   force.clear();
@@ -34,11 +34,11 @@ Scene moved_by(Scene scene, const Vec2& g)
 }
 
 /// Grains of both species and the base, joined by contacts of random force.
-Scene random_bed(unsigned seed)
+Packing random_bed(unsigned seed)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(0, 3), kick(-1, 1);
-  Scene scene;
+  Packing scene;
   for (int g = 0; g < 60; ++g) {
     const auto species = g < 5 ? Species::boundary : g % 3 == 0 ? Species::large : Species::small;
     scene.grain(species, g % 3 == 0 ? 0.2 : 0.1, {3 * place(random), g < 5 ? -0.1 : place(random)},
@@ -53,7 +53,7 @@ Scene random_bed(unsigned seed)
   return moved_by(scene, gravity);
 }
 
-MomentumBalance balance_of(const std::vector<Scene>& frames, const Vec2& g = gravity,
+MomentumBalance balance_of(const std::vector<Packing>& frames, const Vec2& g = gravity,
                            const Kernel& kernel = gauss, const Layers& layers = unit_layers)
 {
   MomentumBalance balance(layers, kernel, g, step);
@@ -103,7 +103,7 @@ TEST(MomentumBalance, AForceWithoutAContactIsLeftAsResidualWhereItActs)
 // Two grains that push on each other across the edge y = 1 of two layers, the large one above.
 TEST(MomentumBalance, TheTermsOfAPairAreThoseWorkedOutByHand)
 {
-  Scene scene;
+  Packing scene;
   const auto large = scene.grain(Species::large, 0.2, {1, 1.15});
   const auto small = scene.grain(Species::small, 0.1, {1, 0.85});
   const Vec2 force(0.3, 2);
@@ -163,7 +163,7 @@ TEST(MomentumBalance, AColumnCarriesItsWeight)
 {
   constexpr int count = 6;
   const double mass = pi / 4, weight = 9 * mass;
-  Scene scene;
+  Packing scene;
   scene.grain(Species::boundary, 0.5, {5, -0.5});
   for (int n = 0; n < count; ++n)
     scene.grain(n % 2 == 0 ? Species::large : Species::small, 0.5, {5, n + 0.5});
@@ -189,7 +189,7 @@ TEST(MomentumBalance, AColumnCarriesItsWeight)
 // A Heaviside kernel of half-width w across an edge passes v_y h/(2w) of the grain through it.
 TEST(MomentumBalance, AFallingGrainCarriesItsMomentumThroughAnEdge)
 {
-  Scene scene;
+  Packing scene;
   scene.grain(Species::large, 0.5, {1, 1.05}, {4, -2});
   scene.grain(Species::small, 0.1, {1, 2.5});
   const double mass = pi / 4, volume = unit_layers.volume(0);
@@ -211,9 +211,9 @@ TEST(MomentumBalance, RatesOfConsecutiveStepsAddUpToTheChange)
 {
   std::mt19937 random(5);
   std::normal_distribution<double> kick(0, 30);
-  Scene scene = random_bed(3);
+  Packing scene = random_bed(3);
   scene.frame.contacts.clear();
-  std::vector<Scene> frames;
+  std::vector<Packing> frames;
   for (int k = 0; k < 8; ++k) {
     for (std::size_t g = 5; g < scene.grains.size(); ++g) {
       auto& velocity = scene.frame.velocity[g];
@@ -263,7 +263,7 @@ TEST(MomentumBalance, OfTheWholeBedOnlyWeightAndBaseRemain)
 TEST(MomentumBalance, NeitherAShiftAlongTheSlopeNorTheOrderOfAPairMatters)
 {
   const auto scene = random_bed(6);
-  Scene other = scene;
+  Packing other = scene;
   for (auto& position : other.frame.position) position.x() = std::fmod(position.x() + 7, 10);
   auto& list = other.frame.contacts;
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -283,7 +283,7 @@ TEST(MomentumBalance, NeitherAShiftAlongTheSlopeNorTheOrderOfAPairMatters)
 
 TEST(MomentumBalance, PartsMergeIntoTheWhole)
 {
-  std::vector<Scene> frames;
+  std::vector<Packing> frames;
   for (unsigned k = 0; k < 5; ++k) frames.push_back(random_bed(10 + k));
   for (std::size_t k = 0; k < frames.size(); ++k) frames[k].frame.time = static_cast<double>(k);
   frames[1].frame.position[30].y() = 6.5;  // one frame is higher than the others

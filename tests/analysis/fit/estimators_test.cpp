@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/rule_fit.hpp"
+#include "analysis/fit/window_sums.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ using synthetic::TableRow;
 TEST(Estimators, AnExactSlopeComesBackFromEveryFit)
 {
   const double s = 0.83;
-  const auto b = estimate(power_law(s, 1));
+  const auto b = estimators_of(power_law(s, 1));
   EXPECT_NEAR(b.slope, s, 1e-13);
   EXPECT_NEAR(b.slope_linear, s, 1e-13);
   EXPECT_NEAR(b.prefactor_power, s, 1e-13);
@@ -42,7 +43,7 @@ TEST(Estimators, AnExactSlopeComesBackFromEveryFit)
 
 TEST(Estimators, APowerLawKeepsItsExponentWhateverTheWeights)
 {
-  const auto b = estimate(power_law(1.44, 1.0057));
+  const auto b = estimators_of(power_law(1.44, 1.0057));
   EXPECT_NEAR(b.exponent, 1.0057, 1e-12);
   EXPECT_NEAR(b.prefactor_power, 1.44, 1e-12);
 }
@@ -51,10 +52,10 @@ TEST(Estimators, APowerLawKeepsItsExponentWhateverTheWeights)
 // the half-sum of the ends of a range from -0.4413 to -0.3062.
 TEST(Estimators, ThePapersSlopesGiveThePapersB)
 {
-  const auto contact = estimate(power_law(0.966, 1));
+  const auto contact = estimators_of(power_law(0.966, 1));
   EXPECT_NEAR(contact.B_pure_large, 0.0340, 5e-5);
   EXPECT_NEAR(contact.B_pure_small, 0.0352, 5e-5);
-  const auto kinetic = estimate(power_law(1.4413, 1));
+  const auto kinetic = estimators_of(power_law(1.4413, 1));
   EXPECT_NEAR(kinetic.B_pure_large, -0.4413, 5e-5);
   EXPECT_NEAR(kinetic.B_pure_small, -0.3062, 5e-5);
   EXPECT_NEAR(kinetic.B_paper, -0.3737, 1e-4);
@@ -72,7 +73,7 @@ TEST(Estimators, ConstantBOfGrayAndThorntonIsFoundDirectly)
     point.large = 5 * psi;
     point.small = 5 * (1 - psi);
   }
-  EXPECT_NEAR(estimate(points).B_direct, b, 1e-13);
+  EXPECT_NEAR(estimators_of(points).B_direct, b, 1e-13);
 }
 
 // Two layers: (x, y) = (1/4, 1/2) of weight 3 and (4, 2) of weight 1. ln(y/x) = ln 2 and -ln 2, so
@@ -84,7 +85,7 @@ TEST(Estimators, TwoLayersByHand)
   const std::vector<FitPoint> points{
       {.phi_large = 0.8, .weight = 3, .size_ratio = 2, .small = 1, .large = 2, .total = 3},
       {.phi_large = 0.2, .weight = 1, .size_ratio = 2, .small = 2, .large = 1, .total = 3}};
-  const auto b = estimate(points);
+  const auto b = estimators_of(points);
   EXPECT_NEAR(b.slope, std::sqrt(2.0), 1e-14);
   EXPECT_NEAR(b.slope_linear, (1. / 8 + 8) / (1. / 16 + 16), 1e-14);
   EXPECT_NEAR(b.exponent, 0.5, 1e-14);
@@ -103,19 +104,19 @@ TEST(Estimators, SumsOverWindowsSayTheSameAsGslsFitsOfThePoints)
     point.total = point.large + point.small;
     points.push_back(point);
   }
-  const auto by_points = estimate(points);
-  const auto by_sums = estimate_from_sums(window_sums(points, {4, 7}).total());
-  for (const auto& [name, place] : estimator_names)
+  const auto by_points = estimators_of(points);
+  const auto by_sums = estimators_from_sums(window_sums(points, {4, 7}).total());
+  for (const auto& [name, place] : estimator_columns)
     EXPECT_NEAR(by_sums.*place, by_points.*place, 1e-12) << name;
 }
 
 TEST(Estimators, AStressThatIsNotPositiveCountsForTheDirectEstimateOnly)
 {
   auto points = power_law(0.9, 1);
-  const auto before = estimate(points);
+  const auto before = estimators_of(points);
   points.push_back(
       {.phi_large = 0.02, .weight = 1, .size_ratio = 2, .small = 3, .large = -0.1, .total = 2.9});
-  const auto after = estimate(points);
+  const auto after = estimators_of(points);
   EXPECT_EQ(after.slope, before.slope);
   EXPECT_EQ(after.slope_linear, before.slope_linear);
   EXPECT_LT(after.B_direct, before.B_direct);
@@ -125,9 +126,9 @@ TEST(Estimators, OneCompositionHasASlopeButNoExponent)
 {
   const std::vector<FitPoint> points(
       3, {.phi_large = 0.3, .weight = 1, .size_ratio = 2, .small = 2, .large = 1, .total = 3});
-  EXPECT_NEAR(estimate(points).slope, 2 / (0.7 / 0.3), 1e-14);
-  EXPECT_TRUE(std::isnan(estimate(points).exponent));
-  EXPECT_TRUE(std::isnan(estimate_from_sums(window_sums(points, {1}).total()).exponent));
+  EXPECT_NEAR(estimators_of(points).slope, 2 / (0.7 / 0.3), 1e-14);
+  EXPECT_TRUE(std::isnan(estimators_of(points).exponent));
+  EXPECT_TRUE(std::isnan(estimators_from_sums(window_sums(points, {1}).total()).exponent));
 }
 
 // ---- rules on neutral contacts ------------------------------------------------------------------
@@ -192,7 +193,7 @@ TEST(NeutralContacts, DroppedMixedContactsLeaveAParabolaAndNoB)
   EXPECT_NEAR(result.value.exponent, 2, 1e-12);
   EXPECT_NEAR(result.value.prefactor_power, 2, 1e-12);
   EXPECT_FALSE(std::isnan(result.value.slope));
-  for (const auto& [name, place] : estimator_names)
+  for (const auto& [name, place] : estimator_columns)
     EXPECT_EQ(std::isnan(result.value.*place), name[0] == 'B') << name;
   EXPECT_TRUE(std::isnan(result.neutral));
   EXPECT_TRUE(std::isnan(result.minus_size));
@@ -225,7 +226,7 @@ TEST(Intervals, HoldEachEstimateAndExistForAll)
 {
   const auto data = neutral_data(0.1);
   const auto result = fit_rule(data, parse_rule("uniform:0.8"), {}, Bootstrap(data.runs, 300, 1));
-  for (const auto& [name, place] : estimator_names) {
+  for (const auto& [name, place] : estimator_columns) {
     EXPECT_LT(result.low.*place, result.value.*place) << name;
     EXPECT_GT(result.high.*place, result.value.*place) << name;
   }

@@ -73,16 +73,18 @@ TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
   std::vector<TableRow> rows;
   for (int layer = 0; layer < 4; ++layer)
     rows.push_back({0, 1, 9, neutral_sums(0.5, 2), 0.02 * layer, 0.02 * (layer + 1)});
-  const auto used = [&](const char* lowest, const char* highest) {
-    return read({stress_table(rows)}, {.lowest = lowest, .highest = highest}).count.used;
+  const auto used = [&](const char* heights) {
+    return read({stress_table(rows)}, {.heights = heights}).count.used;
   };
-  EXPECT_EQ(used("", ""), 4u);
-  EXPECT_EQ(used("4dS", ""), 3u);
-  EXPECT_EQ(used("4dS", "12dS"), 2u);
-  EXPECT_EQ(used("", "0.059"), 2u);
-  const auto sentence = sentence_of<RunError>({stress_table(rows)}, {.lowest = "1"});
+  EXPECT_EQ(used(""), 4u);
+  EXPECT_EQ(used(":"), 4u);
+  EXPECT_EQ(used("4dS:"), 3u);
+  EXPECT_EQ(used("4dS:12dS"), 2u);
+  EXPECT_EQ(used(":0.059"), 2u);
+  const auto sentence = sentence_of<RunError>({stress_table(rows)}, {.heights = "1:"});
   EXPECT_TRUE(holds(sentence, "4 outside --heights"));
-  EXPECT_THROW(used("4", "five"), UsageError);
+  EXPECT_THROW(used("4:five"), UsageError);
+  EXPECT_THROW(used("4dS"), UsageError);
 }
 
 TEST(FitData, WhereNothingIsLeftTheSentenceNamesTheFilter)

@@ -55,22 +55,22 @@ TEST(Layers, TheVolumeOfALayerIsItsThicknessTimesTheCell)
 TEST(Layers, TheLastLayerIsReachedByTheTopOfTheHighestMobileGrain)
 {
   const Layers layers(1, 10);
-  Scene scene;
-  scene.grain(Species::boundary, 1, {0, 7});
-  EXPECT_EQ(layers.count(scene.grains, scene.frame), 1u);
-  scene.grain(Species::small, 0.5, {0, 1.25});
-  EXPECT_EQ(layers.count(scene.grains, scene.frame), 2u);
-  scene.frame.position[1].y() = 1.5;  // just touches the edge at 2
-  EXPECT_EQ(layers.count(scene.grains, scene.frame), 2u);
-  scene.frame.position[1].y() = 1.75;
-  EXPECT_EQ(layers.count(scene.grains, scene.frame), 3u);
+  Packing packing;
+  packing.grain(Species::boundary, 1, {0, 7});
+  EXPECT_EQ(layers.count(packing.grains, packing.frame), 1u);
+  packing.grain(Species::small, 0.5, {0, 1.25});
+  EXPECT_EQ(layers.count(packing.grains, packing.frame), 2u);
+  packing.frame.position[1].y() = 1.5;  // just touches the edge at 2
+  EXPECT_EQ(layers.count(packing.grains, packing.frame), 2u);
+  packing.frame.position[1].y() = 1.75;
+  EXPECT_EQ(layers.count(packing.grains, packing.frame), 3u);
 }
 
 TEST(Layers, ALostGrainIsReportedAndNotCounted)
 {
-  Scene scene;
-  scene.grain(Species::small, 0.5, {0, 1e9});
-  EXPECT_THROW(Layers(1, 10).count(scene.grains, scene.frame), RunError);
+  Packing packing;
+  packing.grain(Species::small, 0.5, {0, 1e9});
+  EXPECT_THROW(Layers(1, 10).count(packing.grains, packing.frame), RunError);
 }
 
 TEST(Layers, ADiscKeepsItsAreaHoweverTheLayersCutIt)
@@ -182,14 +182,14 @@ TEST(Annuli, AcrossIsOutwardAndAlongIsClockwise)
 
 TEST(Annuli, TheyReachToTheFarthestMobileGrain)
 {
-  Scene scene;
-  scene.grain(Species::boundary, 1, {50, 5});
-  scene.grain(Species::small, 0.5, {5, 1.75});
-  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 4u);
-  scene.frame.position[1].x() = 6;
-  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 4u);
-  scene.frame.position[1].x() = 9;
-  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(scene.grains, scene.frame), 6u);
+  Packing packing;
+  packing.grain(Species::boundary, 1, {50, 5});
+  packing.grain(Species::small, 0.5, {5, 1.75});
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(packing.grains, packing.frame), 4u);
+  packing.frame.position[1].x() = 6;
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(packing.grains, packing.frame), 4u);
+  packing.frame.position[1].x() = 9;
+  EXPECT_EQ(Layers::annuli(1, 10, {5, 5}).count(packing.grains, packing.frame), 6u);
 }
 
 TEST(Layers, ThicknessAndLengthMustBePositive)

@@ -18,23 +18,23 @@ const Layers layers(1, 10);
 
 /// 60 grains, one of them boundary, up to a height that differs from frame to frame, and contacts
 /// of any pair, with some on the base.
-std::vector<Scene> frames(int count)
+std::vector<Packing> frames(int count)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(0, 1);
-  std::vector<Scene> all;
+  std::vector<Packing> all;
   for (int k = 0; k < count; ++k) {
-    Scene scene;
+    Packing packing;
     const double height = 1.5 + (k * 7 % 5);
     for (int g = 0; g < 60; ++g)
-      scene.grain(g == 0       ? Species::boundary
-                  : g % 3 == 0 ? Species::large
-                               : Species::small,
-                  g % 3 == 0 ? 0.2 : 0.1, {10 * any(random), height * any(random)},
-                  {any(random), any(random)}, any(random));
+      packing.grain(g == 0       ? Species::boundary
+                    : g % 3 == 0 ? Species::large
+                                 : Species::small,
+                    g % 3 == 0 ? 0.2 : 0.1, {10 * any(random), height * any(random)},
+                    {any(random), any(random)}, any(random));
     for (int c = 1; c < 59; ++c)
-      scene.contact(c, (c * 5 + 7) % 60 == c ? 0 : (c * 5 + 7) % 60, {any(random), any(random)});
-    all.push_back(scene);
+      packing.contact(c, (c * 5 + 7) % 60 == c ? 0 : (c * 5 + 7) % 60, {any(random), any(random)});
+    all.push_back(packing);
   }
   return all;
 }
@@ -63,7 +63,7 @@ std::vector<double> numbers(const Sums& sums)
 }
 
 template <class Sums>
-Sums sum(Sums sums, const std::vector<Scene>& scenes, std::size_t begin, std::size_t end)
+Sums sum(Sums sums, const std::vector<Packing>& scenes, std::size_t begin, std::size_t end)
 {
   for (std::size_t k = begin; k < end; ++k) sums.add(scenes[k].grains, scenes[k].frame);
   return sums;

@@ -14,7 +14,7 @@ namespace {
 const Layers layers(2, 100);
 
 /// Chains of grains of radius 1 at the given height, pressed by the given normal forces.
-void chain(Scene& scene, double height, Species species, const std::vector<double>& forces)
+void chain(Packing& scene, double height, Species species, const std::vector<double>& forces)
 {
   auto before = scene.grain(species, 1, {1, height});
   for (std::size_t k = 0; k < forces.size(); ++k) {
@@ -24,7 +24,7 @@ void chain(Scene& scene, double height, Species species, const std::vector<doubl
   }
 }
 
-ForceDistribution distribution(const Scene& scene, ForceUnit unit, double width = 0.1)
+ForceDistribution distribution(const Packing& scene, ForceUnit unit, double width = 0.1)
 {
   MeanNormalForce mean(layers);
   mean.add(scene.grains, scene.frame);
@@ -50,7 +50,7 @@ std::vector<double> bin(const std::vector<std::vector<double>>& rows, double x)
 
 TEST(ForceDistribution, EqualForcesLieInTheBinThatBeginsAtTheMean)
 {
-  Scene scene;
+  Packing scene;
   chain(scene, 1, Species::small, {7, 7, 7});
   const auto rows = distribution(scene, ForceUnit::layer).rows(0);
   ASSERT_EQ(rows.size(), ForceDistribution::bins);
@@ -65,7 +65,7 @@ TEST(ForceDistribution, EqualForcesLieInTheBinThatBeginsAtTheMean)
 // Small grains bear 1 each and large ones 3: the mean of the layer is 2.
 TEST(ForceDistribution, TheUnitIsTheMeanOfTheLayerOrOfThePairType)
 {
-  Scene scene;
+  Packing scene;
   chain(scene, 1, Species::small, {1, 1});
   chain(scene, 1.5, Species::large, {3, 3});
   const auto by_layer = distribution(scene, ForceUnit::layer).rows(0);
@@ -78,7 +78,7 @@ TEST(ForceDistribution, TheUnitIsTheMeanOfTheLayerOrOfThePairType)
 
 TEST(ForceDistribution, EachLayerHasItsOwnMeanAndTheBedAllContacts)
 {
-  Scene scene;
+  Packing scene;
   chain(scene, 1, Species::small, {5, 5});
   chain(scene, 3, Species::small, {1, 1});
   const auto forces = distribution(scene, ForceUnit::layer);
@@ -89,7 +89,7 @@ TEST(ForceDistribution, EachLayerHasItsOwnMeanAndTheBedAllContacts)
 
 TEST(ForceDistribution, TheDensityIntegratesToOneAndWhatIsBeyondLiesInTheOpenBin)
 {
-  Scene scene;
+  Packing scene;
   chain(scene, 1, Species::small, {0.5, 0.7, 1, 1.3, 1.5});
   double integral = 0;
   for (const auto& row : distribution(scene, ForceUnit::layer).rows(0))
@@ -102,7 +102,7 @@ TEST(ForceDistribution, TheDensityIntegratesToOneAndWhatIsBeyondLiesInTheOpenBin
 
 TEST(ForceDistribution, ContactsWithoutForceDoNotCount)
 {
-  Scene scene;
+  Packing scene;
   chain(scene, 1, Species::small, {2, 2});
   scene.frame.contacts.force[0] = {0, 0};
   const auto rows = distribution(scene, ForceUnit::layer).rows(0);
@@ -112,7 +112,7 @@ TEST(ForceDistribution, ContactsWithoutForceDoNotCount)
 
 TEST(ForceDistribution, CountsArePerFrameHoweverTheFramesAreMerged)
 {
-  Scene strong, weak;
+  Packing strong, weak;
   chain(strong, 1, Species::small, {3});
   chain(weak, 1, Species::small, {1});
   MeanNormalForce mean(layers), more(layers);

@@ -2,6 +2,7 @@
 #include "analysis/micro/pressure_estimate.hpp"
 
 #include "analysis/micro/structure_by_layer.hpp"
+#include "analysis/stress/neutral_contacts.hpp"
 #include "tests/analysis/grain_builder.hpp"
 #include "tests/analysis/neutral_contacts.hpp"
 
@@ -21,7 +22,7 @@ const ForceMeasure exact{ContactForce::normal, ForceAverage::ends};
 /// along it, that ends on the base.
 StructureSums chain(double tangential)
 {
-  Scene scene;
+  Packing scene;
   Vec2 place{3, 1};
   auto before = scene.grain(Species::boundary, 1, {3, -1});
   auto radius_before = 1.0;
@@ -83,7 +84,7 @@ TEST(PressureEstimate, TangentialForcesRaiseTheEstimateFromModuli)
 
 TEST(PressureEstimate, AnAbsentSpeciesBearsNothing)
 {
-  Scene scene;
+  Packing scene;
   scene.grain(Species::small, 0.5, {1, 1});
   scene.grain(Species::small, 0.5, {2, 1});
   scene.contact(0, 1, {-3, 0});

@@ -17,7 +17,7 @@ namespace {
 const Layers unit_layers(1, 10);
 const Layers one_layer(10, 10);
 
-StructureByLayer micro_of(const Scene& scene, const Layers& layers, double friction = 0.5)
+StructureByLayer micro_of(const Packing& scene, const Layers& layers, double friction = 0.5)
 {
   StructureByLayer micro(layers, GrainArea::clipped, friction);
   micro.add(scene.grains, scene.frame);
@@ -26,9 +26,9 @@ StructureByLayer micro_of(const Scene& scene, const Layers& layers, double frict
 
 /// A pyramid: two large grains on the base, one small between them on top, all contacts loaded but
 /// that between the large ones.
-Scene pyramid()
+Packing pyramid()
 {
-  Scene scene;
+  Packing scene;
   const auto base = scene.grain(Species::boundary, 1, {4, -1});
   const auto left = scene.grain(Species::large, 1, {4, 1});
   const auto right = scene.grain(Species::large, 1, {6, 1});
@@ -69,7 +69,7 @@ TEST(StructureByLayer, ThePapersMeanForceIsOverContactsWithAtLeastOneSuchGrain)
 
 TEST(StructureByLayer, AContactBetweenTwoLargeGrainsHasTwoEndsOnLargeGrains)
 {
-  Scene scene = pyramid();
+  Packing scene = pyramid();
   scene.frame.contacts.force[3] = {-3, 4};
   const auto sums = micro_of(scene, one_layer).mean();
   const ForceMeasure over_ends{ContactForce::modulus, ForceAverage::ends};
@@ -109,9 +109,9 @@ TEST(StructureByLayer, HeightsAreCentresOfMassAndTwiceTheMeanHeightOfTheArea)
 }
 
 /// A hexagonal packing of equal large grains, periodic both ways.
-Scene hexagonal(const Vec2& along, const Vec2& up, const Vec2& down)
+Packing hexagonal(const Vec2& along, const Vec2& up, const Vec2& down)
 {
-  Scene scene;
+  Packing scene;
   constexpr std::int32_t columns = 4, rows = 4;
   const double rise = std::sqrt(3.0);
   for (int row = 0; row < rows; ++row)
@@ -143,8 +143,8 @@ TEST(StructureByLayer, InAHexagonalPackingEveryGrainHasSixContactsWithoutADirect
 
 TEST(StructureByLayer, TheOrderOfTheGrainsInAContactDoesNotMatter)
 {
-  Scene scene, reversed;
-  for (Scene* s : {&scene, &reversed}) {
+  Packing scene, reversed;
+  for (Packing* s : {&scene, &reversed}) {
     s->grain(Species::small, 0.5, {2, 1});
     s->grain(Species::large, 1, {2.9, 2.2});
   }
@@ -159,7 +159,7 @@ TEST(StructureByLayer, TheOrderOfTheGrainsInAContactDoesNotMatter)
 /// Two grains side by side, the force on the right one from the left.
 StructureSums pressed(const Vec2& force, double friction)
 {
-  Scene scene;
+  Packing scene;
   scene.grain(Species::small, 1, {1, 1});
   scene.grain(Species::small, 1, {3, 1});
   scene.contact(1, 0, force);
@@ -184,7 +184,7 @@ TEST(StructureByLayer, WithoutAFrictionCoefficientSlidingIsUnknown)
 // Forces 1, 4 and 6 on three contacts of one layer: two are above their mean.
 TEST(StructureByLayer, AStrongContactBearsMoreThanTheMeanOfItsLayer)
 {
-  Scene scene;
+  Packing scene;
   for (int g = 0; g < 4; ++g)
     scene.grain(g < 2 ? Species::small : Species::large, 1, {1.0 + 2 * g, 1});
   scene.contact(1, 0, {1, 0});
@@ -213,8 +213,8 @@ TEST(StructureByLayer, StressesAreThoseOfTheContactStressAtTheContactPoint)
 
 TEST(StructureByLayer, ResultsAreMeansPerFrame)
 {
-  const Scene scene = pyramid();
-  Scene idle = scene;
+  const Packing scene = pyramid();
+  Packing idle = scene;
   idle.frame.contacts = {};
   auto micro = micro_of(scene, one_layer);
   micro.add(idle.grains, idle.frame);
@@ -228,8 +228,8 @@ TEST(StructureByLayer, ResultsAreMeansPerFrame)
 
 TEST(StructureByLayer, MergedSumsAreThoseOfAllFrames)
 {
-  const Scene scene = pyramid();
-  Scene lifted = scene;  // reaches into two layers more
+  const Packing scene = pyramid();
+  Packing lifted = scene;  // reaches into two layers more
   lifted.frame.position[3].y() += 2;
   lifted.frame.contacts.force[0] = {0, 0};
   auto whole = micro_of(scene, unit_layers), parts = whole;

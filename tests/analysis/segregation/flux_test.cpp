@@ -20,12 +20,12 @@ const Layers layers(1, 10);
 const Window window{2, 10, {}};  // parts of 1 s
 constexpr double small_diameter = 0.02, large_diameter = 0.04;
 
-using Move = std::function<void(Scene&, double)>;
+using Move = std::function<void(Packing&, double)>;
 
 /// Frames over the window at equal distances; `move` gets the time since its beginning.
-std::vector<Scene> film(Scene scene, int frames, const Move& move)
+std::vector<Packing> film(Packing scene, int frames, const Move& move)
 {
-  std::vector<Scene> all;
+  std::vector<Packing> all;
   for (int k = 0; k < frames; ++k) {
     scene.frame.time = window.begin + (window.end - window.begin) * k / frames;
     move(scene, scene.frame.time - window.begin);
@@ -34,23 +34,23 @@ std::vector<Scene> film(Scene scene, int frames, const Move& move)
   return all;
 }
 
-SegregationFlux seen(const std::vector<Scene>& frames)
+SegregationFlux seen(const std::vector<Packing>& frames)
 {
   SegregationFlux flux(layers, window, small_diameter, large_diameter);
   for (const auto& scene : frames) flux.add(scene.grains, scene.frame);
   return flux;
 }
 
-SegregationFlux seen(const Scene& scene, int frames, const Move& move)
+SegregationFlux seen(const Packing& scene, int frames, const Move& move)
 {
   return seen(film(scene, frames, move));
 }
 
 /// Two small and one large grain (masses 1:1:4) in the second of two layers, three small ones
 /// below.
-Scene mixture()
+Packing mixture()
 {
-  Scene scene;
+  Packing scene;
   scene.grain(Species::small, 0.01, {1, 1.3});
   scene.grain(Species::small, 0.01, {2, 1.7});
   scene.grain(Species::large, 0.02, {3, 1.5});
@@ -61,8 +61,8 @@ Scene mixture()
 // v = 0.1 for the small, 0.4 for the large grain: w = (2*0.1 + 4*0.4)/6 = 0.3, phi_L = 2/3.
 TEST(SegregationFlux, AKnownFluxIsFound)
 {
-  const Scene scene = mixture();
-  const auto flux = seen(scene, 16, [](Scene& s, double) {
+  const Packing scene = mixture();
+  const auto flux = seen(scene, 16, [](Packing& s, double) {
     s.frame.velocity = {{5, 0.1}, {6, 0.1}, {7, 0.4}, {0, 0.2}, {0, 0.2}, {0, 0.2}};
   });
   const auto layer = flux.results(scene.grains, 2)[1];
@@ -85,8 +85,8 @@ TEST(SegregationFlux, AKnownFluxIsFound)
 // A layer that swings, with its large grains present only on the way up, does not segregate.
 TEST(SegregationFlux, TheMotionOfTheLayerAsAWholeDropsOut)
 {
-  const Scene scene = mixture();
-  const auto flux = seen(scene, 16, [](Scene& s, double t) {
+  const Packing scene = mixture();
+  const auto flux = seen(scene, 16, [](Packing& s, double t) {
     const bool up = std::fmod(t, 1) < 0.5;
     for (auto& velocity : s.frame.velocity) velocity = {0, up ? 3 : -3};
     s.frame.position[2].y() = up ? 1.5 : 0.5;
@@ -101,8 +101,8 @@ TEST(SegregationFlux, TheMotionOfTheLayerAsAWholeDropsOut)
 // sqrt(sum 0.1^2/(8 * 7)) phi = 0.1/sqrt(7) phi.
 TEST(SegregationFlux, TheErrorIsThatOfTheMeanOfEightParts)
 {
-  const Scene scene = mixture();
-  const auto flux = seen(scene, 32, [](Scene& s, double t) {
+  const Packing scene = mixture();
+  const auto flux = seen(scene, 32, [](Packing& s, double t) {
     const double sign = std::fmod(t, 2) < 1 ? 1 : -1;
     s.frame.velocity[0] = s.frame.velocity[1] = {0, -0.2 * sign};
     s.frame.velocity[2] = {0, 0.1 * sign};
@@ -116,8 +116,8 @@ TEST(SegregationFlux, TheErrorIsThatOfTheMeanOfEightParts)
 // Drift is not diffusion: each species rises at its own speed.
 TEST(SegregationFlux, ASteadyDriftHasNoDiffusivity)
 {
-  const Scene scene = mixture();
-  const auto flux = seen(scene, 16, [&](Scene& s, double t) {
+  const Packing scene = mixture();
+  const auto flux = seen(scene, 16, [&](Packing& s, double t) {
     for (std::size_t g = 0; g < 6; ++g)
       s.frame.position[g].y() = scene.frame.position[g].y() + (g == 2 ? 0.01 : 0.02) * t;
   });
@@ -131,8 +131,8 @@ TEST(SegregationFlux, ASteadyDriftHasNoDiffusivity)
 TEST(SegregationFlux, BallisticMotionHasADiffusivityThatGrowsWithTheLag)
 {
   constexpr double c = 0.01;
-  const Scene scene = mixture();
-  const auto flux = seen(scene, 16, [&](Scene& s, double t) {
+  const Packing scene = mixture();
+  const auto flux = seen(scene, 16, [&](Packing& s, double t) {
     s.frame.position[0].y() = 1.3 + c * t;
     s.frame.position[1].y() = 1.7 - c * t;
   });
@@ -144,10 +144,10 @@ TEST(SegregationFlux, BallisticMotionHasADiffusivityThatGrowsWithTheLag)
 // Darken: the rarer a species, the more the composition's diffusivity is its own.
 TEST(SegregationFlux, TheCompositionDiffusesAsItsRarerSpecies)
 {
-  Scene scene;
+  Packing scene;
   for (const double y : {1.2, 1.4}) scene.grain(Species::small, 0.01, {1, y});
   for (const double y : {1.6, 1.8}) scene.grain(Species::large, 0.02, {2, y});
-  const auto flux = seen(scene, 8, [&](Scene& s, double t) {
+  const auto flux = seen(scene, 8, [&](Packing& s, double t) {
     for (std::size_t g = 0; g < 4; ++g)
       s.frame.position[g].y() =
           scene.frame.position[g].y() + (g % 2 == 0 ? 1 : -1) * (g < 2 ? 0.01 : 0.005) * t;
@@ -161,16 +161,16 @@ TEST(SegregationFlux, TheCompositionDiffusesAsItsRarerSpecies)
 
 /// 40 small grains and 20 large ones in the middle of each of three layers walk at random with
 /// D = 2e-4 and 1e-4 m^2/s, drifts of their own on top.
-std::vector<Scene> walk(unsigned seed)
+std::vector<Packing> walk(unsigned seed)
 {
   std::mt19937 random(seed);
   std::normal_distribution<double> kick(0, 1);
-  Scene scene;
+  Packing scene;
   for (int layer = 0; layer < 3; ++layer)
     for (int g = 0; g < 60; ++g)
       scene.grain(g < 40 ? Species::small : Species::large, g < 40 ? 0.01 : 0.02,
                   {0.1 * g, layer + 0.4 + 0.2 * g / 60}, {layer + 1.0 * g / 60, 0});
-  return film(scene, 64, [&](Scene& s, double) {
+  return film(scene, 64, [&](Packing& s, double) {
     for (std::size_t g = 0; g < s.grains.size(); ++g) {
       const bool large = s.grains.species[g] == Species::large;
       const double D = large ? 1e-4 : 2e-4, dt = 1.0 / 8;
@@ -210,7 +210,7 @@ TEST(SegregationFlux, ARandomWalkHasItsDiffusivityWithinItsError)
 // no diffusivity S = 0.05/0.25; D = 2e-4 adds 2e-4*0.3.
 TEST(SegregationFlux, TheFluxIsSplitIntoSegregationAndDiffusion)
 {
-  Scene scene;
+  Packing scene;
   const auto fill = [&](double y, int small, int large) {
     for (int g = 0; g < small; ++g) scene.grain(Species::small, 0.02, {0.1 * g, y}, {3 * y, -0.1});
     for (int g = 0; g < large; ++g) scene.grain(Species::large, 0.02, {0.1 * g, y}, {3 * y, 0.1});
@@ -219,7 +219,7 @@ TEST(SegregationFlux, TheFluxIsSplitIntoSegregationAndDiffusion)
   fill(1.5, 5, 5);
   fill(2.5, 2, 8);
   const double step = std::sqrt(2 * 2e-4);  // +-step in 1 s: variance 2 D t but for n/(n - 1)
-  const auto flux = seen(scene, 8, [&](Scene& s, double t) {
+  const auto flux = seen(scene, 8, [&](Packing& s, double t) {
     const double side = static_cast<int>(t + 0.5) % 2 == 0 ? 0 : step;
     for (std::size_t g = 10; g < 20; ++g) {
       const std::size_t own = (g - 10) % 5;
@@ -238,8 +238,8 @@ TEST(SegregationFlux, TheFluxIsSplitIntoSegregationAndDiffusion)
 
 TEST(SegregationFlux, DiffusivitiesAreMeasuredInShearAndMeanDiameter)
 {
-  Scene scene = mixture();
-  const auto flux = seen(scene, 16, [&](Scene& s, double t) {
+  Packing scene = mixture();
+  const auto flux = seen(scene, 16, [&](Packing& s, double t) {
     s.frame.velocity = {{5, 0}, {6, 0}, {5.5, 0}, {0, 0}, {0, 0}, {0, 0}};
     s.frame.position[0].y() = 1.3 + 1e-9 * t;
     s.frame.position[1].y() = 1.7 - 1e-9 * t;
@@ -269,16 +269,16 @@ TEST(SegregationFlux, FramesMayBeAddedInParts)
 
 TEST(SegregationFlux, OfASingleFrameDiffusivitiesAndErrorsAreUnknown)
 {
-  const Scene scene = mixture();
-  const auto result = seen(scene, 1, [](Scene&, double) {}).results(scene.grains, 2)[0];
+  const Packing scene = mixture();
+  const auto result = seen(scene, 1, [](Packing&, double) {}).results(scene.grains, 2)[0];
   EXPECT_TRUE(std::isnan(result.value.D_small));
   EXPECT_TRUE(std::isnan(result.error.phi_large));
 }
 
 TEST(SegregationFlux, EveryNumberStandsUnderItsColumn)
 {
-  const Scene scene = mixture();
-  const auto flux = seen(scene, 16, [](Scene& s, double) {
+  const Packing scene = mixture();
+  const auto flux = seen(scene, 16, [](Packing& s, double) {
     s.frame.velocity = {{5, 0.1}, {6, 0.1}, {7, 0.4}, {0, 0.2}, {0, 0.2}, {0, 0.2}};
   });
   const auto result = flux.results(scene.grains, 2)[1];

@@ -15,9 +15,9 @@ const Layers layers(1, 10);
 
 /// Grains of radius 0.01 in 20 layers, each layer's large grains out of 50 by `large(layer)`.
 template <class Large>
-Scene bed(const Large& large)
+Packing bed(const Large& large)
 {
-  Scene scene;
+  Packing scene;
   for (int layer = 0; layer < 20; ++layer)
     for (int g = 0; g < 50; ++g)
       scene.grain(g < large(layer) ? Species::large : Species::small, 0.01, {0.1 * g, layer + 0.5},
@@ -25,7 +25,7 @@ Scene bed(const Large& large)
   return scene;
 }
 
-double index_of(const Scene& scene)
+double index_of(const Packing& scene)
 {
   return mixing_index(layers, scene.grains, scene.frame);
 }
@@ -49,7 +49,7 @@ TEST(MixingIndex, IsOneForARandomMixture)
   std::bernoulli_distribution is_large(0.1);
   double mean = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    Scene scene;
+    Packing scene;
     for (int layer = 0; layer < 20; ++layer)
       for (int g = 0; g < 200; ++g) {
         const bool large = is_large(random);

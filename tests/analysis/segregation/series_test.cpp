@@ -15,9 +15,9 @@ namespace {
 const Layers layers(1, 10);
 
 // 100 grains of equal size; the bed is 20 high, so that the shear rate is taken from 2 to 18.
-Scene shear(double rate, double kink)
+Packing shear(double rate, double kink)
 {
-  Scene scene;
+  Packing scene;
   for (int g = 0; g < 100; ++g) {
     const double y = 0.1 + 0.2 * g;
     const bool outside = y < 2 || y > 18;

@@ -223,7 +223,7 @@ TEST(Coverage, OfAFlowThatSegregatesIsThatOfASteadyOne)
 {
   Ar1 noise(0.5);
   const auto known = ScatteredStress::drifting(120, nullptr);
-  const double truth = estimate(fit_points(known, {}, {})).B_half;
+  const double truth = estimators_of(fit_points(known, {}, {})).B_half;
   double share = 0, time = 0;
   for (int k = 0; k < trials; ++k) {
     const auto fit = fit_rule(ScatteredStress::drifting(120, &noise), {}, {},

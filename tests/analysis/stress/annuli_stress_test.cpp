@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact stress in annuli about an axis.
 #include "analysis/frames/composition.hpp"
-#include "tests/analysis/contact_scenes.hpp"
+#include "tests/analysis/contact_packings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,29 +20,29 @@ TEST(AnnuliStress, ARadialChainPressesOutward)
   const auto annuli = Layers::annuli(1, 10, axis);
   for (const double angle : {0.0, 0.4, 2.0, 3.6, 5.5}) {
     const Vec2 outward{std::cos(angle), std::sin(angle)};
-    Scene scene;
-    const auto inner = scene.grain(Species::small, 0.5, axis + 2.25 * outward);
-    const auto outer = scene.grain(Species::large, 1, axis + 3.75 * outward);
-    scene.contact(outer, inner, 4 * outward);
+    Packing packing;
+    const auto inner = packing.grain(Species::small, 0.5, axis + 2.25 * outward);
+    const auto outer = packing.grain(Species::large, 1, axis + 3.75 * outward);
+    packing.contact(outer, inner, 4 * outward);
     PartialContactStress stress(annuli, Assignment::contact_point);
-    stress.add(scene.grains, scene.frame);
+    stress.add(packing.grains, packing.frame);
     ASSERT_EQ(stress.layers(), 5u);
     EXPECT_TRUE(same(stress.mean(2).sums.mixed, dyad({0, 4}, {0, 1.5})));
     PartialContactStress by_grain(annuli, Assignment::grain);
-    by_grain.add(scene.grains, scene.frame);
-    EXPECT_TRUE(same(by_grain.mean(3).sums.at_centres.mixed_large, dyad({0, 4}, {0, 1.5})));
-    EXPECT_TRUE(same(by_grain.mean(2).sums.at_centres.mixed_small, dyad({0, 4}, {0, 1.5})));
+    by_grain.add(packing.grains, packing.frame);
+    EXPECT_TRUE(same(by_grain.mean(3).sums.mixed_at_large, dyad({0, 4}, {0, 1.5})));
+    EXPECT_TRUE(same(by_grain.mean(2).sums.mixed_at_small, dyad({0, 4}, {0, 1.5})));
   }
 }
 
 // Far from its axis an annulus is a layer.
 TEST(AnnuliStress, FarFromItsAxisIsThatOfLayers)
 {
-  const Scene scene = large_on_small();
+  const Packing packing = large_on_small();
   const auto annuli = Layers::annuli(1, 10, {5, -1e4});
   PartialContactStress round(annuli, Assignment::contact_point);
-  round.add(scene.grains, scene.frame);
-  const auto flat = stress_of(scene, Assignment::contact_point).mean(1);
+  round.add(packing.grains, packing.frame);
+  const auto flat = stress_of(packing, Assignment::contact_point).mean(1);
   const auto far = round.mean(10001);
   EXPECT_TRUE(same(far.sums.mixed, flat.sums.mixed, 1e-3));
   EXPECT_TRUE(same(far.sums.mixed_size, flat.sums.mixed_size, 1e-3));
@@ -52,16 +52,16 @@ TEST(AnnuliStress, PressureOfAllAnnuliIsThatOfAllLayers)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(0, 10);
-  Scene scene;
+  Packing packing;
   for (int g = 0; g < 40; ++g)
-    scene.grain(g % 2 == 0 ? Species::small : Species::large, g % 2 == 0 ? 0.2 : 0.4,
-                {place(random), place(random)});
-  for (int g = 0; g + 1 < 40; ++g) scene.contact(g, g + 1, {place(random) - 5, place(random)});
+    packing.grain(g % 2 == 0 ? Species::small : Species::large, g % 2 == 0 ? 0.2 : 0.4,
+                  {place(random), place(random)});
+  for (int g = 0; g + 1 < 40; ++g) packing.contact(g, g + 1, {place(random) - 5, place(random)});
   const auto trace_and_area = [&](const Layers& layers) {
     PartialContactStress stress(layers, Assignment::contact_point);
     Composition composition(layers, GrainArea::clipped);
-    stress.add(scene.grains, scene.frame);
-    composition.add(scene.grains, scene.frame);
+    stress.add(packing.grains, packing.frame);
+    composition.add(packing.grains, packing.frame);
     double trace = 0;
     for (std::size_t n = 0; n < stress.layers(); ++n) trace += stress.mean(n).sums.mixed.trace();
     return std::array{trace, composition.mean().small, composition.mean().large};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact stress spread along the branch by a kernel.
-#include "tests/analysis/contact_scenes.hpp"
+#include "tests/analysis/contact_packings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,11 +47,11 @@ TEST(KernelStress, UnderAKernelTheBaseBranchEndsAtTheContactPoint)
 
 TEST(KernelStress, NoWidthOfAKernelChangesTheTotal)
 {
-  const Scene scene = heap();
-  const auto at_points = total(stress_of(scene, Assignment::contact_point));
+  const Packing packing = heap();
+  const auto at_points = total(stress_of(packing, Assignment::contact_point));
   for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside})
     for (const double width : {1e-3, 0.3, 2.0, 40.0}) {
-      const auto spread = total(stress_of(scene, Assignment::kernel, {}, {shape, width}));
+      const auto spread = total(stress_of(packing, Assignment::kernel, {}, {shape, width}));
       for (std::size_t c = 0; c < at_points.size(); ++c)
         EXPECT_NEAR(spread[c], at_points[c], 1e-12);
     }
@@ -59,10 +59,10 @@ TEST(KernelStress, NoWidthOfAKernelChangesTheTotal)
 
 TEST(KernelStress, ANarrowGaussianIsTheBranchAssignment)
 {
-  const Scene scene = heap();
-  const auto along = stress_of(scene, Assignment::branch);
-  const auto narrow = stress_of(scene, Assignment::kernel, {}, {KernelShape::gauss, 1e-14});
-  const auto wide = stress_of(scene, Assignment::kernel, {}, {KernelShape::gauss, 0.1});
+  const Packing packing = heap();
+  const auto along = stress_of(packing, Assignment::branch);
+  const auto narrow = stress_of(packing, Assignment::kernel, {}, {KernelShape::gauss, 1e-14});
+  const auto wide = stress_of(packing, Assignment::kernel, {}, {KernelShape::gauss, 0.1});
   double difference = 0;
   for (std::size_t n = 0; n < along.layers(); ++n)
     for (std::size_t c = 0; c < along.row(n).size(); ++c) {
@@ -75,13 +75,13 @@ TEST(KernelStress, ANarrowGaussianIsTheBranchAssignment)
 // Momentum balance of the field of a kernel: the net force on a grain acts where the kernel is.
 TEST(KernelStress, UnderAKernelTheSumIsTheSpreadForceThroughTheLayer)
 {
-  const Scene scene = heap();
-  const auto net = net_forces(scene);
-  const auto stress = stress_of(scene, Assignment::kernel);
+  const Packing packing = heap();
+  const auto net = net_forces(packing);
+  const auto stress = stress_of(packing, Assignment::kernel);
   for (std::size_t n = 1; n + 1 < stress.layers(); ++n) {
     Vec2 through = Vec2::Zero();
     for (std::size_t g = 0; g < net.size(); ++g) {
-      const double y = scene.frame.position[g].y();
+      const double y = packing.frame.position[g].y();
       through += net[g] * (1 - smooth.below_along(unit_layers.top(n), y, y + 1));
     }
     const auto s = stress.mean(n).sums;

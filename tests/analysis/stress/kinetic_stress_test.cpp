@@ -20,30 +20,30 @@ constexpr double bin = 0.125;
 constexpr std::array all_means{MeanFlow::profile, MeanFlow::layer, MeanFlow::instant,
                                MeanFlow::species};
 
-KineticStress kinetic(const std::vector<Scene>& frames, MeanFlow flow)
+KineticStress kinetic(const std::vector<Packing>& frames, MeanFlow flow)
 {
   MeanVelocity mean(unit_layers, bin);
-  for (const auto& scene : frames) mean.add(scene.grains, scene.frame);
+  for (const auto& packing : frames) mean.add(packing.grains, packing.frame);
   KineticStress stress(unit_layers, flow, mean);
-  for (const auto& scene : frames) stress.add(scene.grains, scene.frame);
+  for (const auto& packing : frames) stress.add(packing.grains, packing.frame);
   return stress;
 }
 
 /// 300 grains at random heights up to 3; velocity and spin are functions of height alone.
 template <class Velocity>
-Scene column(const Velocity& velocity, double noise = 0)
+Packing column(const Velocity& velocity, double noise = 0)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> height(0, 3);
   std::normal_distribution<double> kick(0, 1);
-  Scene scene;
+  Packing packing;
   for (int g = 0; g < 300; ++g) {
     const double y = height(random);
     const Vec2 extra{noise * kick(random), noise * kick(random)};
-    scene.grain(g % 3 == 0 ? Species::large : Species::small, g % 3 == 0 ? 0.04 : 0.02,
-                {0.01 * g, y}, velocity(y) + extra, -0.5 * velocity(y).x());
+    packing.grain(g % 3 == 0 ? Species::large : Species::small, g % 3 == 0 ? 0.04 : 0.02,
+                  {0.01 * g, y}, velocity(y) + extra, -0.5 * velocity(y).x());
   }
-  return scene;
+  return packing;
 }
 
 double largest(const KineticStress& stress)
@@ -61,7 +61,7 @@ double largest(const KineticStress& stress)
 // However the grains lie in their bins.
 TEST(KineticStress, ALinearShearHasNoFluctuationsAboutItsProfile)
 {
-  const Scene shear = column([](double y) { return Vec2{5 + 2 * y, 0.1 - 0.3 * y}; });
+  const Packing shear = column([](double y) { return Vec2{5 + 2 * y, 0.1 - 0.3 * y}; });
   EXPECT_LT(largest(kinetic({shear}, MeanFlow::profile)), 1e-28);
   EXPECT_GT(largest(kinetic({shear}, MeanFlow::layer)), 1e-3);
 }
@@ -73,26 +73,26 @@ TEST(KineticStress, ADrumThatTurnsAsAWholeHasNoFluctuationsInAnnuli)
   const double rate = 1.5;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-1, 1);
-  Scene scene;
+  Packing packing;
   for (int g = 0; g < 300; ++g) {
     const Vec2 arm{2 * place(random), 2 * place(random)};
-    scene.grain(g % 3 == 0 ? Species::large : Species::small, 0.02, axis + arm,
-                rate * Vec2(arm.y(), -arm.x()), -rate);
+    packing.grain(g % 3 == 0 ? Species::large : Species::small, 0.02, axis + arm,
+                  rate * Vec2(arm.y(), -arm.x()), -rate);
   }
   const auto annuli = Layers::annuli(0.5, 10, axis);
   MeanVelocity mean(annuli, bin);
-  mean.add(scene.grains, scene.frame);
+  mean.add(packing.grains, packing.frame);
   KineticStress stress(annuli, MeanFlow::profile, mean);
-  stress.add(scene.grains, scene.frame);
+  stress.add(packing.grains, packing.frame);
   EXPECT_LT(largest(stress), 1e-26);
   EXPECT_NEAR(stress.flow(2).du_dy, rate, 1e-12);
   EXPECT_NEAR(stress.flow(2).v, 0, 1e-14);
-  EXPECT_GT(largest(kinetic({scene}, MeanFlow::profile)), 1e-3);
+  EXPECT_GT(largest(kinetic({packing}, MeanFlow::profile)), 1e-3);
 }
 
 TEST(KineticStress, APlugHasNoFluctuationsAboutAnyMean)
 {
-  const Scene plug = column([](double) { return Vec2{3, -1}; });
+  const Packing plug = column([](double) { return Vec2{3, -1}; });
   for (const auto flow : all_means) EXPECT_LT(largest(kinetic({plug}, flow)), 1e-28);
 }
 
@@ -102,13 +102,13 @@ TEST(KineticStress, TheLayerMeanLeavesTheShearInside)
 {
   constexpr int count = 40;
   constexpr double shear = 3, radius = 0.01;
-  Scene scene;
+  Packing packing;
   for (int k = 0; k < count; ++k) {
     const double y = (k + 0.5) / count;
-    scene.grain(Species::small, radius, {0.1 * k, y}, {shear * y, 0});
+    packing.grain(Species::small, radius, {0.1 * k, y}, {shear * y, 0});
   }
   const double mass = count * pi * radius * radius;
-  const auto stress = kinetic({scene}, MeanFlow::layer);
+  const auto stress = kinetic({packing}, MeanFlow::layer);
   const auto mean = stress.mean(0, Species::small);
   EXPECT_NEAR(mean.about_mean.kinetic(0, 0),
               mass * shear * shear * (1 - 1.0 / (count * count)) / 12, 1e-15);
@@ -119,12 +119,12 @@ TEST(KineticStress, TheLayerMeanLeavesTheShearInside)
 
 TEST(KineticStress, TwoGrainsThatPartCarryTheirFluctuations)
 {
-  Scene scene;
-  scene.grain(Species::small, 0.1, {1, 0.5}, {2 + 0.3, 0.4}, 7);
-  scene.grain(Species::small, 0.1, {2, 0.5}, {2 - 0.3, -0.4}, 3);
+  Packing packing;
+  packing.grain(Species::small, 0.1, {1, 0.5}, {2 + 0.3, 0.4}, 7);
+  packing.grain(Species::small, 0.1, {2, 0.5}, {2 - 0.3, -0.4}, 3);
   const double mass = pi * 0.01;
   for (const auto flow : all_means) {
-    const auto stress = kinetic({scene}, flow);
+    const auto stress = kinetic({packing}, flow);
     const auto mean = stress.mean(0, Species::small);
     Tensor2 expected;
     expected << 0.09, 0.12, 0.12, 0.16;
@@ -137,13 +137,13 @@ TEST(KineticStress, TwoGrainsThatPartCarryTheirFluctuations)
 
 TEST(KineticStress, SpeciesThatSlideThroughEachOtherAreQuietAboutTheirOwnMeans)
 {
-  Scene scene;
-  scene.grain(Species::large, 0.2, {1, 0.5}, {1, 0});
-  scene.grain(Species::small, 0.1, {2, 0.5}, {6, 0});
+  Packing packing;
+  packing.grain(Species::large, 0.2, {1, 0.5}, {1, 0});
+  packing.grain(Species::small, 0.1, {2, 0.5}, {6, 0});
   const double mass = pi * 0.01;  // of the small one; the large one has four times that
-  EXPECT_LT(largest(kinetic({scene}, MeanFlow::species)), 1e-28);
+  EXPECT_LT(largest(kinetic({packing}, MeanFlow::species)), 1e-28);
   for (const auto flow : {MeanFlow::profile, MeanFlow::layer}) {
-    const auto stress = kinetic({scene}, flow);  // about the mean of mass, u = 2
+    const auto stress = kinetic({packing}, flow);  // about the mean of mass, u = 2
     EXPECT_NEAR(stress.flow(0).u, 2, 1e-14);
     EXPECT_NEAR(stress.mean(0, Species::small).about_mean.kinetic(0, 0), mass * 16, 1e-14);
     EXPECT_NEAR(stress.mean(0, Species::large).about_mean.kinetic(0, 0), 4 * mass, 1e-14);
@@ -152,8 +152,8 @@ TEST(KineticStress, SpeciesThatSlideThroughEachOtherAreQuietAboutTheirOwnMeans)
 
 TEST(KineticStress, TheMeanIsThatOfTheWindowNotOfTheInstant)
 {
-  const Scene forth = column([](double) { return Vec2{1, 0}; });
-  const Scene back = column([](double) { return Vec2{-1, 0}; });
+  const Packing forth = column([](double) { return Vec2{1, 0}; });
+  const Packing back = column([](double) { return Vec2{-1, 0}; });
   const auto stress = kinetic({forth, back}, MeanFlow::profile);
   for (std::size_t n = 0; n < 3; ++n) {
     const auto mean = stress.mean(n, Species::large);
@@ -164,11 +164,11 @@ TEST(KineticStress, TheMeanIsThatOfTheWindowNotOfTheInstant)
 TEST(KineticStress, AnObserverWhoMovesAlongSeesTheSameFluctuations)
 {
   const auto flow_at = [](double y) { return Vec2{y * (6 - y), 0}; };
-  const Scene scene = column(flow_at, 0.3);
-  Scene seen = scene;
+  const Packing packing = column(flow_at, 0.3);
+  Packing seen = packing;
   for (auto& velocity : seen.frame.velocity) velocity += Vec2{40, -7};
   for (const auto flow : all_means) {
-    const auto here = kinetic({scene}, flow), there = kinetic({seen}, flow);
+    const auto here = kinetic({packing}, flow), there = kinetic({seen}, flow);
     for (std::size_t n = 0; n < 3; ++n) {
       EXPECT_TRUE(same(here.mean(n, Species::small).about_mean.kinetic,
                        there.mean(n, Species::small).about_mean.kinetic, 1e-13));
@@ -185,7 +185,7 @@ TEST(KineticStress, ACurvedProfileIsFollowedAndFluctuationsAreFound)
   const auto quiet = kinetic({column(curve)}, MeanFlow::profile);
   EXPECT_LT(quiet.mean(1, Species::small).about_mean.kinetic(0, 0),
             0.01 * 0.01 * quiet.mean(1, Species::small).mass);
-  const auto noisy = kinetic(std::vector<Scene>{column(curve, 0.3)}, MeanFlow::profile);
+  const auto noisy = kinetic(std::vector<Packing>{column(curve, 0.3)}, MeanFlow::profile);
   double mass = 0, energy = 0;
   for (std::size_t n = 0; n < noisy.layers(); ++n)
     for (const auto species : {Species::small, Species::large}) {
@@ -196,12 +196,12 @@ TEST(KineticStress, ACurvedProfileIsFollowedAndFluctuationsAreFound)
   EXPECT_NEAR(energy / mass, 2 * 0.09, 0.05);
 }
 
-TEST(KineticStress, AGrainIsBookedWholeAtItsCentreAndBoundaryGrainsNowhere)
+TEST(KineticStress, AGrainCountsWholeAtItsCentreAndBoundaryGrainsDoNotCount)
 {
-  Scene scene;
-  scene.grain(Species::large, 0.4, {1, 0.99}, {1, 0});
-  scene.grain(Species::boundary, 0.4, {1, 0}, {5, 0});
-  const auto stress = kinetic({scene}, MeanFlow::profile);
+  Packing packing;
+  packing.grain(Species::large, 0.4, {1, 0.99}, {1, 0});
+  packing.grain(Species::boundary, 0.4, {1, 0}, {5, 0});
+  const auto stress = kinetic({packing}, MeanFlow::profile);
   ASSERT_EQ(stress.layers(), 2u);
   EXPECT_NEAR(stress.mean(0, Species::large).mass, pi * 0.16, 1e-15);
   EXPECT_EQ(stress.mean(1, Species::large).mass, 0);
@@ -211,10 +211,10 @@ TEST(KineticStress, AGrainIsBookedWholeAtItsCentreAndBoundaryGrainsNowhere)
 
 TEST(KineticStress, AProfilePassesOverEmptyHeights)
 {
-  Scene scene;
+  Packing packing;
   for (const double y : {0.05, 0.1, 0.3, 2.4, 2.45, 2.9, 2.95})
-    scene.grain(Species::small, 0.02, {1, y}, {4 * y, 0});
-  EXPECT_LT(largest(kinetic({scene}, MeanFlow::profile)), 1e-28);
+    packing.grain(Species::small, 0.02, {1, y}, {4 * y, 0});
+  EXPECT_LT(largest(kinetic({packing}, MeanFlow::profile)), 1e-28);
 }
 
 // The layer's mean is the same function of height in both frames, so only the beat goes.
@@ -223,7 +223,7 @@ TEST(KineticStress, TheInstantaneousMeanTakesAwayWhatTheLayerDoesTogether)
   const auto beat = [](double kick) {
     return column([kick](double y) { return Vec2{2 * y + kick, kick}; }, 0.1);
   };
-  const std::vector<Scene> swing{beat(0.7), beat(-0.7)};
+  const std::vector<Packing> swing{beat(0.7), beat(-0.7)};
   const auto still = kinetic({beat(0)}, MeanFlow::layer),
              instant = kinetic(swing, MeanFlow::instant), layer = kinetic(swing, MeanFlow::layer);
   for (std::size_t n = 0; n < 3; ++n)
@@ -240,11 +240,11 @@ TEST(KineticStress, TheInstantaneousMeanTakesAwayWhatTheLayerDoesTogether)
 // Of n grains with independent velocities: a mean of their own takes 1/n of the variance.
 TEST(KineticStress, TheInstantaneousMeanTakesTheShareOfOneGrain)
 {
-  std::vector<Scene> frames(2);
+  std::vector<Packing> frames(2);
   for (const double sign : {1.0, -1.0}) {
-    auto& scene = frames[sign > 0 ? 0 : 1];
-    scene.grain(Species::small, 0.1, {1, 0.5}, {sign * 3, 0});
-    scene.grain(Species::small, 0.1, {2, 0.5}, {0, 0});
+    auto& packing = frames[sign > 0 ? 0 : 1];
+    packing.grain(Species::small, 0.1, {1, 0.5}, {sign * 3, 0});
+    packing.grain(Species::small, 0.1, {2, 0.5}, {0, 0});
   }
   const double mass = pi * 0.01;
   const auto total = kinetic(frames, MeanFlow::layer), instant = kinetic(frames, MeanFlow::instant);
@@ -255,16 +255,16 @@ TEST(KineticStress, TheInstantaneousMeanTakesTheShareOfOneGrain)
 // Whatever the mean that was asked for.
 TEST(KineticStress, TheLayerBiasIsWhatTheLayerMeanAddsToTheProfile)
 {
-  const std::vector<Scene> frames{column(
-                                      [](double y) {
-                                        return Vec2{y * (6 - y), 0.2 * y};
-                                      },
-                                      0.3),
-                                  column(
-                                      [](double y) {
-                                        return Vec2{y * (7 - y), 0.1 * y};
-                                      },
-                                      0.4)};
+  const std::vector<Packing> frames{column(
+                                        [](double y) {
+                                          return Vec2{y * (6 - y), 0.2 * y};
+                                        },
+                                        0.3),
+                                    column(
+                                        [](double y) {
+                                          return Vec2{y * (7 - y), 0.1 * y};
+                                        },
+                                        0.4)};
   const auto profile = kinetic(frames, MeanFlow::profile), layer = kinetic(frames, MeanFlow::layer);
   for (const auto flow : all_means) {
     const auto stress = kinetic(frames, flow);
@@ -284,12 +284,12 @@ TEST(KineticStress, TheLayerBiasIsWhatTheLayerMeanAddsToTheProfile)
 TEST(KineticStress, TheBiasOfALinearShearIsThatOfItsSlope)
 {
   constexpr int count = 50;
-  Scene scene;
+  Packing packing;
   for (int k = 0; k < count; ++k) {
     const double y = (k + 0.5) / count;
-    scene.grain(k % 2 == 0 ? Species::small : Species::large, 0.01, {0.1 * k, y}, {3 * y, 0});
+    packing.grain(k % 2 == 0 ? Species::small : Species::large, 0.01, {0.1 * k, y}, {3 * y, 0});
   }
-  const auto stress = kinetic({scene}, MeanFlow::profile);
+  const auto stress = kinetic({packing}, MeanFlow::profile);
   double bias = 0, of_shear = 0;
   for (const auto species : {Species::small, Species::large}) {
     bias += stress.mean(0, species).layer_bias.kinetic(0, 0);
@@ -302,20 +302,20 @@ TEST(KineticStress, TheBiasOfALinearShearIsThatOfItsSlope)
 
 /// 40000 small and 20000 large grains with Maxwell's velocities about a shear: variance `small` and
 /// `large` of each component, and of r times the spin twice as much.
-Scene maxwell(double small, double large)
+Packing maxwell(double small, double large)
 {
   std::mt19937 random(5);
   std::normal_distribution<double> kick(0, 1);
-  Scene scene;
+  Packing packing;
   for (int g = 0; g < 60000; ++g) {
     const bool is_large = g % 3 == 1;
     const double radius = is_large ? 0.02 : 0.01, speed = std::sqrt(is_large ? large : small);
     const double y = 3 * (g + 0.5) / 60000;
-    scene.grain(is_large ? Species::large : Species::small, radius, {0.1, y},
-                {4 * y + speed * kick(random), speed * kick(random)},
-                std::sqrt(2.0) * speed * kick(random) / radius);
+    packing.grain(is_large ? Species::large : Species::small, radius, {0.1, y},
+                  {4 * y + speed * kick(random), speed * kick(random)},
+                  std::sqrt(2.0) * speed * kick(random) / radius);
   }
-  return scene;
+  return packing;
 }
 
 // The standard error of a variance of n numbers is sqrt(2/n), 1.7 % of 6667 in a layer.
@@ -343,7 +343,7 @@ TEST(KineticStress, EquipartitionIsAQuestionOfEnergyPerGrain)
     EXPECT_NEAR(shared.equipartition(1)[axis], 1, 0.1);
     EXPECT_NEAR(alike.equipartition(1)[axis], 4, 0.4);
   }
-  Scene small_alone;
+  Packing small_alone;
   small_alone.grain(Species::small, 0.1, {1, 0.5}, {1, 0});
   EXPECT_TRUE(kinetic({small_alone}, MeanFlow::profile).equipartition(0).array().isNaN().all());
 }

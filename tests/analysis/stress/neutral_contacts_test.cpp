@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The neutral contact model as lists of contacts: what large and small grains carry where nothing
 // but their size tells them apart.
+#include "analysis/stress/neutral_contacts.hpp"
+
 #include "analysis/frames/composition.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
-#include "analysis/stress/partition.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +21,7 @@ constexpr double small_radius = 0.5;
 
 /// Pairs whose kinds are those of random pairing where of a + b contact ends a belong to large
 /// grains, all with the same forces, in every direction, about the middle of a thick layer.
-void add_layer(Scene& scene, int layer, int a, int b, int r)
+void add_layer(Packing& packing, int layer, int a, int b, int r)
 {
   constexpr int directions = 7;
   const double y = 100 * layer + 50;
@@ -30,15 +32,15 @@ void add_layer(Scene& scene, int layer, int a, int b, int r)
     for (int k = 0; k < number * directions; ++k) {
       const double angle = 2 * std::numbers::pi * (k % directions) / directions + 0.1;
       const Vec2 normal{std::cos(angle), std::sin(angle)}, tangent{-normal.y(), normal.x()};
-      const auto j = scene.grain(species[second], radius[second], {5, y});
-      const auto i = scene.grain(species[first], radius[first],
-                                 Vec2(5, y) + (radius[first] + radius[second]) * normal);
-      scene.contact(i, j, (1 + 0.3 * std::sin(angle)) * normal + 0.2 * tangent);
+      const auto j = packing.grain(species[second], radius[second], {5, y});
+      const auto i = packing.grain(species[first], radius[first],
+                                   Vec2(5, y) + (radius[first] + radius[second]) * normal);
+      packing.contact(i, j, (1 + 0.3 * std::sin(angle)) * normal + 0.2 * tangent);
     }
   // A large grain has r times the ends of a small one; here each has one, so the small ones of
   // (r - 1)/r have none.
   for (int k = 0; k < (r - 1) * 2 * b * (a + b) * directions; ++k)
-    scene.grain(Species::small, small_radius, {5, y});
+    packing.grain(Species::small, small_radius, {5, y});
 }
 
 /// B of one layer: psi_L = phi_L (1 + B phi_S).
@@ -52,9 +54,9 @@ TEST(NeutralContacts, LargeGrainsCarryTheirShareBySizeAndByOtherRulesWhatTheForm
 {
   const int ends[][2] = {{1, 3}, {1, 1}, {2, 1}};
   for (const int r : {2, 3}) {
-    Scene scene;
+    Packing packing;
     for (int layer = 0; layer < 3; ++layer)
-      add_layer(scene, layer, ends[layer][0], ends[layer][1], r);
+      add_layer(packing, layer, ends[layer][0], ends[layer][1], r);
     for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside})
       for (const auto assignment :
            {Assignment::contact_point, Assignment::branch, Assignment::grain, Assignment::kernel}) {
@@ -63,8 +65,8 @@ TEST(NeutralContacts, LargeGrainsCarryTheirShareBySizeAndByOtherRulesWhatTheForm
         Composition composition(thick_layers, by_kernel ? GrainArea::kernel : GrainArea::clipped,
                                 kernel);
         PartialContactStress stress(thick_layers, assignment, 2, kernel);
-        composition.add(scene.grains, scene.frame);
-        stress.add(scene.grains, scene.frame);
+        composition.add(packing.grains, packing.frame);
+        stress.add(packing.grains, packing.frame);
         for (std::size_t n = 0; n < 3; ++n) {
           const auto areas = composition.mean(n);
           // phi_L/phi_S = r x_L/x_S, as ends are in proportion to perimeter.

@@ -2,8 +2,9 @@
 #include "analysis/stress/partial_contact_stress.hpp"
 
 #include "analysis/frames/composition.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "formats/core/errors.hpp"
-#include "tests/analysis/contact_scenes.hpp"
+#include "tests/analysis/contact_packings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,24 +17,24 @@ namespace {
 
 TEST(PartialContactStress, PushingGrainsApartIsPositiveWhoeverComesFirst)
 {
-  Scene scene = large_on_small();
-  EXPECT_GT(stress_of(scene, Assignment::contact_point).mean(1).sums.mixed(1, 1), 0);
-  std::swap(scene.frame.contacts.i[0], scene.frame.contacts.j[0]);
-  scene.frame.contacts.force[0] *= -1;
-  scene.frame.contacts.branch[0] *= -1;
+  Packing packing = large_on_small();
+  EXPECT_GT(stress_of(packing, Assignment::contact_point).mean(1).sums.mixed(1, 1), 0);
+  std::swap(packing.frame.contacts.i[0], packing.frame.contacts.j[0]);
+  packing.frame.contacts.force[0] *= -1;
+  packing.frame.contacts.branch[0] *= -1;
   for (const auto assignment : all_assignments) {
-    const auto here = stress_of(scene, assignment), there = stress_of(large_on_small(), assignment);
+    const auto here = stress_of(packing, assignment),
+               there = stress_of(large_on_small(), assignment);
     for (std::size_t n = 0; n < here.layers(); ++n) {
       EXPECT_TRUE(same(here.mean(n).sums.mixed, there.mean(n).sums.mixed));
       EXPECT_TRUE(same(here.mean(n).sums.mixed_size, there.mean(n).sums.mixed_size));
       EXPECT_TRUE(same(here.mean(n).sums.mixed_contact, there.mean(n).sums.mixed_contact));
-      EXPECT_TRUE(same(here.mean(n).sums.at_centres.mixed_large,
-                       there.mean(n).sums.at_centres.mixed_large));
+      EXPECT_TRUE(same(here.mean(n).sums.mixed_at_large, there.mean(n).sums.mixed_at_large));
     }
   }
 }
 
-TEST(PartialContactStress, AContactIsBookedWholeWhereItTouches)
+TEST(PartialContactStress, AContactCountsWholeWhereItTouches)
 {
   const auto stress = stress_of(large_on_small(), Assignment::contact_point);
   ASSERT_EQ(stress.layers(), 4u);
@@ -60,32 +61,32 @@ TEST(PartialContactStress, AlongTheBranchEveryLayerGetsItsLength)
   EXPECT_TRUE(same(stress.mean(2).sums.mixed_power, mixed / 4));
 }
 
-TEST(PartialContactStress, EachGrainsPartIsBookedAtItsOwnCentre)
+TEST(PartialContactStress, EachGrainsPartCountsAtItsOwnCentre)
 {
   const auto stress = stress_of(large_on_small(), Assignment::grain);
   EXPECT_TRUE(same(stress.mean(2).sums.mixed_size, mixed * 2 / 3));
   EXPECT_TRUE(same(stress.mean(2).sums.mixed_contact, mixed * 2 / 3));
   EXPECT_TRUE(same(stress.mean(2).sums.mixed, mixed * 2 / 3));
   EXPECT_TRUE(same(stress.mean(1).sums.mixed, mixed / 3));
-  EXPECT_TRUE(same(stress.mean(2).sums.at_centres.mixed_large, mixed));
-  EXPECT_TRUE(same(stress.mean(1).sums.at_centres.mixed_large, mixed * 0));
-  EXPECT_TRUE(same(stress.mean(1).sums.at_centres.mixed_small, mixed));
-  EXPECT_TRUE(same(stress.mean(2).sums.at_centres.mixed_small, mixed * 0));
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed_at_large, mixed));
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed_at_large, mixed * 0));
+  EXPECT_TRUE(same(stress.mean(1).sums.mixed_at_small, mixed));
+  EXPECT_TRUE(same(stress.mean(2).sums.mixed_at_small, mixed * 0));
 }
 
 // compute stress/atom of LAMMPS: every grain has half of force (x) branch of each of its contacts,
 // whoever the other is; summed by species and layer.
 TEST(PartialContactStress, HalvesAtTheGrainsCentresAreTheStressPerGrainOfLammps)
 {
-  const Scene scene = heap();
-  const auto stress = stress_of(scene, Assignment::grain);
+  const Packing packing = heap();
+  const auto stress = stress_of(packing, Assignment::grain);
   std::vector<std::array<Tensor2, 2>> by_hand(stress.layers(), {Tensor2::Zero(), Tensor2::Zero()});
-  const auto& list = scene.frame.contacts;
+  const auto& list = packing.frame.contacts;
   const auto give = [&](std::int32_t grain, std::size_t contact) {
     const auto g = static_cast<std::size_t>(grain);
-    if (scene.grains.species[g] == Species::boundary) return;
-    by_hand[unit_layers.at(unit_layers.height(scene.frame.position[g]))]
-           [static_cast<std::size_t>(scene.grains.species[g])] +=
+    if (packing.grains.species[g] == Species::boundary) return;
+    by_hand[unit_layers.at(unit_layers.height(packing.frame.position[g]))]
+           [static_cast<std::size_t>(packing.grains.species[g])] +=
         0.5 * dyad(list.force[contact], list.branch[contact]);
   };
   for (std::size_t c = 0; c < list.size(); ++c) {
@@ -108,12 +109,12 @@ TEST(PartialContactStress, HalvesAtTheGrainsCentresAreTheStressPerGrainOfLammps)
 // centre and 0.35 from the small one, while by size it is still two to one.
 TEST(PartialContactStress, OverlapMovesTheContactPointButNotTheShareBySize)
 {
-  Scene scene = large_on_small();
-  scene.frame.position[1].y() = 1.55;
-  scene.frame.contacts = {};
-  scene.contact(0, 1, push);
+  Packing packing = large_on_small();
+  packing.frame.position[1].y() = 1.55;
+  packing.frame.contacts = {};
+  packing.contact(0, 1, push);
   const Tensor2 whole = dyad(push, {0, 1.2});
-  const auto sums = stress_of(scene, Assignment::contact_point).mean(1).sums;
+  const auto sums = stress_of(packing, Assignment::contact_point).mean(1).sums;
   EXPECT_TRUE(same(sums.mixed, whole));
   EXPECT_TRUE(same(sums.mixed_size, whole * 2 / 3));
   EXPECT_TRUE(same(sums.mixed_contact, whole * 0.85 / 1.2));
@@ -128,53 +129,53 @@ TEST(PartialContactStress, APowerOfTwoGivesTheLargeGrainFourFifths)
 TEST(PartialContactStress, EqualGrainsAreKeptApartBySpecies)
 {
   for (const auto species : {Species::small, Species::large}) {
-    Scene scene;
-    const auto a = scene.grain(species, 0.5, {5, 1.25}), b = scene.grain(species, 1, {5, 2.75});
-    scene.contact(b, a, push);
+    Packing packing;
+    const auto a = packing.grain(species, 0.5, {5, 1.25}), b = packing.grain(species, 1, {5, 2.75});
+    packing.contact(b, a, push);
     const bool small = species == Species::small;
     const auto own = [&](const PartialContactStress& stress, std::size_t n) {
       return small ? stress.mean(n).sums.ss : stress.mean(n).sums.ll;
     };
-    EXPECT_TRUE(same(own(stress_of(scene, Assignment::contact_point), 1), mixed));
-    EXPECT_TRUE(same(own(stress_of(scene, Assignment::branch), 1), mixed / 2));
-    EXPECT_TRUE(same(own(stress_of(scene, Assignment::branch), 2), mixed / 2));
-    EXPECT_TRUE(same(own(stress_of(scene, Assignment::grain), 1), mixed / 3));
-    EXPECT_TRUE(same(own(stress_of(scene, Assignment::grain), 2), mixed * 2 / 3));
-    const auto halves = stress_of(scene, Assignment::grain).mean(2).sums.at_centres;
-    EXPECT_TRUE(same(small ? halves.ss : halves.ll, mixed / 2));
-    EXPECT_TRUE(same(small ? halves.ll : halves.ss, mixed * 0));
-    const auto counts = stress_of(scene, Assignment::contact_point).mean(1).contacts;
+    EXPECT_TRUE(same(own(stress_of(packing, Assignment::contact_point), 1), mixed));
+    EXPECT_TRUE(same(own(stress_of(packing, Assignment::branch), 1), mixed / 2));
+    EXPECT_TRUE(same(own(stress_of(packing, Assignment::branch), 2), mixed / 2));
+    EXPECT_TRUE(same(own(stress_of(packing, Assignment::grain), 1), mixed / 3));
+    EXPECT_TRUE(same(own(stress_of(packing, Assignment::grain), 2), mixed * 2 / 3));
+    const auto at_grains = stress_of(packing, Assignment::grain).mean(2).sums;
+    EXPECT_TRUE(same(small ? at_grains.halves_ss : at_grains.halves_ll, mixed / 2));
+    EXPECT_TRUE(same(small ? at_grains.halves_ll : at_grains.halves_ss, mixed * 0));
+    const auto counts = stress_of(packing, Assignment::contact_point).mean(1).contacts;
     EXPECT_EQ(counts[small ? 0 : 2], 1);
-    EXPECT_EQ(stress_of(scene, Assignment::branch).mean(1).contacts, counts);
+    EXPECT_EQ(stress_of(packing, Assignment::branch).mean(1).contacts, counts);
   }
 }
 
 TEST(PartialContactStress, TheBaseBranchIsCutAtTheContactPointAndAlsoGivenWhole)
 {
-  const Scene scene = small_on_base();
-  const auto at_point = stress_of(scene, Assignment::contact_point);
+  const Packing packing = small_on_base();
+  const auto at_point = stress_of(packing, Assignment::contact_point);
   EXPECT_TRUE(same(at_point.mean(0).sums.base_small, mixed / 3));
   EXPECT_TRUE(same(at_point.mean(0).sums.whole_small, mixed));
   EXPECT_EQ(at_point.mean(0).contacts, (std::array<double, 5>{0, 0, 0, 1, 0}));
 
-  const auto along = stress_of(scene, Assignment::branch);
+  const auto along = stress_of(packing, Assignment::branch);
   EXPECT_TRUE(same(along.mean(0).sums.base_small, mixed / 6));
   EXPECT_TRUE(same(along.mean(1).sums.base_small, mixed / 6));
   EXPECT_TRUE(same(along.mean(0).sums.whole_small, mixed * 1.25 / 1.5));
   EXPECT_TRUE(same(along.mean(1).sums.whole_small, mixed * 0.25 / 1.5));
 
-  const auto at_centre = stress_of(scene, Assignment::grain);
+  const auto at_centre = stress_of(packing, Assignment::grain);
   EXPECT_TRUE(same(at_centre.mean(1).sums.base_small, mixed / 3));
   EXPECT_TRUE(same(at_centre.mean(1).sums.whole_small, mixed));
 }
 
 TEST(PartialContactStress, AtAStraightWallBothBasePartsAreTheSame)
 {
-  Scene scene;
-  const auto large = scene.grain(Species::large, 1, {5, 1});
-  scene.wall_contact(large, 0, push, {0, 1});
+  Packing packing;
+  const auto large = packing.grain(Species::large, 1, {5, 1});
+  packing.wall_contact(large, 0, push, {0, 1});
   for (const auto assignment : all_assignments) {
-    const auto stress = stress_of(scene, assignment);
+    const auto stress = stress_of(packing, assignment);
     Tensor2 cut = Tensor2::Zero(), whole = Tensor2::Zero();
     for (std::size_t n = 0; n < stress.layers(); ++n) {
       cut += stress.mean(n).sums.base_large;
@@ -187,18 +188,18 @@ TEST(PartialContactStress, AtAStraightWallBothBasePartsAreTheSame)
 
 TEST(PartialContactStress, ContactsWithoutForceDoNotCount)
 {
-  Scene scene = large_on_small();
-  scene.frame.contacts.force[0] = {0, 0};
-  EXPECT_EQ(stress_of(scene, Assignment::contact_point).mean(1).contacts[1], 0);
+  Packing packing = large_on_small();
+  packing.frame.contacts.force[0] = {0, 0};
+  EXPECT_EQ(stress_of(packing, Assignment::contact_point).mean(1).contacts[1], 0);
 }
 
 TEST(PartialContactStress, ResultsAreMeansPerFrame)
 {
-  const Scene scene = large_on_small();
-  Scene idle = scene;
+  const Packing packing = large_on_small();
+  Packing idle = packing;
   idle.frame.contacts = {};
   PartialContactStress stress(unit_layers, Assignment::contact_point);
-  stress.add(scene.grains, scene.frame);
+  stress.add(packing.grains, packing.frame);
   stress.add(idle.grains, idle.frame);
   EXPECT_TRUE(same(stress.mean(1).sums.mixed, mixed / 2));
   EXPECT_EQ(stress.mean(1).contacts[1], 0.5);
@@ -206,19 +207,19 @@ TEST(PartialContactStress, ResultsAreMeansPerFrame)
 
 TEST(PartialContactStress, ABoundaryGrainNamedFirstIsRefused)
 {
-  Scene scene;
-  const auto base = scene.grain(Species::boundary, 1, {5, 0});
-  const auto small = scene.grain(Species::small, 0.5, {5, 1.5});
-  scene.contact(base, small, push);
-  EXPECT_THROW(stress_of(scene, Assignment::contact_point), FormatError);
+  Packing packing;
+  const auto base = packing.grain(Species::boundary, 1, {5, 0});
+  const auto small = packing.grain(Species::small, 0.5, {5, 1.5});
+  packing.contact(base, small, push);
+  EXPECT_THROW(stress_of(packing, Assignment::contact_point), FormatError);
 }
 
-TEST(PartialContactStress, WhereAContactIsBookedDoesNotChangeTheTotal)
+TEST(PartialContactStress, TheTotalDoesNotDependOnWhereAContactCounts)
 {
-  const Scene scene = heap();
-  const auto at_points = total(stress_of(scene, Assignment::contact_point));
-  const auto along = total(stress_of(scene, Assignment::branch));
-  const auto at_centres = total(stress_of(scene, Assignment::grain));
+  const Packing packing = heap();
+  const auto at_points = total(stress_of(packing, Assignment::contact_point));
+  const auto along = total(stress_of(packing, Assignment::branch));
+  const auto at_centres = total(stress_of(packing, Assignment::grain));
   for (std::size_t c = 0; c < at_points.size(); ++c) {
     EXPECT_NEAR(along[c], at_points[c], 1e-12);
     EXPECT_NEAR(at_centres[c], at_points[c], 1e-12);
@@ -227,9 +228,9 @@ TEST(PartialContactStress, WhereAContactIsBookedDoesNotChangeTheTotal)
 
 TEST(PartialContactStress, SpeciesAddUpToTheWholeUnderEveryAssignmentAndRule)
 {
-  const Scene scene = heap();
+  const Packing packing = heap();
   for (const auto assignment : all_assignments) {
-    const auto stress = stress_of(scene, assignment, 2);
+    const auto stress = stress_of(packing, assignment, 2);
     for (std::size_t n = 0; n < stress.layers(); ++n) {
       auto sums = stress.mean(n).sums;
       sums.volume = unit_layers.volume(0);
@@ -245,11 +246,11 @@ TEST(PartialContactStress, SpeciesAddUpToTheWholeUnderEveryAssignmentAndRule)
 
 TEST(PartialContactStress, TheTotalIsTheSumOverContacts)
 {
-  const Scene scene = heap();
+  const Packing packing = heap();
   Tensor2 direct = Tensor2::Zero(), sums = Tensor2::Zero();
-  for (std::size_t k = 0; k < scene.frame.contacts.size(); ++k)
-    direct += dyad(scene.frame.contacts.force[k], scene.frame.contacts.branch[k]);
-  const auto stress = stress_of(scene, Assignment::branch);
+  for (std::size_t k = 0; k < packing.frame.contacts.size(); ++k)
+    direct += dyad(packing.frame.contacts.force[k], packing.frame.contacts.branch[k]);
+  const auto stress = stress_of(packing, Assignment::branch);
   for (std::size_t n = 0; n < stress.layers(); ++n) {
     const auto& s = stress.mean(n).sums;
     sums += s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
@@ -261,13 +262,14 @@ TEST(PartialContactStress, TheTotalIsTheSumOverContacts)
 // it, and the sum over a layer is h times its mean over the levels in the layer.
 TEST(PartialContactStress, AlongTheBranchTheSumIsTheForceThroughTheLayer)
 {
-  const Scene scene = heap();
-  const auto net = net_forces(scene);
-  const auto stress = stress_of(scene, Assignment::branch);
+  const Packing packing = heap();
+  const auto net = net_forces(packing);
+  const auto stress = stress_of(packing, Assignment::branch);
   for (std::size_t n = 0; n + 1 < stress.layers(); ++n) {
     Vec2 through = Vec2::Zero();
     for (std::size_t g = 0; g < net.size(); ++g)
-      through += net[g] * std::clamp(scene.frame.position[g].y() - unit_layers.bottom(n), 0.0, 1.0);
+      through +=
+          net[g] * std::clamp(packing.frame.position[g].y() - unit_layers.bottom(n), 0.0, 1.0);
     const auto s = stress.mean(n).sums;
     const Tensor2 sum = s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
     EXPECT_NEAR(sum(0, 1), through.x(), 1e-12);
@@ -277,23 +279,23 @@ TEST(PartialContactStress, AlongTheBranchTheSumIsTheForceThroughTheLayer)
 
 TEST(PartialContactStress, MovingTheBedAlongThePeriodChangesNothing)
 {
-  const Scene scene = heap();
-  Scene moved = scene;
+  const Packing packing = heap();
+  Packing moved = packing;
   for (auto& position : moved.frame.position)
     position.x() = std::fmod(position.x() + 3.7, 10.0);  // branches stay, as in a periodic run
   for (const auto assignment : all_assignments) {
-    const auto here = stress_of(scene, assignment), there = stress_of(moved, assignment);
+    const auto here = stress_of(packing, assignment), there = stress_of(moved, assignment);
     for (std::size_t n = 0; n < here.layers(); ++n) EXPECT_EQ(here.row(n), there.row(n));
   }
 }
 
 TEST(PartialContactStress, MovingTheBedByAWholeLayerMovesTheRows)
 {
-  const Scene scene = heap();
-  Scene moved = scene;
+  const Packing packing = heap();
+  Packing moved = packing;
   for (auto& position : moved.frame.position) position.y() += 1;
   for (const auto assignment : all_assignments) {
-    const auto here = stress_of(scene, assignment), there = stress_of(moved, assignment);
+    const auto here = stress_of(packing, assignment), there = stress_of(moved, assignment);
     ASSERT_EQ(there.layers(), here.layers() + 1);
     for (std::size_t n = 1; n < here.layers(); ++n)
       for (std::size_t c = 0; c < here.row(n).size(); ++c)
@@ -303,20 +305,20 @@ TEST(PartialContactStress, MovingTheBedByAWholeLayerMovesTheRows)
 
 /// The same grains and contacts under other numbers, and every other contact seen from its other
 /// end.
-Scene relabelled(const Scene& scene)
+Packing relabelled(const Packing& packing)
 {
-  const auto count = static_cast<std::int32_t>(scene.grains.size());
+  const auto count = static_cast<std::int32_t>(packing.grains.size());
   const auto number = [&](std::int32_t g) { return (7 * g + 3) % count; };
   const auto old = [&](std::int32_t g) {
     std::int32_t from = 0;
     while (number(from) != g) ++from;
     return static_cast<std::size_t>(from);
   };
-  Scene other;
+  Packing other;
   for (std::int32_t g = 0; g < count; ++g)
-    other.grain(scene.grains.species[old(g)], scene.grains.radius[old(g)],
-                scene.frame.position[old(g)]);
-  const auto& list = scene.frame.contacts;
+    other.grain(packing.grains.species[old(g)], packing.grains.radius[old(g)],
+                packing.frame.position[old(g)]);
+  const auto& list = packing.frame.contacts;
   for (std::size_t k = list.size(); k-- > 0;) {
     const auto i = number(list.i[k]), j = number(list.j[k]);
     if (k % 2 == 0 && other.grains.fixed[static_cast<std::size_t>(j)] == 0)
@@ -329,9 +331,9 @@ Scene relabelled(const Scene& scene)
 
 TEST(PartialContactStress, NamesAndOrderOfGrainsChangeNothing)
 {
-  const Scene scene = heap(), other = relabelled(scene);
+  const Packing packing = heap(), other = relabelled(packing);
   for (const auto assignment : all_assignments) {
-    const auto here = stress_of(scene, assignment, 2), there = stress_of(other, assignment, 2);
+    const auto here = stress_of(packing, assignment, 2), there = stress_of(other, assignment, 2);
     ASSERT_EQ(there.layers(), here.layers());
     for (std::size_t n = 0; n < here.layers(); ++n)
       for (std::size_t c = 0; c < here.row(n).size(); ++c)
@@ -339,7 +341,7 @@ TEST(PartialContactStress, NamesAndOrderOfGrainsChangeNothing)
   }
   for (const auto rule : {GrainArea::clipped, GrainArea::centre, GrainArea::kernel}) {
     Composition here(unit_layers, rule, smooth), there = here;
-    here.add(scene.grains, scene.frame);
+    here.add(packing.grains, packing.frame);
     there.add(other.grains, other.frame);
     for (std::size_t n = 0; n < here.layers(); ++n) {
       EXPECT_NEAR(there.mean(n).small, here.mean(n).small, 1e-13);
@@ -351,15 +353,15 @@ TEST(PartialContactStress, NamesAndOrderOfGrainsChangeNothing)
 // A flat heap reaches fewer layers; what a kernel has above them goes to its own highest layer.
 TEST(PartialContactStress, FramesCanBeAddedApartAndInAnyOrder)
 {
-  const Scene scene = heap();
-  Scene flat = scene;
+  const Packing packing = heap();
+  Packing flat = packing;
   for (auto& position : flat.frame.position) position.y() *= 0.5;
   for (const auto assignment : all_assignments) {
-    auto together = stress_of(scene, assignment, 2);
+    auto together = stress_of(packing, assignment, 2);
     together.add(flat.grains, flat.frame);
     auto apart = stress_of(flat, assignment, 2);
     ASSERT_LT(apart.layers(), together.layers());
-    apart.merge(stress_of(scene, assignment, 2));
+    apart.merge(stress_of(packing, assignment, 2));
     ASSERT_EQ(apart.layers(), together.layers());
     for (std::size_t n = 0; n < apart.layers(); ++n)
       for (std::size_t c = 0; c < apart.row(n).size(); ++c)
@@ -367,10 +369,10 @@ TEST(PartialContactStress, FramesCanBeAddedApartAndInAnyOrder)
   }
   for (const auto rule : {GrainArea::clipped, GrainArea::centre, GrainArea::kernel}) {
     Composition together(unit_layers, rule, smooth), apart = together, other = together;
-    together.add(scene.grains, scene.frame);
+    together.add(packing.grains, packing.frame);
     together.add(flat.grains, flat.frame);
     apart.add(flat.grains, flat.frame);
-    other.add(scene.grains, scene.frame);
+    other.add(packing.grains, packing.frame);
     apart.merge(other);
     for (std::size_t n = 0; n < together.layers(); ++n) {
       EXPECT_NEAR(apart.mean(n).small, together.mean(n).small, 1e-13);
@@ -381,43 +383,43 @@ TEST(PartialContactStress, FramesCanBeAddedApartAndInAnyOrder)
 
 TEST(PartialContactStress, ColumnsAndNumbersAgreeInCount)
 {
-  const Scene scene = large_on_small();
+  const Packing packing = large_on_small();
   for (const auto assignment : all_assignments)
     for (const auto power : {std::optional<double>{}, std::optional<double>{2}}) {
-      const auto stress = stress_of(scene, assignment, power);
+      const auto stress = stress_of(packing, assignment, power);
       EXPECT_EQ(stress.columns().size(), stress.row(0).size());
     }
-  EXPECT_EQ(stress_of(scene, Assignment::branch).columns().front(), "n_SS");
-  EXPECT_EQ(stress_of(scene, Assignment::branch).columns().back(), "F_Lb_yy[N m]");
-  EXPECT_EQ(stress_of(scene, Assignment::grain).columns().back(), "MS_yy[N m]");
+  EXPECT_EQ(stress_of(packing, Assignment::branch).columns().front(), "n_SS");
+  EXPECT_EQ(stress_of(packing, Assignment::branch).columns().back(), "F_Lb_yy[N m]");
+  EXPECT_EQ(stress_of(packing, Assignment::grain).columns().back(), "MS_yy[N m]");
 }
 
 // Sums and rules against the same stress added up contact by contact.
 TEST(PartialContactStress, RecombinedSumsAreTheDirectPartition)
 {
-  const Scene scene = heap();
-  const auto stress = stress_of(scene, Assignment::contact_point, 3);
+  const Packing packing = heap();
+  const auto stress = stress_of(packing, Assignment::contact_point, 3);
   for (const auto& rule :
        parse_rules({"size", "contact-point", "half", "drop", "uniform:0.8", "power:3"})) {
     std::vector<Tensor2> large(stress.layers(), Tensor2::Zero()), small = large;
-    const auto& list = scene.frame.contacts;
+    const auto& list = packing.frame.contacts;
     for (std::size_t k = 0; k < list.size(); ++k) {
       const auto i = static_cast<std::size_t>(list.i[k]), j = static_cast<std::size_t>(list.j[k]);
-      const double r_i = scene.grains.radius[i], r_j = scene.grains.radius[j];
-      const double point = share_of_first(scene.grains, list, k);
+      const double r_i = packing.grains.radius[i], r_j = packing.grains.radius[j];
+      const double point = share_of_first(packing.grains, list, k);
       const Tensor2 t = dyad(list.force[k], list.branch[k]);
       const std::size_t n = std::min(
-          unit_layers.at(contact_point(scene.grains, scene.frame, k).y()), stress.layers() - 1);
-      auto& own = scene.grains.species[i] == Species::large ? large[n] : small[n];
-      auto& other = scene.grains.species[j] == Species::large ? large[n] : small[n];
+          unit_layers.at(contact_point(packing.grains, packing.frame, k).y()), stress.layers() - 1);
+      auto& own = packing.grains.species[i] == Species::large ? large[n] : small[n];
+      auto& other = packing.grains.species[j] == Species::large ? large[n] : small[n];
       double share = 1;
-      if (scene.grains.species[j] == Species::boundary) {
+      if (packing.grains.species[j] == Species::boundary) {
         own += point * t;
         continue;
       }
       using Kind = PartitionRule::Kind;
-      const bool is_mixed = scene.grains.species[i] != scene.grains.species[j];
-      const bool i_large = scene.grains.species[i] == Species::large;
+      const bool is_mixed = packing.grains.species[i] != packing.grains.species[j];
+      const bool i_large = packing.grains.species[i] == Species::large;
       if (rule.kind == Kind::drop && is_mixed) continue;
       if (rule.kind == Kind::size) share = r_i / (r_i + r_j);
       if (rule.kind == Kind::contact_point) share = point;
@@ -440,14 +442,14 @@ TEST(PartialContactStress, RecombinedSumsAreTheDirectPartition)
 
 TEST(Composition, AreasAreClippedOrSpreadOrWholeAtCentresAndAddUpToTheGrains)
 {
-  Scene scene;
-  scene.grain(Species::large, 1, {5, 1.5});
-  scene.grain(Species::small, 0.25, {5, 0.5});
-  scene.grain(Species::boundary, 1, {5, 0});
+  Packing packing;
+  packing.grain(Species::large, 1, {5, 1.5});
+  packing.grain(Species::small, 0.25, {5, 0.5});
+  packing.grain(Species::boundary, 1, {5, 0});
   const double pi = std::numbers::pi;
 
   Composition clipped(unit_layers, GrainArea::clipped);
-  clipped.add(scene.grains, scene.frame);
+  clipped.add(packing.grains, packing.frame);
   const double cap = pi / 3 - std::sqrt(3) / 4;
   EXPECT_NEAR(clipped.mean(0).large, cap, 1e-14);
   EXPECT_NEAR(clipped.mean(1).large, pi - 2 * cap, 1e-14);
@@ -456,7 +458,7 @@ TEST(Composition, AreasAreClippedOrSpreadOrWholeAtCentresAndAddUpToTheGrains)
   EXPECT_NEAR(clipped.mean().phi_large(), 16.0 / 17, 1e-14);
 
   Composition spread(unit_layers, GrainArea::kernel, smooth);
-  spread.add(scene.grains, scene.frame);
+  spread.add(packing.grains, packing.frame);
   const double below = smooth.below(1 - 1.5);
   EXPECT_NEAR(spread.mean(0).large, pi * below, 1e-14);
   EXPECT_NEAR(spread.mean(2).large, pi * below, 1e-14);
@@ -464,8 +466,8 @@ TEST(Composition, AreasAreClippedOrSpreadOrWholeAtCentresAndAddUpToTheGrains)
   EXPECT_NEAR(spread.mean().large, pi, 1e-14);
 
   Composition whole(unit_layers, GrainArea::centre);
-  whole.add(scene.grains, scene.frame);
-  whole.add(scene.grains, scene.frame);
+  whole.add(packing.grains, packing.frame);
+  whole.add(packing.grains, packing.frame);
   EXPECT_NEAR(whole.mean(1).large, pi, 1e-14);
   EXPECT_EQ(whole.mean(0).large, 0);
   EXPECT_TRUE(std::isnan(whole.mean(2).phi_large()));

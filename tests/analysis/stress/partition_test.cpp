@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/stress/partition.hpp"
-
+#include "analysis/stress/contact_sums_reader.hpp"
+#include "analysis/stress/neutral_contacts.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/synthetic_sums.hpp"
 
@@ -126,15 +127,15 @@ TEST(Partition, PartialStressesAddUpToTheStressForEveryRuleButDrop)
   }
 }
 
-TEST(Partition, SharesOfPartsBookedAtTheGrainsCentresAreTakenWhereEachGrainIs)
+TEST(Partition, SharesOfPartsAtTheGrainsCentresAreTakenWhereEachGrainIs)
 {
   ContactSums sums = one_mixed_contact();
   sums.ss = sums.ll = 100 * any_tensor();
-  sums.booked_at_centres = true;
-  sums.at_centres = {.ss = 1.5 * any_tensor(),
-                     .ll = 2.5 * any_tensor(),
-                     .mixed_large = 10 * any_tensor(),
-                     .mixed_small = 20 * any_tensor()};
+  sums.at_centres = true;
+  sums.halves_ss = 1.5 * any_tensor();
+  sums.halves_ll = 2.5 * any_tensor();
+  sums.mixed_at_large = 10 * any_tensor();
+  sums.mixed_at_small = 20 * any_tensor();
   const auto stress = partial_stress(sums, parse_rule("uniform:0.8"), BasePart::none);
   EXPECT_LT((stress.large - (2.5 + 8) / sums.volume * any_tensor()).norm(), 1e-14);
   EXPECT_LT((stress.small - (1.5 + 4) / sums.volume * any_tensor()).norm(), 1e-14);
@@ -149,7 +150,7 @@ TEST(Partition, ATableOfGrainsWithoutTheirHalvesIsReadForSizeAndRefusedForHalf)
       table.columns.push_back(std::string(name) + component);
       table.rows[0].push_back(1);
     }
-  EXPECT_FALSE(ContactSumsReader(table, {parse_rule("size")}).read(0).booked_at_centres);
+  EXPECT_FALSE(ContactSumsReader(table, {parse_rule("size")}).read(0).at_centres);
   try {
     const ContactSumsReader reader(table, {parse_rule("half")});
     ADD_FAILURE() << "the table was read";
@@ -220,8 +221,50 @@ TEST(PartitionRule, StockStandsForThoseOfPublishedCodes)
   ASSERT_EQ(rules.size(), 5u);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NE(rules[k].used_by(), "") << rules[k].name();
   EXPECT_EQ(rules[2].name(), "half");
-  EXPECT_EQ(rules[2].used_by(), "LAMMPS, LIGGGHTS compute stress/atom");
+  EXPECT_EQ(rules[0].used_by(), "grseg, Staron & Phillips 2015");
+  EXPECT_EQ(rules[1].used_by(), "MercuryDPM coarse graining; YADE, PFC stress per body");
+  EXPECT_EQ(rules[2].used_by(), "LAMMPS, LIGGGHTS compute stress/atom, also of a group");
+  EXPECT_EQ(rules[3].used_by(),
+            "sums over pairs within one species (contact lists filtered by type)");
   EXPECT_EQ(rules[4].used_by(), "");
+}
+
+// Whatever is listed can be typed, and what a rule gives at nominal sizes is what its contacts give.
+TEST(PartitionRule, TheListOfRulesIsWhatParsingKnows)
+{
+  EXPECT_EQ(list_of_rules("or"), "size, contact-point, half, drop, uniform:P or power:Q");
+  for (const auto& definition : rule_definitions()) {
+    const bool takes_number = *definition.number != '\0';
+    const auto rule = parse_rule(std::string(definition.word) + (takes_number ? ":0.25" : ""));
+    EXPECT_EQ(rule.kind, definition.kind) << definition.word;
+    EXPECT_EQ(&rule.definition(), &definition) << definition.word;
+    EXPECT_EQ(rule.adds_up(), definition.kind != PartitionRule::Kind::drop) << definition.word;
+  }
+}
+
+// Radii 2 and 1; the contact point lies at 0.7 of the branch.
+TEST(PartitionRule, TheShareOfAContactFollowsFromRadiiAndContactPoint)
+{
+  const auto share = [](const char* text) {
+    const auto rule = parse_rule(text);
+    return rule.definition().share({2, 1, 0.7}, rule.value);
+  };
+  EXPECT_NEAR(share("size"), 2. / 3, 1e-15);
+  EXPECT_EQ(share("contact-point"), 0.7);
+  EXPECT_EQ(share("half"), 0.5);
+  EXPECT_EQ(share("uniform:0.8"), 0.8);
+  EXPECT_NEAR(share("power:3"), 8. / 9, 1e-15);
+  EXPECT_NEAR(share("power:-1"), 1. / 3, 1e-15);
+  EXPECT_NEAR(share("power:0"), 1. / 2, 1e-15);
+}
+
+TEST(NeutralContacts, AllEndsAndNominalSharesAreThoseOfTheModel)
+{
+  EXPECT_NEAR(neutral_ends_of_large(0.5, 2), 1. / 3, 1e-15);
+  EXPECT_NEAR(neutral_zero_share(2), 2. / 3, 1e-15);
+  for (const char* text : {"size", "contact-point", "power:1"})
+    EXPECT_NEAR(nominal_share(parse_rule(text), 3), 0.75, 1e-15) << text;
+  EXPECT_TRUE(std::isnan(nominal_share(parse_rule("drop"), 3)));
 }
 
 TEST(PartitionRule, WrongTextIsAnsweredWithTheNearestRule)
@@ -231,12 +274,12 @@ TEST(PartitionRule, WrongTextIsAnsweredWithTheNearestRule)
   EXPECT_NE(sentence_of("uniform").find("takes a number"), std::string::npos);
   EXPECT_NE(sentence_of("half:0.5").find("takes no number"), std::string::npos);
   EXPECT_NE(sentence_of("uniform:1.2").find("between 0 and 1"), std::string::npos);
-  EXPECT_NE(sentence_of("uniform:0,8").find("no number"), std::string::npos);
-  EXPECT_NE(sentence_of("power:nan").find("no number"), std::string::npos);
-  EXPECT_NE(sentence_of("uniform:").find("no number"), std::string::npos);
+  EXPECT_NE(sentence_of("uniform:0,8").find("not a number"), std::string::npos);
+  EXPECT_NE(sentence_of("power:nan").find("not a number"), std::string::npos);
+  EXPECT_NE(sentence_of("uniform:").find("not a number"), std::string::npos);
   EXPECT_NE(sentence_of("").find("the rules are"), std::string::npos);
   EXPECT_THROW(parse_rules({"size,,half"}), UsageError);
-  EXPECT_THROW(parse_base("point"), UsageError);
+  EXPECT_THROW(choose("point", "--base", base_parts), UsageError);
 }
 
 TEST(ContactSumsReader, AStressIsTheSameThroughTheTableAndBack)

@@ -27,63 +27,63 @@ inline constexpr Assignment all_assignments[] = {Assignment::contact_point, Assi
                                                  Assignment::grain, Assignment::kernel};
 inline const Kernel smooth(KernelShape::gauss, 0.3);
 
-inline PartialContactStress stress_of(const Scene& scene, Assignment assignment,
+inline PartialContactStress stress_of(const Packing& packing, Assignment assignment,
                                       std::optional<double> power = std::nullopt,
                                       const Kernel& kernel = smooth)
 {
   PartialContactStress stress(unit_layers, assignment, power, kernel);
-  stress.add(scene.grains, scene.frame);
+  stress.add(packing.grains, packing.frame);
   return stress;
 }
 
 /// A large grain at height 2.75 on a small one at height 1.25, touching at 1.75: the large grain's
 /// part is two thirds, the branch is (0, 1.5).
-inline Scene large_on_small()
+inline Packing large_on_small()
 {
-  Scene scene;
-  const auto large = scene.grain(Species::large, 1, {5, 2.75});
-  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
-  scene.contact(large, small, push);
-  return scene;
+  Packing packing;
+  const auto large = packing.grain(Species::large, 1, {5, 2.75});
+  const auto small = packing.grain(Species::small, 0.5, {5, 1.25});
+  packing.contact(large, small, push);
+  return packing;
 }
 inline const Tensor2 mixed = dyad(push, {0, 1.5});
 
 /// A small grain of radius 0.5 at height 1.25 on a base grain of radius 1 at -0.25, touching at
 /// 0.75; force (x) branch is `mixed`, too.
-inline Scene small_on_base()
+inline Packing small_on_base()
 {
-  Scene scene;
-  const auto small = scene.grain(Species::small, 0.5, {5, 1.25});
-  const auto base = scene.grain(Species::boundary, 1, {5, -0.25});
-  scene.contact(small, base, push);
-  return scene;
+  Packing packing;
+  const auto small = packing.grain(Species::small, 0.5, {5, 1.25});
+  const auto base = packing.grain(Species::boundary, 1, {5, -0.25});
+  packing.contact(small, base, push);
+  return packing;
 }
 
 /// A heap of grains in a cell of 10 x 5 with forces at random contacts; nothing is in balance,
 /// which sums do not mind.
-inline Scene heap()
+inline Packing heap()
 {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(0, 1);
-  Scene scene;
+  Packing packing;
   for (int g = 0; g < 60; ++g) {
     const auto species = g % 3 == 0    ? Species::large
                          : g % 10 == 1 ? Species::boundary
                                        : Species::small;
-    scene.grain(species, 0.2 + 0.5 * number(random), {10 * number(random), 5 * number(random)});
+    packing.grain(species, 0.2 + 0.5 * number(random), {10 * number(random), 5 * number(random)});
   }
   for (std::int32_t i = 0; i < 60; ++i)
     for (std::int32_t j = 0; j < 60; j += 7)
-      if (i != j && scene.grains.fixed[static_cast<std::size_t>(i)] == 0)
-        scene.contact(i, j, {number(random) - 0.5, number(random) - 0.5});
-  return scene;
+      if (i != j && packing.grains.fixed[static_cast<std::size_t>(i)] == 0)
+        packing.contact(i, j, {number(random) - 0.5, number(random) - 0.5});
+  return packing;
 }
 
 /// The sum of the contact forces on each grain.
-inline std::vector<Vec2> net_forces(const Scene& scene)
+inline std::vector<Vec2> net_forces(const Packing& packing)
 {
-  const auto& list = scene.frame.contacts;
-  std::vector<Vec2> net(scene.grains.size(), Vec2::Zero());
+  const auto& list = packing.frame.contacts;
+  std::vector<Vec2> net(packing.grains.size(), Vec2::Zero());
   for (std::size_t k = 0; k < list.size(); ++k) {
     net[static_cast<std::size_t>(list.i[k])] += list.force[k];
     net[static_cast<std::size_t>(list.j[k])] -= list.force[k];

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/short_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+std::string rounded(double value)
+{
+  if (!std::isfinite(value)) return "-";
+  const auto text = fmt::format("{:.3f}", value);
+  return text == "-0.000" ? "0.000" : text;
+}
+
+std::string interval_text(double low, double high)
+{
+  if (!std::isfinite(low) || !std::isfinite(high)) return "-";
+  return fmt::format("{:>6} to {:>6}", rounded(low), rounded(high));
+}
+
+std::string with_interval(double value, const Interval& interval)
+{
+  if (!std::isfinite(interval.low)) return rounded(value);
+  return fmt::format("{} ({} to {})", rounded(value), rounded(interval.low),
+                     rounded(interval.high));
+}
+
+using Line = std::array<std::string, 6>;
+
+/// Words to the left, numbers to the right, columns as wide as they must be.
+std::string aligned(const std::vector<Line>& lines)
+{
+  std::array<std::size_t, 6> width{};
+  for (const auto& line : lines)
+    for (std::size_t c = 0; c < line.size(); ++c) width[c] = std::max(width[c], line[c].size());
+  std::string text;
+  for (const auto& line : lines)
+    text += fmt::format("{:<{}}  {:>{}}  {:>{}}  {:>{}}  {:>{}}  {}\n", line[0], width[0], line[1],
+                        width[1], line[2], width[2], line[3], width[3], line[4], width[4], line[5]);
+  return text;
+}
+
+std::string rules_text(const FitReport& report)
+{
+  std::vector<Line> lines{{"rule", "B", "95 % interval", "share", "points", "used by"}};
+  for (const auto& fit : report.rules)
+    lines.push_back({rule_name(report, fit), rounded(fit.value.B_half),
+                     interval_text(fit.low.B_half, fit.high.B_half), rounded(fit.share),
+                     fmt::format("{}", fit.points), used_by(report, fit)});
+  return aligned(lines);
+}
+
+std::string scan_text(const PartitionScan& scan)
+{
+  const auto &first = scan.fits.front(), &last = scan.fits.back();
+  return fmt::format("B(p) at {} shares: {} at p = {:g} to {} at p = {:g}\n", scan.fits.size(),
+                     rounded(first.value.B_half), first.rule.value, rounded(last.value.B_half),
+                     last.rule.value);
+}
+
+std::string zero_text(const ZeroOfB& zero)
+{
+  if (std::isnan(zero.p_zero)) return "p*: B has no zero at any share looked at\n";
+  return fmt::format("p* = {}: with this share of every mixed contact B = 0; dB/dp = {} there\n",
+                     with_interval(zero.p_zero, zero.p_zero_interval),
+                     with_interval(zero.dB_dp, zero.dB_dp_interval));
+}
+
+}  // namespace
+
+std::string short_table(const FitReport& report)
+{
+  const auto plural = [](std::size_t n, const char* word) {
+    return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
+  };
+  std::string text =
+      fmt::format("B of the {} stress ({}) at phi_L = 1/2, from {} of {}\n\n",
+                  word_of(report.quantity, quantities), word_of(report.component, components),
+                  plural(report.number_of_windows, "window"), plural(report.number_of_runs, "run"));
+  text += rules_text(report);
+  if (report.scan || report.zero) text += '\n';
+  if (report.scan) text += scan_text(*report.scan);
+  if (report.scan)
+    text += zero_text(*report.scan);
+  else if (report.zero)
+    text += zero_text(*report.zero);
+  const auto remarks = doubts(report);
+  if (!remarks.empty()) text += '\n';
+  for (const auto& doubt : remarks) text += fmt::format("doubt: {}\n", doubt);
+  return text;
+}
+
+}  // namespace grseg

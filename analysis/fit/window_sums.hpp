@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit/estimators.hpp"
+#include "analysis/statistics/dependence.hpp"
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace grseg {
+
+/// Additive sums from which every estimator follows, one row per window, and what of them is noise:
+/// the part that the layers' compositions do not explain, which is what resampling varies.
+struct WindowSums {
+  Eigen::MatrixXd sums, noise;
+
+  /// The sums of all windows, and of samples that count window k times(sample, k) times.
+  Eigen::RowVectorXd total() const { return sums.colwise().sum(); }
+  Eigen::MatrixXd totals(const Eigen::MatrixXd& times) const;
+};
+WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs);
+
+/// How far the windows are from independent, for the worse of the mean of ln(y/x) and, where
+/// stresses add up, B_direct.
+Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up);
+
+/// The same estimates as from the points, from totals of those sums.
+Estimators estimators_from_sums(const Eigen::RowVectorXd& total);
+
+}  // namespace grseg

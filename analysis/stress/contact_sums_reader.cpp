@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/stress/contact_sums_reader.hpp"
+
+#include "analysis/frames/layer_key.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grseg {
+namespace {
+
+/// Where the table's column of a sum was made with another exponent than the rule has.
+void require_same_power(const Table& table, const PartitionRule& rule, const std::string& remedy)
+{
+  if (table.header_number("power") != rule.value)
+    throw FormatError(fmt::format("{}: its column Mpower_* was made with power:{}; {}", table.name,
+                                  table.header_text("power"), remedy));
+}
+
+InTables tables_with(Tensor2 ContactSums::*sum)
+{
+  return std::find_if(contact_sum_columns.begin(), contact_sum_columns.end(),
+                      [sum](const auto& column) { return column.sum == sum; })
+      ->in;
+}
+
+}  // namespace
+
+ContactSumsReader::ContactSumsReader(const Table& table, const std::vector<PartitionRule>& rules)
+    : table_(table)
+{
+  const auto add_columns = [&](InTables in, const std::string& remedy) {
+    for (const auto& column : contact_sum_columns) {
+      if (column.in != in) continue;
+      auto& place = places_.emplace_back(Place{column.sum, {}});
+      for (std::size_t c = 0; c < tensor_components.size(); ++c)
+        place.columns[c] =
+            find_column(table, column.name + std::string(tensor_components[c].suffix), remedy);
+    }
+  };
+  const std::string remedy = "a table of grseg-stress has it";
+  volume_ = find_column(table, "V", remedy);
+  for (std::size_t k = 0; k < areas_.size(); ++k)
+    areas_[k] = find_column(table, area_columns[k].name, remedy);
+  add_columns(InTables::all, remedy);
+  bool has_power = false;
+  for (const auto& rule : rules) {
+    const auto& definition = rule.definition();
+    const bool same_for_all = definition.share != nullptr && definition.sum == nullptr;
+    if (same_for_all && !at_centres_ && table.has_column("ML_xx")) {
+      add_columns(InTables::at_centres, "make the table anew with grseg-stress --assign grain");
+      at_centres_ = true;
+    }
+    if (definition.sum == nullptr || tables_with(definition.sum) != InTables::power) continue;
+    const auto how = fmt::format("make the table with grseg-stress --partition {}", rule.name());
+    if (!has_power) add_columns(InTables::power, how);
+    has_power = true;
+    require_same_power(table, rule, how);
+  }
+}
+
+ContactSums ContactSumsReader::read(std::size_t row) const
+{
+  ContactSums sums;
+  sums.at_centres = at_centres_;
+  sums.volume = finite_cell(table_, row, volume_);
+  for (std::size_t k = 0; k < areas_.size(); ++k)
+    sums.*area_columns[k].area = finite_cell(table_, row, areas_[k]);
+  for (const auto& [sum, columns] : places_)
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      (sums.*sum)(tensor_components[c].row, tensor_components[c].column) =
+          finite_cell(table_, row, columns[c]);
+  return sums;
+}
+
+}  // namespace grseg

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/stress/contact_sums.hpp"
+#include "analysis/stress/partition_rule.hpp"
+#include "formats/cli/words.hpp"
+
+namespace grseg {
+
+/// What a contact with the base or a wall gives to the species of its mobile grain.
+enum class BasePart {
+  contact_point,  ///< the branch from the grain's centre to the contact point
+  half,           ///< half the whole branch (LAMMPS and LIGGGHTS)
+  none,
+};
+inline constexpr Choice<BasePart> base_parts[] = {
+    {"contact-point", BasePart::contact_point}, {"half", BasePart::half}, {"none", BasePart::none}};
+
+enum class StressVolume {
+  bulk,   ///< of the layer, with voids
+  solid,  ///< of the mobile grains in it
+};
+inline constexpr Choice<StressVolume> stress_volumes[] = {
+    {"bulk", StressVolume::bulk, "V"}, {"solid", StressVolume::solid, "area_S + area_L"}};
+
+/// N/m. small + large = total for every rule but `drop`.
+struct PartialStress {
+  Tensor2 small, large, total;
+};
+
+/// Staron & Phillips (2015), eq. (1), parted between the species:
+///   sigma^L = (A_LL + share + base_L)/V,  sigma^S = (A_SS + M - share + base_S)/V,
+/// `share` being the rule's part of the mixed contacts' sum M; by `size` that is the prefactor
+/// d_L/(d_L + d_S) in the text below eq. (1). Of parts counted at the grains' centres half and
+/// uniform:P take P ML and (1 - P) MS, and of equal grains half at either; half is then compute
+/// stress/atom, summed by species and layer.
+PartialStress partial_stress(const ContactSums& sums, const PartitionRule& rule,
+                             BasePart base = BasePart::contact_point,
+                             StressVolume volume = StressVolume::bulk);
+
+}  // namespace grseg

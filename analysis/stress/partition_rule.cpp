@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/stress/partition_rule.hpp"
+
+#include "formats/cli/words.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+using Kind = PartitionRule::Kind;
+
+double by_size(const MixedContact& contact, double)
+{
+  return contact.r_large / (contact.r_large + contact.r_small);
+}
+double up_to_contact(const MixedContact& contact, double)
+{
+  return contact.up_to_contact;
+}
+double one_half(const MixedContact&, double)
+{
+  return 0.5;
+}
+double same_for_all(const MixedContact&, double share)
+{
+  return share;
+}
+double by_power(const MixedContact& contact, double exponent)
+{
+  return 1 / (1 + std::pow(contact.r_small / contact.r_large, exponent));
+}
+
+/// The rules. To add one: a Kind, a row here and, where its share differs from contact to contact,
+/// a sum with its columns (contact_sums.hpp).
+constexpr RuleDefinition definitions[] = {
+    // Staron & Phillips (2015), prefactors d_L/(d_L + d_S) and d_S/(d_L + d_S) below eq. (1)
+    {.kind = Kind::size,
+     .word = "size",
+     .meaning = "r_L/(r_L + r_S) of the actual radii",
+     .share = by_size,
+     .sum = &ContactSums::mixed_size,
+     .along_own_stretch = true,
+     .used_by = "grseg, Staron & Phillips 2015",
+     .stock = true},
+    // Weinhart, Thornton, Luding & Bokhove (2012), Granular Matter 14:289
+    {.kind = Kind::contact_point,
+     .word = "contact-point",
+     .meaning = "the branch is cut where the grains touch",
+     .share = up_to_contact,
+     .sum = &ContactSums::mixed_contact,
+     .along_own_stretch = true,
+     .used_by = "MercuryDPM coarse graining; YADE, PFC stress per body",
+     .stock = true},
+    {.kind = Kind::half,
+     .word = "half",
+     .meaning = "1/2",
+     .share = one_half,
+     .used_by = "LAMMPS, LIGGGHTS compute stress/atom, also of a group",
+     .stock = true},
+    {.kind = Kind::drop,
+     .word = "drop",
+     .meaning = "mixed contacts belong to neither species",
+     .share = nullptr,
+     .used_by = "sums over pairs within one species (contact lists filtered by type)",
+     .stock = true},
+    {.kind = Kind::uniform,
+     .word = "uniform",
+     .meaning = "P for every contact",
+     .share = same_for_all,
+     .number = "P",
+     .least = 0,
+     .most = 1},
+    {.kind = Kind::power,
+     .word = "power",
+     .meaning = "r_L^Q/(r_L^Q + r_S^Q)",
+     .share = by_power,
+     .sum = &ContactSums::mixed_power,
+     .number = "Q"},
+};
+
+bool takes_number(const RuleDefinition& rule)
+{
+  return *rule.number != '\0';
+}
+
+std::string as_typed(const RuleDefinition& rule, const std::string& number)
+{
+  return takes_number(rule) ? fmt::format("{}:{}", rule.word, number) : rule.word;
+}
+
+double parse_number(const RuleDefinition& rule, const std::string& text, const std::string& whole)
+{
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw UsageError(fmt::format(
+        "--partition {}: '{}' is not a number; write e.g. uniform:0.8 or power:2", whole, text));
+  if (value < rule.least || value > rule.most)
+    throw UsageError(fmt::format("--partition {}: {} must lie between {:g} and {:g}", whole,
+                                 rule.number, rule.least, rule.most));
+  return value;
+}
+
+[[noreturn]] void refuse(const std::string& word)
+{
+  std::vector<std::string> words;
+  for (const auto& rule : definitions) words.push_back(as_typed(rule, rule.number));
+  throw UsageError(unknown_word("--partition", word, words));
+}
+
+}  // namespace
+
+std::span<const RuleDefinition> rule_definitions()
+{
+  return definitions;
+}
+
+const RuleDefinition& PartitionRule::definition() const
+{
+  return *std::find_if(std::begin(definitions), std::end(definitions),
+                       [this](const RuleDefinition& rule) { return rule.kind == kind; });
+}
+
+std::string PartitionRule::name() const
+{
+  return as_typed(definition(), fmt::format("{}", value));
+}
+
+std::string PartitionRule::used_by() const
+{
+  return definition().used_by;
+}
+
+bool PartitionRule::adds_up() const
+{
+  return definition().share != nullptr;
+}
+
+std::string list_of_rules(const std::string& conjunction)
+{
+  std::string list;
+  const auto count = std::size(definitions);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k > 0) list += k + 1 == count ? fmt::format(" {} ", conjunction) : ", ";
+    list += as_typed(definitions[k], definitions[k].number);
+  }
+  return list;
+}
+
+PartitionRule parse_rule(const std::string& text)
+{
+  const auto colon = text.find(':');
+  const bool has_number = colon != std::string::npos;
+  const std::string word = text.substr(0, colon);
+  for (const auto& rule : definitions) {
+    if (word != rule.word) continue;
+    if (takes_number(rule) != has_number)
+      throw UsageError(fmt::format("--partition {}: this rule takes {}; the rules are {}", text,
+                                   has_number ? "no number" : "a number", list_of_rules()));
+    if (!has_number) return {rule.kind};
+    return {rule.kind, parse_number(rule, text.substr(colon + 1), text)};
+  }
+  refuse(word);
+}
+
+std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts)
+{
+  std::vector<PartitionRule> rules;
+  for (const auto& text : texts) {
+    std::istringstream list(text);
+    if (text.empty()) refuse("");
+    for (std::string one; std::getline(list, one, ',');) {
+      if (one != "stock") {
+        rules.push_back(parse_rule(one));
+        continue;
+      }
+      for (const auto& rule : definitions)
+        if (rule.stock) rules.push_back({rule.kind});
+    }
+  }
+  return rules;
+}
+
+}  // namespace grseg

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/short_table.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+/// A fit with these numbers, whatever they would come from.
+RuleFit fit(const PartitionRule& rule, double b, double low, double high, double share,
+            std::size_t points)
+{
+  RuleFit fit;
+  fit.rule = rule;
+  fit.value.B_half = b;
+  fit.low.B_half = low;
+  fit.high.B_half = high;
+  fit.share = share;
+  fit.points = points;
+  return fit;
+}
+
+FitReport report()
+{
+  constexpr double nan = Estimators::nan;
+  FitReport report;
+  report.rules = {
+      fit({PartitionRule::Kind::size}, 0.03449, 0.0295, 0.0394999, 0.66651, 320),
+      fit({PartitionRule::Kind::half}, -0.31451, -0.3205, -0.3095, 0.5, 320),
+      fit({PartitionRule::Kind::drop}, nan, nan, nan, nan, 7),
+      fit({PartitionRule::Kind::uniform, 0.65}, -0.0004, nan, nan, 0.65, 320),
+  };
+  report.number_of_runs = 2;
+  report.number_of_windows = 1;
+  ZeroOfB zero;
+  zero.p_zero = 0.65049;
+  zero.p_zero_interval = {0.6485, 0.65251};
+  zero.dB_dp = 2.0996;
+  report.zero = zero;
+  return report;
+}
+
+// Rounded by hand, half away from the digit: 0.03449 -> 0.034, 0.0394999 -> 0.039, -0.0004 -> 0.
+TEST(ShortTable, RoundsToThreeDecimalsAndLeavesADashWhereThereIsNoNumber)
+{
+  EXPECT_EQ(short_table(report()),
+            "B of the contact stress (yy) at phi_L = 1/2, from 1 window of 2 runs\n"
+            "\n"
+            "rule               B     95 % interval  share  points  used by\n"
+            "size           0.034   0.029 to  0.039  0.667     320  grseg, Staron & Phillips 2015\n"
+            "half          -0.315  -0.321 to -0.309  0.500     320  LAMMPS, LIGGGHTS compute "
+            "stress/atom, also of a group\n"
+            "drop               -                 -      -       7  sums over pairs within one "
+            "species (contact lists filtered by type)\n"
+            "uniform:0.65   0.000                 -  0.650     320  -\n"
+            "\n"
+            "p* = 0.650 (0.648 to 0.653): with this share of every mixed contact B = 0; dB/dp = "
+            "2.100 there\n");
+}
+
+TEST(ShortTable, EndsWithTheDoubts)
+{
+  auto doubtful = report();
+  doubtful.rules.resize(1);
+  doubtful.rules[0].doubt = "2 runs tell little of how runs differ";
+  const auto text = short_table(doubtful);
+  EXPECT_TRUE(text.ends_with("\n\ndoubt: size: 2 runs tell little of how runs differ\n")) << text;
+}
+
+TEST(ShortTable, KineticStressHasNoRuleAndNoZero)
+{
+  auto kinetic = report();
+  kinetic.quantity = Quantity::kinetic;
+  kinetic.rules = {fit({}, -0.3731, -0.38, -0.366, Estimators::nan, 300)};
+  kinetic.zero.reset();
+  EXPECT_EQ(short_table(kinetic),
+            "B of the kinetic stress (yy) at phi_L = 1/2, from 1 window of 2 runs\n"
+            "\n"
+            "rule          B     95 % interval  share  points  used by\n"
+            "kinetic  -0.373  -0.380 to -0.366      -     300  -\n");
+}
+
+TEST(ShortTable, AScanIsSummedUpByItsEnds)
+{
+  auto scanned = report();
+  scanned.zero.reset();
+  PartitionScan scan;
+  scan.fits = {fit({PartitionRule::Kind::uniform, 0.4}, -0.54, 0, 0, 0, 1),
+               fit({PartitionRule::Kind::uniform, 0.9}, 0.5251, 0, 0, 0, 1)};
+  scanned.scan = scan;
+  EXPECT_NE(short_table(scanned).find("B(p) at 2 shares: -0.540 at p = 0.4 to 0.525 at p = 0.9\n"
+                                      "p*: B has no zero at any share looked at\n"),
+            std::string::npos)
+      << short_table(scanned);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frames/layer_key.hpp"
+
+#include "formats/core/errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr LengthUnits units{0.005, 0.01};
+
+const LayerKey key{1.25, 2.5, 0.02, 0.04, 25, 0.007};
+
+Table one_row(const LayerKey& of)
+{
+  Table table;
+  table.name = "t.tsv";
+  table.columns = with_key_columns({"n_SS"});
+  table.rows = {with_key(of, {7})};
+  return table;
+}
+
+TEST(LayerKey, IsTheSameThroughATableAndBack)
+{
+  const auto table = Table::parse(one_row(key).to_text(), "t.tsv");
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames",
+                                                     "V[m^2]", "n_SS"}));
+  EXPECT_EQ(table.rows[0], (std::vector<double>{1.25, 2.5, 0.02, 0.04, 25, 0.007, 7}));
+  const auto back = LayerKeyReader(table, "").read(0);
+  for (const auto& column : key_columns) EXPECT_EQ(back.*column.value, key.*column.value);
+}
+
+TEST(LayerKey, OnlyHeightsMayBeNanWhichMeansTheWholeBed)
+{
+  auto whole_bed = key;
+  whole_bed.bottom = whole_bed.top = nan;
+  EXPECT_TRUE(std::isnan(LayerKeyReader(one_row(whole_bed), "").read(0).bottom));
+  auto wrong = key;
+  wrong.frames = nan;
+  EXPECT_THROW(LayerKeyReader(one_row(wrong), "").read(0), FormatError);
+  auto endless = key;
+  endless.top = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(LayerKeyReader(one_row(endless), "").read(0), FormatError);
+}
+
+TEST(LayerKey, AMissingColumnIsNamedWithItsRemedy)
+{
+  auto table = one_row(key);
+  table.columns[4] = "numbers";
+  try {
+    const LayerKeyReader reader(table, "make it anew");
+    ADD_FAILURE() << "the table was read";
+  } catch (const FormatError& error) {
+    EXPECT_STREQ(error.what(), "t.tsv: there is no column 'frames'; make it anew");
+  }
+}
+
+TEST(RowRange, WindowsAndLayersLieWhollyInsideUpToRoundOff)
+{
+  const RowRange range{.begin = 1.25, .end = 2.5, .lowest = 0.02, .highest = 0.04};
+  EXPECT_TRUE(range.holds(key));
+  const auto moved = [&](double LayerKey::*member, double by) {
+    auto other = key;
+    other.*member += by;
+    return range.holds(other);
+  };
+  for (const double hair : {1e-12, -1e-12})
+    for (const auto member : {&LayerKey::begin, &LayerKey::end, &LayerKey::bottom, &LayerKey::top})
+      EXPECT_TRUE(moved(member, hair));
+  EXPECT_FALSE(moved(&LayerKey::begin, -1e-3));
+  EXPECT_FALSE(moved(&LayerKey::end, 1e-3));
+  EXPECT_FALSE(moved(&LayerKey::bottom, -1e-3));
+  EXPECT_FALSE(moved(&LayerKey::top, 1e-3));
+  EXPECT_TRUE(moved(&LayerKey::bottom, 1e-3));
+}
+
+TEST(RowRange, TheWholeBedLiesBetweenAnyHeights)
+{
+  auto whole_bed = key;
+  whole_bed.bottom = whole_bed.top = nan;
+  EXPECT_TRUE((RowRange{.lowest = 1, .highest = 2}.holds(whole_bed)));
+}
+
+TEST(RowRange, HeightsMayBeOpenOnEitherSide)
+{
+  RowRange range;
+  range.set_heights("4dS:2dL", units);
+  EXPECT_DOUBLE_EQ(range.lowest, 0.02);
+  EXPECT_DOUBLE_EQ(range.highest, 0.02);
+  range = {};
+  range.set_heights("20mm:", units);
+  EXPECT_DOUBLE_EQ(range.lowest, 0.02);
+  EXPECT_TRUE(std::isinf(range.highest));
+  range = {};
+  range.set_heights(":0.3", units);
+  EXPECT_TRUE(std::isinf(range.lowest));
+  EXPECT_DOUBLE_EQ(range.highest, 0.3);
+  range = {};
+  range.set_heights("", units);
+  EXPECT_TRUE(std::isinf(range.lowest) && std::isinf(range.highest));
+  EXPECT_THROW(range.set_heights("4dS", units), UsageError);
+  EXPECT_THROW(range.set_heights("4dX:", units), UsageError);
+}
+
+}  // namespace
+}  // namespace grseg

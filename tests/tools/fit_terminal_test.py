@@ -1,0 +1,62 @@
+#!/usr/bin/python3
+"""grseg-fit prints a short table on a terminal, and the whole one into pipes and files.
+Usage: fit_terminal_test.py GRSEG-FIT SUMS"""
+import os
+import pty
+import subprocess
+import sys
+import tempfile
+
+program, sums = sys.argv[1:]
+options = [sums, "--bootstrap", "100", "--partition", "size,half"]
+
+
+def on_terminal(*more):
+    """Standard output of grseg-fit where that is a terminal; exit code 0."""
+    leader, follower = pty.openpty()
+    process = subprocess.Popen([program, *options, *more], stdout=follower, stderr=subprocess.PIPE)
+    os.close(follower)
+    text = b""
+    while True:
+        try:
+            part = os.read(leader, 4096)
+        except OSError:  # closed at the other end
+            break
+        if not part:
+            break
+        text += part
+    error = process.stderr.read().decode()
+    assert process.wait() == 0, error
+    return text.decode().replace("\r\n", "\n"), error
+
+
+def in_pipe(*more):
+    done = subprocess.run([program, *options, *more], capture_output=True, check=True, text=True)
+    return done.stdout, done.stderr
+
+
+def main():
+    whole, doubts = in_pipe()
+    assert whole.startswith("# program: grseg-fit "), whole
+    assert "doubt" not in whole.split("\n")[0] and doubts, "three layers of one window are too few"
+
+    short, error = on_terminal()
+    assert short.startswith("B of the contact stress (yy)") and "\nsize " in short, short
+    assert "\nhalf " in short and "\np* = " in short and "\ndoubt: size: " in short, short
+    assert "\t" not in short and "#" not in short, short
+    assert error == "", error  # the doubts are in the table
+    assert in_pipe("--short")[0] == short
+
+    assert on_terminal("-o", "-")[0] == whole.replace("--partition size,half", "--partition size,half -o -")
+    assert on_terminal("--json")[0].startswith("{")
+    with tempfile.TemporaryDirectory() as folder:
+        path = folder + "/fit.tsv"
+        assert on_terminal("-o", path)[0] == ""
+        text = open(path).read()
+        assert text == whole.replace("size,half\n", f"size,half -o {path}\n"), text
+        os.remove(path)
+        assert in_pipe("-o", path, "--short")[0] == short
+        assert open(path).read().startswith("# program: grseg-fit ")
+
+
+main()
