@@ -104,7 +104,7 @@ TEST_F(Text, ThatIsPackedAndTruncatedOrDamagedIsRefused)
   const std::string at = GRSEG_TEST_INPUTS "/lammps/";
   const auto gzip = lammps_text::read(at + "elastic-atoms.dump.gz");
   const auto zstd = lammps_text::read(at + "elastic-contacts.dump.zst");
-  const std::string sentence = "damaged or cut off";
+  const std::string sentence = "damaged or truncated";
   const auto half = folder.write("a.gz", gzip.substr(0, gzip.size() / 2));
   EXPECT_TRUE(mentions(complaint_about(half), sentence));
   EXPECT_TRUE(mentions(complaint_about(folder.write("b.gz", with_damage(gzip))), sentence));

@@ -105,7 +105,7 @@ TEST(LiggghtsColumns, LengthOfTheHistoryDependsOnTheModel)
 {
   EXPECT_EQ(liggghts_mapping("id,force,history:1,delta", header_of(8)),
             "i=1,j=2,fx=4,fy=5,fz=6,overlap=8");
-  EXPECT_NE(refusal("id,force,history:x", header_of(8)).find("no keyword"), std::string::npos);
+  EXPECT_NE(refusal("id,force,history:x", header_of(8)).find("not a keyword"), std::string::npos);
 }
 
 TEST(LiggghtsColumns, WithoutVelocitiesTheSameNumberMeansSomethingElse)
@@ -166,12 +166,12 @@ TEST_F(Liggghts, OverlapIsDeltaNotADifferenceOfRoundedPositions)
     run.read(3, frame);
     return frame;
   };
-  const auto told = frame_of("contacts-full35.dump").contacts;
+  const auto stated = frame_of("contacts-full35.dump").contacts;
   const auto found = frame_of("contacts-default25.dump").contacts;
-  ASSERT_EQ(told.size(), 4u);  // two more are between grains of the base
-  EXPECT_EQ(told.gap[0], -5.6389e-05);
+  ASSERT_EQ(stated.size(), 4u);  // two more are between grains of the base
+  EXPECT_EQ(stated.gap[0], -5.6389e-05);
   // Differences of the 6-digit positions beside them are off by 2e-8.
-  for (std::size_t c = 0; c < told.size(); ++c) EXPECT_NEAR(told.gap[c], found.gap[c], 1e-10);
+  for (std::size_t c = 0; c < stated.size(); ++c) EXPECT_NEAR(stated.gap[c], found.gap[c], 1e-10);
 }
 
 TEST_F(Liggghts, AWrongReadingIsRefusedAndTheRightOneNamed)
