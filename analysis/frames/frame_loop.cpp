@@ -102,7 +102,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
     : info_(info),
       options_(options),
       preset_(preset_of(values)),
-      run_(only_run(values, "a table is made of one run")),
+      run_(single_input(values, "a table is made of one run")),
       layers_(layers_of(run_, options)),
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)

@@ -14,15 +14,16 @@ std::int64_t whole_steps(double time, double step, const char* option)
 {
   const double steps = std::round(time / step);
   if (!(std::abs(steps) < 1e15))
-    throw UsageError(fmt::format("{} {:g} s is no time of this run", option, time));
+    throw UsageError(fmt::format("{} {:g} s is not a time in this run", option, time));
   return static_cast<std::int64_t>(steps);
 }
 
 void FrameRange::add_to(po::options_description& options)
 {
-  options.add_options()("begin", time_option(begin), "leave out what is before (default: nothing)");
+  options.add_options()("begin", time_option(begin),
+                        "ignore frames before this time (default: use all)");
   options.add_options()("end", time_option(end),
-                        "leave out what is from here on (default: nothing)");
+                        "ignore frames from this time on (default: use all)");
   options.add_options()("stride", po::value(&stride)->default_value(1)->value_name("N"),
                         "use one frame in N");
 }
@@ -44,7 +45,7 @@ std::vector<std::size_t> FrameRange::frames_of(const TrajectoryReader& run) cons
     frames.push_back(k);
   if (frames.empty())
     throw RunError(steps.empty()
-                       ? fmt::format("{}: the run holds no frame", run.path())
+                       ? fmt::format("{}: the run has no frames", run.path())
                        : fmt::format("{}: no frame lies between --begin and --end; the "
                                      "run goes from {:.6g} s to {:.6g} s",
                                      run.path(), run.times().front(), run.times().back()));

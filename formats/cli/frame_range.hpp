@@ -12,10 +12,10 @@
 namespace grseg {
 
 /// `time` in whole steps, so that no rounding moves a frame across it. UsageError naming `option`
-/// where it is no time that a run could have.
+/// where no run can have this time.
 std::int64_t whole_steps(double time, double step, const char* option);
 
-/// The part of a run that is asked for: frames with begin <= t < end, one in `stride`.
+/// The part of a run to be used: frames with begin <= t < end, one in `stride`.
 struct FrameRange {
   std::optional<double> begin = {}, end = {};  // s; by default the whole run
   int stride = 1;
@@ -23,8 +23,8 @@ struct FrameRange {
   /// Adds --begin --end --stride.
   void add_to(po::options_description& options);
 
-  /// Their numbers in the file, never none. UsageError where the stride is none, RunError where no
-  /// frame lies between begin and end.
+  /// Their numbers in the file, at least one. UsageError where the stride is below 1, RunError
+  /// where no frame lies between begin and end.
   std::vector<std::size_t> frames_of(const TrajectoryReader& run) const;
 };
 

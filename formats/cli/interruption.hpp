@@ -7,21 +7,21 @@
 
 namespace grseg {
 
-/// The reason to stop is a signal; the exit code tells which.
+/// Thrown where a signal stops the program; the exit code is that of the signal.
 struct Interruption : ToolError {
   using ToolError::ToolError;
 };
 
-/// From here on SIGINT and SIGTERM are remembered, rather than end the program at once.
+/// From here on SIGINT and SIGTERM are remembered instead of ending the program at once.
 void listen_to_signals();
 
-/// One of them came since.
+/// Whether one of them has arrived since.
 bool interrupted();
 
-/// What is thrown then; the sentence tells what is left of the work.
+/// What to throw then; the sentence says what is kept of the work.
 Interruption interruption(const std::string& sentence);
 
-/// Throws it where a program may stop without harm: what it had begun to write goes.
+/// Throws it if interrupted; for places where stopping is safe and unfinished output is removed.
 void stop_if_interrupted();
 
 }  // namespace grseg

@@ -1,42 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/output.hpp"
 
-#include "formats/core/errors.hpp"
-#include "formats/core/files.hpp"
-
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <utility>
 
 namespace grseg {
+namespace {
 
-std::string name_beside(const std::string& place)
+/// A device or a pipe: it is written to, never replaced.
+bool is_device(const std::string& path)
 {
-  return fmt::format("{}.tmp.{}", place, getpid());
+  std::error_code error;
+  return std::filesystem::is_other(std::filesystem::status(path, error));
 }
 
-Output::Output(std::string place, bool overwrite)
-    : place_(std::move(place)), beside_(name_beside(place_))
-{
-  refuse_to_overwrite(place_, overwrite);
-}
+}  // namespace
 
-Output::~Output()
+Output::Output(std::string path, bool overwrite)
+    : path_(std::move(path)), temporary_(temporary_path(path_))
 {
-  std::error_code ignored;
-  std::filesystem::remove(beside_, ignored);
-}
-
-void Output::publish()
-{
-  publish_file(beside_, place_);
+  refuse_to_overwrite(path_, overwrite);
 }
 
 void write_whole(const std::string& path, std::string_view text)
@@ -45,35 +29,10 @@ void write_whole(const std::string& path, std::string_view text)
     std::cout << text;
     return;
   }
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-      !std::filesystem::is_directory(status)) {
-    // A device or a pipe is written to, never replaced.
-    std::ofstream out(path, std::ios::binary);
-    out << text << std::flush;
-    if (!out) throw RunError(fmt::format("cannot write {}", path));
-    return;
-  }
-  const std::string beside = fmt::format("{}.tmp.{}", path, getpid());
-  const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  const auto fail = [&](const char* what) {
-    const std::string why = std::strerror(errno);
-    if (file >= 0) {
-      close(file);
-      unlink(beside.c_str());
-    }
-    throw RunError(fmt::format("cannot {} {}: {}", what, path, why));
-  };
-  if (file < 0) fail("create");
-  for (std::size_t done = 0; done < text.size();) {
-    const auto count = write(file, text.data() + done, text.size() - done);
-    if (count < 0) fail("write");
-    done += static_cast<std::size_t>(count);
-  }
-  if (fsync(file) != 0) fail("write");
-  if (rename(beside.c_str(), path.c_str()) != 0) fail("rename to");
-  close(file);
+  if (is_device(path)) return write_file(path, text, path);
+  const RemoveAtEnd temporary(temporary_path(path));
+  write_file(temporary.path(), text, path);
+  publish_file(temporary.path(), path);
 }
 
 }  // namespace grseg

@@ -1,34 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/core/files.hpp"
+
 #include <string>
 #include <string_view>
 
 namespace grseg {
 
-/// The place that a file will have once it is whole: it is made beside, as
-/// PLACE.tmp.PROCESS, and renamed by `publish`; what was not published is removed.
+/// A file that appears whole or not at all: it is written under a temporary name and renamed by
+/// `publish`; without that it is removed.
 class Output {
  public:
-  /// UsageError where something else is at `place`, unless `overwrite` allows to replace a file.
-  Output(std::string place, bool overwrite);
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-  ~Output();
+  /// UsageError where `path` is a folder, or an existing file unless `overwrite`.
+  Output(std::string path, bool overwrite);
 
-  const std::string& beside() const { return beside_; }
+  const std::string& temporary() const { return temporary_.path(); }
   /// Everything must have been written and closed. RunError where the system refuses.
-  void publish();
+  void publish() { publish_file(temporary(), path_); }
 
  private:
-  std::string place_, beside_;
+  std::string path_;
+  RemoveAtEnd temporary_;
 };
 
-/// PLACE.tmp.PROCESS: a name for what is under way that no other program takes.
-std::string name_beside(const std::string& place);
-
-/// Writes `text` to `path`, whole or not at all (write beside, fsync, rename); "-" or "" is
-/// standard output. RunError where that fails.
+/// Writes `text` to `path`, whole or not at all; "-" or "" is standard output, and devices and
+/// pipes are written to directly. RunError on failure.
 void write_whole(const std::string& path, std::string_view text);
 
 }  // namespace grseg

@@ -35,15 +35,16 @@ std::vector<double> parse_row(const std::string& line, std::size_t columns,
 {
   const auto cells = split(line, '\t');
   if (cells.size() != columns)
-    throw FormatError(fmt::format("{}: {} columns where {} are named; is the table truncated?",
-                                  where, cells.size(), columns));
+    throw FormatError(
+        fmt::format("{}: {} columns, but the header names {}; is the table truncated?", where,
+                    cells.size(), columns));
   std::vector<double> row;
   row.reserve(columns);
   for (const auto& cell : cells) {
     char* end = nullptr;
     row.push_back(std::strtod(cell.c_str(), &end));
     if (end == cell.c_str() || *end != '\0')
-      throw FormatError(fmt::format("{}: '{}' is no number", where, cell));
+      throw FormatError(fmt::format("{}: '{}' is not a number", where, cell));
   }
   return row;
 }
@@ -59,7 +60,7 @@ std::size_t Table::column(const std::string& wanted) const
 {
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (without_unit(columns[c]) == wanted) return c;
-  throw FormatError(fmt::format("{}: there is no column '{}'", name, wanted));
+  throw FormatError(fmt::format("{}: no column '{}'", name, wanted));
 }
 
 bool Table::has_column(const std::string& wanted) const
@@ -73,7 +74,7 @@ const std::string& Table::header_text(const std::string& key) const
 {
   for (const auto& [known, value] : header)
     if (known == key) return value;
-  throw FormatError(fmt::format("{}: there is no line '# {}: ...'", name, key));
+  throw FormatError(fmt::format("{}: no line '# {}: ...'", name, key));
 }
 
 double Table::header_number(const std::string& key) const
@@ -134,13 +135,13 @@ Table Table::parse(const std::string& text, const std::string& name)
 {
   Table table;
   table.name = name;
-  if (text.empty()) throw FormatError(fmt::format("{}: is empty, so it is no table", name));
+  if (text.empty()) throw FormatError(fmt::format("{}: is empty, not a table", name));
   if (text.starts_with("\x89HDF"))
     throw FormatError(fmt::format(
-        "{}: is an HDF5 file where a table is needed; is it a run? grseg-stress makes its table",
+        "{}: is an HDF5 file, not a table; if it is a run, make its table with grseg-stress",
         name));
   if (text.back() != '\n')
-    throw FormatError(fmt::format("{}: the last line has no end; the table is truncated", name));
+    throw FormatError(fmt::format("{}: the last line is incomplete; the table is truncated", name));
   std::istringstream lines(text);
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -159,7 +160,7 @@ Table Table::parse(const std::string& text, const std::string& name)
     }
   }
   if (table.columns.empty())
-    throw FormatError(fmt::format("{}: has no line of column names, so it is no table", name));
+    throw FormatError(fmt::format("{}: has no line of column names, so it is not a table", name));
   return table;
 }
 

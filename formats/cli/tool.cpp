@@ -4,20 +4,12 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/version.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
-#include <numeric>
 
 namespace grseg {
 namespace {
@@ -29,7 +21,7 @@ std::vector<std::string> names_of(const po::options_description& options)
   return names;
 }
 
-/// What the preset sets of the options that are not given themselves: option and value.
+/// Options and values that the preset sets because they are not given explicitly.
 std::vector<std::pair<std::string, std::string>> preset_values(const ToolInfo& info,
                                                                const po::variables_map& given)
 {
@@ -45,9 +37,9 @@ std::vector<std::pair<std::string, std::string>> preset_values(const ToolInfo& i
   return values;
 }
 
-/// Gives `values` what the preset sets, as defaults.
-void take_preset(const ToolInfo& info, const po::options_description& options,
-                 po::variables_map& values)
+/// Adds to `values` what the preset sets, as defaults.
+void apply_preset(const ToolInfo& info, const po::options_description& options,
+                  po::variables_map& values)
 {
   const auto preset = preset_values(info, values);
   std::vector<std::string> words;
@@ -67,7 +59,7 @@ std::string help_of(const std::span<const PresetOption> presets)
     if (*row.paper != '\0') paper += fmt::format(" --{} {}", row.option, row.paper);
     if (*row.rigorous != '\0') rigorous += fmt::format(" --{} {}", row.option, row.rigorous);
   }
-  return fmt::format("{}; {}; options that are given go before", paper, rigorous);
+  return fmt::format("{}; {}; options given explicitly take precedence", paper, rigorous);
 }
 
 po::variables_map parse(int argc, char** argv, const ToolInfo& info,
@@ -88,7 +80,7 @@ po::variables_map parse(int argc, char** argv, const ToolInfo& info,
                   .style(style::unix_style & ~style::allow_guessing)
                   .run(),
               values);
-    take_preset(info, all, values);
+    apply_preset(info, all, values);
   } catch (const po::unknown_option& unknown) {
     const auto& option = unknown.get_option_name();
     const auto suggestion = nearest(option, names_of(options));
@@ -103,12 +95,13 @@ po::variables_map parse(int argc, char** argv, const ToolInfo& info,
 
 void print_help(const ToolInfo& info, const po::options_description& options)
 {
-  std::cout << fmt::format("{}: {}\n\nUsage: {}\n\nExamples:\n{}\n", info.name, info.summary,
-                           info.usage, info.examples)
-            << options
-            << "\nExit codes: 0 done; 1 trouble while running; 2 command line wrong or input "
-               "missing;\n3 content of a file wrong; 4 a check or tolerance missed; 130/143 "
-               "interrupted.\n";
+  std::cout
+      << fmt::format("{}: {}\n\nUsage: {}\n\nExamples:\n{}\n", info.name, info.summary, info.usage,
+                     info.examples)
+      << options
+      << "\nExit codes: 0 done; 1 error while running; 2 wrong command line or missing input;\n"
+         "3 wrong content of a file; 4 a check failed or a tolerance was missed;\n"
+         "130/143 interrupted.\n";
 }
 
 }  // namespace
@@ -120,7 +113,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
   const auto presets = help_of(info.presets);
   if (!info.presets.empty())
     all.add_options()("preset", po::value<std::string>()->value_name("NAME"), presets.c_str());
-  all.add_options()("version", "print the version and stop")("help,h", "print this text and stop");
+  all.add_options()("version", "print the version and exit")("help,h", "print this text and exit");
   try {
     const auto values = parse(argc, argv, info, all);
     if (values.count("help") > 0) {
@@ -162,7 +155,7 @@ std::string command_line(int argc, char** argv)
   return line;
 }
 
-std::string only_run(const po::variables_map& values, const char* remedy)
+std::string single_input(const po::variables_map& values, const char* remedy)
 {
   if (values.count("input") == 0)
     throw UsageError("no run given; name a trajectory file, e.g. run.h5");

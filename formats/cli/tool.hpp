@@ -16,8 +16,8 @@ namespace grseg {
 
 namespace po = boost::program_options;
 
-/// An option and what --preset paper and --preset rigorous set it to, as it would be typed; "":
-/// they leave it as it is by default.
+/// An option and the values that --preset paper and --preset rigorous give it, as typed; "" keeps
+/// its default.
 struct PresetOption {
   const char *option, *paper, *rigorous;
 };
@@ -30,23 +30,24 @@ struct ToolInfo {
   std::span<const PresetOption> presets = {};  // none: the tool has no --preset
 };
 
-/// What every program of the suite does alike: parse the command line (an unknown option is
+/// What all programs have in common: parse the command line (an unknown option is
 /// refused with the nearest known one), --help, --version and --preset, and turn what `body` throws
-/// into one sentence on standard error and an exit code (errors.hpp). Arguments that are no options
-/// come as "input". `body` gets the parsed options; what a preset sets counts as default.
+/// into one sentence on standard error and an exit code (errors.hpp). Arguments that are not
+/// options are passed on as "input". `body` gets the parsed options; values set by a preset count
+/// as defaults.
 int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
              const std::function<void(const po::variables_map&)>& body);
 
 /// The preset that was given, or "none".
 std::string preset_of(const po::variables_map& values);
 
-/// The command line as typed, but with the program's bare name and without --threads, which changes
-/// no byte of any output: a line of a history chain.
+/// The command line as typed, but with the program's bare name and without --threads, on which no
+/// output depends: a line of the history.
 std::string command_line(int argc, char** argv);
 
-/// The one run that the command line names. UsageError where it names none, or several: then
-/// `remedy` ends the sentence.
-std::string only_run(const po::variables_map& values, const char* remedy);
+/// The single run on the command line. UsageError where it names no run or several; `remedy` then
+/// ends the sentence.
+std::string single_input(const po::variables_map& values, const char* remedy);
 
 /// An option of a time in s; `place` stays empty where it is not given.
 po::typed_value<double>* time_option(std::optional<double>& place);

@@ -6,12 +6,12 @@
 
 namespace grseg {
 
-/// What a tool hands back to the shell; the same numbers for every tool.
+/// Exit codes, the same for every tool.
 enum ExitCode {
   exit_done = 0,           ///< done, also when a tolerance was missed (the summary says so)
-  exit_trouble = 1,        ///< run-time trouble: disk full, no usable data, run out of bounds
-  exit_usage = 2,          ///< command line wrong or input file missing
-  exit_content = 3,        ///< content of a file wrong: unknown key, truncated, NaN, corrupt
+  exit_trouble = 1,        ///< run-time error: disk full, no usable data, run out of bounds
+  exit_usage = 2,          ///< wrong command line or missing input file
+  exit_content = 3,        ///< wrong content of a file: unknown key, truncated, NaN, corrupt
   exit_check = 4,          ///< a check failed, or a tolerance missed with --strict
   exit_interrupted = 130,  ///< SIGINT; what was committed is kept
   exit_terminated = 143,   ///< SIGTERM; what was committed is kept
@@ -30,22 +30,22 @@ class ToolError : public std::runtime_error {
   ExitCode code_;
 };
 
-/// Wrong command line, or an input that is not there.
+/// Wrong command line or missing input.
 struct UsageError : ToolError {
   explicit UsageError(const std::string& sentence) : ToolError(exit_usage, sentence) {}
 };
 
-/// A file that is there but does not hold what it should.
+/// A file that does not hold what it should.
 struct FormatError : ToolError {
   explicit FormatError(const std::string& sentence) : ToolError(exit_content, sentence) {}
 };
 
-/// Trouble while running: the disk, no usable data, a run out of bounds.
+/// An error while running: the disk, no usable data, a run out of bounds.
 struct RunError : ToolError {
   explicit RunError(const std::string& sentence) : ToolError(exit_trouble, sentence) {}
 };
 
-/// A stated check or tolerance was not met.
+/// A check failed or a tolerance was missed.
 struct CheckError : ToolError {
   explicit CheckError(const std::string& sentence) : ToolError(exit_check, sentence) {}
 };

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-/// The words that simulator and analysis share. Everything is SI; two-dimensional, so density is
-/// kg/m^2, a force is in N and a stress in N/m. x points down the slope (periodic, if anything is),
-/// y is normal to the base and points up.
+/// The data that simulator and analysis share. Everything is in SI units and two-dimensional: a
+/// density is in kg/m^2, a force in N, a stress in N/m. x points down the slope and may be
+/// periodic, y is normal to the base and points up.
 namespace grseg {
 
 using Vec2 = Eigen::Vector2d;
@@ -21,13 +21,13 @@ struct Grains {
   std::vector<std::int32_t> id;
   std::vector<Species> species;
   std::vector<double> radius;       // m
-  std::vector<double> mass;         // kg; boundary grains too have one, though it moves nothing
+  std::vector<double> mass;         // kg; boundary grains have one, too, but it has no effect
   std::vector<std::uint8_t> fixed;  // 1: moves only as prescribed, and is not part of phi
 
   std::size_t size() const { return radius.size(); }
 };
 
-/// Whether a grain belongs to the flow: boundary grains are in the file, but not in phi.
+/// Whether a grain belongs to the flow. Boundary grains are in the file, but not in phi.
 inline bool is_mobile(const Grains& grains, std::size_t grain)
 {
   return grains.fixed[grain] == 0 && grains.species[grain] != Species::boundary;
@@ -58,7 +58,7 @@ struct ContactList {
 };
 
 /// One step of the run, frozen. `time`, `position`, `branch` and `gap` belong to the middle of the
-/// step, where contacts are looked for; `velocity` and `angular_velocity` are those after the
+/// step, at which contacts are detected; `velocity` and `angular_velocity` are those after the
 /// solve; `force` is m (v_after - v_before)/h, so that for every mobile grain
 /// sum of its contact forces + m g - force = 0 to round-off.
 struct Frame {
@@ -73,10 +73,11 @@ struct Frame {
 };
 
 /// Where two grains touch: x_i - branch (r_i + gap/2)/(r_i + r_j + gap); at a wall the contact
-/// point is x_i - branch. `radius_j` is not used for walls.
+/// point is x_i - branch.
 Vec2 contact_point(const Grains& grains, const Frame& frame, std::size_t contact);
 
-/// Part of the branch that lies in grain i, as seen from the contact point: 1 at a wall.
+/// Fraction of the branch that lies between the centre of grain i and the contact point; 1 at a
+/// wall.
 double share_of_first(const Grains& grains, const ContactList& contacts, std::size_t contact);
 
 }  // namespace grseg

@@ -18,7 +18,7 @@ Vec2 Gravity::at(double time) const
 Vec2 Gravity::mean(double last, std::int64_t steps, double step) const
 {
   if (!turns()) return start;
-  // Of equal vectors that turn by `angle` each time (Dirichlet's kernel).
+  // Mean of vectors of one length, each turned by `angle` against the last (Dirichlet's kernel).
   const double angle = slope_rate * step, half = angle / 2;
   const auto count = static_cast<double>(steps);
   return std::sin(count * half) / (count * std::sin(half)) * at(last - (count - 1) * step / 2);

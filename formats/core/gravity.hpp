@@ -7,23 +7,23 @@
 
 namespace grseg {
 
-/// Gravity of a run: that of a slope which stands still, or which from t = 0 on becomes steeper at
-/// a constant rate. A step feels that of its middle, which is the time of a frame.
+/// Gravity of a run on a slope that is fixed or becomes steeper at a constant rate from t = 0 on. A
+/// step is subject to gravity at its middle, which is the time of a frame.
 struct Gravity {
   Vec2 start = Vec2::Zero();  ///< m/s^2, at t = 0
   double slope_rate = 0;      ///< rad/s
 
   Gravity() = default;
-  // Implicit: where no slope is spoken of, gravity is a vector.
+  // Implicit: without a changing slope gravity is just a vector.
   Gravity(const Vec2& constant) : start(constant) {}
   Gravity(const Vec2& at_first, double rate) : start(at_first), slope_rate(rate) {}
 
   bool turns() const { return slope_rate != 0; }
   double norm() const { return start.norm(); }  // m/s^2, at any time
-  /// m/s^2, at `time`, s.
+  /// m/s^2, at `time` in s.
   Vec2 at(double time) const;
-  /// The mean over `steps` steps of `step` s, at least one, the last of which has its middle at
-  /// `last`, s, and none before t = 0.
+  /// The mean over `steps` >= 1 steps of length `step` (s), the last of which has its middle at
+  /// `last` (s), all after t = 0.
   Vec2 mean(double last, std::int64_t steps, double step) const;
 };
 

@@ -23,8 +23,8 @@ double parse_length(const std::string& text, const std::string& option, LengthUn
   if (unit == "dL") factor = units.large_diameter;
   if (end == text.c_str() || factor <= 0 || !std::isfinite(number))
     throw UsageError(fmt::format(
-        "{} '{}' is no length: give a number in metres or with a unit, as in 0.02, 20mm{}", option,
-        text, units.small_diameter > 0 ? ", 4dS, 2dL" : ""));
+        "{} '{}' is not a length: give a number in metres or with a unit, as in 0.02, 20mm{}",
+        option, text, units.small_diameter > 0 ? ", 4dS, 2dL" : ""));
   return number * factor;
 }
 

@@ -5,14 +5,14 @@
 
 namespace grseg {
 
-/// Nominal diameters, m, in which lengths may be given. 0: not known here.
+/// Nominal diameters (m) in which lengths may be given; 0: unknown.
 struct LengthUnits {
   double small_diameter = 0;
   double large_diameter = 0;
 };
 
 /// Metres from "0.02", "20mm", "2cm", "0.02m", "4dS" or "35dL". UsageError with `option`'s name
-/// and the accepted units where the text is no length.
+/// and the accepted units where the text is not a length.
 double parse_length(const std::string& text, const std::string& option, LengthUnits units);
 
 }  // namespace grseg

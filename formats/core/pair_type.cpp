@@ -13,8 +13,8 @@ PairType pair_type(const Grains& grains, const Frame& frame, std::size_t contact
   const auto j = frame.contacts.j[contact];
   if (!is_mobile(grains, i))
     throw FormatError(
-        fmt::format("contact {} of the frame at t = {:.6g} s names boundary grain {} first; the "
-                    "first grain of a contact is a mobile one",
+        fmt::format("contact {} of the frame at t = {:.6g} s names boundary grain {} first; "
+                    "the first grain of a contact is a mobile one",
                     contact, frame.time, i));
   const bool large = grains.species[i] == Species::large;
   if (j < 0 || !is_mobile(grains, static_cast<std::size_t>(j)))

@@ -8,8 +8,8 @@
 
 namespace grseg {
 
-/// Who touches whom: two small, one large and one small, two large, and a small or large grain with
-/// the base (boundary grains and straight walls).
+/// The partners of a contact: two small grains, a large and a small one, two large ones, or a small
+/// or large grain and the base (boundary grains and straight walls).
 enum class PairType { SS, LS, LL, Sb, Lb };
 constexpr std::size_t pair_types = 5;
 constexpr std::array<const char*, pair_types> pair_type_names{"SS", "LS", "LL", "Sb", "Lb"};

@@ -8,20 +8,20 @@
 
 namespace grseg {
 
-/// What a file says of how it was made, /parameters: numbers (SI) and texts by name.
+/// How a run was made, /parameters in its file: numbers (SI) and texts by name.
 ///
-/// Names every run carries: gravity[2], step, frame_interval (in s), small_diameter and
+/// Every run has the numbers gravity[2], step, frame_interval (in s), small_diameter and
 /// large_diameter (nominal, never sample means), density, friction, restitution, seed; texts
 /// `scene`, `program`, `command_line`, and `history`, one line per program that touched the data.
 struct Parameters {
   std::map<std::string, std::vector<double>> numbers;
   std::map<std::string, std::string> texts;
 
-  /// The one value of `name`; FormatError naming `file` where it is absent or has several.
+  /// The value of `name`; FormatError naming `file` where it is absent or an array.
   double number(const std::string& name, const std::string& file) const;
-  /// The one value of `name`, or nothing where it is absent or has several.
+  /// The one value of `name`, or nothing where it is absent or an array.
   std::optional<double> find_number(const std::string& name) const;
-  /// The text of `name`, or "" where there is none.
+  /// The text of `name`, or "" where it is absent.
   std::string text(const std::string& name) const;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/export/output.hpp"
+#include "formats/export/output_file.hpp"
 #include "formats/export/view_cell.hpp"
 #include "formats/trajectory/reader.hpp"
 
@@ -10,9 +10,9 @@
 namespace grseg {
 
 /// Extended XYZ as OVITO and ASE read it: per frame the number of grains, a line of keys, a row per
-/// grain. Types are numbers (1 small, 2 large, 3 boundary), since ASE refuses species that are no
-/// chemical symbols. Reals as short as they read back to the last bit; z = 0; contacts have no
-/// place in it.
+/// grain. Types are numbers (1 small, 2 large, 3 boundary), since ASE refuses species that are not
+/// chemical symbols. Reals have the fewest digits that read back exactly; z = 0; contacts cannot be
+/// stored.
 class ExtxyzWriter {
  public:
   ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell, const std::string& path,

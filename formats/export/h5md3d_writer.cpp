@@ -3,7 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/h5md.hpp"
-#include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/hdf5_attributes.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ using namespace hdf5;
 const std::string group = "/particles/trajectory/";
 const std::string position = group + "position";
 constexpr hsize_t scalar_chunk = 1024;
-constexpr int compression = 1;  // takes away the zeros along z
+constexpr int compression = 1;  // removes the zeros along z
 
 template <class Vector>
 auto padded(const std::vector<Vector>& vectors)
@@ -58,7 +58,7 @@ H5md3dWriter::Impl::Impl(const TrajectoryReader& its_run, const ViewCell& cell,
                                                                    cell.length(2)}
 {
   silence();
-  file = File(H5Fcreate(output.beside().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  file = File(H5Fcreate(output.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   if (!file.valid())
     throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
   h5md::write_root(file);
@@ -139,7 +139,7 @@ void H5md3dWriter::add(const Frame& frame)
 void H5md3dWriter::publish()
 {
   auto& my = *impl_;
-  // Every dataset is closed before the file, or closing that would not write it.
+  // Datasets are closed first: while one is open, closing the file does not write it.
   my.observables.clear();
   for (auto* dataset : {&my.positions, &my.steps, &my.times, &my.box, &my.velocities, &my.forces,
                         &my.images, &my.spins})

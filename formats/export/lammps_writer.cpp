@@ -35,7 +35,7 @@ int type_of(Species species)
   return static_cast<int>(species) + 1;
 }
 
-/// Options of grseg-import: what dumps cannot say.
+/// Options of grseg-import for what dumps cannot hold.
 std::string import_options_for(const TrajectoryReader& run)
 {
   const auto& species = run.grains().species;

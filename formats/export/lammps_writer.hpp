@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/export/output.hpp"
+#include "formats/export/output_file.hpp"
 #include "formats/export/view_cell.hpp"
 #include "formats/trajectory/reader.hpp"
 
@@ -13,14 +13,14 @@ namespace grseg {
 /// step as TIMESTEP:
 ///   PATH            dump custom: id type mass radius x y z ix iy iz vx vy vz omegaz [fx fy fz],
 ///                   wrapped positions and periods to add, type 1 small, 2 large, 3 boundary
-///   PATH.contacts   (before the ending) dump local: index batom1 batom2 dist, the normal force fx
-///   fy
-///                   fz and the tangential force p1 p2 p3 on batom1, in the order of property/local
-///                   and pair/local (OVITO knows batom1, batom2, dist by name); then forcex forcey,
-///                   their sum to the last bit, branchx branchy, overlap = -gap, and wall
-/// A contact with a straight wall names its grain twice, as a partner that is no grain stops OVITO,
-/// and has the number of the wall in `wall`, which is -1 otherwise. Reals are as short as they read
-/// back to the last bit.
+///   PATH.contacts   (before the ending) dump local: index batom1 batom2 dist, the normal force
+///                   fx fy fz and the tangential force p1 p2 p3 on batom1, in the order of
+///                   property/local and pair/local (OVITO knows batom1, batom2, dist by name); then
+///                   forcex forcey, their sum to the last bit, branchx branchy, overlap = -gap, and
+///                   wall
+/// A contact with a straight wall names its grain twice, since OVITO stops at a partner that is not
+/// a grain, and has the number of the wall in `wall`, which is -1 otherwise. Reals have the fewest
+/// digits that read back exactly.
 class LammpsWriter {
  public:
   LammpsWriter(const TrajectoryReader& run, const ViewCell& cell, const std::string& path,
@@ -30,8 +30,8 @@ class LammpsWriter {
   void add(const Frame& frame);
   void publish();
 
-  /// The command that makes a run of the dumps again, with what dumps cannot say; when all frames
-  /// have been added.
+  /// The command that turns the dumps back into a run, with options for what dumps cannot hold.
+  /// Valid when all frames have been added.
   std::string import_command() const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace grseg {
 
-static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
+static_assert(std::endian::native == std::endian::little, "the files are marked LittleEndian");
 
 PolyData::PolyData(Cells cells, const std::vector<float>& points, double time)
     : kind_(cells),

@@ -9,8 +9,8 @@
 namespace grseg {
 
 /// One VTK PolyData file (.vtp; VTK File Formats, "XML file formats"): arrays described in XML,
-/// their bytes appended raw behind it, each after its length in 8 bytes. Reals are single
-/// precision: seven digits, for the eye.
+/// followed by their raw bytes, each preceded by its length in 8 bytes. Reals are single precision,
+/// which is enough for viewing.
 class PolyData {
  public:
   enum class Cells { vertices, lines };

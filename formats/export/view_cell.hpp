@@ -7,10 +7,10 @@
 
 namespace grseg {
 
-/// The cell as three-dimensional viewers want it, the same for all frames so that a film does not
-/// jitter: along x that of the run; along y, where nothing is periodic, from y = 0 or the lowest
-/// grain to the height of the box or the highest grain of one frame; along z one largest diameter
-/// about z = 0, where all centres are.
+/// The cell for three-dimensional viewers, the same for all frames so that a film does not jitter:
+/// along x that of the run; along y, where nothing is periodic, from y = 0 or the lowest grain to
+/// the height of the box or the highest grain of one frame; along z one largest diameter about
+/// z = 0, where all centres are.
 struct ViewCell {
   std::array<double, 3> low, high;  // m
   bool periodic_x;

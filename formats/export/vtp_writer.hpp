@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/export/output.hpp"
+#include "formats/export/output_folder.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 namespace grseg {
 
 /// A folder for ParaView: grains.pvd and contacts.pvd, each a list of times and files.
-///   grains/      a vertex per grain, with radius and diameter (by which glyphs are scaled), mass,
+///   grains/      a vertex per grain, with radius and diameter (to scale glyphs), mass,
 ///                species (0 small, 1 large, 2 boundary), id, velocity, angular_velocity (about z),
 ///                force
-///   contacts/    a line per contact from x_i to x_i - branch, with points of its own: across the
+///   contacts/    a line per contact from x_i to x_i - branch, with points of its own: at the
 ///                periodic edge it leaves the cell instead of crossing the picture, and at a wall
-///                it ends where the grain touches. normal_force stands at points (for tubes) and at
+///                it ends at the contact point. normal_force is given at points (for tubes) and at
 ///                lines, with force, tangential_force, gap, pair_type (0 SS, 1 LS, 2 LL, 3 Sb, 4
 ///                Lb) and the ids i and j, -1 for wall 0, -2 for wall 1
 /// Reals are single precision.

@@ -3,44 +3,58 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/import/common/archive.hpp"
 #include "formats/import/csv/csv_archive.hpp"
 #include "formats/import/lammps/lammps_archive.hpp"
 #include "formats/import/liggghts/liggghts_archive.hpp"
 #include "formats/import/mercury/mercury_archive.hpp"
 #include "formats/import/siconos/siconos_archive.hpp"
 
+#include <fmt/format.h>
+
+#include <string_view>
+#include <vector>
+
 namespace grseg {
 namespace {
 
-struct Format {
-  const char* name;
-  std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
+/// One line per format.
+constexpr const ArchiveFormat* formats[] = {
+    &lammps_format,    //
+    &liggghts_format,  //
+    &mercury_format,   //
+    &siconos_format,   //
+    &csv_format,
 };
 
-/// One line per format.
-constexpr Format formats[] = {
-    {"lammps", open_lammps},   {"liggghts", open_liggghts}, {"mercury", open_mercury},
-    {"siconos", open_siconos}, {"csv", open_csv},
-};
+const ArchiveFormat& format_of(const std::string& name)
+{
+  std::vector<std::string> known;
+  for (const auto* format : formats) {
+    if (name == format->name) return *format;
+    known.emplace_back(format->name);
+  }
+  throw UsageError(unknown_word("--format", name, known));
+}
 
 }  // namespace
 
-const std::vector<std::string>& archive_formats()
+std::span<const ArchiveFormat* const> archive_formats()
 {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const auto& format : formats) all.emplace_back(format.name);
-    return all;
-  }();
-  return names;
+  return formats;
 }
 
-std::unique_ptr<Archive> open_archive(const std::string& format, const ArchiveFiles& files)
+std::unique_ptr<Archive> open_archive(const std::string& name, const ArchiveFiles& files)
 {
-  for (const auto& known : formats)
-    if (format == known.name) return known.open(files);
-  throw UsageError(unknown_word("--format", format, archive_formats()));
+  const auto& format = format_of(name);
+  const auto refuse_unless = [&](bool applies, bool given, std::string_view option) {
+    if (given && !applies)
+      throw UsageError(
+          fmt::format("{} does not apply to --format {}; leave it out", option, format.name));
+  };
+  refuse_unless(format.takes_contacts, !files.contacts.empty(), "--contacts");
+  refuse_unless(format.takes_columns, !files.columns.empty(), "--columns");
+  refuse_unless(format.takes_restart, !files.restart.empty(), "--restart");
+  return format.open(files);
 }
 
 }  // namespace grseg

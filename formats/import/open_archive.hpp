@@ -4,16 +4,16 @@
 #include "formats/import/common/archive.hpp"
 
 #include <memory>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace grseg {
 
-/// The formats that open_archive knows, in the order in which --help names them.
-const std::vector<std::string>& archive_formats();
+/// The known formats, in the order in which --help names them.
+std::span<const ArchiveFormat* const> archive_formats();
 
-/// UsageError where `format` is not among them or a file is missing, FormatError where one is
-/// damaged.
+/// UsageError where `format` is unknown, an option does not apply to it or a file is missing,
+/// FormatError where a file is damaged.
 std::unique_ptr<Archive> open_archive(const std::string& format, const ArchiveFiles& files);
 
 }  // namespace grseg

@@ -18,7 +18,7 @@ using namespace grseg;
 namespace {
 
 constexpr ToolInfo info{
-    "grseg-export", "a run as ParaView, OVITO, LAMMPS' readers or MDAnalysis open it.",
+    "grseg-export", "writes a run for ParaView, OVITO, readers of LAMMPS dumps, or MDAnalysis.",
     "grseg-export run.h5 --to vtp|extxyz|lammps|h5md3d -o NAME [options]",
     "  grseg-export run.h5 --to vtp -o view               ParaView: view/grains.pvd, contacts.pvd\n"
     "  grseg-export run.h5 --to extxyz --stride 10 -o run.xyz.gz              OVITO, ASE\n"
@@ -40,9 +40,9 @@ po::options_description options_into(Settings& s)
       "lammps: dump custom and dump local; h5md3d: H5MD padded to three dimensions");
   s.range.add_to(options);
   add("output,o", po::value(&s.output)->value_name("NAME"),
-      "the file to write (extxyz and lammps: gzip where it ends in .gz); of vtp the folder");
-  add("overwrite", po::bool_switch(&s.overwrite), "replace what is there already");
-  add("quiet", po::bool_switch(&s.quiet), "no progress and no remarks");
+      "file to write (extxyz and lammps: compressed if it ends in .gz); for vtp a folder");
+  add("overwrite", po::bool_switch(&s.overwrite), "replace an existing export");
+  add("quiet", po::bool_switch(&s.quiet), "print no progress and no remarks");
   return options;
 }
 
@@ -66,7 +66,7 @@ void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& f
 
 void export_run(const Settings& s, const po::variables_map& values)
 {
-  const TrajectoryReader run(only_run(values, "export one at a time"));
+  const TrajectoryReader run(single_input(values, "export one at a time"));
   if (s.output.empty()) throw UsageError("name what to write: -o NAME");
   const auto frames = s.range.frames_of(run);
   const auto cell = view_cell(run, frames.front());
@@ -81,10 +81,13 @@ void export_run(const Settings& s, const po::variables_map& values)
     write(writer);
     if (s.quiet) return;
     if (run.gravity().turns())
-      fmt::print(stderr, "{}: the slope turns, which archives cannot tell grseg-import\n",
-                 info.name);
+      fmt::print(
+          stderr,
+          "{}: the slope changes with time, which an archive cannot pass on to grseg-import\n",
+          info.name);
     else
-      fmt::print(stderr, "{}: a run again: {}\n", info.name, writer.import_command());
+      fmt::print(stderr, "{}: to turn it back into a run: {}\n", info.name,
+                 writer.import_command());
   } else if (s.format == "h5md3d") {
     write(H5md3dWriter(run, cell, s.output, s.overwrite));
   } else {

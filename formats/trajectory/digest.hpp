@@ -15,7 +15,7 @@ namespace grseg {
 /// floating-point arrays (not `time`) are rounded to 4 bytes first, as in the file.
 std::uint64_t frame_digest(const Frame& frame, std::uint64_t before, bool float32);
 
-/// xxh3 (64 bit) of any bytes, chained with the digest of those before.
+/// xxh3 (64 bit) of any bytes, chained with the digest of the bytes before.
 std::uint64_t chain_digest(const void* data, std::size_t bytes, std::uint64_t before);
 
 /// 16 hexadecimal digits.

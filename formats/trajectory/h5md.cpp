@@ -3,6 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/version.hpp"
+#include "formats/trajectory/hdf5_attributes.hpp"
 
 #include <fmt/format.h>
 

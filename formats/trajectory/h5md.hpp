@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-/// What all H5MD 1.1 files have in common (h5md.nongnu.org). RunError where the file cannot be
+/// The parts common to all H5MD 1.1 files (h5md.nongnu.org). RunError where the file cannot be
 /// written.
 namespace grseg::h5md {
 
-/// A group, with those above it.
+/// Creates a group and its parents.
 hdf5::Group make_group(hid_t file, const std::string& path);
 
 /// /h5md: version, author, creator, and module units of system SI.
@@ -19,7 +19,7 @@ void write_root(hid_t file);
 /// /particles/NAME/box with its `boundary`, one word per dimension.
 void write_box(hid_t file, const std::string& particles, const std::vector<std::string>& boundary);
 
-/// Gives `element` the step and time of the element `of` by hard links, as H5MD asks for.
+/// Links the step and time of the element `of` into `element` (hard links), as H5MD demands.
 void link_times(hid_t file, const std::string& of, const std::string& element);
 
 }  // namespace grseg::h5md

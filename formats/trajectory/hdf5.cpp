@@ -22,29 +22,6 @@ void check_written(herr_t status, const std::string& what)
   if (status < 0) throw RunError(fmt::format("cannot write {}: is the disk full?", what));
 }
 
-Space space_of(const std::vector<hsize_t>& shape)
-{
-  if (shape.empty()) return Space(H5Screate(H5S_SCALAR));
-  return Space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
-}
-
-void write_attribute(hid_t object, const std::string& name, hid_t type,
-                     const std::vector<hsize_t>& shape, const void* data)
-{
-  const auto space = space_of(shape);
-  const auto attribute = opened<Attribute>(
-      H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), "attribute " + name);
-  check_written(H5Awrite(attribute, type, data), "attribute " + name);
-}
-
-constexpr hssize_t most_in_attribute = 4096;  // entries, or bytes of a text of fixed length
-
-Attribute attribute_of(hid_t parent, const std::string& path, const std::string& name)
-{
-  if (!exists(parent, path)) return {};
-  return Attribute(H5Aopen_by_name(parent, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
-}
-
 Properties with_parents()
 {
   Properties links(H5Pcreate(H5P_LINK_CREATE));
@@ -60,6 +37,12 @@ void silence()
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
+Space space_of(const std::vector<hsize_t>& shape)
+{
+  if (shape.empty()) return Space(H5Screate(H5S_SCALAR));
+  return Space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
+}
+
 Type string_type(std::size_t length)
 {
   Type type(H5Tcopy(H5T_C_S1));
@@ -67,60 +50,6 @@ Type string_type(std::size_t length)
   H5Tset_strpad(type, H5T_STR_NULLPAD);
   H5Tset_cset(type, H5T_CSET_UTF8);
   return type;
-}
-
-void write_attribute(hid_t object, const std::string& name, const std::string& text)
-{
-  write_attribute(object, name, string_type(text.size()), {}, text.c_str());
-}
-
-void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts)
-{
-  std::size_t longest = 1;
-  for (const auto& text : texts) longest = std::max(longest, text.size());
-  std::string packed;
-  for (auto text : texts) {
-    text.resize(longest, '\0');
-    packed += text;
-  }
-  write_attribute(object, name, string_type(longest), {texts.size()}, packed.data());
-}
-
-void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values)
-{
-  std::vector<hsize_t> shape;
-  if (values.size() != 1) shape = {values.size()};
-  write_attribute(object, name, H5T_NATIVE_INT, shape, values.data());
-}
-
-std::vector<std::string> read_texts(hid_t object, const std::string& name)
-{
-  const Attribute attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
-  if (!attribute.valid()) return {};
-  const Type type(H5Aget_type(attribute));
-  const Space space(H5Aget_space(attribute));
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return {};
-  const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
-  const auto length = H5Tget_size(type);
-  if (count > 3 || length > 64) return {};
-  std::string packed(count * length, '\0');
-  if (H5Aread(attribute, type, packed.data()) < 0) return {};
-  std::vector<std::string> texts;
-  for (std::size_t k = 0; k < count; ++k)
-    texts.emplace_back(packed.substr(k * length, length).c_str());
-  return texts;
-}
-
-std::vector<int> read_integers(hid_t object, const std::string& name)
-{
-  const Attribute attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
-  if (!attribute.valid()) return {};
-  const auto count = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute)));
-  if (H5Tget_class(Type(H5Aget_type(attribute))) != H5T_INTEGER || count < 1 || count > 3)
-    return {};
-  std::vector<int> values(static_cast<std::size_t>(count));
-  if (H5Aread(attribute, H5T_NATIVE_INT, values.data()) < 0) return {};
-  return values;
 }
 
 Dataset create_growing(hid_t parent, const std::string& path, hid_t type,
@@ -192,7 +121,7 @@ CheckedDataset::CheckedDataset(hid_t parent, const std::string& path, H5T_class_
 
   const Space space(H5Dget_space(dataset_));
   if (H5Sget_simple_extent_ndims(space) != rank)
-    fail(fmt::format("should have {} dimension(s)", rank));
+    fail(fmt::format("should have {} dimensions", rank));
   dims_.resize(static_cast<std::size_t>(rank));
   if (rank > 0) H5Sget_simple_extent_dims(space, dims_.data(), nullptr);
 
@@ -218,7 +147,7 @@ void CheckedDataset::fail(const std::string& why) const
 void CheckedDataset::require(std::size_t axis, hsize_t size, bool at_least) const
 {
   if (at_least ? dims_[axis] < size : dims_[axis] != size)
-    fail(fmt::format("has {} entries along dimension {} where {}{} are needed", dims_[axis], axis,
+    fail(fmt::format("has {} entries along dimension {}, but {}{} are needed", dims_[axis], axis,
                      at_least ? "at least " : "", size));
 }
 
@@ -248,44 +177,6 @@ bool exists(hid_t parent, const std::string& path)
     if (H5Lexists(parent, path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
     if (slash == std::string::npos) return true;
   }
-}
-
-std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
-                                         const std::string& name, const std::string& file)
-{
-  const auto attribute = attribute_of(parent, path, name);
-  if (!attribute.valid()) return {};
-  const Type type(H5Aget_type(attribute));
-  const auto kind = H5Tget_class(type);
-  const auto count = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute)));
-  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || count < 0 || count > most_in_attribute)
-    throw FormatError(fmt::format("{}: '{}' of {} should hold numbers", file, name, path));
-  std::vector<double> numbers(static_cast<std::size_t>(count));
-  if (count > 0 && H5Aread(attribute, H5T_NATIVE_DOUBLE, numbers.data()) < 0)
-    throw FormatError(fmt::format("{}: '{}' of {} cannot be read", file, name, path));
-  return numbers;
-}
-
-std::string text_in_attribute(hid_t parent, const std::string& path, const std::string& name,
-                              const std::string& file)
-{
-  const auto attribute = attribute_of(parent, path, name);
-  if (!attribute.valid()) return {};
-  const Type type(H5Aget_type(attribute));
-  const bool one = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute))) == 1;
-  if (!one || H5Tget_class(type) != H5T_STRING || H5Tget_size(type) > most_in_attribute)
-    throw FormatError(fmt::format("{}: '{}' of {} should hold a text", file, name, path));
-  std::string text(H5Tget_size(type), '\0');
-  char* grown = nullptr;
-  const bool variable = H5Tis_variable_str(type) > 0;
-  if (H5Aread(attribute, type, variable ? static_cast<void*>(&grown) : text.data()) < 0 ||
-      (variable && grown == nullptr))
-    throw FormatError(fmt::format("{}: '{}' of {} cannot be read", file, name, path));
-  if (variable) {
-    text = grown;
-    H5free_memory(grown);
-  }
-  return text.substr(0, text.find('\0'));  // up to the padding
 }
 
 std::vector<std::string> names_in(hid_t parent, const std::string& path)

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-/// The one place where the HDF5 C library is touched: identifiers close themselves, failures become
-/// one sentence with the file and the path inside it, the library's own printing is off.
+/// A thin layer over the HDF5 C library: identifiers close themselves, and a failure becomes one
+/// sentence with the file and the path inside it.
 namespace grseg::hdf5 {
 
 /// Owns one HDF5 identifier and closes it with the call of its kind.
@@ -30,7 +30,7 @@ class Handle {
   }
   operator hid_t() const { return id_; }
   bool valid() const { return id_ >= 0; }
-  /// Gives the identifier up, for a close whose result matters.
+  /// Hands over the identifier, to close it where the result of that matters.
   hid_t release() { return std::exchange(id_, H5I_INVALID_HID); }
 
  private:
@@ -46,22 +46,15 @@ using Type = Handle<H5Tclose>;
 using Properties = Handle<H5Pclose>;
 using Attribute = Handle<H5Aclose>;
 
-/// Turns the library's printing of its error stack off, and its closing of files at exit, which
-/// crashes on a file that could not be written (1.10.8): handles close theirs. To be called before
-/// anything else of the library, by everything that opens files.
+/// Turns off the library's own error messages and its closing of files at exit, which crashes on a
+/// file that could not be written (1.10.8); handles close theirs. Whoever opens a file calls it
+/// before any other function of the library.
 void silence();
 
-/// "string[length]" of fixed length, UTF-8.
+/// Text of fixed length, UTF-8.
 Type string_type(std::size_t length);
-
-void write_attribute(hid_t object, const std::string& name, const std::string& text);
-void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
-void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
-
-/// The texts (at most 3 of at most 64 bytes) or integers (at most 3) of an attribute; empty where
-/// there is none, or one of another kind.
-std::vector<std::string> read_texts(hid_t object, const std::string& name);
-std::vector<int> read_integers(hid_t object, const std::string& name);
+/// Of a dataset or attribute of this shape; an empty one is a scalar.
+Space space_of(const std::vector<hsize_t>& shape);
 
 /// How a growing dataset is stored.
 struct Storage {
@@ -80,7 +73,7 @@ void write_fixed(hid_t parent, const std::string& path, hid_t file_type, hid_t m
 void append_rows(hid_t dataset, hid_t memory_type, hsize_t rows, const void* data,
                  const std::string& what);
 
-/// A dataset opened for reading, looked at before anything is read: FormatError, naming `file` and
+/// A dataset opened for reading and checked before anything is read: FormatError, naming `file` and
 /// the path, unless it exists, holds numbers of class `kind` (H5T_INTEGER or H5T_FLOAT) of at most
 /// 8 bytes (or H5T_STRING of fixed length), has `rank` dimensions, and uses only plain storage and
 /// the filters deflate, shuffle and fletcher32.
@@ -109,13 +102,8 @@ class CheckedDataset {
   std::string path_, file_;
 };
 
+/// Whether `path` leads from `parent` to something.
 bool exists(hid_t parent, const std::string& path);
-/// What the attribute `name` of the object at `path` holds; empty where there is none. FormatError
-/// naming `file` where it holds something else, or more of it than a description of a body does.
-std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
-                                         const std::string& name, const std::string& file);
-std::string text_in_attribute(hid_t parent, const std::string& path, const std::string& name,
-                              const std::string& file);
 /// The names linked in a group, in alphabetical order.
 std::vector<std::string> names_in(hid_t parent, const std::string& path);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/trajectory/layout_check.hpp"
 
-#include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/hdf5_attributes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -99,7 +99,7 @@ class LayoutCheck {
   }
 
  private:
-  void depart(const std::string& path, const std::string& what)
+  void add_departure(const std::string& path, const std::string& what)
   {
     report_.departures.push_back({path, what});
   }
@@ -117,16 +117,16 @@ class LayoutCheck {
   LayoutReport report_;
 };
 
-/// An empty `wanted`: anything that is not empty.
+/// An empty `wanted` accepts any text that is not empty.
 void LayoutCheck::check_text(const std::string& path, const std::string& name,
                              const std::string& wanted)
 {
   const auto found = read_texts(Object(H5Oopen(file_, path.c_str(), H5P_DEFAULT)), name);
   const bool right = found.size() == 1 && (wanted.empty() ? !found[0].empty() : found[0] == wanted);
   if (right) return;
-  depart(path, wanted.empty() ? fmt::format("has no text `{}`", name)
-                              : fmt::format("should have the {} \"{}\", and has \"{}\"", name,
-                                            wanted, fmt::join(found, "\", \"")));
+  add_departure(path, wanted.empty() ? fmt::format("has no text `{}`", name)
+                                     : fmt::format("should have the {} \"{}\", but has \"{}\"",
+                                                   name, wanted, fmt::join(found, "\", \"")));
 }
 
 void LayoutCheck::check_attributes()
@@ -138,7 +138,7 @@ void LayoutCheck::check_attributes()
   const auto numbers = [&](const char* path, const char* name, const std::vector<int>& wanted) {
     const auto found = read_integers(Object(H5Oopen(file_, path, H5P_DEFAULT)), name);
     if (found != wanted)
-      depart(path, fmt::format("should have the {} {}, and has {}", name, wanted, found));
+      add_departure(path, fmt::format("should have the {} {}, but has {}", name, wanted, found));
   };
   numbers("/h5md", "version", {1, 1});
   numbers("/h5md/modules/units", "version", {1, 0});
@@ -159,20 +159,21 @@ std::vector<hsize_t> LayoutCheck::shape_of(const std::string& letters) const
   return shape;
 }
 
-/// What an interrupted run wrote after its last committed frame may lie beyond.
+/// Datasets of a run that was not closed may hold more: what it wrote after its last committed
+/// frame.
 void LayoutCheck::check_row(const Row& row)
 {
   const Dataset dataset(H5Dopen2(file_, row.path, H5P_DEFAULT));
-  if (!dataset.valid()) return depart(row.path, "is missing, or no dataset");
+  if (!dataset.valid()) return add_departure(row.path, "is missing or not a dataset");
   const auto& type = row.stored && run_.stores_float32() ? float32 : row.type;
   if (!is_of(Type(H5Dget_type(dataset)), type))
-    depart(row.path, fmt::format("should be of type {}", type.name));
+    add_departure(row.path, fmt::format("should be of type {}", type.name));
   auto found = dims_of(dataset);
   const auto wanted = shape_of(row.shape);
   const bool closed = run_.parameters().numbers.contains("complete");
   if (!closed && !found.empty() && found[0] > wanted[0]) found[0] = wanted[0];
   if (found != wanted)
-    depart(row.path, fmt::format("should have the shape {}, and has {}", wanted, found));
+    add_departure(row.path, fmt::format("should have the shape {}, but has {}", wanted, found));
   if (*row.unit != '\0') check_text(row.path, "unit", row.unit);
 }
 
@@ -185,7 +186,7 @@ void LayoutCheck::check_times(const std::string& element)
     if (!exists(file_, own) || H5Oget_info_by_name(file_, own.c_str(), &a, H5P_DEFAULT) < 0 ||
         H5Oget_info_by_name(file_, first.c_str(), &b, H5P_DEFAULT) < 0 || a.addr != b.addr ||
         a.fileno != b.fileno)
-      depart(own, "is no hard link to " + first);
+      add_departure(own, "is not a hard link to " + first);
   }
 }
 
@@ -195,18 +196,19 @@ void LayoutCheck::read_all_in(const std::string& group)
     const auto path = fmt::format("{}/{}", group, name);
     H5L_info_t link;
     if (H5Lget_info(file_, path.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD) {
-      depart(path, "is a soft or external link, which readers do not follow");
+      add_departure(path, "is a soft or external link, which readers do not follow");
       continue;
     }
     const Object object(H5Oopen(file_, path.c_str(), H5P_DEFAULT));
     const auto kind = H5Iget_type(object);
     if (kind == H5I_GROUP) read_all_in(path);
     if (kind == H5I_DATASET) read_whole(path);
-    if (kind != H5I_GROUP && kind != H5I_DATASET) depart(path, "is neither group nor dataset");
+    if (kind != H5I_GROUP && kind != H5I_DATASET)
+      add_departure(path, "is neither a group nor a dataset");
   }
 }
 
-/// Rows of a chunk.
+/// Counts chunks and checksums in the report; returns the rows of a chunk.
 hsize_t LayoutCheck::count_chunks(const Dataset& dataset, std::size_t rank)
 {
   const Properties create(H5Dget_create_plist(dataset));
@@ -231,7 +233,7 @@ void LayoutCheck::read_whole(const std::string& path)
   const Type type(H5Dget_type(dataset));
   const auto kind = H5Tget_class(type);
   if (kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_STRING)
-    return depart(path, "is neither numbers nor text");
+    return add_departure(path, "is neither numbers nor text");
   const auto dims = dims_of(dataset);
   const CheckedDataset checked(file_, path, kind, static_cast<int>(dims.size()), run_.path());
   ++report_.datasets;

@@ -9,23 +9,24 @@
 
 namespace grseg {
 
-/// A path inside a trajectory file that is not as formats/README.md says.
+/// A path inside a trajectory file that differs from formats/README.md.
 struct Departure {
   std::string path;       // "/particles/grains/velocity/time"
-  std::string what;       // "is no hard link to /particles/grains/position/time"
+  std::string what;       // "is not a hard link to /particles/grains/position/time"
   std::size_t count = 1;  // how often; `what` is the first
 };
 
 struct LayoutReport {
   std::vector<Departure> departures;
-  std::size_t datasets = 0, chunks = 0;  // read whole
+  std::size_t datasets = 0, chunks = 0;  // read completely
   std::size_t checksums = 0;             // chunks that carry one
 };
 
-/// Holds the layout of a run that opens against formats/README.md: exact types and shapes, units,
-/// attributes, hard links of step and time; and reads every dataset of the file whole, known to
-/// README.md or not, so that the checksum of each chunk is verified. FormatError naming the dataset
-/// and the row where that fails, or where a filter is used that a plain reader may not have.
+/// Compares the layout of a readable run with formats/README.md: exact types and shapes, units,
+/// attributes, hard links of step and time. Also reads every dataset of the file completely, listed
+/// in README.md or not, so that the checksum of each chunk is verified. FormatError naming the
+/// dataset and the row where that fails, or where a filter is used that a plain reader may not
+/// have.
 LayoutReport check_layout(const TrajectoryReader& run);
 
 }  // namespace grseg

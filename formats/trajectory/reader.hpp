@@ -15,10 +15,10 @@ namespace grseg {
 /// Reads a trajectory file (formats/README.md). Every size, type and filter is checked before
 /// anything is read, frame contents (indices in range, all numbers finite) while it is read.
 /// Throws UsageError where the file is missing, FormatError naming file, path in the file and frame
-/// where its content is wrong. Only committed frames exist; an interrupted one is invisible.
+/// where its content is wrong. Only committed frames are visible.
 class TrajectoryReader {
  public:
-  /// What `read` should fetch; what is not asked for is left empty.
+  /// What `read` reads; the rest stays empty.
   struct Fields {
     bool velocity = true;  // velocity, angular_velocity
     bool contacts = true;
@@ -35,13 +35,13 @@ class TrajectoryReader {
   const Grains& grains() const;
   const Box& box() const;
   const Parameters& parameters() const;
-  bool has_force() const;  ///< an import may have none; `force` of its frames is then empty
+  bool has_force() const;  ///< false for some imports; `force` of their frames is empty
 
   /// Steps and times (s) of the committed frames.
   const std::vector<std::int64_t>& steps() const;
   const std::vector<double>& times() const;
 
-  /// Shorthands of /parameters: nominal diameters (m), step (s), gravity.
+  /// Shorthands for /parameters: nominal diameters (m), step (s), gravity.
   double small_diameter() const;
   double large_diameter() const;
   double step() const;
@@ -50,7 +50,7 @@ class TrajectoryReader {
   void read(std::size_t index, Frame& frame, Fields fields) const;
   void read(std::size_t index, Frame& frame) const { read(index, frame, Fields{}); }
 
-  /// What /observables holds, in alphabetical order.
+  /// The observables of the file, in alphabetical order.
   std::vector<Observable> observables() const;
   /// One number per committed frame from /observables.
   std::vector<double> observable(const std::string& name) const;

@@ -4,7 +4,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/h5md.hpp"
-#include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/hdf5_attributes.hpp"
 
 #include <fmt/format.h>
 
@@ -53,9 +53,8 @@ struct TrajectoryWriter::Impl {
   hid_t real_type() const { return storage.float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
 
   /// A chunk that belongs to one frame is written once and carries a checksum. One that fills up
-  /// over many frames is rewritten in place while the run goes on, where a checksum would be wrong
-  /// half-way, and where compression would move it: such chunks are filtered in compressed files
-  /// only.
+  /// over many frames is rewritten in place during the run: its checksum would be wrong in between,
+  /// and compression would move it. Such chunks are filtered in compressed files only.
   Storage storage_of(hsize_t chunk_rows) const
   {
     return {chunk_rows, storage.compression, chunk_rows == 1};
@@ -161,8 +160,8 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
   my.storage = storage;
   my.grains = run.grains.size();
   const Properties create(H5Pcreate(H5P_FILE_CREATE));
-  // Space that the library frees while a run goes on is not used again: a kill may come before the
-  // index on the disk knows.
+  // Space that the library frees during a run is not reused: a kill may come before the index on
+  // disk is updated.
   if (storage.compression == 0) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
   my.file = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, H5P_DEFAULT));
   if (!my.file.valid())

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <type_traits>
 
 namespace grseg {
@@ -264,15 +263,9 @@ void write_parts(const std::string& path, const Checkpoint& checkpoint)
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
 {
   silence();
-  const std::string beside = path + ".part";
-  try {
-    write_parts(beside, checkpoint);
-    publish_file(beside, path);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    throw;
-  }
+  const RemoveAtEnd temporary(path + ".part");
+  write_parts(temporary.path(), checkpoint);
+  publish_file(temporary.path(), path);
 }
 
 Checkpoint read_checkpoint(const std::string& path)

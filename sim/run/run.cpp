@@ -84,7 +84,7 @@ void publish(const std::string& part, const std::string& output, const StorageSe
 {
   std::string whole = part;
   if (storage.compression > 0) {
-    whole = fmt::format("{}.tmp.{}", output, getpid());
+    whole = temporary_path(output);
     repack(part, whole, storage);
   }
   publish_file(whole, output);
@@ -160,7 +160,7 @@ class Checkpoints {
   {
     last_ = seconds_now();
     run_.writer.flush();
-    bring_to_disk(options_.output + ".part");
+    flush_to_disk(options_.output + ".part");
     const auto& world = run_.simulation.world();
     write_checkpoint(options_.checkpoint,
                      {to_text(scene_),

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 namespace grseg {
 namespace {
 
@@ -30,16 +28,6 @@ Parameters going_on(Parameters parameters, const std::string& history)
   return parameters;
 }
 
-/// Removes the file at the end, unless it has got another name by then.
-struct Removal {
-  std::string path;
-  ~Removal()
-  {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
-
 }  // namespace
 
 TrajectoryWriter truncate_to_checkpoint(const std::string& part, const Checkpoint& checkpoint,
@@ -53,16 +41,16 @@ TrajectoryWriter truncate_to_checkpoint(const std::string& part, const Checkpoin
           "another name for --output",
           part, name));
   };
-  const Removal copy{part + ".part"};
+  const RemoveAtEnd copy(part + ".part");
   try {
     const TrajectoryReader run(part);
     require(same_run(run, checkpoint));
     auto writer =
-        copy_frames(run, checkpoint.trajectory.frames, copy.path,
+        copy_frames(run, checkpoint.trajectory.frames, copy.path(),
                     going_on(run.parameters(), history), Recorder::observables(), storage);
     require(writer.digest() == checkpoint.trajectory.digest);
     writer.flush();
-    publish_file(copy.path, part);
+    publish_file(copy.path(), part);
     return writer;
   } catch (const FormatError& torn) {
     throw FormatError(

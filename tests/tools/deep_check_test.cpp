@@ -121,17 +121,17 @@ TEST_F(DeepCheck, PassesAFileAsWritten)
 
 TEST_F(DeepCheck, WantsTheAttributesOfH5mdAndOfTheSpecification)
 {
-  expect(4, "/h5md should have the version [1, 1], and has [1, 0]", [](hid_t f) {
+  expect(4, "/h5md should have the version [1, 1], but has [1, 0]", [](hid_t f) {
     set_attribute(f, "/h5md", "version", std::vector<int>{1, 0});
   });
   expect(4, "/h5md/author has no text `name`",
          [](hid_t f) { H5Adelete(Object(H5Oopen(f, "/h5md/author", H5P_DEFAULT)), "name"); });
-  expect(4, "/h5md/modules/units should have the system \"SI\", and has \"cgs\"",
+  expect(4, "/h5md/modules/units should have the system \"SI\", but has \"cgs\"",
          [](hid_t f) { set_attribute(f, "/h5md/modules/units", "system", std::string("cgs")); });
-  expect(4, "/particles/grains/box should have the dimension [2], and has [3]", [](hid_t f) {
+  expect(4, "/particles/grains/box should have the dimension [2], but has [3]", [](hid_t f) {
     set_attribute(f, "/particles/grains/box", "dimension", std::vector<int>{3});
   });
-  expect(4, "/particles/grains/velocity/value should have the unit \"m s-1\", and has \"m/s\"",
+  expect(4, "/particles/grains/velocity/value should have the unit \"m s-1\", but has \"m/s\"",
          [](hid_t f) {
            set_attribute(f, "/particles/grains/velocity/value", "unit", std::string("m/s"));
          });
@@ -139,13 +139,13 @@ TEST_F(DeepCheck, WantsTheAttributesOfH5mdAndOfTheSpecification)
 
 TEST_F(DeepCheck, WantsOnePairOfStepsAndTimesForAllElements)
 {
-  expect(4, "/particles/grains/velocity/time is no hard link to /particles/grains/position/time",
+  expect(4, "/particles/grains/velocity/time is not a hard link to /particles/grains/position/time",
          [](hid_t f) {
            H5Ldelete(f, "/particles/grains/velocity/time", H5P_DEFAULT);
            H5Ocopy(f, "/particles/grains/position/time", f, "/particles/grains/velocity/time",
                    H5P_DEFAULT, H5P_DEFAULT);
          });
-  expect(4, "/observables/translational_energy/step is no hard link to",
+  expect(4, "/observables/translational_energy/step is not a hard link to",
          [](hid_t f) { H5Ldelete(f, "/observables/translational_energy/step", H5P_DEFAULT); });
 }
 
@@ -155,7 +155,7 @@ TEST_F(DeepCheck, WantsTypesShapesAndLinksAsSpecified)
          [](hid_t f) { rewrite(f, "/particles/grains/id", H5T_STD_I64LE); });
   expect(4, "/particles/grains/fixed should be of type uint8",
          [](hid_t f) { rewrite(f, "/particles/grains/fixed", H5T_STD_I8LE); });
-  expect(4, "/grseg/digest should have the shape [4], and has [5]", [](hid_t f) {
+  expect(4, "/grseg/digest should have the shape [4], but has [5]", [](hid_t f) {
     const hsize_t five = 5;
     H5Dset_extent(Dataset(H5Dopen2(f, "/grseg/digest", H5P_DEFAULT)), &five);
   });
@@ -197,7 +197,7 @@ TEST_F(DeepCheck, WantsValuesInTheirRanges)
 // A file that no tool can read is refused, with exit code 3.
 TEST_F(DeepCheck, RefusesAnUnreadableDatasetWithItsPath)
 {
-  expect(3, "/h5md is of version 2.0, and this grseg reads versions 1.x", [](hid_t f) {
+  expect(3, "/h5md has version 2.0, but this grseg reads versions 1.x", [](hid_t f) {
     set_attribute(f, "/h5md", "version", std::vector<int>{2, 0});
   });
   for (const char* missing :
@@ -212,11 +212,11 @@ TEST_F(DeepCheck, RefusesAnUnreadableDatasetWithItsPath)
            [&](hid_t f) { H5Ldelete(f, missing, H5P_DEFAULT); });
   expect(3, "/particles/grains/species is 3 for grain 1",
          [](hid_t f) { set_entry(f, "/particles/grains/species", 1, 3); });
-  expect(3, "grain 0 has no positive radius and mass",
+  expect(3, "the radius or mass of grain 0 is not positive",
          [](hid_t f) { set_entry(f, "/particles/grains/mass", 0, 0); });
-  expect(3, "/grseg/contacts/offset is not increasing from 0 at entry 2",
+  expect(3, "/grseg/contacts/offset does not increase from 0 at entry 2",
          [](hid_t f) { set_entry(f, "/grseg/contacts/offset", 2, 1); });
-  expect(3, "contact 1 of frame 1 joins grains 0 and 3, which cannot be",
+  expect(3, "contact 1 of frame 1 joins grains 0 and 3, which is impossible",
          [](hid_t f) { set_entry(f, "/grseg/contacts/j", 3, 3); });
   expect(3, "/grseg/contacts/gap is not a finite number in frame 2, entry 1", [](hid_t f) {
     set_entry(f, "/grseg/contacts/gap", 5, std::numeric_limits<double>::quiet_NaN());

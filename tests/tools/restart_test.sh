@@ -103,7 +103,7 @@ $bin/grseg-sim --restart two.chk --duration 3 --accuracy standard --quiet -o fin
 first=$(numbers /particles/grains/position/time fine.h5 | head -n 1)
 case $first in 2.000*) ;; *) fail "with another step the run goes on at t = $first" ;; esac
 
-refused 2 "nowhere.chk: there is no such file" --restart nowhere.chk -o x.h5
+refused 2 "nowhere.chk: no such file" --restart nowhere.chk -o x.h5
 refused 3 "whole.h5: is no checkpoint of grseg-sim; name the file that --checkpoint wrote" \
   --restart whole.h5 -o x.h5
 head -c 20000 two.chk >torn.chk
@@ -113,7 +113,7 @@ refused 2 "phi-large differs from the checkpoint's: it belongs to the bed, which
 refused 2 "two.chk is at t = 2 s and the run ends at 2 s; a larger --duration prolongs it" --restart two.chk -o x.h5
 refused 2 "perturb is 0.5: it must lie between 0 and 0.01 d_S" --restart two.chk --perturb 0.5 -o x.h5
 refused 2 "--perturb displaces the grains of a checkpoint; name one by --restart" --perturb 1e-6 -o x.h5
-refused 2 "two.chk is there already; choose another name, remove it, or say --overwrite" \
+refused 2 "two.chk already exists; choose another name, remove it, or pass --overwrite" \
   --restart run.chk --checkpoint two.chk -o x.h5
 refused 2 "checkpoint and trajectory cannot be one file; name another for --checkpoint" \
   --restart run.chk --checkpoint x.h5 -o x.h5
@@ -122,11 +122,11 @@ refused 2 "checkpoint and trajectory cannot be one file; name another for --chec
 cp two.h5 x.h5.part
 refused 2 "x.h5.part does not hold the frames of run.chk; move it away to begin a new trajectory, or choose another name for --output" \
   --restart run.chk -o x.h5
-refused 2 "x.h5.part is there already; choose another name, remove it, or say --overwrite" \
+refused 2 "x.h5.part already exists; choose another name, remove it, or pass --overwrite" \
   --restart run.chk --slope 22 -o x.h5
 cmp two.h5 x.h5.part || fail "the .part of another run was touched"
 head -c 20000 two.h5 >x.h5.part
-refused 3 "x.h5.part: is no HDF5 file, or is truncated or damaged; move it away to begin a new trajectory at the checkpoint" \
+refused 3 "x.h5.part: is not an HDF5 file, or is truncated or damaged; move it away to begin a new trajectory at the checkpoint" \
   --restart run.chk -o x.h5
 [ "$(wc -c <x.h5.part)" = 20000 ] || fail "a torn .part was touched"
 for left in *.part.part *.chk.part; do [ ! -e "$left" ] || fail "$left was left behind"; done

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-/// Runs made with other programs, as they stand in their archives: three components, the
-/// archive's own axes, ids, order of rows and units. What becomes of them (axes turned, species
-/// told apart, branches found, balances verified, a trajectory written) is the same for every
-/// format and lies outside its reader.
+/// Runs made with other programs, as their archives hold them: three components, the archive's own
+/// axes, ids, order of rows and units. All that follows (turning axes, assigning species, computing
+/// branches, verifying balances, writing the trajectory) is the same for every format and not part
+/// of its reader.
 namespace grseg {
 
 using Vec3 = Eigen::Vector3d;
@@ -23,7 +23,7 @@ using Vec3 = Eigen::Vector3d;
 /// archive does not fill stay empty, `id` and `position` are never empty.
 struct ArchiveGrains {
   std::vector<std::int64_t> id;
-  std::vector<std::int32_t> type;  // the archive's own word for a species
+  std::vector<std::int32_t> type;  // the archive's own number of a species
   std::vector<double> radius, mass;
   std::vector<Vec3> position;                      // of the centre; may lie outside a periodic cell
   std::vector<std::array<std::int32_t, 3>> image;  // periods to add to `position`
@@ -49,8 +49,8 @@ struct ArchiveContacts {
   std::size_t size() const { return i.size(); }
 };
 
-/// One moment of an archive: grains and contacts of the same time. Of step and time at least one is
-/// told; the other follows by the length of a step, which the archive or the command line tells.
+/// One moment of an archive: grains and contacts of the same time. At least one of step and time is
+/// set; the other follows from the length of a step, which the archive or the command line gives.
 struct ArchiveMoment {
   std::optional<std::int64_t> step;
   std::optional<double> time;
@@ -61,20 +61,20 @@ struct ArchiveMoment {
   std::string place;  // "atoms.dump, line 12": for sentences about this moment
 };
 
-/// What an archive says once about its run. What it does not say stays empty and has to come from
+/// What an archive states once about its run. What it does not state stays empty and must come from
 /// the command line; nothing is guessed.
 struct ArchiveFacts {
   std::optional<double> step;     // of the integration, in units of time
   std::optional<double> density;  // of the grains' matter, per area (discs) or volume (spheres)
   std::optional<Vec3> gravity;
   std::optional<bool> discs;         // false: spheres
-  std::optional<std::string> units;  // the program's word for them: "si", "cgs", "lj"
-  /// Contact forces are evaluated anew when the velocities have gone half a step further than those
+  std::optional<std::string> units;  // the program's name for them: "si", "cgs", "lj"
+  /// The contact forces in the archive were evaluated with velocities half a step later than those
   /// that moved the grains (late_damping.hpp).
   bool forces_are_late = false;
-  /// Largest residual of a grain's balance, relative to the largest force of the moment and without
-  /// what late damping explains, that faithful output of this program has (digits of its text,
-  /// float32), and why.
+  /// Largest residual of a grain's balance that correct output of this program can have, relative
+  /// to the largest force of the moment and after subtraction of late damping; and why (digits of
+  /// its text, float32).
   double tolerance = 0;
   std::string tolerance_reason;
 };
@@ -85,30 +85,41 @@ class Archive {
   virtual ~Archive() = default;
   /// Complete after the first `next`.
   virtual const ArchiveFacts& facts() const = 0;
-  /// Fills the next moment for which grains and contacts are both there; false at the end.
+  /// Fills in the next moment that has both grains and contacts; false at the end.
   /// FormatError naming file, line and remedy where the archive is damaged.
   virtual bool next(ArchiveMoment& moment) = 0;
 
-  /// How the columns of the contacts are read, as --columns would say it; "": the format says it.
+  /// How the columns of the contacts are read, as --columns would give it; "" where the format
+  /// fixes it.
   virtual std::string columns() const { return ""; }
-  /// Other values of --columns that the contacts may be meant by; tried where `columns()` does not
-  /// lead to balanced grains, to tell which does. To be asked for after `next`.
+  /// Other possible values of --columns; where grains do not balance with `columns()` they are
+  /// tried, to suggest one that works. Valid after `next`.
   virtual std::vector<std::string> other_columns() const { return {}; }
-  /// What was left out on the way here, a sentence each: moments without partner, rows.
+  /// What has been left out so far, a sentence each: unmatched moments, rows.
   virtual std::vector<std::string> remarks() const { return {}; }
 };
 
-/// The archive ends in the middle of a moment. All moments before were whole: with
+/// The archive ends in the middle of a moment; all moments before are complete. With
 /// --drop-incomplete the import ends there.
 struct TruncatedArchive : FormatError {
   using FormatError::FormatError;
 };
 
-/// What a reader is given: files as named on the command line.
+/// What the command line gives to a reader.
 struct ArchiveFiles {
   std::vector<std::string> grains, contacts;  // may hold `*`; file_list.hpp
-  std::string restart;                        // MercuryDPM's, with what its other files lack
+  std::string restart;                        // with what the other files lack
   std::string columns;                        // contact_columns.hpp
+};
+
+/// All that is known of a format outside its own folder; open_archive.cpp lists the formats.
+struct ArchiveFormat {
+  const char* name;  // as --format gives it
+  std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
+  /// Which of these options apply to it; the others are refused.
+  bool takes_contacts = true, takes_columns = true, takes_restart = false;
+  const char* examples;    // for --help: whole command lines, indented
+  const char* notes = "";  // for --help: what its files and its --columns are, indented; may be ""
 };
 
 }  // namespace grseg

@@ -5,8 +5,8 @@
 
 namespace grseg {
 
-/// Gives a moment whose archive knows no cell one that holds its grains, along the axes that are
-/// not periodic. There must be grains.
+/// Sets the cell of a moment to one that encloses its grains along the axes that are not periodic.
+/// For archives that state no cell; there must be grains.
 inline void enclose_grains(ArchiveMoment& moment)
 {
   const auto& grains = moment.grains;

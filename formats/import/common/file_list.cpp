@@ -69,8 +69,7 @@ std::vector<std::string> archive_files(const std::vector<std::string>& names,
       continue;
     }
     const auto found = matches_of(name);
-    if (found.empty())
-      throw UsageError(fmt::format("{} {}: no file has such a name", option, name));
+    if (found.empty()) throw UsageError(fmt::format("{} {}: no file matches", option, name));
     files.insert(files.end(), found.begin(), found.end());
   }
   std::stable_sort(files.begin(), files.end(), natural_less);

@@ -8,11 +8,11 @@ namespace grseg {
 
 /// The files meant by `names`, of which one may hold `*` and stand for many (one per step, as
 /// LAMMPS writes them), in natural order: atoms.9.dump before atoms.10.dump. UsageError naming
-/// `option` where there is none, or a file is missing.
+/// `option` where no file is named or one is missing.
 std::vector<std::string> archive_files(const std::vector<std::string>& names,
                                        const std::string& option);
 
-/// Whether a stands before b where runs of digits count as numbers.
+/// Whether a sorts before b where runs of digits are compared as numbers.
 bool natural_less(const std::string& a, const std::string& b);
 
 }  // namespace grseg

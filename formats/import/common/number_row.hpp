@@ -8,9 +8,8 @@
 
 namespace grseg {
 
-/// Takes the numbers of the line that `source` stands at; they are set apart by blanks or, where
-/// `separator` is none, by that, too. FormatError naming the line and the word that is no finite
-/// number.
+/// The numbers of the current line of `source`, separated by blanks or by `separator`. FormatError
+/// naming the line and the first word that is not a finite number.
 void read_numbers(const TextSource& source, std::vector<double>& numbers, char separator = ' ');
 
 }  // namespace grseg

@@ -11,6 +11,7 @@
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
@@ -75,14 +76,14 @@ std::size_t TextSource::Impl::read_more()
   end -= begin;
   begin = 0;
   if (end == buffer.size())
-    throw FormatError(fmt::format("{}, line {}: is longer than a megabyte; is it a text archive?",
+    throw FormatError(fmt::format("{}, line {}: is longer than a megabyte; is this a text archive?",
                                   file(), number + 1));
   std::streamsize count = 0;
   try {
     count = stream->sgetn(buffer.data() + end, static_cast<std::streamsize>(buffer.size() - end));
   } catch (const std::exception& error) {
     throw FormatError(fmt::format(
-        "{}, after line {}: the compressed data is damaged or cut off ({}); copy the file again",
+        "{}, after line {}: the compressed data is damaged or truncated ({}); copy the file again",
         file(), number, error.what()));
   }
   end += static_cast<std::size_t>(count);
@@ -147,6 +148,18 @@ bool TextSource::line_is_whole() const
 std::string TextSource::place() const
 {
   return fmt::format("{}, line {}", impl_->file(), impl_->number);
+}
+
+std::vector<std::string_view> words_of(std::string_view line)
+{
+  constexpr std::string_view blanks = " \t";
+  std::vector<std::string_view> words;
+  for (auto begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
+    const auto end = std::min(line.find_first_of(blanks, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(blanks, end);
+  }
+  return words;
 }
 
 std::string printable(std::string_view text)

@@ -17,7 +17,7 @@
 namespace grseg {
 namespace {
 
-/// The middle between the smallest and the largest diameter of a species; 0 where it has no grains.
+/// Mean of the smallest and the largest diameter of a species; 0 where it has no grains.
 double nominal_diameter(const Grains& grains, Species species)
 {
   double low = INFINITY, high = 0;
@@ -41,7 +41,7 @@ double areal_density(const Grains& grains)
   return area > 0 ? mass / area : 0;
 }
 
-/// Nominal diameters; of a species that has no grains it is that of the other.
+/// Nominal diameters; a species without grains gets that of the other.
 void add_diameters(const Grains& grains, const ImportSettings& settings, const Units& units,
                    Parameters& parameters)
 {
@@ -61,9 +61,9 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   const auto& facts = frames.facts();
   const auto& units = facts.units;
   RunDescription run;
-  run.grains = frames.builder().grains();
+  run.grains = frames.builder().bed().grains;
   units.convert(run.grains);
-  run.box = frames.builder().box();
+  run.box = frames.builder().bed().box;
   run.box.length_x *= units.length;
   run.box.length_y *= units.length;
   run.has_force = frames.has_force();
@@ -77,7 +77,7 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   numbers["density"] = {areal_density(run.grains)};
   add_diameters(run.grains, settings, units, run.parameters);
   numbers["import_tolerance"] = {frames.tolerance()};
-  numbers["import_origin"] = {frames.builder().origin()};
+  numbers["import_origin"] = {frames.builder().bed().origin};
   numbers["import_units"] = {units.length, units.time, units.mass};
 
   auto& texts = run.parameters.texts;
@@ -87,10 +87,10 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   texts["origin"] = settings.origin;
   texts["import_format"] = settings.format;
   texts["import_axes"] = settings.axes;
-  texts["import_units_as_told"] = facts.units_as_told;
+  texts["import_units_as_told"] = facts.units_as_given;
   texts["import_grains"] = facts.discs ? "discs" : "spheres";
-  texts["import_base"] = frames.builder().species().base;
-  texts["import_sizes"] = frames.builder().species().sizes;
+  texts["import_base"] = frames.builder().bed().species.base;
+  texts["import_sizes"] = frames.builder().bed().species.sizes;
   texts["import_columns"] = frames.archive().columns();
   texts["import_instant"] =
       "positions, velocities and forces are those of the archive at `time`, not of the middle of a "
@@ -128,7 +128,7 @@ class Residuals {
     normal_.push_back(residual.late->normal);
     tangential_.push_back(residual.late->tangential);
   }
-  void tell(ImportReport& report, const Units& units) const
+  void add_to(ImportReport& report, const Units& units) const
   {
     if (medians_.empty()) return;
     report.largest_residual = largest_;
@@ -182,9 +182,9 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
   report.tolerance = frames.tolerance();
   report.tolerance_reason = frames.archive().facts().tolerance_reason;
   report.columns = frames.archive().columns();
-  report.base = frames.builder().species().base;
-  report.sizes = frames.builder().species().sizes;
-  TrajectoryWriter writer(output.beside(), run, settings.storage);
+  report.base = frames.builder().bed().species.base;
+  report.sizes = frames.builder().bed().species.sizes;
+  TrajectoryWriter writer(output.temporary(), run, settings.storage);
   Residuals residuals;
   for (Frame frame; frames.next(frame);) {
     stop_if_interrupted();
@@ -198,7 +198,7 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
     report.contacts += frame.contacts.size();
     writer.append(frame, {&defect, 1});
   }
-  residuals.tell(report, frames.facts().units);
+  residuals.add_to(report, frames.facts().units);
   finish(writer, frames, report);
   writer.close();
   output.publish();

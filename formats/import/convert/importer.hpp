@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/import/convert/import_settings.hpp"
+#include "formats/import/facts/import_settings.hpp"
 #include "formats/import/verify/late_damping.hpp"
 
 #include <cstddef>
@@ -16,10 +16,10 @@ struct ImportReport {
   std::size_t frames = 0, grains = 0, contacts = 0;
   double first_time = 0, last_time = 0;  // s
   /// Residuals of grains' balances (verification.hpp): the largest, and the median over the moments
-  /// of the median over grains. None where there was nothing to compare with.
+  /// of the median over grains. Empty where there was nothing to compare with.
   std::optional<double> largest_residual, median_residual;
-  /// The largest that late damping does not explain, and the damping that does (late_damping.hpp;
-  /// 1/s, medians over the moments), where the program's forces are late.
+  /// Where the program's forces are late (late_damping.hpp): the largest residual that late damping
+  /// does not explain, and this damping (1/s, medians over the moments).
   std::optional<double> unexplained_residual;
   LateDamping late;
   double tolerance = 0;
@@ -27,13 +27,13 @@ struct ImportReport {
   std::vector<std::string> remarks;
 };
 
-/// Imports the archive that `settings` name into the trajectory file `settings.output`, whole or
-/// not at all, moment by moment. `command_line` goes into its history. Throws what readers, facts
-/// and builder throw, and CheckError where a moment does not verify, saying which other reading
-/// would.
+/// Imports the archive moment by moment into the trajectory file `settings.output`, which appears
+/// whole or not at all; `command_line` goes into its history. Throws what readers, facts and
+/// builder throw, and CheckError where a moment fails the verification, with another --columns that
+/// would pass.
 ImportReport import_archive(const ImportSettings& settings, const std::string& command_line);
 
-/// What a user wants to know of it, some lines.
+/// A summary for the user, several lines.
 std::string to_text(const ImportReport& report);
 
 }  // namespace grseg

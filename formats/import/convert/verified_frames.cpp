@@ -16,17 +16,17 @@ VerifiedFrames::VerifiedFrames(const ImportSettings& settings, const std::string
   archive_ = open_archive(settings.format, files);
   if (!read_moment()) throw FormatError("the archive holds no moment with grains and contacts");
   const auto& facts = archive_->facts();
-  facts_ = settle_facts(facts, moment_.grains, settings);
+  facts_ = collect_facts(facts, moment_.grains, settings);
   tolerance_ = settings.accept_residual.value_or(facts.tolerance);
   builder_ = std::make_unique<FrameBuilder>(moment_, facts_, settings);
   verification_ = std::make_unique<Verification>(
-      builder_->grains(), builder_->box(), facts_.plane.gravity,
-      Faithful{tolerance_, facts.forces_are_late, facts_.step, facts_.discs ? 0.5 : 0.4});
+      builder_->bed().grains, builder_->bed().box, facts_.plane.gravity,
+      OutputAccuracy{tolerance_, facts.forces_are_late, facts_.step, facts_.discs ? 0.5 : 0.4});
   has_force_ = !moment_.grains.force.empty();
   has_angular_velocity_ = !moment_.grains.angular_velocity.empty();
 }
 
-/// The end of what is whole is the end, if the command line says so.
+/// With --drop-incomplete an incomplete moment is the end.
 bool VerifiedFrames::read_moment()
 {
   try {
@@ -42,14 +42,13 @@ bool VerifiedFrames::next(Frame& frame)
   if (!std::exchange(first_, false) && !read_moment()) return false;
   if (moment_.grains.force.empty() == has_force_)
     throw FormatError(fmt::format(
-        "{}: some moments have forces on grains and some have none; import them one by one",
+        "{}: some moments have forces on grains and some do not; import them separately",
         moment_.place));
   builder_->build(moment_, frame);
   if (last_ && (frame.step <= last_->first || frame.time <= last_->second))
     throw FormatError(
-        fmt::format("{}: step {} at {:.10g} comes after step {} at {:.10g}: time must go on, by a "
-                    "step at least; "
-                    "is --step too long?",
+        fmt::format("{}: step {} at {:.10g} comes after step {} at {:.10g}: time must increase by "
+                    "at least one step; is --step too long?",
                     moment_.place, frame.step, frame.time, last_->first, last_->second));
   last_ = {frame.step, frame.time};
   complaint_ = verification_->check(frame);

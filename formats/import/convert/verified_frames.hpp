@@ -15,11 +15,11 @@ namespace grseg {
 /// The moments of an archive as frames, each verified, in the archive's units.
 class VerifiedFrames {
  public:
-  /// Opens the archive and reads its first moment. UsageError, FormatError as readers and facts
-  /// throw them; FormatError where the archive holds no moment.
+  /// Opens the archive and reads its first moment. Throws what readers and facts throw;
+  /// FormatError where the archive holds no moment.
   VerifiedFrames(const ImportSettings& settings, const std::string& columns);
 
-  /// False at the end. `complaint` says what is wrong with the frame.
+  /// False at the end. `complaint` then says what is wrong with the frame, if anything.
   bool next(Frame& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }
   const std::optional<Residual>& residual() const { return verification_->residual(); }
@@ -47,8 +47,8 @@ class VerifiedFrames {
   bool first_ = true, has_force_ = false, has_angular_velocity_ = false;
 };
 
-/// The value of --columns with which the first `moments` moments of the archive verify best, if
-/// with any: as a part of a sentence, or "".
+/// The value of --columns with which the first `moments` moments of the archive balance best, as
+/// part of a sentence; "" where there is none.
 std::string columns_that_fit(const ImportSettings& settings, const Archive& archive,
                              std::size_t moments);
 

@@ -85,7 +85,7 @@ std::int64_t whole_number_at(const CsvTable& table, std::size_t row, std::size_t
 {
   const double value = table.value(row, column);
   if (!(std::abs(value) < 2147483648.0) || std::trunc(value) != value)
-    fail_at(table, row, fmt::format("{:g} is no {}", value, what));
+    fail_at(table, row, fmt::format("{:g} is not {}", value, what));
   return static_cast<std::int64_t>(value);
 }
 
@@ -172,7 +172,7 @@ void CsvArchive::fill(ArchiveGrains& grains) const
   using namespace of_grain;
   const auto& table = grains_;
   for (std::size_t k = 0; k < table.rows(); ++k) {
-    grains.id.push_back(whole_number_at(table, k, id, "id"));
+    grains.id.push_back(whole_number_at(table, k, id, "an id"));
     grains.position.push_back(vector_at(table, k, x));
     grains.velocity.push_back(vector_at(table, k, vx));
     if (table.has(radius) || table.has(diameter))
@@ -181,7 +181,7 @@ void CsvArchive::fill(ArchiveGrains& grains) const
     if (table.has(wz)) grains.angular_velocity.push_back(vector_at(table, k, wx));
     if (table.has(mass)) grains.mass.push_back(table.value(k, mass));
     if (table.has(type))
-      grains.type.push_back(static_cast<std::int32_t>(whole_number_at(table, k, type, "type")));
+      grains.type.push_back(static_cast<std::int32_t>(whole_number_at(table, k, type, "a type")));
     if (table.has(fixed)) grains.fixed.push_back(table.value(k, fixed) != 0);
     if (table.has(fx)) grains.force.push_back(vector_at(table, k, fx));
   }
@@ -192,10 +192,10 @@ void CsvArchive::fill(ArchiveContacts& contacts) const
   using namespace of_contact;
   const auto& table = contacts_;
   for (std::size_t k = 0; k < table.rows(); ++k) {
-    const auto second = whole_number_at(table, k, j, "id");
+    const auto second = whole_number_at(table, k, j, "an id");
     if (second < 0 && !table.has(bx) && !table.has(by))
       fail_at(table, k, "a contact with a wall needs its branch, columns bx and by");
-    contacts.i.push_back(whole_number_at(table, k, i, "id"));
+    contacts.i.push_back(whole_number_at(table, k, i, "an id"));
     contacts.j.push_back(second);
     contacts.wall.push_back(second < 0 ? static_cast<std::int32_t>(-second - 1) : -1);
     contacts.force.push_back(vector_at(table, k, fx));
@@ -220,9 +220,19 @@ std::vector<std::string> CsvArchive::remarks() const
 
 std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
 {
-  if (!files.columns.empty() || !files.restart.empty())
-    throw UsageError("--columns and --restart are not for csv: its first line names the columns");
   return std::make_unique<CsvArchive>(files);
 }
+
+const ArchiveFormat csv_format{
+    .name = "csv",
+    .open = open_csv,
+    .takes_columns = false,
+    .examples =
+        "  grseg-import --format csv --grains grains.csv --contacts contacts.csv \\\n"
+        "    --units si --step 1e-5 --gravity 9.81 --slope 23 -o run.h5\n",
+    .notes =
+        "  csv: tables whose first line names the columns (grains: time id x y vx vy and\n"
+        "  radius|diameter; optional z vz omega mass type fixed fx fy fz; contacts: time i j\n"
+        "  fx fy; optional fz overlap bx by bz)\n"};
 
 }  // namespace grseg

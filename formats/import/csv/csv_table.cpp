@@ -74,11 +74,11 @@ void CsvTable::read_names(std::span<const Column> columns)
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (std::find(known.begin(), known.end(), names[k]) == known.end()) continue;
       if (place_.back() >= 0)
-        fail(fmt::format("two columns are {}; name one of them otherwise", known[0]));
+        fail(fmt::format("two columns are named {}; rename one of them", known[0]));
       place_.back() = static_cast<int>(k);
     }
     if (column.needed && place_.back() < 0)
-      fail(fmt::format("there is no column {} among {}", fmt::join(known, " or "),
+      fail(fmt::format("no column {} among {}", fmt::join(known, " or "),
                        printable(fmt::format("{}", fmt::join(names, " ")))));
   }
 }
@@ -91,12 +91,12 @@ bool CsvTable::next_row()
   } while (source_.line().empty() || source_.line().starts_with('#'));
   if (!source_.line_is_whole())
     throw TruncatedArchive(
-        fmt::format("{}: the table ends inside a line; copy it again, or leave out the moment that "
-                    "is not whole by --drop-incomplete",
+        fmt::format("{}: the table ends inside a line; copy it again, or leave out the incomplete "
+                    "moment with --drop-incomplete",
                     source_.place()));
   read_numbers(source_, row_, separator_);
   if (row_.size() != width_)
-    fail(fmt::format("a row of {} numbers where {} columns are named", row_.size(), width_));
+    fail(fmt::format("a row of {} numbers, but the header names {} columns", row_.size(), width_));
   return true;
 }
 

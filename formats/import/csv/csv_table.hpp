@@ -10,27 +10,27 @@
 
 namespace grseg {
 
-/// A plain table: one line of column names, then rows, set apart by commas, semicolons, tabs or
-/// blanks, whichever comes first in this order in the line of names. Lines that begin with # and
-/// empty ones are passed over, those above the names are kept. Rows are taken in blocks of equal
+/// A plain table: one line of column names, then rows, separated by commas, semicolons, tabs or
+/// blanks, whichever of these, in this order, the line of names contains. Empty lines and lines
+/// that begin with # are skipped; those above the names are kept. Rows are read in blocks of equal
 /// time.
 class CsvTable {
  public:
-  /// A column by the names that it goes by, "x|posx", in lower case; a unit in [] behind the name
-  /// in the table is passed over.
+  /// The names of a column, "x|posx", in lower case; a unit in [] after the name in the table is
+  /// ignored.
   struct Column {
     const char* names;
     bool needed;
   };
 
   /// `columns[0]` is the time. UsageError where a file is missing, FormatError naming the line
-  /// where a needed column is not there or two go by names of one.
+  /// where a required column is missing or present twice.
   CsvTable(std::vector<std::string> files, std::span<const Column> columns);
 
   bool has(std::size_t column) const { return place_[column] >= 0; }
   const std::vector<std::string>& comments() const { return comments_; }
 
-  /// Takes the rows of the next time; false at the end. FormatError naming the line where a row is
+  /// Reads the rows of the next time; false at the end. FormatError naming the line where a row is
   /// damaged or of a time before that of the row above.
   bool next();
   double time() const { return time_; }
@@ -49,7 +49,7 @@ class CsvTable {
   std::vector<std::string> comments_;
   char separator_ = ' ';
   std::size_t width_ = 0;
-  std::vector<int> place_;  // of the columns asked for; -1: not there
+  std::vector<int> place_;  // of the columns asked for; -1: missing
   std::vector<double> row_, values_;
   bool waiting_ = false;  // row_ is the first of the next time
   std::string begin_, waiting_place_;

@@ -68,11 +68,12 @@ void ContactColumns::require_sense() const
   const bool has_force = has(fx) || has(fy) || has(fz);
   if (!has(i) || !has(j) || !has_force)
     throw UsageError(fmt::format(
-        "--columns '{}' does not say where i, j and a force stand, as in i=2,j=3,force=5", text_));
+        "--columns '{}' does not name the columns of i, j and a force, as in i=2,j=3,force=5",
+        text_));
   if (has(dist) && has(overlap))
-    throw UsageError("--columns: dist and overlap both tell the overlap; leave one out");
+    throw UsageError("--columns: dist and overlap both give the overlap; leave one out");
   if (has(wall) && !(has(bx) || has(by) || has(bz)))
-    throw UsageError("--columns: wall needs the branch, bx by bz, to where the grain touches it");
+    throw UsageError("--columns: wall needs the branch bx by bz to the contact point");
 }
 
 void ContactColumns::look_up(const std::vector<std::string>& names, const std::string& place)
@@ -111,8 +112,8 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
     for (const double id : of(meaning, values)) {
       if (!(std::abs(id) < 9e15) || std::trunc(id) != id)
         throw FormatError(
-            fmt::format("{}: {:g} in the column of {} is no id of a grain; say what the "
-                        "columns mean with --columns",
+            fmt::format("{}: {:g} in the column of {} is not an id of a grain; say "
+                        "what the columns mean with --columns",
                         place, id, words[meaning]));
       out.push_back(static_cast<std::int64_t>(id));
     }
@@ -138,7 +139,7 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   for (const double number : of(wall, values)) {
     if (!(std::abs(number) < 1e9) || std::trunc(number) != number)
       throw FormatError(
-          fmt::format("{}: {:g} in the column of wall is no number of a wall", place, number));
+          fmt::format("{}: {:g} in the column of wall is not a number of a wall", place, number));
     contacts.wall.push_back(number < 0 ? -1 : static_cast<std::int32_t>(number));
   }
 }

@@ -12,19 +12,18 @@
 namespace grseg {
 
 /// Which column of a contact row means what: "i=2,j=3,dist=4,force=5,tangential=8". Columns are
-/// told by number, from 1, or by name, of which a dump's need not carry any meaning. What can be
-/// told:
+/// given by number, from 1, or by name. The meanings:
 ///   i, j          ids of the grains
 ///   force         force ON i FROM j, all of it or its normal part: three columns from this one on
 ///   tangential    tangential force ON i FROM j, three columns, to be added to it
-///   fx fy fz, tx ty tz   the same one by one, where there are fewer or other columns
+///   fx fy fz, tx ty tz   single components, where there are fewer or other columns
 ///   dist          distance of the centres; or
 ///   overlap       how deep the two overlap, positive
 ///   bx by bz      branch x_i - x_j, else found from the positions; at a wall x_i - contact point
 ///   wall          number of the straight wall, negative where j is a grain; needs the branch
 class ContactColumns {
  public:
-  /// The text of --columns. UsageError where it does not say i, j and a force.
+  /// The text of --columns. UsageError unless it names i, j and a force.
   explicit ContactColumns(const std::string& text);
 
   /// Finds the columns among `names`. UsageError naming `place` where one is not there.
@@ -32,7 +31,7 @@ class ContactColumns {
   /// The columns to read, 0-based, in the order in which `fill` takes them.
   const std::vector<std::size_t>& wanted() const { return wanted_; }
   /// Rows as contacts; `values[k]` is column `wanted()[k]`. FormatError naming `place` where i or j
-  /// is no id.
+  /// is not an id.
   void fill(const std::vector<std::vector<double>>& values, const std::string& place,
             ArchiveContacts& contacts) const;
 
@@ -49,8 +48,8 @@ class ContactColumns {
   bool has(Meaning meaning) const { return !column_[meaning].empty(); }
 
   std::string text_;
-  std::array<std::string, meanings> column_;  // number or name; "": not told
-  std::array<int, meanings> place_{};         // in wanted_; -1: not told
+  std::array<std::string, meanings> column_;  // number or name; "": not given
+  std::array<int, meanings> place_{};         // in wanted_; -1: not given
   std::vector<std::size_t> wanted_;
 };
 

@@ -17,14 +17,14 @@ class DumpArchive : public Archive {
               std::string columns, const DumpDialect& dialect)
       : dialect_(dialect),
         dumps_(grains, contacts),
-        told_(std::move(columns)),
+        columns_text_(std::move(columns)),
         facts_(dialect.facts)
   {
     facts_.step = dumps_.step();
   }
 
   const ArchiveFacts& facts() const override { return facts_; }
-  std::string columns() const override { return told_; }
+  std::string columns() const override { return columns_text_; }
   std::vector<std::string> remarks() const override { return dumps_.remarks(); }
   std::vector<std::string> other_columns() const override { return dialect_.others(header_); }
 
@@ -50,8 +50,8 @@ class DumpArchive : public Archive {
   {
     const auto header = dumps_.contacts().header();
     if (!columns_ || header.columns != header_.columns) {
-      if (told_.empty()) told_ = assumed_columns(header, moment.grains);
-      columns_.emplace(dialect_.told(told_, header));
+      if (columns_text_.empty()) columns_text_ = assumed_columns(header, moment.grains);
+      columns_.emplace(dialect_.mapping(columns_text_, header));
       columns_->look_up(header.columns, header.place);
       header_ = header;
     }
@@ -64,7 +64,7 @@ class DumpArchive : public Archive {
     auto assumed = dialect_.assumed(header, grains);
     if (!assumed.empty()) return assumed;
     throw UsageError(
-        fmt::format("{}: the names of the {} columns do not tell what they mean; say it with "
+        fmt::format("{}: the names of the {} columns do not say what they mean; give it with "
                     "--columns, as in {}",
                     header.place, header.columns.size(), dialect_.example));
   }
@@ -72,7 +72,7 @@ class DumpArchive : public Archive {
   const DumpDialect& dialect_;
   DumpPair dumps_;
   DumpGrains grains_;
-  std::string told_;  // as --columns says it
+  std::string columns_text_;  // as --columns gives it
   std::optional<ContactColumns> columns_;
   DumpHeader header_;  // of the contacts, whose columns were looked up
   std::vector<std::vector<double>> values_;
@@ -94,8 +94,6 @@ ArchiveFacts facts_of_late_forces(const std::string& program)
 
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect)
 {
-  if (!files.restart.empty())
-    throw UsageError("--restart is for MercuryDPM alone; dumps need none, leave it out");
   const auto grains = archive_files(files.grains, "--grains");
   return std::make_unique<DumpArchive>(grains, archive_files(files.contacts, "--contacts"),
                                        files.columns, dialect);

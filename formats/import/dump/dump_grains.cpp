@@ -20,11 +20,11 @@ bool any(const Triple& columns)
 template <class Integer>
 Integer whole_number(double value, const char* name, const std::string& place)
 {
-  // Beyond 2^53 a double tells not every whole number from the next.
+  // Beyond 2^53 a double cannot represent every whole number.
   constexpr double most = std::min(9e15, static_cast<double>(std::numeric_limits<Integer>::max()));
   if (!(std::abs(value) <= most) || std::trunc(value) != value)
-    throw FormatError(fmt::format("{}: {} {:g} is no whole number, or one that is too large", place,
-                                  name, value));
+    throw FormatError(
+        fmt::format("{}: {} {:g} is not a whole number, or is too large", place, name, value));
   return static_cast<Integer>(value);
 }
 

@@ -10,11 +10,11 @@ namespace grseg {
 
 /// Reads blocks of `dump custom` by the names of their columns, which are those of LAMMPS and
 /// LIGGGHTS: id, type, mass, radius or diameter; x y z, or unwrapped xu yu zu, or xs ys zs in parts
-/// of the cell; ix iy iz; vx vy vz; omegax omegay omegaz; fx fy fz. id and positions must be there,
-/// a missing component is 0, other columns are passed over.
+/// of the cell; ix iy iz; vx vy vz; omegax omegay omegaz; fx fy fz. id and positions are required,
+/// a missing component is 0, other columns are ignored.
 class DumpGrains {
  public:
-  /// Takes the rows of the block that `dump` stands at.
+  /// Reads the rows of the current block of `dump`.
   void read(DumpReader& dump, ArchiveGrains& grains);
 
  private:
@@ -26,7 +26,7 @@ class DumpGrains {
   void want_positions(const DumpHeader& header);
   void take(const Triple& columns, std::vector<Vec3>& out) const;
 
-  std::vector<std::string> names_;  // for which the rest was looked up
+  std::vector<std::string> names_;  // of the columns that the rest refers to
   std::vector<std::size_t> wanted_;
   int id_ = -1, type_ = -1, mass_ = -1, radius_ = -1, diameter_ = -1;
   Triple position_{}, image_{}, velocity_{}, spin_{}, force_{};

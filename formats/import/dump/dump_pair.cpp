@@ -25,7 +25,7 @@ DumpPair::DumpPair(const std::vector<std::string>& grain_files,
 {
   try {
     step_ = step_by_times(grain_files);
-  } catch (const FormatError&) {  // to be told when it is that block's turn
+  } catch (const FormatError&) {  // to be reported when it is that block's turn
   }
 }
 
@@ -52,7 +52,8 @@ std::optional<std::string> DumpPair::units() const
   const auto &a = grains_.units(), &b = contacts_.units();
   if (a && b && *a != *b)
     throw FormatError(fmt::format(
-        "{}: the grains are in units {} and the contacts in units {}: they are not of one run",
+        "{}: the grains are in units {} and the contacts in units {}: they are not from "
+        "the same run",
         contacts_.header().place, printable(*a), printable(*b)));
   return a ? a : b;
 }

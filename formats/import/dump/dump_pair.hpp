@@ -9,23 +9,22 @@
 
 namespace grseg {
 
-/// The dump of the grains beside that of the contacts: blocks of the same time step, whatever else
-/// stands in either.
+/// The dumps of grains and of contacts, matched by time step; other blocks of either are skipped.
 class DumpPair {
  public:
   DumpPair(const std::vector<std::string>& grain_files,
            const std::vector<std::string>& contact_files);
 
-  /// Goes to the next step that both have; false at the end. Rows are then to be read.
+  /// Advances to the next step that both have; false at the end. Then the rows can be read.
   bool next();
   DumpReader& grains() { return grains_; }
   DumpReader& contacts() { return contacts_; }
 
-  /// The length of a step as ITEM: TIME of the grains' first blocks tells it, if it does.
+  /// The length of a step from ITEM: TIME of the first blocks of the grains, if they have it.
   const std::optional<double>& step() const { return step_; }
-  /// Of ITEM: UNITS of either. FormatError where they differ.
+  /// From ITEM: UNITS of either dump. FormatError where they differ.
   std::optional<std::string> units() const;
-  /// One sentence per dump that has steps which the other has not.
+  /// One sentence for each dump with steps that the other lacks.
   std::vector<std::string> remarks() const;
 
  private:

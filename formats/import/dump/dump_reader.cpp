@@ -29,18 +29,6 @@ bool is_blank(char c)
 
 }  // namespace
 
-std::vector<std::string_view> words_of(std::string_view line)
-{
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; at < line.size();) {
-    const auto begin = at;
-    while (at < line.size() && !is_blank(line[at])) ++at;
-    if (at > begin) words.push_back(line.substr(begin, at - begin));
-    while (at < line.size() && is_blank(line[at])) ++at;
-  }
-  return words;
-}
-
 std::optional<std::size_t> DumpHeader::find(std::string_view name) const
 {
   const auto found = std::find(columns.begin(), columns.end(), name);
@@ -58,8 +46,8 @@ void DumpReader::next_line(const char* what)
   const bool there = source_.next();
   if (there && source_.line_is_whole()) return;
   throw TruncatedArchive(
-      fmt::format("{}: the archive ends in {}; copy it again, or leave out the moment that is not "
-                  "whole by --drop-incomplete",
+      fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete moment "
+                  "with --drop-incomplete",
                   source_.place(), what));
 }
 
@@ -72,8 +60,8 @@ bool DumpReader::next()
   if (!source_.line_is_whole()) {
     rows_left_ = 0;
     throw TruncatedArchive(
-        fmt::format("{}: the archive ends in a header; copy it again, or leave out the moment that "
-                    "is not whole by --drop-incomplete",
+        fmt::format("{}: the archive ends in a header; copy it again, or leave out the incomplete "
+                    "moment with --drop-incomplete",
                     source_.place()));
   }
   read_header();
@@ -90,14 +78,13 @@ void DumpReader::read_header()
   for (bool has_step = false, has_box = false;; next_line("a header")) {
     const auto line = source_.line();
     if (!line.starts_with(item_word))
-      fail(fmt::format("{} stands where a line 'ITEM: ...' of a text dump is expected",
-                       printable(line)));
+      fail(fmt::format("{} found where a text dump has a line 'ITEM: ...'", printable(line)));
     const auto item = line.substr(item_word.size());
     if (!label.empty() && item.starts_with(label) &&
         (item.size() == label.size() || is_blank(item[label.size()]))) {
       for (const auto name : words_of(item.substr(label.size())))
         header_.columns.emplace_back(name);
-      if (!has_step || !has_box) fail("no TIMESTEP and BOX BOUNDS stand above the rows");
+      if (!has_step || !has_box) fail("TIMESTEP or BOX BOUNDS is missing above the rows");
       if (header_.columns.empty()) fail("names no columns");
       return;
     }
@@ -117,21 +104,21 @@ void DumpReader::read_item(std::string_view item, std::string& label)
     next_line("a header");
     const auto rows = parse<std::size_t>(source_.line());
     if (!rows || *rows > most_rows)
-      fail(fmt::format("{} is no number of rows", printable(source_.line())));
+      fail(fmt::format("{} is not a number of rows", printable(source_.line())));
     header_.rows = *rows;
   } else if (item == "TIMESTEP") {
     next_line("a header");
     const auto step = parse<std::int64_t>(source_.line());
-    if (!step) fail(fmt::format("{} is no time step", printable(source_.line())));
+    if (!step) fail(fmt::format("{} is not a time step", printable(source_.line())));
     header_.step = *step;
     require_a_later_step();
   } else if (item == "TIME") {
     next_line("a header");
     header_.time = parse<double>(source_.line());
     if (!header_.time || !std::isfinite(*header_.time))
-      fail(fmt::format("{} is no time", printable(source_.line())));
+      fail(fmt::format("{} is not a time", printable(source_.line())));
   } else {
-    fail(fmt::format("{} is no part of a dump", printable(source_.line())));
+    fail(fmt::format("{} is not part of a dump", printable(source_.line())));
   }
 }
 
@@ -140,7 +127,7 @@ void DumpReader::read_units()
   next_line("a header");
   const std::string now(source_.line());
   if (units_ && *units_ != now)
-    fail(fmt::format("units {} after units {}: import the parts of this archive one by one",
+    fail(fmt::format("units {} after units {}: import the parts of this archive separately",
                      printable(now), printable(*units_)));
   units_ = now;
 }
@@ -149,8 +136,8 @@ void DumpReader::require_a_later_step()
 {
   if (last_step_ && header_.step <= *last_step_)
     fail(
-        fmt::format("step {} comes after step {}: steps must increase; remove the moment that is "
-                    "there twice (after a restart), or name the files in order of time",
+        fmt::format("step {} comes after step {}: steps must increase; remove the duplicate "
+                    "moment (from a restart), or name the files in order of time",
                     header_.step, *last_step_));
   last_step_ = header_.step;
 }
@@ -175,8 +162,8 @@ void DumpReader::read_box(std::string_view item)
       if (good) value[k] = *number;
     }
     if (!good || value[0] > value[1])
-      fail(fmt::format("{} is no pair of bounds of the cell", printable(source_.line())));
-    if (value[2] != 0) fail("the cell is tilted; grseg knows rectangular cells alone");
+      fail(fmt::format("{} is not a pair of bounds of the cell", printable(source_.line())));
+    if (value[2] != 0) fail("the cell is tilted; only rectangular cells are imported");
     header_.low[axis] = value[0];
     header_.high[axis] = value[1];
   }
@@ -209,7 +196,7 @@ void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<dou
       const auto parsed = std::from_chars(at, end, value);
       at = parsed.ptr;
       if (parsed.ec != std::errc() || !std::isfinite(value) || (at < end && !is_blank(*at)))
-        fail(fmt::format("{} in column {} ({}) is no finite number",
+        fail(fmt::format("{} in column {} ({}) is not a finite number",
                          printable({word, std::find_if(word, end, is_blank)}), column + 1,
                          header_.columns[column]));
       values[static_cast<std::size_t>(role[column])].push_back(value);
@@ -220,7 +207,7 @@ void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<dou
   if (column == role.size()) return;
   if (line.starts_with(item_word))
     fail(fmt::format("a new block begins with {} of {} rows missing", rows_left_, header_.rows));
-  fail(fmt::format("a row of {} columns where {} are named", column, role.size()));
+  fail(fmt::format("a row of {} columns, but the header names {}", column, role.size()));
 }
 
 }  // namespace grseg

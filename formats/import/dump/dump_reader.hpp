@@ -14,7 +14,7 @@
 
 namespace grseg {
 
-/// What stands above the rows of one block of a text dump.
+/// What precedes the rows of one block of a text dump.
 struct DumpHeader {
   std::int64_t step = 0;
   std::optional<double> time;
@@ -39,14 +39,14 @@ class DumpReader {
  public:
   explicit DumpReader(std::vector<std::string> files) : source_(std::move(files)) {}
 
-  /// Goes to the next block, over rows that were not read; false at the end.
+  /// Advances to the next block, skipping rows that were not read; false at the end.
   bool next();
   const DumpHeader& header() const { return header_; }
-  /// Of ITEM: UNITS, which stands above the first block alone.
+  /// From ITEM: UNITS, which only the first block has.
   const std::optional<std::string>& units() const { return units_; }
 
-  /// Reads the rows of the block: values[k] becomes column `wanted[k]` of all rows. What else
-  /// stands in a row is counted and not looked at.
+  /// Reads the rows of the block: values[k] becomes column `wanted[k]` of all rows. Other
+  /// columns are counted but not parsed.
   void read_rows(std::span<const std::size_t> wanted, std::vector<std::vector<double>>& values);
 
  private:
@@ -65,8 +65,5 @@ class DumpReader {
   std::optional<std::int64_t> last_step_;
   std::size_t rows_left_ = 0;
 };
-
-/// The blanks-separated words of a line.
-std::vector<std::string_view> words_of(std::string_view line);
 
 }  // namespace grseg

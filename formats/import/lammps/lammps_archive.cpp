@@ -11,7 +11,7 @@ namespace {
 constexpr const char* recipe = "i=2,j=3,dist=4,force=5,tangential=8";
 constexpr std::size_t recipe_columns = 10;
 
-/// What the header itself says, where its columns have been named by the words of --columns.
+/// The mapping where the columns of the header are named by the words of --columns.
 std::string columns_by_name(const DumpHeader& header)
 {
   std::string text;
@@ -50,5 +50,16 @@ std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
       other_columns, recipe, facts_of_late_forces("LAMMPS")};
   return open_dumps(files, dialect);
 }
+
+const ArchiveFormat lammps_format{
+    .name = "lammps",
+    .open = open_lammps,
+    .examples =
+        "  grseg-import --format lammps --grains atoms.dump --contacts contacts.dump \\\n"
+        "    --columns i=2,j=3,dist=4,force=5,tangential=8 --units si --step 1e-5 \\\n"
+        "    --gravity 9.8 --slope 23 --boundary 3 -o run.h5\n"
+        "  grseg-import --format lammps --grains 'atoms.*.gz' --contacts 'contacts.*.gz' \\\n"
+        "    --units si --step 1e-5 --gravity 3.83,-9.02,0 --small 1 --large 2 --boundary 3 \\\n"
+        "    -o run.h5\n"};
 
 }  // namespace grseg

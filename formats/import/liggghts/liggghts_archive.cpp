@@ -23,4 +23,13 @@ std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
   return open_dumps(files, dialect);
 }
 
+const ArchiveFormat liggghts_format{
+    .name = "liggghts",
+    .open = open_liggghts,
+    .examples =
+        "  grseg-import --format liggghts --grains 'atoms_*' --contacts 'contacts_*' \\\n"
+        "    --units si --columns pos,id,force,delta --step 5e-6 --gravity 9.81 --slope 23 \\\n"
+        "    --axes xz --boundary 3 -o run.h5\n",
+    .notes = "  liggghts: --columns may also list the keywords of its compute pair/gran/local\n"};
+
 }  // namespace grseg

@@ -9,10 +9,12 @@ namespace grseg {
 
 /// `dump custom` of grains beside `dump local` of `compute pair/gran/local`, as LIGGGHTS writes
 /// them (compute_pair_gran_local.cpp; liggghts_columns.hpp for its columns). Without --columns a
-/// dump of 12, 25 or 35 columns is taken for the preset of so many, to be trusted only as far as
-/// grains balance. `force` is the whole force on the first of the two ids. Text has 6 digits unless
-/// dump_modify says otherwise, so `delta` is taken for the overlap where it is there. Contacts with
-/// primitive walls (fix wall/gran) are in no such dump, and grains there do not balance.
+/// dump of 12, 25 or 35 columns is assumed to be the preset of that size; the grains' balance
+/// verifies it. `force` is the whole force on the first of the two ids. Text has 6 digits unless
+/// dump_modify says otherwise, so `delta` is used as the overlap where it is dumped. Contacts with
+/// primitive walls (fix wall/gran) are not in such dumps, so grains there do not balance.
 std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files);
+
+extern const ArchiveFormat liggghts_format;
 
 }  // namespace grseg

@@ -99,8 +99,9 @@ Layout layout_of(const std::string& columns)
       std::vector<std::string> known;
       for (const auto& b : blocks) known.emplace_back(b.keyword);
       for (const auto& preset : presets) known.emplace_back(preset.first);
-      throw UsageError(fmt::format("--columns: '{}' is no keyword of pair/gran/local; they are {}",
-                                   word, fmt::join(known, ", ")));
+      throw UsageError(
+          fmt::format("--columns: '{}' is not a keyword of pair/gran/local; choose from {}", word,
+                      fmt::join(known, ", ")));
     }
     width[static_cast<std::size_t>(block - std::begin(blocks))] = count;
   }

@@ -14,11 +14,11 @@ namespace grseg {
 ///     torque,torque_normal,torque_tangential,history,contactArea,delta,contactPoint,ms_id;
 ///     history:N where the model keeps N values instead of 3;
 ///   a preset: liggghts-default (25 columns, no keywords), liggghts-full35, forcechain12;
-///   a mapping, which is given back.
-/// Blocks stand in the order above whatever that of the keywords (compute_pair_gran_local.cpp; the
-/// manual's order is another one). Names like c_cp[13] tell which of the compute's columns were
-/// dumped. UsageError naming what does not fit: an unknown keyword, ids or force not among them or
-/// not dumped, another number of columns.
+///   a mapping, which is returned unchanged.
+/// Columns are written in the order above, whatever the order of the keywords
+/// (compute_pair_gran_local.cpp; the manual gives another order). Names like c_cp[13] show which of
+/// the compute's columns were dumped. UsageError naming what does not fit: an unknown keyword, ids
+/// or force missing or not dumped, another number of columns.
 std::string liggghts_mapping(const std::string& columns, const DumpHeader& contacts);
 
 /// Presets and lists of keywords that have as many columns as the header.

@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* info_is_species = "info=species";
 
-/// Blocks of one table that the other has not.
-struct Alone {
+/// Blocks of one table that are missing in the other.
+struct Unmatched {
   std::size_t count = 0;
   double first = 0;
   void add(double time)
@@ -35,7 +35,7 @@ class MercuryArchive : public Archive {
 
  private:
   bool next_of_both();
-  void know(ArchiveGrains& grains) const;
+  void add_restart_facts(ArchiveGrains& grains) const;
   void fill_contacts(ArchiveMoment& moment) const;
   void add_contact(const MercuryContact& row, const ArchiveMoment& moment,
                    ArchiveContacts& contacts) const;
@@ -50,7 +50,7 @@ class MercuryArchive : public Archive {
   MercuryGrains grains_;
   MercuryForces forces_;
   std::optional<double> last_time_;
-  Alone grains_alone_, forces_alone_;
+  Unmatched grains_alone_, forces_alone_;
 };
 
 MercuryArchive::MercuryArchive(const ArchiveFiles& files)
@@ -61,7 +61,7 @@ MercuryArchive::MercuryArchive(const ArchiveFiles& files)
 {
   if (!files.columns.empty() && !info_is_species_)
     throw UsageError(
-        fmt::format("--columns '{}': those of MercuryDPM are known; only {} can be said",
+        fmt::format("--columns '{}': the columns of MercuryDPM are known; only {} is accepted",
                     files.columns, info_is_species));
   facts_.tolerance = 1e-4;
   facts_.tolerance_reason = "MercuryDPM writes ten digits";
@@ -72,7 +72,7 @@ MercuryArchive::MercuryArchive(const ArchiveFiles& files)
   facts_.discs = restart_->particle_dimensions == 2;
 }
 
-/// Goes to the next time that both tables have; times have the digits of text.
+/// Advances to the next time in both tables, equal to the digits of the text.
 bool MercuryArchive::next_of_both()
 {
   bool more_grains = data_.next(grains_), more_forces = fstat_.next(forces_);
@@ -95,8 +95,8 @@ bool MercuryArchive::next(ArchiveMoment& moment)
   if (!next_of_both()) return false;
   if (last_time_ && grains_.time <= *last_time_)
     throw FormatError(fmt::format(
-        "{}: time {:g} comes after time {:g}: times must increase; remove the moment that is there "
-        "twice (after a restart), or name the files in order of time",
+        "{}: time {:g} comes after time {:g}: times must increase; remove the duplicate moment "
+        "(from a restart), or name the files in order of time",
         grains_.place, grains_.time, *last_time_));
   last_time_ = grains_.time;
   moment = ArchiveMoment{};
@@ -105,7 +105,7 @@ bool MercuryArchive::next(ArchiveMoment& moment)
   moment.low = grains_.low;
   moment.high = grains_.high;
   moment.grains = std::move(grains_.grains);
-  if (restart_) know(moment.grains);
+  if (restart_) add_restart_facts(moment.grains);
   if (info_is_species_)
     for (const double info : grains_.info)
       moment.grains.type.push_back(static_cast<std::int32_t>(std::lround(info)));
@@ -119,8 +119,8 @@ bool MercuryArchive::next(ArchiveMoment& moment)
   return true;
 }
 
-/// Adds what .restart knows about the grains.
-void MercuryArchive::know(ArchiveGrains& grains) const
+/// Adds what .restart states about the grains.
+void MercuryArchive::add_restart_facts(ArchiveGrains& grains) const
 {
   if (restart_->particles.size() != grains.size())
     throw FormatError(
@@ -130,9 +130,9 @@ void MercuryArchive::know(ArchiveGrains& grains) const
     const auto& particle = restart_->particles[g];
     const double r = particle.radius;
     if (std::abs(r - grains.radius[g]) > 1e-5 * r)
-      throw FormatError(
-          fmt::format("{}: grain {} has the radius {:g}, but {:g} in {}; are they of one run?",
-                      grains_.place, g, grains.radius[g], r, restart_path_));
+      throw FormatError(fmt::format(
+          "{}: grain {} has the radius {:g}, but {:g} in {}; are they from the same run?",
+          grains_.place, g, grains.radius[g], r, restart_path_));
     const double content =
         *facts_.discs ? std::numbers::pi * r * r : 4 * std::numbers::pi / 3 * r * r * r;
     const bool fixed = particle.inverse_mass == 0;
@@ -155,8 +155,8 @@ void MercuryArchive::fill_contacts(ArchiveMoment& moment) const
   const auto grains = static_cast<std::int64_t>(moment.grains.size());
   for (const auto& row : forces_.contacts) {
     if (row.i < 0 || row.i >= grains || row.j >= grains || row.i == row.j)
-      fail_at(row, fmt::format("{} and {} are not two of {} grains; are .data and .fstat of one "
-                               "run?",
+      fail_at(row, fmt::format("{} and {} are not two of {} grains; are .data and .fstat from "
+                               "the same run?",
                                row.i, row.j, grains));
     if (row.j >= 0 && !known.insert(std::minmax(row.i, row.j)).second) continue;
     add_contact(row, moment, moment.contacts);
@@ -176,8 +176,8 @@ void MercuryArchive::add_contact(const MercuryContact& row, const ArchiveMoment&
     reach += grains.radius[j];
     const double distance = (grains.position[i] - grains.position[j]).norm();
     if (!restart_ && distance > 1.1 * (grains.radius[i] + grains.radius[j]))
-      fail_at(row, fmt::format("grains {} and {} touch across a periodic boundary, or are of "
-                               "another run; give --restart, which tells what is periodic",
+      fail_at(row, fmt::format("grains {} and {} touch across a periodic boundary, or are from "
+                               "another run; give --restart, which says what is periodic",
                                row.i, row.j));
   }
   contacts.i.push_back(row.i);
@@ -192,7 +192,7 @@ void MercuryArchive::add_contact(const MercuryContact& row, const ArchiveMoment&
 std::vector<std::string> MercuryArchive::remarks() const
 {
   std::vector<std::string> remarks;
-  const auto add = [&](const Alone& alone, const char* has, const char* lacks) {
+  const auto add = [&](const Unmatched& alone, const char* has, const char* lacks) {
     if (alone.count > 0)
       remarks.push_back(
           fmt::format("{} moments are in {} but not in {} and are left out, the first at t = {:g}",
@@ -209,5 +209,16 @@ std::unique_ptr<Archive> open_mercury(const ArchiveFiles& files)
 {
   return std::make_unique<MercuryArchive>(files);
 }
+
+const ArchiveFormat mercury_format{
+    .name = "mercury",
+    .open = open_mercury,
+    .takes_restart = true,
+    .examples =
+        "  grseg-import --format mercury --grains run.data --contacts run.fstat \\\n"
+        "    --restart run.restart --units si -o run.h5\n",
+    .notes =
+        "  mercury: .restart holds step, gravity, masses, species and the base; the only\n"
+        "  --columns is info=species\n"};
 
 }  // namespace grseg

@@ -2,7 +2,7 @@
 #include "formats/import/mercury/mercury_blocks.hpp"
 
 #include "formats/import/common/number_row.hpp"
-#include "formats/import/dump/dump_reader.hpp"
+#include "formats/import/common/text_source.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@ namespace {
 [[noreturn]] void fail_truncated(const TextSource& source, const char* what)
 {
   throw TruncatedArchive(
-      fmt::format("{}: the archive ends in {}; copy it again, or leave out the moment that is not "
-                  "whole by --drop-incomplete",
+      fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete "
+                  "moment with --drop-incomplete",
                   source.place(), what));
 }
 
@@ -43,9 +43,9 @@ bool MercuryData::next(MercuryGrains& block)
   const auto& h = numbers_;
   plane_ = h.size() == 6;
   if (!plane_ && h.size() != 8)
-    fail(fmt::format("{} numbers where a block of .data begins with 6 (2D) or 8 (3D)", h.size()));
+    fail(fmt::format("{} numbers, but a block of .data begins with 6 (2D) or 8 (3D)", h.size()));
   if (h[0] < 0 || h[0] > 2147483647 || std::trunc(h[0]) != h[0])
-    fail(fmt::format("{:g} is no number of grains", h[0]));
+    fail(fmt::format("{:g} is not a number of grains", h[0]));
   block.time = h[1];
   block.low = plane_ ? Vec3(h[2], h[3], 0) : three(h, 2);
   block.high = plane_ ? Vec3(h[4], h[5], 0) : three(h, 5);
@@ -80,7 +80,7 @@ void MercuryData::read_row(MercuryGrains& block)
   else if (!plane_ && (columns == 15 || columns == 17))
     add(three(row, 0), three(row, 3), row[6], three(row, 10), row[14]);
   else
-    fail(fmt::format("a row of {} numbers below a header of {}, where .data has {}", columns,
+    fail(fmt::format("a row of {} numbers below a header of {}; .data has {}", columns,
                      plane_ ? 6 : 8, plane_ ? "8 or 10" : "8, or 14 to 17"));
 }
 
@@ -105,12 +105,12 @@ double MercuryFStat::read_header()
   char* end = nullptr;
   const double time = std::strtod(text.c_str(), &end);
   if (words.empty() || words[0] != "#" || text.empty() || *end != '\0' || !std::isfinite(time))
-    fail(fmt::format("{} where a block of .fstat begins with '# time 1'",
-                     printable(source_.line())));
+    fail(
+        fmt::format("{}, but a block of .fstat begins with '# time 1'", printable(source_.line())));
   for (int k = 0; k < 2; ++k) {
     if (!next_line() || !source_.line_is_whole()) fail_truncated(source_, "a header");
     if (!source_.line().starts_with('#'))
-      fail("a row where a block of .fstat has three lines of comments");
+      fail("a row, but a block of .fstat begins with three lines of comments");
   }
   return time;
 }
@@ -131,10 +131,10 @@ bool MercuryFStat::next(MercuryForces& block)
     if (!source_.line_is_whole()) fail_truncated(source_, "a row of forces");
     read_numbers(source_, numbers_);
     const auto& r = numbers_;
-    if (r.size() != 16) fail(fmt::format("a row of {} numbers where .fstat has 16", r.size()));
+    if (r.size() != 16) fail(fmt::format("a row of {} numbers, but .fstat has 16", r.size()));
     if (std::trunc(r[1]) != r[1] || std::trunc(r[2]) != r[2] || std::abs(r[1]) > 2147483647 ||
         std::abs(r[2]) > 2147483647)
-      fail("columns 2 and 3 are no numbers of particles");
+      fail("columns 2 and 3 are not numbers of particles");
     block.contacts.push_back({static_cast<std::int64_t>(r[1]), static_cast<std::int64_t>(r[2]),
                               three(r, 3), r[6], r[8], r[9], three(r, 10), three(r, 13), line});
   }

@@ -15,7 +15,7 @@ struct MercuryGrains {
   double time = 0;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // of the domain
   ArchiveGrains grains;                          // position, velocity, angular velocity, radius
-  std::vector<double> info;  // by default the species, but every program may write what it likes
+  std::vector<double> info;  // the species by default, but a program may redefine it
   std::string place;
 };
 
@@ -24,9 +24,9 @@ struct MercuryGrains {
 ///   format 7       N t xmin ymin zmin xmax ymax zmax;  x z y vx vz vy radius info
 ///   format 14      the same header;  x y z vx vy vz radius alpha beta gamma wx wy wz info
 ///   format 15      the same with one more number before info
-/// and the first and the last two with the two flags behind each row that parallel builds append.
-/// FormatError naming the line where a block is none of these, TruncatedArchive where the file ends
-/// inside a block.
+/// and formats 8, 14 and 15 also with the two flags that parallel builds append to each row.
+/// FormatError naming the line where a block has none of these formats, TruncatedArchive where the
+/// file ends inside a block.
 class MercuryData {
  public:
   explicit MercuryData(std::vector<std::string> files) : source_(std::move(files)) {}

@@ -2,7 +2,6 @@
 #include "formats/import/mercury/mercury_restart.hpp"
 
 #include "formats/import/common/text_source.hpp"
-#include "formats/import/dump/dump_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -37,7 +36,7 @@ class Lines {
     const auto word = words_[at];
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number))
-      fail(fmt::format("{} behind '{}' is no finite number", printable(word), key));
+      fail(fmt::format("{} after '{}' is not a finite number", printable(word), key));
     return number;
   }
   Vec3 vector(std::string_view key) const { return {value(key), value(key, 1), value(key, 2)}; }
@@ -47,7 +46,7 @@ class Lines {
     if (words_.empty() || words_[0] != key) return std::nullopt;
     const double number = value(key);
     if (number < 0 || number > 1e9 || std::trunc(number) != number)
-      fail(fmt::format("{} is no number of {}", printable(source_.line()), key));
+      fail(fmt::format("{} is not a number of {}", printable(source_.line()), key));
     return static_cast<std::size_t>(number);
   }
   std::string_view kind() const { return words_.empty() ? std::string_view() : words_[0]; }
@@ -89,12 +88,14 @@ MercuryRestart::Particle read_particle(const Lines& lines, const MercuryRestart&
   MercuryRestart::Particle particle;
   const double species = lines.has("indSpecies") ? lines.value("indSpecies") : NAN;
   if (!(species >= 0 && species < static_cast<double>(restart.density.size())))
-    lines.fail("the particle is of none of the species above; is the file of an old version?");
+    lines.fail(
+        "the particle belongs to none of the species above; was the file written by an old "
+        "version?");
   particle.species = static_cast<std::int32_t>(species);
   particle.radius = lines.value("radius");
   particle.inverse_mass = lines.value("invMass");
   if (!(particle.radius > 0) || particle.inverse_mass < 0)
-    lines.fail("the particle has no positive radius, or a negative mass");
+    lines.fail("the radius of the particle is not positive, or its mass is negative");
   return particle;
 }
 
@@ -132,7 +133,7 @@ MercuryRestart read_mercury_restart(const std::string& path)
     }
   }
   if (!has_step || !has_particles)
-    lines.fail("is no .restart of MercuryDPM: 'timeStep' and 'Particles' are needed");
+    lines.fail("is not a .restart of MercuryDPM: 'timeStep' and 'Particles' are missing");
   return restart;
 }
 

@@ -8,7 +8,7 @@
 
 namespace grseg {
 
-/// What MercuryDPM's .restart says that its .data and .fstat do not (DPMBase::write, versions 0.10
+/// What MercuryDPM's .restart states beyond its .data and .fstat (DPMBase::write, versions 0.10
 /// to 1.0): words and values in turn, a line per object.
 struct MercuryRestart {
   struct Particle {
@@ -26,7 +26,7 @@ struct MercuryRestart {
 };
 
 /// UsageError where the file is missing, FormatError naming the line where it is damaged or has a
-/// periodic boundary that is none of the axes'.
+/// periodic boundary that is not along an axis.
 MercuryRestart read_mercury_restart(const std::string& path);
 
 }  // namespace grseg

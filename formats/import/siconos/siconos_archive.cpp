@@ -4,6 +4,7 @@
 #include "formats/import/common/enclosing_cell.hpp"
 #include "formats/import/common/file_list.hpp"
 #include "formats/import/siconos/siconos_bodies.hpp"
+#include "formats/import/siconos/siconos_steps.hpp"
 #include "formats/import/siconos/siconos_table.hpp"
 
 #include <fmt/format.h>
@@ -16,35 +17,6 @@ namespace {
 
 using namespace hdf5;
 using namespace siconos;
-
-/// First time and length of the steps that /data/solv tells of, a row each.
-struct Steps {
-  double first = 0, length = 0;
-};
-
-Steps steps_of(hid_t file, const std::string& path)
-{
-  const CheckedDataset table(file, "/data/solv", H5T_FLOAT, 2, path);
-  table.require(1, 1, true);
-  table.require(0, 2, true);
-  const auto rows = table.dims()[0], columns = table.dims()[1];
-  std::vector<float> values(rows * columns);
-  table.read_all(H5T_NATIVE_FLOAT, values.data());
-  const auto time = [&](hsize_t k) { return static_cast<double>(values[k * columns]); };
-  const Steps steps{time(0), (time(rows - 1) - time(0)) / static_cast<double>(rows - 1)};
-  if (!(steps.length > 0) || !std::isfinite(steps.length))
-    throw FormatError(
-        fmt::format("{}: the times of /data/solv do not grow, so no step follows from them", path));
-  for (hsize_t k = 0; k < rows; ++k) {
-    const double expected = steps.first + static_cast<double>(k) * steps.length;
-    if (!(std::abs(time(k) - expected) < 0.1 * steps.length + 2.4e-7 * std::abs(expected)))
-      throw FormatError(fmt::format(
-          "{}: row {} of /data/solv is not at a multiple of {:.6g} s: the steps are not equally "
-          "long, so no force follows from the impulses",
-          path, k, steps.length));
-  }
-  return steps;
-}
 
 class SiconosArchive : public Archive {
  public:
@@ -64,12 +36,11 @@ class SiconosArchive : public Archive {
   void fill_contacts(double time, hsize_t first_row, const ArchiveGrains& grains,
                      ArchiveContacts& contacts);
   bool has_opened(const Points::Row& row, double radius) const;
-  std::size_t static_partner(const Points::Row& row, hsize_t number, double radius) const;
   std::size_t second_body(const Points::Row& row, hsize_t number, double radius) const;
 
   std::string path_;
   File file_;
-  Steps steps_;
+  SiconosSteps steps_;
   SiconosBodies bodies_;
   std::vector<std::int32_t> wall_;  // number of the wall that a body is; -1: a grain
   double static_mass_per_size_ = 0;
@@ -95,11 +66,11 @@ class SiconosArchive : public Archive {
 SiconosArchive::SiconosArchive(std::string path, File file)
     : path_(std::move(path)),
       file_(std::move(file)),
-      steps_(steps_of(file_, path_)),
+      steps_(read_siconos_steps(file_, path_)),
       bodies_(read_siconos_bodies(file_, path_)),
       places_(file_, "/data/dynamic", path_, "was it written by siconos.io.mechanics_run?"),
-      velocities_(file_, "/data/velocities", path_, "let the run write it (output_velocities)"),
-      points_(file_, "/data/cf", path_, "let the run write it (output_contact_forces)")
+      velocities_(file_, "/data/velocities", path_, "make the run write it (output_velocities)"),
+      points_(file_, "/data/cf", path_, "make the run write it (output_contact_forces)")
 {
   wall_.assign(bodies_.all.size(), -1);
   std::int32_t next_wall = 0;
@@ -133,7 +104,7 @@ std::size_t SiconosArchive::body_of(std::int64_t id, const char* table, hsize_t 
                                    [](const SiconosBody& b, std::int64_t k) { return b.id < k; });
   if (at == bodies_.all.end() || at->id != id || at->mass == 0)
     throw FormatError(
-        fmt::format("{}: row {} of {} speaks of body {}, which is no mobile one of /data/input",
+        fmt::format("{}: row {} of {} names body {}, which is not a mobile body of /data/input",
                     path_, row, table, id));
   return static_cast<std::size_t>(at - bodies_.all.begin());
 }
@@ -170,8 +141,8 @@ void SiconosArchive::fill_places(hsize_t first_row, ArchiveGrains& grains)
     if (grain_of_[b] >= 0) {  // a run that was continued says twice where it stood
       if (grains.position[static_cast<std::size_t>(grain_of_[b])] == position) continue;
       throw FormatError(
-          fmt::format("{}: row {} of /data/dynamic: times in single precision no "
-                      "longer tell one step from the next; write fewer steps",
+          fmt::format("{}: row {} of /data/dynamic: single precision no longer "
+                      "separates the times of two steps; write fewer steps",
                       path_, first_row + k));
     }
     add_grain(b, position, grains);
@@ -214,31 +185,18 @@ bool SiconosArchive::has_opened(const Points::Row& row, double radius) const
   return same && vector_at(row, velocity_at).norm() * steps_.length > 1e-5 * radius;
 }
 
-std::size_t SiconosArchive::static_partner(const Points::Row& row, hsize_t number,
-                                           double radius) const
-{
-  std::size_t nearest = 0;
-  double distance = HUGE_VAL;
-  const Vec3 point = vector_at(row, second_point_at);
-  for (std::size_t b = 0; b < bodies_.all.size() && bodies_.all[b].mass == 0; ++b) {
-    const double d = distance_to_surface(bodies_.all[b], point);
-    if (d >= distance) continue;
-    distance = d;
-    nearest = b;
-  }
-  if (!(distance < 0.1 * radius))
-    throw FormatError(fmt::format(
-        "{}: row {} of /data/cf touches something that stands still, but its second point lies on "
-        "no static body of /data/input",
-        path_, number));
-  return nearest;
-}
-
+/// Where a row names one body twice, its partner is the static one that the second point lies on.
 std::size_t SiconosArchive::second_body(const Points::Row& row, hsize_t number, double radius) const
 {
   const auto second = id_at(row, second_at);
-  return id_at(row, first_at) == second ? static_partner(row, number, radius)
-                                        : body_of(second, "/data/cf", number);
+  if (id_at(row, first_at) != second) return body_of(second, "/data/cf", number);
+  const auto found = static_body_at(bodies_, vector_at(row, second_point_at), 0.1 * radius);
+  if (!found)
+    throw FormatError(fmt::format(
+        "{}: row {} of /data/cf touches a static body, but its second point lies on no static body "
+        "of /data/input",
+        path_, number));
+  return *found;
 }
 
 void SiconosArchive::fill_contacts(double time, hsize_t first_row, const ArchiveGrains& grains,
@@ -257,7 +215,7 @@ void SiconosArchive::fill_contacts(double time, hsize_t first_row, const Archive
     const auto second = second_body(row, first_row + k, radius);
     if (grain_of_[first] < 0 || (wall_[second] < 0 && grain_of_[second] < 0))
       throw FormatError(fmt::format(
-          "{}: row {} of /data/cf speaks of a body that /data/dynamic does not have at t = {:.6g}",
+          "{}: row {} of /data/cf names a body that /data/dynamic does not have at t = {:.6g}",
           path_, first_row + k, time));
     const Vec3 force = vector_at(row, impulse_at) / steps_.length;
     const auto [at, is_new] = known.try_emplace({first, second}, contacts.size());
@@ -320,16 +278,23 @@ std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
 {
   const auto names = archive_files(files.grains, "--grains");
   if (names.size() != 1) throw UsageError("--grains: a Siconos run is one HDF5 file");
-  if (!files.contacts.empty() || !files.restart.empty() || !files.columns.empty())
-    throw UsageError(
-        "--contacts, --restart and --columns are not for Siconos: --grains names the "
-        "one file, which has all");
   silence();
   File file(H5Fopen(names[0].c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (!file.valid())
     throw FormatError(fmt::format(
-        "{}: is no HDF5 file, or is truncated or damaged; does the run still write it?", names[0]));
+        "{}: is not an HDF5 file, or is truncated or damaged; is the run still writing it?",
+        names[0]));
   return std::make_unique<SiconosArchive>(names[0], std::move(file));
 }
+
+const ArchiveFormat siconos_format{
+    .name = "siconos",
+    .open = open_siconos,
+    .takes_contacts = false,
+    .takes_columns = false,
+    .examples =
+        "  grseg-import --format siconos --grains run.hdf5 --units si --gravity 9.81 \\\n"
+        "    --slope 23 -o run.h5\n",
+    .notes = "  siconos: the file of the grains holds the contacts, too\n"};
 
 }  // namespace grseg

@@ -2,6 +2,7 @@
 #include "formats/import/siconos/siconos_bodies.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/trajectory/hdf5_attributes.hpp"
 
 #include <fmt/format.h>
 
@@ -79,8 +80,8 @@ void read_shape(hid_t file, const std::string& path, const std::string& shape, S
     body.half_sides = Vec3(size[0], size[1], size[2]) / 2;
   } else {
     attributes.fail(
-        fmt::format("is a '{}': grains are Disk or Sphere, what stands still is one of "
-                    "them or a Box2d or Box",
+        fmt::format("is a '{}': grains are Disk or Sphere, static bodies may also be "
+                    "Box2d or Box",
                     primitive));
   }
 }
@@ -91,7 +92,7 @@ SiconosBody read_body(hid_t file, const std::string& path, const std::string& na
   const Attributes attributes(file, at, path);
   const auto shapes = hdf5::names_in(file, at);
   if (shapes.size() != 1)
-    attributes.fail(fmt::format("has {} shapes where one is read", shapes.size()));
+    attributes.fail(fmt::format("has {} shapes, but only one is read", shapes.size()));
   SiconosBody body;
   const auto id = attributes.numbers("id");
   if (id.size() != 1) attributes.fail("lacks the attribute 'id'");
@@ -100,12 +101,13 @@ SiconosBody read_body(hid_t file, const std::string& path, const std::string& na
   body.mass = mass.empty() ? 0 : mass[0];
   if (body.id == 0 || (body.id < 0) != (body.mass == 0) || body.mass < 0)
     attributes.fail(
-        "has an id and a mass that do not fit: a static body has a negative id and no "
+        "has an id and a mass that contradict each other: a static body has a negative id and no "
         "mass");
   const Attributes contactor(file, at + '/' + shapes[0], path);
   read_shape(file, path, contactor.text("shape_name"), body, disc);
   const Vec3 beside = contactor.vector("translation");
-  if (body.mass > 0 && !beside.isZero()) attributes.fail("has its shape beside its centre of mass");
+  if (body.mass > 0 && !beside.isZero())
+    attributes.fail("has a shape that is not centred on its centre of mass");
   const auto turned = attributes.rotation("orientation");
   body.position = attributes.vector("translation") + turned * beside;
   body.orientation = turned * contactor.rotation("orientation");
@@ -130,14 +132,15 @@ SiconosBodies read_siconos_bodies(hid_t file, const std::string& path)
     throw FormatError(fmt::format(
         "{}: /data/input describes no grains; was it written by siconos.io.mechanics_run?", path));
   if (found_disc && found_sphere)
-    throw FormatError(fmt::format("{}: /data/ref has discs and spheres, where one is read", path));
+    throw FormatError(
+        fmt::format("{}: /data/ref has both discs and spheres, which is not read", path));
   bodies.discs = found_disc;
   std::sort(bodies.all.begin(), bodies.all.end(),
             [](const SiconosBody& a, const SiconosBody& b) { return a.id < b.id; });
   for (std::size_t k = 1; k < bodies.all.size(); ++k)
     if (bodies.all[k].id == bodies.all[k - 1].id)
       throw FormatError(
-          fmt::format("{}: /data/input has two bodies of id {}", path, bodies.all[k].id));
+          fmt::format("{}: /data/input has two bodies with id {}", path, bodies.all[k].id));
   return bodies;
 }
 
@@ -146,6 +149,19 @@ double distance_to_surface(const SiconosBody& body, const Vec3& point)
   if (body.radius > 0) return std::abs((point - body.position).norm() - body.radius);
   const Vec3 inside = body.orientation.inverse() * (point - body.position);
   return std::abs((inside.cwiseAbs() - body.half_sides).maxCoeff());
+}
+
+std::optional<std::size_t> static_body_at(const SiconosBodies& bodies, const Vec3& point,
+                                          double distance)
+{
+  std::optional<std::size_t> nearest;
+  for (std::size_t b = 0; b < bodies.all.size() && bodies.all[b].mass == 0; ++b) {
+    const double d = distance_to_surface(bodies.all[b], point);
+    if (!(d < distance)) continue;
+    distance = d;
+    nearest = b;
+  }
+  return nearest;
 }
 
 }  // namespace grseg

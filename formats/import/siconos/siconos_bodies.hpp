@@ -5,6 +5,7 @@
 #include "formats/trajectory/hdf5.hpp"
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 namespace grseg {
@@ -32,5 +33,10 @@ SiconosBodies read_siconos_bodies(hid_t file, const std::string& path);
 
 /// How far `point` is from the surface of `body`.
 double distance_to_surface(const SiconosBody& body, const Vec3& point);
+
+/// Entry in `bodies.all` of the static body whose surface is nearest to `point`, if it is nearer
+/// than `distance`.
+std::optional<std::size_t> static_body_at(const SiconosBodies& bodies, const Vec3& point,
+                                          double distance);
 
 }  // namespace grseg

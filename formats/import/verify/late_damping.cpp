@@ -13,7 +13,7 @@ std::size_t row(std::int32_t index)
   return static_cast<std::size_t>(index);
 }
 
-/// What a contact pushes with, split along its normal and the tangent a quarter turn to the left.
+/// The force of a contact along its normal and along the tangent, a quarter turn to the left.
 struct Split {
   Vec2 n, t;
   double normal, tangential;
@@ -53,8 +53,8 @@ double friction_of(const ContactList& contacts)
 
 }  // namespace
 
-LateDamping take_late_damping(const Grains& grains, const Frame& frame, double step, double inertia,
-                              std::vector<Vec2>& defect)
+LateDamping subtract_late_damping(const Grains& grains, const Frame& frame, double step,
+                                  double inertia, std::vector<Vec2>& defect)
 {
   const auto& contacts = frame.contacts;
   const auto spin_up = angular_accelerations(grains, contacts, inertia);

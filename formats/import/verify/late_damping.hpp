@@ -8,7 +8,7 @@
 namespace grseg {
 
 /// Programs that step by velocity Verlet move grains by contact forces at the velocities of
-/// mid-step, but some evaluate what they write anew, when velocities have gone half a step further
+/// mid-step, but some re-evaluate the forces for output, with velocities half a step later
 /// (LAMMPS: Pair::single()). Damping then differs, and grains do not balance, by
 ///   c m_eff (a_i - a_j) h/2 per contact, along the normal and, where it does not slide, the
 ///   tangent,
@@ -16,14 +16,14 @@ namespace grseg {
 /// m_i m_j/(m_i + m_j), at a boundary grain m_i; a is the acceleration, of the rims along the
 /// tangent.
 struct LateDamping {
-  double normal = 0, tangential = 0;  // c, 1/s; the least squares of what grains miss
+  double normal = 0, tangential = 0;  // c, 1/s; least squares of the missing forces
 };
 
-/// Takes from `defect` (N, per grain: contact forces + m g - force) what late damping explains of
-/// it: the coefficients, none below 0, that leave the least. `inertia` is I/(m r^2); `frame.force`
-/// must be there. A contact slides whose friction is within 1 % of the largest friction over normal
-/// force.
-LateDamping take_late_damping(const Grains& grains, const Frame& frame, double step, double inertia,
-                              std::vector<Vec2>& defect);
+/// Subtracts from `defect` (N, per grain: contact forces + m g - force) what late damping explains:
+/// the coefficients, not negative, that minimise the rest. `inertia` is I/(m r^2); `frame.force` is
+/// required. A contact counts as sliding where friction over normal force is within 1 % of its
+/// largest value.
+LateDamping subtract_late_damping(const Grains& grains, const Frame& frame, double step,
+                                  double inertia, std::vector<Vec2>& defect);
 
 }  // namespace grseg

@@ -11,11 +11,10 @@
 namespace grseg {
 namespace {
 
-/// Parts of the smaller radius: how far distances may be from what radii and overlap say (digits of
-/// the text), and, where no overlap is told, how deep soft grains overlap and how far they are
-/// apart.
+/// In units of the smaller radius: by how much a distance may differ from radii and overlap (digits
+/// of the text), and how deep soft grains may overlap and how far apart they may be.
 constexpr double distance_tolerance = 0.01, deepest = 0.3, furthest = 0.05;
-/// Part of all normal force that may pull: damping of soft grains that separate.
+/// Fraction of the normal force that may pull: damping of soft grains that separate.
 constexpr double most_pull = 0.2;
 
 std::size_t row(std::int32_t index)
@@ -38,8 +37,8 @@ Residual residual_of(const Grains& grains, const std::vector<Vec2>& defect, doub
 }  // namespace
 
 Verification::Verification(const Grains& grains, const Box& box, const Vec2& gravity,
-                           const Faithful& faithful)
-    : grains_(grains), box_(box), gravity_(gravity), faithful_(faithful)
+                           const OutputAccuracy& accuracy)
+    : grains_(grains), box_(box), gravity_(gravity), accuracy_(accuracy)
 {
 }
 
@@ -62,7 +61,7 @@ std::string Verification::pair_of(const ContactList& contacts, std::size_t c) co
   return fmt::format("grains {} and {}", i, grains_.id[row(contacts.j[c])]);
 }
 
-/// Contacts that carry force join grains that touch. Wall contacts are as the archive says.
+/// Contacts that carry force must join grains that touch. Wall contacts are not checked.
 std::optional<Complaint> Verification::geometry(const Frame& frame) const
 {
   const auto& contacts = frame.contacts;
@@ -73,18 +72,18 @@ std::optional<Complaint> Verification::geometry(const Frame& frame) const
     const double radii = grains_.radius[i] + grains_.radius[j];
     Vec2 between = frame.position[i] - frame.position[j];
     if (box_.periodic_x) between.x() -= box_.length_x * std::round(between.x() / box_.length_x);
-    const double told = radii + contacts.gap[c], distance = between.norm();
-    const bool as_told = std::abs(distance - told) <= distance_tolerance * smaller &&
-                         (contacts.branch[c] - between).norm() <= distance_tolerance * smaller;
+    const double stated = radii + contacts.gap[c], distance = between.norm();
+    const bool as_stated = std::abs(distance - stated) <= distance_tolerance * smaller &&
+                           (contacts.branch[c] - between).norm() <= distance_tolerance * smaller;
     const bool touching =
         contacts.gap[c] >= -deepest * smaller && contacts.gap[c] <= furthest * smaller;
-    if (as_told && touching) continue;
+    if (as_stated && touching) continue;
     return Complaint{
         fmt::format(
-            "{} are said to touch, but their centres are {:.6g} apart where the radii add up "
+            "{} are listed as touching, but their centres are {:.6g} apart and the radii add up "
             "to {:.6g}{}: are i and j their ids, and is the cell periodic as the archive says?",
             pair_of(contacts, c), distance, radii,
-            as_told ? "" : fmt::format(" and the archive makes it {:.6g}", told)),
+            as_stated ? "" : fmt::format(" while the archive states a distance of {:.6g}", stated)),
         true};
   }
   return std::nullopt;
@@ -100,7 +99,7 @@ std::optional<Complaint> Verification::double_rows(const Frame& frame) const
   std::sort(pairs.begin(), pairs.end());
   for (std::size_t k = 1; k < pairs.size(); ++k)
     if (pairs[k].first == pairs[k - 1].first)
-      return Complaint{fmt::format("the contact of {} is there twice; each must be listed once",
+      return Complaint{fmt::format("the contact of {} appears twice; each must be listed once",
                                    pair_of(contacts, pairs[k].second)),
                        false};
   return std::nullopt;
@@ -134,8 +133,8 @@ std::vector<Vec2> Verification::sums(const ContactList& contacts,
 std::optional<Residual> Verification::residual_with(const Frame& frame,
                                                     const std::vector<Vec2>& forces) const
 {
-  const bool told = !frame.force.empty();
-  if (!told && !before_) return std::nullopt;
+  const bool has_force = !frame.force.empty();
+  if (!has_force && !before_) return std::nullopt;
   const auto sum = sums(frame.contacts, forces);
   double scale = 0;
   for (const auto& force : forces) scale = std::max(scale, force.norm());
@@ -144,7 +143,7 @@ std::optional<Residual> Verification::residual_with(const Frame& frame,
     if (!is_mobile(grains_, g)) continue;
     const Vec2 weight = grains_.mass[g] * gravity_;
     scale = std::max(scale, weight.norm());
-    if (told)
+    if (has_force)
       defect[g] = sum[g] + weight - frame.force[g];
     else
       defect[g] = (sum[g] + before_->sums[g]) / 2 + weight -
@@ -153,8 +152,9 @@ std::optional<Residual> Verification::residual_with(const Frame& frame,
   }
   if (!(scale > 0)) return std::nullopt;
   auto residual = residual_of(grains_, defect, scale);
-  if (told && faithful_.late_forces) {
-    residual.late = take_late_damping(grains_, frame, faithful_.step, faithful_.inertia, defect);
+  if (has_force && accuracy_.late_forces) {
+    residual.late =
+        subtract_late_damping(grains_, frame, accuracy_.step, accuracy_.inertia, defect);
     residual.unexplained = residual_of(grains_, defect, scale).largest;
   }
   return residual;
@@ -162,11 +162,11 @@ std::optional<Residual> Verification::residual_with(const Frame& frame,
 
 std::optional<Complaint> Verification::balance(const Frame& frame) const
 {
-  if (!residual_ || residual_->unexplained <= faithful_.tolerance) return std::nullopt;
+  if (!residual_ || residual_->unexplained <= accuracy_.tolerance) return std::nullopt;
   return Complaint{
       fmt::format("the forces on grain {} do not add up: {:.3g} of the largest force is missing "
                   "(tolerance {:g}){}{}{}",
-                  grains_.id[residual_->grain], residual_->largest, faithful_.tolerance,
+                  grains_.id[residual_->grain], residual_->largest, accuracy_.tolerance,
                   residual_->late
                       ? fmt::format(", and {:.3g} that damping evaluated half a step late does not "
                                     "explain",
@@ -180,7 +180,7 @@ std::optional<Complaint> Verification::balance(const Frame& frame) const
       true};
 }
 
-/// What else the rows may mean, if with one of it the grains balance.
+/// Another meaning of the rows with which the grains balance, if there is one.
 std::string Verification::other_readings(const Frame& frame) const
 {
   using Reading = std::pair<const char*, std::function<Vec2(const Vec2& force, const Vec2& n)>>;
@@ -200,7 +200,7 @@ std::string Verification::other_readings(const Frame& frame) const
     for (std::size_t c = 0; c < contacts.size(); ++c)
       forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
     const auto residual = residual_with(frame, forces);
-    if (residual && residual->unexplained <= faithful_.tolerance)
+    if (residual && residual->unexplained <= accuracy_.tolerance)
       return fmt::format("; they balance to {:.2g} {}", residual->unexplained, what);
   }
   return "";

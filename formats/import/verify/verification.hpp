@@ -16,37 +16,38 @@ namespace grseg {
 struct Residual {
   double largest = 0, median = 0;
   std::size_t grain = 0;            // row of the largest
-  double unexplained = 0;           // the largest without what late damping explains
+  double unexplained = 0;           // the largest after late damping is subtracted
   std::optional<LateDamping> late;  // where that was looked for
 };
 
 /// What is wrong with a frame, as a sentence about the reading of its archive.
 struct Complaint {
   std::string sentence;
-  bool of_columns = false;  // another reading of the columns might cure it
+  bool of_columns = false;  // another --columns might help
 };
 
-/// What faithful output of a program may miss.
-struct Faithful {
-  double tolerance = 0;      // largest residual that late damping does not explain
+/// By how much the correct output of a program may fail to balance.
+struct OutputAccuracy {
+  double tolerance = 0;      // largest residual not explained by late damping
   bool late_forces = false;  // late_damping.hpp
   double step = 0;           // of the integration, then needed
   double inertia = 0.5;      // I/(m r^2) of the grains, likewise
 };
 
-/// Holds each frame of an import against what must be true of it if the archive has been read as it
-/// was meant: contacts join grains that touch, each once, push rather than pull, and add up to the
-/// force on each grain. Where the archive has no forces on grains, these are m times the difference
-/// of velocities from the frame before, and contact forces the mean of the two frames.
+/// Checks in each frame of an import what must be true if the archive has been read as it was
+/// meant: contacts join grains that touch, each is listed once, they push rather than pull, and add
+/// up to the force on each grain. Where the archive has no forces on grains, m times the difference
+/// of velocities from the frame before is used, with the mean contact forces of the two frames.
 class Verification {
  public:
-  /// In any units.
-  Verification(const Grains& grains, const Box& box, const Vec2& gravity, const Faithful& faithful);
+  /// In any consistent units.
+  Verification(const Grains& grains, const Box& box, const Vec2& gravity,
+               const OutputAccuracy& accuracy);
 
-  /// Frames in order; what is wrong with this one, if anything.
+  /// To be called for the frames in order; what is wrong with this one, if anything.
   std::optional<Complaint> check(const Frame& frame);
 
-  /// Of the last frame; none where there is nothing to compare with.
+  /// Of the last frame; empty where there is nothing to compare with.
   const std::optional<Residual>& residual() const { return residual_; }
 
  private:
@@ -64,7 +65,7 @@ class Verification {
   const Grains& grains_;
   Box box_;
   Vec2 gravity_;
-  Faithful faithful_;
+  OutputAccuracy accuracy_;
   std::optional<Residual> residual_;
 
   struct Before {

@@ -30,7 +30,7 @@ std::string complaint(const std::string& text)
   return "no complaint";
 }
 
-TEST(Table, AsJsonTellsSettingsInputsAndHistoryApart)
+TEST(Table, AsJsonSeparatesSettingsInputsAndHistory)
 {
   auto table = sample();
   table.header.insert(table.header.begin(), {{"input", "xxh3 1"}, {"history", "first \"word\""}});
@@ -66,20 +66,20 @@ TEST(Table, HeaderNumbersAreNumbers)
   EXPECT_THROW(sample().header_text("slope"), FormatError);
 }
 
-TEST(Table, ThatIsCutOffIsRefusedWithItsLine)
+TEST(Table, ThatIsTruncatedIsRefusedWithItsLine)
 {
   const auto text = sample().to_text();
   EXPECT_EQ(complaint(text.substr(0, text.size() - 1)),
-            "t.tsv: the last line has no end; the table is truncated");
+            "t.tsv: the last line is incomplete; the table is truncated");
   EXPECT_EQ(complaint("a\tb\n1\t2\n3\n"),
-            "t.tsv: line 3: 1 columns where 2 are named; is the table truncated?");
-  EXPECT_EQ(complaint("a\tb\n1\tx2\n"), "t.tsv: line 2: 'x2' is no number");
-  EXPECT_EQ(complaint(""), "t.tsv: is empty, so it is no table");
+            "t.tsv: line 3: 1 columns, but the header names 2; is the table truncated?");
+  EXPECT_EQ(complaint("a\tb\n1\tx2\n"), "t.tsv: line 2: 'x2' is not a number");
+  EXPECT_EQ(complaint(""), "t.tsv: is empty, not a table");
   EXPECT_EQ(
       complaint("\x89HDF\r\n\x1a\n"),
-      "t.tsv: is an HDF5 file where a table is needed; is it a run? grseg-stress makes its table");
+      "t.tsv: is an HDF5 file, not a table; if it is a run, make its table with grseg-stress");
   EXPECT_EQ(complaint("# only: comments\n"),
-            "t.tsv: has no line of column names, so it is no table");
+            "t.tsv: has no line of column names, so it is not a table");
 }
 
 }  // namespace

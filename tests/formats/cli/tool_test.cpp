@@ -28,7 +28,7 @@ int run(std::vector<std::string> words, const std::function<void(const po::varia
   return run_tool(static_cast<int>(argv.size()), argv.data(), info, options, body);
 }
 
-TEST(Tool, ReturnsTheExitCodeOfWhatWentWrong)
+TEST(Tool, ReturnsTheExitCodeOfTheError)
 {
   EXPECT_EQ(run({"grseg-test"}, [](const auto&) {}), 0);
   EXPECT_EQ(run({"grseg-test"}, [](const auto&) { throw RunError("disk full"); }), 1);
@@ -77,7 +77,7 @@ TEST(Tool, APresetSetsWhatIsNotGivenAndCountsAsDefault)
             0);
 }
 
-TEST(Tool, RefusesAPresetThatThereIsNot)
+TEST(Tool, RefusesAnUnknownPreset)
 {
   testing::internal::CaptureStderr();
   EXPECT_EQ(run({"grseg-test", "--preset", "loose"}, [](const auto&) { FAIL(); }), 2);
@@ -85,7 +85,7 @@ TEST(Tool, RefusesAPresetThatThereIsNot)
             "grseg-test: unknown preset 'loose'; choose paper or rigorous\n");
 }
 
-TEST(Tool, TheHistoryDoesNotTellHowManyThreadsThereWere)
+TEST(Tool, TheHistoryDoesNotDependOnTheNumberOfThreads)
 {
   const auto line = [](std::vector<std::string> words) {
     std::vector<char*> argv;

@@ -13,7 +13,7 @@ using std::numbers::pi;
 
 const Vec2 level{0, -9.8};
 
-TEST(Gravity, OfASlopeThatStandsStillIsTheSameAtAnyTime)
+TEST(Gravity, OfAFixedSlopeIsTheSameAtAnyTime)
 {
   const Gravity gravity(level);
   for (const double time : {-1.0, 0.0, 1e6}) EXPECT_EQ(gravity.at(time), level);
@@ -29,7 +29,7 @@ TEST(Gravity, TurnsDownTheSlopeFromTimeZeroOn)
   EXPECT_EQ(gravity.norm(), 9.8);
 }
 
-TEST(Gravity, OfManyStepsIsTheMeanOfThoseOfTheirMiddles)
+TEST(Gravity, OfManyStepsIsTheMeanOverTheirMiddles)
 {
   const Gravity gravity(level, 0.7);
   const double step = 0.013, last = 5.2;

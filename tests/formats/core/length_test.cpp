@@ -24,7 +24,7 @@ TEST(Length, WithoutKnownDiametersHasNoDiameterUnits)
   EXPECT_THROW(parse_length("4dS", "layer", {}), UsageError);
 }
 
-TEST(Length, ThatIsNoLengthIsRefusedByName)
+TEST(Length, ThatIsNotALengthIsRefusedByName)
 {
   for (const auto* text : {"", "dS", "4 dS", "4feet", "nan", "inf", "1e999"}) {
     try {

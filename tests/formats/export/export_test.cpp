@@ -177,7 +177,7 @@ TEST_F(Export, NormalAndTangentialForceOfALammpsRowAddUp)
   EXPECT_EQ(value["overlap"], 0);
 }
 
-TEST_F(Export, ADumpsEndingStaysBehindThatOfItsContacts)
+TEST_F(Export, TheFileOfContactsKeepsTheEndingOfTheDump)
 {
   const TrajectoryReader run(run_path);
   write(LammpsWriter(run, view_cell(run, 0), at("a.dump.gz"), false), run, 1);
@@ -204,7 +204,7 @@ TEST_F(Export, TheCellHoldsEveryGrainAndKeepsItsPeriod)
   EXPECT_EQ(lines[2].find("7 2 0.001 0.005 0 0.1 0.2 0 0.005 "), 0U);
 }
 
-TEST_F(Export, WhatIsNotFinishedLeavesNothingBehind)
+TEST_F(Export, AnUnfinishedExportLeavesNothingBehind)
 {
   const TrajectoryReader run(run_path);
   const auto cell = view_cell(run, 0);

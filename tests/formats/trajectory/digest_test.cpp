@@ -13,7 +13,7 @@
 #include <functional>
 namespace grseg {
 namespace {
-TEST(Digest, TellsAChangeOfTheLastBitOfEveryFieldAndOfWhatWentBefore)
+TEST(Digest, ChangesWithTheLastBitOfEveryFieldAndWithEarlierFrames)
 {
   const auto whole = three_grains::frame(1);
   const auto digest = frame_digest(whole, 1, false);
@@ -39,7 +39,7 @@ TEST(Digest, TellsAChangeOfTheLastBitOfEveryFieldAndOfWhatWentBefore)
   }
 }
 
-TEST(Digest, OfASinglePrecisionFileIsThatOfTheNumbersInIt)
+TEST(Digest, OfASinglePrecisionFileIsThatOfItsStoredNumbers)
 {
   const auto frame = three_grains::frame(1);
   auto rounded = frame;
@@ -85,7 +85,7 @@ TEST_F(TrajectoryMore, ABoxBetweenWallsAndALateParameterAreReadBack)
   EXPECT_EQ(reader.parameters().number("summary_height", path), 2.5);
 }
 
-TEST_F(TrajectoryMore, WhatNoRunCanHoldIsRefusedByName)
+TEST_F(TrajectoryMore, ImpossibleContentIsRefusedByName)
 {
   const auto good = three_grains::frame(0);
   auto bad = good;

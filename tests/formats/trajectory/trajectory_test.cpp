@@ -148,7 +148,7 @@ TEST_F(Trajectory, SinglePrecisionKeepsSevenDigits)
   EXPECT_NE(frame.contacts.force[1].y(), 1e-3);
 }
 
-TEST_F(Trajectory, TheDigestTellsAnyChangeInAnyFrame)
+TEST_F(Trajectory, TheDigestShowsAnyChangeInAnyFrame)
 {
   three_grains::write(path, 2);
   const auto digest = TrajectoryReader(path).digest();
@@ -241,7 +241,7 @@ TEST_F(Trajectory, AWriterKilledInTheMiddleOfAFrameLeavesWholeFramesOrIsRefused)
   EXPECT_GE(readable, 17);
 }
 
-TEST_F(Trajectory, ATornLastFrameOfAnUnfinishedRunIsLeftOut)
+TEST_F(Trajectory, ADamagedLastFrameOfAnUnfinishedRunIsLeftOut)
 {
   three_grains::write(path, 3);
   tamper([](hid_t file) {
@@ -264,9 +264,8 @@ TEST_F(Trajectory, AFileOfANewerMajorVersionIsRefused)
     H5Aclose(attribute);
     H5Gclose(group);
   });
-  EXPECT_EQ(complaint(), path +
-                             ": /h5md/modules/grseg is of version 2.0, and this grseg reads "
-                             "versions 1.x");
+  EXPECT_EQ(complaint(),
+            path + ": /h5md/modules/grseg has version 2.0, but this grseg reads versions 1.x");
 }
 
 TEST_F(Trajectory, TheSameRunGivesTheSameBytes)
@@ -281,14 +280,13 @@ TEST_F(Trajectory, TheSameRunGivesTheSameBytes)
   EXPECT_EQ(bytes(), first);
 }
 
-TEST_F(Trajectory, ARunThatIsBeingWrittenIsSaidToBe)
+TEST_F(Trajectory, ARunThatIsBeingWrittenIsReportedAsSuch)
 {
   three_grains::write(path, 1);
   const int file = open(path.c_str(), O_RDWR);
   ASSERT_EQ(flock(file, LOCK_EX), 0);  // as HDF5 does while it writes
-  EXPECT_EQ(complaint(), path +
-                             ": is being written by a run; read it when the run has ended, or a "
-                             "copy of it now");
+  EXPECT_EQ(complaint(),
+            path + ": is being written by a run; wait until the run has ended, or read a copy");
   close(file);
   EXPECT_EQ(complaint(), "no complaint");
 }
@@ -329,7 +327,7 @@ TEST_F(Trajectory, EveryTruncationIsRefusedOrReadsWholeFrames)
   }
 }
 
-TEST_F(Trajectory, ANumberThatIsNoNumberIsNamedWithItsFrame)
+TEST_F(Trajectory, ANanIsReportedWithItsFrame)
 {
   three_grains::write(path, 2);
   tamper([](hid_t file) { put(file, "/grseg/contacts/force", 5, std::nan("")); });
@@ -338,18 +336,19 @@ TEST_F(Trajectory, ANumberThatIsNoNumberIsNamedWithItsFrame)
                              "the frame is damaged");
 }
 
-TEST_F(Trajectory, AContactWithAGrainThatIsNotThereIsRefused)
+TEST_F(Trajectory, AContactWithAMissingGrainIsRefused)
 {
   three_grains::write(path, 2);
   tamper([](hid_t file) { put(file, "/grseg/contacts/j", 0, 99); });
-  EXPECT_EQ(complaint(), path + ": contact 0 of frame 0 joins grains 0 and 99, which cannot be");
+  EXPECT_EQ(complaint(),
+            path + ": contact 0 of frame 0 joins grains 0 and 99, which is impossible");
 }
 
-TEST_F(Trajectory, OffsetsThatRunBackAreRefused)
+TEST_F(Trajectory, DecreasingOffsetsAreRefused)
 {
   three_grains::write(path, 2);
   tamper([](hid_t file) { put(file, "/grseg/contacts/offset", 1, 9); });
-  EXPECT_EQ(complaint(), path + ": /grseg/contacts/offset is not increasing from 0 at entry 2");
+  EXPECT_EQ(complaint(), path + ": /grseg/contacts/offset does not increase from 0 at entry 2");
 }
 
 TEST_F(Trajectory, OffsetsBeyondTheRowsAreRefused)
@@ -357,7 +356,7 @@ TEST_F(Trajectory, OffsetsBeyondTheRowsAreRefused)
   three_grains::write(path, 1);
   tamper([](hid_t file) { put(file, "/grseg/contacts/offset", 1, 1e15); });
   EXPECT_EQ(complaint(), path +
-                             ": /grseg/contacts/i has 2 entries along dimension 0 where at least "
+                             ": /grseg/contacts/i has 2 entries along dimension 0, but at least "
                              "1000000000000000 are needed");
 }
 
@@ -368,10 +367,10 @@ TEST_F(Trajectory, AMissingDatasetIsNamed)
   EXPECT_EQ(complaint(), path + ": /particles/grains/mass is missing");
 }
 
-TEST_F(Trajectory, AFileThatIsNoHdf5IsRefused)
+TEST_F(Trajectory, AFileThatIsNotHdf5IsRefused)
 {
   std::ofstream(path) << "not HDF5";
-  EXPECT_EQ(complaint(), path + ": is no HDF5 file, or is truncated or damaged");
+  EXPECT_EQ(complaint(), path + ": is not an HDF5 file, or is truncated or damaged");
 }
 
 TEST_F(Trajectory, AMissingFileIsAUsageError)

@@ -66,7 +66,7 @@ TEST_F(Text, IsTheSamePlainAndPacked)
   EXPECT_EQ(lines_of({folder.write("a.zst", packed(text, io::zstd_compressor()))}), lines);
 }
 
-TEST_F(Text, OfPackedFilesPutOneBehindTheOtherIsReadToTheEnd)
+TEST_F(Text, OfConcatenatedPackedFilesIsReadToTheEnd)
 {
   const std::vector<std::string> both{"first", "second"};
   const io::gzip_compressor gzip;
@@ -77,7 +77,7 @@ TEST_F(Text, OfPackedFilesPutOneBehindTheOtherIsReadToTheEnd)
             both);
 }
 
-TEST_F(Text, KnowsTheLineOfTheFileThatItStandsAt)
+TEST_F(Text, KnowsItsFileAndLine)
 {
   const auto a = folder.write("a", "1\r\n2\n"), b = folder.write("b", "3\n4");
   TextSource source({a, b});
@@ -99,12 +99,12 @@ std::string with_damage(std::string bytes)
   return bytes;
 }
 
-TEST_F(Text, ThatIsPackedAndCutOffOrDamagedIsRefused)
+TEST_F(Text, ThatIsPackedAndTruncatedOrDamagedIsRefused)
 {
   const std::string at = GRSEG_TEST_INPUTS "/lammps/";
   const auto gzip = lammps_text::read(at + "elastic-atoms.dump.gz");
   const auto zstd = lammps_text::read(at + "elastic-contacts.dump.zst");
-  const std::string sentence = "damaged or cut off";
+  const std::string sentence = "damaged or truncated";
   const auto half = folder.write("a.gz", gzip.substr(0, gzip.size() / 2));
   EXPECT_TRUE(mentions(complaint_about(half), sentence));
   EXPECT_TRUE(mentions(complaint_about(folder.write("b.gz", with_damage(gzip))), sentence));
@@ -112,7 +112,7 @@ TEST_F(Text, ThatIsPackedAndCutOffOrDamagedIsRefused)
 }
 
 // The filter for zstd is silent about a stream that ends early; the line tells.
-TEST_F(Text, ThatIsPackedByZstdAndCutOffEndsInsideALine)
+TEST_F(Text, ThatIsPackedByZstdAndTruncatedEndsInsideALine)
 {
   std::string text;
   for (int k = 0; k < 100000; ++k) text += fmt::format("{}\n", k * 31);
@@ -130,7 +130,7 @@ TEST_F(Text, WithoutLinesIsNoText)
                        "line 1: is longer than a megabyte"));
 }
 
-TEST_F(Text, FilesOfAStarStandInOrderOfTheirNumbers)
+TEST_F(Text, FilesThatMatchAStarAreInOrderOfTheirNumbers)
 {
   for (const int step : {100, 20, 3}) folder.write(fmt::format("atoms.{}.dump", step), "");
   const std::vector<std::string> ordered{folder / "atoms.3.dump", folder / "atoms.20.dump",
@@ -142,7 +142,7 @@ TEST_F(Text, FilesOfAStarStandInOrderOfTheirNumbers)
   EXPECT_TRUE(natural_less("a", "a1"));
 }
 
-TEST_F(Text, IsQuotedWithoutWhatATerminalWouldObey)
+TEST_F(Text, IsQuotedWithoutControlCharacters)
 {
   EXPECT_EQ(printable("a\x1b[2J\n"), "'a?[2J?'");
   EXPECT_EQ(printable(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");

@@ -23,7 +23,8 @@ class DamagedArchive : public testing::Test {
     ASSERT_NE(at, std::string::npos);
     text.replace(at, what.size(), by);
   }
-  /// The same sentence and exit code stand in the table of docs/studies/archives.md, behind `damage`.
+  /// The same sentence and exit code stand in the table of docs/studies/archives.md, behind
+  /// `damage`.
   void expect_refusal(const std::string& damage, int code, const std::string& sentence)
   {
     auto refused = refusal(settings(folder, grains, contacts));
@@ -35,7 +36,8 @@ class DamagedArchive : public testing::Test {
     EXPECT_TRUE(mentions(refused.sentence, sentence));
     EXPECT_EQ(folder.files(), 2u) << "something was written";
     const auto row = fmt::format("| {} | {} | {} |\n", damage, refused.sentence, refused.code);
-    EXPECT_NE(manual.find(row), std::string::npos) << "docs/studies/archives.md lacks the row\n" << row;
+    EXPECT_NE(manual.find(row), std::string::npos) << "docs/studies/archives.md lacks the row\n"
+                                                   << row;
   }
 
  private:
@@ -66,14 +68,14 @@ TEST_F(DamagedArchive, BinaryNoise)
   std::mt19937 noise(1);
   for (auto& c : contacts) c = static_cast<char>(noise());
   expect_refusal("noise instead of contacts", exit_content,
-                 "stands where a line 'ITEM: ...' of a text dump is expected");
+                 "found where a text dump has a line 'ITEM: ...'");
 }
 
 TEST_F(DamagedArchive, WrongNumberOfColumns)
 {
   replace(grains, "7 2 ", "7 2 2 ");
   expect_refusal("a row with a column more", exit_content,
-                 "atoms.dump, line 24: a row of 12 columns where 11 are named");
+                 "atoms.dump, line 24: a row of 12 columns, but the header names 11");
 }
 
 TEST_F(DamagedArchive, NotANumber)
@@ -82,11 +84,11 @@ TEST_F(DamagedArchive, NotANumber)
   expect_refusal("a NaN", exit_content, "contacts.dump, line 22: 'nan' in column 4 (c_pl[1])");
 }
 
-TEST_F(DamagedArchive, AMomentThatIsThereTwice)
+TEST_F(DamagedArchive, ADuplicateMoment)
 {
   contacts += contacts_at(100);
   grains += grains_at(100);
-  expect_refusal("a moment that is there twice", exit_content,
+  expect_refusal("a duplicate moment", exit_content,
                  "step 100 comes after step 100: steps must increase");
 }
 
@@ -101,7 +103,7 @@ TEST_F(DamagedArchive, UnitsThatDiffer)
 TEST_F(DamagedArchive, WithoutABase)
 {
   while (grains.find("\n9 3") != std::string::npos) replace(grains, "\n9 3", "\n9 2");
-  expect_refusal("no base", exit_usage, "no grain is of the base (types 3)");
+  expect_refusal("no base", exit_usage, "no grain belongs to the base (types 3)");
 }
 
 TEST_F(DamagedArchive, HugeNumberOfRows)
@@ -111,7 +113,7 @@ TEST_F(DamagedArchive, HugeNumberOfRows)
                  "line 24: the archive ends in a row");
   replace(grains, "2000000000", "99999999999999");
   expect_refusal("a count of 99,999,999,999,999 rows", exit_content,
-                 "line 16: '99999999999999' is no number of rows");
+                 "line 16: '99999999999999' is not a number of rows");
 }
 
 TEST_F(DamagedArchive, Empty)
@@ -120,7 +122,7 @@ TEST_F(DamagedArchive, Empty)
   expect_refusal("empty", exit_content, "the archive holds no moment with grains and contacts");
 }
 
-TEST_F(DamagedArchive, AGrainThatIsMissingOrThereTwice)
+TEST_F(DamagedArchive, AMissingOrDuplicateGrain)
 {
   const auto whole = grains;
   replace(grains, "\n7 2", "\n8 2");
@@ -128,7 +130,7 @@ TEST_F(DamagedArchive, AGrainThatIsMissingOrThereTwice)
                  "grain 8 is not among those of the first moment");
   grains = whole;
   replace(grains, "\n7 2", "\n4 2");
-  expect_refusal("a grain that is there twice", exit_content, "grain 4 is there twice");
+  expect_refusal("a duplicate grain", exit_content, "grain 4 appears twice");
 }
 
 TEST_F(DamagedArchive, AContactOfAnUnknownGrain)
@@ -138,7 +140,7 @@ TEST_F(DamagedArchive, AContactOfAnUnknownGrain)
                  "grain 5 is not among those of the first moment");
 }
 
-TEST_F(DamagedArchive, ThatEndsInAMomentIsImportedUpToThereIfSaidSo)
+TEST_F(DamagedArchive, ThatEndsInAMomentIsImportedUpToItOnRequest)
 {
   grains.resize(grains.size() - 20);
   auto s = settings(folder, grains, contacts);
@@ -147,7 +149,7 @@ TEST_F(DamagedArchive, ThatEndsInAMomentIsImportedUpToThereIfSaidSo)
   EXPECT_EQ(TrajectoryReader(s.output).size(), 1u);
 }
 
-TEST_F(DamagedArchive, CutOffAnywhereIsRefusedOrImportedWhole)
+TEST_F(DamagedArchive, TruncatedAnywhereIsRefusedOrImportedWhole)
 {
   auto s = settings(folder, grains, contacts);
   s.overwrite = true;

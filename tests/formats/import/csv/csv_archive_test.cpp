@@ -81,7 +81,7 @@ void Csv::expect_the_same(const std::string& grains, const std::string& contacts
   EXPECT_EQ(moments[1].grains.id, (std::vector<std::int64_t>{9, 7}));
 }
 
-TEST_F(Csv, CommasSemicolonsTabsAndBlanksSetColumnsApart)
+TEST_F(Csv, CommasSemicolonsTabsAndBlanksSeparateColumns)
 {
   for (const char* separator : {",", ";", "\t", " ", "  ", ", "})
     expect_the_same(with(grain_table, ",", separator), with(contact_table, ",", separator));
@@ -103,7 +103,7 @@ TEST_F(Csv, MomentsAreMatchedByTime)
   EXPECT_EQ(archive->remarks().size(), 2u);
 }
 
-TEST_F(Csv, PeriodIsToldAboveTheNames)
+TEST_F(Csv, PeriodIsGivenAboveTheNames)
 {
   const auto moment = read("# periodic: x 0 0.35\n" + grain_table, contact_table).at(0);
   EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, false, false}));
@@ -127,15 +127,16 @@ TEST_F(Csv, DamageIsNamedByLine)
 {
   const auto grains = [&](const std::string& text) { return complaint(text, contact_table); };
   EXPECT_NE(grains("").find("the table is empty"), std::string::npos);
-  EXPECT_NE(grains("time,id,x,vx,vy\n").find("there is no column y"), std::string::npos);
-  EXPECT_NE(grains(with(grain_table, "radius", "r,d,t")).find("two columns are time"),
+  EXPECT_NE(grains("time,id,x,vx,vy\n").find("no column y"), std::string::npos);
+  EXPECT_NE(grains(with(grain_table, "radius", "r,d,t")).find("two columns are named time"),
             std::string::npos);
   EXPECT_NE(grains(with(grain_table, "0.6,9,", "0.6,")).find("line 4: a row of 7 numbers"),
             std::string::npos);
   EXPECT_NE(grains(with(grain_table, "0.6", "0.4")).find("time 0.4 comes after time 0.5"),
             std::string::npos);
-  EXPECT_NE(grains(with(grain_table, "0.5,7", "0.5,7.5")).find("row 1 of that time: 7.5 is no id"),
-            std::string::npos);
+  EXPECT_NE(
+      grains(with(grain_table, "0.5,7", "0.5,7.5")).find("row 1 of that time: 7.5 is not an id"),
+      std::string::npos);
   EXPECT_NE(grains(with(grain_table, "0.105", "nan")).find("'nan' in column 4"), std::string::npos);
   auto all = files(grain_table.substr(0, grain_table.size() - 4), contact_table);
   EXPECT_THROW(all_of(*open_csv(all)), TruncatedArchive);

@@ -39,7 +39,7 @@ class Dump : public testing::Test {
   }
 };
 
-TEST_F(Dump, HeaderTellsUnitsTimeStepAndWhichBoundariesArePeriodic)
+TEST_F(Dump, HeaderGivesUnitsTimeStepAndWhichBoundariesArePeriodic)
 {
   DumpReader dump(
       {folder.write("atoms.dump", "ITEM: UNITS\nsi\nITEM: TIME\n0.25\n" +
@@ -53,7 +53,7 @@ TEST_F(Dump, HeaderTellsUnitsTimeStepAndWhichBoundariesArePeriodic)
   EXPECT_EQ(dump.header().columns, (std::vector<std::string>{"id", "x"}));
 }
 
-TEST_F(Dump, RowsMayBePassedOverAndTheirLabelBeAnyWord)
+TEST_F(Dump, RowsMayBeSkippedAndHaveAnyLabel)
 {
   DumpReader dump({folder.write("c.dump", block("CONTACTS", 1, "a b", {"1 2", "3 4"}) +
                                               block("CONTACTS", 2, "a b", {"5 6"}))});
@@ -77,7 +77,7 @@ TEST_F(Dump, PositionsMayBePlainUnwrappedOrScaledByTheCell)
   EXPECT_TRUE(scaled.position[0].isApprox(Vec3(0.05, 0.0175, 0)));
 }
 
-TEST_F(Dump, RadiusMayBeToldByTheDiameterAndUnknownColumnsMayHoldWords)
+TEST_F(Dump, RadiusMayBeGivenByTheDiameterAndUnknownColumnsMayHoldWords)
 {
   const auto grains =
       grains_of(block("ATOMS", 0, "element diameter id x y", {"Si 0.01 12 0 0", "C 0.005 3 0 0"}));
@@ -104,22 +104,23 @@ TEST_F(Dump, SentencesNameTheLine)
     text.replace(text.find(what), what.size(), by);
     return complaint(text);
   };
-  EXPECT_TRUE(mentions(with("2 0.5", "2 0.5 3"), "line 11: a row of 3 columns where 2 are named"));
+  EXPECT_TRUE(
+      mentions(with("2 0.5", "2 0.5 3"), "line 11: a row of 3 columns, but the header names 2"));
   EXPECT_TRUE(mentions(with("2 0.5", "ITEM: T"), "line 11: 'ITEM:' in column 1 (id)"));
   EXPECT_TRUE(mentions(with("1 0.5", "0x1 0.5"), "line 10: '0x1' in column 1 (id)"));
   EXPECT_TRUE(mentions(with("ATOMS\n2", "ATOMS\n3"), "line 11: the archive ends in a row"));
-  EXPECT_TRUE(mentions(with("ATOMS\n2", "ATOMS\n-2"), "line 4: '-2' is no number of rows"));
-  EXPECT_TRUE(mentions(with("TIMESTEP\n5", "TIMESTEP\n5.5"), "line 2: '5.5' is no time step"));
-  EXPECT_TRUE(mentions(with("0 0.1", "0 nan"), "line 6: '0 nan' is no pair of bounds"));
+  EXPECT_TRUE(mentions(with("ATOMS\n2", "ATOMS\n-2"), "line 4: '-2' is not a number of rows"));
+  EXPECT_TRUE(mentions(with("TIMESTEP\n5", "TIMESTEP\n5.5"), "line 2: '5.5' is not a time step"));
+  EXPECT_TRUE(mentions(with("0 0.1", "0 nan"), "line 6: '0 nan' is not a pair of bounds"));
   EXPECT_TRUE(mentions(with("0 0.1", "0 0.1 0.02"), "line 6: the cell is tilted"));
   EXPECT_TRUE(
-      mentions(with("ITEM: NUMBER", "ITEM: SUM"), "line 3: 'ITEM: SUM OF ATOMS' is no part"));
+      mentions(with("ITEM: NUMBER", "ITEM: SUM"), "line 3: 'ITEM: SUM OF ATOMS' is not part"));
   EXPECT_TRUE(mentions(complaint(good + good), "line 13: step 5 comes after step 5"));
   EXPECT_TRUE(mentions(complaint("ITEM: UNITS\nsi\n" + good + "ITEM: UNITS\ncgs\n"),
                        "line 15: units 'cgs' after units 'si'"));
 }
 
-TEST_F(Dump, PairsAreMatchedByStepAndWhatIsLeftOverIsTold)
+TEST_F(Dump, PairsAreMatchedByStepAndTheRestIsReported)
 {
   const auto blocks = [&](const char* name, const std::vector<int>& steps) {
     std::string text;
@@ -139,7 +140,7 @@ TEST_F(Dump, PairsAreMatchedByStepAndWhatIsLeftOverIsTold)
   EXPECT_TRUE(mentions(pair.remarks()[1], "2 moments have contacts but no grains"));
 }
 
-TEST_F(Dump, TimesTellTheLengthOfAStep)
+TEST_F(Dump, TimesGiveTheLengthOfAStep)
 {
   const auto at = [](const std::string& time, int step) {
     return "ITEM: TIME\n" + time + "\n" + block("ATOMS", step, "id x", {"1 0.5"});

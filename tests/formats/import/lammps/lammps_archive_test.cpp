@@ -84,7 +84,7 @@ TEST_F(Lammps, NormalForcesAloneAreRefusedAndTheColumnsThatFitAreNamed)
 }
 
 // Headers are c_pl[3]: thirteen columns may be the ten with others between them.
-TEST_F(Lammps, TheRecipeIsTakenOnlyWhereGrainsBalanceForNamesCarryNoMeaning)
+TEST_F(Lammps, TheRecipeIsAcceptedOnlyWhereGrainsBalance)
 {
   EXPECT_EQ(import_archive(at_rest(), "").columns, recipe);
   std::vector<std::string> rows;
@@ -99,15 +99,15 @@ TEST_F(Lammps, TheRecipeIsTakenOnlyWhereGrainsBalanceForNamesCarryNoMeaning)
   EXPECT_EQ(refusal(s).code, 0) << refusal(s).sentence;
 }
 
-TEST_F(Lammps, FewerThanTheTenColumnsNeedAWord)
+TEST_F(Lammps, FewerThanTheTenColumnsNeedAMapping)
 {
   auto s = settings(folder, grains_at(0),
                     block("ENTRIES", 0, "index a b c d", {"1 4 7 0 0", "2 7 9 0 0"}));
   EXPECT_EQ(refusal(s).code, exit_usage);
-  EXPECT_TRUE(mentions(refusal(s).sentence, "say it with --columns, as in i=2,j=3"));
+  EXPECT_TRUE(mentions(refusal(s).sentence, "give it with --columns, as in i=2,j=3"));
 }
 
-TEST_F(Lammps, ColumnsMayBeToldByNameAndOneByOne)
+TEST_F(Lammps, ColumnsMayBeGivenByNameAndOneByOne)
 {
   auto s = at_rest();
   s.files.columns = "i=c_pr[1],j=c_pr[2],fx=c_pl[2],fy=c_pl[3],tx=8,ty=9";
@@ -117,14 +117,14 @@ TEST_F(Lammps, ColumnsMayBeToldByNameAndOneByOne)
   EXPECT_TRUE(mentions(refusal(s).sentence, "j=c_pr[7], but"));
 }
 
-TEST_F(Lammps, ColumnsThatCarryTheirMeaningInTheirNamesNeedNoWord)
+TEST_F(Lammps, ColumnsNamedByTheirMeaningNeedNoMapping)
 {
   auto s = settings(folder, grains_at(0),
                     block("ENTRIES", 0, "index i j dist fx fy fz tx ty tz", contact_rows()));
   EXPECT_EQ(import_archive(s, "").columns, "i=i,j=j,fx=fx,fy=fy,fz=fz,tx=tx,ty=ty,tz=tz,dist=dist");
 }
 
-TEST_F(Lammps, ForceOnTheOtherGrainIsFoundOut)
+TEST_F(Lammps, ForceOnTheOtherGrainIsDetected)
 {
   auto s = at_rest();
   s.files.columns = "i=3,j=2,dist=4,force=5,tangential=8";
@@ -134,12 +134,12 @@ TEST_F(Lammps, ForceOnTheOtherGrainIsFoundOut)
   EXPECT_TRUE(mentions(refused.sentence, "with the opposite sign, the force being that on j"));
 }
 
-TEST_F(Lammps, ContactsInTwoRowsAreFoundOut)
+TEST_F(Lammps, ContactsInTwoRowsAreDetected)
 {
   auto rows = contact_rows();
   rows.push_back(contact_row(4, 7, 0.0075, small_mass, true));
   const auto s = settings(folder, grains_at(0), block("ENTRIES", 0, contact_columns, rows));
-  EXPECT_TRUE(mentions(refusal(s).sentence, "the contact of grains 7 and 4 is there twice"));
+  EXPECT_TRUE(mentions(refusal(s).sentence, "the contact of grains 7 and 4 appears twice"));
 }
 
 TEST_F(Lammps, ContactsOfBaseGrainsAmongThemselvesAreLeftOut)
@@ -171,7 +171,7 @@ TEST_F(Lammps, AGrainOnAWallThatIsNotInTheDumpDoesNotBalance)
   EXPECT_TRUE(mentions(refusal(s).sentence, "the forces on grain 2 do not add up"));
 }
 
-TEST_F(Lammps, ABalanceToFivePercentIsFaithfulAndMoreIsNotUnlessAccepted)
+TEST_F(Lammps, ABalanceToFivePercentIsAcceptedAndMoreOnlyOnRequest)
 {
   const auto missing = [&](double part) {
     auto contacts = contact_rows();
@@ -190,7 +190,7 @@ TEST_F(Lammps, ABalanceToFivePercentIsFaithfulAndMoreIsNotUnlessAccepted)
 }
 
 // 2D discs need density/disc, or else LAMMPS gives them the mass of spheres.
-TEST_F(Lammps, MassesTellDiscsFromSpheres)
+TEST_F(Lammps, MassesDistinguishDiscsFromSpheres)
 {
   auto s = at_rest();
   s.grains = "spheres";
@@ -288,7 +288,7 @@ TEST_F(Lammps, UnwrappedPositionsAreWrappedAndTheirPeriodsCounted)
   EXPECT_EQ(frame.image[0][0], -3);
 }
 
-TEST_F(Lammps, PeriodsThatAreToldAreKept)
+TEST_F(Lammps, GivenPeriodsAreKept)
 {
   auto rows = grain_rows();
   for (auto& row : rows) row += " -2";
@@ -323,11 +323,11 @@ TEST_F(Lammps, AllThatIsMissingIsNamedInOneSentence)
   EXPECT_FALSE(mentions(refused.sentence, "--density")) << "masses are in the archive";
 }
 
-TEST_F(Lammps, UnitsWithoutDimensionNeedToBeSaid)
+TEST_F(Lammps, DimensionlessUnitsMustBeGiven)
 {
   auto s = settings(folder, "ITEM: UNITS\nlj\n" + grains_at(0), contacts_at(0));
   s.units.reset();
-  EXPECT_TRUE(mentions(refusal(s).sentence, "units lj: say what they are in m, s and kg"));
+  EXPECT_TRUE(mentions(refusal(s).sentence, "units lj: give them in m, s and kg"));
   s.units = "0.5:0.1:2";
   const auto frame = frame_of(s);
   EXPECT_NEAR(frame.position[1].y(), 0.005 * 0.5, 1e-17);
@@ -341,7 +341,7 @@ TEST_F(Lammps, UnitsWithoutDimensionNeedToBeSaid)
 // The true thing: Debian's lammps on chute.in, whose gran/hooke has gamma_n = 100 and
 // gamma_t = 50, and without
 // damping.
-TEST_F(Lammps, WhatATrueArchiveMissesIsTheDampingOfItsInput)
+TEST_F(Lammps, TheMissingForceOfARealArchiveIsTheDampingOfItsInput)
 {
   ImportSettings s;
   s.format = "lammps";

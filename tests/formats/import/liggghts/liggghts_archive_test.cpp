@@ -72,7 +72,7 @@ class Liggghts : public testing::Test {
   }
 };
 
-TEST(LiggghtsColumns, StandInTheOrderOfTheSourceWhateverThatOfTheKeywords)
+TEST(LiggghtsColumns, AreInTheOrderOfTheSourceWhateverTheOrderOfTheKeywords)
 {
   const auto header = header_of(13);
   const std::string mapping = "i=7,j=8,fx=10,fy=11,fz=12,overlap=13";
@@ -80,7 +80,7 @@ TEST(LiggghtsColumns, StandInTheOrderOfTheSourceWhateverThatOfTheKeywords)
   EXPECT_EQ(liggghts_mapping("delta,force,id,pos", header), mapping);
 }
 
-TEST(LiggghtsColumns, DeltaStandsBeforeTheContactPointNotBehindIt)
+TEST(LiggghtsColumns, DeltaIsBeforeTheContactPoint)
 {
   // The manual: contactArea, heatFlux, contactPoint, and no delta.
   EXPECT_EQ(liggghts_mapping("id,force,contactPoint,delta,contactArea", header_of(11)),
@@ -105,7 +105,7 @@ TEST(LiggghtsColumns, LengthOfTheHistoryDependsOnTheModel)
 {
   EXPECT_EQ(liggghts_mapping("id,force,history:1,delta", header_of(8)),
             "i=1,j=2,fx=4,fy=5,fz=6,overlap=8");
-  EXPECT_NE(refusal("id,force,history:x", header_of(8)).find("no keyword"), std::string::npos);
+  EXPECT_NE(refusal("id,force,history:x", header_of(8)).find("not a keyword"), std::string::npos);
 }
 
 TEST(LiggghtsColumns, WithoutVelocitiesTheSameNumberMeansSomethingElse)
@@ -120,7 +120,8 @@ TEST(LiggghtsColumns, WithoutVelocitiesTheSameNumberMeansSomethingElse)
 TEST(LiggghtsColumns, WhatIsMissingIsNamed)
 {
   EXPECT_NE(refusal("pos,force", header_of(9)).find("id, and force"), std::string::npos);
-  EXPECT_NE(refusal("id,forces", header_of(6)).find("'forces' is no keyword"), std::string::npos);
+  EXPECT_NE(refusal("id,forces", header_of(6)).find("'forces' is not a keyword"),
+            std::string::npos);
   EXPECT_NE(refusal("id,force", header_of(12)).find("6 columns"), std::string::npos);
   EXPECT_NE(refusal("id,force", header_of(6, "v_x")).find("fx=4"), std::string::npos)
       << "names that do not tell count from the left";
@@ -143,7 +144,7 @@ TEST_F(Liggghts, EverySelectionOfColumnsIsTheSameContacts)
   }
 }
 
-TEST_F(Liggghts, GrainsBalanceAsFarAsForcesEvaluatedAnewDo)
+TEST_F(Liggghts, GrainsBalanceWithinTheErrorOfReevaluatedForces)
 {
   double worst = 0;
   for (const auto& moment : all_of(*open_liggghts(files("contacts-full35.dump")))) {
@@ -155,7 +156,7 @@ TEST_F(Liggghts, GrainsBalanceAsFarAsForcesEvaluatedAnewDo)
   EXPECT_GT(worst, 1e-4);
 }
 
-TEST_F(Liggghts, OverlapIsTheDeltaOfSixDigitsNotADifferenceOfPositionsOfSix)
+TEST_F(Liggghts, OverlapIsDeltaNotADifferenceOfRoundedPositions)
 {
   const auto frame_of = [this](const char* contacts) {
     const auto s = settings(files(contacts));
@@ -165,12 +166,12 @@ TEST_F(Liggghts, OverlapIsTheDeltaOfSixDigitsNotADifferenceOfPositionsOfSix)
     run.read(3, frame);
     return frame;
   };
-  const auto told = frame_of("contacts-full35.dump").contacts;
+  const auto stated = frame_of("contacts-full35.dump").contacts;
   const auto found = frame_of("contacts-default25.dump").contacts;
-  ASSERT_EQ(told.size(), 4u);  // two more are between grains of the base
-  EXPECT_EQ(told.gap[0], -5.6389e-05);
+  ASSERT_EQ(stated.size(), 4u);  // two more are between grains of the base
+  EXPECT_EQ(stated.gap[0], -5.6389e-05);
   // Differences of the 6-digit positions beside them are off by 2e-8.
-  for (std::size_t c = 0; c < told.size(); ++c) EXPECT_NEAR(told.gap[c], found.gap[c], 1e-10);
+  for (std::size_t c = 0; c < stated.size(); ++c) EXPECT_NEAR(stated.gap[c], found.gap[c], 1e-10);
 }
 
 TEST_F(Liggghts, AWrongReadingIsRefusedAndTheRightOneNamed)
@@ -186,13 +187,13 @@ TEST_F(Liggghts, AWrongReadingIsRefusedAndTheRightOneNamed)
   EXPECT_FALSE(fs::exists(s.output));
 }
 
-TEST_F(Liggghts, ColumnsOfAnotherNumberHaveToBeTold)
+TEST_F(Liggghts, AnUnknownNumberOfColumnsNeedsAMapping)
 {
   try {
     all_of(*open_liggghts(files("contacts-part.dump")));
     ADD_FAILURE() << "six columns tell nothing";
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("say it with --columns"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("give it with --columns"), std::string::npos);
   }
 }
 

@@ -157,7 +157,7 @@ TEST_F(Mercury, DoubleRowsAreOneContactWithItsWholeForce)
   expect_frames(files({}));
 }
 
-TEST_F(Mercury, WallRowsAreWrittenTheOtherWayRound)
+TEST_F(Mercury, WallRowsHaveTheOppositeSign)
 {
   // Rows of a true archive: grain 27 sits on wall 2 at y = 0.
   const std::string block =
@@ -180,7 +180,7 @@ TEST_F(Mercury, WallRowsAreWrittenTheOtherWayRound)
   EXPECT_NEAR(contacts.force[0].x(), 0.005373722573 * 0.994345469, 1e-15);
 }
 
-TEST_F(Mercury, RestartTellsMassesFixedGrainsAndThePeriod)
+TEST_F(Mercury, RestartGivesMassesFixedGrainsAndThePeriod)
 {
   const auto archive = open_mercury(files({}));
   const auto moment = all_of(*archive).front();
@@ -198,7 +198,7 @@ TEST_F(Mercury, RestartTellsMassesFixedGrainsAndThePeriod)
   }
 }
 
-TEST_F(Mercury, InfoIsASpeciesOnlyWhereItIsSaid)
+TEST_F(Mercury, InfoIsASpeciesOnlyOnRequest)
 {
   auto all = files({.info = 7});
   EXPECT_NE(all_of(*open_mercury(all)).at(0).grains.type.at(0), 7);
@@ -233,7 +233,7 @@ TEST_F(Mercury, WithoutRestartPairsAcrossThePeriodAreRefused)
   EXPECT_NE(complaint(all).find("give --restart"), std::string::npos) << complaint(all);
 }
 
-TEST_F(Mercury, ABlockThatIsCutOffEndsTheArchiveAfterTheWholeOnes)
+TEST_F(Mercury, ATruncatedBlockEndsTheArchiveAfterTheWholeOnes)
 {
   auto all = files({});
   const auto text = data({});
@@ -261,13 +261,13 @@ TEST_F(Mercury, FilesOfDifferentRunsAndDamageAreNamedByLine)
             std::string::npos);
   EXPECT_NE(with_data("1 0.5 0 0 1 1\n1 nan 0 0 1 0 0 0\n").find("'nan' in column 2"),
             std::string::npos);
-  EXPECT_NE(with_data("-4 0.5 0 0 1 1\n").find("no number of grains"), std::string::npos);
+  EXPECT_NE(with_data("-4 0.5 0 0 1 1\n").find("not a number of grains"), std::string::npos);
   auto other = all;
   other.contacts = {file("bad.fstat", "0.5 1 2\n")};
   EXPECT_NE(complaint(other).find("begins with '# time 1'"), std::string::npos);
   other = all;
   other.restart = all.grains[0];
-  EXPECT_NE(complaint(other).find("is no .restart of MercuryDPM"), std::string::npos);
+  EXPECT_NE(complaint(other).find("is not a .restart of MercuryDPM"), std::string::npos);
   auto fewer = run.grains();
   fewer.radius.pop_back();
   other.restart = file("fewer.restart", mercury_files::restart(fewer, run));

@@ -93,7 +93,7 @@ TEST(SiconosArchive, PointsOfOnePairAddUpToOneContact)
   }
 }
 
-TEST(SiconosArchive, TimesInSinglePrecisionFindEachOther)
+TEST(SiconosArchive, TimesInSinglePrecisionMatch)
 {
   const auto moments = all_of(*open(discs));
   ASSERT_EQ(moments.size(), 80u);  // the initial state was not solved
@@ -174,7 +174,7 @@ TEST(SiconosArchive, StaticPartnersAreFoundByTheirSurface)
   EXPECT_GT(with_plate, 10u);
 }
 
-TEST(SiconosArchive, DiscsThatStandStillWeighAsTheOthersDo)
+TEST(SiconosArchive, StaticDiscsHaveTheDensityOfTheOthers)
 {
   const auto archive = open(discs);
   const auto grains = all_of(*archive).front().grains;
@@ -214,7 +214,7 @@ TEST_F(DamagedSiconos, WithoutTableOfContactsNamesTheSwitchThatWritesIt)
   EXPECT_NE(said.find("output_contact_forces"), std::string::npos) << said;
 }
 
-TEST_F(DamagedSiconos, ValuesThatAreNoNumbersAreNamedByRow)
+TEST_F(DamagedSiconos, NonFiniteValuesAreNamedByRow)
 {
   const auto said = complaint([](hid_t file) { put(file, "/data/cf", 26 * 7 + 12, NAN); });
   EXPECT_NE(said.find("row 7 of /data/cf holds a value that is not finite"), std::string::npos)
@@ -230,16 +230,16 @@ TEST_F(DamagedSiconos, StepsOfDifferentLengthGiveNoForces)
 TEST_F(DamagedSiconos, UnknownBodiesAreNamed)
 {
   const auto said = complaint([](hid_t file) { put(file, "/data/cf", 26 * 7 + 24, 99); });
-  EXPECT_NE(said.find("row 7 of /data/cf speaks of body 99"), std::string::npos) << said;
+  EXPECT_NE(said.find("row 7 of /data/cf names body 99"), std::string::npos) << said;
 }
 
-TEST_F(DamagedSiconos, CutOffFilesAndTextAreRefused)
+TEST_F(DamagedSiconos, TruncatedFilesAndTextAreRefused)
 {
   fs::copy_file(discs, path);
   fs::resize_file(path, fs::file_size(discs) / 2);
   EXPECT_NE(complaint().find("truncated or damaged"), std::string::npos);
   std::ofstream(path, std::ios::trunc) << "no hdf5";
-  EXPECT_NE(complaint().find("is no HDF5 file"), std::string::npos);
+  EXPECT_NE(complaint().find("is not an HDF5 file"), std::string::npos);
 }
 
 }  // namespace

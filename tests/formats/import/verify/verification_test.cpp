@@ -38,7 +38,7 @@ struct Scene {
   }
   Verification verification(double tolerance = 1e-10) const
   {
-    return {grains, box, gravity, Faithful{tolerance, false, 0, 0.5}};
+    return {grains, box, gravity, OutputAccuracy{tolerance, false, 0, 0.5}};
   }
   std::string complaint(double tolerance = 1e-10) const
   {
@@ -55,7 +55,7 @@ TEST(Verification, HasNoComplaintWhereForcesAddUp)
   EXPECT_EQ(verification.residual()->largest, 0);
 }
 
-TEST(Verification, ResidualIsWhatIsMissingOverTheLargestForce)
+TEST(Verification, ResidualIsTheMissingForceOverTheLargestForce)
 {
   Scene scene;
   scene.frame.contacts.force[0] = {0, 32};
@@ -87,12 +87,13 @@ TEST(Verification, ContactsJoinGrainsThatTouch)
 {
   Scene scene;
   scene.frame.position[1] = {1, 3};
-  EXPECT_TRUE(mentions(scene.complaint(), "grains 2 and 3 are said to touch, but their centres"));
+  EXPECT_TRUE(
+      mentions(scene.complaint(), "grains 2 and 3 are listed as touching, but their centres"));
   scene.frame.contacts.branch[0] = {0, 3};
   scene.frame.contacts.gap[0] = 1;
-  EXPECT_TRUE(mentions(scene.complaint(), "3 apart where the radii add up to 2: "));
+  EXPECT_TRUE(mentions(scene.complaint(), "3 apart and the radii add up to 2: "));
   scene.frame.contacts.force[0] = {0, 0};
-  EXPECT_FALSE(mentions(scene.complaint(), "said to touch")) << "rows without force may";
+  EXPECT_FALSE(mentions(scene.complaint(), "listed as touching")) << "rows without force may";
 }
 
 TEST(Verification, OverlapOfSoftGrainsIsNoGapInTheGeometry)
@@ -103,7 +104,7 @@ TEST(Verification, OverlapOfSoftGrainsIsNoGapInTheGeometry)
   scene.frame.contacts.gap[0] = -0.1;
   EXPECT_EQ(scene.complaint(), "no complaint");
   scene.frame.contacts.gap[0] = 0.02;
-  EXPECT_TRUE(mentions(scene.complaint(), "and the archive makes it 2.02"));
+  EXPECT_TRUE(mentions(scene.complaint(), "while the archive states a distance of 2.02"));
 }
 
 TEST(Verification, DampingMayPullALittle)
@@ -122,13 +123,13 @@ TEST(Verification, DampingMayPullALittle)
 
 // A disc of mass 3 that gains 2 per s upward: half a step of 0.1 later the damping 7 m v is less by
 // 7 * 3 * 2 * 0.05.
-TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsWhatIsMissing)
+TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsTheMissingForce)
 {
   Scene scene;
   scene.frame.force[1] = {0, 6};
   scene.frame.contacts.force[0] = {0, 36 - 7 * 3 * 2 * 0.05};
   Verification verification(scene.grains, scene.box, scene.gravity,
-                            Faithful{1e-10, true, 0.1, 0.5});
+                            OutputAccuracy{1e-10, true, 0.1, 0.5});
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_NEAR(verification.residual()->late->normal, 7, 1e-12);
   EXPECT_EQ(verification.residual()->late->tangential, 0);
@@ -140,7 +141,7 @@ TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsWhatIsMissing)
 }
 
 // Without forces on grains a fall from rest has v = g t, and the held grain none.
-TEST(Verification, WithoutForcesVelocitiesOfTwoMomentsTell)
+TEST(Verification, WithoutForcesVelocitiesOfTwoMomentsAreUsed)
 {
   Scene scene;
   scene.frame.force.clear();

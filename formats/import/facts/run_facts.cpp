@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/run_facts.hpp"
+#include "formats/import/facts/run_facts.hpp"
+
+#include "formats/cli/words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,7 +48,7 @@ std::optional<bool> discs_by_mass(const ArchiveGrains& grains)
   return std::nullopt;
 }
 
-/// Collects what neither archive nor command line tells.
+/// Collects what neither archive nor command line states.
 class Missing {
  public:
   template <class Value>
@@ -60,19 +62,19 @@ class Missing {
   {
     if (!list_.empty())
       throw UsageError(
-          fmt::format("the archive does not tell {}; say it", fmt::join(list_, ", nor ")));
+          fmt::format("the archive does not state {}; pass them", fmt::join(list_, ", nor ")));
   }
 
  private:
   std::vector<std::string> list_;
 };
 
-/// What was given where the archive agrees or does not tell.
+/// The value on the command line, which must agree with the archive's, or else the archive's.
 std::optional<double> either(const std::optional<double>& archive,
                              const std::optional<double>& given, const char* option)
 {
   if (archive && given && std::abs(*archive - *given) > 1e-6 * std::abs(*archive))
-    throw UsageError(fmt::format("{} is {:g} and the archive says {:.10g}; leave the option out",
+    throw UsageError(fmt::format("{} is {:g}, but the archive says {:.10g}; leave the option out",
                                  option, *given, *archive));
   return given ? given : archive;
 }
@@ -81,17 +83,16 @@ std::optional<bool> discs_or_spheres(const ArchiveFacts& archive, const ArchiveG
                                      const ImportSettings& settings)
 {
   const auto by_mass = discs_by_mass(grains);
-  const auto told = by_mass ? by_mass : archive.discs;
-  if (!settings.grains) return told;
-  if (*settings.grains != "discs" && *settings.grains != "spheres")
-    throw UsageError(fmt::format("--grains-are '{}': they are discs or spheres", *settings.grains));
-  const bool discs = *settings.grains == "discs";
-  if (told && discs != *told)
+  const auto known = by_mass ? by_mass : archive.discs;
+  if (!settings.grains) return known;
+  const bool discs =
+      choose<bool>(*settings.grains, "--grains-are", {{"discs", true}, {"spheres", false}});
+  if (known && discs != *known)
     throw UsageError(fmt::format(
         "--grains-are {}, but {}: leave the option out, or {}", *settings.grains,
         by_mass ? (discs ? "masses grow as the cube of the radius" : "masses grow as its square")
                 : "the archive says otherwise",
-        discs ? "was density/disc not set in the run?" : "say discs"));
+        discs ? "was density/disc not set in the run?" : "use --grains-are discs"));
   return discs;
 }
 
@@ -104,7 +105,7 @@ std::optional<std::string> units_of(const ArchiveFacts& archive, const ImportSet
                                  *settings.units, *archive.units));
   if (!settings.units && !known)
     throw UsageError(
-        fmt::format("the archive is in units {}: say what they are in m, s and kg with --units "
+        fmt::format("the archive is in units {}: give them in m, s and kg with --units "
                     "LENGTH:TIME:MASS",
                     *archive.units));
   return settings.units ? settings.units : archive.units;
@@ -112,13 +113,12 @@ std::optional<std::string> units_of(const ArchiveFacts& archive, const ImportSet
 
 }  // namespace
 
-RunFacts settle_facts(const ArchiveFacts& archive, const ArchiveGrains& grains,
-                      const ImportSettings& settings)
+RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveGrains& grains,
+                       const ImportSettings& settings)
 {
   if (grains.radius.empty())
     throw FormatError(
-        "the grains of the archive have no radius or diameter, without which nothing can be "
-        "imported");
+        "the grains of the archive have no radius or diameter, so they cannot be imported");
   Missing missing;
   const auto units = missing.take(units_of(archive, settings), "its units (--units si)");
   const double step =

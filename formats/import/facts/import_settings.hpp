@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/import/common/archive.hpp"
-#include "formats/import/convert/species.hpp"
+#include "formats/import/facts/species.hpp"
 #include "formats/trajectory/writer.hpp"
 
 #include <boost/program_options.hpp>
@@ -12,8 +12,8 @@
 
 namespace grseg {
 
-/// What the command line of grseg-import says. Numbers are in the units of the archive, as they
-/// stand in the other program's input; the trajectory is SI.
+/// The command line of grseg-import. Numbers are in the units of the archive, as in the other
+/// program's input; the trajectory is SI.
 struct ImportSettings {
   std::string format;
   ArchiveFiles files;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/species.hpp"
+#include "formats/import/facts/species.hpp"
 
 #include "tests/formats/import/lammps_text.hpp"
 
@@ -24,18 +24,19 @@ ArchiveGrains grains_of_diameters(const std::vector<double>& diameters)
 std::string complaint(const ArchiveGrains& grains, const SpeciesSettings& settings)
 {
   try {
-    tell_species(grains, settings);
+    assign_species(grains, settings);
   } catch (const UsageError& error) {
     return error.what();
   }
   return "no complaint";
 }
 
-TEST(Species, TwoSizesFarApartAreToldApartWhateverTheirSpread)
+TEST(Species, TwoSizesFarApartAreSeparatedWhateverTheirSpread)
 {
   SpeciesSettings settings;
   settings.boundary = "none";
-  const auto found = tell_species(grains_of_diameters({0.0048, 0.0104, 0.0052, 0.0096}), settings);
+  const auto found =
+      assign_species(grains_of_diameters({0.0048, 0.0104, 0.0052, 0.0096}), settings);
   EXPECT_EQ(found.species, (std::vector{small, large, small, large}));
   EXPECT_TRUE(mentions(found.sizes, "below 0.0074, half-way"));
 }
@@ -48,7 +49,7 @@ TEST(Species, OneSizeOrABroadMixtureIsRefusedWithItsHistogram)
   const auto broad = complaint(grains_of_diameters({1, 1.3, 1.6, 2, 2.4, 3, 11}), settings);
   EXPECT_TRUE(mentions(broad, "(1 to 2: 3, 2 to 3: 2, 3 to 4: 1, 10 to 11: 1)")) << broad;
   settings.split_diameter = 2;
-  EXPECT_EQ(tell_species(grains_of_diameters({1, 2, 3}), settings).species,
+  EXPECT_EQ(assign_species(grains_of_diameters({1, 2, 3}), settings).species,
             (std::vector{small, large, large}));
 }
 
@@ -56,7 +57,7 @@ TEST(Species, BaseGrainsDoNotCountAsASize)
 {
   SpeciesSettings settings;
   settings.boundary_ids = "11,13-14";
-  const auto found = tell_species(grains_of_diameters({1, 9, 2, 8, 7}), settings);
+  const auto found = assign_species(grains_of_diameters({1, 9, 2, 8, 7}), settings);
   EXPECT_EQ(found.species, (std::vector{small, boundary, large, boundary, boundary}));
 }
 
@@ -76,8 +77,8 @@ TEST(Species, TheArchivesOwnMarksAreTakenUnlessTypesAreNamed)
   auto grains = grains_of_diameters({1, 2, 2});
   grains.fixed = {0, 0, 1};
   grains.type = {4, 5, 6};
-  EXPECT_EQ(tell_species(grains, {}).species, (std::vector{small, large, boundary}));
-  EXPECT_EQ(tell_species(grains, by_type("5", "6", "4")).species,
+  EXPECT_EQ(assign_species(grains, {}).species, (std::vector{small, large, boundary}));
+  EXPECT_EQ(assign_species(grains, by_type("5", "6", "4")).species,
             (std::vector{boundary, small, large}));
 }
 
@@ -89,8 +90,8 @@ TEST(Species, EveryTypeMustBelongSomewhereAndOnlyOnce)
       mentions(complaint(grains, by_type("1", {}, "none")), "type 2 of grain 11 is neither"));
   EXPECT_TRUE(mentions(complaint(grains, by_type("1", "1-2", "none")),
                        "type 1 of grain 10 is in --small and in"));
-  EXPECT_TRUE(
-      mentions(complaint(grains, by_type("1", "2", "7")), "no grain is of the base (types 7)"));
+  EXPECT_TRUE(mentions(complaint(grains, by_type("1", "2", "7")),
+                       "no grain belongs to the base (types 7)"));
   grains.type.clear();
   EXPECT_TRUE(mentions(complaint(grains, by_type("1", "2", "7")), "--boundary names types, but"));
 }

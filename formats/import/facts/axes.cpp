@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/axes.hpp"
+#include "formats/import/facts/axes.hpp"
 
 #include <fmt/format.h>
 
@@ -97,7 +97,8 @@ GravityText parse_gravity(const std::string& text)
   if (good && numbers.size() == 1 && numbers[0] >= 0) return {numbers[0], std::nullopt};
   if (good && numbers.size() == 3) return {std::nullopt, Vec3(numbers[0], numbers[1], numbers[2])};
   throw UsageError(fmt::format(
-      "--gravity '{}' is neither a magnitude nor three components, as in 9.8 or 3.8,-9.0,0", text));
+      "--gravity '{}' is neither a magnitude nor three components, such as 9.8 or 3.8,-9.0,0",
+      text));
 }
 
 Plane plane_of(const std::string& letters, const GravityText& gravity, std::optional<double> slope)
@@ -113,7 +114,7 @@ Plane plane_of(const std::string& letters, const GravityText& gravity, std::opti
   const Vec3 g = *gravity.vector;
   if (std::abs(axes.out_of_plane(g)) > 1e-6 * g.norm())
     throw UsageError(fmt::format(
-        "gravity ({:g}, {:g}, {:g}) leaves the plane of --axes {}; name the plane of the flow",
+        "gravity ({:g}, {:g}, {:g}) is not in the plane of --axes {}; name the plane of the flow",
         g.x(), g.y(), g.z(), letters));
   if (axes.in_plane(g).x() < 0 && slope.value_or(1) > 0) axes.look_from_behind();
   if (slope) axes.turn_to_slope(g, *slope);

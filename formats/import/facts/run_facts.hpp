@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/import/convert/axes.hpp"
-#include "formats/import/convert/import_settings.hpp"
-#include "formats/import/convert/units.hpp"
+#include "formats/import/facts/axes.hpp"
+#include "formats/import/facts/import_settings.hpp"
+#include "formats/import/facts/units.hpp"
 
 #include <optional>
 #include <string>
@@ -17,14 +17,14 @@ struct RunFacts {
   bool discs = true;              // false: spheres
   std::optional<double> density;  // needed where grains have no mass
   Units units;
-  std::string units_as_told;
+  std::string units_as_given;
 };
 
-/// Takes each fact from the archive or the command line. Masses beside radii of different sizes
-/// tell discs from spheres. UsageError, one sentence for all that is missing, with the options that
-/// supply it, or where archive and command line contradict each other.
-RunFacts settle_facts(const ArchiveFacts& archive, const ArchiveGrains& grains,
-                      const ImportSettings& settings);
+/// Takes each fact from the archive or the command line; discs and spheres are distinguished by the
+/// masses of grains of different radii. UsageError, one sentence with the options for all that is
+/// missing, or where archive and command line contradict each other.
+RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveGrains& grains,
+                       const ImportSettings& settings);
 
 /// Mass of every grain: the archive's own, or density times area or volume. FormatError where a
 /// grain has neither.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/axes.hpp"
+#include "formats/import/facts/axes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ double slip(const Axes& axes, const Vec3& velocity, const Vec3& angular_velocity
 }
 
 // Without slip v + omega x (r_contact - x) = 0, a product that is right-handed in whatever axes.
-TEST(Axes, ADiscThatRollsDoesSoInEveryPlane)
+TEST(Axes, ARollingDiscRollsInEveryPlane)
 {
   const double radius = 0.25;
   for (const auto& [letters, normal] : {std::pair{"xy", Vec3(0, 1, 0)},
@@ -89,7 +89,7 @@ TEST(Axes, SignsOfZerosSurvive)
   EXPECT_TRUE(std::signbit(Axes("xy").in_plane({-0.0, 1, 2}).x()));
 }
 
-TEST(Axes, WhatIsNoPlaneOrGravityIsRefused)
+TEST(Axes, AWrongPlaneOrGravityIsRefused)
 {
   for (const char* letters : {"", "x", "xx", "xw", "xyz"})
     EXPECT_THROW(Axes{letters}, UsageError) << letters;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/species.hpp"
+#include "formats/import/facts/species.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ void require_types(const ArchiveGrains& grains, const char* option)
 {
   if (grains.type.empty())
     throw UsageError(
-        fmt::format("{} names types, but the grains of the archive have none", option));
+        fmt::format("{} names types, but the grains of the archive have no types", option));
 }
 
 std::vector<bool> boundary_grains(const ArchiveGrains& grains, const SpeciesSettings& settings,
@@ -48,8 +48,8 @@ std::vector<bool> boundary_grains(const ArchiveGrains& grains, const SpeciesSett
   }
   const bool any = std::find(boundary.begin(), boundary.end(), true) != boundary.end();
   if (!any && how != "none")
-    throw UsageError(
-        fmt::format("no grain is of the base ({}); if there is none, say --boundary none", how));
+    throw UsageError(fmt::format(
+        "no grain belongs to the base ({}); if there is no base, pass --boundary none", how));
   return boundary;
 }
 
@@ -77,8 +77,8 @@ Species by_type(const ArchiveGrains& grains, std::size_t g, const NumberList& sm
   const auto type = grains.type[g];
   if (small.contains(type) == large.contains(type))
     throw UsageError(fmt::format(
-        "type {} of grain {} is {}; every type of a mobile grain belongs in one of them", type,
-        grains.id[g],
+        "type {} of grain {} is {}; every type of a mobile grain must be in exactly one of them",
+        type, grains.id[g],
         small.contains(type) ? "in --small and in --large" : "neither in --small nor in --large"));
   return large.contains(type) ? Species::large : Species::small;
 }
@@ -88,8 +88,8 @@ double diameter_that_splits(const std::vector<double>& diameter, const SpeciesSe
   if (settings.split_diameter) return *settings.split_diameter;
   if (const auto gap = gap_between_sizes(diameter)) return *gap;
   throw UsageError(fmt::format(
-      "diameters do not fall into two sizes far apart ({}); tell species apart by --small and "
-      "--large TYPES or by --split-diameter",
+      "diameters do not fall into two sizes far apart ({}); separate the species with --small and "
+      "--large TYPES or with --split-diameter",
       histogram(diameter)));
 }
 
@@ -109,7 +109,7 @@ NumberList::NumberList(const std::string& text, const std::string& option)
   }
   if (!good)
     throw UsageError(
-        fmt::format("{} '{}' is no list of numbers, as in 3 or 1,4-9, or none", option, text));
+        fmt::format("{} '{}' is not a list of numbers, such as 3 or 1,4-9, or none", option, text));
 }
 
 bool NumberList::contains(std::int64_t number) const
@@ -119,7 +119,7 @@ bool NumberList::contains(std::int64_t number) const
   });
 }
 
-SpeciesFound tell_species(const ArchiveGrains& grains, const SpeciesSettings& settings)
+SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& settings)
 {
   SpeciesFound found;
   const auto boundary = boundary_grains(grains, settings, found.base);
@@ -149,7 +149,7 @@ SpeciesFound tell_species(const ArchiveGrains& grains, const SpeciesSettings& se
 
 std::string histogram(std::vector<double> values)
 {
-  if (values.empty()) return "there are none";
+  if (values.empty()) return "no grains";
   std::sort(values.begin(), values.end());
   const double low = values.front(), width = (values.back() - low) / 10;
   if (!(width > 0)) return fmt::format("{:g}: {}", low, values.size());

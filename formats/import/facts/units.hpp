@@ -7,7 +7,7 @@
 
 namespace grseg {
 
-/// SI units that one of the archive's own is: mass in kg, of a two-dimensional flow too.
+/// The archive's units in SI; mass is in kg also in two dimensions.
 struct Units {
   double length = 1, time = 1, mass = 1;  // m, s, kg
 
@@ -15,13 +15,13 @@ struct Units {
   double acceleration() const { return length / (time * time); }
   double force() const { return mass * acceleration(); }
 
-  /// Frame and grains in the archive's units become SI.
+  /// Converts from the archive's units to SI.
   void convert(Frame& frame) const;
   void convert(Grains& grains) const;
 };
 
-/// "si", "cgs", or LENGTH:TIME:MASS in SI, as in 0.005:0.02259:2.5e-5, which a program's units
-/// without dimension (lj) need. UsageError otherwise.
+/// "si", "cgs", or LENGTH:TIME:MASS in SI, as in 0.005:0.02259:2.5e-5, which dimensionless
+/// units (lj) need. UsageError otherwise.
 Units parse_units(const std::string& text);
 
 }  // namespace grseg

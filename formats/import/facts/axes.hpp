@@ -42,9 +42,9 @@ struct GravityText {
 };
 GravityText parse_gravity(const std::string& text);
 
-/// Axes turned as gravity says, and gravity in them: a vector along which x is uphill is looked at
-/// from behind; with a slope the axes are turned until gravity has it; a magnitude needs a slope
-/// and turns nothing. UsageError where that is not told or gravity leaves the plane.
+/// Axes adjusted to gravity, and gravity in them. If x points uphill, the plane is looked at from
+/// behind; with a slope the axes are turned until gravity has this slope; a magnitude needs a slope
+/// and turns nothing. UsageError where the slope is missing or gravity is not in the plane.
 struct Plane {
   Axes axes;
   Vec2 gravity = Vec2::Zero();

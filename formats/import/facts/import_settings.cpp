@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/import_settings.hpp"
+#include "formats/import/facts/import_settings.hpp"
 
 #include "formats/import/open_archive.hpp"
 
@@ -27,22 +27,26 @@ auto files(std::vector<std::string>& place)
 
 po::options_description import_options(ImportSettings& s)
 {
-  static const auto formats = fmt::format("program: {}", fmt::join(archive_formats(), ", "));
+  std::vector<std::string> all_formats, with_restart;
+  for (const auto* format : archive_formats()) {
+    all_formats.emplace_back(format->name);
+    if (format->takes_restart) with_restart.emplace_back(format->name);
+  }
+  const auto formats = fmt::format("program: {}", fmt::join(all_formats, ", "));
+  const auto restart = fmt::format("{} only: its restart file, which holds what its others lack",
+                                   fmt::join(with_restart, ", "));
   po::options_description archive("The archive");
   archive.add_options()("format", po::value(&s.format)->value_name("NAME"), formats.c_str())(
       "grains", files(s.files.grains),
       "files with the grains, plain, .gz or .zst; '*' stands for the step of many")(
-      "contacts", files(s.files.contacts),
-      "files with the contacts; mercury: .fstat; siconos has them in the file of the grains")(
-      "restart", po::value(&s.files.restart)->value_name("FILE"),
-      "mercury alone: its .restart, which tells step, gravity, masses, species, the base")(
+      "contacts", files(s.files.contacts), "files with the contacts, likewise")(
+      "restart", po::value(&s.files.restart)->value_name("FILE"), restart.c_str())(
       "columns", po::value(&s.files.columns)->value_name("MAP"),
-      "what the columns of the contacts mean: i=2,j=3,dist=4,force=5,tangential=8; liggghts: the "
-      "keywords of its compute, too; mercury: info=species")(
+      "what the columns of the contacts mean, e.g. i=2,j=3,dist=4,force=5,tangential=8")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
-      "a text archive that ends inside a moment is imported up to there");
+      "import a text archive that ends inside a moment up to that moment");
 
-  po::options_description facts("What the archive does not tell (in its own units)");
+  po::options_description facts("What the archive does not state (in its own units)");
   facts.add_options()("units", optional(s.units, "UNITS"),
                       "si, cgs, or LENGTH:TIME:MASS of its units in m, s, kg")(
       "step", optional(s.step, "DT"), "length of a time step")(
@@ -64,23 +68,22 @@ po::options_description import_options(ImportSettings& s)
       "split-diameter", optional(species.split_diameter, "D"),
       "small below, large from here on (default: two sizes far apart)")(
       "boundary", optional(species.boundary, "TYPES"),
-      "types of base grains; none: there are none")(
+      "types of base grains; none: there is no base")(
       "boundary-ids", optional(species.boundary_ids, "IDS"), "base grains by id: 1-35,70")(
       "small-diameter", optional(s.small_diameter, "D"),
-      "nominal, unit of lengths in analyses (default: the middle of what is there)")(
+      "nominal, the unit of length in analyses (default: mid-range)")(
       "large-diameter", optional(s.large_diameter, "D"), "likewise");
 
   po::options_description output("The trajectory");
-  output.add_options()("output,o", po::value(&s.output)->value_name("FILE"), "to be written")(
+  output.add_options()("output,o", po::value(&s.output)->value_name("FILE"), "the file to write")(
       "accept-residual", optional(s.accept_residual, "R"),
-      "grains need to balance to R of the largest force, rather than to what the program's "
-      "faithful "
-      "output does")("compression",
-                     po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
-                     "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
-                                              "single precision, half the size")(
-      "overwrite", po::bool_switch(&s.overwrite), "replace the file if it is there")(
-      "quiet", po::bool_switch(&s.quiet), "no summary on standard error");
+      "accept grains that balance to R of the largest force (default: what faithful output of the "
+      "program reaches)")("compression",
+                          po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
+                          "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
+                                                   "single precision, half the size")(
+      "overwrite", po::bool_switch(&s.overwrite), "replace an existing file")(
+      "quiet", po::bool_switch(&s.quiet), "print no summary on standard error");
 
   po::options_description all;
   all.add(archive).add(facts).add(sizes).add(output);

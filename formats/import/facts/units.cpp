@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/units.hpp"
+#include "formats/import/facts/units.hpp"
 
 #include "formats/core/errors.hpp"
 

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/export/output_file.hpp"
+
+#include "formats/core/errors.hpp"
+
+#include <boost/iostreams/categories.hpp>
+#include <boost/iostreams/filter/zlib.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ios>
+
+namespace grseg {
+namespace {
+
+namespace io = boost::iostreams;
+
+constexpr std::streamsize buffer_size = 1 << 16;
+
+/// Remembers whether it failed and from then on swallows what comes: Boost reports no error that
+/// happens while a chain of filters is closed.
+struct Descriptor {
+  using char_type = char;
+  using category = io::sink_tag;
+
+  int file;
+  bool* failed;
+
+  std::streamsize write(const char* bytes, std::streamsize count) const
+  {
+    for (std::streamsize done = 0; done < count && !*failed;) {
+      const auto n = ::write(file, bytes + done, static_cast<std::size_t>(count - done));
+      if (n > 0)
+        done += n;
+      else
+        *failed = n == 0 || errno != EINTR;
+    }
+    return count;
+  }
+};
+
+struct OpenFile {
+  int number = -1;
+
+  ~OpenFile() { close(); }
+  bool close()
+  {
+    const bool closed = number < 0 || ::close(number) == 0;
+    number = -1;
+    return closed;
+  }
+};
+
+}  // namespace
+
+struct OutputFile::Stream {
+  std::string name;
+  OpenFile file;
+  bool failed = false;
+  io::filtering_ostream bytes;  // last: its destructor writes to the file
+
+  [[noreturn]] void fail() const
+  {
+    throw RunError(fmt::format("cannot write {}: is the disk full?", name));
+  }
+};
+
+OutputFile::OutputFile(const std::string& path, bool overwrite)
+    : output_(path, overwrite), stream_(std::make_unique<Stream>())
+{
+  auto& my = *stream_;
+  my.name = path;
+  my.file.number =
+      open(output_.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (my.file.number < 0)
+    throw RunError(fmt::format("cannot create {}: {}", path, std::strerror(errno)));
+  if (path.ends_with(".gz")) {
+    io::zlib_params gzip(io::zlib::best_speed);  // digits of reals hardly pack better, only slower
+    gzip.window_bits = 16 + 15;  // zlib's deflateInit2: 16 more ask for the frame of gzip
+    my.bytes.push(io::zlib_compressor(gzip), buffer_size);
+  }
+  my.bytes.push(Descriptor{my.file.number, &my.failed}, buffer_size);
+  my.bytes.exceptions(std::ios_base::badbit | std::ios_base::failbit);
+}
+
+OutputFile::~OutputFile() = default;
+
+void OutputFile::write(std::string_view bytes)
+{
+  stream_->bytes.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (stream_->failed) stream_->fail();
+}
+
+void OutputFile::close()
+{
+  auto& my = *stream_;
+  if (my.file.number < 0) return;
+  my.bytes.reset();
+  if (!my.file.close() || my.failed) my.fail();
+}
+
+void OutputFile::publish()
+{
+  close();
+  output_.publish();
+}
+
+}  // namespace grseg

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace grseg {
+
+/// A folder of files that appears whole or not at all.
+class OutputFolder {
+ public:
+  /// `mark` is a file by which an earlier export is recognised: no other folder is ever replaced,
+  /// not even with `overwrite` (UsageError).
+  OutputFolder(std::string path, std::string mark, bool overwrite);
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder();
+
+  void add_folder(const std::string& name) const;
+  void add_file(const std::string& name, std::string_view content) const;
+  /// RunError where the system refuses; a folder that was to be replaced is then back in place.
+  void publish();
+
+ private:
+  std::string path_, mark_, temporary_;
+};
+
+}  // namespace grseg

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/trajectory/hdf5.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grseg::hdf5 {
+
+/// RunError where the attribute cannot be written.
+void write_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
+void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
+
+/// The texts (at most 3 of at most 64 bytes) or integers (at most 3) of an attribute; empty where
+/// it is absent or of another kind.
+std::vector<std::string> read_texts(hid_t object, const std::string& name);
+std::vector<int> read_integers(hid_t object, const std::string& name);
+
+/// Content of the attribute `name` of the object at `path`; empty where it is absent. FormatError
+/// naming `file` where it is of another kind or longer than 4096 entries.
+std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
+                                         const std::string& name, const std::string& file);
+std::string text_in_attribute(hid_t parent, const std::string& path, const std::string& name,
+                              const std::string& file);
+
+}  // namespace grseg::hdf5

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/trajectory/stored_run.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
+#include "formats/trajectory/hdf5_attributes.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+
+namespace grseg {
+
+using namespace hdf5;
+
+namespace {
+
+// Limits far beyond any real run: a damaged size is refused before memory is allocated.
+constexpr hsize_t most_grains = 100'000'000;
+constexpr hsize_t most_frames = 100'000'000;
+constexpr hsize_t most_text = 16'000'000;
+
+/// A small cache for the index of chunks, so that memory does not grow with the number of frames,
+/// which are read one after the other.
+Properties small_index_cache()
+{
+  Properties access(H5Pcreate(H5P_FILE_ACCESS));
+  H5AC_cache_config_t cache{};
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  H5Pget_mdc_config(access, &cache);
+  cache.set_initial_size = true;
+  cache.initial_size = cache.min_size = cache.max_size = 131072;  // bytes
+  H5Pset_mdc_config(access, &cache);
+  return access;
+}
+
+/// A file that does not open is damaged, or a running simulation holds HDF5's lock on it.
+std::string why_it_does_not_open(const std::string& path)
+{
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (file >= 0) close(file);
+  return locked ? "is being written by a run; wait until the run has ended, or read a copy"
+                : "is not an HDF5 file, or is truncated or damaged";
+}
+
+}  // namespace
+
+StoredRun::StoredRun(const std::string& its_path) : path(its_path)
+{
+  silence();
+  require_file(path);
+  file = File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, small_index_cache()));
+  if (!file.valid()) fail(why_it_does_not_open(path));
+  require_version("/h5md");
+  require_version("/h5md/modules/grseg");
+  read_offset();
+  read_grains();
+  read_box();
+  read_times();
+  read_parameters();
+
+  position = element("position", H5T_FLOAT, 3);
+  velocity = element("velocity", H5T_FLOAT, 3);
+  angular_velocity = element("angular_velocity", H5T_FLOAT, 2);
+  image = element("image", H5T_INTEGER, 3);
+  has_force = exists(file, "/particles/grains/force/value");
+  if (has_force) force = element("force", H5T_FLOAT, 3);
+  contact_i = rows("i", H5T_INTEGER, 1);
+  contact_j = rows("j", H5T_INTEGER, 1);
+  contact_force = rows("force", H5T_FLOAT, 2);
+  contact_branch = rows("branch", H5T_FLOAT, 2);
+  contact_gap = rows("gap", H5T_FLOAT, 1);
+}
+
+void StoredRun::fail(const std::string& why) const
+{
+  throw FormatError(fmt::format("{}: {}", path, why));
+}
+
+template <class T>
+std::vector<T> StoredRun::constant(const std::string& name, H5T_class_t kind, hid_t type,
+                                   hsize_t count) const
+{
+  const auto dataset = open("/particles/grains/" + name, kind, 1);
+  dataset.require(0, count);
+  std::vector<T> values(count);
+  dataset.read_all(type, values.data());
+  return values;
+}
+
+CheckedDataset StoredRun::element(const std::string& name, H5T_class_t kind, int rank) const
+{
+  auto dataset = open("/particles/grains/" + name + "/value", kind, rank);
+  dataset.require(0, size(), true);
+  dataset.require(1, grains.size());
+  if (rank == 3) dataset.require(2, 2);
+  return dataset;
+}
+
+CheckedDataset StoredRun::rows(const std::string& name, H5T_class_t kind, int rank) const
+{
+  auto dataset = open("/grseg/contacts/" + name, kind, rank);
+  dataset.require(0, offset.back(), true);
+  if (rank == 2) dataset.require(1, 2);
+  return dataset;
+}
+
+void StoredRun::require_version(const std::string& module) const
+{
+  auto version = read_integers(Group(H5Gopen2(file, module.c_str(), H5P_DEFAULT)), "version");
+  if (version.size() != 2) version = {0, 0};
+  if (version[0] != 1)
+    fail(fmt::format("{} has version {}.{}, but this grseg reads versions 1.x", module, version[0],
+                     version[1]));
+}
+
+void StoredRun::read_offset()
+{
+  const auto dataset = open("/grseg/contacts/offset", H5T_INTEGER, 1);
+  if (dataset.dims()[0] < 1 || dataset.dims()[0] > most_frames)
+    fail("/grseg/contacts/offset has an impossible length");
+  offset.resize(dataset.dims()[0]);
+  dataset.read_all(H5T_NATIVE_UINT64, offset.data());
+  for (std::size_t k = 0; k < offset.size(); ++k) {
+    if (k == 0 ? offset[k] != 0 : offset[k] < offset[k - 1])
+      fail(fmt::format("/grseg/contacts/offset does not increase from 0 at entry {}", k));
+  }
+}
+
+void StoredRun::read_grains()
+{
+  const auto radius = open("/particles/grains/radius", H5T_FLOAT, 1);
+  const hsize_t count = radius.dims()[0];
+  if (count < 1 || count > most_grains) fail("/particles/grains/radius has an impossible length");
+  grains.radius = constant<double>("radius", H5T_FLOAT, H5T_NATIVE_DOUBLE, count);
+  grains.mass = constant<double>("mass", H5T_FLOAT, H5T_NATIVE_DOUBLE, count);
+  grains.id = constant<std::int32_t>("id", H5T_INTEGER, H5T_NATIVE_INT32, count);
+  grains.fixed = constant<std::uint8_t>("fixed", H5T_INTEGER, H5T_NATIVE_UINT8, count);
+  const auto species = constant<std::int32_t>("species", H5T_INTEGER, H5T_NATIVE_INT32, count);
+  for (std::size_t g = 0; g < count; ++g) {
+    if (species[g] < 0 || species[g] > 2)
+      fail(fmt::format("/particles/grains/species is {} for grain {}; 0 small, 1 large, 2 boundary",
+                       species[g], g));
+    grains.species.push_back(static_cast<Species>(species[g]));
+    if (!(grains.radius[g] > 0) || !(grains.mass[g] > 0) || !std::isfinite(grains.radius[g]) ||
+        !std::isfinite(grains.mass[g]))
+      fail(fmt::format("the radius or mass of grain {} is not positive", g));
+  }
+}
+
+void StoredRun::read_box()
+{
+  const auto edges = open("/particles/grains/box/edges", H5T_FLOAT, 1);
+  edges.require(0, 2);
+  double values[2];
+  edges.read_all(H5T_NATIVE_DOUBLE, values);
+  const Group group(H5Gopen2(file, "/particles/grains/box", H5P_DEFAULT));
+  const auto boundary = read_texts(group, "boundary");
+  if (boundary.size() != 2 || boundary[1] != "none" ||
+      (boundary[0] != "none" && boundary[0] != "periodic"))
+    fail(
+        "/particles/grains/box: boundary should be (\"periodic\",\"none\") or (\"none\",\"none\")");
+  if (!(values[0] > 0) || !std::isfinite(values[0])) fail("/particles/grains/box: edges[0] <= 0");
+  box = {values[0], values[1], boundary[0] == "periodic"};
+}
+
+void StoredRun::read_times()
+{
+  const auto step = open("/particles/grains/position/step", H5T_INTEGER, 1);
+  const auto time = open("/particles/grains/position/time", H5T_FLOAT, 1);
+  step.require(0, size(), true);
+  time.require(0, size(), true);
+  steps.resize(size());
+  times.resize(size());
+  step.read_rows(H5T_NATIVE_INT64, 0, size(), steps.data());
+  time.read_rows(H5T_NATIVE_DOUBLE, 0, size(), times.data());
+  for (std::size_t k = 0; k < size(); ++k) {
+    check_finite(&times[k], 1, "time", k);
+    if (k > 0 && (steps[k] <= steps[k - 1] || times[k] <= times[k - 1]))
+      fail(fmt::format("steps and times do not increase at frame {}", k));
+  }
+}
+
+void StoredRun::read_parameters()
+{
+  for (const auto& name : names_in(file, "/parameters")) {
+    const std::string at = "/parameters/" + name;
+    const Dataset dataset(H5Dopen2(file, at.c_str(), H5P_DEFAULT));
+    if (!dataset.valid()) continue;  // a group of a newer version
+    const Type type(H5Dget_type(dataset));
+    const Space space(H5Dget_space(dataset));
+    const int rank = H5Sget_simple_extent_ndims(space);
+    if (H5Tget_class(type) == H5T_STRING) {
+      const auto text = open(at, H5T_STRING, 0);
+      if (H5Tget_size(type) > most_text) fail(at + " is too long");
+      std::string content(H5Tget_size(type), '\0');
+      text.read_all(type, content.data());
+      content.erase(std::min(content.find('\0'), content.size()));  // padding
+      parameters.texts[name] = content;
+    } else {
+      const auto numbers = open(at, H5T_FLOAT, rank == 0 ? 0 : 1);
+      const hsize_t count = rank == 0 ? 1 : numbers.dims()[0];
+      if (count > most_frames) fail(at + " is too long");
+      std::vector<double> values(count);
+      numbers.read_all(H5T_NATIVE_DOUBLE, values.data());
+      parameters.numbers[name] = values;
+    }
+  }
+}
+
+void StoredRun::check_finite(const double* values, std::size_t count, const std::string& what,
+                             std::size_t frame) const
+{
+  for (std::size_t k = 0; k < count; ++k)
+    if (!std::isfinite(values[k]))
+      fail(fmt::format("{} is not a finite number in frame {}, entry {}; the frame is damaged",
+                       what, frame, k));
+}
+
+void StoredRun::read_vectors(const CheckedDataset& dataset, hsize_t row, std::vector<Vec2>& out,
+                             std::size_t frame) const
+{
+  out.resize(grains.size());
+  dataset.read_rows(H5T_NATIVE_DOUBLE, row, 1, out.front().data());
+  check_finite(out.front().data(), 2 * out.size(), dataset.path(), frame);
+}
+
+void StoredRun::read_contacts(std::size_t index, ContactList& contacts) const
+{
+  const hsize_t begin = offset[index], count = offset[index + 1] - begin;
+  if (count > 64 * grains.size() + 1024)
+    fail(fmt::format("frame {} claims {} contacts for {} grains; /grseg/contacts/offset is damaged",
+                     index, count, grains.size()));
+  contacts.i.resize(count);
+  contacts.j.resize(count);
+  contacts.force.resize(count);
+  contacts.branch.resize(count);
+  contacts.gap.resize(count);
+  if (count == 0) return;
+  contact_i.read_rows(H5T_NATIVE_INT32, begin, count, contacts.i.data());
+  contact_j.read_rows(H5T_NATIVE_INT32, begin, count, contacts.j.data());
+  contact_force.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.force.front().data());
+  contact_branch.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.branch.front().data());
+  contact_gap.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.gap.data());
+  check_finite(contacts.force.front().data(), 2 * count, contact_force.path(), index);
+  check_finite(contacts.branch.front().data(), 2 * count, contact_branch.path(), index);
+  check_finite(contacts.gap.data(), count, contact_gap.path(), index);
+  const auto grain_count = static_cast<std::int64_t>(grains.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    if (contacts.i[k] < 0 || contacts.i[k] >= grain_count || contacts.j[k] >= grain_count ||
+        contacts.i[k] == contacts.j[k])
+      fail(fmt::format("contact {} of frame {} joins grains {} and {}, which is impossible", k,
+                       index, contacts.i[k], contacts.j[k]));
+  }
+}
+
+}  // namespace grseg

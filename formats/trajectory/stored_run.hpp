@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+#include "formats/core/parameters.hpp"
+#include "formats/trajectory/hdf5.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// An open trajectory file: what it holds once, read and checked, and its growing datasets, whose
+/// types and shapes have been checked. Throws as TrajectoryReader does.
+struct StoredRun {
+  explicit StoredRun(const std::string& path);
+
+  std::string path;
+  hdf5::File file;
+  Grains grains;
+  Box box;
+  Parameters parameters;
+  std::vector<std::int64_t> steps;
+  std::vector<double> times;
+  std::vector<std::uint64_t> offset;
+  hdf5::CheckedDataset position, image, velocity, angular_velocity, force;
+  hdf5::CheckedDataset contact_i, contact_j, contact_force, contact_branch, contact_gap;
+  bool has_force = false;
+
+  /// FormatError naming the file.
+  [[noreturn]] void fail(const std::string& why) const;
+
+  /// The dataset at a path of the file.
+  hdf5::CheckedDataset open(const std::string& at, H5T_class_t kind, int rank) const
+  {
+    return {file, at, kind, rank, path};
+  }
+
+  /// Committed frames.
+  std::size_t size() const { return offset.size() - 1; }
+  /// FormatError naming `what` and `frame` where one of the values is not finite.
+  void check_finite(const double* values, std::size_t count, const std::string& what,
+                    std::size_t frame) const;
+  /// A row of a dataset with one vector per grain.
+  void read_vectors(const hdf5::CheckedDataset& dataset, hsize_t row, std::vector<Vec2>& out,
+                    std::size_t frame) const;
+  void read_contacts(std::size_t frame, ContactList& contacts) const;
+
+ private:
+  void require_version(const std::string& module) const;
+  void read_offset();
+  void read_grains();
+  void read_box();
+  void read_times();
+  void read_parameters();
+
+  /// A property of the grains that is the same in all frames.
+  template <class T>
+  std::vector<T> constant(const std::string& name, H5T_class_t kind, hid_t type,
+                          hsize_t count) const;
+  /// A property of the grains with a row per frame.
+  hdf5::CheckedDataset element(const std::string& name, H5T_class_t kind, int rank) const;
+  /// A property of the contacts of all frames.
+  hdf5::CheckedDataset rows(const std::string& name, H5T_class_t kind, int rank) const;
+};
+
+}  // namespace grseg
