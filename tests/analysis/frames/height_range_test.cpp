@@ -34,14 +34,14 @@ TEST(HeightRange, RefusesASingleHeightAndWhatIsNotALength)
   EXPECT_THROW(parse_heights("low:4dS", units), UsageError);
 }
 
-// 0.28 is not a multiple of 0.02 to the last digit.
+// 35 * 0.02 is larger than 0.7 in the last digit.
 TEST(HeightRange, HoldsLayersThatReachItsEndsExactlyAndTheWholeBed)
 {
-  const HeightRange range{0.02, 0.28};
+  const HeightRange range{0.02, 0.7};
   EXPECT_TRUE(range.holds(0.02, 0.04));
-  EXPECT_TRUE(range.holds(13 * 0.02, 14 * 0.02));
+  EXPECT_TRUE(range.holds(34 * 0.02, 35 * 0.02));
   EXPECT_FALSE(range.holds(0, 0.02));
-  EXPECT_FALSE(range.holds(0.27, 0.29));
+  EXPECT_FALSE(range.holds(0.69, 0.71));
   EXPECT_TRUE(range.holds(std::nan(""), std::nan("")));
 }
 
