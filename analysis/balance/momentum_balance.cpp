@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/balance/momentum_balance.hpp"
 
+#include "analysis/frames/contact_force.hpp"
 #include "formats/core/pair_type.hpp"
 
 #include <algorithm>
@@ -53,7 +54,7 @@ void MomentumBalance::add(const Grains& grains, const Frame& frame)
 {
   assert(frame.force.size() == grains.size());
   ++frames_;
-  // This frame's own count, so that the sums do not depend on which frames came before.
+  // The layers of this frame alone, so that its sums do not depend on the frames before it.
   const std::size_t count = layers_.count(grains, frame);
   sums_.resize(std::max(sums_.size(), count));
   pull_.assign(grains.size(), Vec2::Zero());
@@ -70,33 +71,34 @@ void MomentumBalance::add_contact(const Grains& grains, const Frame& frame, std:
                                   std::size_t count)
 {
   const auto& list = frame.contacts;
+  if (!bears_force(list, contact)) return;
   const Vec2& force = list.force[contact];
-  if (force.x() == 0 && force.y() == 0) return;
   const auto type = pair_type(grains, frame, contact);
   const bool at_base = type == PairType::Sb || type == PairType::Lb;
   const auto i = static_cast<std::size_t>(list.i[contact]);
   const double y_i = frame.position[i].y(), share_i = share_of_first(grains, list, contact);
   const double y_contact = y_i - share_i * list.branch[contact].y();
   const Tensor2 stress = force * list.branch[contact].transpose();
-  const auto meet = [&](Species species, const Vec2& on, Vec2 SpeciesMomentum::*booked) {
+  // At the contact point a force from outside the species counts as that term, not as stress.
+  const auto add_external = [&](Species species, const Vec2& on, Vec2 SpeciesMomentum::*term) {
     share_kernel(layers_, kernel_, y_contact, y_contact, count, [&](std::size_t n, double share) {
       auto& sums = sums_[n][index(species)];
       sums.contact -= share * on;
-      sums.*booked += share * on;
+      sums.*term += share * on;
     });
   };
 
   pull_[i] += force;
   if (at_base) {
-    meet(grains.species[i], force, &SpeciesMomentum::base);
+    add_external(grains.species[i], force, &SpeciesMomentum::base);
     return add_stress(grains.species[i], share_i * stress, y_i, y_contact, count);
   }
   const auto j = static_cast<std::size_t>(list.j[contact]);
   const double y_j = frame.position[j].y();
   pull_[j] -= force;
   if (type != PairType::LS) return add_stress(grains.species[i], stress, y_i, y_j, count);
-  meet(grains.species[i], force, &SpeciesMomentum::interaction);
-  meet(grains.species[j], -force, &SpeciesMomentum::interaction);
+  add_external(grains.species[i], force, &SpeciesMomentum::interaction);
+  add_external(grains.species[j], -force, &SpeciesMomentum::interaction);
   add_stress(grains.species[i], share_i * stress, y_i, y_contact, count);
   add_stress(grains.species[j], (1 - share_i) * stress, y_contact, y_j, count);
 }

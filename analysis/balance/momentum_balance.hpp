@@ -12,8 +12,8 @@
 
 namespace grseg {
 
-/// Coarse-grained fields of one species in one layer: means over the layer and over frames. What
-/// changes its momentum density are the force densities, N/m^2.
+/// Coarse-grained fields of one species in one layer: means over the layer and over frames. The
+/// force densities, N/m^2, change its momentum density.
 struct SpeciesMomentum {
   double density = 0;                        // kg/m^2
   Vec2 momentum = Vec2::Zero();              // kg/(m s)
@@ -23,12 +23,12 @@ struct SpeciesMomentum {
   Vec2 rate = Vec2::Zero();         // change of the momentum density in one step, over h
   Vec2 gravity = Vec2::Zero();      // its weight
   Vec2 contact = Vec2::Zero();      // -d/dy of its contact stress
-  Vec2 kinetic = Vec2::Zero();      // -d/dy of the momentum that its grains carry along
+  Vec2 kinetic = Vec2::Zero();      // -d/dy of the momentum that its moving grains carry
   Vec2 interaction = Vec2::Zero();  // from the other species
   Vec2 base = Vec2::Zero();         // from boundary grains and walls
   Vec2 force = Vec2::Zero();        // the stored forces of its grains; rate - kinetic
 
-  /// What the balance leaves: round-off.
+  /// What the terms leave of the rate: round-off.
   Vec2 residual() const { return rate - (gravity + contact + kinetic + interaction + base); }
 
   SpeciesMomentum& operator+=(const SpeciesMomentum& other);
@@ -38,8 +38,9 @@ struct SpeciesMomentum {
 /// Momentum balance of each species by coarse graining over height (Goldhirsch 2010; Weinhart et
 /// al. 2012; for species Tunuguntla, Thornton & Weinhart 2016). S(y') is the part of the kernel of
 /// a point at height y' that lies in the layer (share_kernel). With y_i the stored height of a
-/// grain (mid-step), v its velocity after the solve, F = m (v - v_before)/h its stored force, f_ij
-/// a contact force and c the height of its contact point, and all sums divided by V:
+/// grain (mid-step), v its velocity after the solve, v_before that before it, F = m (v -
+/// v_before)/h its stored force, f_ij a contact force and c the height of its contact point, all
+/// sums over V:
 ///
 ///   rate         sum (m/h) [v S(y_i + h v_y) - v_before S(y_i)]
 ///   gravity      sum m g S(y_i)
@@ -50,16 +51,16 @@ struct SpeciesMomentum {
 ///
 ///   rate = gravity + contact + kinetic + interaction + base
 ///
-/// to round-off in every frame: F = m g + sum f_ij for every grain, and what two grains of one
-/// species exert on each other at c cancels. The step reaches from just before the impulses of this
-/// mid-step to just before those of the next, h later; in between grains fly straight, so that
-/// nothing is neglected. `contact` is exactly what flows in at the bottom of the layer less what
-/// flows out at its top, of the contact stress f_ij (x) (r_i - c_ij) on the line from r_i to c_ij,
-/// and `kinetic` the same of the mean of sum m v v_y psi over that flight, which differs by O(h)
-/// from `momentum_flux` at its beginning.
+/// to round-off in every frame: F = m g + sum f_ij for every grain, and at c the forces between two
+/// grains of one species cancel. The step reaches from just before the impulses of this mid-step to
+/// just before those of the next, h later; in between grains fly straight, so that nothing is
+/// neglected. `contact` is exactly the flow in at the bottom of the layer less the flow out at its
+/// top, of the contact stress f_ij (x) (r_i - c_ij) on the line from r_i to c_ij, and `kinetic` the
+/// same of the mean of sum m v v_y psi over that flight, which differs by O(h) from `momentum_flux`
+/// at its beginning.
 ///
 /// Over frames of consecutive steps the rates add up to the change of momentum; over frames further
-/// apart they are a sample of it, and `change` is what they sample.
+/// apart they are a sample of it, whose expectation is `change`.
 class MomentumBalance {
  public:
   /// Gravity in m/s^2, step h in s.
@@ -98,7 +99,7 @@ class MomentumBalance {
   std::size_t frames_ = 0;
   std::vector<std::array<SpeciesMomentum, 2>> sums_;  // by layer and species, times V
   std::optional<Instant> first_, last_;
-  std::vector<Vec2> pull_;  // N, of all contacts of a grain of this frame
+  std::vector<Vec2> pull_;  // N, sum of all contact forces on each grain of this frame
 };
 
 }  // namespace grseg

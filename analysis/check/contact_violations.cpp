@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/contact_violations.hpp"
 
+#include "analysis/frames/contact_force.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,21 +37,18 @@ void ContactViolations::add(const Grains& grains, const Frame& frame)
   for (const auto& force : contacts.force) scale = std::max(scale, force.norm());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts.gap[c] < 0) overlap_.add(-contacts.gap[c], frame.time, c);
-    if (scale > 0 && !contacts.force[c].isZero(0)) add_forces(frame, c, scale);
+    if (scale > 0 && bears_force(contacts, c)) add_forces(frame, c, scale);
     if (!frame.force.empty()) add_motion(grains, frame, c);
   }
 }
 
 void ContactViolations::add_forces(const Frame& frame, std::size_t contact, double scale)
 {
-  const Vec2 n = frame.contacts.branch[contact].normalized();
-  const Vec2& force = frame.contacts.force[contact];
-  const double normal = force.dot(n), tangential = n.x() * force.y() - n.y() * force.x();
-  tension_.add(std::max(0.0, -normal) / scale, frame.time, contact);
+  const auto [n, f_n, f_t] = force_parts(frame.contacts, contact);
+  tension_.add(std::max(0.0, -f_n) / scale, frame.time, contact);
   if (rules_.friction)
-    coulomb_.add(
-        std::max(0.0, std::abs(tangential) - *rules_.friction * std::max(0.0, normal)) / scale,
-        frame.time, contact);
+    coulomb_.add(std::max(0.0, std::abs(f_t) - *rules_.friction * std::max(0.0, f_n)) / scale,
+                 frame.time, contact);
 }
 
 void ContactViolations::add_motion(const Grains& grains, const Frame& frame, std::size_t contact)
@@ -58,30 +57,21 @@ void ContactViolations::add_motion(const Grains& grains, const Frame& frame, std
   const double gap = contacts.gap[contact], reach = contacts.branch[contact].norm() - gap;
   const Vec2& branch = contacts.branch[contact];
   const Vec2 n = branch.normalized();
-  const bool bears = !contacts.force[contact].isZero(0);
+  const bool bears = bears_force(contacts, contact);
   const auto relative = approach_of(grains, frame, contact, rules_.step);
   if (bears) {
     const Vec2 flight = rules_.look_ahead * rules_.step * relative.before;
-    // From a straight wall distance is counted along its normal.
+    // The distance from a straight wall is along its normal.
     const double distance =
         contacts.j[contact] < 0 ? branch.norm() + flight.dot(n) : (branch + flight).norm();
     open_gap_.add(std::max(0.0, distance - reach - rules_.margin), frame.time, contact);
   }
   if (!rules_.restitution) return;
-  // Files of other programs may list pairs that are near each other and no more.
+  // Files of other programs may list pairs that are merely close.
   if (gap > 0 && !bears && rules_.horizon == 0) return;
   double least = *rules_.restitution * std::max(0.0, -relative.before.dot(n));
   if (gap > 0) least = rules_.horizon > 0 ? -gap / (rules_.horizon * rules_.step) : 0;
   approach_.add(std::max(0.0, least - relative.after.dot(n)) * rules_.step, frame.time, contact);
-}
-
-void ContactViolations::merge(const ContactViolations& later)
-{
-  coulomb_.merge(later.coulomb_);
-  tension_.merge(later.tension_);
-  open_gap_.merge(later.open_gap_);
-  approach_.merge(later.approach_);
-  overlap_.merge(later.overlap_);
 }
 
 }  // namespace grseg

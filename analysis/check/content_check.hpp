@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/check/check_report.hpp"
+#include "analysis/check/report.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace grseg {
 
 /// Whether a file holds what its writer wrote: it was closed, has frames, and each frame agrees
-/// with its digest. What cannot be read at all is refused by TrajectoryReader.
+/// with its digest. TrajectoryReader refuses files that cannot be read at all.
 class ContentCheck {
  public:
   explicit ContentCheck(const TrajectoryReader& run);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/force_balance.hpp"
 
-#include "analysis/frames/layers.hpp"
+#include "analysis/frames/contact_force.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,7 @@ std::vector<double> torques_of(const Grains& grains, const ContactList& contacts
   std::vector<double> torque(grains.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.i[c]);
-    const Vec2 n = contacts.branch[c].normalized();
-    const double tangential = n.x() * contacts.force[c].y() - n.y() * contacts.force[c].x();
+    const double tangential = force_parts(contacts, c).f_t;
     if (contacts.j[c] < 0) {
       torque[i] -= grains.radius[i] * tangential;
       continue;
@@ -57,10 +56,7 @@ void ForceBalance::add(const Grains& grains, const Frame& frame)
     else
       now.torque[g] = 0;
   }
-  if (last_.inertia_times_spin.empty())
-    first_ = now;
-  else
-    add_torques(last_, now);
+  if (!last_.inertia_times_spin.empty()) add_torques(last_, now);
   last_ = std::move(now);
 }
 
@@ -88,18 +84,6 @@ void ForceBalance::add_torques(const Spin& before, const Spin& after)
     const double defect = std::abs(after.torque[g] - change);
     torques_.add(after.scale > 0 ? defect / after.scale : defect, after.time, g);
   }
-}
-
-void ForceBalance::merge(const ForceBalance& later)
-{
-  if (later.last_.inertia_times_spin.empty()) return;
-  if (last_.inertia_times_spin.empty())
-    first_ = later.first_;
-  else
-    add_torques(last_, later.first_);
-  last_ = later.last_;
-  forces_.merge(later.forces_);
-  torques_.merge(later.torques_);
 }
 
 }  // namespace grseg

@@ -10,11 +10,11 @@
 
 namespace grseg {
 
-/// Newton's law of every mobile grain, in the step that a frame is:
-///   sum of its contact forces + m g = m (v_after - v_before)/h, which the file has as `force`;
+/// Newton's and Euler's laws for every mobile grain, in the step that a frame stands for:
+///   sum of its contact forces + m g = m (v_after - v_before)/h, which the file stores as `force`;
 ///   sum of its torques = (m r^2/2) (w_after - w_before)/h, where two frames are consecutive steps.
-/// Of two grains that touch, each feels the force at r_i/(r_i + r_j) of the branch, so that lever
-/// arms add up to the distance of the centres; at a straight wall the arm is r_i. Both hold to
+/// The force between two grains acts at r_i/(r_i + r_j) of the branch, so that the lever arms add
+/// up to the distance of the centres; at a straight wall the arm is r_i. Both laws hold to
 /// round-off, whatever the solver's tolerance.
 class ForceBalance {
  public:
@@ -23,12 +23,10 @@ class ForceBalance {
 
   /// Frames in order. A frame without `force` counts for torques only.
   void add(const Grains& grains, const Frame& frame);
-  /// Adds what `later`, a balance of the frames that follow, has seen.
-  void merge(const ForceBalance& later);
 
   /// |defect| over the frame's largest force, weights included; by grain.
   const WorstCase& forces() const { return forces_; }
-  /// |defect| over that force times the largest radius; no count where no frames are consecutive.
+  /// |defect| over that force times the largest radius; empty where no frames are consecutive.
   const WorstCase& torques() const { return torques_; }
 
  private:
@@ -36,7 +34,7 @@ class ForceBalance {
     std::int64_t step = 0;
     double time = 0, scale = 0;              // s, N m
     std::vector<double> inertia_times_spin;  // kg m^2/s; of mobile grains, 0 of others
-    std::vector<double> torque;              // N m, likewise
+    std::vector<double> torque;              // N m; of mobile grains, 0 of others
   };
   void add_forces(const Grains& grains, const Frame& frame, double scale);
   void add_torques(const Spin& before, const Spin& after);
@@ -44,7 +42,7 @@ class ForceBalance {
   Gravity gravity_;
   double step_;
   WorstCase forces_, torques_;
-  Spin first_, last_;  // of the frames added; inertia_times_spin is empty before the first
+  Spin last_;  // of the last frame added; inertia_times_spin is empty before the first
 };
 
 }  // namespace grseg

@@ -17,7 +17,7 @@ SpecificationCheck::SpecificationCheck(const TrajectoryReader& run)
   check_observables();
 }
 
-/// A path that departs more than once keeps what was found first.
+/// The first departure of a path describes it; further ones are counted.
 void SpecificationCheck::depart(const std::string& path, const std::string& what)
 {
   auto& all = layout_.departures;
@@ -70,7 +70,7 @@ void SpecificationCheck::check_observables()
 void SpecificationCheck::add(std::size_t index, const Frame& frame)
 {
   const double length = run_.box().length_x;
-  // Single precision rounds what is just below the length up to it.
+  // Single precision may round a position just below the length up to it.
   const bool rounded = run_.stores_float32();
   const auto wrapped = [&](double x) {
     return x >= 0 && (rounded ? x <= static_cast<float>(length) : x < length);

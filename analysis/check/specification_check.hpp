@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/check/check_report.hpp"
+#include "analysis/check/report.hpp"
 #include "formats/trajectory/layout_check.hpp"
 #include "formats/trajectory/reader.hpp"
 
@@ -12,9 +12,10 @@
 
 namespace grseg {
 
-/// Whether a file is what formats/README.md says, beyond what TrajectoryReader insists on (numbers
+/// Whether a file is as formats/README.md specifies, beyond what TrajectoryReader requires (numbers
 /// finite, indices in range, offsets and times increasing, radii and masses positive, species 0 to
-/// 2): its layout (formats/trajectory/layout_check.hpp), which datasets must be there, and what values may be.
+/// 2): its layout (formats/trajectory/layout_check.hpp), which datasets it must have, and in which
+/// range their values lie.
 class SpecificationCheck {
  public:
   /// Reads the whole file once; throws as check_layout does.
@@ -23,8 +24,8 @@ class SpecificationCheck {
   /// Any frame, with contacts.
   void add(std::size_t index, const Frame& frame);
 
-  /// `specification`, the number of paths that depart; then for each a line named by the path, with
-  /// how often it departs.
+  /// `specification`, the number of paths that depart from it; then a line for each of these paths,
+  /// with the number of departures.
   std::vector<CheckLine> lines() const;
 
  private:

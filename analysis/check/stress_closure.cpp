@@ -50,9 +50,9 @@ std::array<Tensor2, 2> sums_of_ends(const Grains& grains, const Frame& frame, co
 
 void StressClosure::add(const Grains& grains, const Frame& frame)
 {
-  // One layer that holds all there is.
-  constexpr double everything = 1e6;  // m
-  PartialContactStress stress(Layers(everything, 1), Assignment::contact_point);
+  // One layer that holds the whole bed.
+  constexpr double higher_than_any_bed = 1e6;  // m
+  PartialContactStress stress(Layers(higher_than_any_bed, 1), Assignment::contact_point);
   stress.add(grains, frame);
   auto sums = stress.mean(0).sums;
   sums.volume = 1;

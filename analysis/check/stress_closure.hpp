@@ -6,18 +6,18 @@
 
 namespace grseg {
 
-/// Whether partial stresses add up: sigma^S + sigma^L = sigma in the whole bed, where
+/// Whether partial stresses add up: sigma^S + sigma^L = sigma in the whole bed (Staron & Phillips
+/// 2015, eq. 1), where
 ///   sigma^L = (1/V) sum over contact ends on large grains of (force on the grain) (x) (x - c),
-/// c the contact point, from the positions of the grains, sigma^S likewise, and sigma is that of
-/// PartialContactStress, from the branches of the contacts. The two species are compared with its
-/// partial stresses (rule contact-point) too, and so is the total by size.
+/// c the contact point, from the positions x of the grains, sigma^S likewise, and sigma is that of
+/// PartialContactStress, from the branches of the contacts. The stress of either species is also
+/// compared with that of PartialContactStress (rule contact-point), and the sum of both by size
+/// with the total.
 class StressClosure {
  public:
   explicit StressClosure(const Box& box) : box_(box) {}
 
   void add(const Grains& grains, const Frame& frame);
-  /// Adds what another has seen later.
-  void merge(const StressClosure& later) { defect_.merge(later.defect_); }
 
   /// Largest component of the differences over the largest of sigma, by frame.
   const WorstCase& defect() const { return defect_; }

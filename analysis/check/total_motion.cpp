@@ -39,7 +39,8 @@ void MotionBalance::add(const TotalMotion& now, const std::optional<Vec2>& base_
     momentum_.add(scale > 0 ? defect / scale : defect, now.time, 0);
   }
   if (now.mass > 0)
-    way_ += (now.momentum.x() + last_.momentum.x()) / 2 / now.mass * (now.time - last_.time);
+    by_velocity_ +=
+        (now.momentum.x() + last_.momentum.x()) / 2 / now.mass * (now.time - last_.time);
   last_ = now;
 }
 

@@ -25,8 +25,8 @@ TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& bo
 /// The mobile grains as one body from frame to frame:
 ///   momentum now - momentum before = (time between) (M g + mean force of base and walls),
 /// which holds to round-off where that mean (/observables/base_force_x, _y) is over all the steps
-/// between; and the way that the centre of mass goes along x, against the sum of its velocity
-/// times time (trapezium rule).
+/// between; and the distance that the centre of mass moves along x against the integral of its
+/// velocity over time (trapezium rule).
 class MotionBalance {
  public:
   /// Gravity and the step, s.
@@ -39,8 +39,8 @@ class MotionBalance {
   const WorstCase& momentum() const { return momentum_; }
 
   std::size_t frames() const { return frames_; }
-  /// m: the way along x less the way by velocity, since the first frame.
-  double stray() const { return first_ ? last_.x - first_->x - way_ : 0; }
+  /// m: the distance moved along x less that by velocity, since the first frame.
+  double stray() const { return first_ ? last_.x - first_->x - by_velocity_ : 0; }
 
  private:
   Gravity gravity_;
@@ -48,7 +48,7 @@ class MotionBalance {
   std::size_t frames_ = 0;
   std::optional<TotalMotion> first_;
   TotalMotion last_;
-  double way_ = 0;  // m
+  double by_velocity_ = 0;  // m
   WorstCase momentum_;
 };
 

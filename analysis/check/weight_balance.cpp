@@ -7,7 +7,7 @@
 namespace grseg {
 namespace {
 
-/// sum (what) l by layer, over the mobile grains.
+/// Sum of of(grain) times l by layer, over the mobile grains.
 template <class What, class Of>
 std::vector<What> moments_above(const Grains& grains, const Frame& frame, const Layers& layers,
                                 const What& zero, const Of& of)
@@ -36,12 +36,13 @@ Vec2 mean_of(const std::vector<Vec2>& values)
   return sum / static_cast<double>(values.size());
 }
 
-/// What windows say of one layer: what it carries and what the balance asks for, (xy, yy), N/m.
+/// One layer window by window: the stress it carries and that which the balance requires, (xy, yy),
+/// N/m.
 struct Series {
-  std::vector<Vec2> carried, asked;
+  std::vector<Vec2> carried, required;
 };
 
-/// Standard error of a mean from the deviations of its parts, which add up to 0.
+/// Standard error of a mean from the deviations of its terms, whose sum is 0.
 template <class Deviation>
 double standard_error(std::size_t count, const Deviation& deviation)
 {
@@ -58,29 +59,29 @@ Series series_of(const std::vector<WeightWindow>& windows, std::size_t layer)
     const auto &window = windows[k], &next = windows[k + 1];
     const Vec2 rate = (next.momentum[layer] - window.momentum[layer]) / (next.time - window.time);
     series.carried.push_back(window.stress[layer]);
-    series.asked.push_back(window.weight[layer] + rate);
+    series.required.push_back(window.weight[layer] + rate);
   }
   return series;
 }
 
 LayerBalance balance_of(const Series& series)
 {
-  const Vec2 carried = mean_of(series.carried), asked = mean_of(series.asked);
+  const Vec2 carried = mean_of(series.carried), required = mean_of(series.required);
   const std::size_t n = series.carried.size();
   LayerBalance balance;
-  balance.carried = carried.y() / asked.y();
+  balance.carried = carried.y() / required.y();
   balance.carried_error = standard_error(n, [&](std::size_t k) {
-    return (series.carried[k].y() - balance.carried * series.asked[k].y()) / asked.y();
+    return (series.carried[k].y() - balance.carried * series.required[k].y()) / required.y();
   });
   balance.ratio = -carried.x() / carried.y();
-  balance.slope = -asked.x() / asked.y();
-  // The quotients' changes with one window's numbers.
+  balance.slope = -required.x() / required.y();
+  // Change of a quotient with the numbers of one window.
   const auto change = [&](const Vec2& part, double ratio, const Vec2& whole) {
     return (-part.x() - ratio * part.y()) / whole.y();
   };
   balance.ratio_error = standard_error(n, [&](std::size_t k) {
     return change(series.carried[k], balance.ratio, carried) -
-           change(series.asked[k], balance.slope, asked);
+           change(series.required[k], balance.slope, required);
   });
   return balance;
 }
@@ -143,7 +144,7 @@ std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& window
   std::size_t count = windows.front().stress.size();
   for (const auto& window : windows) count = std::min(count, window.stress.size());
   if (count == 0) return balances;
-  const auto load = [](const Series& series) { return mean_of(series.asked).y(); };
+  const auto load = [](const Series& series) { return mean_of(series.required).y(); };
   const double least = least_load * load(series_of(windows, 0));
   for (std::size_t n = 1; n < count; ++n) {
     const auto series = series_of(windows, n);

@@ -13,16 +13,16 @@
 
 namespace grseg {
 
-/// What one window says of the momentum balance of each layer, all in N/m as a stress (per
+/// The terms of the momentum balance of each layer in one window, all as a stress in N/m (per
 /// V = Lx h), components along x and y.
 ///
-/// Let l_i be how much of the layer's thickness lies below the centre of grain i. Then, in a cell
-/// that is periodic along x, layer by layer and for any motion,
+/// Let l_i be the length of the layer's thickness that lies below the centre of grain i. Then, in a
+/// cell that is periodic along x, in each layer and for any motion,
 ///   V (sigma + sigma^kappa)_.y = d/dt sum m v l - sum m g l,
-/// exactly where contacts are booked by their branch, every frame's forces are known, and the time
-/// mean is over all steps; from frames it holds up to the scatter of what they sample. Where
-/// nothing accelerates it says that sigma_yy carries the weight above and -sigma_xy/sigma_yy is the
-/// tangent of the slope.
+/// exactly if contacts are shared among layers along their branch and the time mean is over all
+/// steps; frames are a sample of them, for which it holds up to their scatter. Without acceleration
+/// this means that sigma_yy carries the weight above and that -sigma_xy/sigma_yy is the tangent of
+/// the slope.
 struct WeightWindow {
   double time = 0;             // s, of the first frame
   std::vector<Vec2> stress;    // contact and kinetic, (xy, yy)
@@ -30,7 +30,7 @@ struct WeightWindow {
   std::vector<Vec2> momentum;  // N s/m, sum m v l / V at the first frame
 };
 
-/// Takes the sums of a window. As for KineticStress, all of its frames are added twice.
+/// The sums over a window. As for KineticStress, all of its frames are added twice.
 class WeightSums {
  public:
   /// Gravity, m/s^2; bins of the mean velocity's profile no thicker than `bin`, m.
@@ -52,19 +52,19 @@ class WeightSums {
   std::vector<Vec2> momentum_;      // kg m^2/s, sum m v l of the first frame
 };
 
-/// How well a layer carries what lies on it, over all windows but the last, which only ends the one
-/// before it. Errors are standard errors over windows.
+/// How well a layer carries the weight above it, over all windows but the last, which only ends the
+/// one before it. Errors are standard errors over windows.
 struct LayerBalance {
   double y0 = 0, y1 = 0;  // m
-  double carried = 0;     // (sigma + sigma^kappa)_yy over what the balance asks for
+  double carried = 0;     // (sigma + sigma^kappa)_yy over what the balance requires
   double carried_error = 0;
   double ratio = 0;  // -(sigma_xy + sigma^kappa_xy)/(sigma_yy + sigma^kappa_yy)
-  double slope = 0;  // what the balance asks for: (g_x - a_x)/(a_y - g_y), a of the mass above
+  double slope = 0;  // what the balance requires: (g_x - a_x)/(a_y - g_y), a of the mass above
   double ratio_error = 0;  // of ratio - slope
 };
 
-/// The layers above the first (where the base's own shape counts) that carry at least `least_load`
-/// of what the first one carries. Empty for less than three windows.
+/// The layers above the first (which depends on the shape of the base) that carry at least
+/// `least_load` of the load of the first. Empty for less than three windows.
 std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& windows,
                                          const Layers& layers, double least_load);
 

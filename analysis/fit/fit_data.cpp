@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
+#include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
 
@@ -158,17 +159,10 @@ void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filter
   }
 }
 
-std::vector<std::string> inputs_of(const Table& table)
-{
-  std::vector<std::string> inputs;
-  for (const auto& [key, value] : table.header)
-    if (key == "input") inputs.push_back(value);
-  return inputs;
-}
-
 void refuse_twice_the_same(const Table& a, const Table& b)
 {
-  if (inputs_of(a).empty() || inputs_of(a) != inputs_of(b)) return;
+  const auto inputs = header_values(a, "input");
+  if (inputs.empty() || inputs != header_values(b, "input")) return;
   std::set<double> times;
   for (const auto& row : a.rows) times.insert(row[a.column("t0")]);
   for (const auto& row : b.rows)

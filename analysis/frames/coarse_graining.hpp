@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/frames/layers.hpp"
+#include "formats/cli/words.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,9 @@ namespace grseg {
 ///   heaviside  1/2 / w for |u| < 1, 0 beyond; w is half its support, its standard deviation is
 ///              w/sqrt(3) = 0.58 w.
 enum class KernelShape { gauss, lucy, heaviside };
-constexpr std::array<const char*, 3> kernel_names{"gauss", "lucy", "heaviside"};
+constexpr Choice<KernelShape> kernel_shapes[] = {{"gauss", KernelShape::gauss},
+                                                 {"lucy", KernelShape::lucy},
+                                                 {"heaviside", KernelShape::heaviside}};
 
 /// The coarse-graining function psi over the height y. The cell is periodic in x, and fields are
 /// averaged over its length Lx, so that they depend on y alone:

@@ -2,10 +2,10 @@
 #include "analysis/frames/frame_loop.hpp"
 
 #include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
-#include "formats/core/version.hpp"
-#include "formats/trajectory/digest.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
-#include <sstream>
 #include <thread>
 
 namespace grseg {
@@ -25,9 +24,7 @@ Vec2 axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits u
 {
   const std::string word = bins.substr(0, bins.find(':'));
   if (word != "radius")
-    throw UsageError(fmt::format(
-        "--bins: there is no '{}'; it is layers, radius (about a drum's axis) or radius:X,Y",
-        bins));
+    throw UsageError(unknown_word("--bins", bins, {"layers", "radius", "radius:X,Y"}));
   if (bins == word) {
     const auto& numbers = run.parameters().numbers;
     const auto centre = numbers.find("drum_centre");
@@ -143,12 +140,7 @@ Table FrameLoop::make_table(const std::string& command,
 {
   Table table;
   auto& header = table.header;
-  header.emplace_back("program", fmt::format("{} {}", info_.name, version()));
-  header.emplace_back("preset", preset_);
-  std::istringstream history(run_.parameters().text("history"));
-  for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
-  header.emplace_back("history", command);
-  header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run_.digest())));
+  header = provenance(info_, preset_, run_, command);
 
   const auto& first = windows_.front();
   constexpr double no_one = std::numeric_limits<double>::quiet_NaN();

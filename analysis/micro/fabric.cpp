@@ -25,7 +25,7 @@ Complex twofold(double a, double theta)
   return std::polar(a, 2 * theta * std::numbers::pi / 180);
 }
 
-/// Of an axis at angle theta (radians, any turn): degrees in [0, 180).
+/// Direction in degrees, in [0, 180), of an axis at the angle theta in radians.
 double axis(double theta)
 {
   const double degrees = std::fmod(theta * 180 / std::numbers::pi, 180.0);

@@ -5,10 +5,10 @@
 
 namespace grseg {
 
-/// Second Fourier moments of the directions of contacts and of their forces. theta is the direction
-/// of the normal n = branch/|branch|, counter-clockwise from x, t is n turned by +90 degrees, and
-/// f = f_n n + f_t t; exchanging the two grains of a contact changes neither f_n nor f_t nor
-/// 2 theta. Each member is a sum over contacts of weight (cos 2 theta, sin 2 theta).
+/// Second Fourier moments of the directions of contacts and of their forces: each member is a sum
+/// over contacts of weight (cos 2 theta, sin 2 theta), theta the direction of the normal n,
+/// counter-clockwise from x. n, f_n and f_t are those of ForceParts; exchanging the two grains of a
+/// contact changes neither f_n nor f_t nor 2 theta.
 struct FabricSums {
   Vec2 normal = Vec2::Zero();            // weight 1
   Vec2 normal_force = Vec2::Zero();      // N, weight f_n
@@ -27,21 +27,22 @@ struct Anisotropy {
   double a_c, a_n, a_t;
   double theta_c, theta_n, theta_t;  // degrees from x, in [0, 180); of the largest value
 
-  /// q/p that these make where they are small, share their directions, and where branches are
-  /// equally long: (a_c + a_n + a_t)/2.
+  /// q/p for small anisotropies that share their directions and branches of one length:
+  /// (a_c + a_n + a_t)/2 (Rothenburg & Bathurst 1989).
   double rothenburg() const { return (a_c + a_n + a_t) / 2; }
-  /// q/p whatever their size and directions, where branches are equally long: with
+  /// q/p for anisotropies of any size and direction and branches of one length: with
   /// A = a exp(2 i theta) for each, |A_c + A_n + A_t|/(2 + Re(conj(A_c) A_n)).
   double stress_ratio() const;
 };
 
-/// The anisotropies that have the given moments, exactly: if E, f_n and f_t are of the form above,
-/// the moments give them back whatever their size. `contacts` is the number of contacts, `force`
-/// the sum of their f_n, N. NaN without contacts; a_n and a_t NaN where a_c >= 1, since E is then
-/// no density. A sample of N contacts without any order has a_c of about sqrt(pi/N).
+/// The anisotropies with the given moments, exactly: if E, f_n and f_t have the form above, they
+/// are recovered, however large. `contacts` is the number of contacts, `force` the sum of their
+/// f_n, N. All NaN without contacts; a_n and a_t NaN where a_c >= 1, since E is then negative
+/// somewhere. A sample of N contacts in random directions has a_c of about sqrt(pi/N).
 Anisotropy anisotropy(const FabricSums& sums, double contacts, double force);
 
-/// p = (s1 + s2)/2 and q = (s1 - s2)/2 of the symmetric part of a stress, s1 >= s2.
+/// Principal stresses s1 >= s2 of the symmetric part of a stress: p = (s1 + s2)/2, the pressure of
+/// Staron & Phillips (2015), and q = (s1 - s2)/2.
 struct PrincipalStress {
   double p, q;
   double theta;  // degrees from x, in [0, 180), of s1

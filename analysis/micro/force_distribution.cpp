@@ -2,33 +2,50 @@
 #include "analysis/micro/force_distribution.hpp"
 
 #include "analysis/frames/accumulate.hpp"
-#include "analysis/micro/micro_structure.hpp"
+#include "analysis/frames/cells.hpp"
+#include "analysis/frames/contact_force.hpp"
+#include "analysis/frames/ratio.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 
 namespace grseg {
 namespace {
 
-/// Calls use(layer, type, f_n) for every contact that carries a force.
+/// Calls use(layer, type, f_n) for every contact that bears a force.
 template <class Use>
-void each_loaded_contact(const Grains& grains, const Frame& frame, const Layers& layers,
-                         std::size_t count, const Use& use)
+void for_each_loaded_contact(const Grains& grains, const Frame& frame, const Layers& layers,
+                             std::size_t count, const Use& use)
 {
   const auto& list = frame.contacts;
   for (std::size_t k = 0; k < list.size(); ++k) {
-    if (list.force[k].x() == 0 && list.force[k].y() == 0) continue;
+    if (!bears_force(list, k)) continue;
     const std::size_t layer = layers.at(contact_point(grains, frame, k).y());
     use(std::min(layer, count - 1), static_cast<std::size_t>(pair_type(grains, frame, k)),
         force_parts(list, k).f_n);
   }
 }
 
-double mean_of(double force, double contacts)
+/// One bin of the histogram of f_n/<f_n>.
+struct Bin {
+  double lower = 0, upper = 0;
+  std::array<double, pair_types> number{};   // of contacts per frame
+  std::array<double, pair_types> density{};  // share of the contacts over the width
+  std::array<double, pair_types> tail{};     // share of the contacts at or above `lower`
+};
+
+std::vector<Cell> cells(const Bin& bin)
 {
-  return contacts > 0 ? force / contacts : std::numeric_limits<double>::quiet_NaN();
+  std::vector<Cell> cells{{"x0", bin.lower}, {"x1", bin.upper}};
+  const auto by_type = [&](const char* name, const std::array<double, pair_types>& values) {
+    for (std::size_t type = 0; type < pair_types; ++type)
+      cells.push_back({fmt::format("{}_{}", name, pair_type_names[type]), values[type]});
+  };
+  by_type("n", bin.number);
+  by_type("P", bin.density);
+  by_type("tail", bin.tail);
+  return cells;
 }
 
 }  // namespace
@@ -43,10 +60,10 @@ MeanNormalForce::Sum& MeanNormalForce::Sum::operator+=(const Sum& other)
 void MeanNormalForce::add(const Grains& grains, const Frame& frame)
 {
   sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));
-  each_loaded_contact(grains, frame, layers_, sums_.size(),
-                      [&](std::size_t layer, std::size_t type, double f_n) {
-                        sums_[layer][type] += {1, f_n};
-                      });
+  for_each_loaded_contact(grains, frame, layers_, sums_.size(),
+                          [&](std::size_t layer, std::size_t type, double f_n) {
+                            sums_[layer][type] += {1, f_n};
+                          });
 }
 
 void MeanNormalForce::merge(const MeanNormalForce& others)
@@ -57,7 +74,7 @@ void MeanNormalForce::merge(const MeanNormalForce& others)
 double MeanNormalForce::of(std::size_t layer, PairType type) const
 {
   const auto& sum = sums_[layer][static_cast<std::size_t>(type)];
-  return mean_of(sum.force, sum.contacts);
+  return ratio(sum.force, sum.contacts);
 }
 
 double MeanNormalForce::between_grains(std::size_t layer) const
@@ -65,7 +82,7 @@ double MeanNormalForce::between_grains(std::size_t layer) const
   Sum all;
   for (const auto type : {PairType::SS, PairType::LS, PairType::LL})
     all += sums_[layer][static_cast<std::size_t>(type)];
-  return mean_of(all.force, all.contacts);
+  return ratio(all.force, all.contacts);
 }
 
 ForceDistribution::ForceDistribution(const Layers& layers, const MeanNormalForce& mean,
@@ -94,7 +111,7 @@ void ForceDistribution::add(const Grains& grains, const Frame& frame)
 {
   ++frames_;
   counts_.resize(std::max(counts_.size(), layers_.count(grains, frame)));
-  each_loaded_contact(
+  for_each_loaded_contact(
       grains, frame, layers_, counts_.size(), [&](std::size_t layer, std::size_t type, double f_n) {
         const double unit = unit_ == ForceUnit::type ? mean_.of(layer, static_cast<PairType>(type))
                                                      : mean_.between_grains(layer);
@@ -110,10 +127,7 @@ void ForceDistribution::merge(const ForceDistribution& others)
 
 std::vector<std::string> ForceDistribution::columns()
 {
-  std::vector<std::string> names{"x0", "x1"};
-  for (const char* kind : {"n_{}", "P_{}", "tail_{}"})
-    for (const char* type : pair_type_names) names.push_back(fmt::format(fmt::runtime(kind), type));
-  return names;
+  return columns_of(cells(Bin{}));
 }
 
 std::vector<std::vector<double>> ForceDistribution::rows(const Counts& counts) const
@@ -121,15 +135,15 @@ std::vector<std::vector<double>> ForceDistribution::rows(const Counts& counts) c
   std::array<double, pair_types> total{}, below{};
   for (const auto& bin : counts) accumulate(total, bin);
   std::vector<std::vector<double>> rows;
-  for (std::size_t bin = 0; bin < bins; ++bin) {
-    std::vector<double> row{edge(bin), edge(bin + 1)};
-    for (const double n : counts[bin]) row.push_back(n / static_cast<double>(frames_));
-    for (std::size_t type = 0; type < pair_types; ++type)
-      row.push_back(counts[bin][type] / total[type] / (edge(bin + 1) - edge(bin)));
-    for (std::size_t type = 0; type < pair_types; ++type)
-      row.push_back((total[type] - below[type]) / total[type]);
-    accumulate(below, counts[bin]);
-    rows.push_back(std::move(row));
+  for (std::size_t k = 0; k < bins; ++k) {
+    Bin bin{.lower = edge(k), .upper = edge(k + 1)};
+    for (std::size_t type = 0; type < pair_types; ++type) {
+      bin.number[type] = counts[k][type] / static_cast<double>(frames_);
+      bin.density[type] = counts[k][type] / total[type] / (bin.upper - bin.lower);
+      bin.tail[type] = (total[type] - below[type]) / total[type];
+    }
+    accumulate(below, counts[k]);
+    rows.push_back(values_of(cells(bin)));
   }
   return rows;
 }

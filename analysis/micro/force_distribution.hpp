@@ -11,8 +11,8 @@
 
 namespace grseg {
 
-/// Mean normal force of the contacts of a layer, by its pair types and of all between mobile
-/// grains. Only contacts that carry a force count; they are booked where the contact point is.
+/// Mean normal force of the contacts of a layer, of each pair type and of all contacts between
+/// mobile grains. Only contacts that bear a force count, in the layer of the contact point.
 class MeanNormalForce {
  public:
   explicit MeanNormalForce(const Layers& layers) : layers_(layers) {}
@@ -32,21 +32,21 @@ class MeanNormalForce {
   std::vector<std::array<Sum, pair_types>> sums_;
 };
 
-/// What the normal force of a contact is divided by: the mean in the same layer over ...
+/// By which mean of the same layer the normal force of a contact is divided.
 enum class ForceUnit {
-  layer,  ///< all contacts between mobile grains
-  type,   ///< the contacts of its own pair type
+  layer,  ///< that of all contacts between mobile grains
+  type,   ///< that of the contacts of its own pair type
 };
 
 /// Distribution of x = f_n/<f_n> by pair type: counts of contacts in bins of x, per frame, the last
-/// bin open above. All frames of a window are gone through twice: first for the mean, then for the
-/// counts. One bin's lower edge is exactly 1 where 1 is a multiple of the width: above it are the
+/// bin open above. The frames of a window are read twice, first for the mean, then for the counts.
+/// Where 1 is a multiple of the bins' width, a bin begins exactly at 1: from there on lie the
 /// strong contacts (Radjai et al. 1998).
 class ForceDistribution {
  public:
   static constexpr std::size_t bins = 101;
 
-  /// `width` of the bins, in units of x.
+  /// `width` of the bins in units of x, i.e. of the mean force.
   ForceDistribution(const Layers& layers, const MeanNormalForce& mean, ForceUnit unit,
                     double width);
 
@@ -54,11 +54,12 @@ class ForceDistribution {
   void merge(const ForceDistribution& others);
   std::size_t layers() const { return counts_.size(); }
 
-  /// x0, x1 (inf for the last bin); n_* counts per frame; P_* their density, so that the sum of
-  /// P (x1 - x0) is the share below the open bin; tail_* the share of contacts with x >= x0. P is 0
-  /// in the open bin; P and tail are NaN where there are no contacts.
+  /// x0 and x1, the edges (x1 is inf for the last bin); n_*, counts per frame; P_*, their density,
+  /// so that the sum of P (x1 - x0) is the share below the open bin; tail_*, the share of contacts
+  /// with x >= x0. P is 0 in the open bin; P and tail are NaN without contacts.
   static std::vector<std::string> columns();
-  /// One row per bin, of a layer and of the whole bed, each contact in units of its own layer.
+  /// One row per bin, of a layer and of the whole bed, where each contact counts in units of its
+  /// own layer.
   std::vector<std::vector<double>> rows(std::size_t layer) const;
   std::vector<std::vector<double>> bed_rows() const;
 

@@ -6,7 +6,7 @@
 
 namespace grseg {
 
-PressureEstimate estimate_pressure(const MicroSums& sums, const ForceMeasure& measure,
+PressureEstimate estimate_pressure(const StructureSums& sums, const ForceMeasure& measure,
                                    double small_diameter, double large_diameter)
 {
   const double phi_large = sums.phi_large();

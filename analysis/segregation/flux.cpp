@@ -2,6 +2,7 @@
 #include "analysis/segregation/flux.hpp"
 
 #include "analysis/frames/accumulate.hpp"
+#include "analysis/frames/ratio.hpp"
 
 #include <fmt/format.h>
 
@@ -16,12 +17,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double ratio(double a, double b)
-{
-  return b > 0 ? a / b : nan;
-}
-
-/// Name, unit and place of what is printed with an error.
+/// A quantity that is printed with its error: name, unit and where it is.
 struct Quantity {
   const char *name, *unit;
   double LayerSegregation::*place;
@@ -42,7 +38,7 @@ constexpr std::array quantities{Quantity{"phi_L", "", &LayerSegregation::phi_lar
                                 Quantity{"S", "[m/s]", &LayerSegregation::S},
                                 Quantity{"Pe", "", &LayerSegregation::peclet}};
 
-/// Standard errors from the values that come out when one part after the other is left out.
+/// Jackknife standard errors, from the values without each of the parts in turn.
 LayerSegregation jackknife(const std::vector<LayerSegregation>& left_out)
 {
   LayerSegregation error{};
@@ -149,16 +145,17 @@ void SegregationFlux::add_displacements(const Grains& grains, std::size_t part, 
 
 double SegregationFlux::gradient(const Profile& profile, std::size_t layer) const
 {
-  // A neighbour with less than half as many grains, as the spray above the bed, is not asked.
+  // A neighbour with less than half of the grains' area, such as the spray above the bed, is left
+  // out.
   const auto area = [&](std::size_t n) { return profile[n].area[0] + profile[n].area[1]; };
-  const auto asked = [&](std::size_t n) {
+  const auto usable = [&](std::size_t n) {
     return n < profile.size() && area(n) > 0 && area(n) >= area(layer) / 2;
   };
   const auto height = [&](std::size_t n) {
     return layers_.bottom(n) + profile[n].flow.my / profile[n].flow.mass;
   };
-  const std::size_t below = layer > 0 && asked(layer - 1) ? layer - 1 : layer;
-  const std::size_t above = asked(layer + 1) ? layer + 1 : layer;
+  const std::size_t below = layer > 0 && usable(layer - 1) ? layer - 1 : layer;
+  const std::size_t above = usable(layer + 1) ? layer + 1 : layer;
   if (below == above) return nan;
   return (profile[above].phi_large() - profile[below].phi_large()) /
          (height(above) - height(below));
@@ -191,7 +188,7 @@ LayerSegregation SegregationFlux::evaluate(const Profile& profile, std::size_t l
                                 : phi_small * r.D_large + r.phi_large * r.D_small;
   r.gradient = gradient(profile, layer);
   const double both = r.phi_large * phi_small;
-  r.S = both > 0 ? (r.q_large + r.D * r.gradient) / both : nan;
+  r.S = ratio(r.q_large + r.D * r.gradient, both);
   r.peclet = r.S * bed / r.D;
   return r;
 }
@@ -231,25 +228,20 @@ std::vector<SegregationFlux::Result> SegregationFlux::results(const Grains& grai
   return results;
 }
 
-std::vector<std::string> SegregationFlux::columns()
+std::vector<Cell> SegregationFlux::cells(const Result& result)
 {
-  std::vector<std::string> names{"area_S[m^2]", "area_L[m^2]",     "u[m/s]",         "v[m/s]",
-                                 "du_dy[1/s]",  "displacements_S", "displacements_L"};
+  std::vector<Cell> cells{{"area_S[m^2]", result.area_small},
+                          {"area_L[m^2]", result.area_large},
+                          {"u[m/s]", result.flow.u},
+                          {"v[m/s]", result.flow.v},
+                          {"du_dy[1/s]", result.flow.du_dy},
+                          {"displacements_S", result.displacements[0]},
+                          {"displacements_L", result.displacements[1]}};
   for (const auto& [name, unit, place] : quantities) {
-    names.push_back(fmt::format("{}{}", name, unit));
-    names.push_back(fmt::format("{}_error{}", name, unit));
+    cells.push_back({fmt::format("{}{}", name, unit), result.value.*place});
+    cells.push_back({fmt::format("{}_error{}", name, unit), result.error.*place});
   }
-  return names;
-}
-
-std::vector<double> SegregationFlux::row(const Result& result)
-{
-  std::vector<double> row{result.area_small,      result.area_large, result.flow.u,
-                          result.flow.v,          result.flow.du_dy, result.displacements[0],
-                          result.displacements[1]};
-  for (const auto& [name, unit, place] : quantities)
-    row.insert(row.end(), {result.value.*place, result.error.*place});
-  return row;
+  return cells;
 }
 
 }  // namespace grseg

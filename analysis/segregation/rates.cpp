@@ -12,14 +12,14 @@
 namespace grseg {
 namespace {
 
-/// weight (y - x . coefficients)^2 is made small.
+/// A term weight (y - x . coefficients)^2 of the sum that is minimised.
 struct Equation {
   double weight;
   Eigen::VectorXd x;
   double y;
 };
 
-/// Weighted least squares over the points; influences by window.
+/// Weighted least squares over the points, with the influence of each window on the coefficients.
 class Regression {
  public:
   template <class MakeEquation>
@@ -29,7 +29,7 @@ class Regression {
     std::vector<std::pair<std::size_t, Equation>> equations;
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(unknowns, unknowns);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
-    std::map<std::size_t, Eigen::Index> rows;  // of the windows that take part
+    std::map<std::size_t, Eigen::Index> rows;  // of `influence`, by window that takes part
     for (const auto& point : points) {
       const Equation e = make(point);
       if (!(e.weight > 0) || !e.x.allFinite() || !std::isfinite(e.y)) continue;
@@ -62,6 +62,7 @@ Eigen::VectorXd numbers(std::initializer_list<double> list)
   return vector;
 }
 
+/// phi_L phi_S.
 double both(const RatePoint& point)
 {
   const double phi = point.layer.value.phi_large;
@@ -76,12 +77,13 @@ Regression mean(const std::vector<RatePoint>& points, std::size_t species,
           }};
 }
 
+/// q_L + D d phi_L/dy: the part of the flux that segregation makes, S phi_L phi_S.
 double advected(const LayerSegregation& layer)
 {
   return layer.q_large + layer.D * layer.gradient;
 }
 
-/// Of a quotient a/b times `factor`.
+/// Of the quotient a/b times `factor`.
 Estimate quotient(const Regression& a, const Regression& b, double factor)
 {
   const double value = factor * a.value[0] / b.value[0];
@@ -100,8 +102,7 @@ std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter&
     if (point.solid > 0) solid.push_back(point.solid);
   const double median = solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
   std::erase_if(points, [&](const RatePoint& point) {
-    const double slack = 1e-9 * (point.top - point.bottom);
-    return point.bottom < filter.lowest - slack || point.top > filter.highest + slack ||
+    return !filter.heights.holds(point.bottom, point.top) ||
            !(point.solid >= filter.min_solid * median);
   });
   return points;
@@ -117,7 +118,7 @@ SegregationSummary segregation_rates(const std::vector<RatePoint>& points)
     const double unit = std::abs(p.layer.flow.du_dy) * p.diameter;
     return {p.layer.mass, numbers({both(p)}), advected(p.layer.value) / unit};
   });
-  // Where the gradient is not known the point takes part in neither S nor D.
+  // A point whose gradient is not known takes part in neither S nor D.
   const Regression diffusivity(points, 1, [](const RatePoint& p) -> Equation {
     const double weight = std::isfinite(advected(p.layer.value)) ? p.layer.mass : 0;
     return {weight * both(p) * both(p), numbers({1}), p.layer.value.D};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/height_range.hpp"
 #include "analysis/segregation/flux.hpp"
 #include "analysis/segregation/summary.hpp"
 
-#include <limits>
 #include <vector>
 
 namespace grseg {
@@ -14,28 +14,28 @@ struct RatePoint {
   std::size_t window;
   double bottom, top;  // of the layer, m
   double solid;        // area of grains over V
-  double diameter;     // mean by composition, m
-  double bed;          // height, m
+  double diameter;     // phi_S d_S + phi_L d_L, nominal, m
+  double bed;          // height of the bed, m
   SegregationFlux::Result layer;
 };
 
 /// Which layers take part.
 struct RateFilter {
-  double lowest = -std::numeric_limits<double>::infinity();  // m
-  double highest = std::numeric_limits<double>::infinity();
+  HeightRange heights = {};
   double min_solid = 0.5;  // least solid fraction over the median of all points
 };
 std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter);
 
 /// Segregation velocity, diffusivities and Peclet number of a whole run, over the layers and
-/// windows given:
-///   D_S, D_L, Dhat_S, Dhat_L  means weighted by the number of displacements; Dhat = D/(|du/dy|
-///   d^2) S, D   q_L + D d phi_L/dy = S phi_L phi_S by least squares weighted with mass, D by the
-///          displacements in each layer; and the mean of that D with the weights mass (phi_L
-///          phi_S)^2
-///   Shat   the same with both sides over |du/dy| d
-///   Pe = S H/D, lambda = D/S
-///   S_flux, D_flux  both at once from q_L = S phi_L phi_S - D d phi_L/dy, displacements not asked
+/// windows given, by the law of Gray & Chugunov (2006), q_L = S phi_L phi_S - D d phi_L/dy:
+///   D_S, D_L        means of the layers' diffusivities weighted by the number of displacements
+///   Dhat_S, Dhat_L  the same of D/(|du/dy| d^2)
+///   S               q_L + D d phi_L/dy = S phi_L phi_S by least squares weighted with mass, D from
+///                   the displacements in each layer
+///   Shat            the same with both sides over |du/dy| d
+///   D               the mean of that D with weights mass (phi_L phi_S)^2
+///   Pe, lambda      S H/D and D/S
+///   S_flux, D_flux  both from the law by least squares, without the displacements
 /// Intervals come from how windows differ from their neighbours in time (error_about_trend), so
 /// that what changes as the bed segregates is part of the mean and not of its error.
 SegregationSummary segregation_rates(const std::vector<RatePoint>& points);

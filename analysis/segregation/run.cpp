@@ -12,7 +12,7 @@ namespace {
 using Moment = SegregationSeries::Moment;
 
 struct BedColumn {
-  const char* name;
+  const char* column;
   double Moment::*place;
 };
 constexpr std::array bed_columns{
@@ -23,12 +23,32 @@ constexpr std::array bed_columns{
 Moment mean_of_last(const std::vector<Moment>& moments, std::size_t count)
 {
   Moment mean;
-  for (const auto& [name, place] : bed_columns) {
+  for (const auto& [column, place] : bed_columns) {
     for (std::size_t k = moments.size() - count; k < moments.size(); ++k)
       mean.*place += moments[k].*place;
     mean.*place /= static_cast<double>(count);
   }
   return mean;
+}
+
+std::vector<Cell> cells(const Moment& bed)
+{
+  std::vector<Cell> cells;
+  for (const auto& [column, place] : bed_columns) cells.push_back({column, bed.*place});
+  return cells;
+}
+
+/// NaN in every column.
+std::vector<Cell> without_values(std::vector<Cell> cells)
+{
+  for (auto& cell : cells) cell.value = std::numeric_limits<double>::quiet_NaN();
+  return cells;
+}
+
+std::vector<Cell> together(std::vector<Cell> first, const std::vector<Cell>& then)
+{
+  first.insert(first.end(), then.begin(), then.end());
+  return first;
 }
 
 }  // namespace
@@ -60,24 +80,17 @@ void SegregationRun::add(const Grains& grains, const SegregationSeries& series,
 
 std::vector<std::string> SegregationRun::columns()
 {
-  auto names = SegregationFlux::columns();
-  for (const auto& [name, place] : bed_columns) names.emplace_back(name);
-  return names;
+  return columns_of(together(SegregationFlux::cells({}), cells(Moment{})));
 }
 
 std::vector<double> SegregationRun::row(std::size_t layer) const
 {
-  auto row = SegregationFlux::row(results_[layer]);
-  row.insert(row.end(), bed_columns.size(), std::numeric_limits<double>::quiet_NaN());
-  return row;
+  return values_of(together(SegregationFlux::cells(results_[layer]), without_values(cells(bed_))));
 }
 
 std::vector<double> SegregationRun::bed_row() const
 {
-  std::vector<double> row(SegregationFlux::columns().size(),
-                          std::numeric_limits<double>::quiet_NaN());
-  for (const auto& [name, place] : bed_columns) row.push_back(bed_.*place);
-  return row;
+  return values_of(together(without_values(SegregationFlux::cells({})), cells(bed_)));
 }
 
 SegregationSummary SegregationRun::summary(const RateFilter& filter) const

@@ -11,8 +11,8 @@
 
 namespace grseg {
 
-/// The windows of a run one after the other, and what they say together. Keeps a few numbers per
-/// frame and per layer and window.
+/// The windows of a run one after the other, and what follows from all of them. Keeps a few numbers
+/// per frame and per layer and window.
 class SegregationRun {
  public:
   /// Nominal diameters, m.
@@ -21,8 +21,8 @@ class SegregationRun {
   /// The next window.
   void add(const Grains& grains, const SegregationSeries& series, const SegregationFlux& flux);
 
-  /// The columns of grseg-segregation from area_S on, and the numbers of the last window under
-  /// them: those of a layer, and those of the whole bed, which are means over the window's frames.
+  /// The columns of grseg-segregation from area_S on, and the values of the last window: of a
+  /// layer, and of the whole bed, which are means over the frames of the window.
   static std::vector<std::string> columns();
   std::size_t layers() const { return results_.size(); }
   std::vector<double> row(std::size_t layer) const;
@@ -35,10 +35,10 @@ class SegregationRun {
   Layers layers_;
   double small_diameter_, large_diameter_;
   SegregationSeries series_;
-  std::vector<std::size_t> windows_;  // how many moments each has
+  std::vector<std::size_t> windows_;  // number of moments in each
   std::vector<RatePoint> points_;
   std::vector<SegregationFlux::Result> results_;  // of the last window
-  SegregationSeries::Moment bed_;                 // likewise
+  SegregationSeries::Moment bed_;                 // of the last window
 };
 
 }  // namespace grseg

@@ -1,43 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/series.hpp"
 
-#include "analysis/frames/composition.hpp"
+#include "analysis/frames/bed_heights.hpp"
 #include "analysis/frames/layer_flow.hpp"
-
-#include <array>
-#include <limits>
+#include "analysis/segregation/mixing_index.hpp"
 
 namespace grseg {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double ratio(double a, double b)
-{
-  return b > 0 ? a / b : nan;
-}
-
-SegregationSeries::Moment heights(const Grains& grains, const Frame& frame)
-{
-  std::array<double, 2> mass{}, moment{};
-  double area = 0, area_moment = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
-    const auto species = static_cast<std::size_t>(grains.species[g]);
-    const double y = frame.position[g].y(), square = grains.radius[g] * grains.radius[g];
-    mass[species] += grains.mass[g];
-    moment[species] += grains.mass[g] * y;
-    area += square;
-    area_moment += square * y;
-  }
-  SegregationSeries::Moment now;
-  now.time = frame.time;
-  now.small = ratio(moment[0], mass[0]);
-  now.large = ratio(moment[1], mass[1]);
-  now.bed = 2 * ratio(area_moment, area);
-  return now;
-}
-
+/// From 10 to 90 % of the height of the bed.
 double shear_rate(const Grains& grains, const Frame& frame, double bed)
 {
   LayerFlowSums sums;
@@ -51,35 +22,14 @@ double shear_rate(const Grains& grains, const Frame& frame, double bed)
 
 }  // namespace
 
-double mixing_index(const Layers& layers, const Grains& grains, const Frame& frame)
-{
-  Composition composition(layers, GrainArea::centre);
-  composition.add(grains, frame);
-  std::array<double, 2> number{};
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g)) ++number[static_cast<std::size_t>(grains.species[g])];
-  const auto all = composition.mean();
-  const double area = all.small + all.large, phi = all.phi_large();
-  if (!(phi > 0 && phi < 1)) return nan;
-
-  double variance = 0, occupied = 0;
-  for (std::size_t n = 0; n < composition.layers(); ++n) {
-    const auto here = composition.mean(n);
-    const double own = here.small + here.large;
-    if (!(own > 0)) continue;
-    const double excess = here.phi_large() - phi;
-    variance += own * excess * excess / area;
-    ++occupied;
-  }
-  const double apart = phi * (1 - phi);
-  const double of_one = (1 - phi) * all.large / number[1] + phi * all.small / number[0];
-  const double random = occupied * apart * of_one / area;
-  return (apart - variance) / (apart - random);
-}
-
 void SegregationSeries::add(const Grains& grains, const Frame& frame)
 {
-  auto now = heights(grains, frame);
+  const auto heights = bed_heights(grains, frame);
+  Moment now;
+  now.time = frame.time;
+  now.large = heights.large;
+  now.small = heights.small;
+  now.bed = heights.bed;
   now.shear_rate = shear_rate(grains, frame, now.bed);
   now.mixing = mixing_index(layers_, grains, frame);
   if (!moments_.empty()) {

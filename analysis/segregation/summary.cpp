@@ -8,7 +8,7 @@
 
 namespace grseg {
 
-std::string to_tsv(const SegregationSummary& summary, TableHeader header)
+std::string to_tsv(const SegregationSummary& summary, Header header)
 {
   for (const auto& remark : summary.remarks) header.emplace_back("remark", remark);
   Table table;
@@ -21,7 +21,7 @@ std::string to_tsv(const SegregationSummary& summary, TableHeader header)
   return text;
 }
 
-std::string to_json(const SegregationSummary& summary, const TableHeader& header)
+std::string to_json(const SegregationSummary& summary, const Header& header)
 {
   using Json = nlohmann::ordered_json;
   Json numbers = Json::object();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/statistics/confidence.hpp"
+#include "formats/cli/provenance.hpp"
 
 #include <string>
 #include <utility>
@@ -9,7 +10,8 @@
 
 namespace grseg {
 
-/// Numbers of a whole run under their names with units, and sentences on what cannot be told.
+/// Numbers of a whole run under their names with units, and remarks on those that the run does not
+/// determine.
 struct SegregationSummary {
   std::vector<std::pair<std::string, Estimate>> numbers;
   std::vector<std::string> remarks;
@@ -21,11 +23,9 @@ struct SegregationSummary {
   }
 };
 
-using TableHeader = std::vector<std::pair<std::string, std::string>>;
-
-/// Rows of quantity, value, low and high under the header of a table, remarks among its lines.
-std::string to_tsv(const SegregationSummary& summary, TableHeader header);
+/// Rows of quantity, value, low and high under the header of a table, which also holds the remarks.
+std::string to_tsv(const SegregationSummary& summary, Header header);
 /// {"numbers": {"tau[s]": {"value", "interval"}, ...}, "remarks", "settings", "inputs", "history"}
-std::string to_json(const SegregationSummary& summary, const TableHeader& header);
+std::string to_json(const SegregationSummary& summary, const Header& header);
 
 }  // namespace grseg

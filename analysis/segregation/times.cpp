@@ -21,7 +21,7 @@ Eigen::VectorXd series(const std::vector<Moment>& moments, double Moment::*place
   return values;
 }
 
-/// The fit against time or against strain.
+/// The exponential approach of y_L, fitted against time or against strain.
 void add_approach(const std::vector<Moment>& moments, bool against_time,
                   SegregationSummary& summary)
 {
@@ -38,17 +38,17 @@ void add_approach(const std::vector<Moment>& moments, bool against_time,
     summary.numbers.emplace_back(fmt::format("{}{}", name, unit), when);
     if (fit.trouble.empty() && std::isnan(when.value))
       summary.remarks.push_back(
-          fmt::format("{}{}: the run ends before y_L has gone {:g} % of the way to {:.4g} m", name,
-                      unit, 100 * part, fit.end.value));
+          fmt::format("{}{}: the run ends before y_L has covered {:g} % of the way to {:.4g} m",
+                      name, unit, 100 * part, fit.end.value));
   }
   if (!fit.trouble.empty())
     summary.remarks.push_back(
-        fmt::format("no fit of an exponential approach to y_L over {}: it {}; a longer run may "
-                    "tell, or another --begin",
+        fmt::format("no exponential approach fits y_L over {}: it {}; try a longer run or another "
+                    "--begin",
                     against_time ? "time" : "strain", fit.trouble));
 }
 
-/// Of one window.
+/// Means over one window.
 struct WindowMean {
   double time, strain, mixing, error;
 };
@@ -65,7 +65,7 @@ std::vector<WindowMean> window_means(const std::vector<Moment>& moments,
     const Eigen::VectorXd excess = mixing.array() - mixing.mean();
     const auto frames = static_cast<double>(mixing.size());
     const double error = standard_error(excess / frames, 1).error;
-    // Frames that all depend on each other count as one.
+    // NaN where all frames depend on each other; then they count as one value.
     means.push_back({series(own, &Moment::time).mean(), series(own, &Moment::strain).mean(),
                      mixing.mean(),
                      std::isnan(error) ? std::sqrt(excess.squaredNorm() / frames) : error});
@@ -102,7 +102,7 @@ void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_
     strain = from(most->strain, &WindowMean::strain, moments.front().strain);
   } else {
     summary.remarks.push_back(
-        fmt::format("t_mixing: mixing is largest in the {} window, so that its time is not known",
+        fmt::format("t_mixing: mixing is largest in the {} window, so its time is not known",
                     means.size() == 1       ? "only"
                     : most == means.begin() ? "first"
                                             : "last"));

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
 
 namespace grseg {
@@ -29,18 +28,19 @@ void ContactAssignmentOptions::add_to(po::options_description& options)
 
 ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values)
 {
-  constexpr std::array assignments{Assignment::contact_point, Assignment::branch,
-                                   Assignment::grain,         Assignment::kernel,
-                                   Assignment::kernel,        Assignment::kernel};
-  constexpr std::size_t first_kernel = 3;
-  const auto word = choose(
-      assign, "--assign",
-      {"contact-point", "branch", "grain", kernel_names[0], kernel_names[1], kernel_names[2]});
-  ContactAssignment chosen{assignments[word], {}, {}};
-  if (word >= first_kernel) chosen.shape = static_cast<KernelShape>(word - first_kernel);
+  auto chosen =
+      choose<ContactAssignment>(assign, "--assign",
+                                {{"contact-point", {Assignment::contact_point, {}, {}}},
+                                 {"branch", {Assignment::branch, {}, {}}},
+                                 {"grain", {Assignment::grain, {}, {}}},
+                                 {"gauss", {Assignment::kernel, KernelShape::gauss, {}}},
+                                 {"lucy", {Assignment::kernel, KernelShape::lucy, {}}},
+                                 {"heaviside", {Assignment::kernel, KernelShape::heaviside, {}}}});
   if (composition.empty()) composition = chosen.shape ? "kernel" : "clipped";
-  chosen.area =
-      static_cast<GrainArea>(choose(composition, "--composition", {"clipped", "centre", "kernel"}));
+  chosen.area = choose<GrainArea>(composition, "--composition",
+                                  {{"clipped", GrainArea::clipped},
+                                   {"centre", GrainArea::centre},
+                                   {"kernel", GrainArea::kernel}});
   for (const auto& [given, option] :
        {std::pair{chosen.area == GrainArea::kernel, "--composition kernel"},
         {!values["width"].defaulted(), "--width"}})

@@ -2,6 +2,7 @@
 #include "analysis/stress/merge_tables.hpp"
 
 #include "analysis/stress/partition.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -37,19 +38,7 @@ bool is_source(const std::string& key)
 
 std::vector<std::string> inputs_of(const Table& table)
 {
-  std::vector<std::string> inputs;
-  for (const auto& [key, value] : table.header)
-    if (key == "input") inputs.push_back(value);
-  return inputs;
-}
-
-/// "# key: value" lines that say how the table was made.
-std::vector<std::pair<std::string, std::string>> settings_of(const Table& table)
-{
-  auto settings = table.header;
-  std::erase_if(settings,
-                [](const auto& line) { return is_source(line.first) || line.first == "program"; });
-  return settings;
+  return header_values(table, "input");
 }
 
 void require_stress_table(const Table& table)
@@ -155,7 +144,7 @@ std::vector<std::vector<double>> merged_rows(const std::vector<const Part*>& par
 
 }  // namespace
 
-Table merge_tables(std::vector<Table> tables, bool all_windows, const std::string& program,
+Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& info,
                    const std::string& command)
 {
   if (tables.empty()) throw UsageError("no tables given to merge; name some, e.g. a.tsv b.tsv");
@@ -180,7 +169,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const std::strin
       windows[all_windows ? Times{} : window].push_back(&part);
 
   Table merged;
-  merged.header.emplace_back("program", program);
+  merged.header.push_back(program_line(info));
   for (const auto& table : tables)
     for (const auto& line : table.header)
       if (is_source(line.first)) merged.header.push_back(line);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/cli/table.hpp"
+#include "formats/cli/tool.hpp"
 
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ namespace grseg {
 /// The # lines hold every table's history and input, and last `command`; all others must be the
 /// same in all tables: FormatError naming two that differ. UsageError where two hold the same time
 /// of the same run. The order of `tables` changes no byte (but that of file names in `command`).
-Table merge_tables(std::vector<Table> tables, bool all_windows, const std::string& program,
+Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& info,
                    const std::string& command);
 
 }  // namespace grseg

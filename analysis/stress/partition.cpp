@@ -43,10 +43,8 @@ double parse_value(const std::string& text, const std::string& rule)
 
 [[noreturn]] void refuse(const std::string& word)
 {
-  const auto guess = nearest(word, {"size", "contact-point", "half", "drop", "uniform", "power"});
-  throw UsageError(fmt::format("--partition: there is no rule '{}'{}; the rules are {}", word,
-                               guess.empty() ? "" : fmt::format(", did you mean {}?", guess),
-                               all_rules));
+  throw UsageError(unknown_word("--partition", word,
+                                {"size", "contact-point", "half", "drop", "uniform:P", "power:Q"}));
 }
 
 /// What contacts between mobile grains give to the species, N m, and what they give to nobody.
@@ -153,11 +151,10 @@ std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts)
 
 BasePart parse_base(const std::string& text)
 {
-  if (text == "contact-point") return BasePart::contact_point;
-  if (text == "half") return BasePart::half;
-  if (text == "none") return BasePart::none;
-  throw UsageError(
-      fmt::format("--base: there is no '{}'; it is contact-point, half or none", text));
+  return choose<BasePart>(text, "--base",
+                          {{"contact-point", BasePart::contact_point},
+                           {"half", BasePart::half},
+                           {"none", BasePart::none}});
 }
 
 PartialStress partial_stress(const ContactSums& sums, const PartitionRule& rule, BasePart base,

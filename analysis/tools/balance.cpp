@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/balance_summary.hpp"
-#include "analysis/balance/balance_table.hpp"
+#include "analysis/balance/summary.hpp"
+#include "analysis/balance/table.hpp"
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
 #include "formats/cli/words.hpp"
@@ -14,13 +14,12 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-balance",
-    "momentum balance of each species by layer and window, and which mechanism pushes large grains "
-    "which way.",
+    "momentum balance of each species by layer and window, and the forces that drive segregation.",
     "grseg-balance run.h5 [options] > balance.tsv",
     "  grseg-balance run.h5 -o balance.tsv              layers of 4 dS, Gaussian of 1 dS\n"
     "  grseg-balance run.h5 --layer 1dS --width 0.5dS   finer profiles\n"
     "  grseg-balance run.h5 --kernel lucy --width 3dS   a kernel of compact support\n"
-    "  grseg-balance run.h5 --begin 20 -o /dev/null     only the sentence that sums it up\n",
+    "  grseg-balance run.h5 --begin 20 -o /dev/null     only the sentence of the summary\n",
     presets::balance};
 
 struct Settings {
@@ -34,22 +33,21 @@ po::options_description options_into(Settings& s)
   options.add_options()("kernel", po::value(&s.kernel)->default_value(s.kernel)->value_name("WORD"),
                         "coarse-graining function over height: gauss, lucy or heaviside");
   options.add_options()("width", po::value(&s.width)->default_value(s.width)->value_name("LENGTH"),
-                        "its width: standard deviation of gauss, half the support of the others");
+                        "width of the kernel: standard deviation of gauss, half the support of the "
+                        "others");
   s.frames.add_to(options);
   return options;
 }
 
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto shape = static_cast<KernelShape>(
-      choose(s.kernel, "--kernel", {kernel_names.begin(), kernel_names.end()}));
+  const auto shape = choose(s.kernel, "--kernel", kernel_shapes);
   FrameLoop loop(info, values, s.frames);
   const auto& run = loop.run();
   if (!run.has_force())
     throw FormatError(
-        fmt::format("{}: there is no /particles/grains/force, the rate at which momentum changes; "
-                    "take a run of "
-                    "grseg-sim, or import one with the forces on its grains",
+        fmt::format("{}: /particles/grains/force, the rate at which momentum changes, is missing; "
+                    "take a run of grseg-sim, or import one with the forces on its grains",
                     run.path()));
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   const Kernel kernel(shape, parse_length(s.width, "--width", units));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/check/checks.hpp"
 #include "analysis/check/content_check.hpp"
 #include "analysis/check/physics_check.hpp"
 #include "analysis/check/specification_check.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/core/version.hpp"
-#include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <fmt/format.h>
@@ -15,23 +15,35 @@
 
 #include <cstdio>
 #include <iostream>
-#include <sstream>
 
 using namespace grseg;
 
 namespace {
 
-constexpr ToolInfo info{
-    "grseg-check",
-    "whether a run is whole, with --deep whether its file is as specified, and with --physics "
-    "whether "
-    "it obeys the laws of mechanics.",
-    "grseg-check run.h5 [options] > check.tsv",
-    "  grseg-check run.h5                               closed, readable, digests agree\n"
-    "  grseg-check run.h5 --deep                        every path and chunk against "
-    "formats/README.md\n"
-    "  grseg-check run.h5 --physics                     balances, contact laws, layers, drift\n"
-    "  grseg-check run.h5 --physics --begin 20 --mean-overlap 1e-3 --json -o check.json\n"};
+constexpr const char* name = "grseg-check";
+
+/// The examples and what --physics checks.
+const std::string& help()
+{
+  static const std::string text =
+      "  grseg-check run.h5                               closed, readable, digests agree\n"
+      "  grseg-check run.h5 --deep                        every path and chunk as specified in\n"
+      "                                                   formats/README.md\n"
+      "  grseg-check run.h5 --physics                     balances, contact laws, layers, drift\n"
+      "  grseg-check run.h5 --physics --begin 20 --mean-overlap 1e-3 --json -o check.json\n"
+      "\nChecks of --physics: what is measured, tolerance and law; see docs/studies/check.md:\n" +
+      checks::listed();
+  return text;
+}
+
+ToolInfo info()
+{
+  return {
+      name,
+      "whether a run is whole, with --deep whether its file is as specified, and with --physics "
+      "whether it obeys the laws of mechanics.",
+      "grseg-check run.h5 [options] > check.tsv", help().c_str()};
+}
 
 struct Settings {
   PhysicsSettings physics;
@@ -45,40 +57,35 @@ po::options_description options_into(Settings& s)
   auto add = options.add_options();
   auto& windows = s.physics.windows;
   add("deep", po::bool_switch(&s.deep),
-      "hold the file against its specification, path by path, and read every chunk");
+      "check every path of the file against its specification, and read every chunk");
   add("physics", po::bool_switch(&s.with_physics),
-      "check the physics too; a line fails beyond its tolerance, all of which are options");
+      "check the physics too; all tolerances are options");
   add("layer", po::value(&s.physics.layer)->default_value(s.physics.layer)->value_name("LENGTH"),
-      "thickness of the layers whose weight is carried: 4dS, 2dL, 20mm, or metres");
+      "thickness of the layers whose load is checked: 4dS, 2dL, 20mm, or metres");
   add("window", po::value(&windows.length)->default_value(windows.length)->value_name("s"),
-      "time over which means are taken; their scatter is the error");
-  add("begin", time_option(windows.begin), "leave out what is before (default: t = 0)");
-  add("end", time_option(windows.end), "leave out what is from here on (default: the run)");
-  for (const auto& tolerance : CheckTolerances::all()) {
+      "duration of the windows; the scatter of their means gives the errors");
+  add("begin", time_option(windows.begin), "leave out frames before this time (default: t = 0)");
+  add("end", time_option(windows.end), "leave out frames from this time on (default: none)");
+  for (const auto& tolerance : CheckTolerances::options()) {
     double& value = s.physics.tolerances.*tolerance.value;
-    add(tolerance.name, po::value(&value)->default_value(value, fmt::format("{:g}", value)),
+    add(tolerance.name,
+        po::value(&value)->default_value(value, fmt::format("{:g}", value))->value_name("X"),
         tolerance.meaning);
   }
   add("json", po::bool_switch(&s.json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&s.quiet), "no progress on standard error");
-  add("output,o", po::value(&s.output)->value_name("FILE"), "instead of standard output");
+  add("output,o", po::value(&s.output)->value_name("FILE"),
+      "write to FILE instead of standard output");
   return options;
 }
 
-std::vector<std::pair<std::string, std::string>> header_of(const TrajectoryReader& run,
-                                                           const Settings& s,
-                                                           const std::string& command)
+Header header_of(const TrajectoryReader& run, const Settings& s, const std::string& command)
 {
-  std::vector<std::pair<std::string, std::string>> header{
-      {"program", fmt::format("{} {}", info.name, version())}};
-  std::istringstream history(run.parameters().text("history"));
-  for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
-  header.emplace_back("history", command);
-  header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run.digest())));
+  Header header = provenance(info(), "", run, command);
   if (!s.with_physics) return header;
   header.emplace_back("layer", s.physics.layer);
   header.emplace_back("window", format_number(s.physics.windows.length));
-  for (const auto& tolerance : CheckTolerances::all())
+  for (const auto& tolerance : CheckTolerances::options())
     header.emplace_back(tolerance.name, format_number(s.physics.tolerances.*tolerance.value));
   return header;
 }
@@ -98,7 +105,7 @@ CheckReport check(const TrajectoryReader& run, const Settings& s, const std::str
     if (specification) specification->add(k, frame);
     if (physics) physics->add(k, frame);
     if (progress && k % 100 == 0)
-      fmt::print(stderr, "\r{}: frame {} of {}\033[K", info.name, k, run.size());
+      fmt::print(stderr, "\r{}: frame {} of {}\033[K", name, k, run.size());
   }
   if (progress) fmt::print(stderr, "\r\033[K");
   CheckReport report{header_of(run, s, command), content.lines()};
@@ -117,7 +124,7 @@ int main(int argc, char** argv)
 {
   Settings settings;
   const auto options = options_into(settings);
-  return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
+  return run_tool(argc, argv, info(), options, [&](const po::variables_map& values) {
     const TrajectoryReader run(only_run(values, "check one at a time"));
     const auto report = check(run, settings, command_line(argc, argv));
     write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));

@@ -6,10 +6,11 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/stress/partition.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/core/version.hpp"
 
 #include <fmt/format.h>
 
@@ -81,15 +82,6 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-/// One of two words, or a sentence that names both.
-bool is_second(const std::string& word, const char* option, const char* first, const char* second)
-{
-  if (word != first && word != second)
-    throw UsageError(
-        fmt::format("--{}: there is no '{}'; it is {} or {}", option, word, first, second));
-  return word == second;
-}
-
 void parse_ratio_range(const std::string& text, FitFilters& filters)
 {
   int used = 0;
@@ -132,26 +124,11 @@ void check(const Settings& s, const po::variables_map& values)
             fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));
 }
 
-std::string header_or(const Table& table, const std::string& key, const std::string& otherwise)
-{
-  for (const auto& [known, value] : table.header)
-    if (known == key) return value;
-  return otherwise;
-}
-
 std::vector<PartitionRule> rules_of(const Settings& s, const Table& first)
 {
   if (s.quantity == "kinetic") return {PartitionRule{}};
   if (!s.partition.empty()) return parse_rules(s.partition);
   return {parse_rule(header_or(first, "partition", "size"))};
-}
-
-void collect(const std::vector<Table>& tables, const char* key, std::vector<std::string>& lines)
-{
-  for (const auto& table : tables)
-    for (const auto& [known, value] : table.header)
-      if (known == key && std::find(lines.begin(), lines.end(), value) == lines.end())
-        lines.push_back(value);
 }
 
 /// Says on standard error what a reader of the numbers should know.
@@ -170,10 +147,10 @@ FitReport make_report(const Settings& s, const std::string& preset,
 {
   const auto base = s.base.empty() ? header_or(tables[0], "base", "contact-point") : s.base;
   FitReport report;
-  report.quantity = is_second(s.quantity, "quantity", "contact", "kinetic") ? Quantity::kinetic
-                                                                            : Quantity::contact;
-  report.component =
-      is_second(s.component, "component", "yy", "pressure") ? Component::pressure : Component::yy;
+  report.quantity = choose<Quantity>(
+      s.quantity, "--quantity", {{"contact", Quantity::contact}, {"kinetic", Quantity::kinetic}});
+  report.component = choose<Component>(s.component, "--component",
+                                       {{"yy", Component::yy}, {"pressure", Component::pressure}});
   const FitSettings settings{report.component, parse_base(base)};
   const auto rules = rules_of(s, tables[0]);
   auto read = rules;
@@ -185,7 +162,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
   if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
 
   report.header = {
-      {"program", fmt::format("grseg-fit {}", version())},
+      program_line(info),
       {"preset", preset},
       {"quantity", s.quantity},
       {"component", s.component},
@@ -201,8 +178,8 @@ FitReport make_report(const Settings& s, const std::string& preset,
       {"seed", fmt::format("{}", s.seed)},
       {"interval", "95 %"}};
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
-  collect(tables, "input", report.inputs);
-  collect(tables, "history", report.history);
+  report.inputs = header_values(tables, "input");
+  report.history = header_values(tables, "history");
   return report;
 }
 

@@ -68,8 +68,11 @@ struct LayerBias {
 
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto flow =
-      static_cast<MeanFlow>(choose(s.mean, "--mean", {"profile", "layer", "instant", "species"}));
+  const auto flow = choose<MeanFlow>(s.mean, "--mean",
+                                     {{"profile", MeanFlow::profile},
+                                      {"layer", MeanFlow::layer},
+                                      {"instant", MeanFlow::instant},
+                                      {"species", MeanFlow::species}});
   FrameLoop loop(info, values, s.frames);
   auto table = loop.make_table(command, {{"mean", s.mean}}, KineticStress::columns());
 

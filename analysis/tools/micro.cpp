@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
+#include "analysis/micro/derived_table.hpp"
 #include "analysis/micro/force_distribution.hpp"
-#include "analysis/micro/micro_report.hpp"
-#include "analysis/micro/micro_structure.hpp"
+#include "analysis/micro/structure_by_layer.hpp"
 #include "formats/cli/words.hpp"
 
 #include <cmath>
+#include <optional>
 
 using namespace grseg;
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-micro",
-    "contacts, their forces and directions, by layer and of the bed: sums, and what follows.",
+    "contacts, their forces and directions, by layer and of the bed: sums and derived quantities.",
     "grseg-micro run.h5 [options] > micro.tsv;  grseg-micro --derived micro.tsv ... [options]",
     "  grseg-micro run.h5 -o micro.tsv                  sums: layers of 4 dS, windows of 1.25 s\n"
     "  grseg-micro --derived micro.tsv                  z, f, Pi, B, friction, fabric of each row\n"
@@ -28,7 +29,7 @@ struct Settings {
   std::string composition = "clipped", unit = "layer";
   double friction = std::numeric_limits<double>::quiet_NaN(), bin = 0.1;
   bool derived = false, distribution = false;
-  ReportOptions report;
+  DerivedOptions derivation;
 };
 
 po::options_description options_into(Settings& s)
@@ -39,60 +40,54 @@ po::options_description options_into(Settings& s)
   };
   auto add = options.add_options();
   add("composition", word(s.composition),
-      "a grain's area is clipped at the layers' edges, or whole at its centre");
+      "give layers the area of a grain clipped at their edges, or whole at its centre (centre)");
   add("friction", po::value(&s.friction)->value_name("MU"),
-      "of the Coulomb limit at which contacts slide (default: that of the run)");
+      "friction coefficient of the Coulomb limit at which contacts slide (default: the run's)");
   add("distribution", po::bool_switch(&s.distribution),
-      "histograms of f_n/<f_n> instead of the sums");
+      "print histograms of f_n/<f_n> instead of the sums");
   add("unit", word(s.unit),
-      "<f_n> of --distribution: the mean over all contacts between grains of a layer, or over "
-      "those "
-      "of the same pair type");
+      "with --distribution: <f_n> is the mean over all contacts between grains of a layer, or over "
+      "those of the same pair type (type)");
   add("bin", po::value(&s.bin)->default_value(s.bin, "0.1")->value_name("X"),
-      "width of its bins, of which there are a hundred and an open one");
+      "with --distribution: width of the 100 bins below the open one");
   add("derived", po::bool_switch(&s.derived),
-      "read tables of this tool and print what follows from their sums");
-  s.report.add_to(options);
+      "read tables of this tool and print the quantities that follow from their sums");
+  s.derivation.add_to(options);
   s.frames.add_to(options);
   return options;
 }
 
+/// NaN where neither the command line nor the run gives it.
 double friction_of(const Settings& s, const Parameters& parameters)
 {
-  if (!std::isnan(s.friction)) {
-    if (!(s.friction >= 0)) throw UsageError("--friction must not be negative");
-    return s.friction;
-  }
-  const auto found = parameters.numbers.find("friction");
-  return found == parameters.numbers.end() || found->second.size() != 1 ? s.friction
-                                                                        : found->second[0];
+  if (std::isnan(s.friction)) return parameters.find_number("friction").value_or(s.friction);
+  if (!(s.friction >= 0)) throw UsageError("--friction must not be negative");
+  return s.friction;
 }
 
-std::string number_or_unknown(double number)
+std::string number_or_unknown(std::optional<double> number)
 {
-  return std::isnan(number) ? "unknown" : format_number(number);
+  return !number || std::isnan(*number) ? "unknown" : format_number(*number);
 }
 
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
   const auto area =
-      static_cast<GrainArea>(choose(s.composition, "--composition", {"clipped", "centre"}));
+      choose<GrainArea>(s.composition, "--composition",
+                        {{"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}});
   FrameLoop loop(info, values, s.frames);
   const auto& parameters = loop.run().parameters();
   const double friction = friction_of(s, parameters);
-  const auto density = parameters.numbers.find("density");
-  auto table = loop.make_table(
-      command,
-      {{"composition", s.composition},
-       {"density",
-        density == parameters.numbers.end() ? "unknown" : format_number(density->second.at(0))},
-       {"friction", number_or_unknown(friction)},
-       {"sliding_tolerance", format_number(sliding_tolerance)}},
-      MicroStructure::columns());
+  auto table = loop.make_table(command,
+                               {{"composition", s.composition},
+                                {"density", number_or_unknown(parameters.find_number("density"))},
+                                {"friction", number_or_unknown(friction)},
+                                {"sliding_tolerance", format_number(sliding_tolerance)}},
+                               StructureByLayer::columns());
 
   for (const auto& window : loop.windows()) {
     const auto [micro] = loop.sum(window, {.velocity = false, .contacts = true},
-                                  MicroStructure(loop.layers(), area, friction));
+                                  StructureByLayer(loop.layers(), area, friction));
     for (std::size_t layer = 0; layer < micro.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, micro.row(layer)));
     table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));
@@ -102,7 +97,8 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
 
 void distribute(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto unit = static_cast<ForceUnit>(choose(s.unit, "--unit", {"layer", "type"}));
+  const auto unit =
+      choose<ForceUnit>(s.unit, "--unit", {{"layer", ForceUnit::layer}, {"type", ForceUnit::type}});
   if (!(s.bin > 0) || !std::isfinite(s.bin)) throw UsageError("--bin must be positive");
   FrameLoop loop(info, values, s.frames);
   auto table = loop.make_table(command, {{"unit", s.unit}, {"bin", format_number(s.bin)}},
@@ -130,11 +126,12 @@ int main(int argc, char** argv)
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
     const auto command = command_line(argc, argv);
     if (settings.derived)
-      return report_derived(info, values, settings.report, settings.frames, command);
+      return write_derived_table(info, values, settings.derivation, settings.frames, command);
     refuse_options(values, {"force", "average", "partition", "pool", "depth", "heights"},
                    "needs --derived and a table of sums");
     if (settings.distribution) {
-      refuse_options(values, {"composition", "friction"}, "does not concern --distribution");
+      refuse_options(values, {"composition", "friction"},
+                     "has no effect on --distribution; leave it out");
       return distribute(settings, values, command);
     }
     refuse_options(values, {"unit", "bin"}, "needs --distribution");

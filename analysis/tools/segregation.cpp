@@ -13,10 +13,9 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-segregation",
-    "how fast the species part: fluxes, diffusivities, segregation times and Peclet number.",
+    "how fast the species separate: fluxes, diffusivities, segregation times and Peclet number.",
     "grseg-segregation run.h5 [options] > segregation.tsv",
-    "  grseg-segregation run.h5 -o segregation.tsv             by layer and window, and of the "
-    "bed\n"
+    "  grseg-segregation run.h5 -o segregation.tsv             by layer and window, and the bed\n"
     "  grseg-segregation run.h5 --summary                      times, S, D, Pe of the whole run\n"
     "  grseg-segregation run.h5 --summary --heights 4dS:56dS   without base and surface\n"
     "  grseg-segregation run.h5 --window 5                     D over a longer time\n",
@@ -33,31 +32,23 @@ po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
   options.add_options()("summary", po::bool_switch(&s.summary),
-                        "numbers of the whole run with 95 % intervals instead of layers and "
+                        "print numbers of the whole run with 95 % intervals instead of layers and "
                         "windows");
   options.add_options()("heights", po::value(&s.heights)->value_name("y0:y1"),
-                        "layers that S, D and Pe of the summary are taken from, e.g. 4dS:56dS or "
-                        "4dS: (default: all)");
-  options.add_options()("min-solid",
-                        po::value(&s.min_solid)->default_value(0.5, "0.5")->value_name("X"),
-                        "likewise, the least solid fraction of a layer, in units of the median");
+                        "with --summary: take S, D and Pe from layers between these heights, e.g. "
+                        "4dS:56dS or 4dS: (default: all)");
+  options.add_options()(
+      "min-solid", po::value(&s.min_solid)->default_value(0.5, "0.5")->value_name("X"),
+      "with --summary: leave out layers whose solid fraction is less than X times "
+      "the median");
   s.frames.add_to(options);
   return options;
 }
 
 RateFilter filter_of(const Settings& s, LengthUnits units)
 {
-  RateFilter filter;
-  filter.min_solid = s.min_solid;
   if (!(s.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
-  if (s.heights.empty()) return filter;
-  const auto colon = s.heights.find(':');
-  if (colon == std::string::npos)
-    throw UsageError(fmt::format("--heights {}: write low:high, e.g. 4dS:56dS or 4dS:", s.heights));
-  const auto low = s.heights.substr(0, colon), high = s.heights.substr(colon + 1);
-  if (!low.empty()) filter.lowest = parse_length(low, "--heights", units);
-  if (!high.empty()) filter.highest = parse_length(high, "--heights", units);
-  return filter;
+  return {parse_heights(s.heights, units), s.min_solid};
 }
 
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)

@@ -7,7 +7,6 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/core/version.hpp"
 
 #include <fmt/format.h>
 
@@ -63,7 +62,8 @@ po::options_description options_into(Settings& s)
 /// are only passed on to grseg-fit.
 std::optional<double> power_of(Settings& s)
 {
-  choose(s.volume, "--volume", {"bulk", "solid"});
+  choose<StressVolume>(s.volume, "--volume",
+                       {{"bulk", StressVolume::bulk}, {"solid", StressVolume::solid}});
   parse_base(s.base);
   const auto rule = parse_rule(s.partition);
   s.partition = rule.name();
@@ -134,8 +134,7 @@ void merge(const Settings& s, const po::variables_map& values, const std::string
   if (values.count("input") > 0)
     for (const auto& path : values["input"].as<std::vector<std::string>>())
       tables.push_back(Table::read(path));
-  const auto program = fmt::format("{} {}", info.name, version());
-  const auto merged = merge_tables(std::move(tables), s.all_windows, program, command);
+  const auto merged = merge_tables(std::move(tables), s.all_windows, info, command);
   write_whole(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
 }
 

@@ -35,11 +35,10 @@ std::vector<std::pair<std::string, std::string>> preset_values(const ToolInfo& i
 {
   const auto name = preset_of(given);
   if (name == "none") return {};
-  if (name != "paper" && name != "rigorous")
-    throw UsageError(fmt::format("--preset: there is no '{}'; it is paper or rigorous", name));
+  const bool is_paper = choose<bool>(name, "preset", {{"paper", true}, {"rigorous", false}});
   std::vector<std::pair<std::string, std::string>> values;
   for (const auto& [option, paper, rigorous] : info.presets) {
-    const std::string value = name == "paper" ? paper : rigorous;
+    const std::string value = is_paper ? paper : rigorous;
     if (!value.empty() && (!given.contains(option) || given[option].defaulted()))
       values.emplace_back(option, value);
   }

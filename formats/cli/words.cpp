@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/words.hpp"
 
-#include "formats/core/errors.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -30,20 +28,26 @@ std::size_t edit_distance(const std::string& a, const std::string& b)
 
 }  // namespace
 
-std::size_t choose(const std::string& word, const char* option,
-                   const std::vector<std::string>& words)
+std::string list_of_words(const std::vector<std::string>& words)
 {
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found == words.end())
-    throw UsageError(fmt::format("{}: there is no '{}'; it is one of: {}", option, word,
-                                 fmt::join(words, ", ")));
-  return static_cast<std::size_t>(found - words.begin());
+  if (words.size() < 2) return fmt::format("{}", fmt::join(words, ""));
+  return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
+}
+
+std::string unknown_word(const std::string& what, const std::string& word,
+                         const std::vector<std::string>& known)
+{
+  constexpr std::size_t long_list = 5;  // a shorter one is itself the suggestion
+  const auto guess = known.size() < long_list ? "" : nearest(word, known);
+  return fmt::format("unknown {} '{}'{} {}", what, word,
+                     guess.empty() ? "; choose" : fmt::format(", did you mean {}? Choose", guess),
+                     list_of_words(known));
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known)
 {
   std::string best;
-  std::size_t least = std::max<std::size_t>(3, word.size() / 2);
+  std::size_t least = std::min(word.size(), std::max<std::size_t>(3, word.size() / 2));
   for (const auto& candidate : known) {
     const auto distance = edit_distance(word, candidate);
     if (distance < least) {

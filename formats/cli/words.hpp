@@ -1,15 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/core/errors.hpp"
+
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace grseg {
 
-/// Which of `words` was given. UsageError, naming them all, where none.
-std::size_t choose(const std::string& word, const char* option,
-                   const std::vector<std::string>& words);
+/// A word that a user may type and what it stands for. The words of one option stand in one array;
+/// the functions below read and list them.
+template <class Value>
+struct Choice {
+  const char* word;
+  Value value;
+};
+
+template <class Value, std::size_t N>
+std::vector<std::string> words_of(const Choice<Value> (&choices)[N])
+{
+  std::vector<std::string> words;
+  words.reserve(N);
+  for (const auto& choice : choices) words.emplace_back(choice.word);
+  return words;
+}
+
+/// "gauss, lucy or heaviside".
+std::string list_of_words(const std::vector<std::string>& words);
+
+/// "unknown --kernel 'gaus'; choose gauss, lucy or heaviside". `what` names the option or key. Of a
+/// long list the nearest word is suggested first.
+std::string unknown_word(const std::string& what, const std::string& word,
+                         const std::vector<std::string>& known);
+
+/// What `word` stands for, if anything.
+template <class Value, std::size_t N>
+std::optional<Value> find_choice(const std::string& word, const Choice<Value> (&choices)[N])
+{
+  for (const auto& choice : choices)
+    if (word == choice.word) return choice.value;
+  return std::nullopt;
+}
+
+/// What `word` stands for. UsageError (unknown_word) where it is not among the choices.
+template <class Value, std::size_t N>
+Value choose(const std::string& word, const char* what, const Choice<Value> (&choices)[N])
+{
+  if (const auto found = find_choice(word, choices)) return *found;
+  throw UsageError(unknown_word(what, word, words_of(choices)));
+}
 
 /// The known word nearest to `word`, or "" where none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);

@@ -9,10 +9,15 @@ namespace grseg {
 
 double Parameters::number(const std::string& name, const std::string& file) const
 {
+  if (const auto found = find_number(name)) return *found;
+  throw FormatError(
+      fmt::format("{}: /parameters/{} should be one number; see formats/README.md", file, name));
+}
+
+std::optional<double> Parameters::find_number(const std::string& name) const
+{
   const auto found = numbers.find(name);
-  if (found == numbers.end() || found->second.size() != 1)
-    throw FormatError(
-        fmt::format("{}: /parameters/{} should be one number; see formats/README.md", file, name));
+  if (found == numbers.end() || found->second.size() != 1) return std::nullopt;
   return found->second[0];
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Parameters {
 
   /// The one value of `name`; FormatError naming `file` where it is absent or has several.
   double number(const std::string& name, const std::string& file) const;
+  /// The one value of `name`, or nothing where it is absent or has several.
+  std::optional<double> find_number(const std::string& name) const;
   /// The text of `name`, or "" where there is none.
   std::string text(const std::string& name) const;
 };

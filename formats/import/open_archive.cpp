@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/open_archive.hpp"
 
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/import/common/archive.hpp"
 #include "formats/import/csv/csv_archive.hpp"
@@ -8,9 +9,6 @@
 #include "formats/import/liggghts/liggghts_archive.hpp"
 #include "formats/import/mercury/mercury_archive.hpp"
 #include "formats/import/siconos/siconos_archive.hpp"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace grseg {
 namespace {
@@ -42,8 +40,7 @@ std::unique_ptr<Archive> open_archive(const std::string& format, const ArchiveFi
 {
   for (const auto& known : formats)
     if (format == known.name) return known.open(files);
-  throw UsageError(fmt::format("--format: there is no '{}'; it is one of: {}", format,
-                               fmt::join(archive_formats(), ", ")));
+  throw UsageError(unknown_word("--format", format, archive_formats()));
 }
 
 }  // namespace grseg

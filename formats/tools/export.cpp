@@ -2,6 +2,7 @@
 #include "formats/cli/frame_range.hpp"
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/export/extxyz_writer.hpp"
 #include "formats/export/h5md3d_writer.hpp"
 #include "formats/export/lammps_writer.hpp"
@@ -87,8 +88,7 @@ void export_run(const Settings& s, const po::variables_map& values)
   } else if (s.format == "h5md3d") {
     write(H5md3dWriter(run, cell, s.output, s.overwrite));
   } else {
-    throw UsageError(
-        fmt::format("--to: there is no '{}'; it is one of: vtp, extxyz, lammps, h5md3d", s.format));
+    throw UsageError(unknown_word("--to", s.format, {"vtp", "extxyz", "lammps", "h5md3d"}));
   }
 }
 

@@ -1,4 +1,4 @@
-"""Numbers of one trajectory for the accuracy-cost study, by way of the analysis tools."""
+"""Numbers of one trajectory for the accuracy-cost study, from the analysis tools."""
 import json
 import math
 import os
@@ -42,12 +42,12 @@ def of_simulator(trajectory, begin):
         late = time >= begin
         velocity = file["particles/grains/velocity/value"][late, :, 0][:, mobile]
         height = file["particles/grains/position/value"][late, :, 1][:, mobile]
-        seen = {name: item["value"][:][late] if isinstance(item, h5py.Group) else item[:][late]
+        observables = {name: item["value"][:][late] if isinstance(item, h5py.Group) else item[:][late]
                 for name, item in file["observables"].items()}
-    steps = seen["steps"]
+    steps = observables["steps"]
 
     def per_step(name):
-        return float((seen[name] * steps).sum() / steps.sum())
+        return float((observables[name] * steps).sum() / steps.sum())
 
     numbers = {
         "mean_velocity": float(velocity.mean()),
@@ -55,14 +55,14 @@ def of_simulator(trajectory, begin):
                                         for u, y in zip(velocity, height)])),
         "mean_overlap": per_step("mean_overlap") / d,
         "mean_gap": per_step("mean_gap") / d,
-        "largest_overlap": float(seen["largest_overlap"].max()) / d,
+        "largest_overlap": float(observables["largest_overlap"].max()) / d,
         "sweeps": per_step("sweeps"),
         "contacts": per_step("contacts"),
-        "missed_share": float(seen["missed_steps"].sum() / steps.sum()),
-        "momentum_defect": float(seen["momentum_defect"].max()),
+        "missed_share": float(observables["missed_steps"].sum() / steps.sum()),
+        "momentum_defect": float(observables["momentum_defect"].max()),
     }
-    if "energy_defect" in seen:
-        numbers["energy_defect"] = float(numpy.abs(seen["energy_defect"]).max())
+    if "energy_defect" in observables:
+        numbers["energy_defect"] = float(numpy.abs(observables["energy_defect"]).max())
     return numbers
 
 

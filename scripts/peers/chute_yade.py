@@ -1,9 +1,9 @@
 # Soft discs on the chute, YADE (yade -x -n -j1 chute_yade.py); units d_S = g = rho = 1. Run by
-# compare-peers, which gives in the environment
+# compare-peers, which sets in the environment
 #   STATE KN EN DT VERLET GRAVITY WARM STEPS EVERY FRAMES
-# Linear springs with history, mu = 0.5; contact time and restitution of each pair of types are given,
-# so that kn = KN, kt = 2/7 kn at their nominal masses. EN is the restitution of a spring and dashpot
-# that may pull; YADE's may not, so that the true one, 0.25, is larger. After WARM steps, STEPS are
+# Linear springs with history, mu = 0.5; contact time and restitution of each pair of types are chosen so
+# that kn = KN, kt = 2/7 kn at their nominal masses. EN is the restitution of a spring and dashpot that
+# may pull; YADE's may not, so that the actual one, 0.25, is larger. After WARM steps, STEPS steps are
 # timed; then contacts are written FRAMES times, every EVERY steps.
 import math
 import os

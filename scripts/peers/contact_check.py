@@ -1,13 +1,13 @@
-"""Collides pairs of discs in each program and reports what its contact law and its inertia are.
+"""Collides pairs of discs in each program and reports the resulting restitution and inertia.
 
 Five pairs, small-small, large-small, large-large, small-base, large-base, far apart and without
 gravity, fly at each other with some sliding. From the velocities before and after:
-    e          -(normal relative velocity after)/(before), asked: 0.25. At the step of the comparison
-               it scatters with the phase in which a collision meets the steps; at 1/20 of it the
-               contact law itself shows
-    inertia    I/(m r^2) = (change of tangential velocity)/(r x change of spin), of a disc 0.5, of a
-               sphere 0.4, whatever the contact law, as both changes are of one tangential impulse
-               (1 to 3 % less as the pair turns while it touches)
+    e          -(normal relative velocity after)/(before), requested: 0.25. At the step of the
+               comparison it depends on the phase of the collision within a step; 1/20 of that step
+               shows the contact law itself
+    inertia    I/(m r^2) = (change of tangential velocity)/(r x change of spin), 0.5 for a disc, 0.4 for
+               a sphere, whatever the contact law, as both changes come from one tangential impulse
+               (1 to 3 % less because the pair turns during contact)
 """
 import copy
 import os
@@ -24,7 +24,7 @@ CLEARANCE = 0.02              # d_S, before the collision
 
 
 def pairs_state():
-    """First of each pair above the second, falling on it and sliding along x."""
+    """Pairs of discs: the first above the second, falling on it and sliding along x."""
     type_, radius, position, velocity = [], [], [], []
     for k, (upper, lower) in enumerate(PAIRS.values()):
         r = [0.5 if kind == SMALL else 1.0 for kind in (upper, lower)]
@@ -39,7 +39,7 @@ def pairs_state():
 
 def collide(program, data, folder, core):
     """(e, inertia factor) of every pair."""
-    # Long enough for the softest to part again, short enough for none to fly far.
+    # Long enough for the softest to separate, short enough that none flies far.
     plan = Plan(warm=1, timed=int(0.08 / program.step), every=1, frames=1, gravity=0.0)
     end = program.run(folder, data, plan, core).end
     found = []

@@ -1,4 +1,4 @@
-"""Runs a program on one core and says what it cost."""
+"""Runs a program on one core and measures its cost."""
 import dataclasses
 import os
 import shlex
@@ -10,13 +10,13 @@ import time
 @dataclasses.dataclass
 class Cost:
     wall: float       # s, of the whole process
-    cpu_share: float  # of the wall time; well below 1 where others took the core
+    cpu_share: float  # of the wall time; well below 1 if others used the core
     memory: float     # MB, peak resident
 
 
 @dataclasses.dataclass
 class Sample:
-    """One timed run of one program, as the table wants it; lengths in d_S, times in s."""
+    """One timed run of one program, in the quantities of the table; lengths in d_S, times in s."""
     command: str
     cost: Cost
     wall: float           # of the timed part
@@ -31,17 +31,17 @@ class Sample:
 
     @property
     def cpu(self):
-        """s of processor time of the timed part, as if the process had its share evenly."""
+        """Processor time of the timed part, s, assuming an even share of the core."""
         return self.wall * self.cost.cpu_share
 
     @property
     def flowed(self):
-        """s of flow in the timed part."""
+        """Flow in the timed part, s."""
         return self.steps * self.step
 
 
 def in_words(command, environment, short):
-    """A command line to be read, with its environment; `short` lists folders and their short names."""
+    """A readable command line with its environment; `short` lists folders and their short names."""
     words = [f"{name}={value}" for name, value in (environment or {}).items()] + command
     text = shlex.join(words)
     for folder, name in short:
@@ -50,7 +50,7 @@ def in_words(command, environment, short):
 
 
 def run(command, folder, core, environment=None):
-    """Runs `command` in `folder`, its words in run.log there; exits with a sentence if it fails."""
+    """Runs `command` in `folder`, with its output in run.log there; exits with a message if it fails."""
     os.makedirs(folder, exist_ok=True)
     log = os.path.join(folder, "run.log")
     variables = dict(os.environ, OMP_NUM_THREADS="1", **(environment or {}))

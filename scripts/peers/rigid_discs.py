@@ -1,4 +1,4 @@
-"""grseg-sim: makes the common state, a checkpoint, and goes on from it."""
+"""grseg-sim: makes the common state, a checkpoint, and continues from it."""
 import math
 import os
 import re
@@ -12,11 +12,11 @@ from . import process
 from .state import read_run, WRITERS
 
 STATE_STEP = 1e-4  # s; the state's overlaps are then about those of soft discs with kn 1e5
-FRAME_INTERVAL = 0.05  # s, of the scene; grseg-sim fits its step into it, so another is another run
+FRAME_INTERVAL = 0.05  # s, as in the scene; grseg-sim fits its step into it, so that another value gives another run
 
 
 def make_state(program, scene, flow, folder, core):
-    """The state after `flow` seconds, in every form the programs read; what is there is kept.
+    """The state after `flow` seconds, in all formats that the programs read; existing files are kept.
 
     The peers' state is that after the first step beyond the checkpoint, as frames are half steps.
     """
@@ -48,8 +48,8 @@ def checkpoint_of(folder):
 
 
 class RigidDiscs:
-    """grseg-sim with some of its options."""
-    trial = 0.5  # s of flow that tell how many fill the time asked for
+    """grseg-sim with given options."""
+    trial = 0.5  # s of flow, to calibrate how many fill the requested time
 
     def __init__(self, program, options):
         self.program, self.options = program, options
@@ -60,7 +60,7 @@ class RigidDiscs:
         return None
 
     def run(self, folder, data, flow, core):
-        """Flows for `flow` seconds from the state into run.h5 in `folder`; its cost."""
+        """Simulates `flow` seconds from the state into run.h5 in `folder`; returns the cost."""
         return process.run(self.command(data, data["flow"] + flow), folder, core)
 
     def command(self, data, until):
@@ -69,7 +69,7 @@ class RigidDiscs:
                 "--duration", f"{until:.10g}", "-o", "run.h5", "--overwrite"]
 
     def sample(self, folder, data, flow, core):
-        """Times `flow` seconds; overlaps are those of their second half."""
+        """Times `flow` seconds of flow; overlaps are those of the second half."""
         flow = math.ceil(flow / FRAME_INTERVAL) * FRAME_INTERVAL
         cost = self.run(folder, data, flow, core)
         path = os.path.join(folder, "run.h5")
@@ -96,7 +96,7 @@ def mean_velocities(path, units):
 
 
 def observables(path, units, since):
-    """Means over the steps after `since` (s) of what the run wrote down of itself."""
+    """Means of the run's observables over the steps after `since` (s)."""
     with h5py.File(path, "r") as run:
         time = run["particles/grains/position/time"][:]
         of = {name: run[f"observables/{name}/value"][:][time > since] for name in

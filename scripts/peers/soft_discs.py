@@ -36,13 +36,13 @@ def time_step(kn):
 
 
 def restitution_without_pull(zeta):
-    """e of a spring and dashpot that part when their force vanishes (Schwager & Poeschel 2007)."""
+    """e of a spring and dashpot that separate when their force vanishes (Schwager & Poeschel 2007)."""
     w = math.sqrt(1 - zeta**2)
     return math.exp(-zeta / w * (math.pi - math.atan2(2 * zeta * w, w**2 - zeta**2)))
 
 
 def restitution_with_pull():
-    """The nominal e at which a contact that cannot pull has the true e asked for."""
+    """The nominal e at which a contact that cannot pull has the requested actual e."""
     low, high = 0.0, 0.99
     while high - low > 1e-12:
         middle = (low + high) / 2
@@ -62,7 +62,7 @@ def tsuji_argument():
 
 @dataclasses.dataclass
 class Plan:
-    """What a run shall do, in steps."""
+    """The phases of a run, in steps."""
     warm: int = 3000
     timed: int = 1000
     every: int = 500    # between two lists of contacts, after the timed steps
@@ -84,7 +84,7 @@ class Result:
 
 class SoftDiscs:
     """One program with one stiffness."""
-    trial = 1000  # steps that tell how many fill the time asked for
+    trial = 1000  # steps, to calibrate how many fill the requested time
 
     def __init__(self, kn):
         self.kn = kn
@@ -132,7 +132,7 @@ class SoftDiscs:
         return float(re.findall(r"Loop time of ([0-9.e+-]+)", read(folder, "log"))[1])
 
     def velocities(self, folder):
-        """(step, mean velocity of the mobile grains) as they stand in the log."""
+        """(step, mean velocity of the mobile grains) from the log."""
         return [(int(step), float(v)) for step, v in
                 re.findall(r"^ *(\d+) +(-?[0-9.e+-]+) *$", read(folder, "log"), re.M)]
 

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""State of a run at the end of a frame's step, the last one's by default, for other programs.
+"""Writes the state of a run at the end of a frame's step (default: the last) for other programs.
 
     scripts/peers/state.py run.h5 --to data|text [--at S] [-o FILE]
 
-Units of what is written: small nominal diameter = gravity = density (mass per area) = 1. A frame
-holds positions of mid-step and velocities after it; the positions go the other half step, wrapped
-into [0, length). Boundary grains are at rest.
+Units of the output: small nominal diameter = gravity = density (mass per area) = 1. A frame holds
+positions at mid-step and velocities after the step; positions are advanced by the other half step and
+wrapped into [0, length). Boundary grains are at rest.
 
-    data    what LAMMPS (atom_style sphere) and LIGGGHTS (granular) read. The density 1 is that of
-            discs: LIGGGHTS takes it so in two dimensions, LAMMPS after `set group all density/disc 1`
+    data    the format of LAMMPS (atom_style sphere) and LIGGGHTS (granular). The density 1 is that of
+            discs: LIGGGHTS reads it so in two dimensions, LAMMPS after `set group all density/disc 1`
     text    first line: length, number; then fixed(0/1) type radius x y vx vy omega
 
 Types: 1 boundary, 2 large, 3 small. Ids count from 1 in the order of the run.

@@ -1,7 +1,7 @@
 """Mean velocity of the mobile grains per half second, soft and rigid discs from the same state.
 
-Each curve is a file of its own, NAME.tsv, written when its run has ended; a curve whose file is there
-is kept, so that an interrupted comparison goes on where it was.
+Each curve has its own file, NAME.tsv, written when its run has ended; existing curves are kept, so that
+an interrupted comparison continues where it stopped.
 """
 import os
 import sys

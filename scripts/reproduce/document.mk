@@ -1,12 +1,12 @@
 # Figures, numbers and docs/studies/reproduction.md from the tables of the campaign, or from those kept in
-# data/reproduction: nothing is simulated, no trajectory read.
+# data/reproduction: nothing is simulated and no trajectory is read.
 #
-#   make -C scripts reproduction.md                    docs/studies/reproduction.md and its figures, of data/reproduction
-#   make -C scripts reproduction.md TABLES=FOLDER      of the tables that make reproduce left in FOLDER
+#   make -C scripts reproduction.md                    docs/studies/reproduction.md and its figures, from data/reproduction
+#   make -C scripts reproduction.md TABLES=FOLDER      from the tables that make reproduce left in FOLDER
 #   make -C scripts figures/kinetic-profile.png        one figure, into WORK
-#   make -C scripts kept TABLES=FOLDER                 data/reproduction anew from these tables
+#   make -C scripts kept TABLES=FOLDER                 makes data/reproduction again from these tables
 #
-# Relative names are those of the folder where make was called.
+# Relative names refer to the folder where make was called.
 
 HERE ?= $(or $(PWD),$(CURDIR))
 BIN ?= $(CURDIR)/../../build/bin
@@ -28,20 +28,20 @@ gp := ../figures
 .SUFFIXES:
 
 reproduction.md:
-# The kept tables, unpacked as the tools read them, before make looks for runs.
+# The kept tables are unpacked before make looks for runs.
 ifeq ($(TABLES),)
 unpacked := $(shell $(CURDIR)/unpack $(KEPT) $(tables) >&2 || echo no)
-$(if $(unpacked),$(error data/reproduction holds no tables that can be unpacked; name some: TABLES=FOLDER))
+$(if $(unpacked),$(error data/reproduction holds no tables that can be unpacked; name a folder with tables: TABLES=FOLDER))
 endif
 runs := $(sort $(patsubst %/checksums,%,$(wildcard $(tables)/*/checksums)))
-$(if $(runs),,$(error $(tables) holds no run that is done))
+$(if $(runs),,$(error $(tables) holds no finished run))
 
-# of FLOWS, QUANTITY: tables of all seeds of these flows.
+# of FLOWS,QUANTITY: the tables of all seeds of these flows.
 of = $(strip $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(tables)/$(flow)-seed%,$(runs)))))
 mixtures := $(foreach phi,0.06 0.15 0.30 0.45 0.60 0.75,phi$(phi)-s23)
 slopes := $(foreach slope,21 22 23 24 25 26,phi0.45-s$(slope))
 
-# The figures for which there are flows.
+# The figures that these flows allow.
 names := $(if $(call of,phi0.30-s23,stress),snapshots pressure-profile kinetic-profile balance) \
   $(if $(call of,$(mixtures),stress),stress-ratio mixed-share kinetic-ratio pressure-estimates b-of-p b-of-flows) \
   $(if $(call of,phi0.45-s23,stress),micro-over-time step) $(if $(call of,$(slopes),stress),kinetic-shear-rate)
@@ -59,13 +59,13 @@ every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
 $(work):
 	mkdir -p $@
 
-# Rows of all mixtures below one another.
+# The rows of all mixtures in one table.
 $(work)/stress.tsv $(work)/kinetic.tsv $(work)/micro.tsv: $(work)/%.tsv: $(every) | $(work)
-	awk 'FNR == 1 { body = 0 } /^#/ { next } body++ || !told++' $(call of,$(mixtures),$*) > $@
+	awk 'FNR == 1 { body = 0 } /^#/ { next } body++ || !named++' $(call of,$(mixtures),$*) > $@
 $(work)/fit.tsv: $(every) | $(work)
 	$(fit) $(call of,$(mixtures),stress)
 $(work)/scan.tsv: $(every) | $(work)
-	$(fit) $(call of,$(mixtures),stress) --scan 0.4:0.9:0.01
+	$(fit) $(call of,$(mixtures),stress) --scan 0.4:0.9:0.025
 $(work)/stock.tsv: $(every) | $(work)
 	$(fit) $(call of,$(mixtures),stress) --partition stock
 $(work)/kinetic-fit.tsv: $(every) | $(work)
@@ -86,13 +86,13 @@ $(work)/fits.tsv: $(every) fits $(scripts) | $(work)
 	./fits $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP)
 $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
 	./flows $(tables) $< -o $@ --bin $(bin)
-# Of tables that are not kept; what they say is.
+# The tables behind the choices are not kept, only their result.
 $(work)/choices.tsv: $(every) choices $(scripts) | $(work)
 	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP),cp $(KEPT)/choices.tsv $@)
 $(work)/numbers.tsv: $(every) numbers $(scripts) | $(work)
 	./numbers $(tables) -o $@ --bin $(bin)
 
-# Each figure of its tables.
+# Each figure and its tables.
 draw = gnuplot -c $(gp)/$(1).gp $(work)
 $(work)/snapshots.png: $(work)/snapshots.tsv
 $(work)/pressure-profile.png $(work)/kinetic-profile.png: $(work)/profile.tsv
@@ -111,7 +111,7 @@ $(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/str
 
 choices.tsv: $(work)/choices.tsv
 
-# The document: its generated parts anew, all else as it is.
+# The document: only its generated parts are replaced.
 reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv)
 	mkdir -p $(PICTURES)
 	cp $(pictures) $(PICTURES)
@@ -119,7 +119,7 @@ reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv
 
 kept: keep $(scripts) $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }
-	@test -n "$(filter $(tables)/phi0.45-s23-e%,$(runs))" || { echo "$(tables) holds no sensitivities, which data/reproduction has: make -C scripts sensitivities" >&2; exit 2; }
+	@test -n "$(filter $(tables)/phi0.45-s23-e%,$(runs))" || { echo "$(tables) holds no sensitivities, which data/reproduction needs: make -C scripts sensitivities" >&2; exit 2; }
 	mkdir -p $(KEPT)
 	./keep $(tables) $(KEPT)/tables.tar.bz2
 	cp $(work)/choices.tsv $(KEPT)

@@ -1,4 +1,4 @@
-"""Means over windows of stresses layer by layer, from tables of grseg-stress and grseg-kinetic of one flow."""
+"""Layer-by-layer means of stresses over windows, from one flow's tables of grseg-stress and grseg-kinetic."""
 import math
 
 import tables
@@ -12,7 +12,7 @@ def contact(row, component):
 
 
 def kinetic(row, component, about="profile"):
-    """Likewise of m dv (x) dv, about the profile of the mean velocity or the mean of the layer."""
+    """The same for m dv (x) dv, about the profile of the mean velocity or the mean of the layer."""
     names = [f"K_{species}_{component}" for species in "SL"]
     if about == "layer":
         names += [f"layer_bias_{species}_{component}" for species in "SL"]
@@ -32,7 +32,7 @@ def area(row):
 
 
 def ratio(rows, above, below):
-    """Sum over sum, and its standard error over the rows."""
+    """Ratio of two sums over the rows, and its standard error."""
     a, b = [above(row) for row in rows], [below(row) for row in rows]
     n, total = len(rows), sum(b)
     if not total:

@@ -3,12 +3,12 @@
 .PHONY: done FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
-# Where its tables are there, the trajectory need not be.
+# The trajectory is not needed once the tables exist.
 .SECONDARY: run.h5
 
 done: checksums
 	@:
-# Last, when the trajectory is gone: a run that has this file is done.
+# Made last, after the trajectory is deleted: a run that has this file is finished.
 checksums: $(TABLES) cost.tsv
 	$(if $(KEEP),,rm -f run.chk run.h5)
 	rm -f run.lock *.part
@@ -31,18 +31,18 @@ options_kinetic-instant := --mean instant
 options_check := --physics
 options_segregation-summary := --summary --heights 4dS:56dS
 
-# Of grains that are all alike, any half may be called large.
+# Among equal grains any half may be labelled large.
 trajectory_stress-random := random.h5.part
 
 extracts := record.tsv observables.tsv snapshots.tsv
 sums := $(filter-out $(extracts),$(TABLES))
-# command_of TABLE: as it stands in the history of that table.
+# command_of TABLE: as recorded in the history of that table.
 command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_$(1)) --quiet)
 
-# Tables that were made by another command are made anew.
+# Tables that were made by another command are made again.
 outdated := $(shell $(scripts)/outdated '$(AGAIN)' $(extracts) $(foreach table,$(sums:.tsv=),'$(table).tsv: $(call command_of,$(table))'))
-$(if $(filter gone,$(outdated)),$(error $(notdir $(CURDIR)): $(filter-out gone,$(outdated)): not there, or made by another \
-  command than now, and the trajectory is deleted; AGAIN=yes simulates it anew))
+$(if $(filter gone,$(outdated)),$(error $(notdir $(CURDIR)): $(filter-out gone,$(outdated)): missing, or made by another \
+  command than now, and the trajectory was deleted; AGAIN=yes simulates the run again))
 $(outdated): FORCE
 
 table = $(RUN) $(scripts)/table $@
@@ -55,7 +55,7 @@ stress-random.tsv: run.h5
 	$(table) $(bin)/$(call command_of,$(basename $@))
 	rm $(trajectory_stress-random)
 
-# Wall time, which no checksum covers: a table is the same whatever befell its run.
+# Wall times, which no checksum covers: tables are the same whether or not their run was interrupted.
 cost.tsv: run.h5 $(TABLES)
 	$(scripts)/cost > $@.new
 	mv $@.new $@

@@ -51,17 +51,17 @@ def number(text):
         return text
 
 
-def numbers(line):
+def numbers(cells):
     """The cells of a row, as numbers where they are numbers."""
-    cells = line.split("\t")
     try:
         return [float(cell) for cell in cells]
     except ValueError:
         return [number(cell) for cell in cells]
 
 
-def parse(text):
-    """Lines '# key: value' (the first of each key) and rows by column name, units left out."""
+def parse(text, columns=None):
+    """Lines '# key: value' (the first of each key) and rows by column name without unit, of all columns or
+    those named."""
     header, names, rows = {}, None, []
     for line in text.splitlines():
         if line.startswith("# "):
@@ -69,23 +69,26 @@ def parse(text):
             header.setdefault(key, value)
         elif names is None:
             names = [name.split("[")[0] for name in line.split("\t")]
+            wanted = [names.index(name) for name in columns] if columns else range(len(names))
+            names = [names[k] for k in wanted]
         else:
-            rows.append(dict(zip(names, numbers(line))))
+            cells = line.split("\t")
+            rows.append(dict(zip(names, numbers([cells[k] for k in wanted]))))
     return header, rows
 
 
-def read(path):
+def read(path, columns=None):
     with open(path) as table:
-        return parse(table.read())
+        return parse(table.read(), columns)
 
 
-def program(options, name, *words):
+def program(options, name, *words, columns=None):
     """The table printed by one of grseg's programs."""
     done = subprocess.run([os.path.join(options.bin, name), *map(str, words)], capture_output=True,
                           text=True)
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())
-    return parse(done.stdout)
+    return parse(done.stdout, columns)
 
 
 def mean_and_half_width(values):

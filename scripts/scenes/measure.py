@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""What the scenes of sim/scenes show, each in numbers that theory or literature has, too.
+"""Numbers of the scenes of sim/scenes that can be compared with theory or literature.
 
     scripts/scenes/measure.py SCENE run.h5 ...
 
-Prints a table for gnuplot: of one line per run where a law is met by several runs (shear, column,
-hopper), of one line per frame otherwise (drum, shaken-box, intruder). Definitions stand with the
-functions. scripts/scenes-study makes the runs.
+Prints a table for gnuplot: one row per run where a law requires several runs (shear, column, hopper),
+otherwise one row per frame (drum, shaken-box, intruder). Definitions are given with the functions.
+scripts/scenes-study makes the runs.
 """
 import sys
 
@@ -74,7 +74,7 @@ def shear(paths):
 
 def column(paths):
     """Aspect ratio H/L0 of the deposited column, its width L0 in diameters, and run-out (x_99 - L0)/L0,
-    x_99 the distance that 99 % of the mass lies within once all is at rest."""
+    x_99 the distance within which 99 % of the mass lies once all is at rest."""
     print("aspect_ratio\twidth\trun_out")
     for path in paths:
         run = Run(path)
@@ -90,7 +90,7 @@ def column(paths):
 
 def hopper(paths):
     """Outlet over the mean diameter and discharge, solid area per time over sqrt(g) d^(3/2), while
-    15 to 50 % of the grains leave; error of the mean over five pieces of that time."""
+    15 to 50 % of the grains leave; error of the mean over five parts of that time."""
     print("outlet\tdischarge\terror")
     for path in paths:
         run = Run(path)
@@ -106,8 +106,8 @@ def hopper(paths):
 
 
 def drum(paths):
-    """Time in turns, and the index of radial segregation (<r^2>_L - <r^2>_S)/(the same were all small
-    grains nearest to the drum's axis), r the distance from it: 0 mixed, 1 a core of small grains."""
+    """Time in turns, and the index of radial segregation (<r^2>_L - <r^2>_S)/(its value if all small
+    grains were nearest to the drum's axis), r the distance from it: 0 mixed, 1 a core of small grains."""
     print("turns\tindex")
     run = Run(paths[0])
     turns = abs(run.key("drum-rate")) / (2 * numpy.pi) * run.time
@@ -116,7 +116,7 @@ def drum(paths):
     share = area[small].sum() / area.sum()
 
     def apart(square, inside):
-        """Difference of the area-weighted means, `inside` the part of each grain that is small."""
+        """Difference of the area-weighted means, `inside` the fraction of each grain that counts as small."""
         return (numpy.average(square, weights=area * (1 - inside))
                 - numpy.average(square, weights=area * inside))
 
@@ -129,9 +129,9 @@ def drum(paths):
 
 
 def intruder(paths):
-    """Per run, apart by two empty lines: time and height of the large grain, in small diameters,
-    beside twice the mean height of all; before it, when it first stood at a quarter and at three
-    quarters of that."""
+    """Per run, separated by two empty lines: time and height of the large grain, in small diameters,
+    and twice the mean height of all grains; above them, when the large grain first was at a quarter and
+    at three quarters of that height."""
     for path in paths:
         run = Run(path)
         d = run.key("small-diameter")

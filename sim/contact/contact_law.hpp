@@ -7,7 +7,9 @@
 
 /// The contact laws: Signorini's condition, Newton's restitution and Coulomb's friction between
 /// rigid discs, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean, Comput.
-/// Methods Appl. Mech. Eng. 177, 235, 1999).
+/// Methods Appl. Mech. Eng. 177, 235, 1999). This file states them for a single pair;
+/// contact_law-inl.hpp states the same for several pairs at a time, operation by operation, and
+/// tests hold the two together to the last bit.
 ///
 /// A step of length h leads from positions x and velocities v to v+ and x+ = x + h (v + v+)/2.
 /// Contacts are those of the middle of the step, x_m = x + h v/2. For a pair i, j:
@@ -86,7 +88,7 @@ inline LawParameters law_parameters(ContactLaw law, double horizon, double step,
 struct alignas(32) Motion {
   double vx = 0, vy = 0;    // m/s
   double rim_speed = 0;     // m/s, radius times angular velocity (counter-clockwise)
-  double inverse_mass = 0;  // 1/kg; 0 for whatever does not give way
+  double inverse_mass = 0;  // 1/kg; 0 for grains and walls that contacts cannot move
 };
 
 /// A pair that touches, seen from the middle of the step. The normal n points from j to i, the
@@ -98,13 +100,13 @@ struct Contact {
   double nx, ny;
   double kappa;                 // 1 at a straight wall
   double mass_n, mass_t;        // kg, effective masses 1/W_nn and 1/W_tt
-  double rebound;               // m/s, least separation velocity asked for after the step
+  double rebound;               // m/s, least separation velocity after the step
   double impulse_n, impulse_t;  // kg m/s
   std::int32_t i, j;            // entries of the Motion array
 };
 
-/// What a scene's contacts do. A switched-off effect equals its neutral coefficient to the last
-/// bit: friction 0, restitution 0, and for rotation rim speeds that stay 0.
+/// What the contacts of a scene do. An effect left out gives the same bits as its neutral
+/// coefficient: friction 0, restitution 0, and for rotation rim speeds that stay 0.
 struct Effects {
   bool friction = true;
   bool rotation = true;
@@ -121,15 +123,76 @@ struct Change {
   double normal, tangential;
 };
 
-/// Twice the rim-speed change per momentum: a disc's r^2/I is 2/m.
+/// m r^2/I of a disc: a tangential impulse p_t changes rim speeds by -2 kappa p_t/m.
 constexpr double disc_rim_factor = 2;
+
+/// Whether two discs act whose centres are (dx, dy) apart after the forecast, m; reach = r_i + r_j.
+inline bool acts(double dx, double dy, double reach, double margin)
+{
+  const double limit = reach + margin;
+  return dx * dx + dy * dy <= limit * limit;
+}
+
+/// Whether a disc acts whose centre is then at `distance` from a wall, m; `reach` is its radius.
+inline bool acts_on_wall(double distance, double reach, double margin)
+{
+  return distance <= reach + margin;
+}
+
+/// Unit vector from j to i, and the distance, m, of the centres: gap = distance - reach.
+struct Normal {
+  double nx, ny, distance;
+};
+
+/// Of two discs whose centres are (dx, dy) apart at mid-step, m.
+inline Normal normal_of_discs(double dx, double dy)
+{
+  const double distance = std::sqrt(dx * dx + dy * dy), inverse = 1 / distance;
+  return {dx * inverse, dy * inverse, distance};
+}
+
+/// Of a disc whose centre lies (dx, dy) from a point of a wall with normal (nx, ny).
+inline Normal normal_of_wall(double dx, double dy, double nx, double ny)
+{
+  return {nx, ny, dx * nx + dy * ny};
+}
+
+/// Effective masses 1/W_nn and 1/W_tt, kg. W_nt = 0 for discs.
+inline double normal_mass(double inverse_mass_i, double inverse_mass_j)
+{
+  return 1 / (inverse_mass_i + inverse_mass_j);
+}
+inline double tangential_mass(double normal_mass, double kappa)
+{
+  return normal_mass / (1 + disc_rim_factor * (kappa * kappa));
+}
+
+/// What a pair that acts must reach, and what it has to remember.
+struct Rebound {
+  double velocity;    // m/s, least separation velocity after the step
+  double remembered;  // m/s, approach of a pair that is only slowed down; counts if it gets p_n > 0
+};
+
+/// `gap` (m) at mid-step, `separation` (m/s) before the step; `impulse_n` and `remembered` are what
+/// the step before left behind, 0 for a pair that did not act. `horizon` in s.
+inline Rebound rebound_of(double gap, double separation, double impulse_n, double remembered,
+                          double restitution, double horizon)
+{
+  const double approach = std::max(remembered, std::max(0.0, -separation));
+  const double newton = restitution * approach;
+  const bool already_slowed_down = remembered > 0;
+  if (horizon == 0 || !(gap > 0) || already_slowed_down) return {newton, 0};
+  const double closing = -gap / horizon;
+  // A pair that bore a load has lost its approach before.
+  const bool newcomer = impulse_n == 0 && separation < closing;
+  return {closing, newcomer ? approach : 0};
+}
 
 /// Makes one contact obey Signorini, Newton and Coulomb while its neighbours hold still. W_nt = 0
 /// for discs, so normal and tangential parts have each their exact solution.
 ///
-/// This is the law in one contact's words; sweep.cpp does the same to many at a time, operation by
-/// operation, and tests hold the two together to the last bit. Limits are written as max and min
-/// in the order of their arguments that also gives zeros the sign which vector instructions give.
+/// Limits are written as max and min in the order of their arguments that also gives zeros the sign
+/// which vector instructions give.
 template <Effects with>
 inline Change relax(Contact& c, Motion& a, Motion& b, double friction)
 {

@@ -24,7 +24,7 @@ using D = hn::CappedTag<double, block_lanes>;
 using Vector = hn::Vec<D>;
 using Lanes = ContactBlock::Lanes;
 
-/// All bodies as one row of doubles.
+/// All bodies as one array of doubles.
 HWY_INLINE double* members(Motion* motion)
 {
   return reinterpret_cast<double*>(motion);
@@ -120,107 +120,108 @@ HWY_INLINE void store_bodies(Tag d, const Bodies& b, double* motion, const std::
 
 #endif  // HWY_TARGET == HWY_SCALAR
 
-/// Two members of eight or fewer rows of doubles.
-struct Two {
+/// Two neighbouring doubles of each lane: the first ones, and the second ones.
+struct Twos {
   Vector first, second;
 };
 
 #if HWY_TARGET == HWY_SCALAR
 
-/// The two doubles that begin at `row + at`, one row per lane.
-HWY_INLINE Two load_rows(D d, const double* row, const std::uint32_t* at)
+/// The two doubles that begin at `from + at`, lane by lane.
+HWY_INLINE Twos load_twos(D d, const double* from, const std::uint32_t* at)
 {
-  return {hn::Load(d, row + *at), hn::Load(d, row + *at + 1)};
+  return {hn::Load(d, from + *at), hn::Load(d, from + *at + 1)};
 }
 
-/// The two doubles at `row + scale i` less those at `row + scale j`.
+/// The two doubles at `from + scale i` less those at `from + scale j`.
 template <std::size_t scale>
-HWY_INLINE Two load_differences(D d, const double* row, const std::uint32_t* i,
-                                const std::uint32_t* j)
+HWY_INLINE Twos load_differences(D d, const double* from, const std::uint32_t* i,
+                                 const std::uint32_t* j)
 {
-  const double *a = row + scale * *i, *b = row + scale * *j;
+  const double *a = from + scale * *i, *b = from + scale * *j;
   return {hn::Sub(hn::Load(d, a), hn::Load(d, b)), hn::Sub(hn::Load(d, a + 1), hn::Load(d, b + 1))};
 }
 
-/// As many rows of two as there are lanes, one behind the other.
-HWY_INLINE Two load_next_rows(D d, const double* row)
+/// As many twos as there are lanes, one behind the other.
+HWY_INLINE Twos load_next_twos(D d, const double* from)
 {
-  return {hn::Load(d, row), hn::Load(d, row + 1)};
+  return {hn::Load(d, from), hn::Load(d, from + 1)};
 }
 
-HWY_INLINE void store_rows(D d, Two rows, double* row, const std::uint32_t* at)
+HWY_INLINE void store_twos(D d, Twos twos, double* from, const std::uint32_t* at)
 {
-  hn::Store(rows.first, d, row + *at);
-  hn::Store(rows.second, d, row + *at + 1);
+  hn::Store(twos.first, d, from + *at);
+  hn::Store(twos.second, d, from + *at + 1);
 }
 
 #else
 
-/// First and second members of the rows that `row(lane)` gives.
-template <class Tag, class Row>
-HWY_INLINE Two sort_rows(Tag d, const Row& row)
+/// First and second members of the twos that `two(lane)` gives.
+template <class Tag, class Two>
+HWY_INLINE Twos sort_twos(Tag d, const Two& two)
 {
-  auto even = row(0), odd = row(1);
+  auto even = two(0), odd = two(1);
   if constexpr (hn::MaxLanes(d) == 2) {
     return {hn::InterleaveLower(d, even, odd), hn::InterleaveUpper(d, even, odd)};
   } else if constexpr (hn::MaxLanes(d) == 4) {
-    const auto e = hn::Combine(d, row(2), even), o = hn::Combine(d, row(3), odd);
+    const auto e = hn::Combine(d, two(2), even), o = hn::Combine(d, two(3), odd);
     return {hn::InterleaveLower(d, e, o), hn::InterleaveUpper(d, e, o)};
   } else {
     static_assert(hn::MaxLanes(d) == 8);
     const hn::Half<Tag> h;
-    const auto e = hn::Combine(d, hn::Combine(h, row(6), row(4)), hn::Combine(h, row(2), even));
-    const auto o = hn::Combine(d, hn::Combine(h, row(7), row(5)), hn::Combine(h, row(3), odd));
+    const auto e = hn::Combine(d, hn::Combine(h, two(6), two(4)), hn::Combine(h, two(2), even));
+    const auto o = hn::Combine(d, hn::Combine(h, two(7), two(5)), hn::Combine(h, two(3), odd));
     return {hn::InterleaveLower(d, e, o), hn::InterleaveUpper(d, e, o)};
   }
 }
 
-using Row = hn::FixedTag<double, 2>;
+using TwoDoubles = hn::FixedTag<double, 2>;
 
-/// The two doubles that begin at `row + at`, one row per lane.
+/// The two doubles that begin at `from + at`, lane by lane.
 template <class Tag>
-HWY_INLINE Two load_rows(Tag d, const double* row, const std::uint32_t* at)
+HWY_INLINE Twos load_twos(Tag d, const double* from, const std::uint32_t* at)
 {
-  return sort_rows(d, [&](int k) HWY_ATTR { return hn::Load(Row(), row + at[k]); });
+  return sort_twos(d, [&](int k) HWY_ATTR { return hn::Load(TwoDoubles(), from + at[k]); });
 }
 
-/// The two doubles at `row + scale i` less those at `row + scale j`.
+/// The two doubles at `from + scale i` less those at `from + scale j`.
 template <std::size_t scale, class Tag>
-HWY_INLINE Two load_differences(Tag d, const double* row, const std::uint32_t* i,
-                                const std::uint32_t* j)
+HWY_INLINE Twos load_differences(Tag d, const double* from, const std::uint32_t* i,
+                                 const std::uint32_t* j)
 {
-  return sort_rows(d, [&](int k) HWY_ATTR {
-    return hn::Sub(hn::Load(Row(), row + scale * i[k]), hn::Load(Row(), row + scale * j[k]));
+  return sort_twos(d, [&](int k) HWY_ATTR {
+    return hn::Sub(hn::Load(TwoDoubles(), from + scale * i[k]),
+                   hn::Load(TwoDoubles(), from + scale * j[k]));
   });
 }
 
-/// As many rows of two as there are lanes, one behind the other.
+/// As many twos as there are lanes, one behind the other.
 template <class Tag>
-HWY_INLINE Two load_next_rows(Tag d, const double* row)
+HWY_INLINE Twos load_next_twos(Tag d, const double* from)
 {
-  const auto low = hn::LoadU(d, row), high = hn::LoadU(d, row + hn::MaxLanes(d));
+  const auto low = hn::LoadU(d, from), high = hn::LoadU(d, from + hn::MaxLanes(d));
   return {hn::ConcatEven(d, high, low), hn::ConcatOdd(d, high, low)};
 }
 
 template <class Tag>
-HWY_INLINE void store_rows(Tag d, Two rows, double* row, const std::uint32_t* at)
+HWY_INLINE void store_twos(Tag d, Twos twos, double* from, const std::uint32_t* at)
 {
-  const auto even = hn::InterleaveLower(d, rows.first, rows.second);
-  const auto odd = hn::InterleaveUpper(d, rows.first, rows.second);
-  const auto store = [&](auto r, int k) HWY_ATTR { hn::Store(r, Row(), row + at[k]); };
+  const auto even = hn::InterleaveLower(d, twos.first, twos.second);
+  const auto odd = hn::InterleaveUpper(d, twos.first, twos.second);
+  const auto store = [&](auto r, int k) HWY_ATTR { hn::Store(r, TwoDoubles(), from + at[k]); };
   if constexpr (hn::MaxLanes(d) == 2) {
     store(even, 0), store(odd, 1);
   } else if constexpr (hn::MaxLanes(d) == 4) {
-    store(hn::LowerHalf(Row(), even), 0), store(hn::LowerHalf(Row(), odd), 1);
-    store(hn::UpperHalf(Row(), even), 2), store(hn::UpperHalf(Row(), odd), 3);
+    store(hn::LowerHalf(TwoDoubles(), even), 0), store(hn::LowerHalf(TwoDoubles(), odd), 1);
+    store(hn::UpperHalf(TwoDoubles(), even), 2), store(hn::UpperHalf(TwoDoubles(), odd), 3);
   } else {
     const hn::Half<Tag> h;
     const auto e0 = hn::LowerHalf(h, even), e1 = hn::UpperHalf(h, even);
     const auto o0 = hn::LowerHalf(h, odd), o1 = hn::UpperHalf(h, odd);
-    store(hn::LowerHalf(Row(), e0), 0), store(hn::LowerHalf(Row(), o0), 1);
-    store(hn::UpperHalf(Row(), e0), 2), store(hn::UpperHalf(Row(), o0), 3);
-    store(hn::LowerHalf(Row(), e1), 4), store(hn::LowerHalf(Row(), o1), 5);
-    store(hn::UpperHalf(Row(), e1), 6), store(hn::UpperHalf(Row(), o1), 7);
+    store(hn::LowerHalf(TwoDoubles(), e0), 0), store(hn::LowerHalf(TwoDoubles(), o0), 1);
+    store(hn::UpperHalf(TwoDoubles(), e0), 2), store(hn::UpperHalf(TwoDoubles(), o0), 3);
+    store(hn::LowerHalf(TwoDoubles(), e1), 4), store(hn::LowerHalf(TwoDoubles(), o1), 5);
+    store(hn::UpperHalf(TwoDoubles(), e1), 6), store(hn::UpperHalf(TwoDoubles(), o1), 7);
   }
 }
 
@@ -281,8 +282,8 @@ HWY_INLINE double sum(const Lanes& s)
 }
 
 /// Clears the upper halves of vector registers, which would slow down all code outside that uses
-/// their lower halves: left dirty, they made the whole program a quarter slower. Compilers see to
-/// it as a rule, but g++ 12 did not where the last thing a function did was a call.
+/// their lower halves: left dirty, they made the whole program a quarter slower. Compilers usually
+/// do this themselves, but g++ 12 did not where a function ended with a call.
 HWY_INLINE void leave_vectors()
 {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cstddef>
 
-/// Work shared out among threads. What is shared out must not depend on the order in which it is
-/// done, so that any number of threads gives the same bytes.
+/// Work shared among threads. Parts must not depend on the order in which they are done, so that
+/// any number of threads gives the same bytes.
 namespace grseg {
 
 /// do_part(k) for k = 0 .. count-1.
 template <class Part>
 void for_each_part(int threads, std::size_t count, const Part& do_part)
 {
-  if (threads == 1 || count <= 1) {  // a team of one costs microseconds, too
+  if (threads == 1 || count <= 1) {  // even a team of one costs microseconds
     for (std::size_t k = 0; k < count; ++k) do_part(k);
     return;
   }
@@ -29,8 +29,8 @@ void for_ranges(int threads, std::size_t count, const Range& do_range)
                 [&](std::size_t k) { do_range(k * size, std::min(count, (k + 1) * size)); });
 }
 
-/// do_strip(s) for all strips: those of even number at a time, and then the others, so that what
-/// reaches over into the next strip meets nothing.
+/// do_strip(s) for all strips: those of even number at the same time, then the others, so that no
+/// two neighbouring strips are worked on at once.
 template <class Strip>
 void for_alternate_strips(int threads, std::size_t count, const Strip& do_strip)
 {

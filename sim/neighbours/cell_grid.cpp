@@ -12,10 +12,10 @@ namespace {
 
 // A strip's contacts fit into the second cache, and there are several for every thread.
 constexpr std::size_t grains_per_strip = 3500;
-// Contacts of strips that are no neighbours share no grain from two columns on.
+// From two columns on, contacts of strips that are not neighbours share no grain.
 constexpr std::int32_t least_columns_per_strip = 4;
 
-/// The index below `x`, or the nearest there is; 0 for what is not a number.
+/// The index below `x`, or the nearest one that exists; 0 if x is not a number.
 std::int32_t nearest_index(double x, std::int32_t count)
 {
   return x > 0 ? static_cast<std::int32_t>(std::min(x, count - 1.0)) : 0;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "sim/neighbours/neighbours.hpp"
+#include "sim/neighbours/pair_list_lanes.hpp"
 
 #include <cstdint>
 #include <span>
@@ -11,9 +11,9 @@
 namespace grseg {
 
 /// Cells at least as wide as pairs reach, in columns along x and bands across y, and the order of
-/// bodies along them. Wide scenes are cut into strips of columns; order is strip by strip, band by
-/// band, column by column. The number of strips follows from the number of grains alone; it is even
-/// where x is periodic, so that strips of even number are no neighbours.
+/// bodies along them. Wide scenes are cut into strips of columns; the order is strip by strip, band
+/// by band, column by column. The number of strips follows from the number of grains alone; it is
+/// even if x is periodic, so that no two strips of even number are neighbours.
 class CellGrid {
  public:
   /// Scenes of fewer grains are one strip.
@@ -36,13 +36,13 @@ class CellGrid {
   }
 
   std::size_t strips() const { return first_column_.size() - 1; }
-  /// The first column of a strip; that behind the last for the number of strips.
+  /// First column of a strip; of the one after the last, the number of columns.
   std::int32_t first_column(std::size_t strip) const { return first_column_[strip]; }
   Range bodies_of_strip(std::size_t strip) const;
 
-  /// Where the partners of a cell's bodies are, each pair once.
+  /// Where the partners of a cell's bodies are; every pair is found from one of its cells only.
   Search search(std::size_t strip, std::int32_t column, std::int32_t band) const;
-  /// x as the cells see it: within the period.
+  /// x brought into [0, period).
   double wrapped(double x) const;
 
  private:

@@ -13,7 +13,7 @@
 // In this order.
 // clang-format off
 #include <hwy/foreach_target.h>
-#include "sim/contact/lanes-inl.hpp"
+#include "sim/contact/contact_law-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -21,11 +21,9 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-using Mask = hn::Mask<D>;
-
-/// What a scene's detection has to see to; what it has not costs nothing.
+/// What a scene has; what it does not have costs nothing.
 struct Variant {
-  bool periodic, rotation, restitution, foresight;
+  bool periodic, rotation, restitution, horizon;
 };
 
 /// DetectionSums, lane by lane.
@@ -35,20 +33,20 @@ struct alignas(64) LaneSums {
   bool coincident = false;
 };
 
-/// Impulse, geometry and inertia of pairs as rows of doubles.
-HWY_INLINE const double* rows(const Pairs::Geometry* g)
+/// What is kept per pair, as one array of doubles: two per pair.
+HWY_INLINE const double* numbers_of(const Pairs::Geometry* g)
 {
   return &g->shift;
 }
-HWY_INLINE const double* rows(const Pairs::Inertia* g)
+HWY_INLINE const double* numbers_of(const Pairs::Inertia* g)
 {
   return &g->inverse_reach;
 }
-HWY_INLINE const double* rows(const Pairs::Memory* g)
+HWY_INLINE const double* numbers_of(const Pairs::Memory* g)
 {
   return &g->approach;
 }
-HWY_INLINE const double* rows(const Pairs::Impulse* g)
+HWY_INLINE const double* numbers_of(const Pairs::Impulse* g)
 {
   return &g->n;
 }
@@ -59,7 +57,7 @@ HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c
                                        const DetectionRule& rule, NearPairs& near)
 {
   const D d;
-  const auto* position = rule.looked_at.data()->data();
+  const auto* position = rule.ahead.data()->data();
   const auto margin = hn::Set(d, rule.margin);
   std::size_t count = 0;
   for (std::size_t k = c.begin; k < c.end; k += block_lanes) {
@@ -67,13 +65,11 @@ HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const std::size_t at = k + lane;
       auto [x, y] = load_differences<1>(d, position, &pairs.i[at], &pairs.j[at]);
-      const auto [shift, reach] = load_next_rows(d, rows(&pairs.geometry[at]));
+      const auto [shift, reach] = load_next_twos(d, numbers_of(&pairs.geometry[at]));
       if constexpr (periodic) x = hn::Add(x, shift);
-      const auto squared = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-      const auto limit = hn::Add(reach, margin);
-      bits |= bits_of(d, hn::Le(squared, hn::Mul(limit, limit))) << lane;
+      bits |= bits_of(d, acts(x, y, reach, margin)) << lane;
     }
-    store_set_bits<2>(bits, k, &near.row[count]);
+    store_set_bits<2>(bits, k, &near.pair[count]);
     store_chosen(bits, &pairs.i[k], &near.i[count]);
     store_chosen(bits, &pairs.j[k], &near.j[count]);
     count += hwy::PopCount(std::uint64_t{bits});
@@ -87,46 +83,16 @@ std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const Dete
   const auto& wall = rule.walls[static_cast<std::size_t>(c.wall)];
   std::size_t count = 0;
   for (auto k = c.begin; k < c.end; ++k) {
-    const auto& x = rule.looked_at[pairs.i[k] / 2];
+    const auto& x = rule.ahead[pairs.i[k] / 2];
     const double distance = (x - wall.point).dot(wall.normal);
-    if (!(distance <= pairs.geometry[k].reach + rule.margin)) continue;
-    near.row[count] = 2 * k;
+    if (!acts_on_wall(distance, pairs.geometry[k].reach, rule.margin)) continue;
+    near.pair[count] = 2 * k;
     near.i[count] = pairs.i[k];
     near.j[count] = pairs.j[k];
     ++count;
   }
   return count;
 }
-
-/// What a contact asks for, and what it has to remember until the next step.
-struct Demand {
-  Vector rebound;   // m/s, the least separation velocity after the step
-  Vector approach;  // m/s
-};
-
-/// Newton's restitution for a pair that touches or was slowed down in the step before; for one that
-/// is still apart, that it does not get beyond touching within the horizon.
-template <Variant with>
-HWY_INLINE Demand demand_of(Vector gap, Vector separation, Vector impulse_n, Vector remembered,
-                            const DetectionRule& rule)
-{
-  const D d;
-  const auto zero = hn::Zero(d);
-  auto approach = hn::Max(hn::Neg(separation), zero);
-  if constexpr (with.foresight) approach = hn::Max(approach, remembered);
-  const auto newton = with.restitution ? hn::Mul(hn::Set(d, rule.restitution), approach) : zero;
-  if constexpr (!with.foresight) return {newton, zero};
-  const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, rule.horizon));
-  const auto apart = hn::AndNot(hn::Gt(remembered, zero), hn::Gt(gap, zero));
-  // A pair under load has been slowed down before; only a newcomer has a velocity to lose.
-  const auto newcomer = hn::And(hn::Eq(impulse_n, zero), hn::Lt(separation, closing));
-  return {hn::IfThenElse(apart, closing, newton),
-          hn::IfThenElseZero(hn::And(apart, newcomer), approach)};
-}
-
-struct Normals {
-  Vector nx, ny, distance;
-};
 
 template <bool periodic>
 HWY_INLINE Normals normals_of_grains(const DetectionRule& rule, const std::uint32_t* i,
@@ -136,22 +102,20 @@ HWY_INLINE Normals normals_of_grains(const DetectionRule& rule, const std::uint3
   const D d;
   auto [x, y] = load_differences<1>(d, rule.middle.data()->data(), i, j);
   if constexpr (periodic) x = hn::Add(x, shift);
-  const auto distance = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-  const auto one = hn::Set(d, 1.0);
-  sums.coincident |= !hn::AllFalse(d, hn::And(used, hn::Eq(distance, hn::Zero(d))));
-  const auto inverse = hn::Div(one, hn::IfThenElse(used, distance, one));
-  return {hn::Mul(x, inverse), hn::Mul(y, inverse), distance};
+  const auto normals = normal_of_discs(x, y, used);
+  const auto coincident = hn::And(used, hn::Eq(normals.distance, hn::Zero(d)));
+  sums.coincident |= !hn::AllFalse(d, coincident);
+  return normals;
 }
 
 HWY_INLINE Normals normals_of_wall(const DetectionRule& rule, const Wall& wall,
                                    const std::uint32_t* i)
 {
   const D d;
-  const auto [x, y] = load_rows(d, rule.middle.data()->data(), i);
-  const auto nx = hn::Set(d, wall.normal.x()), ny = hn::Set(d, wall.normal.y());
-  const auto across_x = hn::Mul(hn::Sub(x, hn::Set(d, wall.point.x())), nx);
-  const auto across_y = hn::Mul(hn::Sub(y, hn::Set(d, wall.point.y())), ny);
-  return {nx, ny, hn::Add(across_x, across_y)};
+  const auto [x, y] = load_twos(d, rule.middle.data()->data(), i);
+  return normal_of_wall(hn::Sub(x, hn::Set(d, wall.point.x())),
+                        hn::Sub(y, hn::Set(d, wall.point.y())), hn::Set(d, wall.normal.x()),
+                        hn::Set(d, wall.normal.y()));
 }
 
 /// Bodies, normals and lever arms of the eight pairs of a class that begin at `near`.
@@ -167,13 +131,13 @@ HWY_INLINE void set_geometry(const Pairs& pairs, const Pairs::Class& c, const Ne
     const auto j = hn::LoadU(d32, &near.j[first + lane]);
     hn::Store(hn::Add(i, i), d32, &block.i[lane]);
     hn::Store(hn::Add(j, j), d32, &block.j[lane]);
-    hn::Store(hn::LoadU(d32, &near.row[first + lane]), d32, &origin.row[lane]);
+    hn::Store(hn::LoadU(d32, &near.pair[first + lane]), d32, &origin.pair[lane]);
   }
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto *row = &near.row[first + lane], *i = &near.i[first + lane],
+    const auto *pair = &near.pair[first + lane], *i = &near.i[first + lane],
                *j = &near.j[first + lane];
-    const auto [shift, reach] = load_rows(d, rows(pairs.geometry.data()), row);
-    const auto [inverse_reach, mass] = load_rows(d, rows(pairs.inertia.data()), row);
+    const auto [shift, reach] = load_twos(d, numbers_of(pairs.geometry.data()), pair);
+    const auto [inverse_reach, mass] = load_twos(d, numbers_of(pairs.inertia.data()), pair);
     const auto used = hn::Gt(mass, hn::Zero(d));
     const auto n = c.wall < 0
                        ? normals_of_grains<periodic>(rule, i, j, shift, used, sums)
@@ -203,7 +167,7 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Mask used, std::size_t l
   keep_most(sums.fastest_approach, approach);
 }
 
-/// The rest of a contact: how it approaches, what it asks for and the first guess of its impulse.
+/// The rest of a contact: tangential mass, rebound, and the first guess of its impulse.
 template <Variant with>
 HWY_INLINE void set_dynamics(const Pairs& pairs, const DetectionRule& rule, ContactBlock& block,
                              BlockOrigin& origin, LaneSums& sums)
@@ -213,28 +177,25 @@ HWY_INLINE void set_dynamics(const Pairs& pairs, const DetectionRule& rule, Cont
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
     const auto mass = hn::Load(d, &block.mass_n[lane]);
     auto mass_t = mass;
-    if constexpr (with.rotation) {
-      const auto kappa = hn::Load(d, &block.kappa[lane]);
-      const auto lever = hn::Mul(hn::Set(d, rule.rim_factor), hn::Mul(kappa, kappa));
-      mass_t = hn::Div(mass, hn::Add(hn::Set(d, 1.0), lever));
-    }
+    if constexpr (with.rotation)
+      mass_t = tangential_mass(mass, hn::Load(d, &block.kappa[lane]), rule.rim_factor);
     hn::Store(mass_t, d, &block.mass_t[lane]);
     const auto [vx, vy] = load_differences<1>(d, velocity, &block.i[lane], &block.j[lane]);
     const auto separation = hn::Add(hn::Mul(vx, hn::Load(d, &block.nx[lane])),
                                     hn::Mul(vy, hn::Load(d, &block.ny[lane])));
-    const auto approach = hn::Max(hn::Neg(separation), hn::Zero(d));
-    const auto [n, t] = load_rows(d, rows(pairs.impulse.data()), &origin.row[lane]);
+    const auto [n, t] = load_twos(d, numbers_of(pairs.impulse.data()), &origin.pair[lane]);
     auto remembered = hn::Zero(d);
-    if constexpr (with.foresight)
-      remembered = load_rows(d, rows(pairs.memory.data()), &origin.row[lane]).first;
+    if constexpr (with.horizon)
+      remembered = load_twos(d, numbers_of(pairs.memory.data()), &origin.pair[lane]).first;
     const auto gap = hn::Load(d, &origin.gap[lane]);
-    const auto demand = demand_of<with>(gap, separation, n, remembered, rule);
-    hn::Store(demand.rebound, d, &block.rebound[lane]);
-    if constexpr (with.foresight) hn::Store(demand.approach, d, &origin.approach[lane]);
+    const auto rebound = rebound_of<with.restitution, with.horizon>(gap, separation, n, remembered,
+                                                                    rule.restitution, rule.horizon);
+    hn::Store(rebound.velocity, d, &block.rebound[lane]);
+    if constexpr (with.horizon) hn::Store(rebound.remembered, d, &origin.approach[lane]);
     hn::Store(n, d, &block.impulse_n[lane]);
     hn::Store(t, d, &block.impulse_t[lane]);
     const auto used = hn::Gt(mass, hn::Zero(d));
-    accumulate(gap, approach, used, lane, sums);
+    accumulate(gap, approach_of(separation), used, lane, sums);
   }
 }
 
@@ -245,7 +206,7 @@ std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs
   const auto neutral = static_cast<std::uint32_t>(2 * pairs.size()), nobody = pairs.i.back();
   const auto clear = [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k)
-      near.row[k] = neutral, near.i[k] = nobody, near.j[k] = nobody;
+      near.pair[k] = neutral, near.i[k] = nobody, near.j[k] = nobody;
   };
   if (!alone) {
     const std::size_t blocks = (count + block_lanes - 1) / block_lanes;
@@ -253,7 +214,8 @@ std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs
     return blocks;
   }
   for (std::size_t k = count; k-- > 0;) {
-    for (auto* numbers : {&near.row, &near.i, &near.j}) (*numbers)[k * block_lanes] = (*numbers)[k];
+    for (auto* numbers : {&near.pair, &near.i, &near.j})
+      (*numbers)[k * block_lanes] = (*numbers)[k];
     clear(k * block_lanes + 1, (k + 1) * block_lanes);
   }
   return count;
@@ -298,7 +260,7 @@ void find_for(const Pairs& pairs, std::size_t strip, const DetectionRule& rule,
 {
   using Find =
       void (*)(const Pairs&, std::size_t, const DetectionRule&, StripContacts&, DetectionSums&);
-  // [periodic][rotation][restitution][foresight]
+  // [periodic][rotation][restitution][horizon]
   static constexpr Find table[2][2][2][2] = {
       {{{find<Variant{false, false, false, false}>, find<Variant{false, false, false, true}>},
         {find<Variant{false, false, true, false}>, find<Variant{false, false, true, true}>}},
@@ -323,11 +285,11 @@ void keep(const StripContacts& contacts, Pairs::Impulse* impulses, Pairs::Memory
     const auto& origin = contacts.origins[b];
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
-      store_rows(d, {n, t}, &impulses->n, &origin.row[lane]);
+      store_twos(d, {n, t}, &impulses->n, &origin.pair[lane]);
       const auto bearing = hn::Gt(n, hn::Zero(d));
       if (remembered != nullptr) {
         const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
-        store_rows(d, {approach, hn::Zero(d)}, remembered, &origin.row[lane]);
+        store_twos(d, {approach, hn::Zero(d)}, remembered, &origin.pair[lane]);
       }
       const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
       const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
@@ -369,7 +331,7 @@ void make_room(std::span<const Pairs::Class> classes, StripContacts& contacts)
   }
   if (contacts.blocks.size() < most) contacts.blocks.resize(most);
   if (contacts.origins.size() < most) contacts.origins.resize(most);
-  for (auto* numbers : {&contacts.near.row, &contacts.near.i, &contacts.near.j})
+  for (auto* numbers : {&contacts.near.pair, &contacts.near.i, &contacts.near.j})
     numbers->resize(largest_class + block_lanes);
 }
 
@@ -422,9 +384,9 @@ void forget_impulses(std::span<const StripContacts> contacts, std::span<Pairs::I
   for_each_part(threads, contacts.size(), [&](std::size_t s) {
     const auto& strip = contacts[s];
     for (std::size_t b = 0; b < strip.previous_size; ++b)
-      for (const auto row : strip.previous_origins[b].row) {
-        impulses[row / 2] = {0, 0};
-        if (!memories.empty()) memories[row / 2] = {0, 0};
+      for (const auto pair : strip.previous_origins[b].pair) {
+        impulses[pair / 2] = {0, 0};
+        if (!memories.empty()) memories[pair / 2] = {0, 0};
       }
   });
 }

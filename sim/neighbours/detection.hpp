@@ -2,76 +2,76 @@
 #pragma once
 
 #include "sim/contact/contact_blocks.hpp"
-#include "sim/neighbours/pair_list.hpp"
+#include "sim/neighbours/pairs.hpp"
 
 #include <span>
 #include <vector>
 
-/// The listed pairs that act in a step, as blocks for the solver. Vector instructions as in
-/// sweep.hpp: all instruction sets give the same bytes.
+/// The listed pairs that act in a step (contact_law.hpp), as blocks for the solver. Vector
+/// instructions as in sweep.hpp: all instruction sets give the same bytes.
 namespace grseg {
 
 /// Where the contacts of a block come from, and their gaps at mid-step.
 struct alignas(64) BlockOrigin {
-  ContactBlock::Lanes gap;                     // m
-  ContactBlock::Lanes approach;                // m/s, to be remembered, see Pairs::Memory
-  std::array<std::uint32_t, block_lanes> row;  // twice the pair's index; lanes left over: neutral
+  ContactBlock::Lanes gap;                      // m
+  ContactBlock::Lanes approach;                 // m/s, to be remembered, see Rebound
+  std::array<std::uint32_t, block_lanes> pair;  // twice its index; unused lanes: the neutral one
 };
 
-/// The pairs of a class that act, while it is looked through.
+/// The pairs of a class that act: scratch space of find_contacts.
 struct NearPairs {
-  std::vector<std::uint32_t> row;   // twice the pair's index
+  std::vector<std::uint32_t> pair;  // twice the pair's index
   std::vector<std::uint32_t> i, j;  // as in Pairs
 };
 
 /// The contacts of a strip in one step.
 struct StripContacts {
-  std::vector<ContactBlock> blocks;  // the first `size` of them; kept for the memory
+  std::vector<ContactBlock> blocks;  // `size` of them are in use; never shrinks
   std::vector<std::uint32_t> ends;   // as in BlockRuns
   std::vector<BlockOrigin> origins, previous_origins;
   NearPairs near;
   std::size_t size = 0;  // blocks in use
   std::size_t previous_size = 0;
-  std::size_t on_base = 0;  // the first of the blocks whose partners j do not move
+  std::size_t on_base = 0;  // first of the blocks whose partners j do not move
   std::size_t count = 0;    // contacts
 
   BlockRuns used() { return {std::span(blocks).first(size), ends}; }
 };
 
-/// What a step looks for.
+/// The law of a step, and the state that it applies to.
 struct DetectionRule {
-  std::span<const Vec2> looked_at;  // m; pairs closer than reach + margin here become contacts
-  std::span<const Vec2> middle;     // m, positions at mid-step, for the contacts' geometry
-  std::span<const Motion> motion;   // at the beginning of the step
+  std::span<const Vec2> ahead;     // m, after the forecast: where a pair must touch to act
+  std::span<const Vec2> middle;    // m, at mid-step: the geometry of the contacts
+  std::span<const Motion> motion;  // at the beginning of the step
   std::span<const Wall> walls;
   double margin = 0;  // m
   double restitution = 0;
-  double horizon = 0;  // s, World::horizon times the step
+  double horizon = 0;  // s, LawParameters::horizon times the step
   double rim_factor = disc_rim_factor;
-  /// What there is to see to. Effects left out equal their neutral coefficients to the last bit:
+  /// What is computed. Effects left out equal their neutral coefficients to the last bit:
   /// restitution 0, rim_factor 0, shifts 0.
   Effects effects;
   bool periodic = true;
 };
 
-/// What detection has seen, over the contacts.
+/// Sums over the contacts that were found.
 struct DetectionSums {
   std::size_t touching = 0;     // gap <= 0 at mid-step
   double overlap = 0;           // m, sum of -gap over the touching pairs
   double largest_overlap = 0;   // m
   double fastest_approach = 0;  // m/s, at the beginning of the step
-  bool coincident = false;      // centres of a pair lie upon each other
+  bool coincident = false;      // the centres of a pair coincide
 };
 
-/// Finds the contacts of every strip; sums are added strip by strip.
+/// Finds the contacts of every strip. Sums are added strip by strip.
 DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
                             std::vector<StripContacts>& contacts, int threads = 1);
 
-/// What the solver has made of the contacts.
+/// Sums over the contacts that were solved.
 struct ImpulseSums {
   std::size_t force_bearing = 0;     // contacts that carry an impulse
   double gap_bearing = 0;            // m, sum of |gap| over them
-  Vec2 on_base_side = Vec2::Zero();  // kg m/s, of what does not move on what does
+  Vec2 on_base_side = Vec2::Zero();  // kg m/s, of walls and boundary grains on mobile grains
 };
 
 /// Writes the contacts' impulses to their pairs.

@@ -10,9 +10,9 @@
 
 namespace grseg {
 
-/// What moves, in the order in which it lies in memory: along the cells of the pair list, so that
-/// what is near in space is near in memory. Behind the grains stands one body that never moves; it
-/// stands for all walls, and for both partners in lanes that nothing else uses.
+/// What changes of the grains, sorted along the cells of the pair list, so that what is near in
+/// space is near in memory. The entry after the last grain is a body that never moves; it stands
+/// for all walls, and for both partners in lanes of a block that are not used.
 struct GrainState {
   std::vector<Vec2> position;       // m; one more than there are grains
   std::vector<Motion> motion;       // one more than there are grains
@@ -22,8 +22,8 @@ struct GrainState {
 
   std::size_t size() const { return row.size(); }
   /// Index of the body that never moves.
-  std::size_t still() const { return row.size(); }
-  /// Room for as many grains as `other` has, at rest.
+  std::size_t immobile() const { return row.size(); }
+  /// Makes room for as many grains as `other` has.
   void resize_like(const GrainState& other);
 };
 

@@ -2,6 +2,7 @@
 #include "sim/run/recorder.hpp"
 
 #include "formats/core/errors.hpp"
+#include "sim/step/energies.hpp"
 #include "sim/step/energy_balance.hpp"
 
 #include <fmt/format.h>
@@ -91,9 +92,9 @@ void Recorder::write(const Frame& frame, const Simulation& simulation)
   const auto energy =
       energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
   const std::vector<double> values{
-      simulation.translational_energy(),
-      simulation.rotational_energy(),
-      simulation.potential_energy(),
+      translational_energy(simulation),
+      rotational_energy(simulation),
+      potential_energy(simulation),
       momentum_defect(simulation.world().grains, frame, simulation.world().gravity),
       energy.defect(),
       energy.work_of_contacts,

@@ -3,6 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "sim/scene/boundaries.hpp"
+#include "sim/step/energies.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_randist.h>
@@ -152,7 +153,7 @@ std::int64_t settle(Simulation& simulation, const Scene& scene, const Deposition
       simulation.advance();
       if (hooks.each_step) hooks.each_step();
     }
-    const double energy = simulation.translational_energy() + simulation.rotational_energy();
+    const double energy = translational_energy(simulation) + rotational_energy(simulation);
     if (simulation.time() > first_look && energy < at_rest) return simulation.steps_done();
   }
   throw RunError(fmt::format(

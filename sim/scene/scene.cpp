@@ -2,6 +2,7 @@
 #include "sim/scene/scene.hpp"
 
 #include "formats/cli/tool.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>
@@ -43,12 +44,12 @@ template <class Choice, std::size_t N>
 Choice parse_choice(const std::string& text, const std::string& key,
                     const std::array<std::pair<const char*, Choice>, N>& choices)
 {
-  std::string all;
+  std::vector<std::string> words;
   for (const auto& [name, choice] : choices) {
     if (text == name) return choice;
-    all += all.empty() ? name : fmt::format(", {}", name);
+    words.emplace_back(name);
   }
-  throw SceneError(key, fmt::format("{} is '{}': choose one of {}", key, text, all));
+  throw SceneError(key, unknown_word(key, text, words));
 }
 
 constexpr std::array<std::pair<const char*, Scene::Geometry>, 5> geometries{

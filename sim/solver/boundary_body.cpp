@@ -55,7 +55,7 @@ FreeBodies::FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std
       }
 }
 
-double FreeBodies::give_way(std::span<Motion> motion)
+double FreeBodies::update_velocities(std::span<Motion> motion)
 {
   double largest = 0;
   for (const auto& body : bodies_) {

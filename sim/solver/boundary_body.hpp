@@ -10,8 +10,8 @@
 
 namespace grseg {
 
-/// Boundary grains that move as one, from t = 0 on: as prescribed, or along y, where the body has a
-/// mass, as its load and the contacts make it.
+/// Boundary grains that move as one body, from t = 0 on. Motion is prescribed; of a body with a
+/// mass only that along x, whereas along y it follows from its load and its contacts.
 struct BoundaryBody {
   std::uint32_t begin = 0, end = 0;  ///< rows of Grains
   Vec2 velocity = Vec2::Zero();      ///< m/s
@@ -25,40 +25,41 @@ struct BoundaryBody {
   bool free() const { return mass > 0; }
 };
 
-/// Where a body is at time t, s, less where it was at t <= 0.
+/// Displacement of a body at `time`, s, since t = 0, m.
 Vec2 displacement(const BoundaryBody& body, double time);
 
-/// The velocity that brings the point of the body at `position` to where it is to be at
-/// `time` + `step`: along the chord, so that radii stay what they are. Of a free body, along x
-/// only.
+/// The velocity, m/s, that takes the point of the body at `position` to where it is prescribed to
+/// be at `time` + `step`: along the chord, so that distances from the axis stay the same. Of a free
+/// body, only x counts.
 Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time, double step);
 
-/// Bodies that give way, within one step's solve. Contacts relax as if boundary grains had
-/// infinite mass; after each sweep every body takes the velocity that the sum of its impulses asks
-/// for, less what its contacts are going to answer: one Newton step of
-/// M (V - V_free) = P(V), dP/dV = - sum of the effective masses of the contacts under force. Its
-/// contacts are then relaxed and it gives way once more: grains that a solve left with what a body
-/// does last, all alike, would sink into it step by step.
+/// Free bodies within the solve of one step. In a sweep boundary grains have infinite mass; after
+/// each, every free body takes the velocity V of one Newton step towards
+///   M (V - V_free) = P(V),  dP/dV = - (sum of the effective masses of its contacts under force),
+/// where P is the sum of its contact impulses along y and V_free its velocity without contacts. Its
+/// contacts are then relaxed and V is updated once more: if the update came last, all its grains
+/// would be left with the same velocity error, and sink into it step by step.
 class FreeBodies {
  public:
-  /// `place` says where in `motion` each row of Grains is.
+  /// `place` gives the index in `motion` of each row of Grains.
   FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std::uint32_t> place,
              std::span<const BlockRuns> strips, std::span<const Motion> motion);
 
-  /// Velocities of all bodies, given the impulses in the blocks. Returns the largest change, m/s.
-  double give_way(std::span<Motion> motion);
+  /// Sets the velocities of all bodies from the impulses in the blocks. Returns the largest change,
+  /// m/s.
+  double update_velocities(std::span<Motion> motion);
   /// One relaxation of the bodies' own contacts.
   void relax_contacts(std::span<Motion> motion, double friction, Effects effects);
 
  private:
-  struct Seat {  // of a contact
+  struct BodyContact {  // where the contact is
     ContactBlock* block;
     std::uint32_t lane;
   };
   struct Body {
     double mass, free_velocity;  // kg, m/s without contacts
     std::vector<std::uint32_t> members;
-    std::vector<Seat> contacts;
+    std::vector<BodyContact> contacts;
   };
   std::vector<Body> bodies_;
 };

@@ -21,8 +21,8 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// now += factor (now - before) and before = now, as they were.
-HWY_INLINE void move_on(double* now, double* before, std::size_t count, double factor)
+/// now += factor (now - before), and before = what now was.
+HWY_INLINE void extrapolate_numbers(double* now, double* before, std::size_t count, double factor)
 {
   const D d;
   const auto f = hn::Set(d, factor);
@@ -40,19 +40,19 @@ HWY_INLINE void move_on(double* now, double* before, std::size_t count, double f
   }
 }
 
-void move_motion_on(Motion* now, Motion* before, std::size_t count, double factor)
+void extrapolate_motion(Motion* now, Motion* before, std::size_t count, double factor)
 {
-  move_on(&now->vx, &before->vx, 4 * count, factor);
+  extrapolate_numbers(&now->vx, &before->vx, 4 * count, factor);
   leave_vectors();
 }
 
-void move_impulses_on(std::span<ContactBlock> now, double* before, double factor)
+void extrapolate_impulses(std::span<ContactBlock> now, double* before, double factor)
 {
   static_assert(offsetof(ContactBlock, impulse_t) ==
                 offsetof(ContactBlock, impulse_n) + sizeof(ContactBlock::Lanes));
-  constexpr std::size_t row = std::size_t{2} * block_lanes;
+  constexpr std::size_t per_block = std::size_t{2} * block_lanes;
   for (std::size_t b = 0; b < now.size(); ++b)
-    move_on(now[b].impulse_n.data(), before + row * b, row, factor);
+    extrapolate_numbers(now[b].impulse_n.data(), before + per_block * b, per_block, factor);
   leave_vectors();
 }
 
@@ -65,8 +65,8 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(move_motion_on);
-HWY_EXPORT(move_impulses_on);
+HWY_EXPORT(extrapolate_motion);
+HWY_EXPORT(extrapolate_impulses);
 
 }  // namespace
 
@@ -89,8 +89,8 @@ void Extrapolation::remember(std::span<const BlockRuns> strips, std::span<const 
   motion_.assign(motion.begin(), motion.end());
 }
 
-void Extrapolation::go_on(std::span<const BlockRuns> strips, std::span<Motion> motion,
-                          double change, int threads)
+void Extrapolation::extrapolate(std::span<const BlockRuns> strips, std::span<Motion> motion,
+                                double change, int threads)
 {
   if (change > last_change_) weight_ = 1;
   last_change_ = change;
@@ -99,11 +99,11 @@ void Extrapolation::go_on(std::span<const BlockRuns> strips, std::span<Motion> m
   weight_ = next;
   if (factor == 0) return remember(strips, motion, threads);
   for_each_part(threads, strips.size(), [&](std::size_t s) {
-    if (!strips[s].blocks.empty())
-      HWY_DYNAMIC_DISPATCH(move_impulses_on)(strips[s].blocks, impulses_[s][0].n.data(), factor);
+    if (!strips[s].blocks.empty()) HWY_DYNAMIC_DISPATCH(extrapolate_impulses)
+    (strips[s].blocks, impulses_[s][0].n.data(), factor);
   });
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
-    HWY_DYNAMIC_DISPATCH(move_motion_on)(&motion[begin], &motion_[begin], end - begin, factor);
+    HWY_DYNAMIC_DISPATCH(extrapolate_motion)(&motion[begin], &motion_[begin], end - begin, factor);
   });
 }
 

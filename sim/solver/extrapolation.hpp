@@ -9,18 +9,19 @@
 
 namespace grseg {
 
-/// Nesterov's extrapolation of Gauss-Seidel sweeps: each sweep starts from where the last one came
-/// to, moved on along the way since the one before, by a factor that grows from sweep to sweep
-/// until changes grow, too, and then begins anew (Nesterov 1983; restart by O'Donoghue & Candes,
-/// Found. Comput. Math. 15, 2015). Velocities are linear in impulses, so both are moved on alike;
-/// what the next sweep projects back need not obey Signorini and Coulomb in between.
+/// Nesterov's extrapolation of Gauss-Seidel sweeps. With x_k the state after sweep k, the next
+/// sweep starts from x_k + f_k (x_k - x_(k-1)), where f_k = (w_k - 1)/w_(k+1), w_1 = 1 and
+/// w_(k+1) = (1 + sqrt(1 + 4 w_k^2))/2, so that f_k grows from 0 towards 1; where the changes that
+/// a sweep makes grow, w starts again from 1 (Nesterov 1983; restart by O'Donoghue & Candes, Found.
+/// Comput. Math. 15, 2015). Velocities are linear in impulses, so both are extrapolated alike; the
+/// state in between need not obey Signorini and Coulomb, as the next sweep projects it back.
 class Extrapolation {
  public:
-  /// Before the first sweep.
+  /// To be called before the first sweep,
   void begin();
-  /// After a sweep whose squared changes add up to `change`.
-  void go_on(std::span<const BlockRuns> strips, std::span<Motion> motion, double change,
-             int threads);
+  /// and after every sweep; `change` is the sum of the squared changes that it made.
+  void extrapolate(std::span<const BlockRuns> strips, std::span<Motion> motion, double change,
+                   int threads);
 
  private:
   void remember(std::span<const BlockRuns> strips, std::span<const Motion> motion, int threads);

@@ -4,18 +4,17 @@
 #include "sim/contact/parallel.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace grseg {
 namespace {
 
-// Sweeps come no closer than to the last digits of velocities, and where loads fade, as in a gas,
-// no tolerance relative to them lets any number of sweeps suffice. After so many sweeps it is worth
-// a look at the velocities.
+// Sweeps cannot resolve the last digits of velocities. Where loads fade, as in a gas, a tolerance
+// relative to them may be smaller than that, and would never be met; after so many sweeps changes
+// are compared with the velocities, too.
 constexpr double last_digits = 8 * std::numeric_limits<double>::epsilon();
-constexpr int patience = 32;
+constexpr int sweeps_before_round_off = 32;
 
 /// m/s, the largest component of all velocities.
 double fastest(std::span<const Motion> motion)
@@ -37,8 +36,9 @@ SweepResult total(const std::vector<SweepResult>& strips)
   return total;
 }
 
-/// Which strips are swept. All, until few have changes above the tolerance; then only these and
-/// their neighbours: somewhere in a wide scene there is always a contact that needs more sweeps.
+/// Which strips are swept: all, until few have changes above the tolerance; then only these and
+/// their neighbours, because somewhere in a wide scene there is always a contact that needs more
+/// sweeps.
 class LocalWork {
  public:
   explicit LocalWork(std::span<const BlockRuns> strips) : strips_(strips), swept_(strips.size(), 1)
@@ -93,13 +93,13 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
   for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
     apply_impulses(strips[s].blocks, motion.data(), effects);
   });
-  if (free != nullptr) free->give_way(motion);
+  if (free != nullptr) free->update_velocities(motion);
   const auto sweep = choose_sweep(effects);
   const auto contact_count = static_cast<double>(count);
   std::vector<SweepResult> results(strips.size());
   LocalWork work(strips);
   if (settings.acceleration) extrapolation.begin();
-  double round_off = 0;  // m/s, once it is asked for
+  double round_off = 0;  // m/s, once it is needed
   // The second sweep of a strip finds its contacts in the cache.
   const int at_a_time = strips.size() > 1 ? 2 : 1;
   for (int sweeps = at_a_time;; sweeps += at_a_time) {
@@ -109,9 +109,9 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
     });
     auto result = total(results);
     if (free != nullptr) {
-      result.largest = std::max(result.largest, free->give_way(motion));
+      result.largest = std::max(result.largest, free->update_velocities(motion));
       free->relax_contacts(motion, friction, effects);
-      free->give_way(motion);
+      free->update_velocities(motion);
     }
     const double reference = std::max(std::sqrt(result.sum_reference / contact_count), floor);
     // Without gravity the sweep that lets the last contact go leaves a reference of 0.
@@ -120,7 +120,7 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
     report.residual = relative(result.largest);
     report.residual_rms = relative(std::sqrt(result.sum_squares / contact_count));
     report.converged = report.residual <= settings.tolerance;
-    if (!report.converged && sweeps >= patience) {
+    if (!report.converged && sweeps >= sweeps_before_round_off) {
       if (round_off == 0) round_off = last_digits * fastest(motion);
       report.converged = result.largest <= round_off;
     }
@@ -128,42 +128,8 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
     if ((report.converged && enough) || sweeps >= settings.max_sweeps) return report;
     work.choose(results, settings.tolerance * reference, enough && free == nullptr);
     if (settings.acceleration && !work.local())
-      extrapolation.go_on(strips, motion, result.sum_squares, threads);
+      extrapolation.extrapolate(strips, motion, result.sum_squares, threads);
   }
-}
-
-SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
-                            double friction, Effects effects, const SolverSettings& settings,
-                            double floor)
-{
-  if (!effects.friction)
-    for (auto& c : contacts) c.impulse_t = 0;
-  const std::size_t bodies = motion.size();
-  motion.emplace_back();  // what the lanes left over act on
-  ContactBlocks packed;
-  packed.pack(contacts, motion, bodies);
-  const std::array strips{packed.runs()};
-  Extrapolation extrapolation;
-  const auto report = solve_contacts(strips, contacts.size(), motion, friction, effects, settings,
-                                     floor, extrapolation);
-  motion.pop_back();
-  packed.unpack(contacts);
-  return report;
-}
-
-double contact_residual(const std::vector<Contact>& contacts, const std::vector<Motion>& motion,
-                        double friction, Effects effects)
-{
-  const auto relax_alone = choose_relax(effects);
-  double largest = 0;
-  for (auto alone : contacts) {
-    auto a = motion[static_cast<std::size_t>(alone.i)],
-         b = motion[static_cast<std::size_t>(alone.j)];
-    if (!effects.restitution) alone.rebound = 0;
-    const auto change = relax_alone(alone, a, b, friction);
-    largest = std::max({largest, change.normal, change.tangential});
-  }
-  return largest;
 }
 
 }  // namespace grseg

@@ -15,9 +15,9 @@ struct SolverSettings {
   double tolerance = 1e-2;  ///< on SolverReport::residual
   int max_sweeps = 500;
   bool acceleration = false;
-  /// At least so many sweeps, unless one changes nothing. A sweep hands a load on to the next grain
-  /// only, so where weight has to be found again small changes do not mean small errors: a bed at
-  /// rest trembles when every step stops at the first or second sweep.
+  /// At least so many sweeps, unless one changes nothing. A sweep passes a load on to the next
+  /// grain only, so while a bed still has to find its weight small changes do not mean small
+  /// errors: a bed at rest trembles if every step stops at the first or second sweep.
   int min_sweeps = 1;
 };
 
@@ -38,29 +38,19 @@ struct SolverReport {
 /// velocity are convergence, too: without gravity loads fade, and no number of sweeps makes changes
 /// small against them.
 ///
-/// With `acceleration` each sweep starts beyond where the last one came to (Extrapolation, kept by
-/// the caller for its memory).
+/// With `acceleration` sweeps are extrapolated (Extrapolation, kept by the caller to reuse its
+/// memory).
 ///
 /// Impulses in the blocks are the first guess; they are applied to `motion` here. Contacts come in
 /// strips and are swept run after run: those of even strips at a time, then those of odd ones.
 /// Strips that are no neighbours share no mobile body; what is summed is added strip by strip. Of
 /// several strips each is swept twice before the next, and counts as swept twice. When
 /// changes above the tolerance are left in a quarter of the strips or less, only these and their
-/// neighbours are swept further, without extrapolation; bodies that give way need all.
+/// neighbours are swept further, without extrapolation; with free bodies all are.
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
                             const SolverSettings& settings, double floor,
                             Extrapolation& extrapolation, int threads = 1,
                             FreeBodies* free = nullptr);
-
-/// The same for contacts in any order.
-SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
-                            double friction, Effects effects, const SolverSettings& settings,
-                            double floor);
-
-/// The largest violation (m/s) of Signorini's and Coulomb's conditions by any state, whichever
-/// solver made it: the change that relaxing a contact alone would make.
-double contact_residual(const std::vector<Contact>& contacts, const std::vector<Motion>& motion,
-                        double friction, Effects effects);
 
 }  // namespace grseg

@@ -14,27 +14,13 @@
 // In this order.
 // clang-format off
 #include <hwy/foreach_target.h>
-#include "sim/contact/lanes-inl.hpp"
+#include "sim/contact/contact_law-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
-
-/// Adds the impulse (px, py) to a and takes it from b, and the spin from both.
-template <Effects with>
-HWY_INLINE void push(Bodies& a, Bodies& b, Vector px, Vector py, Vector spin)
-{
-  if constexpr (with.friction && with.rotation) {
-    a.rim_speed = hn::Sub(a.rim_speed, hn::Mul(a.inverse_mass, spin));
-    b.rim_speed = hn::Sub(b.rim_speed, hn::Mul(b.inverse_mass, spin));
-  }
-  a.vx = hn::Add(a.vx, hn::Mul(a.inverse_mass, px));
-  a.vy = hn::Add(a.vy, hn::Mul(a.inverse_mass, py));
-  b.vx = hn::Sub(b.vx, hn::Mul(b.inverse_mass, px));
-  b.vy = hn::Sub(b.vy, hn::Mul(b.inverse_mass, py));
-}
 
 /// SweepResult, lane by lane.
 struct alignas(64) LaneResults {
@@ -53,55 +39,9 @@ struct alignas(64) LaneResults {
   }
 };
 
-/// relax() on the lanes that begin at `lane`, of the bodies a and b; the same operations in the
-/// same order.
-template <Effects with>
-HWY_INLINE void relax_lanes(ContactBlock& c, std::size_t lane, Bodies a, Bodies b, double* motion,
-                            Vector friction, LaneResults& results)
-{
-  const D d;
-  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
-  const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
-  const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
-
-  auto excess = hn::Add(hn::Mul(dvx, nx), hn::Mul(dvy, ny));
-  if constexpr (with.restitution) excess = hn::Sub(excess, hn::Load(d, &c.rebound[lane]));
-  const auto before_n = hn::Load(d, &c.impulse_n[lane]);
-  const auto impulse_n =
-      hn::Max(hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess)), hn::Zero(d));
-  hn::Store(impulse_n, d, &c.impulse_n[lane]);
-  const auto change_n = hn::Sub(impulse_n, before_n);
-  results.add(lane, hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn));
-
-  auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
-  if constexpr (with.friction) {
-    auto sliding = hn::Sub(hn::Mul(dvy, nx), hn::Mul(dvx, ny));
-    auto w_tt = w_nn;
-    const auto kappa = hn::Load(d, &c.kappa[lane]);
-    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), kappa);
-    if constexpr (with.rotation) {
-      sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
-      w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, 1.0), hn::Mul(lever, kappa)));
-    }
-    const auto limit = hn::Mul(friction, impulse_n);
-    const auto before_t = hn::Load(d, &c.impulse_t[lane]);
-    const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_t[lane]), sliding));
-    const auto impulse_t = hn::Min(hn::Max(sticking, hn::Neg(limit)), limit);
-    hn::Store(impulse_t, d, &c.impulse_t[lane]);
-    const auto change_t = hn::Sub(impulse_t, before_t);
-    px = hn::Sub(px, hn::Mul(change_t, ny));
-    py = hn::Add(py, hn::Mul(change_t, nx));
-    if constexpr (with.rotation) spin = hn::Mul(lever, change_t);
-    results.add(lane, hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt));
-  }
-  push<with>(a, b, px, py, spin);
-  store_bodies(d, a, motion, &c.i[lane]);
-  store_bodies(d, b, motion, &c.j[lane]);
-}
-
-/// Relaxes blocks that share no mobile body. The bodies of what comes next are loaded before what
-/// is there is relaxed: a relaxation is one long chain of operations, and the processor does not
-/// look far enough ahead to fill its pauses with the next one by itself.
+/// Relaxes blocks that share no mobile body. The bodies of the next contacts are loaded before the
+/// present ones are relaxed: a relaxation is one long chain of operations, and the processor does
+/// not look far enough ahead to fill its pauses with the next one by itself.
 template <Effects with>
 HWY_INLINE void sweep_run(ContactBlock* block, const ContactBlock* end, double* motion,
                           Vector friction, LaneResults& results)
@@ -115,7 +55,9 @@ HWY_INLINE void sweep_run(ContactBlock* block, const ContactBlock* end, double* 
       const std::size_t next_lane = same ? lane + hn::MaxLanes(d) : 0;
       const auto next_a = load_bodies(d, motion, &next->i[next_lane]);
       const auto next_b = load_bodies(d, motion, &next->j[next_lane]);
-      relax_lanes<with>(*block, lane, a, b, motion, friction, results);
+      relax<with>(*block, lane, a, b, friction, results);
+      store_bodies(d, a, motion, &block->i[lane]);
+      store_bodies(d, b, motion, &block->j[lane]);
       a = next_a;
       b = next_b;
     }
@@ -254,7 +196,7 @@ void use_instruction_set(const std::string& name)
     if (name == name_of(target)) chosen = target;
   if (chosen == 0 && !name.empty()) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    throw UsageError(fmt::format("there is no instruction set '{}' here; choose one of {}", name,
+    throw UsageError(fmt::format("unknown instruction set '{}'; this machine has {}", name,
                                  fmt::join(instruction_sets(), ", ")));
   }
   hwy::SetSupportedTargetsForTest(chosen);

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-/// The contact law, relax() of contact_law.hpp, on blocks of contacts with vector instructions. The
-/// instruction set is chosen when the program runs. All give the same bytes: products and sums are
-/// never fused, and sums over contacts are kept per lane of a block and added in one order.
+/// Sweeps over blocks of contacts with vector instructions; each contact is relaxed as
+/// contact_law.hpp says. The instruction set is chosen when the program runs. All give the same
+/// bytes: products and sums are never fused, and sums over contacts are kept per lane of a block
+/// and added in one order.
 namespace grseg {
 
 /// What one pass over all contacts found.
@@ -31,7 +32,7 @@ void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effect
 std::vector<std::string> instruction_sets();
 /// The one in use.
 std::string instruction_set();
-/// Takes the named one from now on, "" the best. Not to be called while a sweep runs.
+/// Uses the named one from now on, "" the best. Not to be called while a sweep runs.
 void use_instruction_set(const std::string& name);
 
 }  // namespace grseg

@@ -6,32 +6,13 @@
 #include "sim/neighbours/detection.hpp"
 #include "sim/neighbours/grain_state.hpp"
 #include "sim/neighbours/pair_list.hpp"
-#include "sim/solver/boundary_body.hpp"
 #include "sim/solver/solver.hpp"
+#include "sim/step/world.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace grseg {
-
-/// Everything that stays the same while a simulation runs.
-struct World {
-  Grains grains;
-  std::vector<Wall> walls;
-  std::vector<BoundaryBody> bodies;  // of boundary grains that move
-  Box box;
-  Material material;
-  bool rotation = true;
-  Vec2 gravity = Vec2::Zero();  // m/s^2, of the last step where the slope turns
-  double step = 0;              // h, s
-  SolverSettings solver;
-  LawParameters law;
-  double skin = 0;  // m, more than margin, of the pair list; 0 chooses half the smallest diameter
-  int threads = 1;  // results do not depend on it
-  /// Kernels that see to friction, restitution and periodicity whether the world has them or not:
-  /// the same bytes for more time, for measurements and tests.
-  bool general = false;
-};
 
 /// What one step did.
 struct StepReport {
@@ -47,12 +28,14 @@ struct StepReport {
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
 };
 
-/// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2): normals and lever arms
-/// are those half-way through the step; Newton's restitution uses the velocities at its beginning,
-/// so that resting contacts do not rattle; nothing pushes overlap out, so no energy enters that
-/// way.
+/// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2). A step of length h
 ///
-/// Which pairs act, and how, is stated in sim/contact/contact_law.hpp.
+///   x  ->  x + h v/2         grains move freely to the middle of the step; contacts get their
+///                            normals and lever arms there, and their rebounds from v
+///   v  ->  v+ = v + h g + sum of contact impulses/m   solved for all contacts together
+///   x  ->  x + h v+/2        grains move on to the end of the step
+///
+/// sim/contact/contact_law.hpp states which pairs act, and the law that their impulses obey.
 class Simulation {
  public:
   /// All that changes from step to step and that later steps depend on.
@@ -68,12 +51,12 @@ class Simulation {
 
   /// Grains start at `position` at rest.
   Simulation(const World& world, const std::vector<Vec2>& position);
-  /// Goes on from `state`: with the same world, the steps that follow are the same to the last bit.
+  /// Continues from `state`: with the same world, the steps that follow are bitwise identical.
   /// FormatError as in PairList::restore.
   Simulation(const World& world, const State& state);
 
   StepReport advance();
-  /// The same, and writes the step down in `frame`.
+  /// The same, and writes the step to `frame` (snapshot.hpp).
   StepReport advance(Frame& frame);
 
   State state() const;
@@ -82,19 +65,20 @@ class Simulation {
   std::int64_t steps_done() const { return steps_done_; }
   double time() const { return static_cast<double>(steps_done_) * world_.step; }  // s
 
-  /// Turns gravity: the slope is tilted, and may go on turning, by the clock.
+  /// Sets gravity, which may turn as the clock runs.
   void tilt(const Gravity& gravity)
   {
     gravity_ = gravity;
     world_.gravity = gravity.at(time());
   }
-  /// From now on boundary grains move so.
+  /// Replaces World::bodies.
   void drive(const std::vector<BoundaryBody>& bodies) { world_.bodies = bodies; }
   /// Sets the number of steps done, and with it the time; negative before the tilt.
   void set_clock(std::int64_t steps) { steps_done_ = steps; }
 
-  /// Position of grain g, unwrapped: where it would be were nothing periodic.
+  /// Grain g, a row of Grains. Its position is unwrapped, as if nothing were periodic.
   Vec2 position(std::size_t g) const;
+  const Motion& motion(std::size_t g) const { return state_.motion[body_of_[g]]; }
   Vec2 velocity(std::size_t g) const { return {motion(g).vx, motion(g).vy}; }
   double angular_velocity(std::size_t g) const
   {
@@ -102,40 +86,23 @@ class Simulation {
   }
   void set_velocity(std::size_t g, const Vec2& velocity, double angular_velocity = 0);
 
-  /// Energies of the mobile grains, J (per metre of depth): of translation, of rotation, and in the
-  /// field of gravity, zero at the origin.
-  double translational_energy() const;
-  double rotational_energy() const;
-  double potential_energy() const;
-
-  /// Motion of each grain at the beginning of the last step that was written down.
+  /// Motion of each grain at the beginning of the last step that was written to a frame.
   const std::vector<Motion>& before() const { return before_; }
 
   std::size_t pair_list_renewals() const { return pairs_.renewals(); }
 
  private:
-  const Motion& motion(std::size_t g) const { return state_.motion[body_of_[g]]; }
   StepReport step(Frame* frame);
-  void move_grains(double duration);
-  void look_ahead();
-  void move_to_middle();
-  std::span<Pairs::Memory> memories();
-  void renew_pairs();
+  void remember_motion();
   void find_contacts(StepReport& report);
+  void renew_pairs();
   /// m/s, of grains that may have passed each other since the last list, or before the first one.
   double unseen_approach() const;
-  void solve(StepReport& report);
   [[noreturn]] void stop_at_coincidence() const;
-  void drive_bodies();
-  void apply_gravity(double duration);
-  void apply_loads(double duration);
+  void solve(StepReport& report);
   void keep_impulses(StepReport& report);
-  void wrap_positions();
-  void write_down(Frame& frame) const;
-  void write_down_positions(Frame& frame) const;
-  void write_down_contacts(ContactList& list) const;
-  std::int32_t wall_name(std::size_t pair) const;
-  void write_down_motion(Frame& frame) const;
+  /// Empty where the law needs no memory.
+  std::span<Pairs::Memory> memories();
 
   World world_;
   Gravity gravity_;
@@ -144,12 +111,12 @@ class Simulation {
   PairList pairs_;
   GrainState state_;
   std::vector<std::uint32_t> body_of_;  // where in the state each grain is
-  std::vector<Vec2> ahead_;             // m, positions looked at: after a forecast of free flight
-  std::vector<Motion> before_;          // by row, at the beginning of a step that is written down
+  std::vector<Vec2> ahead_;             // m, positions after the forecast of the law
+  std::vector<Motion> before_;          // by row, at the beginning of a step written to a frame
   std::vector<StripContacts> contacts_;
   Extrapolation extrapolation_;
   std::int64_t steps_done_ = 0;
-  bool restored_ = false;  // the contacts of the step before are not known, only their impulses
+  bool restored_ = false;  // of the step before only the impulses are known, not the contacts
 };
 
 }  // namespace grseg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/micro/micro_sums.hpp"
+#include "analysis/micro/structure_sums.hpp"
 
 #include <numbers>
 
@@ -10,9 +10,9 @@ namespace grseg {
 /// Sums of the neutral contact model: small grains of diameter 1, large ones of diameter r, contact
 /// ends in proportion to perimeter, paired at random, 4 per small grain; all contacts touch and
 /// bear the normal force 1 in all directions alike.
-inline MicroSums neutral_contacts(double phi_large, double r)
+inline StructureSums neutral_contacts(double phi_large, double r)
 {
-  MicroSums sums;
+  StructureSums sums;
   const auto set_species = [&](Species s, double phi, double diameter) {
     auto& species = sums.species[static_cast<std::size_t>(s)];
     species.area = 100 * phi;

@@ -2,6 +2,7 @@
 #include "sim/contact/contact_blocks.hpp"
 #include "sim/solver/sweep.hpp"
 #include "tests/frozen_problem.hpp"
+#include "tests/sim/contact_list.hpp"
 
 #include <fmt/format.h>
 
@@ -54,18 +55,18 @@ double distance(const std::vector<Motion>& a, const std::vector<Motion>& b)
 State extrapolate(const State& from, const State& to, double factor)
 {
   State result = to;
-  const auto go_on = [&](double a, double b) { return b + factor * (b - a); };
+  const auto extrapolate = [&](double a, double b) { return b + factor * (b - a); };
   for (std::size_t b = 0; b < to.blocks.size(); ++b)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
       result.blocks[b].impulse_n[lane] =
-          go_on(from.blocks[b].impulse_n[lane], to.blocks[b].impulse_n[lane]);
+          extrapolate(from.blocks[b].impulse_n[lane], to.blocks[b].impulse_n[lane]);
       result.blocks[b].impulse_t[lane] =
-          go_on(from.blocks[b].impulse_t[lane], to.blocks[b].impulse_t[lane]);
+          extrapolate(from.blocks[b].impulse_t[lane], to.blocks[b].impulse_t[lane]);
     }
   for (std::size_t g = 0; g < to.motion.size(); ++g) {
-    result.motion[g].vx = go_on(from.motion[g].vx, to.motion[g].vx);
-    result.motion[g].vy = go_on(from.motion[g].vy, to.motion[g].vy);
-    result.motion[g].rim_speed = go_on(from.motion[g].rim_speed, to.motion[g].rim_speed);
+    result.motion[g].vx = extrapolate(from.motion[g].vx, to.motion[g].vx);
+    result.motion[g].vy = extrapolate(from.motion[g].vy, to.motion[g].vy);
+    result.motion[g].rim_speed = extrapolate(from.motion[g].rim_speed, to.motion[g].rim_speed);
   }
   return result;
 }

@@ -33,7 +33,7 @@ struct Instant {
     put(simulation);
     list.renew(state, ahead);
     put(simulation);
-    rule.looked_at = ahead;
+    rule.ahead = ahead;
     rule.middle = state.position;
     rule.motion = state.motion;
     rule.walls = world.walls;

@@ -63,10 +63,10 @@ TEST(Energy, EveryStepOfAFlowAccountsForItsEnergyToRoundOff)
 
 TEST(Energy, ContactsOfAnInelasticFlowGiveNoEnergy)
 {
-  // No law of physics: Newton's restitution may add energy where impacts meet (impacts_test.cpp),
-  // and at e = 1 a step of this flow gains 0.3 %. At e <= 1/2 what friction and impacts take is
-  // always more. A disc that is stopped while it rises at less than g h is given m (g h)^2/8 at
-  // most, which gravity takes in the same step.
+  // Not a law of physics: Newton's restitution may add energy in simultaneous impacts
+  // (impacts_test.cpp), and at e = 1 a step of this flow gains 0.3 %. At e <= 1/2 friction and
+  // impacts always take more. A disc that is stopped while it rises at less than g h is given
+  // m (g h)^2/8 at most, which gravity takes in the same step.
   Case gains("H39", "largest work of contacts in a step at e ≤ 0.5, of m (g h)²/8");
   for (const double e : {0.25, 0.5}) {
     auto c = flow(8, 10, 0.5);
@@ -131,7 +131,7 @@ struct Collapse {
   }
 };
 
-TEST(Momentum, ImpactsInAPeriodicGasLeaveItAsItIs)
+TEST(Momentum, ImpactsInAPeriodicGasConserveIt)
 {
   const Collapse gas(true);
   EXPECT_GT(gas.impulses, 500);
@@ -139,7 +139,7 @@ TEST(Momentum, ImpactsInAPeriodicGasLeaveItAsItIs)
       .at_most((gas.end.linear - gas.start.linear).norm() / gas.scale, 1e-14);
 }
 
-TEST(Momentum, RoughImpactsInAnOpenCloudAlsoLeaveAngularMomentumAsItIs)
+TEST(Momentum, RoughImpactsInAnOpenCloudAlsoConserveAngularMomentum)
 {
   // Lever arms add up to the distance of the centres, overlapping or not.
   const Collapse cloud(false);

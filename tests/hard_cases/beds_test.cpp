@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/boundaries.hpp"
+#include "sim/step/energies.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/sim/small_chute.hpp"
 #include "tests/sim/worlds.hpp"
@@ -33,7 +34,7 @@ double mobile_mass(const World& world)
 
 double kinetic_energy_of(const Simulation& s)
 {
-  return s.translational_energy() + s.rotational_energy();
+  return translational_energy(s) + rotational_energy(s);
 }
 
 std::vector<Vec2> positions_in(const Simulation& simulation)

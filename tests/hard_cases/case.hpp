@@ -10,8 +10,8 @@
 
 namespace grseg::hard_cases {
 
-/// One line of docs/studies/hard-cases.md: what is expected of a hard case and what was found. Each check
-/// is an expectation of the test, too; the one that came nearest to its bound is recorded as a
+/// One line of docs/studies/hard-cases.md: what is expected of a hard case and what was found. Each
+/// check is an expectation of the test, too; the one that came nearest to its bound is recorded as a
 /// property of the test, key "H13: what", value "expected<tab>measured<tab>bound", for
 /// scripts/hard-cases to collect.
 class Case {
@@ -35,7 +35,7 @@ class Case {
     if (!(error <= bound))
       ADD_FAILURE() << fmt::format("{} is {:.17g}, not {:.17g} +- {:.3g}", key_, measured, expected,
                                    bound);
-    // Of a small error the digits of `measured` would tell nothing.
+    // A small error would not show in the digits of `measured`.
     const bool visible = error > 1e-4 * std::abs(expected);
     keep(bound > 0 ? error / bound : (error > 0 ? 2 : 0), fmt::format("{:.6g}", expected),
          visible ? measured : error,
@@ -62,7 +62,7 @@ class Case {
          measured, "inside");
   }
 
-  /// What is true or not.
+  /// A statement that is true or false.
   void holds(bool fact)
   {
     if (!fact) ADD_FAILURE() << key_ << " does not hold";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/solver/solver.hpp"
 #include "tests/hard_cases/case.hpp"
+#include "tests/sim/contact_list.hpp"
 #include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>
@@ -105,7 +106,7 @@ TEST(Column, AHeavyDiscOnALightOneConvergesByROverOnePlusRPerSweep)
   }
 }
 
-TEST(Column, AHeavyDiscOnALightOneEndsWithinToleranceAndTellsTheSweeps)
+TEST(Column, AHeavyDiscOnALightOneEndsWithinToleranceAndReportsItsSweeps)
 {
   // With the residual above, sweeps end when L^k is R tol/(1 + R tol): 231 sweeps per decade at
   // R = 100. At a tolerance that is not small against 1/R much of the load is still missing.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/step/energies.hpp"
 #include "sim/step/energy_balance.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/flows.hpp"
@@ -11,7 +12,7 @@
 #include <cmath>
 
 /// Coefficients and conditions at the ends of their ranges: each flow stays within its bound or is
-/// stopped with a sentence.
+/// stopped with a clear message.
 namespace grseg::hard_cases {
 namespace {
 
@@ -33,7 +34,7 @@ Simulation heavy_on_light(double ratio, double tolerance, int max_sweeps)
   return {world, positions_of(discs)};
 }
 
-TEST(MassRatio, OfAMillionOnOneIsCarriedIfThereAreSweepsEnough)
+TEST(MassRatio, OfAMillionOnOneIsCarriedIfThereAreEnoughSweeps)
 {
   // R ln 10 sweeps per decade. They end when the part R tol/(1 + R tol) of the load is missing
   // (columns_test.cpp); the next step begins with twice that missing from a load that is larger by
@@ -50,7 +51,7 @@ TEST(MassRatio, OfAMillionOnOneIsCarriedIfThereAreSweepsEnough)
       .near(pair.advance().solver.sweeps, ratio * std::log(2 / (1 + missing)), 1e-5 * ratio);
 }
 
-TEST(MassRatio, OfAMillionOnOneStopsARunWhereSweepsAreTooFew)
+TEST(MassRatio, OfAMillionOnOneStopsARunIfThereAreTooFewSweeps)
 {
   // 500 sweeps per step act like a spring of 500 m/h^2 of the light disc: the heavy one sinks by
   // 10^6 g h^2/500 = 0.2 d.
@@ -107,7 +108,7 @@ TEST(Coefficients, AtTheEndsOfTheirRangesKeepTheBalanceAndTheGrains)
     }
 }
 
-/// What became of a dense cloud of rough discs between two walls, without gravity.
+/// What happened to a dense cloud of rough discs between two walls, without gravity.
 struct Cooling {
   double energy, largest_gain = 0,
                  gains = 0;  // over that at first; of a step, relative; all, over it
@@ -172,7 +173,7 @@ Simulation projectile(double step)
   return simulation;
 }
 
-TEST(Projectile, AtTenThousandTimesTheNaturalSpeedIsRefusedWithTheStepThatHelps)
+TEST(Projectile, AtTenThousandTimesTheNaturalSpeedIsRefusedWithTheStepThatWouldDo)
 {
   const double natural = 1 / std::sqrt(g);
   const auto words = words_of_a_run(projectile(0.01 * natural), 1, 200);
@@ -184,7 +185,7 @@ TEST(Projectile, AtTenThousandTimesTheNaturalSpeedIsRefusedWithTheStepThatHelps)
 
   // With a tenth of it the projectile is caught by the bed.
   auto caught = projectile(advised / 10);
-  double overlap = 0, energy = caught.translational_energy(), gain = 0;
+  double overlap = 0, energy = translational_energy(caught), gain = 0;
   for (int step = 0; step < 20000; ++step) {
     overlap = std::max(overlap, caught.advance().largest_overlap);
     const double now = kinetic_energy(caught);

@@ -209,7 +209,7 @@ class Tunnelling : public UnderEveryLaw {
 
 INSTANTIATE_TEST_SUITE_P(Laws, Tunnelling, testing::ValuesIn(laws()), name_of);
 
-TEST_P(Tunnelling, ADiscThatCouldPassAnotherWithinAStepStopsTheRunWithTheStepThatHelps)
+TEST_P(Tunnelling, ADiscThatCouldPassAnotherWithinAStepStopsTheRunWithTheStepThatWouldDo)
 {
   auto world = world_of({});
   try {

@@ -3,6 +3,7 @@
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/contact_problem.hpp"
 #include "tests/hard_cases/flows.hpp"
+#include "tests/sim/contact_list.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>
@@ -110,7 +111,7 @@ TEST(Units, DiametersFromNanometresToKilometresGiveTheSameSceneToTheLastBit)
 }
 
 /// The contact forces of the step that follows, of contacts in the order of ids: 50 sweeps without
-/// a first guess. Gauss-Seidel's answer depends on the order, which in a step is that of space.
+/// an initial guess. Gauss-Seidel's result depends on the order, which in a step is that of space.
 struct Forces {
   ContactList list;
   std::vector<Vec2> impulse;  // kg m/s
@@ -187,7 +188,7 @@ TEST(Period, AnObserverWhoMovesAlongSeesTheSameForces)
   }
 }
 
-/// All that the last frame of a flow says, as bits.
+/// All numbers of the last frame of a flow, as bits.
 std::vector<std::uint64_t> bits_of_a_flow()
 {
   auto c = flow(8, 8, 0.5);
@@ -206,7 +207,7 @@ std::vector<std::uint64_t> bits_of_a_flow()
   return bits;
 }
 
-TEST(InstructionSets, AFlowIsTheSameToTheLastBitOnEachAndEachTime)
+TEST(InstructionSets, AFlowIsTheSameToTheLastBitOnEachOfThemAndInEveryRun)
 {
   const auto best = bits_of_a_flow();
   EXPECT_GT(best.size(), 64u * 5 + 2 * 30);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/step/energies.hpp"
 #include "sim/step/energy_balance.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/sim/small_chute.hpp"
@@ -36,7 +37,7 @@ struct History {
 
 double total_energy(const Simulation& s)
 {
-  return s.translational_energy() + s.rotational_energy() + s.potential_energy();
+  return translational_energy(s) + rotational_energy(s) + potential_energy(s);
 }
 
 Sample sample_of(const Simulation& simulation, const Frame& frame)
@@ -49,7 +50,7 @@ Sample sample_of(const Simulation& simulation, const Frame& frame)
           0,
           energy.defect(),
           energy.work_of_contacts,
-          simulation.translational_energy() + simulation.rotational_energy(),
+          translational_energy(simulation) + rotational_energy(simulation),
           bed_height(simulation)};
 }
 
@@ -89,7 +90,7 @@ History flow_at(const char* slope)
   return history;
 }
 
-/// How the mean overlap goes over the second half of the run, in twenty blocks of 25,000 steps,
+/// Trend of the mean overlap over the second half of the run, in twenty blocks of 25,000 steps,
 /// which forget one another. Impacts overlap by their speed times the step, and the speed of the
 /// flow still rises as the large grains come up, so what the scheme piles up is what the overlap
 /// gains on the speed, the root of the kinetic energy: the trend of their quotient, and the slope

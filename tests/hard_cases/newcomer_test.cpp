@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/contact_problem.hpp"
+#include "tests/sim/contact_list.hpp"
 #include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ Simulation settled_bed()
 }
 
 /// The most that relaxing a contact by itself would still change after a step, over the reference
-/// velocity of the tolerance (solver.hpp), from what the frame tells.
+/// velocity of the tolerance (solver.hpp), computed from the frame.
 double change_left(const Simulation& bed, const Frame& frame)
 {
   auto problem = contact_problem(bed, frame);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "sim/step/energies.hpp"
 #include "sim/step/simulation.hpp"
 
 #include <cmath>
@@ -61,7 +62,7 @@ struct SeenContact {
 
 inline double kinetic_energy(const Simulation& simulation)
 {
-  return simulation.translational_energy() + simulation.rotational_energy();
+  return translational_energy(simulation) + rotational_energy(simulation);
 }
 
 }  // namespace grseg::hard_cases

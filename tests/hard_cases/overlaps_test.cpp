@@ -32,7 +32,7 @@ TEST(Overlap, OfTwoDiscsAtRestStaysAndGivesNoEnergy)
     }
 }
 
-TEST(Overlap, OfAFifthInACrowdAtRestGivesNoEnergyAndUnderGravityStopsARunWithARemedy)
+TEST(Overlap, OfAFifthInACrowdAtRestGivesNoEnergyAndUnderGravityStopsARunWithAdvice)
 {
   // The crowd is made of discs a fifth larger in radius than the lattice has room for.
   auto c = crowd(8, 8, 0);

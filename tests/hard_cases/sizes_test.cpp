@@ -87,7 +87,7 @@ TEST(SizeRatio, OfTenAndAHundredLosesNoPair)
   }
 }
 
-TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheRemedyForItsOverlapHelps)
+TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheSuggestedStepKeepsItsOverlapSmall)
 {
   // The large discs are 10^4 times as heavy as those on which they come down.
   Case defects("G3", "energy defect of a step, size ratio 100"),

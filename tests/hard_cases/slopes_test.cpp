@@ -50,7 +50,7 @@ TEST(Slope, ThatBecomesSteeperDrivesARollingDiscByTwoThirdsOfTheSumOfItsSines)
       .near(-disc.angular_velocity(0) / 2 / disc.velocity(0).x(), 1, 1e-10);
 }
 
-TEST(Gravity, TurnedUpsideDownLetsASmoothDiscGoAtNinetyDegrees)
+TEST(Gravity, TurnedUpsideDownReleasesASmoothDiscAtNinetyDegrees)
 {
   // Until the slope is vertical the floor carries the disc; from there to 180 degrees it gains
   // sum g h sin of as many steps, along the floor twice that.
@@ -82,7 +82,7 @@ std::vector<std::uint64_t> bits_of(const Simulation& simulation)
   return bits;
 }
 
-TEST(Slope, ThatTurnsGoesOnAfterARestartBitForBit)
+TEST(Slope, ThatTurnsContinuesBitForBitAfterARestart)
 {
   const auto scene = small_chute::scene({"--slope-rate", "40"});
   auto whole = deposit(scene);

@@ -2,6 +2,7 @@
 #include "sim/solver/solver.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/contact_problem.hpp"
+#include "tests/sim/contact_list.hpp"
 #include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>

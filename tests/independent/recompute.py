@@ -25,7 +25,7 @@ compared = 0
 
 
 class Run:
-    """What a file says of a few consecutive frames."""
+    """A few consecutive frames of a file."""
 
     def __init__(self, path, frames):
         f = h5py.File(path, "r")
@@ -200,7 +200,7 @@ def tensor(row, name):
 
 
 def compare(what, mine, tools):
-    """Fails unless both agree to TOLERANCE of the largest component, or both are no numbers."""
+    """Fails unless both agree to TOLERANCE of the largest component, or both are NaN."""
     global compared
     mine, tools = np.asarray(mine, dtype=float), np.asarray(tools, dtype=float)
     compared += mine.size

@@ -1,9 +1,11 @@
 #!/bin/sh
-# clang-format over all sources, clang-tidy over those of programs and libraries.
-# Usage: lint.sh SOURCE-FOLDER BUILD-FOLDER
+# clang-format over all sources, clang-tidy over those of programs and libraries that have not passed
+# before. Usage: lint.sh SOURCE-FOLDER BUILD-FOLDER [--all]
 set -eu
 cd "$1"
-sources=$(git ls-files '*.cpp' '*.hpp' | grep -v '^tests/lint/')
-# shellcheck disable=SC2086
-clang-format --dry-run --Werror $sources
-git ls-files '*.cpp' | grep -v '^tests/' | xargs tests/lint/tidy.py "$2"
+build=$2
+shift 2
+git ls-files '*.cpp' '*.hpp' | grep -v '^tests/lint/' |
+  xargs -P "$(nproc)" -n 40 clang-format --dry-run --Werror
+# shellcheck disable=SC2046
+tests/lint/tidy.py "$@" "$build" $(git ls-files '*.cpp' | grep -v '^tests/')

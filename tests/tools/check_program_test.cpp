@@ -30,7 +30,7 @@ class CheckProgram : public testing::Test {
   void TearDown() override { fs::remove(path); }
 };
 
-TEST_F(CheckProgram, TheProgramNamesWhatFailedInOneSentenceAndStillWritesTheTable)
+TEST_F(CheckProgram, NamesAllFailuresInOneSentenceAndStillWritesTheTable)
 {
   Column column;
   column.frames[7].contacts.force[2] *= -1;
@@ -53,7 +53,7 @@ TEST_F(CheckProgram, TheProgramNamesWhatFailedInOneSentenceAndStillWritesTheTabl
   EXPECT_EQ(run(program + " " + path + options + "--round-off 3 2>&1 >/dev/null").code, 0);
 }
 
-TEST_F(CheckProgram, WithoutPhysicsTheProgramLooksAtTheFileAlone)
+TEST_F(CheckProgram, ChecksOnlyTheFileWithoutPhysics)
 {
   Column column;
   column.frames[7].contacts.force[2] *= -1;
@@ -66,15 +66,26 @@ TEST_F(CheckProgram, WithoutPhysicsTheProgramLooksAtTheFileAlone)
   EXPECT_EQ(json["lines"][2]["quantity"], "damaged_frames");
 }
 
-TEST_F(CheckProgram, JsonHoldsLinesLayersAndTolerances)
+TEST_F(CheckProgram, ListsItsChecksInTheHelp)
+{
+  const auto outcome = run(program + " --help");
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* check : {"\n  force_balance ", "\n  overlap_mean ", "\n  x_drift "})
+    EXPECT_NE(outcome.out.find(check), std::string::npos) << check;
+}
+
+TEST_F(CheckProgram, WritesLinesLayersAndTolerancesAsJson)
 {
   Column({3, -weight}).write(path);
   const auto json = nlohmann::json::parse(run(program + " " + path + options + "--json").out);
   EXPECT_EQ(json["settings"]["false-alarm"], "0.001");
+  int layers = 0;
   for (const auto& line : json["lines"]) {
+    if (line.contains("layer")) ++layers;
     EXPECT_EQ(line.contains("layer"), line["quantity"] == "weight" || line["quantity"] == "slope");
     EXPECT_EQ(line["measured"].is_null(), line["verdict"] == "skipped");
   }
+  EXPECT_EQ(layers, 2 * (static_cast<int>(discs) - 1));  // weight and slope of all but the first
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grseg-check --deep on a small file that is spoilt in one place at a time: the sentence names it.
+// grseg-check --deep on a small file that is damaged in one place at a time: the sentence names it.
 #include "formats/trajectory/hdf5.hpp"
 #include "tests/shell.hpp"
 #include "tests/three_grains.hpp"
@@ -110,7 +110,7 @@ class DeepCheck : public testing::Test {
   }
 };
 
-TEST_F(DeepCheck, AFileAsWrittenPasses)
+TEST_F(DeepCheck, PassesAFileAsWritten)
 {
   EXPECT_EQ(check().code, 0) << check().out;
   three_grains::write(path, 4);
@@ -119,7 +119,7 @@ TEST_F(DeepCheck, AFileAsWrittenPasses)
   EXPECT_EQ(check().code, 0) << check().out;
 }
 
-TEST_F(DeepCheck, AttributesAreThoseOfH5mdAndOfTheSpecification)
+TEST_F(DeepCheck, WantsTheAttributesOfH5mdAndOfTheSpecification)
 {
   expect(4, "/h5md should have the version [1, 1], and has [1, 0]", [](hid_t f) {
     set_attribute(f, "/h5md", "version", std::vector<int>{1, 0});
@@ -137,7 +137,7 @@ TEST_F(DeepCheck, AttributesAreThoseOfH5mdAndOfTheSpecification)
          });
 }
 
-TEST_F(DeepCheck, StepsAndTimesAreOnePairForAllElements)
+TEST_F(DeepCheck, WantsOnePairOfStepsAndTimesForAllElements)
 {
   expect(4, "/particles/grains/velocity/time is no hard link to /particles/grains/position/time",
          [](hid_t f) {
@@ -149,7 +149,7 @@ TEST_F(DeepCheck, StepsAndTimesAreOnePairForAllElements)
          [](hid_t f) { H5Ldelete(f, "/observables/translational_energy/step", H5P_DEFAULT); });
 }
 
-TEST_F(DeepCheck, TypesShapesAndLinksArePlainAndAsSpecified)
+TEST_F(DeepCheck, WantsTypesShapesAndLinksAsSpecified)
 {
   expect(4, "/particles/grains/id should be of type int32",
          [](hid_t f) { rewrite(f, "/particles/grains/id", H5T_STD_I64LE); });
@@ -170,7 +170,7 @@ TEST_F(DeepCheck, TypesShapesAndLinksArePlainAndAsSpecified)
   });
 }
 
-TEST_F(DeepCheck, ValuesAreInTheirRanges)
+TEST_F(DeepCheck, WantsValuesInTheirRanges)
 {
   expect(4, "/particles/grains/id holds 7 twice",
          [](hid_t f) { set_entry(f, "/particles/grains/id", 2, 7); });
@@ -194,8 +194,8 @@ TEST_F(DeepCheck, ValuesAreInTheirRanges)
          });
 }
 
-// What no tool can read is refused, with exit code 3.
-TEST_F(DeepCheck, WhatCannotBeReadIsRefusedWithItsPath)
+// A file that no tool can read is refused, with exit code 3.
+TEST_F(DeepCheck, RefusesAnUnreadableDatasetWithItsPath)
 {
   expect(3, "/h5md is of version 2.0, and this grseg reads versions 1.x", [](hid_t f) {
     set_attribute(f, "/h5md", "version", std::vector<int>{2, 0});
@@ -225,7 +225,7 @@ TEST_F(DeepCheck, WhatCannotBeReadIsRefusedWithItsPath)
          [](hid_t f) { rewrite(f, "/particles/grains/id", H5T_STD_I32LE, H5Z_FILTER_NBIT); });
 }
 
-TEST_F(DeepCheck, ABitThatFlipsInAChunkIsFoundByItsChecksum)
+TEST_F(DeepCheck, FindsAFlippedBitInAChunkByItsChecksum)
 {
   for (const char* damaged : {"/particles/grains/velocity/value", "/grseg/contacts/force",
                               "/particles/grains/image/value", "/grseg/digest",
@@ -238,11 +238,11 @@ TEST_F(DeepCheck, ABitThatFlipsInAChunkIsFoundByItsChecksum)
                                        "damaged or truncated\n",
                                        path, damaged));
   }
-  // The last of them is of no interest to the frames.
+  // Without --deep only the frames are read, and the last of these datasets is not part of them.
   EXPECT_EQ(check("").code, 0);
 }
 
-TEST_F(DeepCheck, DatasetsThatTheSpecificationDoesNotNameAreReadToo)
+TEST_F(DeepCheck, ReadsDatasetsThatTheSpecificationDoesNotNameToo)
 {
   spoil([](hid_t f) {
     const std::vector<double> zeros(1000);

@@ -17,19 +17,19 @@ compare() {
   /usr/bin/python3 "$source/scripts/archives/stress-atom" run.h5 "sums-$1.tsv" atoms.dump --printed "printed-$1.tsv" |
     tee "layers-$1.tsv"
 }
-compare 3mm # parts from each other most pairs that touch
+compare 3mm # most pairs that touch lie in different layers
 awk 'function off(a, b, difference) { return a == 0 && b == 0 ? 0 : difference^2 > 1e-24 }
      NR > 1 { wrong += off($3, $4, $5) + off($6, $7, $8); with_large += $3 > 0; with_small += $6 > 0 }
      END { exit wrong > 0 || with_large < 1 || with_small < 6 }' layers-3mm.tsv
 
-compare 2dS # has a layer with both species
+compare 2dS # one layer holds both species
 for table in sums printed; do
   "$bin/grseg-fit" $table-2dS.tsv --partition half --base half --bootstrap 0 --min-solid 0 --quiet |
     awk '/^half/ { printf "%.12g\n", $3 }' | tee $table.slope
 done
 [ -s sums.slope ] && cmp sums.slope printed.slope
 
-# A scan takes its shares where the grains are, too.
+# A scan takes its shares at the grains, too.
 fit() { "$bin/grseg-fit" sums-2dS.tsv --base half --bootstrap 0 --min-solid 0 --quiet "$@" | grep -v '^#'; }
 b=$(fit --partition half | awk -F'\t' 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k } NR == 2 { print $at["B_half"] }')
 [ "$(fit --scan 0.5:0.6:0.1 | awk 'NR == 2 { print $2 }')" = "$b" ]

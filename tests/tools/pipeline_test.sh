@@ -1,5 +1,5 @@
 #!/bin/sh
-# The whole line on a small chute: scene, run, sums, B; the same input gives the same bytes; an
+# The whole way on a small chute: scene, run, sums, B. The same input gives the same bytes; an
 # interrupted run keeps its frames. Usage: pipeline_test.sh SOURCE BIN
 set -eu
 source=$1 bin=$2
@@ -15,7 +15,7 @@ $bin/grseg-sim $small --duration 3 -o a.h5
 $bin/grseg-sim $small --duration 3 -o b.h5
 $bin/grseg-stress a.h5 --window 0.5 --quiet | grep -v '^# history' >a.tsv
 $bin/grseg-stress b.h5 --window 0.5 --quiet | grep -v '^# history' >b.tsv
-cmp a.tsv b.tsv || fail "the same scene gave another run"
+cmp a.tsv b.tsv || fail "the same scene gave different runs"
 grep -q '^# input: xxh3 [0-9a-f]\{16\}$' a.tsv || fail "no content digest"
 
 # Standard input and a file give the same B.
@@ -24,21 +24,21 @@ $bin/grseg-fit sums.tsv --bootstrap 0 --quiet | grep -v '^#' >file.txt
 $bin/grseg-stress a.h5 --window 0.5 --quiet | $bin/grseg-fit - --bootstrap 0 --quiet | grep -v '^#' >pipe.txt
 cmp file.txt pipe.txt || fail "a pipe and a file differ"
 
-# Keys of the tables join.
+# The tables of all tools have the same windows and layers, so that their rows can be joined.
 $bin/grseg-kinetic a.h5 --window 0.5 --quiet | grep -v '^#' | cut -f 1-6 >keys-kinetic
 grep -v '^#' a.tsv | cut -f 1-6 >keys-stress
-cmp keys-kinetic keys-stress || fail "the tools' rows do not join"
+cmp keys-kinetic keys-stress || fail "grseg-kinetic and grseg-stress have different rows"
 $bin/grseg-balance a.h5 --window 0.5 -o balance.tsv 2>words
 grep -v '^#' balance.tsv | cut -f 1-6 >keys-balance
-cmp keys-balance keys-stress || fail "the rows of grseg-balance do not join"
+cmp keys-balance keys-stress || fail "grseg-balance and grseg-stress have different rows"
 
-# Of a true run each balance closes to round-off.
+# In a true run every momentum balance closes to round-off.
 closes=$(sed -n 's/^grseg-balance: .*the balances close to \([0-9.e-]*\) of .*/\1/p' words)
-awk -v r="$closes" 'BEGIN {exit !(r != "" && r < 1e-10)}' || fail "momentum is missing: $(cat words)"
+awk -v r="$closes" 'BEGIN {exit !(r != "" && r < 1e-10)}' || fail "the balances do not close: $(cat words)"
 "$source/scripts/balance-profile" balance.tsv >profile.tsv
 [ "$(wc -l <profile.tsv)" -gt 3 ] || fail "no profile of the balance"
 
-# SIGINT: exit code 130, the frames so far readable under NAME.part, NAME itself absent.
+# SIGINT: exit code 130; the frames so far are readable as NAME.part, and NAME does not exist.
 # (A background job of a script ignores SIGINT, so `timeout` sends it.)
 code=0
 # shellcheck disable=SC2086
@@ -52,7 +52,7 @@ code=0
 $bin/grseg-sim $small --duration 1 -o long.h5 2>words || code=$?
 [ "$code" = 2 ] || fail "the frames of an interrupted run were overwritten"
 
-# A tolerance that cannot be met: stated and exit code 0; 4 with --strict, and the file is there.
+# A tolerance that cannot be met: exit code 0, or 4 with --strict, and the file is written.
 # shellcheck disable=SC2086
 $bin/grseg-sim $small --duration 0.2 --tolerance 1e-9 --max-sweeps 2 -o loose.h5
 code=0
@@ -61,13 +61,13 @@ $bin/grseg-sim $small --duration 0.2 --tolerance 1e-9 --max-sweeps 2 --strict -o
 [ "$code" = 4 ] || fail "exit code $code where --strict missed its tolerance"
 $bin/grseg-stress strict.h5 --window 0.1 --quiet >/dev/null
 
-# The deposition, on request, lies before the tilt.
+# The deposition, where it is kept, has negative times.
 # shellcheck disable=SC2086
 $bin/grseg-sim $small --duration 0.2 --keep-deposition -o deposition.h5
 first=$(h5dump -d /particles/grains/position/time -s 0 -c 1 deposition.h5 | sed -n 's/.*(0): //p')
 case $first in -*) ;; *) fail "the first frame of the deposition is at t = $first" ;; esac
 
-# A burst is of consecutive steps, and the bytes are those of any instruction set.
+# A burst consists of consecutive steps, and all instruction sets give the same bytes.
 # shellcheck disable=SC2086
 $bin/grseg-sim $small --duration 0.1 --burst 3 --isa scalar -o burst.h5
 # shellcheck disable=SC2086

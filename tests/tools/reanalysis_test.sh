@@ -1,5 +1,5 @@
 #!/bin/sh
-# make -C scripts reanalysis: a changed partition redoes the fits alone, a changed layer or window the
+# make -C scripts reanalysis: another partition repeats the fits alone, another layer or window also the
 # sums, and the run is never touched. Usage: reanalysis_test.sh SOURCE BIN
 set -eu
 source=$1 bin=$2
@@ -16,7 +16,7 @@ again() { PWD=$folder make --no-print-directory -C "$source/scripts" reanalysis 
 again >log
 [ -s reanalysis/fit.tsv ] && [ -s reanalysis/run.stress.tsv ] || fail "$(cat log)"
 again >log
-grep -q 'bin/grseg' log && fail "nothing changed, yet: $(cat log)"
+grep -q 'bin/grseg' log && fail "commands were run although nothing changed: $(cat log)"
 again PARTITION=uniform:0.8 >log
 [ "$(grep -c 'bin/grseg-' log)" = 1 ] && grep -q 'grseg-fit.*uniform:0.8' log ||
   fail "another partition: $(cat log)"
@@ -26,7 +26,7 @@ PWD=$folder make --no-print-directory -C "$source/scripts" figure BIN="$bin" WIN
   LAYER=5dS RUNS=run.h5 HEIGHTS=5dS: >log 2>&1
 [ "$(grep -c 'bin/grseg-' log)" = 2 ] && [ "$(head -c 4 reanalysis/b-of-p.png | tail -c 3)" = PNG ] ||
   fail "the figure: $(cat log)"
-grep -q grseg-sim log && fail "simulated again"
+grep -q grseg-sim log && fail "the figure simulated again"
 [ "$(cksum run.h5)" = "$digest" ] || fail "the run was touched"
 code=0
 again RUNS="run.h5 $folder/other/run.h5" >log 2>&1 || code=$?

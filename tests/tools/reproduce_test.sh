@@ -56,7 +56,7 @@ grep -q 'uniform:0.8' whole/rules.tsv || fail "the new partition is missing from
 # refused TABLES WORDS: the campaign stops because the trajectory is missing, and changes nothing.
 refused() {
   campaign OUT=whole PARTITION=uniform:0.8 "${@:2}" >log 2>&1 && fail "tables were made without a trajectory: $(cat log)"
-  grep -q "phi0.45-s23-seed1: $1: not there, or made by another.*AGAIN=yes" log || fail "the reason is not given: $(cat log)"
+  grep -q "phi0.45-s23-seed1: $1: missing, or made by another.*AGAIN=yes" log || fail "the reason is not given: $(cat log)"
   did reproduce/simulate 0
 }
 refused 'check.tsv stress.tsv .*' WINDOW=0.5
@@ -78,6 +78,6 @@ did 'grseg-.*--window 0.5' 17
 
 code=0
 make -C "$source/scripts/reproduce" run NAME=phi0.45-s23-seed9 BIN="$bin" OUT="$folder/whole" >log 2>&1 || code=$?
-{ [ $code = 2 ] && grep -q "phi0.45-s23-seed9: there is no such run; make names lists them" log; } || fail "an unknown run: $(cat log)"
+{ [ $code = 2 ] && grep -q "phi0.45-s23-seed9: unknown run; make names lists the runs" log; } || fail "an unknown run: $(cat log)"
 "$source/scripts/reproduce/scene" phi0.45-x3 1 1 1 1 1 >log 2>&1 && fail "an unknown word in a name: $(cat log)"
-grep -q "scene: phi0.45-x3: 'x3' is no part of the name of a run" log || fail "$(cat log)"
+grep -q "scene: phi0.45-x3: 'x3' is not a part of a run's name" log || fail "$(cat log)"

@@ -1,13 +1,13 @@
 #!/bin/sh
-# A run that is interrupted or killed and goes on ends as the undisturbed one; other runs begin new
-# trajectories; what cannot be is refused in one sentence. Usage: restart_test.sh SOURCE BIN
+# A run that is interrupted or killed and then restarted ends like an uninterrupted one; other runs
+# begin new trajectories; what is impossible is refused in one sentence. Usage: restart_test.sh SOURCE BIN
 set -eu
 bin=$2 chute="$1/sim/scenes/chute.ini --depth 10dS --length 10dL --phi-large 0.5 --accuracy draft --frame-interval 0.02"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 fail() { echo "$1" >&2; exit 1; }
-# Frames and observables, that is all but what the file says of its history.
+# Frames and observables: everything but the history.
 content() { h5dump -d /grseg/digest -g /observables "$1" | sed 1d; }
 numbers() { h5dump -y -w 1 -d "$1" "$2" | grep '^ *[0-9.-]' | tr -d ', '; }
 # refused CODE SENTENCE OPTIONS...
@@ -23,8 +23,8 @@ refused() {
 $bin/grseg-sim --quiet $chute --duration 10 -o whole.h5
 content whole.h5 >whole
 
-# stopped SIGNAL CHECKPOINT SECONDS OPTIONS...: a run that gets SIGNAL some time after its checkpoint is
-# there; its exit code is left in $code, its words in the file words.
+# stopped SIGNAL CHECKPOINT SECONDS OPTIONS...: a run that gets SIGNAL some time after its first
+# checkpoint; its exit code is left in $code, its messages in the file words.
 stopped() {
   signal=$1 checkpoint=$2 wait=$3 code=0
   shift 3
@@ -36,7 +36,7 @@ stopped() {
   wait $! || code=$?
 }
 
-# SIGINT and SIGTERM: the run says how to go on, and does.
+# SIGINT and SIGTERM: the run says how to continue, and continues that way.
 for signal in INT TERM; do
   # shellcheck disable=SC2086
   stopped $signal run$signal.chk 0.1 $chute --duration 10 -o $signal.h5
@@ -47,7 +47,7 @@ for signal in INT TERM; do
 done
 mv runTERM.chk run.chk
 
-# Killed again and again, wherever it is, also while it writes a frame or a checkpoint.
+# Killed again and again at any moment, also while it writes a frame or a checkpoint.
 # shellcheck disable=SC2086
 stopped KILL killed.chk 0.12 $chute --duration 10 --checkpoint-every 0 -o killed.h5
 for wait in 0.13 0.07 0.21 0.18; do
@@ -57,7 +57,7 @@ done
 [ -e killed.h5 ] || $bin/grseg-sim --quiet --restart killed.chk --checkpoint killed.chk -o killed.h5
 content killed.h5 | cmp - whole || fail "kills and restarts changed the run"
 [ "$(h5dump -d /parameters/history killed.h5 | grep -c 'grseg-sim.*killed.h5')" -ge 2 ] ||
-  fail "the history does not tell of the restarts"
+  fail "the history does not list the restarts"
 
 # In single precision, compressed at the end, with the deposition before it.
 # shellcheck disable=SC2086
@@ -88,7 +88,7 @@ $bin/grseg-sim --quiet $chute --duration 3 --restart two.chk -o again.h5
 content again.h5 >again
 content more.h5 | cmp - again || fail "the scene file beside --restart changed the run"
 
-# Copies of one state diverge, each its own way, and say how they were made.
+# Perturbed copies of one state diverge, and their files record how they were made.
 for seed in 1 2; do
   $bin/grseg-sim --restart two.chk --duration 3 --perturb 1e-6 --seed-perturbation $seed --quiet -o copy$seed.h5
   content copy$seed.h5 >copy$seed
@@ -98,7 +98,7 @@ cmp -s copy1 again && fail "the perturbation changed nothing"
 h5dump -d /parameters/seed_perturbation copy2.h5 | grep -q '(0): 2' || fail "the seed is not recorded"
 h5dump -d /parameters/restart_time copy2.h5 | grep -q '(0): 2' || fail "the time is not recorded"
 
-# Another step: the time goes on.
+# Another time step: the time continues.
 $bin/grseg-sim --restart two.chk --duration 3 --accuracy standard --quiet -o fine.h5
 first=$(numbers /particles/grains/position/time fine.h5 | head -n 1)
 case $first in 2.000*) ;; *) fail "with another step the run goes on at t = $first" ;; esac
@@ -118,7 +118,7 @@ refused 2 "two.chk is there already; choose another name, remove it, or say --ov
 refused 2 "checkpoint and trajectory cannot be one file; name another for --checkpoint" \
   --restart run.chk --checkpoint x.h5 -o x.h5
 
-# A .part that is not of this run stays as it is.
+# A .part of another run stays as it is.
 cp two.h5 x.h5.part
 refused 2 "x.h5.part does not hold the frames of run.chk; move it away to begin a new trajectory, or choose another name for --output" \
   --restart run.chk -o x.h5

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Compares two texts word by word: numbers to 1e-12 (the last digit of a logarithm is the
-processor's), all else to the letter. Usage: same_output.py ACTUAL EXPECTED"""
+"""Compares two texts word by word: numbers to 1e-12 (the last digit of a logarithm depends on the
+processor), everything else to the letter. Usage: same_output.py ACTUAL EXPECTED"""
 import re
 import sys
 

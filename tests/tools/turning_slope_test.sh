@@ -1,6 +1,6 @@
 #!/bin/sh
-# A slope that becomes steeper while the run goes on: the file says so, and tools that need gravity
-# know it. Usage: turning_slope_test.sh SOURCE BIN
+# A slope that becomes steeper during the run: the file records it, and tools that need gravity
+# use it. Usage: turning_slope_test.sh SOURCE BIN
 set -eu
 bin=$2 chute="$1/sim/scenes/chute.ini --depth 8dS --length 8dL --accuracy draft --slope 10 --frame-interval 0.02"
 folder=$(mktemp -d)
@@ -11,7 +11,7 @@ verdict() { awk -F'\t' -v line="$1" '$1 == line { print $7 }' checked; }
 
 # shellcheck disable=SC2086
 $bin/grseg-sim --quiet $chute --slope-rate 30 --duration 1 -o run.h5
-h5dump -y -d /parameters/slope_rate run.h5 | grep -q '^ *30$' || fail "the file does not tell the rate"
+h5dump -y -d /parameters/slope_rate run.h5 | grep -q '^ *30$' || fail "the file does not state the rate"
 "$bin/grseg-check" --physics run.h5 >checked
 for line in force_balance total_momentum energy_defect; do
   [ "$(verdict $line)" = passed ] || fail "$line: $(verdict $line)"
@@ -19,9 +19,9 @@ done
 for line in weight slope; do
   [ "$(verdict $line)" = skipped ] || fail "$line: $(verdict $line)"
 done
-grep -q 'the slope turns' checked || fail "why a line was skipped is not said"
+grep -q 'the slope turns' checked || fail "no reason is given for the skipped lines"
 
-# The balances close; those of the same run close no more when the file tells of another rate.
+# The balances close, and no longer do so when the file states another rate.
 closed() {
   "$bin/grseg-balance" --window 0.25 "$1" -o /dev/null 2>words
   sed -n 's/.*close to \(.*\) of the largest.*/\1/p' words
@@ -36,7 +36,7 @@ awk "BEGIN { exit !($(closed run.h5) > 1e-3) }" || fail "another rate is not not
 if "$bin/grseg-check" --physics run.h5 >checked 2>words; then fail "grseg-check passes a wrong rate"; fi
 grep -q force_balance words || fail "$(cat words)"
 
-# What cannot be.
+# A slope that turns too fast is refused.
 # shellcheck disable=SC2086
-if $bin/grseg-sim --quiet $chute --slope-rate 1e4 --duration 1 -o fast.h5 2>words; then fail "a wild slope runs"; fi
+if $bin/grseg-sim --quiet $chute --slope-rate 1e4 --duration 1 -o fast.h5 2>words; then fail "a slope that turns by more than a degree per step was simulated"; fi
 grep -q 'slope-rate turns gravity by .* degrees per step, above 1; choose a smaller' words || fail "$(cat words)"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/contact_columns.hpp"
 
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -57,8 +58,7 @@ void ContactColumns::assign(const std::string& word, const std::string& column)
   if (found == words.end()) {
     std::vector<std::string> known(words.begin(), words.end());
     known.insert(known.end(), {"force", "tangential"});
-    throw UsageError(
-        fmt::format("--columns: there is no '{}'; it is one of: {}", word, fmt::join(known, ", ")));
+    throw UsageError(unknown_word("meaning in --columns", word, known));
   }
   column_[static_cast<std::size_t>(found - words.begin())] = column;
 }

@@ -76,7 +76,7 @@ double below(double edge, double y)
   return std::erfc((y - edge) / 0.2 / std::numbers::sqrt2) / 2;
 }
 
-TEST(MomentumBalance, ClosesForEachSpeciesWhateverTheForces)
+TEST(MomentumBalance, ClosesForEachSpeciesUnderAnyForces)
 {
   for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside}) {
     const auto balance = balance_of({random_bed(1)}, gravity, Kernel(shape, 0.3));
@@ -87,7 +87,7 @@ TEST(MomentumBalance, ClosesForEachSpeciesWhateverTheForces)
   }
 }
 
-TEST(MomentumBalance, AForceThatNoContactMakesIsLeftOverWhereItActs)
+TEST(MomentumBalance, AForceWithoutAContactIsLeftAsResidualWhereItActs)
 {
   auto scene = random_bed(1);
   scene.frame.position[20].y() = 1.1;
@@ -101,7 +101,7 @@ TEST(MomentumBalance, AForceThatNoContactMakesIsLeftOverWhereItActs)
 }
 
 // Two grains that push on each other across the edge y = 1 of two layers, the large one above.
-TEST(MomentumBalance, APairIsAsOnPaper)
+TEST(MomentumBalance, TheTermsOfAPairAreThoseWorkedOutByHand)
 {
   Scene scene;
   const auto large = scene.grain(Species::large, 0.2, {1, 1.15});
@@ -260,7 +260,7 @@ TEST(MomentumBalance, OfTheWholeBedOnlyWeightAndBaseRemain)
   for (const auto* of : {&small, &large}) EXPECT_LT(of->kinetic.norm(), 1e-11);
 }
 
-TEST(MomentumBalance, NeitherAShiftAlongTheSlopeNorOtherNamesMatter)
+TEST(MomentumBalance, NeitherAShiftAlongTheSlopeNorTheOrderOfAPairMatters)
 {
   const auto scene = random_bed(6);
   Scene other = scene;
@@ -281,7 +281,7 @@ TEST(MomentumBalance, NeitherAShiftAlongTheSlopeNorOtherNamesMatter)
   }
 }
 
-TEST(MomentumBalance, PartsMergeToTheWhole)
+TEST(MomentumBalance, PartsMergeIntoTheWhole)
 {
   std::vector<Scene> frames;
   for (unsigned k = 0; k < 5; ++k) frames.push_back(random_bed(10 + k));
@@ -302,7 +302,7 @@ TEST(MomentumBalance, PartsMergeToTheWhole)
     }
 }
 
-TEST(MomentumBalance, OneFrameKnowsNoChange)
+TEST(MomentumBalance, OfASingleFrameTheChangeIsUnknown)
 {
   EXPECT_TRUE(std::isnan(balance_of({random_bed(1)}).change(0, Species::small).x()));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What grseg-check measures on a column of discs at rest is known. Then one thing is spoilt at a
+// What grseg-check measures on a column of discs at rest is known. Then one thing is damaged at a
 // time.
 #include "analysis/check/physics_check.hpp"
 
@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 using namespace column;
 using Names = std::set<std::string>;
 
-class Check : public testing::Test {
+class CheckedColumn : public testing::Test {
  protected:
   std::string path =
       (fs::temp_directory_path() / fmt::format("grseg_physics_check_{}.h5", getpid())).string();
@@ -71,7 +72,7 @@ class Check : public testing::Test {
   }
 };
 
-TEST_F(Check, AColumnAtRestPassesEveryLineThatItsFileAllows)
+TEST_F(CheckedColumn, AtRestPassesEveryCheckThatItsFileAllows)
 {
   const auto lines = lines_of(Column());
   EXPECT_EQ(with(Verdict::failed, lines), Names{});
@@ -82,9 +83,19 @@ TEST_F(Check, AColumnAtRestPassesEveryLineThatItsFileAllows)
   }
 }
 
+// The lines follow the table of checks, in its order, after those of the file's content.
+TEST_F(CheckedColumn, HasOneLinePerCheckInTheOrderOfTheTable)
+{
+  std::vector<std::string> names{"not_closed", "no_frames", "damaged_frames"}, found;
+  for (const auto& check : checks::all) names.emplace_back(check.name);
+  for (const auto& line : lines_of(Column()))
+    if (found.empty() || found.back() != line.quantity) found.push_back(line.quantity);
+  EXPECT_EQ(found, names);
+}
+
 // Between the middles of discs n and n+1 the contact carries n_above discs, so that the layer that
 // spans a disc carries those above and half of itself.
-TEST_F(Check, ALayerOfTheColumnCarriesTheDiscsAboveAndHalfItsOwn)
+TEST_F(CheckedColumn, CarriesInEachLayerTheDiscsAboveAndHalfOfItsOwn)
 {
   const Column column({3, -weight});
   const Layers layers(2 * radius, length);
@@ -102,7 +113,7 @@ TEST_F(Check, ALayerOfTheColumnCarriesTheDiscsAboveAndHalfItsOwn)
   }
 }
 
-TEST_F(Check, TheStressRatioOfASlidingColumnIsTheSlopeLessItsAcceleration)
+TEST_F(CheckedColumn, ThatSlidesHasTheStressRatioOfTheSlopeLessItsAcceleration)
 {
   const double g_x = 4, a = 1.5;
   const auto lines = lines_of(Column({g_x, -weight}, a));
@@ -118,23 +129,23 @@ TEST_F(Check, TheStressRatioOfASlidingColumnIsTheSlopeLessItsAcceleration)
   EXPECT_EQ(layers, static_cast<int>(discs) - 1);
 }
 
-// --- One thing spoilt at a time: that line fails, and no other. ---
+// --- One thing damaged at a time: that check fails, and no other. ---
 
-TEST_F(Check, AForceThatIsChangedBreaksTheForceBalance)
+TEST_F(CheckedColumn, FailsTheForceBalanceIfAForceIsChanged)
 {
   Column column;
   column.frames[7].contacts.force[2] *= 1.01;
   EXPECT_EQ(failed(column), Names{"force_balance"});
 }
 
-TEST_F(Check, AForceWithItsSignFlippedIsATensionToo)
+TEST_F(CheckedColumn, FailsForceBalanceAndTensionIfAForceChangesSign)
 {
   Column column;
   column.frames[7].contacts.force[2] *= -1;
   EXPECT_EQ(failed(column), (Names{"force_balance", "tension_largest", "tension_mean"}));
 }
 
-TEST_F(Check, AContactThatPullsIsFoundThoughForcesBalance)
+TEST_F(CheckedColumn, FailsTensionIfAContactPullsAlthoughForcesBalance)
 {
   Column column;
   auto& frame = column.frames[7];
@@ -142,7 +153,7 @@ TEST_F(Check, AContactThatPullsIsFoundThoughForcesBalance)
   EXPECT_EQ(failed(column), (Names{"tension_largest", "tension_mean"}));
 }
 
-TEST_F(Check, FrictionBeyondCoulombsConeIsFoundThoughForcesBalance)
+TEST_F(CheckedColumn, FailsCoulombsLawIfFrictionLeavesTheConeAlthoughForcesBalance)
 {
   Column column;
   auto& frame = column.frames[7];
@@ -153,21 +164,21 @@ TEST_F(Check, FrictionBeyondCoulombsConeIsFoundThoughForcesBalance)
   EXPECT_EQ(failed(column), (Names{"coulomb_largest", "coulomb_mean"}));
 }
 
-TEST_F(Check, ABranchThatIsNotTheDistanceOfItsGrainsBreaksTheSumOfPartials)
+TEST_F(CheckedColumn, FailsTheSumOfPartialsIfABranchIsNotTheDistanceOfItsGrains)
 {
   Column column;
   column.frames[7].contacts.branch[2] *= 1 + 1e-8;
   EXPECT_EQ(failed(column), Names{"sum_of_partials"});
 }
 
-TEST_F(Check, ABaseForceThatDoesNotChangeTheMomentumIsFound)
+TEST_F(CheckedColumn, FailsTotalMomentumIfTheBaseForceDoesNotChangeTheMomentum)
 {
   Column column;
   column.observables[7][0] += 1e-6 * column.observables[7][1];
   EXPECT_EQ(failed(column), Names{"total_momentum"});
 }
 
-TEST_F(Check, AForceAcrossAGapIsFoundWhereThePairDidNotTouch)
+TEST_F(CheckedColumn, FailsTheOpenGapIfAForceActsWithoutTouch)
 {
   Column column;
   Column::lift_top(column.frames[7], 1e-6 * small);
@@ -176,7 +187,7 @@ TEST_F(Check, AForceAcrossAGapIsFoundWhereThePairDidNotTouch)
 
 // A gap of 30 micrometres, of which gravity alone excuses 0.75 h sqrt(g d_S); the rest takes an
 // approach of (gap - that)/(0.75 h) = 0.234 m/s before the step.
-TEST_F(Check, TheSpeculativeLawAllowsTheGapThatFreeFlightWouldClose)
+TEST_F(CheckedColumn, MayHaveAGapThatFreeFlightWouldCloseUnderTheSpeculativeLaw)
 {
   const double gap = 30e-6, flight = 0.75 * h;
   const double excused = flight * std::sqrt(weight * small);
@@ -194,9 +205,9 @@ TEST_F(Check, TheSpeculativeLawAllowsTheGapThatFreeFlightWouldClose)
   }
 }
 
-// The plate of a shear cell gives way within the step, and without gravity the file tells the
-// margin.
-TEST_F(Check, ABoundaryThatGivesWayIsTakenAsItMovedBeforeTheStep)
+// The plate of a shear cell is pushed back within the step, and without gravity the file states
+// the margin.
+TEST_F(CheckedColumn, AllowsForABoundaryThatMovedBeforeTheStep)
 {
   const double gap = 30e-6, flight = 0.75 * h;
   for (const double margin : {29e-6, 31e-6}) {
@@ -222,7 +233,7 @@ TEST_F(Check, ABoundaryThatGivesWayIsTakenAsItMovedBeforeTheStep)
   EXPECT_EQ(violations.open_gap().largest, 0);
 }
 
-TEST_F(Check, DiscsThatGoOnApproachingAreFound)
+TEST_F(CheckedColumn, FailsTheApproachIfDiscsKeepApproaching)
 {
   Column column;
   for (auto& frame : column.frames) frame.velocity[discs] = {0, -4};
@@ -231,7 +242,7 @@ TEST_F(Check, DiscsThatGoOnApproachingAreFound)
 
 // A disc that touches after an approach at 0.4 m/s owes 0.1 m/s at e = 1/4; one that is 30
 // micrometres away may close its gap within 0.75 steps, at 0.4 m/s.
-TEST_F(Check, WhatAPairLacksOfItsSeparationVelocityIsNewtonsOrThatOfItsGap)
+TEST_F(CheckedColumn, HasASeparationVelocityByNewtonsLawOrByTheGap)
 {
   ContactRules rules;
   rules.restitution = 0.25;
@@ -254,7 +265,7 @@ TEST_F(Check, WhatAPairLacksOfItsSeparationVelocityIsNewtonsOrThatOfItsGap)
   EXPECT_NEAR(lacking(30e-6, -0.6, -0.5), 0.1, 1e-12);
 }
 
-TEST_F(Check, FramesBeforeTheTiltAreNotHeldAgainstTheTiltedGravity)
+TEST_F(CheckedColumn, IsNotCheckedBeforeTheTilt)
 {
   Column column;
   for (std::size_t k = 0; k < column.frames.size(); ++k) {
@@ -267,14 +278,14 @@ TEST_F(Check, FramesBeforeTheTiltAreNotHeldAgainstTheTiltedGravity)
   EXPECT_EQ(failed(column), Names{});
 }
 
-TEST_F(Check, DeepOverlapIsFound)
+TEST_F(CheckedColumn, FailsTheOverlapIfItIsDeep)
 {
   Column column;
   for (auto& frame : column.frames) Column::lift_top(frame, -0.11 * small);
   EXPECT_EQ(failed(column), (Names{"overlap_largest", "overlap_mean"}));
 }
 
-TEST_F(Check, OverlapThatGrowsIsFoundWhileItIsStillSmall)
+TEST_F(CheckedColumn, FailsTheOverlapDriftIfASmallOverlapGrows)
 {
   Column column;
   for (std::size_t k = 0; k < column.frames.size(); ++k)
@@ -282,7 +293,7 @@ TEST_F(Check, OverlapThatGrowsIsFoundWhileItIsStillSmall)
   EXPECT_EQ(failed(column), Names{"overlap_drift"});
 }
 
-TEST_F(Check, LayersThatCarryTooLittleAreFoundThoughForcesBalance)
+TEST_F(CheckedColumn, FailsTheWeightIfLayersCarryTooLittleAlthoughForcesBalance)
 {
   Column column;
   for (auto& frame : column.frames)
@@ -290,7 +301,7 @@ TEST_F(Check, LayersThatCarryTooLittleAreFoundThoughForcesBalance)
   EXPECT_EQ(failed(column), Names{"weight"});
 }
 
-TEST_F(Check, AStressRatioThatIsNotTheSlopeIsFoundThoughForcesBalance)
+TEST_F(CheckedColumn, FailsTheSlopeIfTheStressRatioDiffersAlthoughForcesBalance)
 {
   Column column({3, -weight});
   for (auto& frame : column.frames)
@@ -299,7 +310,7 @@ TEST_F(Check, AStressRatioThatIsNotTheSlopeIsFoundThoughForcesBalance)
   EXPECT_EQ(failed(column), Names{"slope"});
 }
 
-TEST_F(Check, GrainsThatMoveWithoutVelocityAreFound)
+TEST_F(CheckedColumn, FailsTheXDriftIfGrainsMoveWithoutVelocity)
 {
   Column column;
   for (std::size_t k = 0; k < column.frames.size(); ++k)
@@ -307,7 +318,7 @@ TEST_F(Check, GrainsThatMoveWithoutVelocityAreFound)
   EXPECT_EQ(failed(column), Names{"x_drift"});
 }
 
-TEST_F(Check, EnergyThatIsMissingIsFoundUnlessNothingMoves)
+TEST_F(CheckedColumn, FailsTheEnergyDefectIfEnergyIsMissingUnlessNothingMoves)
 {
   Column column({3, -weight}, 0.5);
   column.observables[7][2] = 1e-9;
@@ -317,7 +328,7 @@ TEST_F(Check, EnergyThatIsMissingIsFoundUnlessNothingMoves)
   EXPECT_EQ(failed(at_rest), Names{});
 }
 
-TEST_F(Check, EnergyThatGoesMissingMoreAndMoreIsFound)
+TEST_F(CheckedColumn, FailsTheEnergyDriftIfMoreAndMoreEnergyIsMissing)
 {
   Column column({3, -weight}, 0.5);
   for (std::size_t k = 0; k < column.frames.size(); ++k)
@@ -327,7 +338,7 @@ TEST_F(Check, EnergyThatGoesMissingMoreAndMoreIsFound)
 
 // A disc whose contact has the friction f_x turns by f_x r per inertia m r^2/2 and time; so do the
 // two of every other contact.
-TEST_F(Check, TorquesAreHeldAgainstTheSpinsOfConsecutiveSteps)
+TEST_F(CheckedColumn, HasTorquesThatChangeTheSpinsOfConsecutiveSteps)
 {
   const double g_x = 2;
   const auto turning = [&] {
@@ -351,9 +362,9 @@ TEST_F(Check, TorquesAreHeldAgainstTheSpinsOfConsecutiveSteps)
   EXPECT_EQ(failed(column), Names{"torque_balance"});
 }
 
-// --- Files that tell less, or that were damaged. ---
+// --- Files with less data, or damaged ones. ---
 
-TEST_F(Check, AFileWithoutForcesOfGrainsSkipsWhatNeedsThemAndSaysSo)
+TEST_F(CheckedColumn, WithoutForcesOfGrainsSkipsTheChecksThatNeedThemWithTheReason)
 {
   Column().write(path);
   tamper([](hid_t file) { H5Ldelete(file, "/particles/grains/force", H5P_DEFAULT); });
@@ -369,7 +380,7 @@ TEST_F(Check, AFileWithoutForcesOfGrainsSkipsWhatNeedsThemAndSaysSo)
   }
 }
 
-TEST_F(Check, AFileWithoutObservablesAndFrictionSkipsWhatNeedsThem)
+TEST_F(CheckedColumn, WithoutObservablesAndFrictionSkipsTheChecksThatNeedThem)
 {
   Column column;
   column.description.observables.clear();
@@ -382,7 +393,7 @@ TEST_F(Check, AFileWithoutObservablesAndFrictionSkipsWhatNeedsThem)
                    "torque_balance", "total_momentum"}));
 }
 
-TEST_F(Check, AFewFramesSkipWhatNeedsWindows)
+TEST_F(CheckedColumn, WithFewFramesSkipsTheChecksThatNeedWindows)
 {
   Column column;
   column.frames.resize(7);
@@ -392,7 +403,7 @@ TEST_F(Check, AFewFramesSkipWhatNeedsWindows)
                                                   "torque_balance", "weight", "x_drift"}));
 }
 
-TEST_F(Check, ARunWithoutFramesIsNamed)
+TEST_F(CheckedColumn, WithoutFramesFails)
 {
   Column column;
   column.frames.clear();
@@ -401,7 +412,7 @@ TEST_F(Check, ARunWithoutFramesIsNamed)
   EXPECT_EQ(with(Verdict::skipped, lines), Names{"physics"});
 }
 
-TEST_F(Check, AFrameThatIsNotAsWrittenDisagreesWithItsDigest)
+TEST_F(CheckedColumn, FailsIfAFrameDisagreesWithItsDigest)
 {
   Column().write(path);
   tamper([](hid_t file) {
@@ -417,33 +428,11 @@ TEST_F(Check, AFrameThatIsNotAsWrittenDisagreesWithItsDigest)
   EXPECT_EQ(lines.at(2).remark, "frame 7 is the first that is not as written");
 }
 
-TEST_F(Check, ARunThatWasNeverClosedIsNamed)
+TEST_F(CheckedColumn, FailsIfTheFileWasNeverClosed)
 {
   Column().write(path);
   tamper([](hid_t file) { H5Ldelete(file, "/parameters/complete", H5P_DEFAULT); });
   EXPECT_EQ(with(Verdict::failed, lines_of_file()), Names{"not_closed"});
-}
-
-// Balances of blocks of frames that are merged see the pairs of frames across the blocks as well.
-TEST_F(Check, BalancesOfTwoHalvesMergeIntoThatOfTheWhole)
-{
-  Column column({2, -weight}, 0, 1);
-  column.frames[10].angular_velocity[3] = 5;
-  column.frames[3].contacts.force[2] *= 1.5;
-  const auto& grains = column.description.grains;
-  ForceBalance whole(Vec2(2, -weight), h), first = whole, second = whole;
-  for (std::size_t k = 0; k < 20; ++k) {
-    whole.add(grains, column.frames[k]);
-    (k < 10 ? first : second).add(grains, column.frames[k]);
-  }
-  first.merge(second);
-  for (const auto& [a, b] :
-       {std::pair{whole.forces(), first.forces()}, std::pair{whole.torques(), first.torques()}}) {
-    EXPECT_EQ(a.largest, b.largest);
-    EXPECT_EQ(a.count, b.count);
-    EXPECT_EQ(a.time, b.time);
-    EXPECT_EQ(a.number, b.number);
-  }
 }
 
 }  // namespace

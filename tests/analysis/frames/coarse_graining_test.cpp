@@ -82,8 +82,8 @@ TEST(CoarseGraining, KernelsHaveIntegralOneAndTheStandardDeviationsTheySay)
       return quadrature([&](double u) { return std::pow(u, n) * psi.value(u); }, -12 * w, 12 * w,
                         kinks);
     };
-    EXPECT_NEAR(moment(0), 1, 1e-12) << kernel_names[k];
-    EXPECT_NEAR(std::sqrt(moment(2)), deviations[k], 1e-12) << kernel_names[k];
+    EXPECT_NEAR(moment(0), 1, 1e-12) << kernel_shapes[k].word;
+    EXPECT_NEAR(std::sqrt(moment(2)), deviations[k], 1e-12) << kernel_shapes[k].word;
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames that are summed up apart and put together, by every accumulator.
 #include "analysis/frames/composition.hpp"
-#include "analysis/micro/micro_structure.hpp"
+#include "analysis/micro/structure_by_layer.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"
@@ -99,9 +99,9 @@ TEST(Merge, PartsOfTheCompositionMakeTheWhole)
     expect_parts_make_the_whole(Composition(layers, area));
 }
 
-TEST(Merge, PartsOfTheMicroStructureMakeTheWhole)
+TEST(Merge, PartsOfTheMicrostructureMakeTheWhole)
 {
-  expect_parts_make_the_whole(MicroStructure(layers, GrainArea::clipped, 0.5));
+  expect_parts_make_the_whole(StructureByLayer(layers, GrainArea::clipped, 0.5));
 }
 
 TEST(Merge, PartsOfTheKineticStressAndItsMeanMakeTheWhole)

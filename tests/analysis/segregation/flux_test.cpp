@@ -7,8 +7,10 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace grseg {
@@ -20,7 +22,7 @@ constexpr double small_diameter = 0.02, large_diameter = 0.04;
 
 using Move = std::function<void(Scene&, double)>;
 
-/// Frames over the window at equal distances; `move` is told the time since its beginning.
+/// Frames over the window at equal distances; `move` gets the time since its beginning.
 std::vector<Scene> film(Scene scene, int frames, const Move& move)
 {
   std::vector<Scene> all;
@@ -80,8 +82,8 @@ TEST(SegregationFlux, AKnownFluxIsFound)
   EXPECT_TRUE(std::isnan(pure.value.S));
 }
 
-// A layer that swings, while its large grains are there only on the way up, is no segregation.
-TEST(SegregationFlux, WhatTheWholeLayerDoesTogetherDropsOut)
+// A layer that swings, with its large grains present only on the way up, does not segregate.
+TEST(SegregationFlux, TheMotionOfTheLayerAsAWholeDropsOut)
 {
   const Scene scene = mixture();
   const auto flux = seen(scene, 16, [](Scene& s, double t) {
@@ -111,7 +113,7 @@ TEST(SegregationFlux, TheErrorIsThatOfTheMeanOfEightParts)
   EXPECT_NEAR(layer.error.q_large, 0.2 / 3 / std::sqrt(7), 1e-14);
 }
 
-// Drift is no diffusion: each species rises at its own speed.
+// Drift is not diffusion: each species rises at its own speed.
 TEST(SegregationFlux, ASteadyDriftHasNoDiffusivity)
 {
   const Scene scene = mixture();
@@ -265,14 +267,30 @@ TEST(SegregationFlux, FramesMayBeAddedInParts)
   }
 }
 
-TEST(SegregationFlux, ColumnsAndNumbersAgreeInCount)
+TEST(SegregationFlux, OfASingleFrameDiffusivitiesAndErrorsAreUnknown)
 {
   const Scene scene = mixture();
-  const auto flux = seen(scene, 1, [](Scene&, double) {});
-  const auto result = flux.results(scene.grains, 2)[0];
-  EXPECT_EQ(SegregationFlux::columns().size(), SegregationFlux::row(result).size());
+  const auto result = seen(scene, 1, [](Scene&, double) {}).results(scene.grains, 2)[0];
   EXPECT_TRUE(std::isnan(result.value.D_small));
   EXPECT_TRUE(std::isnan(result.error.phi_large));
+}
+
+TEST(SegregationFlux, EveryNumberStandsUnderItsColumn)
+{
+  const Scene scene = mixture();
+  const auto flux = seen(scene, 16, [](Scene& s, double) {
+    s.frame.velocity = {{5, 0.1}, {6, 0.1}, {7, 0.4}, {0, 0.2}, {0, 0.2}, {0, 0.2}};
+  });
+  const auto result = flux.results(scene.grains, 2)[1];
+  std::map<std::string, double> cells;
+  for (const auto& cell : SegregationFlux::cells(result)) cells[cell.column] = cell.value;
+  EXPECT_EQ(cells.size(), 7 + 2 * 15u);
+  EXPECT_NEAR(cells.at("area_L[m^2]"), std::numbers::pi * 4e-4, 1e-15);
+  EXPECT_NEAR(cells.at("v[m/s]"), 0.3, 1e-14);
+  EXPECT_NEAR(cells.at("w_S[m/s]"), -0.2, 1e-14);
+  EXPECT_NEAR(cells.at("q_L[m/s]"), 0.2 / 3, 1e-14);
+  EXPECT_EQ(cells.at("displacements_S"), result.displacements[0]);
+  EXPECT_EQ(cells.at("D_S_error[m^2/s]"), result.error.D_small);
 }
 
 }  // namespace

@@ -107,17 +107,22 @@ TEST(SegregationRates, ASlowChangeIsNoError)
   EXPECT_LT(estimate.high - estimate.low, 0.02 * D);
 }
 
-TEST(SegregationRates, LayersOutsideAndSprayTakeNoPart)
+TEST(SegregationRates, LayersOutsideTheRangeAndSprayAreLeftOut)
 {
   auto all = points(0);
   for (auto& point : all)
     if (point.top > 0.19) point.solid = 0.3;
   EXPECT_EQ(filtered(all, {}).size(), 48 * 9u);
-  EXPECT_EQ(filtered(all, {.lowest = 0.02, .highest = 0.1}).size(), 48 * 4u);
+  const auto inside = filtered(all, {.heights = {0.02, 0.1}});
+  EXPECT_EQ(inside.size(), 48 * 4u);
+  for (const auto& point : inside) {
+    EXPECT_GE(point.bottom, 0.0199);
+    EXPECT_LE(point.top, 0.1001);
+  }
   EXPECT_EQ(filtered(all, {.min_solid = 0}).size(), all.size());
 }
 
-TEST(SegregationRates, WithoutLargeGrainsThereIsARemarkAndNoNumber)
+TEST(SegregationRates, WithoutLargeGrainsARemarkReplacesTheNumber)
 {
   auto pure = points(0);
   for (auto& point : pure) {
@@ -130,7 +135,8 @@ TEST(SegregationRates, WithoutLargeGrainsThereIsARemarkAndNoNumber)
   EXPECT_TRUE(std::isnan(number(summary, "D_L[m^2/s]").value));
   EXPECT_TRUE(std::isnan(number(summary, "S[m/s]").value));
   EXPECT_TRUE(std::isnan(number(summary, "S_flux[m/s]").value));
-  EXPECT_FALSE(summary.remarks.empty());
+  ASSERT_FALSE(summary.remarks.empty());
+  EXPECT_EQ(summary.remarks[0], "D_L[m^2/s]: too few windows with both species for a value");
   EXPECT_TRUE(std::isnan(number(segregation_rates({}), "Pe").value));
 }
 

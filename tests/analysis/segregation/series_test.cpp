@@ -14,61 +14,6 @@ namespace {
 
 const Layers layers(1, 10);
 
-/// Grains of radius 0.01 in 20 layers, each layer's large grains out of 50 by `large(layer)`.
-template <class Large>
-Scene bed(const Large& large)
-{
-  Scene scene;
-  for (int layer = 0; layer < 20; ++layer)
-    for (int g = 0; g < 50; ++g)
-      scene.grain(g < large(layer) ? Species::large : Species::small, 0.01, {0.1 * g, layer + 0.5},
-                  {0, 0});
-  return scene;
-}
-
-double index_of(const Scene& scene)
-{
-  return mixing_index(layers, scene.grains, scene.frame);
-}
-
-TEST(MixingIndex, SpeciesApartHaveNone)
-{
-  EXPECT_NEAR(index_of(bed([](int layer) { return layer < 8 ? 50 : 0; })), 0, 1e-12);
-}
-
-// s^2 = 0, s_r^2 = phi_L phi_S/50 for equal grains: s_0^2/(s_0^2 - s_r^2) = 50/49.
-TEST(MixingIndex, ARegularMixtureIsMixedMoreThanARandomOne)
-{
-  EXPECT_NEAR(index_of(bed([](int) { return 20; })), 50.0 / 49, 1e-12);
-}
-
-// Mean over 200 beds; drawn with replacement the variance is phi_L phi_S/50 but for the bed's own
-// share of 1/20, and unequal sizes are what Stange's formula is about.
-TEST(MixingIndex, SpeciesAtRandomHaveOne)
-{
-  std::mt19937 random(2);
-  std::bernoulli_distribution is_large(0.1);
-  double mean = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    Scene scene;
-    for (int layer = 0; layer < 20; ++layer)
-      for (int g = 0; g < 200; ++g) {
-        const bool large = is_large(random);
-        scene.grain(large ? Species::large : Species::small, large ? 0.02 : 0.01,
-                    {0.1 * g, layer + 0.5}, {0, 0});
-      }
-    mean += (1 - index_of(scene)) / 200;
-  }
-  // 1 - index = (s^2 - s_r^2)/(s_0^2 - s_r^2). phi_L = 4/13, area 1.3 per grain: s_r^2/s_0^2 =
-  // (9/13 * 4 + 4/13)/(200 * 1.3) = 0.0118. A twentieth of it is the bed's own share.
-  EXPECT_NEAR(mean, 0, 0.1 * 0.0118);
-}
-
-TEST(MixingIndex, OneSpeciesAloneHasNone)
-{
-  EXPECT_TRUE(std::isnan(index_of(bed([](int) { return 0; }))));
-}
-
 // 100 grains of equal size; the bed is 20 high, so that the shear rate is taken from 2 to 18.
 Scene shear(double rate, double kink)
 {
@@ -172,9 +117,10 @@ TEST(SegregationTimes, ARunThatEndsTooEarlySaysSo)
   EXPECT_NE(summary.remarks.back().find("largest in the last window"), std::string::npos);
   const auto tiny = segregation_times({moments.begin(), moments.begin() + 5}, {5});
   EXPECT_TRUE(std::isnan(number(tiny, "tau[s]").value));
-  EXPECT_EQ(tiny.remarks[0],
-            "no fit of an exponential approach to y_L over time: it has too few frames; a longer "
-            "run may tell, or another --begin");
+  EXPECT_EQ(
+      tiny.remarks[0],
+      "no exponential approach fits y_L over time: it has too few frames; try a longer run or "
+      "another --begin");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "analysis/stress/merge_tables.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/core/version.hpp"
 #include "tests/analysis/synthetic_sums.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +44,8 @@ Table table(const std::string& input, const std::vector<TableRow>& rows)
 
 Table merged(const std::vector<Table>& tables, bool all_windows = false)
 {
-  return merge_tables(tables, all_windows, "grseg-stress 9.9", "grseg-stress --merge");
+  constexpr ToolInfo info{"grseg-stress", "", "", ""};
+  return merge_tables(tables, all_windows, info, "grseg-stress --merge");
 }
 
 double cell(const Table& table, std::size_t row, const std::string& column)
@@ -143,16 +145,17 @@ TEST(MergeTables, MergingStepByStepIsMergingAtOnce)
 TEST(MergeTables, HistoriesAndDigestsOfAllTablesAreKept)
 {
   const auto t = merged({table("b", {row(0, 0, 1, 1)}), table("a", {row(0, 0, 1, 1)})});
-  const std::vector<std::pair<std::string, std::string>> header{{"program", "grseg-stress 9.9"},
-                                                                {"history", "grseg-sim of a"},
-                                                                {"input", "xxh3 a"},
-                                                                {"history", "grseg-sim of b"},
-                                                                {"input", "xxh3 b"},
-                                                                {"history", "grseg-stress --merge"},
-                                                                {"step", "0.001"},
-                                                                {"layer", "0.02"},
-                                                                {"window", "0.1"},
-                                                                {"assign", "contact-point"}};
+  const std::vector<std::pair<std::string, std::string>> header{
+      {"program", std::string("grseg-stress ") + version()},
+      {"history", "grseg-sim of a"},
+      {"input", "xxh3 a"},
+      {"history", "grseg-sim of b"},
+      {"input", "xxh3 b"},
+      {"history", "grseg-stress --merge"},
+      {"step", "0.001"},
+      {"layer", "0.02"},
+      {"window", "0.1"},
+      {"assign", "contact-point"}};
   EXPECT_EQ(t.header, header);
 }
 

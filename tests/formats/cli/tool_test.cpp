@@ -82,7 +82,7 @@ TEST(Tool, RefusesAPresetThatThereIsNot)
   testing::internal::CaptureStderr();
   EXPECT_EQ(run({"grseg-test", "--preset", "loose"}, [](const auto&) { FAIL(); }), 2);
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "grseg-test: --preset: there is no 'loose'; it is paper or rigorous\n");
+            "grseg-test: unknown preset 'loose'; choose paper or rigorous\n");
 }
 
 TEST(Tool, TheHistoryDoesNotTellHowManyThreadsThereWere)

@@ -2,8 +2,12 @@
 #include "sim/contact/contact_law.hpp"
 
 #include "sim/solver/solver.hpp"
+#include "tests/sim/contact_list.hpp"
 
 #include <gtest/gtest.h>
+
+#include <array>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -13,7 +17,6 @@ struct TwoDiscs {
   std::vector<Motion> motion;
   std::vector<Contact> contacts;
   double friction = 0.5;
-  double floor = 0;
 
   TwoDiscs(Motion a, Motion b, double nx = 0.6, double ny = 0.8, double kappa = 1) : motion{a, b}
   {
@@ -41,8 +44,9 @@ struct TwoDiscs {
   void collide(double restitution, Effects effects = {})
   {
     contacts[0].rebound = restitution * std::max(-separation(), 0.0);
-    solve_contacts(contacts, motion, friction, effects, {1e-14, 100}, floor);
+    solve_contacts(contacts, motion, friction, effects, {1e-14, 100}, 0);
   }
+  double residual() const { return contact_residual(contacts, motion, friction, {}); }
 };
 
 double mass(const Motion& m)
@@ -151,14 +155,78 @@ TEST(ContactLaw, SeparatingDiscsFeelNothing)
   EXPECT_EQ(s.motion[1].rim_speed, before[1].rim_speed);
 }
 
-TEST(ContactLaw, ASolvedContactHasNoResidualAndAnUnsolvedOneShowsItsApproach)
+TEST(ContactLaw, ASolvedContactHasNoResidual)
+{
+  for (const double slip : {0.5, 50.0}) {  // sticks, slides
+    TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0});
+    s.motion[0].rim_speed = slip;
+    s.collide(0);
+    EXPECT_GT(s.contacts[0].impulse_n, 1);
+    EXPECT_LT(s.residual(), 1e-14);
+  }
+}
+
+TEST(ContactLaw, TheResidualIsTheApproachOfAContactThatWasNotSolved)
 {
   TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0});
-  const double approach = -s.separation();
-  EXPECT_NEAR(contact_residual(s.contacts, s.motion, s.friction, {}), std::max(approach, 0.0),
-              1.1 * 3 * s.friction * approach);
-  s.collide(0);
-  EXPECT_LT(contact_residual(s.contacts, s.motion, s.friction, {}), 1e-14);
+  EXPECT_NEAR(s.residual(), 3.3, 1e-14);  // -n . (v_a - v_b), more than the sliding velocity 2.6
+  s.contacts[0].rebound = 0.5;
+  EXPECT_NEAR(s.residual(), 3.8, 1e-14);
+}
+
+TEST(ContactLaw, TheResidualIsTheSlidingVelocityThatFrictionCouldHaveStopped)
+{
+  // On a wall with t = (-1, 0): at rest along the normal, under load, sliding.
+  TwoDiscs s({-0.3, 0, 0, 1}, {0, 0, 0, 0}, 0, 1);
+  s.contacts[0].impulse_n = 4;  // stops 6 m/s
+  EXPECT_NEAR(s.residual(), 0.3, 1e-14);
+  s.contacts[0].impulse_n = 0.1;  // W_tt mu p_n = 3 x 0.5 x 0.1 m/s
+  EXPECT_NEAR(s.residual(), 0.15, 1e-14);
+}
+
+TEST(ContactLaw, TheResidualShowsAnImpulseOnDiscsThatSeparateAndFrictionOutsideTheCone)
+{
+  TwoDiscs parting({0, 2, 0, 1}, {0, 0, 0, 0}, 0, 1);
+  parting.contacts[0].impulse_n = 0.5;  // all of it is taken back: W_nn p_n = 0.5 m/s
+  EXPECT_NEAR(parting.residual(), 0.5, 1e-14);
+  TwoDiscs pulled({0, 0, 0, 1}, {0, 0, 0, 0}, 0, 1);
+  pulled.contacts[0].impulse_n = -0.5;
+  EXPECT_NEAR(pulled.residual(), 0.5, 1e-14);
+  TwoDiscs rough({0, 0, 0, 1}, {0, 0, 0, 0}, 0, 1);
+  rough.contacts[0].impulse_n = 1;
+  rough.contacts[0].impulse_t = 0.7;  // the cone ends at 0.5; W_tt = 3
+  EXPECT_NEAR(rough.residual(), 0.6, 1e-14);
+}
+
+TEST(ContactLaw, EveryLawIsItsForecastMarginAndHorizon)
+{
+  const auto of = [](ContactLaw law) {
+    const auto p = law_parameters(law, 0.75, 2e-4, 10, 4e-3);
+    return std::array{p.forecast, p.margin, p.horizon};
+  };
+  EXPECT_EQ(of(ContactLaw::touch), (std::array{0.0, 0.0, 0.0}));
+  EXPECT_EQ(of(ContactLaw::centred), (std::array{0.5, 0.0, 0.0}));
+  EXPECT_EQ(of(ContactLaw::predictive), (std::array{1.0, 0.0, 0.0}));
+  const auto [forecast, margin, horizon] = of(ContactLaw::speculative);
+  EXPECT_EQ(forecast, 0.75);
+  EXPECT_EQ(horizon, 0.75);
+  EXPECT_NEAR(margin, 0.75 * 2e-4 * 0.2, 1e-18);  // horizon h sqrt(g d_S)
+}
+
+TEST(ContactLaw, APairThatTouchesReboundsAtOnceAndOneStillApartAStepLater)
+{
+  const double e = 0.25, horizon = 0.5, u = -2;  // s, m/s
+  const auto rebound = [&](double gap, double impulse_n, double remembered) {
+    const auto r = rebound_of(gap, u, impulse_n, remembered, e, horizon);
+    return std::pair{r.velocity, r.remembered};
+  };
+  EXPECT_EQ(rebound(0, 0, 0), std::pair(0.5, 0.0));  // e |u|
+  EXPECT_EQ(rebound(-0.1, 3, 0), std::pair(0.5, 0.0));
+  EXPECT_EQ(rebound(0.1, 0, 0), std::pair(-0.2, 2.0));  // -gap/horizon, and |u| is remembered
+  EXPECT_EQ(rebound(0.1, 3, 0), std::pair(-0.2, 0.0));  // under load before: nothing to remember
+  EXPECT_EQ(rebound(2, 0, 0), std::pair(-4.0, 0.0));    // too slow to close its gap
+  EXPECT_EQ(rebound(0.1, 3, 7), std::pair(1.75, 0.0));  // e times what was remembered
+  EXPECT_EQ(rebound_of(0.1, u, 0, 0, e, 0).velocity, 0.5);  // without a horizon it rebounds at once
 }
 
 /// Bits of the two motions after an impact.

@@ -14,7 +14,7 @@ std::vector<Vec2> lattice(int count)
   return position;
 }
 
-TEST(CellGrid, StripsAreEvenInNumberWhereTheirRowIsClosed)
+TEST(CellGrid, TheNumberOfStripsIsEvenIfXIsPeriodic)
 {
   for (const bool periodic : {true, false}) {
     CellGrid grid({5300, 10, periodic}, 1.2, 1);
@@ -39,6 +39,17 @@ TEST(CellGrid, NoStripIsNarrowerThanFourColumns)
   EXPECT_EQ(grid.strips(), 2u);
   for (std::size_t s = 0; s < grid.strips(); ++s)
     EXPECT_GE(grid.first_column(s + 1) - grid.first_column(s), 4);
+}
+
+TEST(CellGrid, ABodyThatHasFlownFarAwayAddsFewCells)
+{
+  for (const Vec2& far : {Vec2(1e9, 0), Vec2(0, 1e9), Vec2(-1e9, 1e9)}) {
+    CellGrid grid({100, 10, false}, 1.2, 1);
+    auto position = lattice(1000);
+    position[500] = far;
+    grid.sort(position);
+    EXPECT_LT(static_cast<double>(grid.columns()) * grid.bands(), 10000);
+  }
 }
 
 TEST(CellGrid, SortsEveryBodyIntoItsCellStripByStrip)

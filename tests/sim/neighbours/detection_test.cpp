@@ -157,7 +157,7 @@ void expect_all_contacts(const Bed& bed, int steps)
   EXPECT_LT(simulation.pair_list_renewals(), static_cast<std::size_t>(steps));
 }
 
-TEST(Detection, FindsTheContactsOfAPeriodicBedWhereverItLooks)
+TEST(Detection, FindsTheContactsOfAPeriodicBedUnderEveryForecast)
 {
   for (const double forecast : {0.0, 0.5, 1.0}) {
     auto bed = bed_of(30, 10, true, 0);
@@ -264,22 +264,22 @@ struct Prepared {
   std::vector<Wall> walls;
   DetectionRule rule;
 
-  /// Grains are 15 % larger than in the bed, so that most touch.
-  explicit Prepared(const Bed& bed)
+  /// Grains are larger than in the bed; by 15 % and most touch.
+  explicit Prepared(const Bed& bed, double growth = 1.15)
       : state(make_state(bed.world.grains, bed.position)),
-        list(bed.world.walls, bed.world.box, 1.15 * 0.55, 0.3),
+        list(bed.world.walls, bed.world.box, growth * 0.55, 0.3),
         walls(bed.world.walls)
   {
     for (std::size_t g = 0; g < bed.position.size(); ++g) {
       state.motion[g].vx = bed.velocity[g].x();
       state.motion[g].vy = bed.velocity[g].y();
-      state.radius[g] *= 1.15;
+      state.radius[g] *= growth;
     }
     list.renew(state, state.position);
     for (std::size_t k = 0; k < list.pairs().size(); ++k)
       if (list.pairs().listed(k))
         list.impulses()[k] = {1 + static_cast<double>(k), 0.5 - static_cast<double>(k % 7)};
-    rule.looked_at = rule.middle = state.position;
+    rule.ahead = rule.middle = state.position;
     rule.motion = state.motion;
     rule.walls = walls;
     rule.restitution = 0.25;
@@ -306,7 +306,7 @@ Bits bits_of(const StripContacts& contacts, const DetectionSums& sums)
           &block.impulse_n, &block.impulse_t, &contacts.origins[b].gap})
       for (const double x : *lanes) append(bits, x);
     for (std::size_t lane = 0; lane < block_lanes; ++lane)
-      for (const auto number : {block.i[lane], block.j[lane], contacts.origins[b].row[lane]})
+      for (const auto number : {block.i[lane], block.j[lane], contacts.origins[b].pair[lane]})
         bits.push_back(number);
   }
   return bits;
@@ -340,87 +340,163 @@ TEST_P(DetectionOn, GivesTheBytesOfTheBestInstructionSet)
   }
 }
 
-/// A lane of a block in the words of the law.
-Contact contact_in_words(const Prepared& p, const Pairs::Class& c, std::size_t k, double& gap)
+/// A listed pair in the words of contact_law.hpp.
+struct PairInWords {
+  bool acts;
+  double separation, gap, remembered;
+  Contact contact;
+};
+
+/// The law's own order of operations, so that bits can be compared.
+PairInWords in_words(const Prepared& p, const Pairs::Class& c, std::size_t k)
 {
   const auto& pairs = p.list.pairs();
-  Contact contact{};
   const std::size_t i = pairs.i[k] / 2, j = pairs.j[k] / 2;
   const auto &a = p.state.motion[i], &b = p.state.motion[j];
-  const double reach = pairs.geometry[k].reach;
+  const double reach = pairs.geometry[k].reach, shift = pairs.geometry[k].shift;
+  PairInWords pair{};
+  Normal n{};
   if (c.wall < 0) {
-    const double x = p.state.position[i].x() - p.state.position[j].x() + pairs.geometry[k].shift;
-    const double y = p.state.position[i].y() - p.state.position[j].y();
-    const double distance = std::sqrt(x * x + y * y), inverse = 1 / distance;
-    contact.nx = x * inverse;
-    contact.ny = y * inverse;
-    contact.kappa = distance * (1 / reach);
-    gap = distance - reach;
+    const auto apart = [&](std::span<const Vec2> x) {
+      return Vec2(x[i].x() - x[j].x() + shift, x[i].y() - x[j].y());
+    };
+    const Vec2 then = apart(p.rule.ahead), now = apart(p.rule.middle);
+    pair.acts = acts(then.x(), then.y(), reach, p.rule.margin);
+    n = normal_of_discs(now.x(), now.y());
+    pair.contact.kappa = n.distance * (1 / reach);
   } else {
     const auto& wall = p.walls[static_cast<std::size_t>(c.wall)];
-    contact.nx = wall.normal.x();
-    contact.ny = wall.normal.y();
-    contact.kappa = 1;
-    gap = (p.state.position[i].x() - wall.point.x()) * wall.normal.x() +
-          (p.state.position[i].y() - wall.point.y()) * wall.normal.y() - reach;
+    const Vec2 then = p.rule.ahead[i] - wall.point, now = p.rule.middle[i] - wall.point;
+    pair.acts = acts_on_wall(then.dot(wall.normal), reach, p.rule.margin);
+    n = normal_of_wall(now.x(), now.y(), wall.normal.x(), wall.normal.y());
+    pair.contact.kappa = 1;
   }
-  contact.mass_n = 1 / (a.inverse_mass + b.inverse_mass);
-  contact.mass_t = contact.mass_n / (1 + disc_rim_factor * (contact.kappa * contact.kappa));
-  const double separation = (a.vx - b.vx) * contact.nx + (a.vy - b.vy) * contact.ny;
-  contact.rebound = 0.25 * std::max(-separation, 0.0);
-  contact.impulse_n = pairs.impulse[k].n;
-  contact.impulse_t = pairs.impulse[k].t;
-  return contact;
+  pair.gap = n.distance - reach;
+  pair.separation = (a.vx - b.vx) * n.nx + (a.vy - b.vy) * n.ny;
+  pair.contact.nx = n.nx;
+  pair.contact.ny = n.ny;
+  pair.contact.mass_n = normal_mass(a.inverse_mass, b.inverse_mass);
+  pair.contact.mass_t = tangential_mass(pair.contact.mass_n, pair.contact.kappa);
+  pair.contact.impulse_n = pairs.impulse[k].n;
+  pair.contact.impulse_t = pairs.impulse[k].t;
+  const auto rebound = rebound_of(pair.gap, pair.separation, pairs.impulse[k].n,
+                                  pairs.memory[k].approach, p.rule.restitution, p.rule.horizon);
+  pair.contact.rebound = rebound.velocity;
+  pair.remembered = rebound.remembered;
+  return pair;
+}
+
+Bits bits_of(const PairInWords& pair, bool with_memory)
+{
+  Bits bits;
+  const auto& c = pair.contact;
+  for (const double x : {c.nx, c.ny, c.kappa, c.mass_n, c.mass_t, c.rebound, c.impulse_n,
+                         c.impulse_t, pair.gap, with_memory ? pair.remembered : 0})
+    append(bits, x);
+  return bits;
+}
+
+Bits bits_of(const StripContacts& contacts, std::size_t block, std::size_t lane, bool with_memory)
+{
+  Bits bits;
+  const auto& c = contacts.blocks[block];
+  const auto& origin = contacts.origins[block];
+  for (const auto* lanes : {&c.nx, &c.ny, &c.kappa, &c.mass_n, &c.mass_t, &c.rebound, &c.impulse_n,
+                            &c.impulse_t, &origin.gap})
+    append(bits, (*lanes)[lane]);
+  append(bits, with_memory ? origin.approach[lane] : 0);
+  return bits;
+}
+
+/// How many pairs of each kind a comparison has seen.
+struct Seen {
+  std::size_t acting = 0, idle = 0, apart = 0, newcomers = 0, rebounding = 0;
+};
+
+/// Compares what detection makes of a bed with what the words say of every listed pair.
+void expect_the_law_in_words(const Prepared& p, Seen& seen)
+{
+  const bool with_memory = p.rule.horizon > 0;
+  std::vector<StripContacts> strips;
+  const auto sums = find_contacts(p.list.pairs(), p.rule, strips);
+  const auto& contacts = strips.at(0);
+  const auto& pairs = p.list.pairs();
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> found;  // pair: block and lane
+  for (std::size_t b = 0; b < contacts.size; ++b)
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+      const std::size_t k = contacts.origins[b].pair[lane] / 2;
+      if (k == pairs.size()) continue;
+      EXPECT_TRUE(found.insert({k, {b, lane}}).second);
+    }
+  std::size_t touching = 0;
+  double overlap = 0, largest = 0, fastest = 0;
+  for (const auto& c : pairs.classes)
+    for (std::size_t k = c.begin; k < c.end; ++k) {
+      if (!pairs.listed(k)) continue;
+      const auto words = in_words(p, c, k);
+      const auto at = found.find(k);
+      EXPECT_EQ(at != found.end(), words.acts) << k;
+      if (at == found.end()) {
+        ++seen.idle;
+        continue;
+      }
+      const auto [b, lane] = at->second;
+      EXPECT_EQ(bits_of(contacts, b, lane, with_memory), bits_of(words, with_memory)) << k;
+      EXPECT_EQ(contacts.blocks[b].i[lane], 2 * pairs.i[k]);
+      EXPECT_EQ(contacts.blocks[b].j[lane], 2 * pairs.j[k]);
+      EXPECT_EQ(b >= contacts.on_base, p.state.motion[pairs.j[k] / 2].inverse_mass == 0);
+      ++seen.acting;
+      seen.apart += words.gap > 0;
+      seen.newcomers += words.remembered > 0;
+      seen.rebounding += words.gap > 0 && words.contact.rebound > 0;
+      touching += words.gap <= 0;
+      overlap += std::max(-words.gap, 0.0);
+      largest = std::max(largest, -words.gap);
+      fastest = std::max(fastest, -words.separation);
+    }
+  EXPECT_EQ(contacts.count, found.size());
+  EXPECT_EQ(sums.touching, touching);
+  EXPECT_NEAR(sums.overlap, overlap, 1e-12);
+  EXPECT_EQ(sums.largest_overlap, largest);
+  EXPECT_EQ(sums.fastest_approach, fastest);
 }
 
 TEST_P(DetectionOn, ContactsAreThoseOfTheLawInWordsToTheLastBit)
 {
+  Seen seen;
+  for (const bool periodic : {true, false})
+    expect_the_law_in_words(Prepared(bed_of(20, 10, periodic, 0)), seen);
+  EXPECT_GT(seen.acting, 100u);
+  EXPECT_GT(seen.idle, 100u);
+}
+
+TEST_P(DetectionOn, PairsStillApartAreSlowedDownAsTheLawInWordsSaysToTheLastBit)
+{
+  Seen seen;
   for (const bool periodic : {true, false}) {
-    Prepared p(bed_of(20, 10, periodic, 0));
-    std::vector<StripContacts> strips;
-    const auto sums = find_contacts(p.list.pairs(), p.rule, strips);
-    const auto& contacts = strips.at(0);
-    const auto& pairs = p.list.pairs();
-    std::size_t count = 0;
-    double overlap = 0, largest = 0;
-    for (std::size_t b = 0; b < contacts.size; ++b) {
-      for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        const std::size_t k = contacts.origins[b].row[lane] / 2;
-        if (k == pairs.size()) continue;
-        const auto c = std::find_if(pairs.classes.begin(), pairs.classes.end(),
-                                    [&](const auto& one) { return k < one.end; });
-        double gap = 0;
-        const auto words = contact_in_words(p, *c, k, gap);
-        const auto& block = contacts.blocks[b];
-        EXPECT_EQ(block.nx[lane], words.nx);
-        EXPECT_EQ(block.ny[lane], words.ny);
-        EXPECT_EQ(block.kappa[lane], words.kappa);
-        EXPECT_EQ(block.mass_n[lane], words.mass_n);
-        EXPECT_EQ(block.mass_t[lane], words.mass_t);
-        EXPECT_EQ(block.rebound[lane], words.rebound);
-        EXPECT_EQ(block.impulse_n[lane], words.impulse_n);
-        EXPECT_EQ(block.impulse_t[lane], words.impulse_t);
-        EXPECT_EQ(block.i[lane], 2 * pairs.i[k]);
-        EXPECT_EQ(block.j[lane], 2 * pairs.j[k]);
-        EXPECT_EQ(contacts.origins[b].gap[lane], gap);
-        EXPECT_EQ(b >= contacts.on_base, p.state.motion[pairs.j[k] / 2].inverse_mass == 0);
-        ++count;
-        overlap -= gap;
-        largest = std::max(largest, -gap);
-      }
+    Prepared p(bed_of(80, 10, periodic, 0), 1);
+    p.rule.horizon = 0.02;
+    p.rule.margin = 0.05;
+    std::vector<Vec2> then(p.state.position);
+    for (std::size_t b = 0; b < then.size(); ++b)
+      then[b] += p.rule.horizon * Vec2(p.state.motion[b].vx, p.state.motion[b].vy);
+    p.rule.ahead = then;
+    // Newcomers, pairs slowed down in the step before, and pairs that have borne a load for long.
+    for (std::size_t k = 0; k < p.list.pairs().size(); ++k) {
+      if (k % 3 != 2) p.list.impulses()[k] = {0, 0};
+      if (k % 3 == 1) p.list.memories()[k] = {0.1 * static_cast<double>(k % 7), 0};
     }
-    EXPECT_GT(count, 50u);
-    EXPECT_EQ(contacts.count, count);
-    EXPECT_EQ(sums.touching, count);
-    EXPECT_NEAR(sums.overlap, overlap, 1e-12);
-    EXPECT_EQ(sums.largest_overlap, largest);
+    expect_the_law_in_words(p, seen);
   }
+  EXPECT_GT(seen.apart, 50u);
+  EXPECT_GT(seen.newcomers, 5u);
+  EXPECT_GT(seen.rebounding, 5u);
 }
 
 TEST_P(DetectionOn, AnEffectLeftOutEqualsItsNeutralCoefficientToTheLastBit)
 {
   Prepared general(bed_of(20, 10, false, 0)), lean = general;
-  lean.rule.looked_at = lean.rule.middle = lean.state.position;
+  lean.rule.ahead = lean.rule.middle = lean.state.position;
   general.rule.restitution = 0;
   general.rule.rim_factor = 0;
   general.rule.periodic = true;
@@ -447,7 +523,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   for (std::size_t b = 0; b < contacts.size; ++b) {
     auto& block = contacts.blocks[b];
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      if (contacts.origins[b].row[lane] / 2 == p.list.pairs().size()) continue;
+      if (contacts.origins[b].pair[lane] / 2 == p.list.pairs().size()) continue;
       n = static_cast<double>((b + lane) % 3);
       block.impulse_n[lane] = n;
       block.impulse_t[lane] = -n / 2;
@@ -465,7 +541,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   const auto kept = contacts.used().blocks;
   for (std::size_t b = 0; b < kept.size(); ++b)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      const auto& impulse = p.list.pairs().impulse[contacts.origins[b].row[lane] / 2];
+      const auto& impulse = p.list.pairs().impulse[contacts.origins[b].pair[lane] / 2];
       EXPECT_EQ(impulse.n, kept[b].impulse_n[lane]);
       EXPECT_EQ(impulse.t, kept[b].impulse_t[lane]);
     }
@@ -474,7 +550,10 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   find_contacts(p.list.pairs(), p.rule, strips);
   forget_impulses(strips, p.list.impulses(), {});
   for (std::size_t b = 0; b < size; ++b)
-    for (const auto row : origins[b].row) EXPECT_EQ(p.list.pairs().impulse[row / 2].n, 0);
+    for (const auto pair : origins[b].pair) {
+      EXPECT_EQ(p.list.pairs().impulse[pair / 2].n, 0);
+      EXPECT_EQ(p.list.pairs().impulse[pair / 2].t, 0);
+    }
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST(BoundaryBody, ATurningRingKeepsItsRadiusAndGoesRoundInItsPeriod)
   EXPECT_EQ(simulation.angular_velocity(0), 2 * pi);
 }
 
-TEST(BoundaryBody, AnOscillatingBaseIsWhereTheSineSays)
+TEST(BoundaryBody, AnOscillatingBaseFollowsItsSine)
 {
   const std::vector<Disc> discs{{{0, 0}, 0.5, true}, {{100, 100}, 0.5}};
   Simulation simulation(world_of(discs), positions_of(discs));

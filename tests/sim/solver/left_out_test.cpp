@@ -2,6 +2,7 @@
 #include "sim/solver/sweep.hpp"
 #include "tests/frozen_problem.hpp"
 #include "tests/instructions.hpp"
+#include "tests/sim/contact_list.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <fmt/format.h>
@@ -58,9 +59,9 @@ class OnEachInstructionSet : public testing::TestWithParam<std::string> {
 };
 using LeftOut = OnEachInstructionSet;
 
-// Operations are those of relax_lanes() in sim/solver/sweep.cpp that stand behind `if constexpr`; nothing
-// is fused, so each is one instruction at least.
-TEST_P(LeftOut, AnEffectTakesAllOfItsInstructionsOutOfASweep)
+// Operations are those of relax() in sim/contact/contact_law-inl.hpp behind `if constexpr`; none
+// are fused, so each is at least one instruction.
+TEST_P(LeftOut, AnEffectLeftOutTakesAllItsInstructionsOutOfASweep)
 {
   constexpr long of_friction = 22, of_rotation = 11, of_restitution = 1;
   const long parts = parts_of_a_block(GetParam());
@@ -164,7 +165,7 @@ Bits found_in_a_bed(bool periodic, bool spoilt)
   if (spoilt)
     for (auto& geometry : pairs.geometry) geometry.shift = poison;
   DetectionRule rule;
-  rule.looked_at = rule.middle = state.position;
+  rule.ahead = rule.middle = state.position;
   rule.motion = state.motion;
   rule.margin = world.law.margin;
   rule.periodic = periodic;
@@ -272,7 +273,7 @@ TEST_F(LeftOutOfAStep, GravityAndBodiesThatMoveLeaveNothingForAnyGrainWhereThere
   EXPECT_GT(fixed, 3);
 }
 
-TEST_F(LeftOutOfAStep, ARecordLeavesNothingWhereNoFrameIsDue)
+TEST_F(LeftOutOfAStep, AStepWithoutAFrameSpendsNothingOnRecording)
 {
   const Change nothing = [](World&) {};
   auto simulation = chute_with(nothing);

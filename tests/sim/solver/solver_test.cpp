@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/solver/solver.hpp"
 
+#include "tests/sim/contact_list.hpp"
+
 #include <gtest/gtest.h>
 
 namespace grseg {
@@ -17,7 +19,7 @@ TEST(Solver, AVelocityFarBelowTheFloorNeedsNoSecondSweep)
   EXPECT_EQ(solve_contacts(contacts, motion, 0.5, {}, {1e-2, 100}, 1e-6).sweeps, 1);
 }
 
-TEST(Solver, SweepsOnToTheLeastNumberUnlessOneChangesNothing)
+TEST(Solver, MakesTheLeastNumberOfSweepsUnlessOneChangesNothing)
 {
   // A column of ten discs on a floor, from nothing; the floor alone carries the lowest from the
   // first sweep on.
@@ -72,7 +74,7 @@ struct Rows {
   }
 };
 
-TEST(Solver, AStripThatNeedsManySweepsDoesNotMakeOthersPay)
+TEST(Solver, AStripThatNeedsManySweepsDoesNotCostOthersMore)
 {
   Rows one(1), many(40), shared(40);
   const auto alone = one.solve(1), among = many.solve(1);
@@ -85,7 +87,7 @@ TEST(Solver, AStripThatNeedsManySweepsDoesNotMakeOthersPay)
   for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_EQ(shared.motion[k].vx, many.motion[k].vx);
 }
 
-TEST(Solver, TheSweepThatLetsTheLastContactGoIsNotTheLastWhereThereIsNoGravity)
+TEST(Solver, WithoutGravityTheSweepThatOpensTheLastContactIsFollowedByAnother)
 {
   // Two discs that part, with an impulse between them that was right before.
   std::vector<Motion> motion{{1, 0, 0, 1}, {-1, 0, 0, 1}};
@@ -153,7 +155,7 @@ struct Column {
   }
 };
 
-TEST(Solver, AccelerationReachesTheSameWithAFifthOfTheSweeps)
+TEST(Solver, AccelerationFindsTheSameSolutionWithAFifthOfTheSweeps)
 {
   // Plain sweeps contract the error by cos^2(pi/2n), so they need some n^2 of them; extrapolated
   // ones some n. Odd and even numbers of bodies end differently in vector registers.

@@ -2,6 +2,7 @@
 #include "sim/solver/sweep.hpp"
 
 #include "tests/frozen_problem.hpp"
+#include "tests/sim/contact_list.hpp"
 
 #include <gtest/gtest.h>
 

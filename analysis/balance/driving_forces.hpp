@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/balance/momentum_balance.hpp"
+
+namespace grseg {
+
+/// The forces that drive segregation, i.e. which mechanism pushes the large grains which way: their
+/// momentum balance along y less the share phi_L = rho^L/rho of the mixture's, so that gravity
+/// drops out (phi_L is a share of the mass, and of the area if both species have the same density).
+/// Means over a layer; force densities on the large grains, N/m^2, upward positive; the small
+/// grains feel the opposite. sigma and K are the yy components of contact stress and momentum flux
+/// of the mixture, psi and psi_K the large grains' shares of them, beta the interaction on large
+/// grains and ' = d/dy. sigma' and (psi sigma)' leave out the force of the base, since the jump of
+/// stress at the wall is not a pressure gradient. Then, to round-off,
+///
+///   rate^L - phi_L rate = push + push_kinetic + beta - spread - spread_kinetic
+///   push         = -(psi - phi_L) sigma' = -phi_L phi_S B sigma'
+///   push_kinetic = -(psi_K - phi_L) K'   = -phi_L phi_S B_K K'
+///   spread = (psi sigma)' - psi sigma',  spread_kinetic = (psi_K K)' - psi_K K'
+///
+/// with psi = phi_L (1 + B phi_S), psi_K likewise with B_K (Staron & Phillips 2015, eqs. 3 and 6).
+/// `push` is the mechanism of Gray & Thornton (2005): sigma' < 0, since stress carries the weight
+/// above, so large grains rise if B > 0. `push_kinetic` is that of Fan & Hill (2011) and Hill & Tan
+/// (2014): where K' < 0, above a hot base, large grains sink if B_K < 0. Both theories close the
+/// interaction by beta = spread + spread_kinetic + drag. The rate of a few sampled steps scatters
+/// far more than these terms, and so does beta; but the change over the window that the rates
+/// sample is known (MomentumBalance::change), and with it the mean drag:
+///
+///   drag    = change^L - phi_L change - push - push_kinetic
+///   scatter = rate^L - phi_L rate less the same of `change`, of mean 0
+///   beta    = spread + spread_kinetic + drag + scatter,   to round-off
+///
+/// K is taken in the frame of the base; along y the mean motion is only the dilation of the bed.
+/// NaN where a species is missing; without a stress to share, the share is NaN and the push 0.
+struct DrivingForces {
+  double phi, psi, psi_kinetic;
+  double b, b_kinetic;
+  double push, push_kinetic, spread, spread_kinetic, drag, scatter;
+  double drift;  // kg/(m^2 s), rho^L (v^L - v) along y
+
+  /// 1/s, c of drag = -c rho^L (v^L - v) (Gray & Thornton 2005); noise where nothing drifts.
+  double drag_rate() const { return -drag / drift; }
+};
+
+DrivingForces driving_forces(const MomentumBalance& balance, std::size_t layer);
+
+}  // namespace grseg

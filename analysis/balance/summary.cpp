@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/balance/summary.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_statistics.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+/// "up by 0.012 +- 0.003", or "neither way" where zero lies within two standard errors.
+std::string direction(const std::vector<double>& push)
+{
+  const std::size_t n = push.size();
+  const double mean = gsl_stats_mean(push.data(), 1, n);
+  const double error = gsl_stats_sd_m(push.data(), 1, n, mean) / std::sqrt(static_cast<double>(n));
+  if (std::abs(mean) <= 2 * error)
+    return fmt::format("neither way ({:.2g} +- {:.1g})", mean, error);
+  return fmt::format("{} by {:.2g} +- {:.1g}", mean > 0 ? "up" : "down", std::abs(mean), error);
+}
+
+}  // namespace
+
+BalanceSummary::BalanceSummary(const Layers& layers, double large_diameter)
+    : layers_(layers), margin_(2 * large_diameter)
+{
+}
+
+double BalanceSummary::surface(const MomentumBalance& window) const
+{
+  double mass = 0, moment = 0;
+  for (std::size_t n = 0; n < window.layers(); ++n) {
+    const double here =
+        window.mean(n, Species::small).density + window.mean(n, Species::large).density;
+    mass += here;
+    moment += here * (layers_.bottom(n) + layers_.top(n)) / 2;
+  }
+  return 2 * moment / mass;
+}
+
+void BalanceSummary::add_residual(const SpeciesMomentum& own)
+{
+  double largest = 0;
+  for (const auto& term :
+       {own.rate, own.gravity, own.contact, own.kinetic, own.interaction, own.base})
+    largest = std::max(largest, term.cwiseAbs().maxCoeff());
+  if (largest > 0) residual_ = std::max(residual_, own.residual().cwiseAbs().maxCoeff() / largest);
+}
+
+void BalanceSummary::add(const MomentumBalance& window)
+{
+  const double rounding = 1e-9 * margin_, highest = surface(window) - margin_;
+  double push = 0, push_kinetic = 0, drag = 0, weight = 0;
+  for (std::size_t n = 0; n < window.layers(); ++n) {
+    const auto large = window.mean(n, Species::large);
+    add_residual(window.mean(n, Species::small));
+    add_residual(large);
+    if (layers_.bottom(n) < margin_ - rounding || layers_.top(n) > highest + rounding) continue;
+    const auto forces = driving_forces(window, n);
+    if (std::isnan(forces.drag)) continue;
+    push += forces.push;
+    push_kinetic += forces.push_kinetic;
+    drag += forces.drag;
+    weight += std::abs(large.gravity.y());
+  }
+  if (!(weight > 0)) return;
+  push_.push_back(push / weight);
+  push_kinetic_.push_back(push_kinetic / weight);
+  drag_.push_back(drag / weight);
+}
+
+std::string BalanceSummary::sentence() const
+{
+  auto closed = fmt::format("the balances close to {:.1e} of the largest term of each", residual_);
+  if (push_.size() < 2) return closed;
+  return fmt::format(
+      "in units of their weight, large grains are pushed {} by contact stress, {} by kinetic "
+      "stress and {} by drag (at least two large diameters from base and surface, standard errors "
+      "over {} windows); {}",
+      direction(push_), direction(push_kinetic_), direction(drag_), push_.size(), closed);
+}
+
+}  // namespace grseg

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/check/tolerances.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace grseg {
+
+/// One check of grseg-check --physics.
+struct Check {
+  const char* name;      // of its line in the output
+  const char* measured;  // what the number is
+  double CheckTolerances::*tolerance;
+  const char* law;  // by which the number should vanish
+};
+
+/// All checks, in the order of the output: the table from which the lines of the output with their
+/// tolerances and --help follow. docs/studies/check.md explains each.
+namespace checks {
+
+using T = CheckTolerances;
+
+inline constexpr auto all = std::to_array<Check>({
+    {"force_balance", "contact forces + m g - `force` of a grain, over the frame's largest force",
+     &T::round_off, "Newton's second law"},
+    {"torque_balance", "torques - (m r^2/2) dw/dt of a grain, over that force and largest radius",
+     &T::round_off, "Euler's second law"},
+    {"total_momentum", "change of the bed's momentum less the impulses of gravity and base",
+     &T::round_off, "Newton's second law"},
+    {"sum_of_partials", "sigma^S + sigma^L - sigma of the bed, over sigma",  //
+     &T::round_off, "Staron & Phillips 2015, eq. 1"},
+    {"energy_defect", "energy that the simulator cannot account for in a step, relative",
+     &T::round_off, "Moreau's energy balance"},
+    {"coulomb_largest", "|f_t| - mu f_n of a contact, over the frame's largest force",
+     &T::round_off, "Coulomb's law"},
+    {"coulomb_mean", "the same, mean over contacts", &T::round_off, "Coulomb's law"},
+    {"tension_largest", "-f_n of a contact, over the frame's largest force",  //
+     &T::round_off, "Signorini's law"},
+    {"tension_mean", "the same, mean over contacts", &T::round_off, "Signorini's law"},
+    {"open_gap_largest", "gap across which a force acts against the contact law, d_S",
+     &T::round_off, "Signorini's law"},
+    {"open_gap_mean", "the same, mean over contacts", &T::round_off, "Signorini's law"},
+    {"approach_largest", "deficit of separation velocity, d_S per step",  //
+     &T::largest_approach, "Newton's law of restitution"},
+    {"approach_mean", "the same, mean over contacts",  //
+     &T::mean_approach, "Newton's law of restitution"},
+    {"overlap_largest", "overlap, d_S", &T::largest_overlap, "rigid grains"},
+    {"overlap_mean", "the same, mean over pairs that overlap", &T::mean_overlap, "rigid grains"},
+    {"weight", "stress a layer carries over what weight and acceleration above require, less 1",
+     &T::weight, "momentum balance along y"},
+    {"slope", "stress ratio of a layer less what slope and acceleration above require",  //
+     &T::slope, "momentum balance along x"},
+    {"overlap_drift", "change of the mean overlap over the run, d_S",  //
+     &T::overlap_drift, "errors do not accumulate"},
+    {"energy_defect_drift", "change of the mean energy defect over the run",  //
+     &T::round_off, "errors do not accumulate"},
+    {"x_drift", "mean velocity of the bed by positions less that by velocities, sqrt(g d_S)",
+     &T::x_drift, "velocity is the rate of position"},
+});
+
+/// The check of that name. A name that is not in the table does not compile.
+consteval Check named(std::string_view name)
+{
+  for (const auto& check : all)
+    if (check.name == name) return check;
+  throw "no such check";
+}
+
+/// The table as text for --help: for each check what is measured, and below it tolerance and law.
+std::string listed();
+
+}  // namespace checks
+}  // namespace grseg

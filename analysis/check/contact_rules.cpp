@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/check/contact_rules.hpp"
+
+#include "formats/trajectory/reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+
+ContactRules read_contact_rules(const TrajectoryReader& run)
+{
+  const auto& parameters = run.parameters();
+  ContactRules rules;
+  rules.friction = parameters.find_number("friction");
+  rules.restitution = parameters.find_number("restitution");
+  rules.step = run.step();
+  const auto& radius = run.grains().radius;
+  rules.margin = 1e-9 * 2 * *std::min_element(radius.begin(), radius.end());
+  const auto law = parameters.text("contact_law");
+  if (law == "centred") rules.look_ahead = 0.5;
+  if (law == "predictive") rules.look_ahead = 1;
+  if (law == "speculative") {
+    rules.look_ahead = rules.horizon = parameters.number("horizon", run.path());
+    // For files without /parameters/contact_margin.
+    const double by_gravity =
+        rules.horizon * rules.step * std::sqrt(run.gravity().norm() * run.small_diameter());
+    rules.margin =
+        std::max(rules.margin, parameters.find_number("contact_margin").value_or(by_gravity));
+  }
+  return rules;
+}
+
+}  // namespace grseg

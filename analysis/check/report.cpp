@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/check/report.hpp"
+
+#include "formats/cli/table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* word(Verdict verdict)
+{
+  if (verdict == Verdict::passed) return "passed";
+  return verdict == Verdict::failed ? "failed" : "skipped";
+}
+
+bool is_layer(const CheckLine& line)
+{
+  return !std::isnan(line.y0);
+}
+
+std::string description(const CheckLine& line)
+{
+  if (line.quantity.starts_with('/')) return fmt::format("{} {}", line.quantity, line.remark);
+  const auto where =
+      is_layer(line) ? fmt::format(" at y = {:.4g} to {:.4g} m", line.y0, line.y1) : "";
+  return fmt::format("{}{} is {:.3g} (at most {:.3g})", line.quantity, where, line.measured,
+                     line.tolerance);
+}
+
+}  // namespace
+
+std::string CheckReport::failures() const
+{
+  std::vector<std::string> failed;
+  for (const auto& line : lines)
+    if (line.verdict == Verdict::failed) failed.push_back(description(line));
+  return failed.empty() ? "" : fmt::format("beyond tolerance: {}", fmt::join(failed, ", "));
+}
+
+std::string to_tsv(const CheckReport& report)
+{
+  std::string text;
+  for (const auto& [key, value] : report.header) text += fmt::format("# {}: {}\n", key, value);
+  text += "quantity\ty0[m]\ty1[m]\tmeasured\terror\ttolerance\tverdict\tremark\n";
+  for (const auto& line : report.lines)
+    text +=
+        fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", line.quantity, format_number(line.y0),
+                    format_number(line.y1), format_number(line.measured), format_number(line.error),
+                    format_number(line.tolerance), word(line.verdict), line.remark);
+  return text;
+}
+
+std::string to_json(const CheckReport& report)
+{
+  Json all;
+  all["lines"] = Json::array();
+  for (const auto& line : report.lines) {
+    Json object{{"quantity", line.quantity}};
+    if (is_layer(line)) object["layer"] = {line.y0, line.y1};
+    object["measured"] = line.measured;
+    object["error"] = line.error;
+    object["tolerance"] = line.tolerance;
+    object["verdict"] = word(line.verdict);
+    object["remark"] = line.remark;
+    all["lines"].push_back(object);
+  }
+  all["passed"] = report.failures().empty();
+  all["history"] = Json::array();
+  for (const auto& [key, value] : report.header) {
+    if (key == "history")
+      all["history"].push_back(value);
+    else
+      all["settings"][key] = value;
+  }
+  return all.dump(2) + '\n';
+}
+
+}  // namespace grseg

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/cli/provenance.hpp"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+enum class Verdict { passed, failed, skipped };
+
+/// A quantity that was held against a tolerance.
+struct CheckLine {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  std::string quantity;         // "force_balance", or the path inside the file that departs
+  double y0 = none, y1 = none;  // m, of a layer
+  double measured = none;
+  double error = none;  // standard error of `measured`, where it is statistical
+  double tolerance = none;
+  Verdict verdict = Verdict::skipped;
+  std::string remark;  // where the largest value is, or why the check was skipped
+};
+
+/// The output of grseg-check.
+struct CheckReport {
+  Header header;  // provenance and settings
+  std::vector<CheckLine> lines;
+
+  /// One sentence that names every line that failed, or "" if all passed.
+  std::string failures() const;
+};
+
+/// `#` lines, a line of column names, one row per line. Numbers have 17 significant digits.
+std::string to_tsv(const CheckReport& report);
+/// {"lines": [{"quantity", "layer", "measured", ...}, ...], "passed", "settings", "history"}
+std::string to_json(const CheckReport& report);
+
+}  // namespace grseg

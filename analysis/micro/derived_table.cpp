@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/micro/derived_table.hpp"
+
+#include "analysis/micro/pooling.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/length.hpp"
+
+#include <fmt/format.h>
+
+namespace grseg {
+namespace {
+
+std::vector<Table> read_tables(const po::variables_map& values)
+{
+  if (!values.contains("input"))
+    throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
+  std::vector<Table> tables;
+  for (const auto& path : values["input"].as<std::vector<std::string>>())
+    tables.push_back(Table::read(path));
+  return tables;
+}
+
+ForceMeasure measure_of(const DerivedOptions& options)
+{
+  return {
+      choose<ContactForce>(options.force, "--force",
+                           {{"modulus", ContactForce::modulus}, {"normal", ContactForce::normal}}),
+      choose<ForceAverage>(options.average, "--average",
+                           {{"contacts", ForceAverage::contacts}, {"ends", ForceAverage::ends}})};
+}
+
+PartitionRule rule_of(const DerivedOptions& options)
+{
+  using Kind = PartitionRule::Kind;
+  const auto rule = parse_rule(options.partition);
+  if (rule.kind == Kind::contact_point || rule.kind == Kind::power)
+    throw UsageError(fmt::format("--partition {}: grseg-micro knows size, half, drop and uniform:P",
+                                 rule.name()));
+  return rule;
+}
+
+RowFilter filter_of(const DerivedOptions& options, const FrameOptions& frames, LengthUnits units)
+{
+  RowFilter filter;
+  filter.begin = frames.windows.begin.value_or(filter.begin);
+  filter.end = frames.windows.end.value_or(filter.end);
+  filter.heights = parse_heights(options.heights, units);
+  return filter;
+}
+
+void require_same_constants(const Table& first, const Table& other)
+{
+  for (const char* key : {"small_diameter", "large_diameter", "gravity_x", "gravity_y", "density",
+                          "friction", "layer", "composition"})
+    if (first.header_text(key) != other.header_text(key))
+      throw UsageError(fmt::format("{} and {} differ in '{}'; derive from each of them separately",
+                                   first.name, other.name, key));
+}
+
+/// The header of the first table, with the inputs and histories of all.
+Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
+                  const DerivedOptions& options, const std::string& preset,
+                  const std::string& command)
+{
+  Table result;
+  auto& header = result.header;
+  header = {program_line(info), {"preset", preset}};
+  for (const auto& line : header_values(tables, "history")) header.emplace_back("history", line);
+  header.emplace_back("history", command);
+  for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
+  for (const auto& line : settings_of(tables[0]))
+    if (line.first != "preset") header.push_back(line);
+  const std::string depth = options.depth.empty() ? "height of the bed" : options.depth;
+  const std::string heights = options.heights.empty() ? "all" : options.heights;
+  for (const auto& [key, value] : {std::pair{"force", options.force},
+                                   {"average", options.average},
+                                   {"partition", options.partition},
+                                   {"depth", depth},
+                                   {"heights", heights},
+                                   {"pool", options.pool}})
+    header.emplace_back(key, value);
+  return result;
+}
+
+void add_row(Table& table, const SumsRow& row, const std::vector<Cell>& derived)
+{
+  std::vector<Cell> cells{{"t0[s]", row.begin}, {"t1[s]", row.end},     {"y0[m]", row.bottom},
+                          {"y1[m]", row.top},   {"frames", row.frames}, {"V[m^2]", row.volume}};
+  cells.insert(cells.end(), derived.begin(), derived.end());
+  if (table.columns.empty()) table.columns = columns_of(cells);
+  table.rows.push_back(values_of(cells));
+}
+
+}  // namespace
+
+void DerivedOptions::add_to(po::options_description& options)
+{
+  const auto word = [](std::string& place) {
+    return po::value(&place)->default_value(place)->value_name("WORD");
+  };
+  auto add = options.add_options();
+  add("force", word(force),
+      "with --derived: the force of a contact, modulus or normal (its normal part)");
+  add("average", word(average),
+      "with --derived: f_S and f_L are means over contacts (with at least one such grain, each "
+      "counted once) or over ends (contact ends on such grains)");
+  add("partition", word(partition),
+      "with --derived: the large grain's share of a mixed contact in P_S and P_L: size, half, drop "
+      "or uniform:P");
+  add("pool", word(pool),
+      "with --derived: which rows to merge: none, windows (each layer over all windows) or "
+      "composition (layers by phi_L)");
+  add("depth", po::value(&depth)->value_name("LENGTH"),
+      "with --derived: H of the pressure at H - y by which forces are divided (default: height of "
+      "the bed)");
+  add("heights", po::value(&heights)->value_name("y0:y1"),
+      "with --derived: use layers between these heights, e.g. 4dS:56dS or 4dS: (default: all)");
+}
+
+void refuse_options(const po::variables_map& values, const std::vector<const char*>& options,
+                    const char* why)
+{
+  for (const char* option : options)
+    if (values.contains(option) && !values[option].defaulted())
+      throw UsageError(fmt::format("--{} {}", option, why));
+}
+
+void write_derived_table(const ToolInfo& info, const po::variables_map& values,
+                         const DerivedOptions& options, const FrameOptions& frames,
+                         const std::string& command)
+{
+  refuse_options(values,
+                 {"layer", "window", "stride", "threads", "composition", "friction", "unit", "bin",
+                  "distribution"},
+                 "concerns the sums, which the table already holds; leave it out with --derived");
+  const auto pool = choose<Pool>(
+      options.pool, "--pool",
+      {{"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}});
+  DerivedSettings settings{measure_of(options), rule_of(options), 0};
+  const auto tables = read_tables(values);
+  std::vector<SumsRow> rows;
+  for (const auto& table : tables) {
+    const auto more = read_sums_rows(table);
+    require_same_constants(tables[0], table);
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  const auto constants = read_run_constants(tables[0]);
+  const LengthUnits units{constants.small_diameter, constants.large_diameter};
+  if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
+
+  auto table = empty_table(info, tables, options, preset_of(values), command);
+  for (const auto& row : pooled(filtered(std::move(rows), filter_of(options, frames, units)), pool))
+    add_row(table, row, derived_quantities(row, constants, settings));
+  if (table.rows.empty())
+    throw RunError("no row is left; choose another --begin, --end or --heights");
+  write_whole(frames.output, frames.json ? table.to_json() : table.to_text());
+}
+
+}  // namespace grseg

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/micro/pooling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace grseg {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// The sums behind a mean weighted by frames.
+class MergedRow {
+ public:
+  void add(const SumsRow& row)
+  {
+    const double w = row.frames;
+    all_.frames += w;
+    all_.volume += w * row.volume;
+    all_.sums += row.sums * w;
+    all_.heights.large += w * row.heights.large;
+    all_.heights.small += w * row.heights.small;
+    all_.heights.bed += w * row.heights.bed;
+    all_.bed_height += w * row.bed_height;
+    all_.begin = std::min(all_.begin, row.begin);
+    all_.end = std::max(all_.end, row.end);
+    const bool same = rows_ == 0 || (row.bottom == all_.bottom && row.top == all_.top);
+    all_.bottom = same ? row.bottom : nan;
+    all_.top = same ? row.top : nan;
+    ++rows_;
+  }
+
+  SumsRow mean() const
+  {
+    SumsRow row = all_;
+    const double frames = all_.frames;
+    row.volume /= frames;
+    row.sums = all_.sums / frames;
+    row.heights = {all_.heights.large / frames, all_.heights.small / frames,
+                   all_.heights.bed / frames};
+    row.bed_height /= frames;
+    return row;
+  }
+
+ private:
+  std::size_t rows_ = 0;
+  SumsRow all_{.begin = std::numeric_limits<double>::infinity(),
+               .end = -std::numeric_limits<double>::infinity(),
+               .bottom = nan,
+               .top = nan,
+               .frames = 0,
+               .volume = 0,
+               .sums = {},
+               .heights = {0, 0, 0},
+               .bed_height = 0};
+};
+
+/// Rows with the same key are merged; the whole bed has its own, after all layers.
+double pool_key(const SumsRow& row, Pool pool)
+{
+  if (pool == Pool::composition) return std::min(std::floor(10 * row.sums.phi_large()), 9.0);
+  return row.is_bed() ? std::numeric_limits<double>::infinity() : row.bottom;
+}
+
+}  // namespace
+
+std::vector<SumsRow> filtered(std::vector<SumsRow> rows, const RowFilter& filter)
+{
+  std::erase_if(rows, [&](const SumsRow& row) {
+    const double time_slack = 1e-9 * (1 + std::abs(row.begin) + std::abs(row.end));
+    return row.begin < filter.begin - time_slack || row.end > filter.end + time_slack ||
+           !filter.heights.holds(row.bottom, row.top);
+  });
+  return rows;
+}
+
+std::vector<SumsRow> pooled(const std::vector<SumsRow>& rows, Pool pool)
+{
+  if (pool == Pool::none) return rows;
+  std::map<double, MergedRow> merged;
+  for (const auto& row : rows) {
+    if (pool == Pool::composition && (row.is_bed() || std::isnan(row.sums.phi_large()))) continue;
+    merged[pool_key(row, pool)].add(row);
+  }
+  std::vector<SumsRow> result;
+  result.reserve(merged.size());
+  for (const auto& [key, row] : merged) result.push_back(row.mean());
+  return result;
+}
+
+}  // namespace grseg

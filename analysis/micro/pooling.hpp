@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/height_range.hpp"
+#include "analysis/micro/sums_table.hpp"
+
+#include <limits>
+#include <vector>
+
+namespace grseg {
+
+/// Which rows take part: windows in [begin, end] and layers between two heights; the rows of the
+/// whole bed lie at all heights.
+struct RowFilter {
+  double begin = -std::numeric_limits<double>::infinity();  // s
+  double end = std::numeric_limits<double>::infinity();
+  HeightRange heights = {};
+};
+std::vector<SumsRow> filtered(std::vector<SumsRow> rows, const RowFilter& filter);
+
+/// Which rows are merged.
+enum class Pool {
+  none,
+  windows,      ///< each layer, and the whole bed, over all windows and tables
+  composition,  ///< layers of all windows and tables by phi_L, in ten bins of equal width
+};
+/// Means weighted by frames. With `composition` the whole bed's rows and empty layers are left out.
+std::vector<SumsRow> pooled(const std::vector<SumsRow>& rows, Pool pool);
+
+}  // namespace grseg

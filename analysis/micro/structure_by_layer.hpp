@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/bed_heights.hpp"
+#include "analysis/frames/composition.hpp"
+#include "analysis/frames/layers.hpp"
+#include "analysis/micro/structure_sums.hpp"
+#include "formats/core/frame.hpp"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// A contact slides where |f_t| >= (1 - tolerance) mu f_n. The solver leaves sliding contacts at
+/// the Coulomb limit to round-off; the tolerance allows for files in single precision.
+constexpr double sliding_tolerance = 1e-6;
+
+/// Numbers of grains and contacts and the forces of the contacts, by layer and of the whole bed.
+class StructureByLayer {
+ public:
+  /// `friction` is the mu of the Coulomb limit; NaN where it is unknown.
+  StructureByLayer(const Layers& layers, GrainArea area,
+                   double friction = std::numeric_limits<double>::quiet_NaN());
+
+  void add(const Grains& grains, const Frame& frame);
+  void merge(const StructureByLayer& others);
+  std::size_t layers() const { return sums_.size(); }
+  StructureSums mean(std::size_t layer) const;
+  StructureSums mean() const;
+  BedHeights heights() const;
+
+  /// The columns of grseg-micro from area_S on, and the values of a layer and of the whole bed.
+  static std::vector<std::string> columns();
+  std::vector<double> row(std::size_t layer) const;
+  std::vector<double> bed_row() const;
+
+ private:
+  void add_grains(const Grains& grains, const Frame& frame);
+  void add_contacts(const Grains& grains, const Frame& frame);
+  /// Whether a contact slides, as 1 or 0; NaN where friction is unknown.
+  double slides(double f_n, double f_t) const;
+  void add_ends(const Grains& grains, const Frame& frame, std::size_t contact, PairType type);
+
+  Layers layers_;
+  Composition composition_;
+  double friction_;
+  std::size_t frames_ = 0;
+  std::vector<StructureSums> sums_;  // without areas: those are in composition_
+  BedHeights heights_{0, 0, 0};      // sums over frames
+};
+
+}  // namespace grseg

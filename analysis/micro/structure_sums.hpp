@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/cells.hpp"
+#include "analysis/micro/fabric.hpp"
+#include "analysis/stress/partition.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/core/pair_type.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grseg {
+
+enum class ContactForce { modulus, normal };  ///< which force of a contact: |f| or f_n
+enum class ForceAverage {
+  contacts,  ///< over the contacts with at least one such grain, each once (the paper's f_S, f_L)
+  ends,      ///< over the contact ends on such grains: a contact between two of them counts twice
+};
+/// What the mean force of a species is taken of. The paper (Staron & Phillips 2015, section V)
+/// takes moduli over contacts.
+struct ForceMeasure {
+  ContactForce force = ContactForce::modulus;
+  ForceAverage average = ForceAverage::contacts;
+};
+
+/// Contacts of one pair type. Only contacts that bear a force count.
+struct PairSums {
+  double contacts = 0;
+  double force = 0, normal = 0;  // N, sums of |f| and of f_n, repulsion positive
+  double mobilised = 0;          // sum of |f_t|/f_n where f_n > 0
+  double sliding = 0;            // contacts at the Coulomb limit; NaN where friction is unknown
+  double strong = 0;             // contacts with more than the mean f_n of their layer and frame
+  FabricSums fabric;
+  Tensor2 stress = Tensor2::Zero();  // N m, force (x) branch, at the base cut at the contact point
+
+  PairSums& operator+=(const PairSums& others);
+};
+
+/// Grains of one species and the contact ends on them, in the layer of the grain's centre.
+struct SpeciesSums {
+  double area = 0;        // m^2
+  double grains = 0;      // with their centre in the layer
+  double ends = 0;        // all of them, those of base contacts included
+  double mixed_ends = 0;  // of contacts with a grain of the other species
+  double base_ends = 0;   // of contacts with boundary grains and walls
+
+  SpeciesSums& operator+=(const SpeciesSums& others);
+};
+
+/// Grains, contacts and forces in a layer or in the whole bed: sums, as means per frame. Sums of
+/// several layers add up; several windows or runs are merged as means weighted by their frames.
+struct StructureSums {
+  std::array<SpeciesSums, 2> species{};     // S, L
+  std::array<PairSums, pair_types> pair{};  // by PairType, in the layer of the contact point
+  Tensor2 mixed_size = Tensor2::Zero();     // N m, of LS, the large grain's part by size
+  Vec2 base_force = Vec2::Zero();           // N, of the base on the mobile grains
+
+  StructureSums& operator+=(const StructureSums& others);
+  StructureSums operator*(double factor) const;
+  StructureSums operator/(double divisor) const;
+
+  const SpeciesSums& of(Species s) const { return species[static_cast<std::size_t>(s)]; }
+  const PairSums& of(PairType type) const { return pair[static_cast<std::size_t>(type)]; }
+  /// Contacts between mobile grains: SS, LS and LL together.
+  PairSums between_grains() const;
+
+  /// phi_L by area; NaN without grains.
+  double phi_large() const;
+  /// z_S, z_L: contact ends per grain; NaN without grains.
+  double coordination(Species s) const;
+  /// f_S, f_L, N, base contacts included; NaN without contacts.
+  double mean_force(Species s, const ForceMeasure& measure) const;
+  /// N_LS/(N_LL + N_LS + N_SS), as in figure 3c of the paper; base contacts do not count. NaN
+  /// without contacts.
+  double mixed_share() const;
+  /// Contact stresses in the volume of the grains, N/m (eq. 1 of the paper). `rule` is size, half,
+  /// drop or uniform.
+  PartialStress stress(const PartitionRule& rule) const;
+
+  /// The sums with their columns in the table of grseg-micro, from area_S on.
+  std::vector<Cell> cells() const;
+  /// The sums whose cells have these values.
+  static StructureSums from_values(const std::vector<double>& values);
+};
+
+/// Share of mixed contacts in the neutral contact model (see neutral_b), where contact ends are in
+/// proportion to perimeter and pair at random: 2 x_L x_S with x_L = phi_L/(phi_L + r phi_S),
+/// r = d_L/d_S. For r = 2 it is 4 phi_L phi_S/(1 + phi_S)^2, at most 1/2, at phi_L = 2/3.
+double neutral_mixed_share(double phi_large, double size_ratio);
+
+}  // namespace grseg

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/bed_heights.hpp"
+#include "analysis/micro/structure_sums.hpp"
+#include "formats/cli/table.hpp"
+
+#include <vector>
+
+/// The table of sums that grseg-micro writes, read again by grseg-micro --derived.
+namespace grseg {
+
+/// A row of the table, or several merged; y0 = y1 = NaN for the whole bed and where different
+/// layers were merged.
+struct SumsRow {
+  double begin, end;   // s
+  double bottom, top;  // m
+  double frames;
+  double volume;  // m^2
+  StructureSums sums;
+  BedHeights heights;  // means per frame; NaN in layers
+  double bed_height;   // m, of the whole bed in the same window
+
+  bool is_bed() const { return heights.bed == heights.bed; }
+};
+
+/// Constants of the run, from the header of the table.
+struct RunConstants {
+  double small_diameter, large_diameter;  // m, nominal
+  double gravity_x, gravity_y;            // m/s^2
+  double density, friction;               // kg/m^2 and 1; NaN where unknown
+};
+
+/// FormatError where a line is missing or its value is not a number; density and friction may be
+/// "unknown".
+RunConstants read_run_constants(const Table& table);
+/// FormatError, naming the place, where a column is missing or a number is not finite that must be.
+std::vector<SumsRow> read_sums_rows(const Table& table);
+
+}  // namespace grseg

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/provenance.hpp"
+
+#include "formats/core/version.hpp"
+#include "formats/trajectory/digest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace grseg {
+
+HeaderLine program_line(const ToolInfo& info)
+{
+  return {"program", fmt::format("{} {}", info.name, version())};
+}
+
+Header provenance(const ToolInfo& info, const std::string& preset, const TrajectoryReader& run,
+                  const std::string& command)
+{
+  Header header{program_line(info)};
+  if (!info.presets.empty()) header.emplace_back("preset", preset);
+  std::istringstream history(run.parameters().text("history"));
+  for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
+  header.emplace_back("history", command);
+  header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run.digest())));
+  return header;
+}
+
+std::vector<std::string> header_values(const Table& table, const std::string& key)
+{
+  std::vector<std::string> values;
+  for (const auto& [known, value] : table.header)
+    if (known == key) values.push_back(value);
+  return values;
+}
+
+std::vector<std::string> header_values(const std::vector<Table>& tables, const std::string& key)
+{
+  std::vector<std::string> values;
+  for (const auto& table : tables)
+    for (const auto& value : header_values(table, key))
+      if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  return values;
+}
+
+std::string header_or(const Table& table, const std::string& key, const std::string& otherwise)
+{
+  const auto values = header_values(table, key);
+  return values.empty() ? otherwise : values.front();
+}
+
+Header settings_of(const Table& table)
+{
+  Header settings = table.header;
+  std::erase_if(settings, [](const HeaderLine& line) {
+    return line.first == "program" || line.first == "history" || line.first == "input";
+  });
+  return settings;
+}
+
+}  // namespace grseg

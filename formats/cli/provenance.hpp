@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/cli/table.hpp"
+#include "formats/cli/tool.hpp"
+#include "formats/trajectory/reader.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Where a table comes from: the "# key: value" lines that every table begins with.
+///
+///   program   the tool that made the table, and its version
+///   preset    what --preset was given; only of tools that have presets
+///   history   one line per command that led here, the oldest first, this tool's own last
+///   input     digest of the content of each run the table was made of
+namespace grseg {
+
+using HeaderLine = std::pair<std::string, std::string>;
+using Header = std::vector<HeaderLine>;
+
+/// The line "program", e.g. "grseg-stress 0.1.0".
+HeaderLine program_line(const ToolInfo& info);
+
+/// The lines above, in that order, of a table made of one run by `command`. `preset` as returned by
+/// preset_of.
+Header provenance(const ToolInfo& info, const std::string& preset, const TrajectoryReader& run,
+                  const std::string& command);
+
+/// The values of all lines `key` of one table, or of several tables each value once, in order.
+std::vector<std::string> header_values(const Table& table, const std::string& key);
+std::vector<std::string> header_values(const std::vector<Table>& tables, const std::string& key);
+
+/// The first line `key` of a table, or `otherwise` where there is none.
+std::string header_or(const Table& table, const std::string& key, const std::string& otherwise);
+
+/// The lines that say how a table was made (preset and settings), rather than of what.
+Header settings_of(const Table& table);
+
+}  // namespace grseg

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// contact_law.hpp for as many pairs at a time as a vector has lanes. A function here does what the
+// one of the same name does there, operation by operation: to change the law, change both.
+// Compiled once per instruction set, by files that include themselves so (hwy/foreach_target.h).
+#if defined(GRSEG_SIM_CONTACT_LAW) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRSEG_SIM_CONTACT_LAW
+#undef GRSEG_SIM_CONTACT_LAW
+#else
+#define GRSEG_SIM_CONTACT_LAW
+#endif
+
+#include "sim/contact/contact_law.hpp"
+#include "sim/contact/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace grseg {
+namespace HWY_NAMESPACE {
+namespace {
+
+using Mask = hn::Mask<D>;
+
+HWY_INLINE Mask acts(Vector dx, Vector dy, Vector reach, Vector margin)
+{
+  const auto squared = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+  const auto limit = hn::Add(reach, margin);
+  return hn::Le(squared, hn::Mul(limit, limit));
+}
+
+struct Normals {
+  Vector nx, ny, distance;
+};
+
+/// Where `used` is false the normal is anything finite.
+HWY_INLINE Normals normal_of_discs(Vector dx, Vector dy, Mask used)
+{
+  const D d;
+  const auto distance = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
+  const auto one = hn::Set(d, 1.0);
+  const auto inverse = hn::Div(one, hn::IfThenElse(used, distance, one));
+  return {hn::Mul(dx, inverse), hn::Mul(dy, inverse), distance};
+}
+
+HWY_INLINE Normals normal_of_wall(Vector dx, Vector dy, Vector nx, Vector ny)
+{
+  return {nx, ny, hn::Add(hn::Mul(dx, nx), hn::Mul(dy, ny))};
+}
+
+HWY_INLINE Vector tangential_mass(Vector normal_mass, Vector kappa, double rim_factor)
+{
+  const D d;
+  const auto lever = hn::Mul(hn::Set(d, rim_factor), hn::Mul(kappa, kappa));
+  return hn::Div(normal_mass, hn::Add(hn::Set(d, 1.0), lever));
+}
+
+HWY_INLINE Vector approach_of(Vector separation)
+{
+  return hn::Max(hn::Neg(separation), hn::Zero(D()));
+}
+
+struct Rebounds {
+  Vector velocity, remembered;
+};
+
+/// Without `with_restitution` as for e = 0, without `with_horizon` as for horizon 0.
+template <bool with_restitution, bool with_horizon>
+HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector impulse_n, Vector remembered,
+                               double restitution, double horizon)
+{
+  const D d;
+  const auto zero = hn::Zero(d);
+  auto approach = approach_of(separation);
+  if constexpr (with_horizon) approach = hn::Max(approach, remembered);
+  const auto newton = with_restitution ? hn::Mul(hn::Set(d, restitution), approach) : zero;
+  if constexpr (!with_horizon) return {newton, zero};
+  const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, horizon));
+  const auto slowed_down_now = hn::AndNot(hn::Gt(remembered, zero), hn::Gt(gap, zero));
+  const auto newcomer = hn::And(hn::Eq(impulse_n, zero), hn::Lt(separation, closing));
+  return {hn::IfThenElse(slowed_down_now, closing, newton),
+          hn::IfThenElseZero(hn::And(slowed_down_now, newcomer), approach)};
+}
+
+/// Adds the impulse (px, py) to a and takes it from b; `spin` is taken from both.
+template <Effects with>
+HWY_INLINE void push(Bodies& a, Bodies& b, Vector px, Vector py, Vector spin)
+{
+  if constexpr (with.friction && with.rotation) {
+    a.rim_speed = hn::Sub(a.rim_speed, hn::Mul(a.inverse_mass, spin));
+    b.rim_speed = hn::Sub(b.rim_speed, hn::Mul(b.inverse_mass, spin));
+  }
+  a.vx = hn::Add(a.vx, hn::Mul(a.inverse_mass, px));
+  a.vy = hn::Add(a.vy, hn::Mul(a.inverse_mass, py));
+  b.vx = hn::Sub(b.vx, hn::Mul(b.inverse_mass, px));
+  b.vy = hn::Sub(b.vy, hn::Mul(b.inverse_mass, py));
+}
+
+/// Relaxes the lanes of a block that begin at `lane`, whose bodies are a and b.
+/// `results.add(lane, change, level)` is given the changes, m/s, and W times the impulses, m/s.
+template <Effects with, class Results>
+HWY_INLINE void relax(ContactBlock& c, std::size_t lane, Bodies& a, Bodies& b, Vector friction,
+                      Results& results)
+{
+  const D d;
+  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
+  const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
+  const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
+
+  auto excess = hn::Add(hn::Mul(dvx, nx), hn::Mul(dvy, ny));
+  if constexpr (with.restitution) excess = hn::Sub(excess, hn::Load(d, &c.rebound[lane]));
+  const auto before_n = hn::Load(d, &c.impulse_n[lane]);
+  const auto impulse_n =
+      hn::Max(hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess)), hn::Zero(d));
+  hn::Store(impulse_n, d, &c.impulse_n[lane]);
+  const auto change_n = hn::Sub(impulse_n, before_n);
+  results.add(lane, hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn));
+
+  auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
+  if constexpr (with.friction) {
+    auto sliding = hn::Sub(hn::Mul(dvy, nx), hn::Mul(dvx, ny));
+    auto w_tt = w_nn;
+    const auto kappa = hn::Load(d, &c.kappa[lane]);
+    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), kappa);
+    if constexpr (with.rotation) {
+      sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
+      w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, 1.0), hn::Mul(lever, kappa)));
+    }
+    const auto limit = hn::Mul(friction, impulse_n);
+    const auto before_t = hn::Load(d, &c.impulse_t[lane]);
+    const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_t[lane]), sliding));
+    const auto impulse_t = hn::Min(hn::Max(sticking, hn::Neg(limit)), limit);
+    hn::Store(impulse_t, d, &c.impulse_t[lane]);
+    const auto change_t = hn::Sub(impulse_t, before_t);
+    px = hn::Sub(px, hn::Mul(change_t, ny));
+    py = hn::Add(py, hn::Mul(change_t, nx));
+    if constexpr (with.rotation) spin = hn::Mul(lever, change_t);
+    results.add(lane, hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt));
+  }
+  push<with>(a, b, px, py, spin);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace grseg
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/neighbours/completeness.hpp"
+
+#include "sim/contact/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grseg {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::int32_t columns_per_group = 3;
+
+void add(Extent& extent, const Extent& other)
+{
+  extent.low = extent.low.cwiseMin(other.low);
+  extent.high = extent.high.cwiseMax(other.high);
+}
+
+Extent nothing()
+{
+  return {Vec2::Constant(infinity), Vec2::Constant(-infinity)};
+}
+
+bool empty(const Extent& extent)
+{
+  return extent.low.x() > extent.high.x();
+}
+
+/// The least that any displacement within `extent` leads along `direction`; infinity for none.
+double least_along(const Extent& extent, const Vec2& direction)
+{
+  if (empty(extent)) return infinity;
+  return std::min(extent.low.x() * direction.x(), extent.high.x() * direction.x()) +
+         std::min(extent.low.y() * direction.y(), extent.high.y() * direction.y());
+}
+
+}  // namespace
+
+Completeness::Completeness(const std::vector<Wall>& walls, const Box& box, double cell, double skin,
+                           double margin, int threads)
+    : walls_(walls),
+      periodic_(box.periodic_x),
+      cell_(cell),
+      skin_(skin),
+      slack_(skin - margin),
+      threads_(threads)
+{
+}
+
+void Completeness::begin(const CellGrid& grid, const GrainState& grains,
+                         const std::vector<Vec2>& made_at)
+{
+  age_ = 0;
+  column_width_ = grid.column_width();
+  make_groups(grid);
+  for_each_part(threads_, walls_.empty() ? 0 : groups_.size(),
+                [&](std::size_t group) { find_unlisted(group, grains, made_at); });
+}
+
+void Completeness::make_groups(const CellGrid& grid)
+{
+  bands_ = static_cast<std::size_t>(grid.bands());
+  first_group_.assign(1, 0);
+  std::vector<std::int32_t> first_column;
+  least_columns_ = grid.columns();
+  for (std::size_t s = 0; s < grid.strips(); ++s) {
+    const auto begin = grid.first_column(s), columns = grid.first_column(s + 1) - begin;
+    const auto count = std::max(columns / columns_per_group, 1);
+    for (std::int32_t g = 0; g < count; ++g) first_column.push_back(begin + g * columns / count);
+    first_group_.push_back(first_column.size());
+    least_columns_ = std::min(least_columns_, columns / count);
+  }
+  first_column.push_back(grid.columns());
+  groups_.clear();
+  for (std::int32_t band = 0; band < grid.bands(); ++band)
+    for (std::size_t g = 0; g + 1 < first_column.size(); ++g)
+      groups_.push_back(grid.bodies(first_column[g], first_column[g + 1] - 1, band));
+  moved_.resize(groups_.size());
+  band_moved_.resize(bands_);
+  moved_in_band_.resize(bands_);
+  unlisted_nearest_.assign(walls_.size() * groups_.size(), infinity);
+}
+
+void Completeness::find_unlisted(std::size_t group, const GrainState& grains,
+                                 const std::vector<Vec2>& made_at)
+{
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    auto& nearest = unlisted_nearest_[w * groups_.size() + group];
+    for (auto b = groups_[group].begin; b < groups_[group].end; ++b) {
+      if (!(grains.motion[b].inverse_mass > 0)) continue;
+      const double gap = distance_to(walls_[w], made_at[b]) - grains.radius[b];
+      if (gap > skin_) nearest = std::min(nearest, gap);
+    }
+  }
+}
+
+bool Completeness::holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position)
+{
+  ++age_;
+  const std::size_t across = first_group_.back();
+  for_each_part(threads_, bands_, [&](std::size_t band) {
+    measure_displacements(made_at, position, std::span(groups_).subspan(band * across, across),
+                          std::span(moved_).subspan(band * across));
+  });
+  for_each_part(threads_, bands_, [&](std::size_t band) { measure_neighbours(band); });
+  neighbours_moved_ = *std::max_element(moved_in_band_.begin(), moved_in_band_.end());
+  return neighbours_moved_ <= slack_ && bands_stay_apart() && walls_stay_away();
+}
+
+double Completeness::moved_in_a_step() const
+{
+  if (age_ != 1) return 0;
+  if (neighbours_moved_ > slack_) return neighbours_moved_;
+  if (bands_stay_apart()) return 0;
+  auto all = nothing();
+  for (const auto& band : band_moved_) add(all, band);
+  return (all.high - all.low).norm();
+}
+
+/// Any two neighbouring groups lie in a square of two by two.
+void Completeness::measure_neighbours(std::size_t band)
+{
+  const std::size_t across = first_group_.back();
+  const auto* here = &moved_[band * across];
+  const auto* above = band + 1 < bands_ ? here + across : here;
+  band_moved_[band] = nothing();
+  double squared = 0;
+  for (std::size_t g = 0; g < across; ++g) {
+    const std::size_t next = g + 1 < across ? g + 1 : periodic_ ? 0 : g;
+    auto square = here[g];
+    add(band_moved_[band], square);
+    for (const auto& other : {here[next], above[g], above[next]}) add(square, other);
+    if (!empty(square)) squared = std::max(squared, (square.high - square.low).squaredNorm());
+  }
+  moved_in_band_[band] = std::sqrt(squared);
+}
+
+/// Groups that are not neighbours are a band or a group apart, and may move by that much more.
+bool Completeness::bands_stay_apart() const
+{
+  const double group_width = least_columns_ * column_width_;
+  const bool all_are_neighbours = first_group_.back() <= (periodic_ ? 3 : 2);
+  auto below = nothing(), here = nothing();
+  double highest = -infinity;  // of bands two or more below, less the height in between
+  for (const auto& band : band_moved_) {
+    highest = std::max(highest - cell_, below.high.y());
+    below = here;
+    here = band;
+    if (empty(here)) continue;
+    if (!(highest - here.low.y() <= slack_)) return false;
+    auto both = here;
+    add(both, below);
+    if (!all_are_neighbours && !(both.high.x() - both.low.x() <= group_width - cell_ + slack_))
+      return false;
+  }
+  return true;
+}
+
+bool Completeness::walls_stay_away() const
+{
+  const double margin = skin_ - slack_;
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      if (!(unlisted_nearest_[w * groups_.size() + g] + least_along(moved_[g], walls_[w].normal) >
+            margin))
+        return false;
+  return true;
+}
+
+}  // namespace grseg

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/neighbours/grain_state.hpp"
+
+#include <vector>
+
+/// Bodies between impulses. Durations in s.
+namespace grseg {
+
+/// Moves all bodies on by `duration`.
+void move_bodies(double duration, GrainState& grains, int threads);
+
+/// Moves all bodies on by `duration`; `ahead` becomes where they would be `onward` later still, m.
+void move_bodies(double duration, double onward, GrainState& grains, std::vector<Vec2>& ahead,
+                 int threads);
+
+/// Where all bodies would be `onward` later, m.
+void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,
+                        int threads);
+
+/// Adds `change`, m/s, to the velocities of all mobile grains.
+void accelerate(const Vec2& change, GrainState& grains, int threads);
+
+/// Brings x of all grains into [0, length), m, and counts the periods in GrainState::image.
+void wrap_positions(double length, GrainState& grains, int threads);
+
+}  // namespace grseg

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/step/snapshot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+/// A contact as files name it: i < j, but where j does not move; a wall is -1 minus its number.
+struct NamedContact {
+  std::int32_t i, j;
+  bool turned;  // i and j are exchanged
+  const ContactBlock* block;
+  const BlockOrigin* origin;
+  std::size_t lane;
+
+  bool operator<(const NamedContact& other) const
+  {
+    return i != other.i ? i < other.i : j < other.j;
+  }
+};
+
+std::int32_t name_of_wall(const Pairs& pairs, std::size_t pair)
+{
+  for (const auto& c : pairs.classes)
+    if (c.begin <= pair && pair < c.end) return -c.wall - 1;
+  return -1;
+}
+
+void write_positions(const SolvedStep& s, Frame& frame)
+{
+  const std::size_t count = s.grains.size();
+  frame.step = s.steps_done;
+  frame.position.resize(count);
+  frame.image.resize(count);
+  frame.time = (static_cast<double>(frame.step) + 0.5) * s.world.step;
+  for (std::size_t g = 0; g < count; ++g) {
+    frame.position[g] = s.grains.position[s.body_of[g]];
+    frame.image[g] = {s.grains.image[s.body_of[g]], 0};
+  }
+  if (!s.world.box.periodic_x) return;
+  const double length = s.world.box.length_x;
+  for (std::size_t g = 0; g < count; ++g) {
+    double& x = frame.position[g].x();
+    double periods = std::floor(x / length);
+    x -= periods * length;
+    if (x >= length) {  // a tiny negative x rounds up to the period itself
+      x = 0;
+      ++periods;
+    }
+    frame.image[g][0] += static_cast<std::int32_t>(periods);
+  }
+}
+
+void write_contacts(const SolvedStep& s, ContactList& list)
+{
+  const auto& pairs = s.pairs;
+  const auto row_of = [&](std::uint32_t twice) { return s.grains.row[twice / 2]; };
+  std::vector<NamedContact> names;
+  for (const auto& strip : s.contacts) {
+    for (std::size_t slot = 0; slot < strip.size * block_lanes; ++slot) {
+      const auto& block = strip.blocks[slot / block_lanes];
+      const auto& origin = strip.origins[slot / block_lanes];
+      const std::size_t lane = slot % block_lanes;
+      const std::size_t k = origin.pair[lane] / 2;
+      if (k == pairs.size()) continue;
+      const bool at_wall = pairs.j[k] / 2 == s.grains.immobile();
+      const std::int32_t i = row_of(pairs.i[k]),
+                         j = at_wall ? name_of_wall(pairs, k) : row_of(pairs.j[k]);
+      const bool turned = !at_wall && j < i && !s.world.grains.fixed[static_cast<std::size_t>(j)];
+      names.push_back({turned ? j : i, turned ? i : j, turned, &block, &origin, lane});
+    }
+  }
+  std::sort(names.begin(), names.end());
+  list.clear();
+  list.reserve(names.size());
+  for (const auto& [i, j, turned, block, origin, lane] : names) {
+    const double sign = turned ? -1 : 1, gap = origin->gap[lane];
+    const Vec2 normal{sign * block->nx[lane], sign * block->ny[lane]};
+    const Vec2 tangent{-normal.y(), normal.x()};
+    list.i.push_back(i);
+    list.j.push_back(j);
+    list.force.push_back((block->impulse_n[lane] * normal + block->impulse_t[lane] * tangent) /
+                         s.world.step);
+    list.branch.push_back((pairs.geometry[origin->pair[lane] / 2].reach + gap) * normal);
+    list.gap.push_back(gap);
+  }
+}
+
+void write_motion(const SolvedStep& s, Frame& frame)
+{
+  const std::size_t count = s.grains.size();
+  frame.velocity.resize(count);
+  frame.angular_velocity.resize(count);
+  frame.force.resize(count);
+  for (std::size_t g = 0; g < count; ++g) {
+    const auto& motion = s.grains.motion[s.body_of[g]];
+    const Vec2 velocity(motion.vx, motion.vy);
+    frame.velocity[g] = velocity;
+    frame.angular_velocity[g] = motion.rim_speed / s.world.grains.radius[g];
+    const Vec2 change = velocity - Vec2(s.before[g].vx, s.before[g].vy);
+    frame.force[g] = s.world.grains.mass[g] * change / s.world.step;
+  }
+}
+
+}  // namespace
+
+void write_frame(const SolvedStep& step, Frame& frame)
+{
+  write_positions(step, frame);
+  write_contacts(step, frame.contacts);
+  write_motion(step, frame);
+}
+
+}  // namespace grseg

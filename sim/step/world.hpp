@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+#include "sim/contact/contact_law.hpp"
+#include "sim/neighbours/pair_list.hpp"
+#include "sim/solver/boundary_body.hpp"
+#include "sim/solver/solver.hpp"
+
+#include <vector>
+
+namespace grseg {
+
+/// Everything that stays the same while a simulation runs.
+struct World {
+  Grains grains;
+  std::vector<Wall> walls;
+  std::vector<BoundaryBody> bodies;  // of boundary grains that move
+  Box box;
+  Material material;
+  bool rotation = true;
+  Vec2 gravity = Vec2::Zero();  // m/s^2, of the last step where the slope turns
+  double step = 0;              // h, s
+  SolverSettings solver;
+  LawParameters law;
+  double skin = 0;  // m, more than margin, of the pair list; 0 chooses half the smallest diameter
+  int threads = 1;  // results do not depend on it
+  /// Friction, restitution and periodicity are computed even where the world has none: the same
+  /// bytes for more time, for measurements and tests.
+  bool general = false;
+};
+
+}  // namespace grseg

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/balance/summary.hpp"
+#include "analysis/balance/table.hpp"
+#include "tests/analysis/grain_builder.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double step = 1e-3;
+const Vec2 gravity(0, -9);
+const Layers unit_layers(1, 10);
+const Kernel narrow(KernelShape::lucy, 0.3);
+
+/// Two columns of discs of radius 1/2 side by side on the base, one of large grains by name and one
+/// of small. Something presses on the large column with `load` times the weight of a grain.
+Scene columns(int count, double load)
+{
+  const double weight = 9 * pi / 4;
+  Scene scene;
+  for (const auto species : {Species::large, Species::small}) {
+    const double x = species == Species::large ? 2 : 6;
+    const auto base = scene.grain(Species::boundary, 0.5, {x, -0.5});
+    for (int n = 0; n < count; ++n) {
+      scene.grain(species, 0.5, {x, n + 0.5});
+      const double above = count - n + (species == Species::large ? load : 0);
+      scene.contact(base + n + 1, base + n, {0, above * weight});
+    }
+  }
+  // From above: a wall whose contact point lies at the top of the large column.
+  scene.wall_contact(count, 1, {0, -load * weight}, {0, -0.5});
+  scene.frame.force.assign(scene.grains.size(), {0, 0});
+  return scene;
+}
+
+/// A contact that is not balanced by others: it moves both grains.
+void push_apart(Scene& scene, std::int32_t i, std::int32_t j, const Vec2& force)
+{
+  scene.contact(i, j, force);
+  scene.frame.force[static_cast<std::size_t>(i)] += force;
+  scene.frame.force[static_cast<std::size_t>(j)] -= force;
+}
+
+MomentumBalance balance_of(const std::vector<Scene>& frames, const Kernel& kernel = narrow)
+{
+  MomentumBalance balance(unit_layers, kernel, gravity, step);
+  for (const auto& scene : frames) balance.add(scene.grains, scene.frame);
+  return balance;
+}
+
+/// Two frames of the same, a second apart.
+MomentumBalance balance_of(const Scene& scene)
+{
+  Scene later = scene;
+  later.frame.time = 1;
+  return balance_of(std::vector{scene, later});
+}
+
+double cell(const MomentumBalance& balance, std::size_t layer, const std::string& column)
+{
+  const auto columns = balance_columns();
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (columns[c].substr(0, columns[c].find('[')) == column) return balance_row(balance, layer)[c];
+  ADD_FAILURE() << "no column " << column;
+  return 0;
+}
+
+TEST(DrivingForces, ColumnsOfEqualWeightPushNeitherWay)
+{
+  const auto balance = balance_of(columns(10, 0));
+  for (std::size_t n = 0; n < 10; ++n) {
+    const auto of = driving_forces(balance, n);
+    EXPECT_NEAR(of.phi, 0.5, 1e-14);
+    EXPECT_NEAR(of.b, 0, 1e-13);
+    EXPECT_NEAR(of.push, 0, 1e-13);
+  }
+}
+
+// In layer n each column has the weight 10 - n - 1/2 above its middle, the large one the load too:
+// psi = (w + p)/(2 w + p). The mixture's stress falls by its weight per height, 2 (9 pi/4)/V.
+TEST(DrivingForces, ASpeciesThatBearsMoreThanItsShareIsPushedUpwards)
+{
+  constexpr double load = 3;
+  const auto balance = balance_of(columns(10, load));
+  for (std::size_t n = 0; n < 9; ++n) {  // in the last one the load is not a stress from above
+    const auto of = driving_forces(balance, n);
+    const double above = 9.5 - static_cast<double>(n);
+    const double psi = (above + load) / (2 * above + load);
+    const double weight = 2 * 9 * pi / 4 / unit_layers.volume(0);
+    EXPECT_NEAR(of.psi, psi, 1e-13);
+    EXPECT_NEAR(of.b, 4 * (psi - 0.5), 1e-12);
+    EXPECT_NEAR(of.push, (psi - 0.5) * weight, 1e-12);
+    EXPECT_NEAR(of.drag, -of.push, 1e-12);  // nothing moves
+    EXPECT_NEAR(of.scatter, 0, 1e-12);
+    // Columns that do not touch have no interaction to drag with: the spread makes up for it.
+    EXPECT_NEAR(of.spread, of.push, 1e-12);
+  }
+}
+
+// Large grains at rest among small ones that come through the bottom of the layer: psi_K = 0, and
+// what flows in through the edge, m v_y^2 psi(0) each, is -K'.
+TEST(DrivingForces, ASpeciesThatFluctuatesLessIsPushedTowardsTheHotSide)
+{
+  constexpr double w = 0.2, speed = 0.5;
+  const Kernel box(KernelShape::heaviside, w);
+  MomentumBalance balance(unit_layers, box, {}, step);
+  Scene scene;
+  scene.grain(Species::large, 0.1, {2, 1.5});
+  for (const double sign : {-1, 1}) scene.grain(Species::small, 0.1, {4, 1.05}, {0, sign * speed});
+  scene.frame.force.assign(3, {0, 0});
+  balance.add(scene.grains, scene.frame);
+  const auto of = driving_forces(balance, 1);
+  const double mass = pi / 100, in = 2 * mass * speed * speed / (2 * w) / unit_layers.volume(0);
+  EXPECT_NEAR(of.phi, 1 / (1 + 2 * 0.625), 1e-14);
+  EXPECT_EQ(of.psi_kinetic, 0);
+  EXPECT_NEAR(of.b_kinetic, -1 / (1 - of.phi), 1e-13);
+  EXPECT_NEAR(of.push_kinetic, -of.phi * in, 1e-12);
+  EXPECT_TRUE(std::isnan(of.psi));  // no contact stress to share
+  EXPECT_EQ(of.push, 0);
+}
+
+TEST(DrivingForces, TheInteractionIsSpreadDragAndScatter)
+{
+  auto scene = columns(10, 2);
+  for (std::int32_t n = 1; n <= 10; ++n) push_apart(scene, n, n + 11, {-0.1 * n, 0.3 * n - 1});
+  for (std::size_t g = 0; g < scene.grains.size(); ++g)
+    if (scene.grains.fixed[g] == 0)
+      scene.frame.velocity[g] = {0.1, 0.3 * static_cast<double>(g % 7) - 1};
+  auto later = scene;
+  later.frame.time = 2;
+  for (auto& velocity : later.frame.velocity) velocity *= 1.5;
+  const auto balance = balance_of({scene, later}, Kernel(KernelShape::gauss, 0.4));
+  for (std::size_t n = 0; n < 10; ++n) {
+    const auto of = driving_forces(balance, n);
+    const auto small = balance.mean(n, Species::small), large = balance.mean(n, Species::large);
+    const double change_large = balance.change(n, Species::large).y();
+    const double change =
+        change_large - of.phi * (change_large + balance.change(n, Species::small).y());
+    EXPECT_GT(std::abs(large.interaction.y()), 1e-3);
+    EXPECT_GT(std::abs(of.push_kinetic), 1e-6);
+    EXPECT_GT(std::abs(change), 1e-5);
+    EXPECT_NEAR(of.spread + of.spread_kinetic + of.drag + of.scatter, large.interaction.y(), 1e-11);
+    EXPECT_NEAR(of.push + of.push_kinetic + of.drag, change, 1e-12);
+    EXPECT_NEAR(of.drag, -of.drag_rate() * of.drift, 1e-14);
+    EXPECT_NEAR(of.drift, (1 - of.phi) * large.momentum.y() - of.phi * small.momentum.y(), 1e-14);
+  }
+}
+
+TEST(DrivingForces, ALayerOfOneSpeciesHasNoDrivingForces)
+{
+  Scene scene;
+  scene.grain(Species::small, 0.5, {1, 0.5});
+  scene.frame.force.assign(1, {0, 0});
+  const auto of = driving_forces(balance_of(scene), 0);
+  for (const double force : {of.phi, of.b, of.b_kinetic, of.drag, of.scatter, of.drift})
+    EXPECT_TRUE(std::isnan(force));
+}
+
+TEST(BalanceTable, ColumnsAndNumbersAgree)
+{
+  const auto balance = balance_of(columns(10, 3));
+  EXPECT_EQ(balance_columns().size(), balance_row(balance, 0).size());
+  const auto large = balance.mean(2, Species::large);
+  EXPECT_EQ(cell(balance, 2, "rho_L"), large.density);
+  EXPECT_EQ(cell(balance, 2, "Sc_L_yy"), large.contact_stress(1, 1));
+  EXPECT_EQ(cell(balance, 2, "gravity_L_y"), large.gravity.y());
+  EXPECT_EQ(cell(balance, 0, "base_S_y"), balance.mean(0, Species::small).base.y());
+  EXPECT_EQ(cell(balance, 2, "residual_L_y"), large.residual().y());
+  EXPECT_EQ(cell(balance, 2, "push"), driving_forces(balance, 2).push);
+}
+
+// Two grains of one mass that part: mean velocity (2, 0), fluctuations (0.3, 0.4) and opposite.
+TEST(BalanceTable, KineticStressCountsFromTheMeanOfBothSpecies)
+{
+  Scene scene;
+  scene.grain(Species::small, 0.1, {1, 0.5}, {2.3, 0.4});
+  scene.grain(Species::large, 0.1, {2, 0.5}, {1.7, -0.4});
+  scene.frame.force.assign(2, {0, 0});
+  const auto balance = balance_of(scene);
+  const double density = pi / 100 / unit_layers.volume(0);
+  for (const std::string species : {"S", "L"}) {
+    EXPECT_NEAR(cell(balance, 0, "Sk_" + species + "_xx"), 0.09 * density, 1e-15);
+    EXPECT_NEAR(cell(balance, 0, "Sk_" + species + "_xy"), 0.12 * density, 1e-15);
+    EXPECT_NEAR(cell(balance, 0, "Sk_" + species + "_yy"), 0.16 * density, 1e-15);
+  }
+}
+
+// Layers 2 to 7 are two diameters away from base and surface.
+TEST(BalanceSummary, SaysWhichWayLargeGrainsArePushedInUnitsOfTheirWeight)
+{
+  BalanceSummary summary(unit_layers, 1);
+  EXPECT_EQ(summary.sentence(), "the balances close to 0.0e+00 of the largest term of each");
+  double sum = 0, squares = 0;
+  for (const double load : {2, 3, 4}) {
+    summary.add(balance_of(columns(10, load)));
+    double parts = 0;
+    for (int n = 2; n < 8; ++n) parts += 2 * ((9.5 - n + load) / (2 * (9.5 - n) + load) - 0.5) / 6;
+    sum += parts;
+    squares += parts * parts;
+  }
+  const double mean = sum / 3, error = std::sqrt((squares / 3 - mean * mean) / 2);
+  const auto expected = fmt::format("are pushed up by {:.2g} +- {:.1g} by contact", mean, error);
+  EXPECT_NE(summary.sentence().find(expected), std::string::npos) << summary.sentence();
+  // Nothing moves, so drag balances the push.
+  const auto drag = fmt::format("and down by {:.2g} +- {:.1g} by drag", mean, error);
+  EXPECT_NE(summary.sentence().find(drag), std::string::npos) << summary.sentence();
+}
+
+TEST(BalanceSummary, APushWithinTwoStandardErrorsIsNeitherWay)
+{
+  BalanceSummary summary(unit_layers, 1);
+  summary.add(balance_of(columns(10, 3)));
+  summary.add(balance_of(columns(10, -3)));
+  EXPECT_NE(summary.sentence().find("pushed neither way ("), std::string::npos)
+      << summary.sentence();
+}
+
+TEST(BalanceSummary, ReportsTheLargestResidualOverItsLargestTerm)
+{
+  auto scene = columns(10, 0);
+  push_apart(scene, 4, 15, {-9 * pi / 8, 0});
+  scene.frame.force[4].y() += 9 * pi / 4 * 0.01;  // at the middle of layer 3, where 1 is its weight
+  BalanceSummary summary(unit_layers, 1);
+  summary.add(balance_of(scene));
+  EXPECT_EQ(summary.sentence(), "the balances close to 1.0e-02 of the largest term of each");
+}
+
+}  // namespace
+}  // namespace grseg

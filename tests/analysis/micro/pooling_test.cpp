@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/micro/pooling.hpp"
+
+#include "tests/analysis/micro/sums_rows.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+TEST(Pooling, WindowsArePooledAsMeansWeightedByTheirFrames)
+{
+  auto later = layer(0.5);
+  later.begin = 1;
+  later.end = 2;
+  later.frames = 30;
+  later.sums = layer(0.5).sums * 3;
+  const auto rows = pooled({layer(0.5), later, bed_of_height(20, 0)}, Pool::windows);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].frames, 40);
+  EXPECT_EQ(rows[0].begin, 0);
+  EXPECT_EQ(rows[0].end, 2);
+  EXPECT_EQ(rows[0].bottom, 4);
+  EXPECT_EQ(rows[0].volume, 125);
+  EXPECT_NEAR(rows[0].sums.of(Species::small).ends, 2.5 * layer(0.5).sums.of(Species::small).ends,
+              1e-11);
+  EXPECT_NEAR(rows[0].sums.coordination(Species::small), 4, 1e-13);
+  EXPECT_TRUE(rows[1].is_bed());
+}
+
+TEST(Pooling, LayersOfLikeCompositionArePooledAndTheBedLeftOut)
+{
+  auto empty = layer(0.5);
+  empty.sums = {};
+  const auto rows = pooled(
+      {layer(0.51), layer(0.35), layer(0.59), layer(1), layer(0.95), empty, bed_of_height(20, 0)},
+      Pool::composition);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_NEAR(rows[0].sums.phi_large(), 0.35, 1e-14);
+  EXPECT_NEAR(rows[1].sums.phi_large(), 0.55, 1e-14);
+  EXPECT_NEAR(rows[2].sums.phi_large(), 0.975, 1e-14);
+}
+
+TEST(Pooling, RowsAreChosenByWindowAndHeightButTheBedByWindowAlone)
+{
+  auto later = layer(0.5);
+  later.begin = 1;
+  later.end = 2;
+  auto higher = layer(0.5);
+  higher.bottom = 6;
+  higher.top = 8;
+  const std::vector<SumsRow> rows{layer(0.5), later, higher, bed_of_height(20, 0)};
+  EXPECT_EQ(filtered(rows, {.end = 1}).size(), 3u);
+  EXPECT_EQ(filtered(rows, {.heights = {4, 6}}).size(), 3u);
+  EXPECT_EQ(filtered(rows, {.begin = 1, .heights = {.highest = 6}}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/provenance.hpp"
+
+#include "formats/core/version.hpp"
+#include "formats/trajectory/digest.hpp"
+#include "tests/three_grains.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace grseg {
+namespace {
+
+constexpr PresetOption presets[] = {{"layer", "4dS", "1dS"}};
+constexpr ToolInfo with_presets{"grseg-a", "", "", "", presets};
+constexpr ToolInfo without_presets{"grseg-b", "", "", ""};
+
+std::string three_grains_file()
+{
+  const auto path = (std::filesystem::path(testing::TempDir()) / "provenance.h5").string();
+  three_grains::write(path, 2);
+  return path;
+}
+
+TEST(Provenance, ATableOfARunNamesProgramPresetCommandsAndTheDigestOfItsInput)
+{
+  const auto path = three_grains_file();
+  const TrajectoryReader run(path);
+  const std::string digest = "xxh3 " + format_digest(run.digest());
+  const Header expected{{"program", std::string("grseg-a ") + version()},
+                        {"preset", "paper"},
+                        {"history", "three grains by hand"},
+                        {"history", "grseg-a x.h5"},
+                        {"input", digest}};
+  EXPECT_EQ(provenance(with_presets, "paper", run, "grseg-a x.h5"), expected);
+  std::filesystem::remove(path);
+}
+
+TEST(Provenance, AToolWithoutPresetsHasNoLineOnThem)
+{
+  const auto path = three_grains_file();
+  const auto header = provenance(without_presets, "none", TrajectoryReader(path), "grseg-b x.h5");
+  ASSERT_EQ(header.size(), 4u);
+  EXPECT_EQ(header[0].second, std::string("grseg-b ") + version());
+  EXPECT_EQ(header[1].first, "history");
+  std::filesystem::remove(path);
+}
+
+Table with_header(const Header& header)
+{
+  Table table;
+  table.header = header;
+  return table;
+}
+
+TEST(Provenance, ValuesOfSeveralTablesAreListedOnceInTheirOrder)
+{
+  const auto a = with_header({{"input", "2"}, {"history", "first"}, {"input", "1"}});
+  const auto b = with_header({{"input", "3"}, {"input", "2"}});
+  EXPECT_EQ(header_values(a, "input"), (std::vector<std::string>{"2", "1"}));
+  EXPECT_EQ(header_values(std::vector{a, b}, "input"), (std::vector<std::string>{"2", "1", "3"}));
+  EXPECT_TRUE(header_values(std::vector{a, b}, "absent").empty());
+  EXPECT_EQ(header_or(a, "input", "none"), "2");
+  EXPECT_EQ(header_or(a, "absent", "none"), "none");
+}
+
+TEST(Provenance, SettingsAreWhatIsLeftWhenSourcesAreTakenAway)
+{
+  const auto table = with_header({{"program", "p"},
+                                  {"preset", "none"},
+                                  {"history", "h"},
+                                  {"input", "i"},
+                                  {"layer", "1"},
+                                  {"base", "half"}});
+  EXPECT_EQ(settings_of(table), (Header{{"preset", "none"}, {"layer", "1"}, {"base", "half"}}));
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/contact/contact_blocks.hpp"
+#include "sim/solver/extrapolation.hpp"
+#include "sim/solver/solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// Contacts in a plain list, as tests write them down: packed into blocks, solved, and judged.
+namespace grseg {
+
+/// Contacts sorted by colour into blocks. First-fit colours in the order of the contacts: a contact
+/// takes the first colour that neither of its mobile bodies has yet, so the same contacts always
+/// get the same colours. Immobile bodies (inverse mass 0) take no colour, since what is written to
+/// them is what was there. Unused lanes of a colour's last block hold a neutral contact (masses and
+/// impulses 0) of the idle body with itself.
+class ContactBlocks {
+ public:
+  /// `idle` is the index of an immobile entry of `motion`.
+  void pack(std::span<const Contact> contacts, std::span<const Motion> motion, std::size_t idle);
+  /// Writes the impulses back to the contacts they came from.
+  void unpack(std::span<Contact> contacts) const;
+
+  std::span<ContactBlock> blocks() { return blocks_; }
+  BlockRuns runs() { return {blocks_, ends_}; }
+  /// Where each contact went: 8 * block + lane. Sweeps relax contacts in this order.
+  std::span<const std::uint32_t> slots() const { return slot_; }
+  /// Number of contacts of each colour; the last entry counts those left without a colour because
+  /// a body has more contacts than there are colours. Each of these has a block to itself.
+  static constexpr std::size_t colours = 64;
+  std::span<const std::uint32_t> sizes() const { return sizes_; }
+
+ private:
+  void colour(std::span<const Contact> contacts, std::span<const Motion> motion);
+  void lay_out(std::size_t idle);
+
+  std::vector<ContactBlock> blocks_;
+  std::vector<std::uint32_t> ends_;   // of a colour's blocks, and of each block left without
+  std::vector<std::uint64_t> taken_;  // per body, a bit per colour
+  std::vector<std::uint8_t> colour_;  // per contact
+  std::vector<std::uint32_t> slot_;   // per contact
+  std::array<std::uint32_t, colours + 1> sizes_{};
+  std::array<std::uint32_t, colours + 1> next_{};  // free slot of each colour
+};
+
+constexpr std::size_t doubles_per_body = sizeof(Motion) / sizeof(double);
+
+inline ContactBlock neutral_block(std::size_t idle)
+{
+  ContactBlock block{};
+  block.i.fill(static_cast<std::uint32_t>(idle * doubles_per_body));
+  block.j = block.i;
+  return block;
+}
+
+inline void ContactBlocks::pack(std::span<const Contact> contacts, std::span<const Motion> motion,
+                                std::size_t idle)
+{
+  colour(contacts, motion);
+  lay_out(idle);
+  slot_.resize(contacts.size());
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    auto& next = next_[colour_[k]];
+    const std::uint32_t slot = next;
+    next += colour_[k] == colours ? block_lanes : 1;
+    slot_[k] = slot;
+    const auto& c = contacts[k];
+    auto& block = blocks_[slot / block_lanes];
+    const std::size_t lane = slot % block_lanes;
+    block.nx[lane] = c.nx;
+    block.ny[lane] = c.ny;
+    block.kappa[lane] = c.kappa;
+    block.mass_n[lane] = c.mass_n;
+    block.mass_t[lane] = c.mass_t;
+    block.rebound[lane] = c.rebound;
+    block.impulse_n[lane] = c.impulse_n;
+    block.impulse_t[lane] = c.impulse_t;
+    block.i[lane] = static_cast<std::uint32_t>(static_cast<std::size_t>(c.i) * doubles_per_body);
+    block.j[lane] = static_cast<std::uint32_t>(static_cast<std::size_t>(c.j) * doubles_per_body);
+  }
+}
+
+inline void ContactBlocks::unpack(std::span<Contact> contacts) const
+{
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const auto& block = blocks_[slot_[k] / block_lanes];
+    contacts[k].impulse_n = block.impulse_n[slot_[k] % block_lanes];
+    contacts[k].impulse_t = block.impulse_t[slot_[k] % block_lanes];
+  }
+}
+
+inline void ContactBlocks::colour(std::span<const Contact> contacts, std::span<const Motion> motion)
+{
+  taken_.assign(motion.size(), 0);
+  colour_.resize(contacts.size());
+  sizes_.fill(0);
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const auto i = static_cast<std::size_t>(contacts[k].i);
+    const auto j = static_cast<std::size_t>(contacts[k].j);
+    const std::uint64_t taken = taken_[i] | taken_[j];
+    const auto first_free = static_cast<std::size_t>(std::countr_one(taken));
+    colour_[k] = static_cast<std::uint8_t>(first_free);
+    ++sizes_[first_free];
+    const std::uint64_t bit = first_free < colours ? std::uint64_t{1} << first_free : 0;
+    taken_[i] |= motion[i].inverse_mass > 0 ? bit : 0;
+    taken_[j] |= motion[j].inverse_mass > 0 ? bit : 0;
+  }
+}
+
+inline void ContactBlocks::lay_out(std::size_t idle)
+{
+  std::uint32_t count = 0;
+  ends_.clear();
+  for (std::size_t c = 0; c < colours; ++c) {
+    next_[c] = count * block_lanes;
+    count += (sizes_[c] + block_lanes - 1) / block_lanes;
+    if (sizes_[c] > 0) ends_.push_back(count);
+  }
+  next_[colours] = count * block_lanes;
+  for (std::uint32_t k = 0; k < sizes_[colours]; ++k) ends_.push_back(++count);
+  blocks_.resize(count);
+  const auto neutral = neutral_block(idle);
+  for (std::size_t c = 0; c < colours; ++c)
+    if (sizes_[c] % block_lanes != 0) blocks_[(next_[c] + sizes_[c]) / block_lanes] = neutral;
+  for (auto b = next_[colours] / block_lanes; b < count; ++b) blocks_[b] = neutral;
+}
+
+/// solve_contacts() for contacts in any order.
+inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
+                                   double friction, Effects effects, const SolverSettings& settings,
+                                   double floor)
+{
+  if (!effects.friction)
+    for (auto& c : contacts) c.impulse_t = 0;
+  const std::size_t bodies = motion.size();
+  motion.emplace_back();  // the idle body of unused lanes
+  ContactBlocks packed;
+  packed.pack(contacts, motion, bodies);
+  const std::array strips{packed.runs()};
+  Extrapolation extrapolation;
+  const auto report = solve_contacts(strips, contacts.size(), motion, friction, effects, settings,
+                                     floor, extrapolation);
+  motion.pop_back();
+  packed.unpack(contacts);
+  return report;
+}
+
+/// The largest violation (m/s) of Signorini's and Coulomb's conditions by any state, whichever
+/// solver made it: the change that relaxing a contact alone would make.
+inline double contact_residual(const std::vector<Contact>& contacts,
+                               const std::vector<Motion>& motion, double friction, Effects effects)
+{
+  const auto relax_alone = choose_relax(effects);
+  double largest = 0;
+  for (auto alone : contacts) {
+    auto a = motion[static_cast<std::size_t>(alone.i)],
+         b = motion[static_cast<std::size_t>(alone.j)];
+    if (!effects.restitution) alone.rebound = 0;
+    const auto change = relax_alone(alone, a, b, friction);
+    largest = std::max({largest, change.normal, change.tangential});
+  }
+  return largest;
+}
+
+}  // namespace grseg
