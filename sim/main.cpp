@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/tool.hpp"
 #include "sim/run/run.hpp"
+#include "sim/scene/keys/keys.hpp"
+#include "sim/scene/keys/resolve.hpp"
 #include "sim/solver/sweep.hpp"
 
 #include <fmt/format.h>
@@ -12,32 +14,34 @@ void add_run_options(po::options_description& options, RunOptions& run)
 {
   auto add = options.add_options();
   add("output,o", po::value(&run.output)->value_name("FILE"), "the trajectory to write");
-  add("overwrite", po::bool_switch(&run.overwrite), "replace files that are there already");
+  add("overwrite", po::bool_switch(&run.overwrite), "replace files that already exist");
   add("isa", po::value(&run.instruction_set)->value_name("NAME"),
-      "vector instructions to use: avx512, avx2, sse4 or scalar (default: the best there is); the "
-      "bytes are the same");
-  add("strict", po::bool_switch(&run.strict), "exit code 4 when a step missed the tolerance");
+      "vector instructions to use: avx512, avx2, sse4 or scalar (default: the best that the "
+      "processor has); results are bitwise identical");
+  add("strict", po::bool_switch(&run.strict), "exit code 4 if a step missed the tolerance");
   add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
-      "write the state there, at the end, on SIGINT and SIGTERM, and while the run goes on");
+      "write the state to this file regularly, at the end, and on SIGINT and SIGTERM");
   add("checkpoint-every", po::value(&run.checkpoint_every)->default_value(60),
       "s of wall time between checkpoints");
   add("restart", po::value(&run.restart)->value_name("FILE"),
-      "go on from this checkpoint, bit for bit; SCENE.ini may be left out. Other keys than the "
-      "checkpoint's begin a new trajectory; those of the bed cannot change");
+      "continue from this checkpoint, bitwise as an uninterrupted run; SCENE.ini may be left out. "
+      "A key that differs from the checkpoint's begins a new trajectory; keys of the bed cannot "
+      "change");
   add("perturb", po::value(&run.perturbation.size),
       "at a restart, displace every mobile grain at random by up to this many d_S, such as 1e-6");
-  add("seed-perturbation", po::value(&run.perturbation.seed), "of --perturb; else that of the run");
+  add("seed-perturbation", po::value(&run.perturbation.seed),
+      "seed of --perturb (default: that of the run)");
 }
 
 void check(const RunOptions& run, const po::variables_map& given)
 {
   if (run.checkpoint_every < 0)
-    throw UsageError("checkpoint-every is a time in seconds, 0 or more");
+    throw UsageError("--checkpoint-every must be a time in seconds, 0 or more");
   if (run.restart.empty() && (given.count("perturb") > 0 || given.count("seed-perturbation") > 0))
-    throw UsageError("--perturb displaces the grains of a checkpoint; name one by --restart");
+    throw UsageError("--perturb displaces the grains of a checkpoint; name one with --restart");
   if (!(run.perturbation.size >= 0 && run.perturbation.size <= largest_perturbation))
-    throw UsageError(fmt::format("perturb is {:g}: it must lie between 0 and {:g} d_S",
+    throw UsageError(fmt::format("--perturb is {:g}: it must lie between 0 and {:g} d_S",
                                  run.perturbation.size, largest_perturbation));
 }
 
@@ -57,7 +61,7 @@ int main(int argc, char** argv)
       "  grseg-sim chute.ini --accuracy draft --duration 20 -o quick.h5\n"
       "  grseg-sim chute.ini --slope 10 --slope-rate 2.5 --duration 8 -o steeper.h5\n"
       "  grseg-sim chute.ini --checkpoint run.chk -o run.h5\n"
-      "  grseg-sim --restart run.chk -o run.h5               goes on after an interruption\n"
+      "  grseg-sim --restart run.chk -o run.h5               after an interruption\n"
       "  grseg-sim --restart run.chk --duration 300 -o more.h5\n"
       "  grseg-sim --restart run.chk --perturb 1e-6 --seed-perturbation 2 -o twin.h5\n"};
   RunOptions run;

@@ -102,7 +102,8 @@ void publish_file(const std::string& temporary, const std::string& path)
 RemoveAtEnd::~RemoveAtEnd()
 {
   std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  if (condition_ == If::there || std::filesystem::file_size(path_, ignored) == 0)
+    std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace grseg

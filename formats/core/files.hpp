@@ -38,10 +38,14 @@ void rename_path(const std::string& from, const std::string& to);
 /// absent. RunError on failure; `temporary` then still exists.
 void publish_file(const std::string& temporary, const std::string& path);
 
-/// Removes the file `path`, if it exists, when it goes out of scope.
+/// Removes the file `path`, if it exists (and is empty, with If::empty), when it goes out of scope.
 class RemoveAtEnd {
  public:
-  explicit RemoveAtEnd(std::string path) : path_(std::move(path)) {}
+  enum class If { there, empty };
+  explicit RemoveAtEnd(std::string path, If condition = If::there)
+      : path_(std::move(path)), condition_(condition)
+  {
+  }
   RemoveAtEnd(const RemoveAtEnd&) = delete;
   RemoveAtEnd& operator=(const RemoveAtEnd&) = delete;
   ~RemoveAtEnd();
@@ -50,6 +54,7 @@ class RemoveAtEnd {
 
  private:
   std::string path_;
+  If condition_;
 };
 
 }  // namespace grseg

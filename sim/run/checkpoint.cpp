@@ -5,6 +5,7 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
+#include "sim/run/run_files.hpp"
 
 #include <fmt/format.h>
 
@@ -16,11 +17,11 @@ namespace {
 using namespace hdf5;
 
 constexpr std::int32_t format_version = 2;
-// A damaged size is refused before memory is asked for.
+// A damaged size is refused before memory is allocated.
 constexpr hsize_t most_values = 1'000'000'000;
 
-/// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of
-/// `columns` numbers.
+/// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
+/// numbers.
 template <class T>
 struct Layout;
 template <>
@@ -75,7 +76,7 @@ struct Layout<std::uint32_t> : Layout<std::int32_t> {
 template <class T>
 constexpr int rank_of = Layout<T>::columns > 1 ? 2 : 1;
 
-/// Chains the bytes of everything it is shown, sizes included.
+/// Chains the digest of everything it is called with, sizes included.
 class Digester {
  public:
   void operator()(const char*, const std::string& text) { add(text.data(), text.size()); }
@@ -185,8 +186,8 @@ void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
   at("base_impulse_y", totals.base_impulse.y());
 }
 
-/// Shows every entry of a checkpoint with its path to `visit`: the one list that writing, reading
-/// and the digest share.
+/// Calls `visit` with every entry of a checkpoint and its path: writing, reading and the digest
+/// share this list.
 template <class Visitor, class SomeCheckpoint>
 void visit_all(Visitor& visit, SomeCheckpoint& c)
 {
@@ -263,9 +264,10 @@ void write_parts(const std::string& path, const Checkpoint& checkpoint)
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
 {
   silence();
-  const RemoveAtEnd temporary(path + ".part");
-  write_parts(temporary.path(), checkpoint);
-  publish_file(temporary.path(), path);
+  const auto part = part_of(path);
+  const RemoveAtEnd clean_up(part);
+  write_parts(part, checkpoint);
+  publish_file(part, path);
 }
 
 Checkpoint read_checkpoint(const std::string& path)
@@ -276,15 +278,15 @@ Checkpoint read_checkpoint(const std::string& path)
     throw FormatError(fmt::format("{}: {}", path, why));
   };
   const File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file.valid()) fail("is no checkpoint, or is truncated or damaged");
+  if (!file.valid()) fail("is not a checkpoint, or is truncated or damaged");
   if (!exists(file, "/version") || !exists(file, "/state"))
-    fail("is no checkpoint of grseg-sim; name the file that --checkpoint wrote");
+    fail("is not a checkpoint of grseg-sim; name the file that --checkpoint wrote");
   const Reader read(file, path);
   std::int32_t version = 0;
   read("/version", version);
   if (version != format_version)
     fail(
-        fmt::format("is a checkpoint of version {}, and this grseg-sim reads version {}; go on "
+        fmt::format("is a checkpoint of version {}, and this grseg-sim reads version {}; continue "
                     "with the program that wrote it",
                     version, format_version));
   Checkpoint checkpoint;

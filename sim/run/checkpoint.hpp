@@ -10,7 +10,7 @@
 
 namespace grseg {
 
-/// How far the trajectory is that a run writes.
+/// How much of its trajectory a run has written.
 struct TrajectoryProgress {
   std::uint64_t frames = 0;  ///< written
   std::uint64_t digest = 0;  ///< chained over them
@@ -19,8 +19,8 @@ struct TrajectoryProgress {
   double wall = 0;   ///< s, spent on it
 };
 
-/// A run between two steps: all that the steps to come depend on, and all that their frames will
-/// say of those before. No random number is drawn after the deposition, so no random state is here.
+/// A run between two steps: all that later steps depend on, and what later frames state about the
+/// steps before. No random number is drawn after the deposition, so there is no random state.
 struct Checkpoint {
   std::string scene;    ///< as resolved, itself a scene file
   std::string program;  ///< that wrote it
@@ -33,12 +33,12 @@ struct Checkpoint {
   TrajectoryProgress trajectory;
 };
 
-/// Writes `checkpoint` whole or not at all: as PATH.part, brought to the disk, then renamed. An
-/// HDF5 file, laid out as formats/README.md says. RunError where it cannot be written.
+/// Writes `checkpoint` whole or not at all: as PATH.part, flushed to disk, then renamed. An HDF5
+/// file, laid out as formats/README.md says. RunError where it cannot be written.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
-/// UsageError where `path` is missing, FormatError where it is no checkpoint, is damaged (its
-/// digest tells any changed bit), or is of another version.
+/// UsageError where `path` is missing, FormatError where it is not a checkpoint, is damaged (its
+/// digest detects any changed bit), or is of another version.
 Checkpoint read_checkpoint(const std::string& path);
 
 }  // namespace grseg

@@ -7,9 +7,9 @@
 
 namespace grseg {
 
-/// What the simulator leaves out of a scene because nothing in it calls for it, each with the
-/// reason: "gravity (a shear cell has none), moving boundaries (all stand still)"; empty where the
-/// scene needs everything. Leaving it out changes no byte of the run (docs/studies/effects.md).
+/// What the simulator leaves out because nothing in the scene needs it, each with the reason:
+/// "gravity (none), moving boundaries (all stand still)"; empty where the scene needs everything.
+/// Results are bitwise the same with and without (docs/studies/effects.md).
 std::string effects_left_out(const Scene& scene);
 
 }  // namespace grseg

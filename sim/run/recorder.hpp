@@ -9,7 +9,7 @@
 
 namespace grseg {
 
-/// Sums over steps of what their reports say.
+/// Sums and extremes over the reports of steps.
 struct StepTotals {
   std::int64_t steps = 0;
   std::int64_t missed = 0;  ///< steps that ended above the tolerance
@@ -28,29 +28,29 @@ struct StepTotals {
   }
 };
 
-/// Turns the steps of a simulation into frames with their observables, keeps the totals, and stops
-/// a run that is out of bounds. Observables describe the steps since the frame before, energies and
-/// the momentum defect the frame itself.
+/// Writes frames of a simulation with their observables, keeps the totals of all steps, and stops a
+/// run that is out of bounds. Observables describe the steps since the frame before; energies and
+/// the momentum defect, the frame itself.
 class Recorder {
  public:
   static std::vector<Observable> observables();
 
   /// What the recorder knows between two steps.
   struct State {
-    StepTotals since_frame;  ///< of the steps that no frame tells of yet
+    StepTotals since_frame;  ///< of the steps that no frame covers yet
     StepTotals totals;       ///< of the steps before
   };
 
   Recorder(TrajectoryWriter& writer, double small_diameter) : Recorder(writer, small_diameter, {})
   {
   }
-  /// Goes on from `state`.
+  /// Continues from `state`.
   Recorder(TrajectoryWriter& writer, double small_diameter, const State& state);
 
   void add(const StepReport& report) { state_.since_frame.add(report); }
   /// Writes `frame`; its own step must have been added. RunError where the mean overlap since the
-  /// last frame is above 1 % of d_S, a grain crosses more than half of d_S per step towards
-  /// its neighbour, or a number is not finite.
+  /// last frame is above 1 % of d_S, a grain approaches its neighbour by more than half of d_S per
+  /// step, or a number is not finite.
   void write(const Frame& frame, const Simulation& simulation);
 
   const StepTotals& totals() const { return state_.totals; }

@@ -3,14 +3,16 @@
 
 #include "formats/core/errors.hpp"
 #include "sim/scene/deposition.hpp"
+#include "sim/scene/keys/accuracy.hpp"
+#include "sim/scene/keys/resolve.hpp"
+#include "sim/scene/keys/scene_file.hpp"
+#include "sim/scene/keys/scene_text.hpp"
+#include "sim/scene/random_numbers.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace grseg {
 namespace {
@@ -19,7 +21,8 @@ namespace po = boost::program_options;
 
 constexpr double whole_number_tolerance = 1e-6;  // of a step
 
-po::variables_map no_words()
+/// All options at their defaults.
+po::variables_map empty_command_line()
 {
   po::variables_map values;
   po::store(po::command_line_parser(std::vector<std::string>{}).options(scene_options()).run(),
@@ -28,36 +31,33 @@ po::variables_map no_words()
 }
 
 /// Puts the clock and the impulses, which are those of one step, on steps of another length.
-void change_step(Simulation::State& state, const Scene& then, const Scene& now)
+void change_step(Simulation::State& state, const Scene& before, const Scene& now)
 {
-  if (then.step == now.step) return;
-  const double time = static_cast<double>(state.steps_done) * then.step;
+  if (before.step == now.step) return;
+  const double time = static_cast<double>(state.steps_done) * before.step;
   const double steps = time / now.step;
   if (std::abs(steps - std::round(steps)) > whole_number_tolerance) {
-    const double frames = std::floor(time / then.frame_interval + whole_number_tolerance);
+    const double frames = std::floor(time / before.frame_interval + whole_number_tolerance);
     throw UsageError(fmt::format(
-        "the checkpoint's time, {:.9g} s, is no whole number of steps of {:.9g} s; choose a step "
-        "that divides it, or go on with the old step first, to the next frame: --duration {:.9g}",
-        time, now.step, (frames + 1) * then.frame_interval));
+        "the checkpoint's time, {:.9g} s, is not a whole number of steps of {:.9g} s; choose a "
+        "step that divides it, or first continue with the old step to the next frame: --duration "
+        "{:.9g}",
+        time, now.step, (frames + 1) * before.frame_interval));
   }
   state.steps_done = std::llround(steps);
-  const double longer = now.step / then.step;
+  const double longer = now.step / before.step;
   for (auto& impulse : state.pairs.impulse_n) impulse *= longer;
   for (auto& impulse : state.pairs.impulse_t) impulse *= longer;
 }
 
-/// Displaces every mobile grain by a vector that is uniform in a disc of radius `most` (m).
-void displace(std::vector<Vec2>& position, const Grains& grains, double most, std::uint64_t seed)
+/// Displaces every mobile grain by a vector that is uniform in a disc of radius `largest` (m).
+void displace(std::vector<Vec2>& position, const Grains& grains, double largest, std::uint64_t seed)
 {
-  const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random(gsl_rng_alloc(gsl_rng_mt19937),
-                                                                 gsl_rng_free);
-  gsl_rng_set(random.get(), seed);
+  RandomNumbers random(seed);
   for (std::size_t g = 0; g < position.size(); ++g) {
     if (grains.fixed[g]) continue;
-    const double distance = most * std::sqrt(gsl_rng_uniform(random.get()));
-    Vec2 direction;
-    gsl_ran_dir_2d(random.get(), &direction.x(), &direction.y());
-    position[g] += distance * direction;
+    const double distance = largest * std::sqrt(random.uniform());
+    position[g] += distance * random.direction();
   }
 }
 
@@ -65,60 +65,38 @@ void displace(std::vector<Vec2>& position, const Grains& grains, double most, st
 
 Scene scene_of(const Checkpoint& checkpoint, const std::string& name)
 {
-  return scene_of(checkpoint, name, no_words());
+  return scene_of(checkpoint, name, empty_command_line());
 }
 
 Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
                const po::variables_map& given)
 {
-  std::vector<std::string> renewed;
-  if (!given["accuracy"].defaulted()) renewed = {"step", "tolerance", "min-sweeps", "max-sweeps"};
+  std::vector<std::string> set_again;
+  if (!given["accuracy"].defaulted())
+    set_again.assign(keys_of_accuracy.begin(), keys_of_accuracy.end());
   auto values = given;
-  read_scene_text(checkpoint.scene, name, renewed, values);
+  read_scene_text(checkpoint.scene, name, set_again, values);
   return resolve_scene(values);
 }
 
-void require_same_bed(const Scene& then, const Scene& now)
+void require_same_bed(const Scene& before, const Scene& now)
 {
-  const auto require = [](const char* key, bool same) {
-    if (!same)
-      throw UsageError(
-          fmt::format("{} differs from the checkpoint's: it belongs to the bed, which a restart "
-                      "keeps; leave it out, or begin a new run without --restart",
-                      key));
-  };
-  require("small-diameter", then.small_diameter == now.small_diameter);
-  require("size-ratio", then.size_ratio == now.size_ratio);
-  require("spread", then.spread == now.spread);
-  require("density", then.density == now.density);
-  require("phi-large", then.phi_large == now.phi_large);
-  require("large-grains", then.large_grains == now.large_grains);
-  require("geometry", then.geometry == now.geometry);
-  require("drum-diameter", then.drum_diameter == now.drum_diameter);
-  require("fill", then.fill == now.fill);
-  require("column-width", then.column_width == now.column_width);
-  require("outlet", then.outlet == now.outlet);
-  require("depth", then.depth == now.depth);
-  require("length", then.length == now.length);
-  require("seed", then.seed == now.seed);
-  require("rotation", then.rotation == now.rotation);
-  require("base", then.base == now.base);
-  require("lateral", then.lateral == now.lateral);
-  require("origin", then.origin == now.origin);
-  require("keep-deposition", then.keep_deposition == now.keep_deposition);
+  const auto key = differing_key(before, now, KeyRole::bed);
+  if (!key.empty())
+    throw UsageError(
+        fmt::format("{} differs from the checkpoint's: it belongs to the bed, which a restart "
+                    "keeps; leave it out, or begin a new run without --restart",
+                    key));
 }
 
-bool moves_alike(const Scene& then, const Scene& now)
+bool same_steps(const Scene& before, const Scene& now)
 {
-  auto same = then;
-  same.duration = now.duration;
-  same.compression = now.compression;
-  same.float32 = now.float32;
-  return to_text(same) == to_text(now);
+  return differing_key(before, now, KeyRole::bed).empty() &&
+         differing_key(before, now, KeyRole::flow).empty();
 }
 
-Simulation go_on(const Checkpoint& checkpoint, const Scene& then, const Scene& now,
-                 const Perturbation& perturbation)
+Simulation restored_simulation(const Checkpoint& checkpoint, const Scene& before, const Scene& now,
+                               const Perturbation& perturbation)
 {
   World world;
   world.grains = checkpoint.grains;
@@ -126,7 +104,7 @@ Simulation go_on(const Checkpoint& checkpoint, const Scene& then, const Scene& n
   world.box = checkpoint.box;
   set_conditions(world, now);
   auto state = checkpoint.state;
-  change_step(state, then, now);
+  change_step(state, before, now);
   if (now.friction == 0)  // the solver then leaves tangential impulses as they are
     std::fill(state.pairs.impulse_t.begin(), state.pairs.impulse_t.end(), 0.0);
   if (perturbation.size > 0)

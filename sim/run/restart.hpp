@@ -4,6 +4,8 @@
 #include "sim/run/checkpoint.hpp"
 #include "sim/scene/scene.hpp"
 
+#include <boost/program_options.hpp>
+
 #include <cstdint>
 #include <string>
 
@@ -18,24 +20,24 @@ constexpr double largest_perturbation = 0.01;  // overlap is not pushed out agai
 
 /// The scene of `checkpoint`, read from the file `name`.
 Scene scene_of(const Checkpoint& checkpoint, const std::string& name);
-/// The same where `given`, the command line, does not say otherwise. A given accuracy sets step,
-/// tolerance, min-sweeps and max-sweeps anew.
+/// The same where `given`, the command line, does not say otherwise. An accuracy that is given sets
+/// step, tolerance, min-sweeps and max-sweeps again.
 Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
                const boost::program_options::variables_map& given);
 
-/// UsageError naming the key in which `now` asks for other grains or another cell than `then`,
-/// which a restart cannot give.
-void require_same_bed(const Scene& then, const Scene& now);
+/// UsageError naming the key in which `now` asks for other grains or another cell than the scene
+/// `before`, which a restart cannot give.
+void require_same_bed(const Scene& before, const Scene& now);
 
-/// Whether the steps of `now` follow on those of `then` as if nothing had happened between them:
-/// what differs is at most how long the run goes on and how it is stored.
-bool moves_alike(const Scene& then, const Scene& now);
+/// Whether the steps of `now` are those that would have followed under `before`: the scenes differ
+/// at most in how long the run lasts and how it is stored.
+bool same_steps(const Scene& before, const Scene& now);
 
-/// The simulation that `checkpoint` holds, made under the scene `then`, under the scene `now`, not
-/// yet tilted. Where the step differs the time goes on: the clock counts in new steps, and the
-/// impulses with which the solver begins become those of a new step. UsageError where the time is
-/// no whole number of new steps.
-Simulation go_on(const Checkpoint& checkpoint, const Scene& then, const Scene& now,
-                 const Perturbation& perturbation);
+/// The simulation that `checkpoint` holds, made under the scene `before`, under the scene `now`;
+/// its flow is not started yet (release.hpp). Where the step differs, the clock counts in new steps
+/// and the impulses with which the solver begins become those of a new step. UsageError where the
+/// time is not a whole number of new steps.
+Simulation restored_simulation(const Checkpoint& checkpoint, const Scene& before, const Scene& now,
+                               const Perturbation& perturbation);
 
 }  // namespace grseg

@@ -17,7 +17,7 @@ struct RunOptions {
   std::string instruction_set;   ///< "" for the best
   std::string checkpoint;        ///< file to write, "" for none
   double checkpoint_every = 60;  ///< s of wall time
-  std::string restart;           ///< name of the checkpoint that `resume` goes on from
+  std::string restart;           ///< name of the checkpoint that `resume` continues
   Perturbation perturbation;     ///< for `resume`
 };
 
@@ -29,10 +29,10 @@ struct RunOptions {
 /// `checkpoint_every`, on a signal and at the end.
 void simulate(const Scene& scene, const RunOptions& options);
 
-/// Goes on from `checkpoint` under `scene`, which must have the same bed. With the scene as it was,
-/// an output.part of the same run is cut back to the frames that the checkpoint knows, and ends as
-/// the run would have ended undisturbed; UsageError where output.part is of another run. In all
-/// other cases a new trajectory begins with the frames after the checkpoint.
+/// Continues `checkpoint` under `scene`, which must have the same bed. With the scene as it was, an
+/// output.part of the same run is cut back to the frames that the checkpoint counts, and ends
+/// bitwise as an uninterrupted run; UsageError where output.part is of another run. In all other
+/// cases a new trajectory begins with the frames after the checkpoint.
 void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& options);
 
 }  // namespace grseg

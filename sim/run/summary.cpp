@@ -2,13 +2,99 @@
 #include "sim/run/summary.hpp"
 
 #include "sim/run/effects_report.hpp"
+#include "sim/scene/geometry.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace grseg {
+namespace {
+
+// Marks of rigid discs: k/P (sim/step/stiffness.hpp), and the mean overlap in d_S
+// (docs/studies/first-flow.md).
+constexpr double rigid = 1e4;
+constexpr double small_overlap = 1e-3;
+
+std::string grains_in_words(const Scene& scene, const Grains& grains)
+{
+  const auto count = [&](Species species) {
+    return std::count(grains.species.begin(), grains.species.end(), species);
+  };
+  return fmt::format(
+      "{} small grains (d_S = {:g} mm) and {} large ones (d_L = {:g} mm), {} in the boundary",
+      count(Species::small), 1e3 * scene.small_diameter, count(Species::large),
+      1e3 * scene.large_diameter, count(Species::boundary));
+}
+
+std::string flow_in_words(const RunSummary& s, const Scene& scene)
+{
+  const auto slope =
+      gravity_of(scene).norm() == 0
+          ? std::string("no gravity")
+          : fmt::format(
+                "slope {:g} degrees{}", scene.slope,
+                scene.slope_rate == 0 ? "" : fmt::format(" + {:g} per second", scene.slope_rate));
+  return fmt::format("{}: deposited {:.1f} d_S high; {}, friction {:g}, restitution {:g}",
+                     scene.geometry->name(), s.deposited_height / scene.small_diameter, slope,
+                     scene.friction, scene.restitution);
+}
+
+std::string solver_in_words(const StepTotals& t, const Scene& scene)
+{
+  const auto met = t.missed == 0 ? "all within"
+                                 : fmt::format("{:.3g} % of them above",
+                                               100 * t.per_step(static_cast<double>(t.missed)));
+  return fmt::format(
+      "{}: steps of {:.4g} s, {:.1f} sweeps over {:.0f} contacts in each, {} the solver's "
+      "tolerance of {:g}",
+      scene.accuracy, scene.step, t.per_step(t.sweeps), t.per_step(t.force_bearing), met,
+      scene.solver.tolerance);
+}
+
+std::string overlap_in_words(const StepTotals& t, const Scene& scene)
+{
+  const double d = scene.small_diameter;
+  return fmt::format("{:.1e} d_S in the mean over pairs that overlap, {:.1e} d_S at most",
+                     t.mean_overlap() / d, t.largest_overlap / d);
+}
+
+std::string stiffness_in_words(const NumericalStiffness& s)
+{
+  const auto remedy = fmt::format(
+      "; above {:.0e} discs count as rigid: --step {:.2g} or "
+      "--min-sweeps {:.0f}",
+      rigid, s.advised_step, std::ceil(s.advised_sweeps));
+  return fmt::format(
+      "the bed yields as elastic discs with k/P = {:.1e} would, P the pressure at the base{}",
+      s.rigidity, s.rigidity < rigid ? remedy : "");
+}
+
+/// What makes the run doubtful, each with its remedy.
+std::vector<std::string> doubts(const StepTotals& t, const Scene& scene)
+{
+  std::vector<std::string> all;
+  if (t.missed > 0)
+    all.push_back(
+        fmt::format("{} steps missed the tolerance: raise --max-sweeps, now {}, or "
+                    "choose a smaller --step",
+                    t.missed, scene.solver.max_sweeps));
+  if (t.mean_overlap() > small_overlap * scene.small_diameter)
+    all.push_back(
+        fmt::format("the mean overlap is above {:g} d_S: choose a smaller --step or a "
+                    "larger --min-sweeps",
+                    small_overlap));
+  return all;
+}
+
+std::string line(const char* title, const std::string& text)
+{
+  return fmt::format("  {:<10} {}\n", title, text);
+}
+
+}  // namespace
 
 NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals)
 {
@@ -18,9 +104,8 @@ NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals)
   in.step = scene.step;
   in.mass = scene.density * std::numbers::pi / 4 * d * d;
   in.diameter = d;
-  in.base_pressure = scene.geometry == Scene::Geometry::shear
-                         ? scene.plate_pressure
-                         : totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length);
+  in.base_pressure = scene.geometry->base_pressure(
+      scene, totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length));
   in.layers = scene.depth / d;
   in.gravity = scene.gravity * std::cos(scene.slope * std::numbers::pi / 180);
   return numerical_stiffness(in);
@@ -47,30 +132,25 @@ Parameters to_parameters(const RunSummary& s)
   return p;
 }
 
-std::string to_text(const RunSummary& s, const Scene& scene)
+std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grains)
 {
-  const auto& t = s.totals;
-  const double d = scene.small_diameter;
-  const auto cost = fmt::format("grseg-sim: {:g} s simulated in {:.1f} s: {:.3g} s per second\n",
-                                s.simulated, s.wall, s.wall > 0 ? s.simulated / s.wall : 0);
-  const auto solver = fmt::format(
-      "  accuracy {}: step {:.4g} s, tolerance {:g}; {:.1f} sweeps and {:.0f} contacts per step; "
-      "tolerance missed in {:.3g} % of steps\n",
-      scene.accuracy, scene.step, scene.solver.tolerance, t.per_step(t.sweeps),
-      t.per_step(t.force_bearing), 100 * t.per_step(static_cast<double>(t.missed)));
-  const auto geometry = fmt::format(
-      "  mean overlap {:.2e} d_S, largest {:.2e} d_S, mean |gap| under force {:.2e} d_S; deposited "
-      "height {:.2f} d_S\n",
-      t.mean_overlap() / d, t.largest_overlap / d, t.mean_gap_bearing() / d,
-      s.deposited_height / d);
-  const auto stiffness = fmt::format(
-      "  as stiff as k = {:.3g} N/m, k/P = {:.3g} at the base, sound {:.3g} m/s; for k/P = 1e4 and "
-      "waves below 1e-3 d: step {:.2g} s or {:.0f} sweeps\n",
-      s.stiffness.stiffness, s.stiffness.rigidity, s.stiffness.sound_speed,
-      s.stiffness.advised_step, s.stiffness.advised_sweeps);
-  const auto none = effects_left_out(scene);
-  const auto effects = fmt::format("  left out: {}\n", none.empty() ? "nothing" : none);
-  return cost + solver + geometry + stiffness + effects;
+  auto text = fmt::format("grseg-sim: {:g} s simulated in {:.1f} s ({:.3g} s per second)\n",
+                          s.simulated, s.wall, s.wall > 0 ? s.simulated / s.wall : 0);
+  text += line("grains", grains_in_words(scene, grains));
+  text += line("flow", flow_in_words(s, scene));
+  text += line("accuracy", solver_in_words(s.totals, scene));
+  text += line("overlap", overlap_in_words(s.totals, scene));
+  text += line("stiffness", stiffness_in_words(s.stiffness));
+  const auto left_out = effects_left_out(scene);
+  if (!left_out.empty()) text += line("not needed", left_out);
+  for (const auto& doubt : doubts(s.totals, scene)) text += line("doubt", doubt);
+  return text;
+}
+
+std::string next_steps(const std::string& output)
+{
+  return line("next",
+              fmt::format("grseg-stress {} -o stress.tsv, then grseg-fit stress.tsv", output));
 }
 
 }  // namespace grseg

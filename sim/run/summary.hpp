@@ -10,7 +10,7 @@
 
 namespace grseg {
 
-/// What a run has been, in numbers.
+/// A run in numbers.
 struct RunSummary {
   double simulated = 0, wall = 0;  // s
   double deposited_height = 0;     // m
@@ -18,12 +18,17 @@ struct RunSummary {
   NumericalStiffness stiffness;
 };
 
-/// Of the sweeps and the base pressure that the run had.
+/// From the sweeps and the base pressure of the run.
 NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals);
 
-/// As /parameters/summary_* tell it.
+/// As /parameters/summary_*.
 Parameters to_parameters(const RunSummary& summary);
-/// As the user reads it.
-std::string to_text(const RunSummary& summary, const Scene& scene);
+
+/// For the user: what was simulated, how accurate it is, and last what is doubtful, each with its
+/// remedy.
+std::string to_text(const RunSummary& summary, const Scene& scene, const Grains& grains);
+
+/// For the user: what to do with the trajectory `output`.
+std::string next_steps(const std::string& output);
 
 }  // namespace grseg

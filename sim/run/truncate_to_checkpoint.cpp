@@ -4,13 +4,14 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "formats/trajectory/repack.hpp"
+#include "sim/run/run_files.hpp"
 
 #include <fmt/format.h>
 
 namespace grseg {
 namespace {
 
-/// Whether `run` is that of `checkpoint`, as far as can be told without its frames.
+/// Whether `run` can be that of `checkpoint`; only its frames prove it.
 bool same_run(const TrajectoryReader& run, const Checkpoint& checkpoint)
 {
   return run.parameters().text("scene") == checkpoint.scene &&
@@ -18,8 +19,8 @@ bool same_run(const TrajectoryReader& run, const Checkpoint& checkpoint)
          run.size() >= checkpoint.trajectory.frames;
 }
 
-/// What a file says of itself when its run goes on: no longer that it is complete.
-Parameters going_on(Parameters parameters, const std::string& history)
+/// /parameters of a run that continues: it is not complete any more.
+Parameters without_end(Parameters parameters, const std::string& history)
 {
   std::erase_if(parameters.numbers, [](const auto& number) {
     return number.first == "complete" || number.first.starts_with("summary_");
@@ -41,20 +42,21 @@ TrajectoryWriter truncate_to_checkpoint(const std::string& part, const Checkpoin
           "another name for --output",
           part, name));
   };
-  const RemoveAtEnd copy(part + ".part");
+  const auto copy = part_of(part);
+  const RemoveAtEnd clean_up(copy);
   try {
     const TrajectoryReader run(part);
     require(same_run(run, checkpoint));
     auto writer =
-        copy_frames(run, checkpoint.trajectory.frames, copy.path(),
-                    going_on(run.parameters(), history), Recorder::observables(), storage);
+        copy_frames(run, checkpoint.trajectory.frames, copy, without_end(run.parameters(), history),
+                    Recorder::observables(), storage);
     require(writer.digest() == checkpoint.trajectory.digest);
     writer.flush();
-    publish_file(copy.path(), part);
+    publish_file(copy, part);
     return writer;
-  } catch (const FormatError& torn) {
-    throw FormatError(
-        fmt::format("{}; move it away to begin a new trajectory at the checkpoint", torn.what()));
+  } catch (const FormatError& damaged) {
+    throw FormatError(fmt::format("{}; move it away to begin a new trajectory at the checkpoint",
+                                  damaged.what()));
   }
 }
 

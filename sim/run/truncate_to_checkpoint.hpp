@@ -9,9 +9,10 @@
 namespace grseg {
 
 /// The trajectory `part` of an unfinished run, cut back to the frames that `checkpoint` (read from
-/// the file `name`) knows, for the run to go on in. They are copied to a fresh file rather than cut
-/// in place: that proves each of them by its digest and leaves behind whatever a kill has torn, and
-/// `part` is untouched until the copy takes its name. `history` is what it says of itself now.
+/// the file `name`) counts, for the run to continue in. They are copied to a new file rather than
+/// cut in place: that checks each of them by its digest and leaves behind whatever a kill has
+/// damaged, and `part` is untouched until the copy takes its name. `history` replaces that in
+/// /parameters.
 ///
 /// UsageError where `part` is not of the run of `checkpoint`, FormatError where it cannot be read.
 TrajectoryWriter truncate_to_checkpoint(const std::string& part, const Checkpoint& checkpoint,

@@ -2,16 +2,15 @@
 #include "sim/scene/deposition.hpp"
 
 #include "formats/core/errors.hpp"
-#include "sim/scene/boundaries.hpp"
+#include "sim/scene/geometry.hpp"
+#include "sim/scene/packing.hpp"
+#include "sim/scene/random_numbers.hpp"
 #include "sim/step/energies.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 namespace grseg {
@@ -22,63 +21,42 @@ constexpr double usual_solid_fraction = 0.81;  // of a deposit, physics of the f
 constexpr int most_attempts = 20;
 constexpr double loose = 1.12;  // lattice spacing of the falling grains, in largest diameters
 
-using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
-
-Random random_numbers(std::uint64_t seed)
-{
-  Random random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
-  gsl_rng_set(random.get(), seed);
-  return random;
-}
-
-Room narrower(const Room& a, const Room& b)
+/// The part that two rooms have in common.
+Room overlap_of(const Room& a, const Room& b)
 {
   return {std::max(a.left, b.left), std::min(a.right, b.right)};
 }
 
-std::string no_room(const Scene& scene)
+double width_of(const Room& room)
 {
-  return fmt::format(
-      "the falling grains do not fit into a drum of {:.4g} m; choose a larger one or a smaller "
-      "fill",
-      scene.drum_diameter);
-}
-
-struct Packing {
-  World world;
-  std::vector<Vec2> position;
-};
-
-void add_grain(Packing& packing, Species species, double radius, double density, const Vec2& at)
-{
-  auto& grains = packing.world.grains;
-  grains.id.push_back(static_cast<std::int32_t>(grains.size()));
-  grains.species.push_back(species);
-  grains.radius.push_back(radius);
-  grains.mass.push_back(density * std::numbers::pi * radius * radius);
-  grains.fixed.push_back(species == Species::boundary);
-  packing.position.push_back(at);
+  return room.right - room.left;
 }
 
 /// Rows of jittered grains from height `y` up; returns the height above the last row.
 double add_layer(Packing& packing, const Scene& scene, Species species, long count, double y,
-                 gsl_rng* random)
+                 RandomNumbers& random)
 {
   const double nominal = species == Species::large ? scene.large_diameter : scene.small_diameter;
   const double largest = nominal * (1 + scene.spread / 2);
   const double row_height = loose * largest;
   for (long k = 0; k < count; y += row_height) {
-    const auto room = narrower(room_at(scene, y), room_at(scene, y + row_height));
-    const double width = room.right - room.left;
+    const auto below = scene.geometry->room_at(scene, y),
+               above = scene.geometry->room_at(scene, y + row_height);
+    const auto room = overlap_of(below, above);
+    const double width = width_of(room);
     const long per_row = static_cast<long>(width / row_height);
-    if (per_row < 1 && y > scene.drum_diameter / 2) throw UsageError(no_room(scene));
+    if (per_row < 1 && width_of(above) <= width_of(below))
+      throw UsageError(
+          fmt::format("the falling grains do not fit: the {} has no room for one at a height of "
+                      "{:.4g} m; choose a wider one or fewer grains",
+                      scene.geometry->name(), y));
     const double spacing = width / static_cast<double>(per_row);
     const double slack = spacing - largest;
     for (long place = 0; place < per_row && k < count; ++place, ++k) {
-      const double diameter = nominal * (1 + scene.spread * (gsl_rng_uniform(random) - 0.5));
+      const double diameter = nominal * (1 + scene.spread * (random.uniform() - 0.5));
       const double x = room.left + (static_cast<double>(place) + 0.5) * spacing +
-                       slack * (gsl_rng_uniform(random) - 0.5);
-      const double jitter = (row_height - largest) * (gsl_rng_uniform(random) - 0.5);
+                       slack * (random.uniform() - 0.5);
+      const double jitter = (row_height - largest) * (random.uniform() - 0.5);
       add_grain(packing, species, diameter / 2, scene.density, {x, y + row_height / 2 + jitter});
     }
   }
@@ -94,21 +72,20 @@ void add_boundaries(Packing& packing, const Scene& scene, const Boundaries& boun
 }
 
 /// The grains of a bed whose mobile grains cover `area` (m^2), in the air above their base.
-Packing loose_packing(const Scene& scene, double area, gsl_rng* random)
+Packing loose_packing(const Scene& scene, double area, RandomNumbers& random)
 {
   Packing packing;
   auto& world = packing.world;
   const double quarter_pi = std::numbers::pi / 4;
   const double of_large = quarter_pi * scene.large_diameter * scene.large_diameter;
-  const long large =
-      scene.large_grains >= 0 ? scene.large_grains : std::lround(scene.phi_large * area / of_large);
-  const double left = scene.large_grains >= 0
+  const long large = scene.large_grains.value_or(std::lround(scene.phi_large * area / of_large));
+  const double left = scene.large_grains
                           ? std::max(0.0, area - static_cast<double>(large) * of_large)
                           : (1 - scene.phi_large) * area;
   const long small = std::lround(left / (quarter_pi * scene.small_diameter * scene.small_diameter));
   if (large + small == 0)
     throw UsageError("the bed holds no grain; choose a larger depth or length, or smaller grains");
-  const auto boundaries = boundaries_of(scene);
+  const auto boundaries = scene.geometry->boundaries(scene);
   double y = add_layer(packing, scene, Species::large, large, boundaries.top, random);
   y = add_layer(packing, scene, Species::small, small, y, random);
   add_boundaries(packing, scene, boundaries);
@@ -119,12 +96,12 @@ Packing loose_packing(const Scene& scene, double area, gsl_rng* random)
 }
 
 /// A falling bed with the random velocities that keep it from landing as a lattice.
-Simulation falling(const Packing& packing, const Scene& scene, gsl_rng* random)
+Simulation falling(const Packing& packing, const Scene& scene, RandomNumbers& random)
 {
   Simulation simulation(packing.world, packing.position);
   const double speed = 0.5 * std::sqrt(scene.gravity * scene.small_diameter);
   for (std::size_t g = 0; g < packing.position.size(); ++g) {
-    const double vx = gsl_ran_gaussian(random, speed), vy = gsl_ran_gaussian(random, speed);
+    const double vx = random.gaussian(speed), vy = random.gaussian(speed);
     if (!packing.world.grains.fixed[g]) simulation.set_velocity(g, {vx, vy});
   }
   return simulation;
@@ -143,12 +120,12 @@ std::int64_t settle(Simulation& simulation, const Scene& scene, const Deposition
 {
   const double at_rest =
       2e-3 * mobile_mass(simulation.world().grains) * scene.gravity * scene.small_diameter;
-  const double patience = 20 * std::sqrt(2 * scene.depth / scene.gravity);
+  const double longest_wait = 20 * std::sqrt(2 * scene.depth / scene.gravity);
   // The free fall is never mistaken for rest: the first look comes after it.
   const double first_look = std::sqrt(2 * 0.2 * scene.depth / scene.gravity);
   const auto steps_between_looks = static_cast<std::int64_t>(
       std::ceil(2 * std::sqrt(scene.small_diameter / scene.gravity) / scene.step));
-  while (simulation.time() < patience) {
+  while (simulation.time() < longest_wait) {
     for (std::int64_t k = 0; k < steps_between_looks; ++k) {
       simulation.advance();
       if (hooks.each_step) hooks.each_step();
@@ -158,7 +135,7 @@ std::int64_t settle(Simulation& simulation, const Scene& scene, const Deposition
   }
   throw RunError(fmt::format(
       "the bed has not come to rest {:.3g} s after its release; use a smaller step or tolerance",
-      patience));
+      longest_wait));
 }
 
 /// Runs `simulation` through `steps` steps that end at time 0, for the record.
@@ -185,8 +162,7 @@ void set_conditions(World& world, const Scene& scene)
   world.step = scene.step;
   world.solver = scene.solver;
   world.threads = scene.threads;
-  world.law =
-      law_parameters(scene.law, scene.horizon, scene.step, scene.gravity, scene.small_diameter);
+  world.law = law_parameters(scene);
 }
 
 double bed_height(const Simulation& simulation)
@@ -204,21 +180,18 @@ double bed_height(const Simulation& simulation)
 
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
 {
-  const bool drum = scene.geometry == Scene::Geometry::drum;
-  const auto room = room_at(scene, 0);
-  double area = usual_solid_fraction * (drum ? scene.fill * std::numbers::pi / 4 *
-                                                   scene.drum_diameter * scene.drum_diameter
-                                             : scene.depth * (room.right - room.left));
-  // One stream for all attempts: a shallow bed scatters by more than 2 %, and must get another
-  // draw.
-  const auto random = random_numbers(scene.seed);
+  double area = usual_solid_fraction * scene.geometry->bed_area(scene);
+  // One stream for all attempts: the height of a shallow bed scatters by more than 2 %, so each
+  // attempt needs other grains.
+  RandomNumbers random(scene.seed);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    const auto packing = loose_packing(scene, area, random.get());
-    auto simulation = falling(packing, scene, random.get());
+    const auto packing = loose_packing(scene, area, random);
+    auto simulation = falling(packing, scene, random);
     const auto start = simulation;
     const auto steps = settle(simulation, scene, hooks);
     const double height = bed_height(simulation);
-    if (drum || std::abs(height - scene.depth) <= depth_tolerance * scene.depth) {
+    if (!scene.geometry->checks_height() ||
+        std::abs(height - scene.depth) <= depth_tolerance * scene.depth) {
       if (hooks.record) {
         simulation = start;
         replay(simulation, steps, scene, hooks);

@@ -8,16 +8,7 @@
 
 namespace grseg {
 
-/// A bed of large grains under small ones, at rest on its base at slope 0, made by letting a loose
-/// random packing fall (Staron & Phillips 2015, section II). Its height, twice the area-weighted
-/// mean height of its mobile grains above y = 0, lies within 2 % of scene.depth: grains are added
-/// or left out, at constant phi_L, and the deposition is repeated until it does. RunError where
-/// that cannot be reached.
-///
-/// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
-/// gravity points straight down; tilting is up to the caller.
-///
-/// Of use to whoever waits for it.
+/// What a caller may have done during a deposition.
 struct DepositionHooks {
   /// Called after every step; what it throws ends the deposition.
   std::function<void()> each_step;
@@ -25,10 +16,19 @@ struct DepositionHooks {
   /// after every step of it, with the frame where one is due and null otherwise.
   std::function<void(const StepReport&, const Simulation&, const Frame*)> record;
 };
+
+/// A bed of large grains under small ones, at rest on its base at slope 0, made by letting a loose
+/// random packing fall (Staron & Phillips 2015, section II). Its height, twice the area-weighted
+/// mean height of its mobile grains above y = 0, lies within 2 % of scene.depth: grains are added
+/// or left out, at constant phi_L, and the deposition is repeated until it does. RunError where
+/// that cannot be reached.
+///
+/// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
+/// gravity points straight down; release (release.hpp) starts the flow.
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks = {});
 
-/// Sets what `scene` says of a world beside its grains, walls and box; gravity points straight
-/// down.
+/// Sets everything in `world` that follows from `scene` but its grains, walls and box; gravity
+/// points straight down.
 void set_conditions(World& world, const Scene& scene);
 
 /// Twice the area-weighted mean height of the mobile grains above y = 0, m.

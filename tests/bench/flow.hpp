@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "sim/scene/boundaries.hpp"
 #include "sim/scene/deposition.hpp"
-#include "sim/scene/scene.hpp"
+#include "sim/scene/keys/keys.hpp"
+#include "sim/scene/keys/resolve.hpp"
+#include "sim/scene/release.hpp"
 
 #include <cmath>
 #include <map>

@@ -41,7 +41,7 @@ for signal in INT TERM; do
   # shellcheck disable=SC2086
   stopped $signal run$signal.chk 0.1 $chute --duration 10 -o $signal.h5
   [ $code = 130 ] || [ $code = 143 ] || fail "exit code $code after SIG$signal"
-  grep -q "the frames so far are in $signal.h5.part, --restart run$signal.chk goes on$" words || fail "$(cat words)"
+  grep -q "the frames so far are in $signal.h5.part, --restart run$signal.chk continues$" words || fail "$(cat words)"
   $bin/grseg-sim --restart run$signal.chk --quiet -o $signal.h5
   content $signal.h5 | cmp - whole || fail "SIG$signal and a restart changed the run"
 done
@@ -101,18 +101,18 @@ h5dump -d /parameters/restart_time copy2.h5 | grep -q '(0): 2' || fail "the time
 # Another time step: the time continues.
 $bin/grseg-sim --restart two.chk --duration 3 --accuracy standard --quiet -o fine.h5
 first=$(numbers /particles/grains/position/time fine.h5 | head -n 1)
-case $first in 2.000*) ;; *) fail "with another step the run goes on at t = $first" ;; esac
+case $first in 2.000*) ;; *) fail "with another step the run continues at t = $first" ;; esac
 
 refused 2 "nowhere.chk: no such file" --restart nowhere.chk -o x.h5
-refused 3 "whole.h5: is no checkpoint of grseg-sim; name the file that --checkpoint wrote" \
+refused 3 "whole.h5: is not a checkpoint of grseg-sim; name the file that --checkpoint wrote" \
   --restart whole.h5 -o x.h5
 head -c 20000 two.chk >torn.chk
-refused 3 "torn.chk: is no checkpoint, or is truncated or damaged" --restart torn.chk -o x.h5
+refused 3 "torn.chk: is not a checkpoint, or is truncated or damaged" --restart torn.chk -o x.h5
 refused 2 "phi-large differs from the checkpoint's: it belongs to the bed, which a restart keeps; leave it out, or begin a new run without --restart" \
   --restart two.chk --phi-large 0.3 -o x.h5
 refused 2 "two.chk is at t = 2 s and the run ends at 2 s; a larger --duration prolongs it" --restart two.chk -o x.h5
-refused 2 "perturb is 0.5: it must lie between 0 and 0.01 d_S" --restart two.chk --perturb 0.5 -o x.h5
-refused 2 "--perturb displaces the grains of a checkpoint; name one by --restart" --perturb 1e-6 -o x.h5
+refused 2 "--perturb is 0.5: it must lie between 0 and 0.01 d_S" --restart two.chk --perturb 0.5 -o x.h5
+refused 2 "--perturb displaces the grains of a checkpoint; name one with --restart" --perturb 1e-6 -o x.h5
 refused 2 "two.chk already exists; choose another name, remove it, or pass --overwrite" \
   --restart run.chk --checkpoint two.chk -o x.h5
 refused 2 "checkpoint and trajectory cannot be one file; name another for --checkpoint" \

@@ -122,7 +122,7 @@ TEST_F(CheckpointFile, EveryTruncationIsRefused)
   const std::string whole(std::istreambuf_iterator<char>(file), {});
   for (std::size_t length = 0; length < whole.size(); length += 997) {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, length);
-    EXPECT_EQ(complaint(), path + ": is no checkpoint, or is truncated or damaged") << length;
+    EXPECT_EQ(complaint(), path + ": is not a checkpoint, or is truncated or damaged") << length;
   }
 }
 
@@ -141,8 +141,8 @@ TEST_F(CheckpointFile, AnotherVersionIsRefused)
   for (const int version : {1, 99}) {
     tamper([&](hid_t file) { put(file, "/version", H5T_NATIVE_INT, version); });
     EXPECT_EQ(complaint(), path + ": is a checkpoint of version " + std::to_string(version) +
-                               ", and this grseg-sim reads version 2; go on with the program "
-                               "that wrote it");
+                               ", and this grseg-sim reads version 2; continue with the "
+                               "program that wrote it");
   }
 }
 
@@ -156,7 +156,7 @@ TEST_F(CheckpointFile, AnotherHdf5FileIsNoCheckpoint)
 {
   H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   EXPECT_EQ(complaint(),
-            path + ": is no checkpoint of grseg-sim; name the file that --checkpoint wrote");
+            path + ": is not a checkpoint of grseg-sim; name the file that --checkpoint wrote");
 }
 
 TEST_F(CheckpointFile, AMissingFileIsAUsageError)

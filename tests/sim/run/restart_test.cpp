@@ -44,7 +44,8 @@ Checkpoint through_a_file(const Checkpoint& checkpoint)
 
 Simulation restarted(const Simulation& simulation, const Scene& scene)
 {
-  auto again = go_on(through_a_file(checkpoint_of(simulation, scene)), scene, scene, {});
+  auto again =
+      restored_simulation(through_a_file(checkpoint_of(simulation, scene)), scene, scene, {});
   again.tilt(tilted_gravity(scene));
   return again;
 }
@@ -102,7 +103,7 @@ TEST(Restart, AtAnyStepBetweenTwoRenewalsOfThePairList)
     digests.push_back(digest_of_steps(simulation, 1));
   }
   for (const auto& checkpoint : checkpoints) {
-    auto again = go_on(checkpoint, chute, chute, {});
+    auto again = restored_simulation(checkpoint, chute, chute, {});
     again.tilt(tilted_gravity(chute));
     for (auto k = static_cast<std::size_t>(checkpoint.state.steps_done); k < 400; ++k)
       ASSERT_EQ(digest_of_steps(again, 1), digests[k]) << "from " << checkpoint.state.steps_done;
@@ -117,7 +118,7 @@ TEST(Restart, UnderEveryOtherContactLawTheFlowGoesOn)
   const auto checkpoint = through_a_file(checkpoint_of(first, chute));
   for (const char* law : {"touch", "predictive", "centred"}) {
     const auto other = scene({"--contact-law", law});
-    auto again = go_on(checkpoint, chute, other, {});
+    auto again = restored_simulation(checkpoint, chute, other, {});
     again.tilt(tilted_gravity(other));
     EXPECT_NE(digest_of_steps(again, 50), digest_of_steps(first, 50)) << law;
     EXPECT_EQ(again.steps_done(), 100);
@@ -129,7 +130,7 @@ TEST(Restart, WithoutFrictionNoContactKeepsItsTangentialForce)
   const auto chute = scene(), smooth = scene({"--friction", "0"});
   auto first = bed(chute);
   digest_of_steps(first, 50);
-  auto again = go_on(checkpoint_of(first, chute), chute, smooth, {});
+  auto again = restored_simulation(checkpoint_of(first, chute), chute, smooth, {});
   again.tilt(tilted_gravity(smooth));
   Frame frame;
   again.advance(frame);
@@ -159,7 +160,7 @@ TEST(Restart, WithOtherPairsThanTheProgramFindsIsRefused)
   auto simulation = bed(chute);
   auto checkpoint = checkpoint_of(simulation, chute);
   checkpoint.state.pairs.j.back() ^= 1;
-  EXPECT_THROW(go_on(checkpoint, chute, chute, {}), FormatError);
+  EXPECT_THROW(restored_simulation(checkpoint, chute, chute, {}), FormatError);
 }
 
 TEST(Restart, AnotherStepKeepsTheTimeAndScalesTheImpulses)
@@ -170,7 +171,7 @@ TEST(Restart, AnotherStepKeepsTheTimeAndScalesTheImpulses)
   const auto checkpoint = checkpoint_of(simulation, chute);
   auto finer = chute;
   finer.step = chute.step / 4;
-  const auto again = go_on(checkpoint, chute, finer, {});
+  const auto again = restored_simulation(checkpoint, chute, finer, {});
   EXPECT_EQ(again.steps_done(), 400);
   EXPECT_DOUBLE_EQ(again.time(), simulation.time());
   const auto before = simulation.state().pairs.impulse_n, after = again.state().pairs.impulse_n;
@@ -190,14 +191,14 @@ TEST(Restart, AStepThatDoesNotDivideTheTimeIsRefusedWithARemedy)
   auto coarser = chute;
   coarser.step = 2 * chute.step;
   try {
-    go_on(checkpoint_of(simulation, chute), chute, coarser, {});
+    restored_simulation(checkpoint_of(simulation, chute), chute, coarser, {});
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_STREQ(
         error.what(),
-        "the checkpoint's time, 0.02525 s, is no whole number of steps of 0.0005 s; choose "
-        "a step that divides it, or go on with the old step first, to the next frame: "
-        "--duration 0.05");
+        "the checkpoint's time, 0.02525 s, is not a whole number of steps of 0.0005 s; choose a "
+        "step that divides it, or first continue with the old step to the next frame: --duration "
+        "0.05");
   }
 }
 
@@ -206,9 +207,9 @@ TEST(Restart, APerturbationMovesMobileGrainsByUpToItsSizeAndItsSeedTellsHow)
   const auto chute = scene();
   const auto simulation = bed(chute);
   const auto checkpoint = checkpoint_of(simulation, chute);
-  const auto one = go_on(checkpoint, chute, chute, {1e-6, 1}),
-             same = go_on(checkpoint, chute, chute, {1e-6, 1}),
-             other = go_on(checkpoint, chute, chute, {1e-6, 2});
+  const auto one = restored_simulation(checkpoint, chute, chute, {1e-6, 1}),
+             same = restored_simulation(checkpoint, chute, chute, {1e-6, 1}),
+             other = restored_simulation(checkpoint, chute, chute, {1e-6, 2});
   const double most = 1e-6 * chute.small_diameter;
   double largest = 0;
   std::size_t differ = 0;
@@ -292,9 +293,9 @@ TEST(Restart, OnlyDurationAndStorageLeaveTheMotionAsItWas)
   auto now = chute;
   now.duration = 300;
   now.float32 = true;
-  EXPECT_TRUE(moves_alike(chute, now));
+  EXPECT_TRUE(same_steps(chute, now));
   now.solver.tolerance /= 2;
-  EXPECT_FALSE(moves_alike(chute, now));
+  EXPECT_FALSE(same_steps(chute, now));
 }
 
 TEST(Restart, ATextOfTheSceneGivesTheSameSceneForAnyRatio)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes as files: where a key stands in its file, and what is wrong with it there.
-#include "formats/cli/tool.hpp"
+#include "sim/scene/keys/scene_file.hpp"
+
 #include "formats/cli/words.hpp"
 #include "formats/core/files.hpp"
-#include "sim/scene/scene.hpp"
+#include "sim/scene/keys/keys.hpp"
+#include "sim/scene/keys/resolve.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,8 @@
 
 namespace grseg {
 namespace {
+
+namespace po = boost::program_options;
 
 /// "file:12" of the line that sets `key`, or "file" where none does.
 std::string place_of(const std::string& path, const std::string& key)
@@ -30,13 +33,13 @@ std::string place_of(const std::string& path, const std::string& key)
   return path;
 }
 
-std::string bare(std::string option)
+std::string without_dashes(std::string option)
 {
   option.erase(0, option.find_first_not_of('-'));
   return option;
 }
 
-/// Stores the keys that `in` sets, but those in `leave_out`. `place` says where a key is set.
+/// Stores the keys that `in` sets, but those in `leave_out`. `place` gives the line of a key.
 void read_keys(std::istream& in, const std::string& name,
                const std::function<std::string(const std::string&)>& place,
                const std::vector<std::string>& leave_out, po::variables_map& values)
@@ -50,7 +53,7 @@ void read_keys(std::istream& in, const std::string& name,
     po::store(parsed, values);
     po::notify(values);
   } catch (const po::unknown_option& unknown) {
-    const auto key = bare(unknown.get_option_name());
+    const auto key = without_dashes(unknown.get_option_name());
     std::vector<std::string> known;
     for (const auto& option : keys.options()) known.push_back(option->long_name());
     const auto suggestion = nearest(key, known);
@@ -59,7 +62,8 @@ void read_keys(std::istream& in, const std::string& name,
                                       ? "; grseg-sim --help lists all"
                                       : fmt::format(", did you mean '{}'?", suggestion)));
   } catch (const po::error_with_option_name& wrong) {
-    throw FormatError(fmt::format("{}: {}", place(bare(wrong.get_option_name())), wrong.what()));
+    throw FormatError(
+        fmt::format("{}: {}", place(without_dashes(wrong.get_option_name())), wrong.what()));
   } catch (const po::error& wrong) {
     throw FormatError(
         fmt::format("{}: {}; lines are 'key = value' or '# comment'", name, wrong.what()));

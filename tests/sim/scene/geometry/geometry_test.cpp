@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/scene/boundaries.hpp"
+#include "sim/scene/geometry.hpp"
 
-#include "formats/core/errors.hpp"
 #include "sim/run/effects_report.hpp"
 #include "sim/scene/deposition.hpp"
+#include "sim/scene/release.hpp"
+#include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,15 +14,10 @@
 namespace grseg {
 namespace {
 
-namespace po = boost::program_options;
-
 Scene scene_from(std::vector<std::string> words)
 {
   for (const auto* word : {"--accuracy", "draft", "--slope", "0"}) words.emplace_back(word);
-  po::variables_map values;
-  po::store(po::command_line_parser(words).options(scene_options()).run(), values);
-  po::notify(values);
-  return resolve_scene(values);
+  return small_chute::paper_scene(words);
 }
 
 Simulation released(const Scene& scene)
@@ -47,7 +43,7 @@ const std::vector<std::string> column{"--geometry",     "column", "--lateral", "
                                       "--length",       "40dL",   "--depth",   "16dS",
                                       "--column-width", "20dS"};
 
-TEST(Boundaries, AColumnStandsBehindItsGateAndFallsWhenItOpens)
+TEST(Geometry, AColumnStandsBehindItsGateAndFallsWhenItOpens)
 {
   const auto scene = scene_from(column);
   const auto deposited = deposit(scene);
@@ -64,7 +60,7 @@ TEST(Boundaries, AColumnStandsBehindItsGateAndFallsWhenItOpens)
   EXPECT_GT(beyond(simulation), 50U);
 }
 
-TEST(Boundaries, AHopperHoldsItsGrainsUntilItsOutletOpens)
+TEST(Geometry, AHopperHoldsItsGrainsUntilItsOutletOpens)
 {
   const auto scene = scene_from({"--geometry", "hopper", "--lateral", "walls", "--length", "20dL",
                                  "--depth", "16dS", "--outlet", "12dS"});
@@ -79,7 +75,7 @@ TEST(Boundaries, AHopperHoldsItsGrainsUntilItsOutletOpens)
   EXPECT_EQ(deposited.world().grains.size() - simulation.world().grains.size(), 6U);  // the plug
   run_for(simulation, 0.15);
   EXPECT_GT(below(simulation), 20U);
-  // The outlet is as wide as it says: no bead reaches into it, two end at its edges.
+  // The outlet has the width that was asked for: no bead reaches into it, two end at its edges.
   double left = 0, right = scene.length;
   for (std::size_t g = 0; g < simulation.world().grains.size(); ++g) {
     if (!simulation.world().grains.fixed[g]) continue;
@@ -90,7 +86,7 @@ TEST(Boundaries, AHopperHoldsItsGrainsUntilItsOutletOpens)
   EXPECT_NEAR(right - left, scene.outlet, 1e-12);
 }
 
-TEST(Boundaries, ADrumHasNoGapAndKeepsItsGrains)
+TEST(Geometry, ADrumHasNoGapAndKeepsItsGrains)
 {
   const auto scene = scene_from({"--geometry", "drum", "--lateral", "walls", "--drum-diameter",
                                  "40dS", "--drum-rate", "-2", "--fill", "0.4"});
@@ -120,7 +116,7 @@ TEST(Boundaries, ADrumHasNoGapAndKeepsItsGrains)
   EXPECT_LT(moment, 0);
 }
 
-TEST(Boundaries, AShearCellHoldsItsPressureAndItsPlateItsSpeed)
+TEST(Geometry, AShearCellHoldsItsPressureAndItsPlateItsSpeed)
 {
   const auto scene =
       scene_from({"--geometry", "shear", "--length", "10dL", "--depth", "16dS", "--plate-speed",
@@ -143,7 +139,7 @@ TEST(Boundaries, AShearCellHoldsItsPressureAndItsPlateItsSpeed)
     EXPECT_NEAR(simulation.velocity(row).x(), 0.5, 1e-9);
 }
 
-TEST(Boundaries, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
+TEST(Geometry, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
 {
   const auto scene = scene_from({"--geometry", "shear", "--length", "30dS", "--depth", "40dS",
                                  "--plate-speed", "0.1", "--size-ratio", "1", "--spread", "0.4"});
@@ -166,7 +162,7 @@ TEST(Boundaries, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
   EXPECT_LT(at_plate / count_at_plate, elsewhere / count_elsewhere);
 }
 
-TEST(Boundaries, AShearCellTakesItsTimeFromItsPressure)
+TEST(Geometry, AShearCellTakesItsTimeFromItsPressure)
 {
   const auto one = scene_from({"--geometry", "shear", "--plate-pressure", "2"});
   const auto hundred =
@@ -176,7 +172,7 @@ TEST(Boundaries, AShearCellTakesItsTimeFromItsPressure)
   EXPECT_EQ(given.step, scene_from({}).step);
 }
 
-TEST(Boundaries, AShearCellIsReleasedInALinearFlow)
+TEST(Geometry, AShearCellIsReleasedInALinearFlow)
 {
   const auto scene = scene_from(
       {"--geometry", "shear", "--length", "10dL", "--depth", "16dS", "--plate-speed", "5"});
@@ -191,7 +187,7 @@ TEST(Boundaries, AShearCellIsReleasedInALinearFlow)
     }
 }
 
-TEST(Boundaries, AShakenBaseMovesAsAskedAndThrowsItsBed)
+TEST(Geometry, AShakenBaseMovesAsAskedAndThrowsItsBed)
 {
   const auto scene = scene_from({"--length", "6dL", "--depth", "8dS", "--shake-amplitude", "1dS",
                                  "--shake-frequency", "12", "--large-grains", "1"});
@@ -209,7 +205,7 @@ TEST(Boundaries, AShakenBaseMovesAsAskedAndThrowsItsBed)
   EXPECT_GT(highest, before + 4 * scene.shake_amplitude);  // 5.8 g
 }
 
-TEST(Boundaries, ARestartedShearCellGoesOnToTheLastBit)
+TEST(Geometry, ARestartedShearCellContinuesBitwise)
 {
   const auto scene = scene_from({"--geometry", "shear", "--length", "6dL", "--depth", "8dS"});
   auto through = released(scene);
@@ -222,7 +218,7 @@ TEST(Boundaries, ARestartedShearCellGoesOnToTheLastBit)
     EXPECT_EQ(through.position(g), again.position(g));
 }
 
-TEST(Effects, ASceneSaysWhatItLeavesOutAndWhy)
+TEST(Effects, AreNamedWhereASceneDoesNotNeedThem)
 {
   EXPECT_EQ(effects_left_out(scene_from({})), "moving boundaries (all stand still)");
   EXPECT_EQ(effects_left_out(scene_from({"--geometry", "shear"})), "gravity (none)");
@@ -233,7 +229,7 @@ TEST(Effects, ASceneSaysWhatItLeavesOutAndWhy)
             "memory of approaches (contacts act at once), periodicity (the cell has ends)");
 }
 
-TEST(Boundaries, WhatDoesNotBelongTogetherIsRefusedInASentence)
+TEST(Geometry, RefusesKeysThatDoNotFitIt)
 {
   EXPECT_THROW(scene_from({"--geometry", "drum"}), SceneError);
   EXPECT_THROW(scene_from({"--geometry", "shear", "--lateral", "walls"}), SceneError);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A bed over an outlet in its base; a plug of beads closes it until t = 0.
+#include "sim/scene/geometry/beads.hpp"
+#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/packing.hpp"
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+/// x of the beads beside the outlet, from its edges to the walls, m.
+std::vector<double> row_with_outlet(const Scene& scene)
+{
+  const double radius = bead_radius(scene), middle = scene.length / 2;
+  std::vector<double> x;
+  const long beads = std::lround(std::ceil((middle - scene.outlet / 2) / (2 * radius)));
+  for (const double side : {-1.0, 1.0})
+    for (long k = 0; k < beads; ++k)
+      x.push_back(middle + side * (scene.outlet / 2 + (2 * static_cast<double>(k) + 1) * radius));
+  return x;
+}
+
+/// x of the beads in the outlet, m.
+std::vector<double> plug(const Scene& scene)
+{
+  const long beads = std::lround(std::ceil(scene.outlet / scene.large_diameter));
+  const double spacing = scene.outlet / static_cast<double>(beads);
+  std::vector<double> x;
+  for (long k = 0; k < beads; ++k)
+    x.push_back((scene.length - scene.outlet) / 2 + (static_cast<double>(k) + 0.5) * spacing);
+  return x;
+}
+
+class Hopper : public Geometry {
+ public:
+  using Geometry::Geometry;
+
+  void resolve(Scene& scene, const KeyGiven&) const override
+  {
+    require(scene.lateral == Scene::Lateral::walls, "lateral",
+            "lateral is periodic: a hopper stands between walls; set lateral = walls");
+    require(scene.base == Scene::Base::grains, "base",
+            "base is wall: the outlet of a hopper lies between grains; set base = grains");
+    require(scene.outlet < scene.length, "outlet",
+            "outlet is not below length: nothing would hold the bed");
+  }
+
+  Boundaries boundaries(const Scene& scene) const override
+  {
+    Boundaries all;
+    add_bead_base(all, scene, row_with_outlet(scene));
+    add_side_walls(all, scene);
+    all.walls.push_back({{0, -1.3 * scene.depth}, {0, 1}});  // catches what has left
+    for (const double x : plug(scene)) add_bead(all, scene, {x, height_of_base_centres(scene)});
+    return all;
+  }
+
+  Simulation release(const Simulation& deposited, const Scene& scene) const override
+  {
+    auto packing = packing_of(deposited);
+    remove_last_grains(packing, plug(scene).size());
+    return set_in_motion(packing, deposited);
+  }
+
+  bool keeps_grains() const override { return false; }
+};
+
+}  // namespace
+
+const Geometry& hopper_geometry()
+{
+  static const Hopper hopper("hopper", "its outlet opens at t = 0");
+  return hopper;
+}
+
+}  // namespace grseg

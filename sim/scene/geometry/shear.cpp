@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A shear cell: at t = 0 gravity ends, and a plate of beads lies on the grains, presses and shears
+// them.
+#include "sim/scene/geometry/beads.hpp"
+#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/packing.hpp"
+
+#include <algorithm>
+
+namespace grseg {
+namespace {
+
+/// A row of beads that touches the highest grain.
+void add_plate(Packing& packing, const Scene& scene)
+{
+  double top = 0;
+  for (std::size_t g = 0; g < packing.position.size(); ++g)
+    top = std::max(top, packing.position[g].y() + packing.world.grains.radius[g]);
+  const double radius = bead_radius(scene);
+  for (const double x : row_of_beads(scene))
+    add_grain(packing, Species::boundary, radius, scene.density, {x, top + radius});
+}
+
+/// Adds the velocities of a steady flow of constant shear rate, or else the impact of the plate
+/// would run through the grains.
+void add_shear_flow(Simulation& simulation, const Scene& scene)
+{
+  const auto& fixed = simulation.world().grains.fixed;
+  const double height = simulation.position(fixed.size() - 1).y();  // of the plate's centres
+  for (std::size_t g = 0; g < fixed.size(); ++g) {
+    if (fixed[g]) continue;
+    const double speed = scene.plate_speed * simulation.position(g).y() / height;
+    simulation.set_velocity(g, simulation.velocity(g) + Vec2(speed, 0),
+                            simulation.angular_velocity(g));
+  }
+}
+
+class ShearCell : public Geometry {
+ public:
+  using Geometry::Geometry;
+
+  void resolve(Scene& scene, const KeyGiven& given) const override
+  {
+    require(scene.lateral == Scene::Lateral::periodic, "lateral",
+            "lateral is walls: a shear cell has no ends; set lateral = periodic");
+    require(scene.base == Scene::Base::grains, "base",
+            "base is wall: the plates of a shear cell are rough; set base = grains");
+    require(scene.slope_rate == 0, "slope-rate",
+            "slope-rate turns gravity, and a shear cell has none");
+    // The bed then presses on its base about as the plate is going to.
+    if (!given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
+  }
+
+  Boundaries boundaries(const Scene& scene) const override
+  {
+    Boundaries all;
+    add_base(all, scene);
+    return all;
+  }
+
+  Simulation release(const Simulation& deposited, const Scene& scene) const override
+  {
+    auto packing = packing_of(deposited);
+    add_plate(packing, scene);
+    auto simulation = set_in_motion(packing, deposited);
+    add_shear_flow(simulation, scene);
+    return simulation;
+  }
+
+  bool keeps_grains() const override { return false; }
+
+  std::vector<BoundaryBody> bodies(const Scene& scene, const Grains& grains) const override
+  {
+    auto plate = body_of_beads(grains);
+    plate.begin += (plate.end - plate.begin) / 2;  // the base has as many beads
+    plate.velocity = {scene.plate_speed, 0};
+    plate.mass = scene.plate_mass;
+    plate.load = -scene.plate_pressure * scene.length;
+    return {plate};
+  }
+
+  Gravity gravity(const Scene&) const override { return {}; }
+
+  double base_pressure(const Scene& scene, double) const override { return scene.plate_pressure; }
+};
+
+}  // namespace
+
+const Geometry& shear_geometry()
+{
+  static const ShearCell cell("shear", "under a plate, without gravity");
+  return cell;
+}
+
+}  // namespace grseg

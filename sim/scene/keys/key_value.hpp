@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/scene/keys/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/// The kinds of values that keys have. `member` is a pointer to a member of Scene, or a function
+/// that takes a Scene to one of its parts.
+namespace grseg::kinds {
+
+double read_number(const std::string& key, const std::string& text);
+long read_whole_number(const std::string& key, const std::string& text);
+bool read_switch(const std::string& key, const std::string& text);
+/// m, not below 0.
+double read_length(const std::string& key, const std::string& text, const Scene& scene);
+
+template <class Member>
+KeyValue number(Member member, double low, double high)
+{
+  KeyValue value;
+  value.kind = "number";
+  value.allowed = fmt::format("{:g} to {:g}", low, high);
+  value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
+    const double given = read_number(key, text);
+    require_within(given, key, low, high);
+    std::invoke(member, scene) = given;
+  };
+  value.number = [=](const Scene& scene) { return std::invoke(member, scene); };
+  value.text = [=](const Scene& scene) { return fmt::format("{}", std::invoke(member, scene)); };
+  return value;
+}
+
+/// In metres. Bounds are written as a user writes lengths: "1e-9", "4dL".
+template <class Member>
+KeyValue length(Member member, const char* low, const char* high)
+{
+  auto value = number(member, 0, 0);
+  value.kind = "length";
+  value.allowed = fmt::format("{} to {}", low, high);
+  value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
+    const double given = read_length(key, text, scene);
+    require_within(given, key, read_length(key, low, scene), read_length(key, high, scene));
+    std::invoke(member, scene) = given;
+  };
+  return value;
+}
+
+template <class Member>
+KeyValue whole_number(Member member, long low, long high)
+{
+  using T = std::remove_cvref_t<std::invoke_result_t<Member, Scene&>>;
+  KeyValue value;
+  value.kind = "whole number";
+  value.allowed = fmt::format("{} to {}", low, high);
+  value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
+    const long given = read_whole_number(key, text);
+    require_within(static_cast<double>(given), key, static_cast<double>(low),
+                   static_cast<double>(high));
+    std::invoke(member, scene) = static_cast<T>(given);
+  };
+  value.number = [=](const Scene& scene) {
+    return static_cast<double>(std::invoke(member, scene));
+  };
+  value.text = [=](const Scene& scene) { return fmt::format("{}", std::invoke(member, scene)); };
+  return value;
+}
+
+/// One that a scene may be without.
+KeyValue whole_number(std::optional<long> Scene::*member, long low, long high);
+
+/// on or off.
+template <class Member>
+KeyValue on_or_off(Member member)
+{
+  KeyValue value;
+  value.kind = "switch";
+  value.allowed = "on or off";
+  value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
+    std::invoke(member, scene) = read_switch(key, text);
+  };
+  value.number = [=](const Scene& scene) { return std::invoke(member, scene) ? 1.0 : 0.0; };
+  value.text = [=](const Scene& scene) { return std::invoke(member, scene) ? "on" : "off"; };
+  return value;
+}
+
+/// The same, and as an option it stands alone and means on.
+template <class Member>
+KeyValue flag(Member member)
+{
+  auto value = on_or_off(member);
+  value.is_flag = true;
+  return value;
+}
+
+/// One of several words; each stands for a value.
+template <class T>
+using Words = std::vector<std::pair<std::string, T>>;
+
+template <class T>
+KeyValue choice(T Scene::*member, const Words<T>& words)
+{
+  std::string all;
+  for (const auto& [word, meaning] : words) all += (all.empty() ? "" : ", ") + word;
+  KeyValue value;
+  value.kind = "choice";
+  value.allowed = all;
+  value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
+    for (const auto& [word, meaning] : words)
+      if (text == word) {
+        scene.*member = meaning;
+        return;
+      }
+    throw SceneError(key, fmt::format("unknown {} '{}'; choose one of {}", key, text, all));
+  };
+  value.text = [=](const Scene& scene) {
+    for (const auto& [word, meaning] : words)
+      if (scene.*member == meaning) return word;
+    return std::string();
+  };
+  return value;
+}
+
+}  // namespace grseg::kinds

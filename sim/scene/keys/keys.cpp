@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/scene/keys/keys.hpp"
+
+#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/keys/accuracy.hpp"
+#include "sim/scene/keys/key_value.hpp"
+
+#include <fmt/ranges.h>
+
+namespace grseg {
+namespace {
+
+namespace po = boost::program_options;
+using namespace kinds;
+
+Words<const Geometry*> geometry_words()
+{
+  Words<const Geometry*> words;
+  for (const auto* geometry : geometries()) words.emplace_back(geometry->name(), geometry);
+  return words;
+}
+
+std::string geometry_help()
+{
+  std::vector<std::string> all;
+  for (const auto* geometry : geometries())
+    all.push_back(fmt::format("{} ({})", geometry->name(), geometry->help()));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+Words<std::string> accuracy_words()
+{
+  Words<std::string> words;
+  for (const auto& accuracy : accuracies) words.emplace_back(accuracy.name, accuracy.name);
+  return words;
+}
+
+template <class T>
+auto of_solver(T SolverSettings::*member)
+{
+  return [member](auto& scene) -> auto&
+  {
+    return scene.solver.*member;
+  };
+}
+
+constexpr long most = 1000000000;
+
+std::string set_by_accuracy(const char* help)
+{
+  return std::string(help) + " (default: by accuracy)";
+}
+
+// clang-format off
+std::vector<SceneKey> bed_keys()
+{
+  using enum KeyRole;
+  using enum InParameters;
+  return {
+    {"small-diameter", "5mm", length(&Scene::small_diameter, "1e-9", "1e6"), bed, yes,
+     "nominal diameter d_S of the small grains"},
+    {"size-ratio", "2", number(&Scene::size_ratio, 1, 100), bed, no,
+     "nominal d_L/d_S"},
+    {"spread", "0.08", number(&Scene::spread, 0, 0.9), bed, yes,
+     "(d_max - d_min)/d within a species, uniform"},
+    {"density", "1", number(&Scene::density, 1e-9, 1e12), bed, yes,
+     "of the grains, kg/m^2"},
+    {"phi-large", "0.3", number(&Scene::phi_large, 0, 1), bed, yes,
+     "share of the large grains in the area of all grains"},
+    {"large-grains", "", whole_number(&Scene::large_grains, 0, most), bed, no,
+     "number of large grains, instead of phi-large"},
+    {"geometry", "bed", choice(&Scene::geometry, geometry_words()), bed, yes,
+     geometry_help()},
+    {"depth", "60dS", length(&Scene::depth, "1dS", "1e6dS"), bed, no,
+     "height of the deposited bed, within 2 %"},
+    {"length", "35dL", length(&Scene::length, "4dL", "1e6dL"), bed, no,
+     "of the cell along x"},
+  };
+}
+
+std::vector<SceneKey> flow_keys()
+{
+  using enum KeyRole;
+  using enum InParameters;
+  return {
+    {"slope", "23", number(&Scene::slope, -90, 90), flow, yes,
+     "of the base, degrees, at t = 0"},
+    {"slope-rate", "0", number(&Scene::slope_rate, -1e9, 1e9), flow, yes,
+     "degrees/s by which the slope becomes steeper after t = 0"},
+    {"gravity", "9.8", number(&Scene::gravity, 1e-9, 1e9), flow, no,
+     "m/s^2; in a shear cell during the deposition only, by default such that the bed presses on "
+     "its base about as the plate will"},
+    {"friction", "0.5", number(&Scene::friction, 0, 1e3), flow, yes,
+     "Coulomb's coefficient, all contacts"},
+    {"restitution", "0.25", number(&Scene::restitution, 0, 1), flow, yes,
+     "Newton's coefficient, all contacts"},
+    {"contact-law", "speculative", choice(&Scene::law, Words<ContactLaw>{
+         {"speculative", ContactLaw::speculative}, {"touch", ContactLaw::touch},
+         {"centred", ContactLaw::centred}, {"predictive", ContactLaw::predictive}}), flow, yes,
+     "which pairs act in a step: speculative (those about to touch are slowed down short of "
+     "overlap and rebound in the next step), touch (those that touch at its middle), centred (at "
+     "its end) or predictive (half a step later)"},
+    {"horizon", "0.75", number(&Scene::horizon, 1e-3, 1), flow, yes,
+     "of the speculative law: steps that it looks ahead"},
+    {"rotation", "on", on_or_off(&Scene::rotation), bed, yes,
+     "whether grains rotate"},
+  };
+}
+
+std::vector<SceneKey> boundary_keys()
+{
+  using enum KeyRole;
+  using enum InParameters;
+  using Base = Scene::Base;
+  using Lateral = Scene::Lateral;
+  using Origin = Scene::Origin;
+  return {
+    {"base", "grains", choice(&Scene::base, Words<Base>{
+         {"grains", Base::grains}, {"wall", Base::wall}}), bed, no,
+     "grains (a row of fixed large grains) or wall (straight)"},
+    {"lateral", "periodic", choice(&Scene::lateral, Words<Lateral>{
+         {"periodic", Lateral::periodic}, {"walls", Lateral::walls}}), bed, no,
+     "what bounds the cell along x"},
+    {"origin", "top", choice(&Scene::origin, Words<Origin>{
+         {"top", Origin::top}, {"centre", Origin::centre}}), bed, yes,
+     "of y: top or centre of the base grains"},
+    {"drum-diameter", "100dS", length(&Scene::drum_diameter, "4dL", "1e6dL"), bed, no,
+     "of a drum, between its beads"},
+    {"drum-rate", "0.5", number(&Scene::drum_rate, -1e6, 1e6), flow, no,
+     "of a drum, rad/s, counter-clockwise"},
+    {"fill", "0.4", number(&Scene::fill, 0.01, 0.5), bed, no,
+     "of a drum: share of its area under the settled bed"},
+    {"plate-speed", "1", number(&Scene::plate_speed, -1e6, 1e6), flow, no,
+     "of a shear cell's plate, m/s"},
+    {"plate-pressure", "2", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
+     "of a shear cell's plate on the grains, N/m"},
+    {"plate-mass", "", number(&Scene::plate_mass, 1e-15, 1e15), flow, no,
+     "of a shear cell's plate, kg (default: that of its grains)"},
+    {"column-width", "40dS", length(&Scene::column_width, "1dL", "1e12"), bed, no,
+     "of a column before its gate opens"},
+    {"outlet", "16dS", length(&Scene::outlet, "1dS", "1e12"), bed, no,
+     "width of a hopper's outlet"},
+    {"shake-amplitude", "0", length(&Scene::shake_amplitude, "0", "1e12"), flow, no,
+     "of a bed's base, vertical"},
+    {"shake-frequency", "0", number(&Scene::shake_frequency, 0, 1e9), flow, no,
+     "of a bed's base, Hz"},
+  };
+}
+
+std::vector<SceneKey> run_keys()
+{
+  using enum KeyRole;
+  using enum InParameters;
+  return {
+    {"duration", "150", number(&Scene::duration, 0, 1e12), extent, no,
+     "s of flow, from the tilt at t = 0 on"},
+    {"frame-interval", "0.05", number(&Scene::frame_interval, 1e-12, 1e12), flow, yes,
+     "s from frame to frame, or from burst to burst"},
+    {"burst", "1", whole_number(&Scene::burst, 1, most), flow, yes,
+     "number of frames, of consecutive steps, written at each interval"},
+    {"keep-deposition", "off", flag(&Scene::keep_deposition), bed, no,
+     "write the deposition too, as frames at t < 0"},
+    {"seed", "1", whole_number(&Scene::seed, 1, 4294967295), bed, yes,
+     "of the random numbers"},
+    {"threads", "1", whole_number(&Scene::threads, 0, 1024), machine, no,
+     "for wide scenes; 0 uses all cores. Results do not depend on it"},
+    {"accuracy", "standard", choice(&Scene::accuracy, accuracy_words()), flow, yes,
+     "sets step, tolerance, min-sweeps and max-sweeps where they are not given"},
+    {"step", "", number(&Scene::step, 1e-15, 1e12), flow, yes,
+     set_by_accuracy("time step, s, at most 0.05 sqrt(d_S/g)")},
+    {"tolerance", "", number(of_solver(&SolverSettings::tolerance), 1e-15, 1e3), flow, yes,
+     set_by_accuracy("of the solver: largest change of a relative velocity in the last sweep, over "
+                     "the mean one that forces make")},
+    {"min-sweeps", "", whole_number(of_solver(&SolverSettings::min_sweeps), 1, most), flow, yes,
+     set_by_accuracy("of the solver, per step, unless one changes nothing; with too few a bed at "
+                     "rest trembles")},
+    {"max-sweeps", "", whole_number(of_solver(&SolverSettings::max_sweeps), 1, most), flow, yes,
+     set_by_accuracy("of the solver, per step")},
+    {"acceleration", "on", on_or_off(of_solver(&SolverSettings::acceleration)), flow, yes,
+     "whether sweeps are extrapolated (Nesterov)"},
+    {"compression", "0", whole_number(&Scene::compression, 0, 9), extent, no,
+     "deflate level of the finished file; 0 does not compress"},
+    {"store", "float64", choice(&Scene::float32, Words<bool>{
+         {"float64", false}, {"float32", true}}), extent, no,
+     "precision of numbers in the file"},
+  };
+}
+// clang-format on
+
+std::vector<SceneKey> all_keys()
+{
+  std::vector<SceneKey> all;
+  for (const auto& group : {bed_keys(), flow_keys(), boundary_keys(), run_keys()})
+    all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+}  // namespace
+
+const std::vector<SceneKey>& scene_keys()
+{
+  static const auto keys = all_keys();
+  return keys;
+}
+
+po::options_description scene_options()
+{
+  po::options_description options(
+      "Keys of a scene file, and options (the command line wins).\nLengths are metres or carry a "
+      "unit: 5mm, 60dS, 35dL");
+  for (const auto& key : scene_keys()) {
+    auto help = key.help;
+    if (key.value.kind == "choice" || (key.value.kind == "switch" && !key.value.is_flag))
+      help += fmt::format(" [{}]", key.value.allowed);
+    if (key.value.is_flag) {
+      options.add_options()(key.name, po::bool_switch(), help.c_str());
+      continue;
+    }
+    auto* value = po::value<std::string>();
+    if (!key.default_text.empty()) value->default_value(key.default_text);
+    options.add_options()(key.name, value, help.c_str());
+  }
+  return options;
+}
+
+}  // namespace grseg

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/scene/scene.hpp"
+
+#include <boost/program_options.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// How the value of a key is written, and where a Scene holds it.
+struct KeyValue {
+  std::string kind;     ///< "length", "number", "whole number", "switch" or "choice"
+  std::string allowed;  ///< the range or the words
+  /// Sets the scene's value from what the user wrote; SceneError where the key cannot have it.
+  std::function<void(const std::string& key, const std::string& text, Scene&)> read;
+  /// The scene's value as a scene file states it, in SI; "" where it has none.
+  std::function<std::string(const Scene&)> text;
+  /// The scene's value as a number, 1 for on; of a choice, empty.
+  std::function<double(const Scene&)> number;
+  /// Whether the option stands alone on the command line and means on.
+  bool is_flag = false;
+};
+
+/// What a key belongs to, and so what a restart may do with it.
+enum class KeyRole {
+  bed,     ///< the deposited bed: a restart cannot change it
+  flow,    ///< how grains move and which frames are written: a restart that changes it begins a
+           ///< new trajectory
+  extent,  ///< how long the run lasts and how its file is stored: steps stay the same
+  machine  ///< what it runs on: results do not depend on it, and files do not state it
+};
+
+enum class InParameters { no, yes };
+
+/// A key of scene files, which is also an option of grseg-sim.
+struct SceneKey {
+  const char* name;
+  std::string default_text;  ///< the default; "" where it follows from other keys (resolve.cpp)
+  KeyValue value;
+  KeyRole role;
+  /// Whether /parameters holds it under its own name, with _ for -. All keys but those of
+  /// KeyRole::machine are in /parameters/scene.
+  InParameters stored;
+  std::string help;
+};
+
+/// The table of all keys: options, --help, scene files, range checks, /parameters, what a restart
+/// compares and docs/guide/scene-keys.md follow from it. In the order of scene files.
+const std::vector<SceneKey>& scene_keys();
+
+/// The keys as options for Boost.ProgramOptions.
+boost::program_options::options_description scene_options();
+
+}  // namespace grseg

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/scene/keys/resolve.hpp"
+
+#include "sim/scene/geometry.hpp"
+#include "sim/scene/keys/accuracy.hpp"
+#include "sim/scene/keys/keys.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+namespace po = boost::program_options;
+
+// Restitution and geometry err by O(h); beyond this step a scene is a different one.
+constexpr double largest_step = 0.05;  // in sqrt(d_S/g)
+constexpr double largest_turn = 1;     // degree per step: a step feels the gravity of its middle
+
+void read_keys(const po::variables_map& values, Scene& scene)
+{
+  for (const auto& key : scene_keys()) {
+    const auto& given = values[key.name];
+    if (given.empty()) continue;  // it follows from others
+    key.value.read(key.name,
+                   key.value.is_flag ? (given.as<bool>() ? "on" : "off") : given.as<std::string>(),
+                   scene);
+  }
+  scene.large_diameter = scene.small_diameter * scene.size_ratio;
+  if (scene.threads == 0) scene.threads = omp_get_num_procs();
+}
+
+double mass_of_plate(const Scene& scene)
+{
+  const double beads = std::floor(scene.length / scene.large_diameter + 1e-9);
+  return beads * scene.density * std::numbers::pi / 4 * scene.large_diameter * scene.large_diameter;
+}
+
+void check_shaking(const Scene& scene)
+{
+  if (scene.shake_amplitude == 0) return;
+  require(scene.geometry->can_shake(scene), "shake-amplitude",
+          "shake-amplitude moves the grains under a bed; set geometry = bed and base = grains");
+  require(scene.shake_frequency > 0, "shake-frequency",
+          "shake-frequency is 0 but shake-amplitude is not; give both");
+}
+
+/// The step that was given, or the longest one of the accuracy that divides the frame interval.
+void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
+{
+  const double natural = std::sqrt(scene.small_diameter / scene.gravity);
+  if (!given("step")) {
+    scene.step = scene.frame_interval / std::ceil(scene.frame_interval / (accuracy.step * natural));
+    return;
+  }
+  require_within(scene.step, "step", 0, largest_step * natural);
+  const double steps = scene.frame_interval / scene.step;
+  require(std::abs(steps - std::round(steps)) <= 1e-6 * steps && steps >= 0.5, "step",
+          fmt::format("frame-interval, {:.9g} s, is not a whole number of steps of {:.9g} s; "
+                      "change one of them",
+                      scene.frame_interval, scene.step));
+}
+
+void resolve_accuracy(Scene& scene, const KeyGiven& given)
+{
+  const auto& accuracy =
+      *std::find_if(accuracies.begin(), accuracies.end(),
+                    [&](const Accuracy& one) { return one.name == scene.accuracy; });
+  resolve_step(scene, given, accuracy);
+  auto& solver = scene.solver;
+  if (!given("tolerance")) solver.tolerance = accuracy.tolerance;
+  if (!given("max-sweeps")) solver.max_sweeps = accuracy.max_sweeps;
+  if (!given("min-sweeps")) solver.min_sweeps = std::min(accuracy.min_sweeps, solver.max_sweeps);
+  require(solver.min_sweeps <= solver.max_sweeps, "min-sweeps",
+          fmt::format("min-sweeps is {}, above max-sweeps, {}; give both", solver.min_sweeps,
+                      solver.max_sweeps));
+}
+
+void check_frames(const Scene& scene)
+{
+  require_within(static_cast<double>(scene.burst), "burst", 1,
+                 static_cast<double>(scene.steps_per_frame()));
+  require(!scene.keep_deposition || scene.geometry->keeps_grains(), "keep-deposition",
+          fmt::format("keep-deposition: in geometry {} other grains are there from t = 0 on, and "
+                      "one file cannot hold both; leave it out",
+                      scene.geometry->name()));
+}
+
+void check_turning(const Scene& scene)
+{
+  const double turn = std::abs(scene.slope_rate) * scene.step;
+  require(turn <= largest_turn, "slope-rate",
+          fmt::format("slope-rate turns gravity by {:.3g} degrees per step, above {}; choose a "
+                      "smaller one or a smaller step",
+                      turn, largest_turn));
+}
+
+}  // namespace
+
+Scene resolve_scene(const po::variables_map& values)
+{
+  const KeyGiven given = [&](const char* key) {
+    return values.count(key) > 0 && !values[key].defaulted();
+  };
+  Scene scene;
+  read_keys(values, scene);
+  scene.geometry->resolve(scene, given);
+  if (!given("plate-mass")) scene.plate_mass = mass_of_plate(scene);
+  check_shaking(scene);
+  resolve_accuracy(scene, given);
+  check_frames(scene);
+  check_turning(scene);
+  return scene;
+}
+
+}  // namespace grseg

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/scene/deposition.hpp"
+
+#include "formats/cli/tool.hpp"
+#include "formats/core/errors.hpp"
+#include "tests/sim/small_chute.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+Scene scene_from(const std::vector<std::string>& words)
+{
+  return small_chute::paper_scene(words);
+}
+
+TEST(Deposition, MakesABedOfTheAskedDepthAndComposition)
+{
+  const auto scene = scene_from(
+      {"--depth", "12dS", "--length", "15dL", "--phi-large", "0.4", "--accuracy", "draft"});
+  const auto simulation = deposit(scene);
+  EXPECT_NEAR(bed_height(simulation), scene.depth, 0.02 * scene.depth);
+  const auto& grains = simulation.world().grains;
+  double large = 0, all = 0, y_large = 0, y_small = 0;
+  int count_large = 0, count_small = 0, base = 0;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    base += grains.species[k] == Species::boundary;
+    if (grains.fixed[k]) continue;
+    const double area = std::numbers::pi * grains.radius[k] * grains.radius[k];
+    const bool is_large = grains.species[k] == Species::large;
+    all += area;
+    large += is_large ? area : 0;
+    (is_large ? y_large : y_small) += simulation.position(k).y();
+    ++(is_large ? count_large : count_small);
+    EXPECT_NEAR(2 * grains.radius[k], is_large ? 0.01 : 0.005, 0.04 * (is_large ? 0.01 : 0.005));
+    EXPECT_GT(simulation.position(k).y(), 0);
+  }
+  EXPECT_EQ(base, 15);
+  EXPECT_NEAR(large / all, 0.4, 0.02);
+  EXPECT_LT(y_large / count_large, 0.6 * y_small / count_small);
+}
+
+/// Kinetic energy over m g d of a small grain, per grain, of a bed left flat for a second.
+double trembling(const std::string& accuracy, const std::string& min_sweeps)
+{
+  const auto scene = scene_from({"--depth", "40dS", "--length", "10dL", "--accuracy", accuracy});
+  auto simulation = deposit(scene);
+  const auto loose = scene_from({"--accuracy", accuracy, "--min-sweeps", min_sweeps});
+  auto world = simulation.world();
+  world.solver = loose.solver;
+  simulation = Simulation(world, simulation.state());
+  double most = 0;
+  while (simulation.time() < 1) {
+    simulation.advance();
+    if (simulation.time() > 0.5) most = std::max(most, simulation.translational_energy());
+  }
+  const auto& grains = world.grains;
+  const double small = std::numbers::pi / 4 * scene.small_diameter * scene.small_diameter;
+  return most / (static_cast<double>(grains.size()) * scene.density * small * scene.gravity *
+                 scene.small_diameter);
+}
+
+TEST(Deposition, ABedAtRestStaysAtRest)
+{
+  for (const auto* accuracy : {"draft", "standard"}) {
+    EXPECT_LT(trembling(accuracy, "8"), 1e-3) << accuracy;
+    EXPECT_GT(trembling(accuracy, "1"), 2e-3)
+        << accuracy << ": the least number of sweeps has no effect";
+  }
+}
+
+TEST(Deposition, GivesTheWorldTheConditionsOfTheScene)
+{
+  const auto scene =
+      scene_from({"--depth", "6dS", "--length", "6dL", "--origin", "centre", "--rotation", "off",
+                  "--density", "3", "--tolerance", "0.3", "--max-sweeps", "77", "--threads", "3"});
+  const auto simulation = deposit(scene);
+  const auto& world = simulation.world();
+  EXPECT_FALSE(world.rotation);
+  EXPECT_EQ(world.solver.tolerance, 0.3);
+  EXPECT_EQ(world.solver.max_sweeps, 77);
+  EXPECT_EQ(world.threads, 3);
+  EXPECT_EQ(simulation.time(), 0);
+  for (std::size_t k = 0; k < world.grains.size(); ++k) {
+    const double r = world.grains.radius[k];
+    EXPECT_DOUBLE_EQ(world.grains.mass[k], 3 * std::numbers::pi * r * r);
+    if (world.grains.fixed[k]) {
+      EXPECT_EQ(simulation.position(k).y(), 0);
+    }
+  }
+}
+
+TEST(Deposition, IsRecordedBeforeTheTiltWithoutChangingTheBed)
+{
+  const auto scene = scene_from({"--depth", "6dS", "--length", "6dL", "--accuracy", "draft"});
+  std::int64_t steps = 0;
+  std::vector<double> times;
+  const auto recorded = deposit(
+      scene,
+      {.each_step = {}, .record = [&](const StepReport&, const Simulation&, const Frame* frame) {
+         ++steps;
+         if (frame != nullptr) times.push_back(frame->time);
+       }});
+  ASSERT_GE(times.size(), 2u);
+  EXPECT_GE(times.front(), -static_cast<double>(steps) * scene.step);
+  EXPECT_LT(times.back(), 0);
+  EXPECT_NEAR(times[1] - times[0], scene.frame_interval, 1e-12);
+  EXPECT_EQ(recorded.position(3), deposit(scene).position(3));
+}
+
+TEST(Deposition, EndsWhenItIsAskedTo)
+{
+  const auto scene = scene_from({"--accuracy", "draft"});
+  int steps = 0;
+  const auto listen = [&] {
+    if (++steps == 10) throw ToolError(exit_interrupted, "interrupted");
+  };
+  EXPECT_THROW(deposit(scene, {.each_step = listen, .record = {}}), ToolError);
+  EXPECT_EQ(steps, 10);
+}
+
+TEST(Deposition, OfGrainsThatDoNotFitIntoTheirColumnIsRefused)
+{
+  try {
+    deposit(scene_from({"--geometry", "column", "--lateral", "walls", "--column-width", "1dL"}));
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "the falling grains do not fit: the column has no room for one at a height of 0 "
+                 "m; choose a wider one or fewer grains");
+  }
+}
+
+TEST(Deposition, WithoutGrainsIsRefused)
+{
+  EXPECT_THROW(deposit(scene_from({"--size-ratio", "100", "--phi-large", "1", "--depth", "1dS",
+                                   "--length", "4dL", "--base", "wall"})),
+               UsageError);
+}
+
+TEST(Deposition, AnotherSeedMakesAnotherBedAndTheSameSeedTheSame)
+{
+  const auto bed = [](const char* seed) {
+    return deposit(
+        scene_from({"--depth", "6dS", "--length", "6dL", "--accuracy", "draft", "--seed", seed}));
+  };
+  const auto first = bed("1"), again = bed("1"), other = bed("2");
+  EXPECT_EQ(first.position(3), again.position(3));
+  EXPECT_NE(first.position(3), other.position(3));
+}
+
+TEST(Deposition, StandsOnAStraightWallBetweenWallsToo)
+{
+  const auto simulation = deposit(scene_from({"--depth", "8dS", "--length", "8dL", "--base", "wall",
+                                              "--lateral", "walls", "--accuracy", "draft"}));
+  for (std::size_t k = 0; k < simulation.world().grains.size(); ++k) {
+    EXPECT_FALSE(simulation.world().grains.fixed[k]);
+    const double r = simulation.world().grains.radius[k];
+    const auto at = simulation.position(k);
+    EXPECT_GT(at.y(), 0.9 * r);
+    EXPECT_GT(at.x(), 0.9 * r);
+    EXPECT_LT(at.x(), simulation.world().box.length_x - 0.9 * r);
+  }
+}
+
+}  // namespace
+}  // namespace grseg

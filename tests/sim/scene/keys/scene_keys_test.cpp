@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/tool.hpp"
+#include "formats/core/errors.hpp"
+#include "sim/scene/keys/keys.hpp"
+#include "sim/scene/keys/resolve.hpp"
+#include "sim/scene/keys/scene_file.hpp"
+#include "sim/scene/keys/scene_text.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+namespace fs = std::filesystem;
+
+po::variables_map parse(const std::vector<std::string>& words)
+{
+  po::variables_map values;
+  po::store(po::command_line_parser(words).options(scene_options()).run(), values);
+  po::notify(values);
+  return values;
+}
+
+Scene scene_from(const std::vector<std::string>& words)
+{
+  return resolve_scene(parse(words));
+}
+
+class SceneFile : public testing::Test {
+ protected:
+  std::string path =
+      (fs::temp_directory_path() / ("grseg_scene_test_" + std::to_string(getpid()) + ".ini"))
+          .string();
+  void TearDown() override { fs::remove(path); }
+  std::string complaint(const std::string& content)
+  {
+    std::ofstream(path) << content;
+    try {
+      resolve_scene(path, parse({}));
+    } catch (const FormatError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+};
+
+TEST(Scene, DefaultsAreThePapersFlow)
+{
+  const auto scene = scene_from({});
+  EXPECT_DOUBLE_EQ(scene.small_diameter, 0.005);
+  EXPECT_DOUBLE_EQ(scene.large_diameter, 0.01);
+  EXPECT_DOUBLE_EQ(scene.depth, 0.3);
+  EXPECT_DOUBLE_EQ(scene.length, 0.35);
+  EXPECT_EQ(scene.slope, 23);
+  EXPECT_EQ(scene.friction, 0.5);
+  EXPECT_EQ(scene.restitution, 0.25);
+  EXPECT_EQ(scene.duration, 150);
+}
+
+TEST(Scene, AWholeNumberOfStepsFitsIntoAFrameInterval)
+{
+  for (const auto* accuracy : {"draft", "standard", "reference"}) {
+    const auto scene = scene_from({"--accuracy", accuracy, "--frame-interval", "0.0123"});
+    const double steps = scene.frame_interval / scene.step;
+    EXPECT_NEAR(steps, std::round(steps), 1e-9);
+  }
+  EXPECT_THROW(scene_from({"--step", "0.0003"}), UsageError);
+}
+
+TEST(Scene, StorageIsAsAsked)
+{
+  EXPECT_TRUE(scene_from({"--store", "float32"}).float32);
+  EXPECT_EQ(scene_from({"--compression", "4"}).compression, 4);
+}
+
+TEST(Scene, GravityPointsDownTheSlopeAndIntoTheBase)
+{
+  const auto gravity = to_parameters(scene_from({"--slope", "30"})).numbers.at("gravity");
+  EXPECT_NEAR(gravity[0], 4.9, 1e-12);
+  EXPECT_NEAR(gravity[1], -9.8 * std::sqrt(3.0) / 2, 1e-12);
+}
+
+TEST(Scene, ASlopeThatTurnsIsStoredAndMustTurnSlowly)
+{
+  const auto scene = scene_from({"--slope", "0", "--slope-rate", "5"});
+  EXPECT_EQ(to_parameters(scene).numbers.at("slope_rate").at(0), 5);
+  const auto later = gravity_of(scene).at(6);  // at 30 degrees
+  EXPECT_NEAR(later.x(), 4.9, 1e-12);
+  for (const auto& words : {std::vector<std::string>{"--slope-rate", "5000"},
+                            {"--slope-rate", "5", "--geometry", "shear"}}) {
+    try {
+      scene_from(words);
+      FAIL();
+    } catch (const SceneError& error) {
+      EXPECT_EQ(error.key, "slope-rate");
+    }
+  }
+}
+
+TEST(Scene, ItsTextMakesTheSameScene)
+{
+  const auto scene = scene_from(
+      {"--phi-large", "0.45", "--slope", "21.5", "--rotation", "off", "--slope-rate", "0.25"});
+  const auto path =
+      (fs::temp_directory_path() / ("grseg_scene_" + std::to_string(getpid()) + ".ini")).string();
+  std::ofstream(path) << to_text(scene);
+  auto values = parse({});
+  read_scene_file(path, values);
+  fs::remove(path);
+  EXPECT_EQ(to_text(resolve_scene(values)), to_text(scene));
+}
+
+TEST(Scene, ValuesOutOfRangeAreRefusedByName)
+{
+  for (const auto& [key, value] :
+       std::vector<std::pair<std::string, std::string>>{{"phi-large", "1.5"},
+                                                        {"restitution", "-0.1"},
+                                                        {"friction", "nan"},
+                                                        {"depth", "0"},
+                                                        {"length", "3dL"},
+                                                        {"slope", "91"},
+                                                        {"step", "0.1"},
+                                                        {"rotation", "maybe"},
+                                                        {"accuracy", "best"},
+                                                        {"seed", "-1"},
+                                                        {"threads", "-1"},
+                                                        {"base", "sand"}}) {
+    try {
+      scene_from({"--" + key, value});
+      FAIL() << key;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLineAndTheNearestKnownOne)
+{
+  EXPECT_EQ(complaint("# a chute\nslope = 23\nfrction = 0.5\n"),
+            path + ":3: unknown key 'frction', did you mean 'friction'?");
+}
+
+TEST_F(SceneFile, AValueThatIsNotANumberIsNamedWithItsLine)
+{
+  EXPECT_EQ(complaint("# a chute\nslope = steep\n"), path + ":2: slope: 'steep' is not a number");
+  EXPECT_EQ(complaint("burst = 1.5\n"), path + ":1: burst: '1.5' is not a whole number");
+  EXPECT_EQ(complaint("base = sand\n"),
+            path + ":1: unknown base 'sand'; choose one of grains, wall");
+}
+
+TEST_F(SceneFile, AValueOutOfRangeIsTheFilesFaultUnlessTheCommandLineGaveIt)
+{
+  std::ofstream(path) << "# a chute\nphi-large = 1.5\n";
+  try {
+    resolve_scene(path, parse({}));
+    FAIL();
+  } catch (const FormatError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              path + ":2: phi-large is 1.5: it must lie between 0 and 1");
+  }
+  EXPECT_NO_THROW(resolve_scene(path, parse({"--phi-large", "0.5"})));
+  EXPECT_THROW(resolve_scene(path, parse({"--phi-large", "2"})), UsageError);
+}
+
+TEST_F(SceneFile, TheCommandLineWins)
+{
+  std::ofstream(path) << "slope = 21\nfriction = 0.3\n";
+  auto values = parse({"--slope", "26"});
+  read_scene_file(path, values);
+  const auto scene = resolve_scene(values);
+  EXPECT_EQ(scene.slope, 26);
+  EXPECT_EQ(scene.friction, 0.3);
+}
+
+TEST_F(SceneFile, ThatDoesNotExistIsAUsageError)
+{
+  auto values = parse({});
+  EXPECT_THROW(read_scene_file("/nowhere/chute.ini", values), UsageError);
+}
+
+/// docs/guide/scene-keys.md as the table of keys gives it.
+std::string reference_of_keys()
+{
+  const std::map<KeyRole, std::string> restart{{KeyRole::bed, "no"},
+                                               {KeyRole::flow, "yes"},
+                                               {KeyRole::extent, "yes, same steps"},
+                                               {KeyRole::machine, "yes, same results"}};
+  std::ostringstream page;
+  page
+      << "# Keys of a scene\n\n"
+         "Each key is a line `key = value` of a scene file and an option `--key value` of\n"
+         "`grseg-sim`; the command line wins. Lengths are metres or carry a unit: `5mm`, `2cm`,\n"
+         "`60dS`, `35dL` (nominal diameters of the small and large grains). \"Restart\" says\n"
+         "whether `--restart` may change the key. The table is that of `sim/scene/keys/keys.cpp`;\n"
+         "a test keeps this page equal to it.\n\n"
+         "| key | default | values | restart | meaning |\n| --- | --- | --- | --- | --- |\n";
+  for (const auto& key : scene_keys())
+    page << "| `" << key.name << "` | "
+         << (key.default_text.empty() ? "" : "`" + key.default_text + "`") << " | "
+         << key.value.kind << ": " << key.value.allowed << " | " << restart.at(key.role) << " | "
+         << key.help << " |\n";
+  return page.str();
+}
+
+TEST(SceneKeys, StandInTheGuideAsInTheTable)
+{
+  std::ifstream file(GRSEG_SCENE_KEYS_PAGE);
+  std::ostringstream page;
+  page << file.rdbuf();
+  const auto made = fs::current_path() / "scene-keys.md";
+  if (page.str() != reference_of_keys()) std::ofstream(made) << reference_of_keys();
+  EXPECT_EQ(page.str(), reference_of_keys())
+      << "cp " << made.string() << ' ' << GRSEG_SCENE_KEYS_PAGE << " brings the page up to date";
+}
+
+TEST(SceneKeys, HaveDefaultsThatTheyAccept)
+{
+  std::set<std::string> names;
+  auto scene = scene_from({});
+  for (const auto& key : scene_keys()) {
+    EXPECT_TRUE(names.insert(key.name).second) << key.name << " stands twice";
+    if (!key.default_text.empty()) {
+      EXPECT_NO_THROW(key.value.read(key.name, key.default_text, scene)) << key.name;
+    }
+    EXPECT_FALSE(key.help.empty()) << key.name;
+  }
+}
+
+TEST(SceneKeys, OfASceneAreReadBackAsTheyAreWritten)
+{
+  const auto scene = scene_from({"--large-grains", "3", "--keep-deposition", "--slope", "-5",
+                                 "--store", "float32", "--contact-law", "centred"});
+  Scene again;
+  for (const auto& key : scene_keys())
+    if (const auto text = key.value.text(scene); !text.empty())
+      key.value.read(key.name, text, again);
+  EXPECT_EQ(to_text(again), to_text(scene));
+}
+
+TEST(SceneKeys, ThatDifferAreFoundByWhatTheyBelongTo)
+{
+  const auto one = scene_from({}), other = scene_from({"--duration", "3", "--friction", "0.1"});
+  EXPECT_EQ(differing_key(one, other, KeyRole::bed), "");
+  EXPECT_EQ(differing_key(one, other, KeyRole::flow), "friction");
+  EXPECT_EQ(differing_key(one, other, KeyRole::extent), "duration");
+}
+
+}  // namespace
+}  // namespace grseg
