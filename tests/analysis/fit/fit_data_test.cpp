@@ -113,7 +113,8 @@ TEST(FitData, TheSameWindowsOfTheSameRunAreNotCountedTwice)
   early.header.emplace_back("input", "run.h5 0123456789abcdef");
   late.header.emplace_back("input", "run.h5 0123456789abcdef");
   EXPECT_EQ(sentence_of<UsageError>({early, late}), "");
-  EXPECT_TRUE(holds(sentence_of<UsageError>({early, late, early}), "counted twice"));
+  EXPECT_TRUE(holds(sentence_of<UsageError>({early, late, early}),
+                    "hold the same windows of the same run"));
 }
 
 Table kinetic_table(double slope)

@@ -165,8 +165,8 @@ TEST(MergeTables, TablesMadeDifferentlyAreRefusedWithBothNames)
   auto b = table("b", {row(0, 0, 1, 1)});
   b.header[4].second = "0.01";
   EXPECT_EQ(sentence<FormatError>({a, b}),
-            "a.tsv and b.tsv were made differently: '# layer: 0.02' and '# layer: 0.01'; tables "
-            "merge whose layers, windows and rules are the same");
+            "a.tsv and b.tsv were made differently: '# layer: 0.02' and '# layer: 0.01'; only "
+            "tables with the same layers, windows and rules can be merged");
   b = table("b", {row(0, 0, 1, 1)});
   b.header.emplace_back("width", "0.005");
   EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "nothing and '# width: 0.005'"));
