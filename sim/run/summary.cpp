@@ -72,26 +72,24 @@ std::string stiffness_in_words(const NumericalStiffness& s)
       s.rigidity, s.rigidity < rigid ? remedy : "");
 }
 
-/// What makes the run doubtful, each with its remedy.
-std::vector<std::string> doubts(const StepTotals& t, const Scene& scene)
-{
-  std::vector<std::string> all;
-  if (t.missed > 0)
-    all.push_back(
-        fmt::format("{} steps missed the tolerance: raise --max-sweeps, now {}, or "
-                    "choose a smaller --step",
-                    t.missed, scene.solver.max_sweeps));
-  if (t.mean_overlap() > small_overlap * scene.small_diameter)
-    all.push_back(
-        fmt::format("the mean overlap is above {:g} d_S: choose a smaller --step or a "
-                    "larger --min-sweeps",
-                    small_overlap));
-  return all;
-}
-
 std::string line(const char* title, const std::string& text)
 {
   return fmt::format("  {:<10} {}\n", title, text);
+}
+
+/// What makes the run doubtful, a line each, with its remedy.
+std::string doubts(const StepTotals& t, const Scene& scene)
+{
+  std::string lines;
+  if (t.missed > 0)
+    lines += line("doubt", fmt::format("{} steps missed the tolerance: raise --max-sweeps, now {}, "
+                                       "or choose a smaller --step",
+                                       t.missed, scene.solver.max_sweeps));
+  if (t.mean_overlap() > small_overlap * scene.small_diameter)
+    lines += line("doubt", fmt::format("the mean overlap is above {:g} d_S: choose a smaller "
+                                       "--step or a larger --min-sweeps",
+                                       small_overlap));
+  return lines;
 }
 
 }  // namespace
@@ -143,8 +141,7 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
   text += line("stiffness", stiffness_in_words(s.stiffness));
   const auto left_out = effects_left_out(scene);
   if (!left_out.empty()) text += line("not needed", left_out);
-  for (const auto& doubt : doubts(s.totals, scene)) text += line("doubt", doubt);
-  return text;
+  return text + doubts(s.totals, scene);
 }
 
 std::string next_steps(const std::string& output)
