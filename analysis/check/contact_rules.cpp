@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/contact_rules.hpp"
 
+#include "formats/core/errors.hpp"
 #include "formats/trajectory/reader.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +21,24 @@ ContactRules read_contact_rules(const TrajectoryReader& run)
   const auto& radius = run.grains().radius;
   rules.margin = 1e-9 * 2 * *std::min_element(radius.begin(), radius.end());
   const auto law = parameters.text("contact_law");
-  if (law == "centred") rules.look_ahead = 0.5;
-  if (law == "predictive") rules.look_ahead = 1;
-  if (law == "speculative") {
+  if (law.empty() || law == "touch") {
+    rules.look_ahead = 0;
+  } else if (law == "centred") {
+    rules.look_ahead = 0.5;
+  } else if (law == "predictive") {
+    rules.look_ahead = 1;
+  } else if (law == "speculative") {
     rules.look_ahead = rules.horizon = parameters.number("horizon", run.path());
     // For files without /parameters/contact_margin.
     const double by_gravity =
         rules.horizon * rules.step * std::sqrt(run.gravity().norm() * run.small_diameter());
     rules.margin =
         std::max(rules.margin, parameters.find_number("contact_margin").value_or(by_gravity));
+  } else {
+    throw FormatError(fmt::format(
+        "{}: /parameters/contact_law is '{}', which this grseg-check does not know; use that of the "
+        "version that made the run",
+        run.path(), law));
   }
   return rules;
 }

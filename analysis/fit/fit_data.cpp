@@ -111,8 +111,8 @@ void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filter
   const double small_diameter = table.header_number("small_diameter");
   const double large_diameter = table.header_number("large_diameter");
   const double median = median_solid_fraction(rows);
-  RowRange range{filters.begin, filters.end};
-  range.set_heights(filters.heights, {small_diameter, large_diameter});
+  const RowRange range{filters.begin, filters.end,
+                       parse_heights(filters.heights, {small_diameter, large_diameter})};
   std::erase_if(rows,
                 [&](const Row& row) { return !passes(row, filters, range, median, data.count); });
 

@@ -48,7 +48,7 @@ LayerKey LayerKeyReader::read(std::size_t row) const
 std::size_t find_column(const Table& table, const std::string& name, const std::string& remedy)
 {
   if (!table.has_column(name))
-    throw FormatError(fmt::format("{}: there is no column '{}'; {}", table.name, name, remedy));
+    throw FormatError(fmt::format("{}: no column '{}'; {}", table.name, name, remedy));
   return table.column(name);
 }
 
@@ -65,23 +65,6 @@ bool RowRange::holds_window(const LayerKey& key) const
 {
   const double slack = 1e-9 * (1 + std::abs(key.begin) + std::abs(key.end));
   return !(key.begin < begin - slack) && !(key.end > end + slack);
-}
-
-bool RowRange::holds_layer(const LayerKey& key) const
-{
-  const double slack = 1e-9 * (key.top - key.bottom);
-  return !(key.bottom < lowest - slack) && !(key.top > highest + slack);
-}
-
-void RowRange::set_heights(const std::string& text, const LengthUnits& units)
-{
-  if (text.empty()) return;
-  const auto colon = text.find(':');
-  if (colon == std::string::npos)
-    throw UsageError(fmt::format("--heights {}: write low:high, e.g. 4dS:56dS or 4dS:", text));
-  const auto low = text.substr(0, colon), high = text.substr(colon + 1);
-  if (!low.empty()) lowest = parse_length(low, "--heights", units);
-  if (!high.empty()) highest = parse_length(high, "--heights", units);
 }
 
 }  // namespace grseg

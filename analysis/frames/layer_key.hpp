@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/height_range.hpp"
 #include "formats/cli/table.hpp"
-#include "formats/core/length.hpp"
 
 #include <array>
 #include <cstddef>
@@ -60,15 +60,10 @@ double finite_cell(const Table& table, std::size_t row, std::size_t column);
 struct RowRange {
   double begin = -std::numeric_limits<double>::infinity();
   double end = std::numeric_limits<double>::infinity();
-  double lowest = -std::numeric_limits<double>::infinity();
-  double highest = std::numeric_limits<double>::infinity();
+  HeightRange heights = {};
 
   bool holds_window(const LayerKey& key) const;
-  bool holds_layer(const LayerKey& key) const;
-  bool holds(const LayerKey& key) const { return holds_window(key) && holds_layer(key); }
-  /// Takes lowest and highest from --heights: "4dS:56dS", "4dS:" or "" (all). UsageError where
-  /// `text` is something else.
-  void set_heights(const std::string& text, const LengthUnits& units);
+  bool holds_layer(const LayerKey& key) const { return heights.holds(key.bottom, key.top); }
 };
 
 }  // namespace grseg

@@ -33,9 +33,9 @@ ForceMeasure measure_of(const DerivedOptions& options)
 
 PartitionRule rule_of(const DerivedOptions& options)
 {
-  using Kind = PartitionRule::Kind;
   const auto rule = parse_rule(options.partition);
-  if (rule.kind == Kind::contact_point || rule.kind == Kind::power)
+  const auto sum = rule.definition().sum;
+  if (sum != nullptr && sum != &ContactSums::mixed_size)  // the others are not in this table
     throw UsageError(fmt::format("--partition {}: grseg-micro knows size, half, drop and uniform:P",
                                  rule.name()));
   return rule;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/structure_sums.hpp"
 
-#include "analysis/frames/accumulate.hpp"
 #include "analysis/frames/ratio.hpp"
 
 #include <fmt/format.h>
@@ -72,37 +71,27 @@ StructureSums changed(StructureSums sums, const Change& change)
   return sums;
 }
 
+/// Adds every number that `visit_all` visits.
+template <class Sums, class Visit>
+void add(Sums& sums, const Sums& others, const Visit& visit_all)
+{
+  std::vector<double> values;
+  visit_all(others, [&](const char*, const char*, double number) { values.push_back(number); });
+  auto value = values.begin();
+  visit_all(sums, [&](const char*, const char*, double& number) { number += *value++; });
+}
+
 }  // namespace
 
 PairSums& PairSums::operator+=(const PairSums& others)
 {
-  contacts += others.contacts;
-  force += others.force;
-  normal += others.normal;
-  mobilised += others.mobilised;
-  sliding += others.sliding;
-  strong += others.strong;
-  fabric += others.fabric;
-  stress += others.stress;
-  return *this;
-}
-
-SpeciesSums& SpeciesSums::operator+=(const SpeciesSums& others)
-{
-  area += others.area;
-  grains += others.grains;
-  ends += others.ends;
-  mixed_ends += others.mixed_ends;
-  base_ends += others.base_ends;
+  add(*this, others, [](auto& sums, const auto& use) { visit_pair(sums, "", "", use); });
   return *this;
 }
 
 StructureSums& StructureSums::operator+=(const StructureSums& others)
 {
-  accumulate(species, others.species);
-  accumulate(pair, others.pair);
-  mixed_size += others.mixed_size;
-  base_force += others.base_force;
+  add(*this, others, [](auto& sums, const auto& use) { visit(sums, use); });
   return *this;
 }
 

@@ -44,8 +44,6 @@ struct SpeciesSums {
   double ends = 0;        // all of them, those of base contacts included
   double mixed_ends = 0;  // of contacts with a grain of the other species
   double base_ends = 0;   // of contacts with boundary grains and walls
-
-  SpeciesSums& operator+=(const SpeciesSums& others);
 };
 
 /// Grains, contacts and forces in a layer or in the whole bed: sums, as means per frame. Sums of
@@ -71,7 +69,7 @@ struct StructureSums {
   double coordination(Species s) const;
   /// f_S, f_L, N, base contacts included; NaN without contacts.
   double mean_force(Species s, const ForceMeasure& measure) const;
-  /// N_LS/(N_LL + N_LS + N_SS), as in figure 3c of the paper; base contacts do not count. NaN
+  /// N_LS/(N_LL + N_LS + N_SS), as in figure 2c of the paper; base contacts do not count. NaN
   /// without contacts.
   double mixed_share() const;
   /// Contact stresses in the volume of the grains, N/m (eq. 1 of the paper). `rule` is size, half,
@@ -83,6 +81,5 @@ struct StructureSums {
   /// The sums whose cells have these values.
   static StructureSums from_values(const std::vector<double>& values);
 };
-
 
 }  // namespace grseg

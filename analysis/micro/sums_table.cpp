@@ -43,9 +43,9 @@ RunConstants read_run_constants(const Table& table)
 
 std::vector<SumsRow> read_sums_rows(const Table& table)
 {
+  const char* remedy = "--derived needs a table of grseg-micro";
   const auto column = [&](const std::string& name) {
-    return find_column(table, name.substr(0, name.find('[')),
-                       "--derived needs a table of grseg-micro");
+    return find_column(table, name.substr(0, name.find('[')), remedy);
   };
   struct Place {
     std::size_t column;
@@ -54,24 +54,24 @@ std::vector<SumsRow> read_sums_rows(const Table& table)
   std::vector<Place> sums;
   for (const auto& name : columns_of(StructureSums{}.cells()))
     sums.push_back({column(name), name.starts_with("n_slide")});  // NaN without friction
-  const auto begin = column("t0"), end = column("t1"), bottom = column("y0"), top = column("y1"),
-             frames = column("frames"), volume = column("V"), large = column("yL"),
-             small = column("yS"), bed = column("height");
+  const LayerKeyReader keys(table, remedy);
+  const auto large = column("yL"), small = column("yS"), bed = column("height");
 
   std::vector<SumsRow> rows;
   rows.reserve(table.rows.size());
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& cells = table.rows[r];
+    const auto key = keys.read(r);
     std::vector<double> values;
     values.reserve(sums.size());
     for (const auto& [place, may_be_nan] : sums)
       values.push_back(may_be_nan ? cells[place] : finite_cell(table, r, place));
-    rows.push_back({.begin = finite_cell(table, r, begin),
-                    .end = finite_cell(table, r, end),
-                    .bottom = cells[bottom],
-                    .top = cells[top],
-                    .frames = finite_cell(table, r, frames),
-                    .volume = finite_cell(table, r, volume),
+    rows.push_back({.begin = key.begin,
+                    .end = key.end,
+                    .bottom = key.bottom,
+                    .top = key.top,
+                    .frames = key.frames,
+                    .volume = key.volume,
                     .sums = StructureSums::from_values(values),
                     .heights = {cells[large], cells[small], cells[bed]},
                     .bed_height = nan});

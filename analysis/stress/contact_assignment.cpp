@@ -21,9 +21,9 @@ constexpr Choice<AssignmentWord> assignments[] = {
     {"contact-point", {Assignment::contact_point, {}}},
     {"branch", {Assignment::branch, {}}, "by the length in each layer"},
     {"grain", {Assignment::grain, {}}, "each grain's part at its centre"},
-    {kernel_names[0], {Assignment::kernel, KernelShape::gauss}},
-    {kernel_names[1], {Assignment::kernel, KernelShape::lucy}},
-    {kernel_names[2],
+    {kernel_shapes[0].word, {Assignment::kernel, KernelShape::gauss}},
+    {kernel_shapes[1].word, {Assignment::kernel, KernelShape::lucy}},
+    {kernel_shapes[2].word,
      {Assignment::kernel, KernelShape::heaviside},
      "spread along the branch by this kernel"},
 };

@@ -26,6 +26,15 @@ InTables tables_with(Tensor2 ContactSums::*sum)
       ->in;
 }
 
+/// Whether the sum is that of a rule which is not among `rules`: older tables may lack it.
+bool is_of_other_rule(Tensor2 ContactSums::*sum, const std::vector<PartitionRule>& rules)
+{
+  const auto all = rule_definitions();
+  return std::any_of(all.begin(), all.end(), [sum](const auto& rule) { return rule.sum == sum; }) &&
+         std::none_of(rules.begin(), rules.end(),
+                      [sum](const auto& rule) { return rule.definition().sum == sum; });
+}
+
 }  // namespace
 
 ContactSumsReader::ContactSumsReader(const Table& table, const std::vector<PartitionRule>& rules)
@@ -34,6 +43,9 @@ ContactSumsReader::ContactSumsReader(const Table& table, const std::vector<Parti
   const auto add_columns = [&](InTables in, const std::string& remedy) {
     for (const auto& column : contact_sum_columns) {
       if (column.in != in) continue;
+      if (is_of_other_rule(column.sum, rules) &&
+          !table.has_column(column.name + std::string("_xx")))
+        continue;
       auto& place = places_.emplace_back(Place{column.sum, {}});
       for (std::size_t c = 0; c < tensor_components.size(); ++c)
         place.columns[c] =

@@ -28,10 +28,10 @@ struct PartialStress {
   Tensor2 small, large, total;
 };
 
-/// Staron & Phillips (2015), eq. (1), parted between the species:
+/// Staron & Phillips (2015), eq. 1, parted between the species:
 ///   sigma^L = (A_LL + share + base_L)/V,  sigma^S = (A_SS + M - share + base_S)/V,
 /// `share` being the rule's part of the mixed contacts' sum M; by `size` that is the prefactor
-/// d_L/(d_L + d_S) in the text below eq. (1). Of parts counted at the grains' centres half and
+/// d_L/(d_L + d_S) in the text below eq. 1. Of parts counted at the grains' centres half and
 /// uniform:P take P ML and (1 - P) MS, and of equal grains half at either; half is then compute
 /// stress/atom, summed by species and layer.
 PartialStress partial_stress(const ContactSums& sums, const PartitionRule& rule,

@@ -40,7 +40,7 @@ double by_power(const MixedContact& contact, double exponent)
 /// The rules. To add one: a Kind, a row here and, where its share differs from contact to contact,
 /// a sum with its columns (contact_sums.hpp).
 constexpr RuleDefinition definitions[] = {
-    // Staron & Phillips (2015), prefactors d_L/(d_L + d_S) and d_S/(d_L + d_S) below eq. (1)
+    // Staron & Phillips (2015), prefactors d_L/(d_L + d_S) and d_S/(d_L + d_S) below eq. 1
     {.kind = Kind::size,
      .word = "size",
      .meaning = "r_L/(r_L + r_S) of the actual radii",

@@ -127,7 +127,7 @@ void check(const Settings& s, const po::variables_map& values)
   if (!(s.filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
   if (s.json && s.short_form) throw UsageError("--short and --json exclude each other");
   parse_rules(s.partition);
-  RowRange().set_heights(s.filters.heights, {1, 1});
+  parse_heights(s.filters.heights, {1, 1});
   if (!s.scan.empty()) parse_scan(s.scan);
   if (s.quantity == "kinetic")
     for (const char* option : {"partition", "scan", "base"})

@@ -62,10 +62,10 @@ struct LawParameters {
 /// makes its gap positive. In smallest diameters.
 constexpr double least_margin = 1e-9;
 
-/// The only place that decides what a law means. All but `law` matter to the speculative law alone:
-/// its margin is what neighbours may add to the approach of a pair within the horizon, at a
-/// velocity of sqrt(g d_S). `horizon` in steps, `step` in s, `gravity` in m/s^2, `small_diameter`
-/// in m.
+/// The only place in sim that decides what a law means; analysis/check/contact_rules.cpp states the
+/// same for grseg-check. All but `law` matter to the speculative law alone: its margin is what
+/// neighbours may add to the approach of a pair within the horizon, at a velocity of sqrt(g d_S).
+/// `horizon` in steps, `step` in s, `gravity` in m/s^2, `small_diameter` in m.
 inline LawParameters law_parameters(ContactLaw law, double horizon, double step, double gravity,
                                     double small_diameter)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // grseg-check --deep on a small file that is damaged in one place at a time: the sentence names it.
 #include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/hdf5_attributes.hpp"
 #include "tests/shell.hpp"
 #include "tests/three_grains.hpp"
 

@@ -4,6 +4,7 @@
 #include "analysis/check/physics_check.hpp"
 
 #include "analysis/check/content_check.hpp"
+#include "formats/core/errors.hpp"
 #include "tests/column.hpp"
 
 #include <fmt/format.h>
@@ -203,6 +204,14 @@ TEST_F(CheckedColumn, MayHaveAGapThatFreeFlightWouldCloseUnderTheSpeculativeLaw)
       Column::push(frame, c, {0, column.description.grains.mass[1] * (approach + faster) / h});
     EXPECT_EQ(failed(column), faster > 0 ? Names{} : (Names{"open_gap_largest", "open_gap_mean"}));
   }
+}
+
+// A law that is not known is not checked as if it were another.
+TEST_F(CheckedColumn, OfAnUnknownContactLawIsRefused)
+{
+  Column column;
+  column.description.parameters.texts["contact_law"] = "late";
+  EXPECT_THROW(failed(column), FormatError);
 }
 
 // The plate of a shear cell is pushed back within the step, and without gravity the file states

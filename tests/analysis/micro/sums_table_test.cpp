@@ -53,7 +53,7 @@ TEST(SumsTable, AMissingColumnIsNamed)
     FAIL();
   } catch (const FormatError& error) {
     EXPECT_STREQ(error.what(),
-                 "micro.tsv: there is no column 'c2_LS'; --derived needs a table of grseg-micro");
+                 "micro.tsv: no column 'c2_LS'; --derived needs a table of grseg-micro");
   }
 }
 
