@@ -4,8 +4,8 @@
 #include "analysis/statistics/dependence.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
-#include "formats/cli/words.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/cli/words.hpp"
 
 #include <cmath>
 #include <limits>

@@ -4,8 +4,8 @@
 #include "analysis/stress/contact_assignment.hpp"
 #include "analysis/stress/merge_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
-#include "formats/cli/words.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>

@@ -16,7 +16,7 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     said = subprocess.run([exporter, path, "--to", "lammps", "-o", "run.dump.gz"], check=True,
                           capture_output=True, text=True).stderr
-    words = shlex.split(said.split("a run again: ")[1])
+    words = shlex.split(said.split("back into a run: ")[1])
     assert words[0] == "grseg-import" and words[-2:] == ["-o", "again.h5"], said
     subprocess.run([importer] + words[1:], check=True)
 
