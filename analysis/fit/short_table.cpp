@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -71,6 +73,26 @@ std::string zero_text(const ZeroOfB& zero)
                      with_interval(zero.dB_dp, zero.dB_dp_interval));
 }
 
+/// Each doubt once, with the rules that it is about.
+std::string doubts_text(const FitReport& report)
+{
+  std::vector<std::pair<std::string, std::string>> names_of;  // doubt and rules, in order
+  const auto add = [&](const std::string& name, const std::string& doubt) {
+    if (doubt.empty()) return;
+    const auto known = std::find_if(names_of.begin(), names_of.end(),
+                                    [&](const auto& entry) { return entry.first == doubt; });
+    if (known == names_of.end())
+      names_of.emplace_back(doubt, name);
+    else
+      known->second += ", " + name;
+  };
+  for (const auto& fit : report.rules) add(rule_name(report, fit), fit.doubt);
+  if (report.scan) add("scan", report.scan->fits.front().doubt);
+  std::string text = names_of.empty() ? "" : "\n";
+  for (const auto& [doubt, names] : names_of) text += fmt::format("doubt: {}: {}\n", names, doubt);
+  return text;
+}
+
 }  // namespace
 
 std::string short_table(const FitReport& report)
@@ -89,10 +111,7 @@ std::string short_table(const FitReport& report)
     text += zero_text(*report.scan);
   else if (report.zero)
     text += zero_text(*report.zero);
-  const auto remarks = doubts(report);
-  if (!remarks.empty()) text += '\n';
-  for (const auto& doubt : remarks) text += fmt::format("doubt: {}\n", doubt);
-  return text;
+  return text + doubts_text(report);
 }
 
 }  // namespace grseg

@@ -164,7 +164,7 @@ ExponentialApproach fit_approach(const Eigen::VectorXd& x, const Eigen::VectorXd
   Data data{(x.array() - x[0]) / range, (y.array() - origin) / height};
   auto p = first_guess(data);
   if (!least_squares(data, p)) {
-    fit.trouble = "is no exponential approach";
+    fit.trouble = "is not an exponential approach";
     return fit;
   }
   const Errors errors(data, p);

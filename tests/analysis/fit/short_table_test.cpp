@@ -67,6 +67,16 @@ TEST(ShortTable, EndsWithTheDoubts)
   EXPECT_TRUE(text.ends_with("\n\ndoubt: size: 2 runs tell little of how runs differ\n")) << text;
 }
 
+TEST(ShortTable, StatesADoubtOnceWithAllRulesThatItIsAbout)
+{
+  auto doubtful = report();
+  for (auto& fit : doubtful.rules) fit.doubt = "few windows";
+  const auto text = short_table(doubtful);
+  const auto first = text.find("few windows");
+  EXPECT_NE(text.find("doubt: size, half"), std::string::npos) << text;
+  EXPECT_EQ(text.find("few windows", first + 1), std::string::npos) << text;
+}
+
 TEST(ShortTable, KineticStressHasNoRuleAndNoZero)
 {
   auto kinetic = report();
