@@ -340,8 +340,8 @@ TEST_F(FrameTools, AnyNumberOfThreadsGivesTheSameBytes)
   }
 }
 
-// Frame 9 holds what is no number, and in frame 30, which other threads reach first, a grain is
-// lost.
+// Frame 9 holds something that is not a number, and in frame 30, which other threads reach first, a
+// grain is lost.
 TEST_F(FrameTools, TheFirstDamagedFrameIsNamedWhoeverReadsIt)
 {
   {

@@ -217,7 +217,7 @@ TEST(Coverage, OfTheStrengthOfSegregationIsThatOfAMean)
 }
 
 // While layers segregate their compositions drift, and where B depends on composition so does what
-// each window says of it. That is no noise: independent windows stay independent, and the interval
+// each window says of it. That is not noise: independent windows stay independent, and the interval
 // is as narrow as their scatter lets it be.
 TEST(Coverage, OfAFlowThatSegregatesIsThatOfASteadyOne)
 {
