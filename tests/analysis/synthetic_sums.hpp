@@ -21,7 +21,7 @@ inline Tensor2 any_tensor()
 }
 
 /// The neutral contact model: a share x_L = phi_L/(phi_L + r phi_S) of the contact ends belongs to
-/// large grains (perimeter), ends pair at random, and forces are blind to type. A contact then
+/// large grains (perimeter), ends pair at random, and forces ignore type. A contact then
 /// carries stress in proportion to its branch: 2 r, 1 + r and 2 for LL, LS and SS.
 inline ContactSums neutral_sums(double phi_large, double r, double solid = 0.8, double volume = 2)
 {

@@ -171,7 +171,7 @@ TEST(Partition, InTheVolumeOfTheGrainsStressIsLargerByOneOverTheSolidFraction)
   EXPECT_NEAR(solid.large(1, 1) / bulk.large(1, 1), 1 / 0.8, 1e-14);
 }
 
-// Staron & Phillips (2015) with contacts blind to type: psi_L = phi_L, so nothing segregates.
+// Staron & Phillips (2015) with contacts that ignore type: psi_L = phi_L, so nothing segregates.
 TEST(Partition, NeutralContactsSharedBySizeLoadEachSpeciesByItsConcentration)
 {
   for (const double r : {1.0, 2.0, 3.5})
