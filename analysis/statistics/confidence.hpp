@@ -28,9 +28,9 @@ struct StandardError {
 /// tau the integrated autocorrelation time of the influence (dependence.hpp).
 StandardError standard_error(const Eigen::VectorXd& influence, int fitted);
 
-/// Likewise, of observations that are independent but for a slow change, which is not an error:
-/// from their successive differences (von Neumann 1941), error^2 = n/(n - 1) sum (difference)^2/2
-/// with 2 (n - 1)/3 degrees of freedom.
+/// Likewise, of observations that are independent but for a slow change, which is no error: from
+/// their successive differences (von Neumann 1941), error^2 = n/(n - 1) sum (difference)^2/2 with
+/// 2 (n - 1)/3 degrees of freedom.
 StandardError error_about_trend(const Eigen::VectorXd& influence);
 
 }  // namespace grseg
