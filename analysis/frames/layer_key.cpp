@@ -12,6 +12,7 @@ namespace grseg {
 std::vector<std::string> with_key_columns(const std::vector<std::string>& more)
 {
   std::vector<std::string> names;
+  names.reserve(key_columns.size() + more.size());
   for (const auto& column : key_columns) names.push_back(std::string(column.name) + column.unit);
   names.insert(names.end(), more.begin(), more.end());
   return names;

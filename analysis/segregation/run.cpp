@@ -34,6 +34,7 @@ Moment mean_of_last(const std::vector<Moment>& moments, std::size_t count)
 std::vector<Cell> cells(const Moment& bed)
 {
   std::vector<Cell> cells;
+  cells.reserve(bed_columns.size());
   for (const auto& [column, place] : bed_columns) cells.push_back({column, bed.*place});
   return cells;
 }
