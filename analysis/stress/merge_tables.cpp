@@ -2,6 +2,7 @@
 #include "analysis/stress/merge_tables.hpp"
 
 #include "analysis/frames/layer_key.hpp"
+#include "formats/cli/input_tables.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 
@@ -177,6 +178,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
     for (const auto& line : table.header)
       if (is_source(line.first)) merged.header.push_back(line);
   merged.header.emplace_back("history", command);
+  for (auto& line : trust_of(tables)) merged.header.push_back(std::move(line));
   for (const auto& line : settings_of(tables[0])) merged.header.push_back(line);
   merged.columns = tables[0].columns;
   for (const auto& [window, of_window] : windows)

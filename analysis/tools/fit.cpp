@@ -7,6 +7,7 @@
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/presets.hpp"
 #include "analysis/stress/partial_stress.hpp"
+#include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
@@ -17,7 +18,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -116,9 +116,6 @@ void check(const Settings& s, const po::variables_map& values)
 {
   if (!values.contains("input"))
     throw UsageError("no table given; name tables of grseg-stress, or - for standard input");
-  const auto& inputs = values["input"].as<std::vector<std::string>>();
-  if (std::count(inputs.begin(), inputs.end(), "-") > 1)
-    throw UsageError("standard input, -, can be read only once");
   if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))
     throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", s.bootstrap));
   if (s.seed < 0) throw UsageError("--seed must not be negative");
@@ -207,6 +204,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
       {"interval", "95 %"}};
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
   report.inputs = header_values(tables, "input");
+  report.trust = trust_of(tables);
   report.history = header_values(tables, "history");
   return report;
 }
@@ -220,10 +218,7 @@ int main(int argc, char** argv)
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
     check(settings, values);
     parse_ratio_range(settings.ratio_range, settings.filters);
-    std::vector<Table> tables;
-    for (const auto& path : values["input"].as<std::vector<std::string>>())
-      tables.push_back(Table::read(path));
-
+    const auto tables = read_tables(info, values, settings.quiet);
     auto report = make_report(settings, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
     const bool brief = prints_short(settings);
