@@ -3,6 +3,7 @@
 
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -168,7 +169,8 @@ std::string to_json(const FitReport& report)
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
   all["inputs"] = report.inputs;
   for (const auto& [key, value] : report.trust) all[key].push_back(value);
-  all["history"] = report.history;
+  all["history"] = Json::array();
+  for (const auto& line : report.history) all["history"].push_back(printable(line));
   all["doubts"] = doubts(report);
   return all.dump(2) + '\n';
 }

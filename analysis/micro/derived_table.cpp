@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/derived_table.hpp"
 
+#include "analysis/frames/distinct_runs.hpp"
 #include "analysis/micro/pooling.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
@@ -140,6 +141,7 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
     require_same_constants(tables[0], table);
     rows.insert(rows.end(), more.begin(), more.end());
   }
+  require_distinct_runs(tables);
   const auto constants = read_run_constants(tables[0]);
   const LengthUnits units{constants.small_diameter, constants.large_diameter};
   if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);

@@ -14,10 +14,12 @@
 #include "formats/cli/tool.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -147,10 +149,21 @@ void remark(const std::vector<Table>& tables, const FitReport& report, bool with
   for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step"})
     for (const auto& table : tables)
       if (header_or(table, key, "") != header_or(tables[0], key, ""))
-        std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name, tables[0].name,
-                                 table.name, key);
+        std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name,
+                                 printable(tables[0].name), printable(table.name), key);
   if (!with_doubts) return;
   for (const auto& doubt : doubts(report)) std::cerr << fmt::format("{}: {}\n", info.name, doubt);
+}
+
+/// RunError, saying why, where there is no number to print.
+void require_numbers(const FitReport& report)
+{
+  const auto has_number = [](const RuleFit& fit) {
+    return std::isfinite(fit.value.slope) || std::isfinite(fit.value.B_direct);
+  };
+  const auto& fits = report.scan ? report.scan->fits : report.rules;
+  if (std::none_of(fits.begin(), fits.end(), has_number))
+    throw RunError(fmt::format("{}: {}", rule_name(report, fits[0]), fits[0].doubt));
 }
 
 /// On a terminal, 17 digits of 48 columns are of no use.
@@ -221,6 +234,7 @@ int main(int argc, char** argv)
     const auto tables = read_tables(info, values, settings.quiet);
     auto report = make_report(settings, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
+    require_numbers(report);
     const bool brief = prints_short(settings);
     if (!settings.quiet) remark(tables, report, !brief);
     if (!brief || !settings.output.empty())

@@ -108,7 +108,7 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
   const PartialContactStress no_contacts(loop.layers(), chosen.assignment, power, kernel);
   std::vector<std::string> areas;
   areas.reserve(area_columns.size());
-  for (const auto& column : area_columns) areas.push_back(fmt::format("{}[m^2]", column.name));
+  for (const auto& column : area_columns) areas.emplace_back(column.name);
   auto table = loop.make_table(command, settings, joined(areas, no_contacts.columns()));
 
   for (const auto& window : loop.windows()) {

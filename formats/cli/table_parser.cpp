@@ -14,6 +14,7 @@
 #include <iostream>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace grseg {
@@ -161,16 +162,19 @@ class TableParser {
 
   void read_columns(std::size_t k)
   {
-    for (const auto cell : split(lines_[k], '\t')) {
-      const std::string column(cell);
-      const auto unit = column.find('[');
-      const bool whole = unit == std::string::npos ? column.find(']') == unit
-                                                   : column.find(']') == column.size() - 1;
-      if (without_unit(column).empty() || !whole)
+    const auto cells = split(lines_[k], '\t');
+    constexpr std::size_t most = 10000;
+    if (cells.size() > most) fail(k, fmt::format("{} columns are too many", cells.size()));
+    std::set<std::string> names;
+    for (const auto cell : cells) {
+      const std::string column(cell), plain = without_unit(column);
+      const bool has_unit = plain.size() < column.size();
+      const bool whole = column.find(']') == (has_unit ? column.size() - 1 : std::string::npos);
+      if (plain.empty() || !whole)
         fail(k,
              fmt::format("'{}' should be the name of a column, such as V[m^2]", excerpt(column)));
-      if (table_.has_column(without_unit(column)))
-        fail(k, fmt::format("two columns are called '{}'", excerpt(without_unit(column))));
+      if (!names.insert(plain).second)
+        fail(k, fmt::format("two columns are called '{}'", excerpt(plain)));
       table_.columns.push_back(column);
     }
   }

@@ -184,6 +184,13 @@ TEST(Table, NamesEachColumnOnce)
     EXPECT_TRUE(is_refused(std::string(name) + "\n1\n")) << name;
 }
 
+TEST(Table, OfAbsurdLinesIsRefusedWithAShortSentence)
+{
+  EXPECT_EQ(complaint(std::string(1 << 20, '\t') + "\n"),
+            "t.tsv: line 1: 1048577 columns are too many");
+  EXPECT_LT(complaint("a\n" + std::string(1 << 20, 'x') + "\n").size(), 120u);
+}
+
 TEST(Table, HoldsDecimalNumbersOnly)
 {
   for (const char* number : {"0x10", " 1", "1 ", "1,5", "1e999", "NaN", "nan(1)", "-nan",
