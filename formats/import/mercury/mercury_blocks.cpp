@@ -105,7 +105,8 @@ double MercuryFStat::read_header()
   char* end = nullptr;
   const double time = std::strtod(text.c_str(), &end);
   if (words.empty() || words[0] != "#" || text.empty() || *end != '\0' || !std::isfinite(time))
-    fail(fmt::format("{}, but a block of .fstat begins with '# time 1'", quoted(source_.line())));
+    fail(
+        fmt::format("{}, but a block of .fstat begins with '# time 1'", in_quotes(source_.line())));
   for (int k = 0; k < 2; ++k) {
     if (!next_line() || !source_.line_is_whole()) fail_truncated(source_, "a header");
     if (!source_.line().starts_with('#'))
