@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::size_t longest = 16384;
 constexpr std::size_t signature_size = 4, checksum_size = 4;
-constexpr std::array signatures = {"\x89HDF", "OHDR", "OCHK", "EAHD", "EAIB", "EASB", "EADB", "FAHD",
-                                   "FADB",    "FRHP", "FHIB", "BTHD", "BTLF", "BTIN", "SMTB", "SMLI"};
+constexpr std::array signatures = {"\x89HDF", "OHDR", "OCHK", "EAHD", "EAIB", "EASB",
+                                   "EADB",    "FAHD", "FADB", "FRHP", "FHIB", "BTHD",
+                                   "BTLF",    "BTIN", "SMTB", "SMLI"};
 
 std::uint32_t word(const char* bytes, std::size_t count)
 {
@@ -37,7 +38,9 @@ struct Lookup3 {
   }
   void finish()
   {
-    const auto turn = [](std::uint32_t& x, std::uint32_t y, int by) { x = (x ^ y) - std::rotl(y, by); };
+    const auto turn = [](std::uint32_t& x, std::uint32_t y, int by) {
+      x = (x ^ y) - std::rotl(y, by);
+    };
     turn(c, b, 14), turn(a, c, 11), turn(b, a, 25), turn(c, b, 16);
     turn(a, c, 4), turn(b, a, 14), turn(c, b, 24);
   }
@@ -95,7 +98,8 @@ std::vector<ChecksummedPart> checksummed_parts(std::string_view file)
   std::vector<ChecksummedPart> parts;
   for (std::size_t at = 0; at + 2 * signature_size < file.size(); ++at) {
     const auto signature = file.substr(at, signature_size);
-    const bool known = std::find(signatures.begin(), signatures.end(), signature) != signatures.end();
+    const bool known =
+        std::find(signatures.begin(), signatures.end(), signature) != signatures.end();
     const auto part = known                 ? part_at(file, at)
                       : signature == "FHDB" ? heap_block_at(file, at)
                                             : std::nullopt;

@@ -47,17 +47,25 @@ std::vector<ChecksummedPart> parts_in(const std::uint8_t* data, std::size_t size
 /// Writes a number that sizes and addresses are often wrong with.
 void overwrite(std::uint8_t* data, std::size_t begin, std::size_t end, std::minstd_rand& chance)
 {
-  constexpr std::int64_t telling[] = {0, 1, -1, 2, 127, 255, 65535, 0x7fffffff, 1LL << 40, 1LL << 61, INT64_MAX, INT64_MIN};
+  constexpr std::int64_t telling[] = {
+      0, 1, -1, 2, 127, 255, 65535, 0x7fffffff, 1LL << 40, 1LL << 61, INT64_MAX, INT64_MIN};
   if (end <= begin) return;
   const auto at = begin + chance() % (end - begin);
   const auto width = std::min(end - at, std::size_t{1} << chance() % 4);
   std::int64_t value = 0;
   std::memcpy(&value, data + at, width);
   switch (chance() % 4) {
-    case 0: value ^= 1LL << chance() % (8 * width); break;
-    case 1: value += static_cast<std::int64_t>(chance() % 16) - 8; break;
-    case 2: value = static_cast<std::int64_t>(chance()); break;
-    default: value = telling[chance() % std::size(telling)];
+    case 0:
+      value ^= 1LL << chance() % (8 * width);
+      break;
+    case 1:
+      value += static_cast<std::int64_t>(chance() % 16) - 8;
+      break;
+    case 2:
+      value = static_cast<std::int64_t>(chance());
+      break;
+    default:
+      value = telling[chance() % std::size(telling)];
   }
   std::memcpy(data + at, &value, width);
 }
