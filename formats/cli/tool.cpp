@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -109,6 +110,8 @@ void print_help(const ToolInfo& info, const po::options_description& options)
 int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
              const std::function<void(const po::variables_map&)>& body)
 {
+  // A write beyond a limit on file sizes then fails, which is told, instead of killing the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   po::options_description all = options;
   const auto presets = help_of(info.presets);
   if (!info.presets.empty())

@@ -53,9 +53,10 @@ struct H5md3dWriter::Impl {
 
 H5md3dWriter::Impl::Impl(const TrajectoryReader& its_run, const ViewCell& cell,
                          const std::string& its_path, bool overwrite)
-    : run(its_run), path(its_path), output(path, overwrite), edges{cell.length(0), 0, 0, 0,
-                                                                   cell.length(1), 0, 0, 0,
-                                                                   cell.length(2)}
+    : run(its_run),
+      path(its_path),
+      output(path, overwrite, {run.path()}),
+      edges{cell.length(0), 0, 0, 0, cell.length(1), 0, 0, 0, cell.length(2)}
 {
   silence();
   file = File(H5Fcreate(output.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));

@@ -267,7 +267,7 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
   const auto part = part_of(path);
   const RemoveAtEnd clean_up(part);
   write_parts(part, checkpoint);
-  publish_file(part, path);
+  publish_file(part, path, true);
 }
 
 Checkpoint read_checkpoint(const std::string& path)

@@ -5,13 +5,13 @@ source=$1 bin=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
-trap '' XFSZ
+trap - XFSZ
 ulimit -f 40
 fails() {
   "$@" 2>said
   code=$?
   [ $code = 1 ] || { echo "$*: exit code $code: $(cat said)" >&2; exit 1; }
-  grep -q "is the disk full?" said || { echo "$*: $(cat said)" >&2; exit 1; }
+  grep -q "is the disk full?\|File too large; is there a limit (ulimit -f, quota)?" said || { echo "$*: $(cat said)" >&2; exit 1; }
   rm said
 }
 for export in "vtp -o view" "extxyz -o run.xyz" "extxyz -o run.xyz.gz" "lammps -o run.dump" "h5md3d -o run.h5md"; do
