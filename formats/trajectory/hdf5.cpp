@@ -2,6 +2,7 @@
 #include "formats/trajectory/hdf5.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fmt/format.h>
 
@@ -13,13 +14,13 @@ namespace {
 template <class Owner>
 Owner opened(hid_t id, const std::string& what)
 {
-  if (id < 0) throw RunError(fmt::format("cannot create {}: is the disk full?", what));
+  if (id < 0) throw RunError(fmt::format("cannot create {}: {}", what, reason_of_failure()));
   return Owner(id);
 }
 
 void check_written(herr_t status, const std::string& what)
 {
-  if (status < 0) throw RunError(fmt::format("cannot write {}: is the disk full?", what));
+  if (status < 0) throw RunError(fmt::format("cannot write {}: {}", what, reason_of_failure()));
 }
 
 Properties with_parents()

@@ -5,6 +5,7 @@
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/h5md.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fmt/format.h>
 
@@ -75,7 +76,7 @@ struct TrajectoryWriter::Impl {
   void flush()
   {
     if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0)
-      throw RunError(fmt::format("cannot write {}: is the disk full?", path));
+      throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
   }
 };
 
@@ -165,7 +166,7 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
   if (storage.compression == 0) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
   my.file = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, H5P_DEFAULT));
   if (!my.file.valid())
-    throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
+    throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   my.create_metadata(run);
   my.create_grains(run.grains);
 
@@ -254,7 +255,7 @@ void TrajectoryWriter::close()
   File file = std::move(my.file);
   impl_ = std::make_unique<Impl>();  // closes every dataset before the file
   if (H5Fclose(file.release()) < 0)
-    throw RunError(fmt::format("cannot write {}: is the disk full?", path));
+    throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
 }
 
 }  // namespace grseg
