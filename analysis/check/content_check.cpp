@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/content_check.hpp"
 
-#include "formats/trajectory/digest.hpp"
-
 #include <fmt/format.h>
 
 namespace grseg {
 
-ContentCheck::ContentCheck(const TrajectoryReader& run)
-    : run_(run), digests_(run.digests()), float32_(run.stores_float32())
-{
-  digests_.insert(digests_.begin(), 0);
-}
-
 void ContentCheck::add(std::size_t index, const Frame& frame)
 {
   ++frames_;
-  if (frame_digest(frame, digests_[index], float32_) == digests_[index + 1]) return;
-  if (damaged_++ == 0) first_damaged_ = index;
+  if (!run_.is_intact(index, frame) && damaged_++ == 0) first_damaged_ = index;
 }
 
 std::vector<CheckLine> ContentCheck::lines() const
@@ -30,18 +21,26 @@ std::vector<CheckLine> ContentCheck::lines() const
     result.verdict = passed ? Verdict::passed : Verdict::failed;
     return result;
   };
-  const bool complete = run_.parameters().numbers.contains("complete");
-  auto missing = line("not_closed", complete ? 0 : 1, 0, complete);
-  if (!complete)
+  const bool closed = run_.closed();
+  auto missing = line("not_closed", closed ? 0 : 1, 0, closed);
+  if (!closed)
     missing.remark =
-        "no /parameters/complete: the run was interrupted or goes on, or its writer sets no such "
-        "mark";
+        run_.minor_version() == 0
+            ? "no /parameters/complete: the run was interrupted or goes on, or its writer sets no "
+              "such mark"
+            : "/grseg/seal is empty: the run was interrupted or goes on";
   auto damaged = line("damaged_frames", static_cast<double>(damaged_), 0, damaged_ == 0);
   damaged.remark =
       damaged_ == 0 ? fmt::format("{} frames agree with their digests", frames_)
                     : fmt::format("frame {} is the first that is not as written", first_damaged_);
   auto empty = line("no_frames", frames_ == 0 ? 1 : 0, 0, frames_ > 0);
-  return {missing, empty, damaged};
+  if (run_.minor_version() == 0) return {missing, empty, damaged};
+  const auto damage = run_.damage_outside_frames();
+  auto outside = line("damaged_outside_frames", damage.empty() ? 0 : 1, 0, damage.empty());
+  outside.remark =
+      damage.empty() ? "what the file holds once agrees with its digests and its seal" : damage;
+  if (!closed && damage.empty()) outside.remark = "what the file holds once agrees with its digest";
+  return {missing, empty, damaged, outside};
 }
 
 }  // namespace grseg

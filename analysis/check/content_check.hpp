@@ -5,16 +5,16 @@
 #include "formats/trajectory/reader.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace grseg {
 
-/// Whether a file holds what its writer wrote: it was closed, has frames, and each frame agrees
-/// with its digest. TrajectoryReader refuses files that cannot be read at all.
+/// Whether a file holds what its writer wrote: it was closed, has frames, and each frame and what is
+/// there once agree with their digests. TrajectoryReader refuses files that cannot be read at all.
 class ContentCheck {
  public:
-  explicit ContentCheck(const TrajectoryReader& run);
+  /// `run` is best opened with Verify::no, so that all damaged frames are counted.
+  explicit ContentCheck(const TrajectoryReader& run) : run_(run) {}
 
   /// Any frame, whole (all of TrajectoryReader::Fields).
   void add(std::size_t index, const Frame& frame);
@@ -22,8 +22,6 @@ class ContentCheck {
 
  private:
   const TrajectoryReader& run_;
-  std::vector<std::uint64_t> digests_;  // with 0 before the first
-  bool float32_;
   std::size_t frames_ = 0, damaged_ = 0, first_damaged_ = 0;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/report.hpp"
 
-#include "formats/cli/table.hpp"
+#include "formats/cli/table_text.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,15 +48,14 @@ std::string CheckReport::failures() const
 
 std::string to_tsv(const CheckReport& report)
 {
-  std::string text;
-  for (const auto& [key, value] : report.header) text += fmt::format("# {}: {}\n", key, value);
-  text += "quantity\ty0[m]\ty1[m]\tmeasured\terror\ttolerance\tverdict\tremark\n";
+  std::vector<std::vector<std::string>> rows;
   for (const auto& line : report.lines)
-    text +=
-        fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", line.quantity, format_number(line.y0),
-                    format_number(line.y1), format_number(line.measured), format_number(line.error),
-                    format_number(line.tolerance), word(line.verdict), line.remark);
-  return text;
+    rows.push_back({line.quantity, format_number(line.y0), format_number(line.y1),
+                    format_number(line.measured), format_number(line.error),
+                    format_number(line.tolerance), word(line.verdict), line.remark});
+  return table_text(
+      report.header,
+      {"quantity", "y0[m]", "y1[m]", "measured", "error", "tolerance", "verdict", "remark"}, rows);
 }
 
 std::string to_json(const CheckReport& report)
@@ -63,22 +63,22 @@ std::string to_json(const CheckReport& report)
   Json all;
   all["lines"] = Json::array();
   for (const auto& line : report.lines) {
-    Json object{{"quantity", line.quantity}};
+    Json object{{"quantity", printable(line.quantity)}};
     if (is_layer(line)) object["layer"] = {line.y0, line.y1};
     object["measured"] = line.measured;
     object["error"] = line.error;
     object["tolerance"] = line.tolerance;
     object["verdict"] = word(line.verdict);
-    object["remark"] = line.remark;
+    object["remark"] = printable(line.remark);
     all["lines"].push_back(object);
   }
   all["passed"] = report.failures().empty();
   all["history"] = Json::array();
   for (const auto& [key, value] : report.header) {
-    if (key == "history")
-      all["history"].push_back(value);
+    if (key == "history" || key == "verified" || key == "incomplete")
+      all[key].push_back(printable(value));
     else
-      all["settings"][key] = value;
+      all["settings"][key] = printable(value);
   }
   return all.dump(2) + '\n';
 }

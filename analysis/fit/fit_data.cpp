@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
-#include "analysis/frames/layer_key.hpp"
+#include "analysis/frames/distinct_runs.hpp"
+#include "analysis/frames/layer_table.hpp"
 #include "analysis/stress/contact_sums_reader.hpp"
+#include "analysis/stress/kinetic_stress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 
@@ -14,7 +16,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <set>
 
 namespace grseg {
 namespace {
@@ -40,16 +41,16 @@ Tensor2 symmetric_part(const Table& table, std::size_t row, std::size_t xx, std:
 /// Kinetic sums as contact sums in which nothing is mixed; "areas" are masses.
 SumsOfRow kinetic_sums(const Table& table)
 {
-  const auto column = [&](const char* name) {
-    return find_column(table, name, "--quantity kinetic needs a table of grseg-kinetic");
+  const auto column = [&table, written = KineticStress::columns()](const char* name) {
+    return find_column(table, with_unit(name, written),
+                       "--quantity kinetic needs a table of grseg-kinetic");
   };
-  return [&table, volume = column("V"), mass_small = column("mass_S"),
-          mass_large = column("mass_L"), small_xx = column("K_S_xx"), small_yy = column("K_S_yy"),
-          large_xx = column("K_L_xx"), large_yy = column("K_L_yy")](std::size_t row) {
+  return [&table, mass_small = column("mass_S"), mass_large = column("mass_L"),
+          small_xx = column("K_S_xx"), small_yy = column("K_S_yy"), large_xx = column("K_L_xx"),
+          large_yy = column("K_L_yy")](std::size_t row) {
     ContactSums sums;
-    sums.volume = finite_cell(table, row, volume);
-    sums.area_small = finite_cell(table, row, mass_small);
-    sums.area_large = finite_cell(table, row, mass_large);
+    sums.area_small = non_negative_cell(table, row, mass_small);
+    sums.area_large = non_negative_cell(table, row, mass_large);
     sums.ss = symmetric_part(table, row, small_xx, small_yy);
     sums.ll = symmetric_part(table, row, large_xx, large_yy);
     return sums;
@@ -65,13 +66,14 @@ std::vector<Row> read_rows(const Table& table, Quantity quantity,
   else
     sums = [reader = ContactSumsReader(table, rules)](std::size_t row) { return reader.read(row); };
 
-  const LayerKeyReader keys(table, "a table of grseg-stress or grseg-kinetic has it");
+  const auto keys = read_layer_keys(table, "a table of grseg-stress or grseg-kinetic has it");
   const auto bottom = table.column("y0");
   std::vector<Row> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     finite_cell(table, row, bottom);  // these tables have no row for the whole bed
-    rows.push_back({keys.read(row), sums(row)});
+    rows.push_back({keys[row], sums(row)});
+    rows.back().sums.volume = keys[row].volume;
   }
   return rows;
 }
@@ -108,8 +110,8 @@ bool passes(const Row& row, const FitFilters& filters, const RowRange& range, do
 
 void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filters, FitData& data)
 {
-  const double small_diameter = table.header_number("small_diameter");
-  const double large_diameter = table.header_number("large_diameter");
+  const double small_diameter = table.header_positive("small_diameter");
+  const double large_diameter = table.header_positive("large_diameter");
   const double median = median_solid_fraction(rows);
   const RowRange range{filters.begin, filters.end,
                        parse_heights(filters.heights, {small_diameter, large_diameter})};
@@ -123,6 +125,7 @@ void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filter
   for (auto& [time, number] : window_at) number = window++;
   if (!window_at.empty()) data.runs.push_back(window_at.size());
 
+  data.tables.push_back(table.name);
   for (const auto& row : rows) {
     const double small = row.sums.area_small, large = row.sums.area_large;
     const double rarer = std::min(small / (small_diameter * small_diameter),
@@ -131,22 +134,9 @@ void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filter
                             .phi_large = large / (small + large),
                             .weight = row.key.frames * rarer,
                             .size_ratio = large_diameter / small_diameter,
+                            .table = data.tables.size() - 1,
                             .sums = row.sums});
   }
-}
-
-void refuse_twice_the_same(const Table& a, const Table& b)
-{
-  const auto inputs = header_values(a, "input");
-  if (inputs.empty() || inputs != header_values(b, "input")) return;
-  std::set<double> times;
-  for (const auto& row : a.rows) times.insert(row[a.column("t0")]);
-  for (const auto& row : b.rows)
-    if (times.contains(row[b.column("t0")]))
-      throw UsageError(
-          fmt::format("{} and {} hold the same windows of the same run; counting them twice would "
-                      "make intervals too narrow",
-                      a.name, b.name));
 }
 
 }  // namespace
@@ -172,11 +162,8 @@ FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
 {
   FitData data;
   data.quantity = quantity;
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    add_run(tables[k], read_rows(tables[k], quantity, rules), filters, data);
-    for (std::size_t earlier = 0; earlier < k; ++earlier)
-      refuse_twice_the_same(tables[earlier], tables[k]);
-  }
+  for (const auto& table : tables) add_run(table, read_rows(table, quantity, rules), filters, data);
+  require_distinct_runs(tables);
   if (data.samples.empty()) {
     const auto& count = data.count;
     const bool one_species = count.without_small + count.without_large > 0 &&

@@ -39,6 +39,7 @@ struct LayerSample {
   double phi_large = 0;    // local composition: phi_L + phi_S = 1
   double weight = 0;       // frames x grains of the rarer species, up to a constant factor
   double size_ratio = 0;   // nominal d_L/d_S of its run
+  std::size_t table = 0;   // among FitData::tables
   ContactSums sums;        // kinetic: species alone, nothing mixed, so every rule gives the same
 };
 
@@ -53,7 +54,8 @@ struct FilterCount {
 
 struct FitData {
   Quantity quantity = Quantity::contact;
-  RunLengths runs;  // windows with samples, per table
+  RunLengths runs;                  // windows with samples, per table
+  std::vector<std::string> tables;  // their names
   std::vector<LayerSample> samples;
   FilterCount count;
 };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_report.hpp"
 
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace grseg {
@@ -33,45 +34,42 @@ constexpr RuleColumn rule_columns[] = {
     {"share", [](const RuleFit& fit) { return fit.share; }},
 };
 
-std::string header_lines(const FitReport& report)
+Header header_of(const FitReport& report)
 {
-  std::string text;
-  for (const auto& [key, value] : report.header) text += fmt::format("# {}: {}\n", key, value);
-  for (const auto& input : report.inputs) text += fmt::format("# input: {}\n", input);
-  for (const auto& line : report.history) text += fmt::format("# history: {}\n", line);
-  for (const auto& doubt : doubts(report)) text += fmt::format("# doubt: {}\n", doubt);
-  return text;
-}
-
-std::string cells(const std::vector<double>& numbers)
-{
-  std::vector<std::string> texts;
-  texts.reserve(numbers.size());
-  for (const double number : numbers) texts.push_back(format_number(number));
-  return fmt::format("{}", fmt::join(texts, "\t"));
+  Header lines = report.header;
+  for (const auto& input : report.inputs) lines.emplace_back("input", input);
+  lines.insert(lines.end(), report.trust.begin(), report.trust.end());
+  for (const auto& line : report.history) lines.emplace_back("history", line);
+  for (const auto& doubt : doubts(report)) lines.emplace_back("doubt", doubt);
+  return lines;
 }
 
 std::string rule_table(const FitReport& report)
 {
-  std::string text = "rule\tpoints";
+  std::vector<std::string> columns{"rule", "points"};
   for (const auto& [name, place] : estimator_columns)
-    text += fmt::format("\t{0}\t{0}_low\t{0}_high", name);
-  for (const auto& column : rule_columns) text += fmt::format("\t{}", column.name);
-  text += "\tused_by\n";
+    for (const char* suffix : {"", "_low", "_high"}) columns.push_back(name + std::string(suffix));
+  for (const auto& column : rule_columns) columns.emplace_back(column.name);
+  columns.emplace_back("used_by");
+
+  std::vector<std::vector<std::string>> rows;
   for (const auto& fit : report.rules) {
-    std::vector<double> numbers{static_cast<double>(fit.points)};
+    auto& row = rows.emplace_back();
+    row = {rule_name(report, fit), format_number(static_cast<double>(fit.points))};
     for (const auto& [name, place] : estimator_columns)
-      numbers.insert(numbers.end(), {fit.value.*place, fit.low.*place, fit.high.*place});
-    for (const auto& column : rule_columns) numbers.push_back(column.of(fit));
-    text +=
-        fmt::format("{}\t{}\t{}\n", rule_name(report, fit), cells(numbers), used_by(report, fit));
+      for (const auto* numbers : {&fit.value, &fit.low, &fit.high})
+        row.push_back(format_number(numbers->*place));
+    for (const auto& column : rule_columns) row.push_back(format_number(column.of(fit)));
+    row.push_back(used_by(report, fit));
   }
-  return text;
+  return table_text(header_of(report), columns, rows);
 }
 
-std::string scan_table(const PartitionScan& scan)
+std::string scan_table(const FitReport& report)
 {
-  std::string text;
+  const auto& scan = *report.scan;
+  Table table;
+  table.header = header_of(report);
   for (const auto& [key, value] : {std::pair{"p_zero", scan.p_zero},
                                    {"p_zero_low", scan.p_zero_interval.low},
                                    {"p_zero_high", scan.p_zero_interval.high},
@@ -80,13 +78,12 @@ std::string scan_table(const PartitionScan& scan)
                                    {"dB_dp_high", scan.dB_dp_interval.high},
                                    {"autocorrelation_time", scan.dependence.time},
                                    {"block_length", static_cast<double>(scan.dependence.block)}})
-    text += fmt::format("# {}: {}\n", key, format_number(value));
-  text += "p\tB\tlow\thigh\tB_direct\tB_direct_low\tB_direct_high\tneutral\n";
+    table.header.emplace_back(key, format_number(value));
+  table.columns = {"p", "B", "low", "high", "B_direct", "B_direct_low", "B_direct_high", "neutral"};
   for (const auto& fit : scan.fits)
-    text += cells({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half,
-                   fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral}) +
-            '\n';
-  return text;
+    table.rows.push_back({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half,
+                          fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral});
+  return table.to_text();
 }
 
 Json pair(const Interval& interval)
@@ -149,7 +146,7 @@ std::vector<std::string> doubts(const FitReport& report)
 
 std::string to_tsv(const FitReport& report)
 {
-  return header_lines(report) + (report.scan ? scan_table(*report.scan) : rule_table(report));
+  return report.scan ? scan_table(report) : rule_table(report);
 }
 
 std::string to_json(const FitReport& report)
@@ -171,7 +168,9 @@ std::string to_json(const FitReport& report)
   }
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
   all["inputs"] = report.inputs;
-  all["history"] = report.history;
+  for (const auto& [key, value] : report.trust) all[key].push_back(value);
+  all["history"] = Json::array();
+  for (const auto& line : report.history) all["history"].push_back(printable(line));
   all["doubts"] = doubts(report);
   return all.dump(2) + '\n';
 }

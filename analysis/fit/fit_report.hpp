@@ -17,6 +17,7 @@ namespace grseg {
 struct FitReport {
   std::vector<std::pair<std::string, std::string>> header;  // settings, as "# key: value"
   std::vector<std::string> inputs, history;
+  std::vector<std::pair<std::string, std::string>> trust;  // what of the inputs was verified
   Quantity quantity = Quantity::contact;
   Component component = Component::yy;
   std::vector<RuleFit> rules;
@@ -35,8 +36,8 @@ std::string used_by(const FitReport& report, const RuleFit& fit);
 /// below contain them.
 std::vector<std::string> doubts(const FitReport& report);
 
-/// "# key: value" lines, one line of column[unit] names, a row per rule, whose name stands first;
-/// with a scan instead a row per share p, with p_zero and dB_dp among the lines above.
+/// A table (table_text.hpp) with a row per rule, whose name stands first; with a scan instead a row
+/// per share p, with p_zero and dB_dp in the header.
 std::string to_tsv(const FitReport& report);
 /// The same as one JSON object; what is not a number is null.
 std::string to_json(const FitReport& report);

@@ -3,6 +3,8 @@
 
 #include "analysis/fit/window_sums.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace grseg {
@@ -97,7 +99,11 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   fit.not_positive = points.size() - fit.points;
   fit.value = estimators_of(points);
   fit.dependence = common ? *common : dependence(windows, data.runs, rule.adds_up());
-  fit.doubt = bootstrap.doubt(fit.dependence);
+  fit.doubt = fit.points > 0 ? bootstrap.doubt(fit.dependence)
+                             : fmt::format(
+                                   "in none of {} layers and windows do both species bear a "
+                                   "positive stress, so that their ratio has no value",
+                                   points.size());
   if (bootstrap.count() > 0) add_intervals(fit, windows, bootstrap);
   if (!rule.adds_up()) {
     remove_b(fit);

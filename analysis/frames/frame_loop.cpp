@@ -6,6 +6,7 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -81,6 +82,7 @@ void FrameOptions::add_to(po::options_description& options)
                         "use one frame in N");
   options.add_options()("threads", po::value(&threads)->default_value(1)->value_name("N"),
                         "number of threads, 0: one per processor; results are bitwise identical");
+  trust.add_to(options);
   options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
   output.add_to(options);
@@ -100,7 +102,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
     : info_(info),
       options_(options),
       preset_(preset_of(values)),
-      run_(single_input(values, "a table is made of one run")),
+      run_(single_input(values, "a table is made of one run"), options.trust.verify()),
       layers_(layers_of(run_, options)),
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
@@ -119,8 +121,11 @@ FrameLoop::~FrameLoop()
 
 void FrameLoop::read(std::size_t index, Frame& frame, TrajectoryReader::Fields fields)
 {
-  const std::lock_guard lock(reading_);
-  run_.read(index, frame, fields);
+  {
+    const std::lock_guard lock(reading_);
+    run_.load(index, frame, fields);
+  }
+  run_.verify(index, frame, fields);
 }
 
 void FrameLoop::report_progress(const Window& window)
@@ -138,6 +143,7 @@ Table FrameLoop::make_table(const std::string& command,
   Table table;
   auto& header = table.header;
   header = provenance(info_, preset_, run_, command);
+  for (auto& line : verification_lines(run_)) header.push_back(std::move(line));
 
   const auto& first = windows_.front();
   constexpr double no_one = std::numeric_limits<double>::quiet_NaN();
@@ -156,7 +162,7 @@ Table FrameLoop::make_table(const std::string& command,
     header.emplace_back(
         "bins", fmt::format("radius {} {}", format_number(axis->x()), format_number(axis->y())));
   const auto origin = run_.parameters().text("origin");
-  header.emplace_back("origin", origin.empty() ? "unknown" : origin);
+  header.emplace_back("origin", origin.empty() ? "unknown" : printable(origin));
   header.insert(header.end(), settings.begin(), settings.end());
 
   table.columns = with_key_columns(columns);

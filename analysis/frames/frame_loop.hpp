@@ -7,6 +7,7 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/cli/verification.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <algorithm>
@@ -27,8 +28,10 @@ struct FrameOptions {
   WindowSettings windows;
   int threads = 1;
   bool json = false, quiet = false;
+  TrustOption trust;
 
-  /// Adds --output --overwrite --begin --end --stride --layer --window --threads --json --quiet.
+  /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
+  /// --quiet.
   void add_to(po::options_description& options);
   /// Adds --bins, for tools that also know annuli.
   void add_bins_to(po::options_description& options);
@@ -61,8 +64,8 @@ class FrameLoop {
   std::tuple<Sums...> sum(const Window& window, TrajectoryReader::Fields fields,
                           const Sums&... empty);
 
-  /// A table without rows: header with program, preset, history, content digest of the run, the
-  /// numbers that later tools need and `settings` of the tool; key columns, then `columns`.
+  /// A table without rows: header with program, preset, history, content digest of the run, what
+  /// of it was verified, the numbers that later tools need and `settings` of the tool; key columns, then `columns`.
   Table make_table(const std::string& command,
                    const std::vector<std::pair<std::string, std::string>>& settings,
                    const std::vector<std::string>& columns) const;

@@ -2,10 +2,8 @@
 #pragma once
 
 #include "analysis/frames/height_range.hpp"
-#include "formats/cli/table.hpp"
 
 #include <array>
-#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,6 +22,8 @@ struct KeyColumn {
   const char* name;
   const char* unit;
   double LayerKey::*value;
+
+  std::string name_with_unit() const { return std::string(name) + unit; }
 };
 /// The first columns of every such table.
 inline constexpr std::array<KeyColumn, 6> key_columns{{{"t0", "[s]", &LayerKey::begin},
@@ -32,28 +32,12 @@ inline constexpr std::array<KeyColumn, 6> key_columns{{{"t0", "[s]", &LayerKey::
                                                        {"y1", "[m]", &LayerKey::top},
                                                        {"frames", "", &LayerKey::frames},
                                                        {"V", "[m^2]", &LayerKey::volume}}};
+inline constexpr const KeyColumn& volume_column = key_columns.back();
 
 /// Names with units, followed by `more`.
 std::vector<std::string> with_key_columns(const std::vector<std::string>& more);
 /// A row: the key, followed by `more`.
 std::vector<double> with_key(const LayerKey& key, const std::vector<double>& more);
-
-/// Reads the keys of a table's rows. FormatError, adding `remedy`, where a column is missing, and
-/// where time, frames or volume are not finite numbers. Heights may be NaN.
-class LayerKeyReader {
- public:
-  LayerKeyReader(const Table& table, const std::string& remedy);
-  LayerKey read(std::size_t row) const;
-
- private:
-  const Table& table_;
-  std::array<std::size_t, key_columns.size()> columns_{};
-};
-
-/// Column number; FormatError that adds `remedy` ("make it with ...") where there is none.
-std::size_t find_column(const Table& table, const std::string& name, const std::string& remedy);
-/// A cell that must be a finite number; FormatError naming row and column where it is not.
-double finite_cell(const Table& table, std::size_t row, std::size_t column);
 
 /// Rows that take part: windows between two times (s) and layers between two heights (m), up to
 /// round-off. The whole bed lies between any heights.

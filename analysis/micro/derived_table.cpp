@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/derived_table.hpp"
 
+#include "analysis/frames/distinct_runs.hpp"
 #include "analysis/micro/pooling.hpp"
+#include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
@@ -11,16 +13,6 @@
 
 namespace grseg {
 namespace {
-
-std::vector<Table> read_tables(const po::variables_map& values)
-{
-  if (!values.contains("input"))
-    throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
-  std::vector<Table> tables;
-  for (const auto& path : values["input"].as<std::vector<std::string>>())
-    tables.push_back(Table::read(path));
-  return tables;
-}
 
 ForceMeasure measure_of(const DerivedOptions& options)
 {
@@ -70,6 +62,7 @@ Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
   for (const auto& line : header_values(tables, "history")) header.emplace_back("history", line);
   header.emplace_back("history", command);
   for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
+  for (auto& line : trust_of(tables)) header.push_back(std::move(line));
   for (const auto& line : settings_of(tables[0]))
     if (line.first != "preset") header.push_back(line);
   const std::string depth = options.depth.empty() ? "height of the bed" : options.depth;
@@ -140,13 +133,16 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
       {{"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}});
   frames.output.check(values);
   DerivedSettings settings{measure_of(options), rule_of(options), 0};
-  const auto tables = read_tables(values);
+  const auto tables = read_tables(info, values, frames.quiet);
+  if (tables.empty())
+    throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
   std::vector<SumsRow> rows;
   for (const auto& table : tables) {
     const auto more = read_sums_rows(table);
     require_same_constants(tables[0], table);
     rows.insert(rows.end(), more.begin(), more.end());
   }
+  require_distinct_runs(tables);
   const auto constants = read_run_constants(tables[0]);
   const LengthUnits units{constants.small_diameter, constants.large_diameter};
   if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);

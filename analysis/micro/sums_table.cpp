@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/sums_table.hpp"
 
-#include "analysis/frames/layer_key.hpp"
+#include "analysis/frames/layer_table.hpp"
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace grseg {
@@ -29,12 +30,37 @@ void set_bed_heights(std::vector<SumsRow>& rows)
   }
 }
 
+enum class SumKind { any, not_negative, may_be_nan };
+
+struct SumColumn {
+  std::optional<std::size_t> column;  // none: not kept
+  SumKind kind;
+};
+
+SumKind kind_of(const std::string& name)
+{
+  const auto begins = [&](const char* word) { return name.starts_with(word); };
+  if (begins("n_slide")) return SumKind::may_be_nan;  // without friction
+  if (begins("area_") || begins("grains_") || begins("ends_") || begins("n_"))
+    return SumKind::not_negative;
+  return SumKind::any;
+}
+
+double value_of(const Table& table, std::size_t row, const SumColumn& sum)
+{
+  if (!sum.column) return nan;
+  if (sum.kind == SumKind::may_be_nan) return table.rows[row][*sum.column];
+  constexpr double round_off = 1e-15;  // m^2, of areas
+  return sum.kind == SumKind::any ? finite_cell(table, row, *sum.column)
+                                  : non_negative_cell(table, row, *sum.column, round_off);
+}
+
 }  // namespace
 
 RunConstants read_run_constants(const Table& table)
 {
-  return {.small_diameter = table.header_number("small_diameter"),
-          .large_diameter = table.header_number("large_diameter"),
+  return {.small_diameter = table.header_positive("small_diameter"),
+          .large_diameter = table.header_positive("large_diameter"),
           .gravity_x = table.header_number("gravity_x"),
           .gravity_y = table.header_number("gravity_y"),
           .density = number_or_unknown(table, "density"),
@@ -44,37 +70,32 @@ RunConstants read_run_constants(const Table& table)
 std::vector<SumsRow> read_sums_rows(const Table& table)
 {
   const char* remedy = "--derived needs a table of grseg-micro";
-  const auto column = [&](const std::string& name) {
-    return find_column(table, name.substr(0, name.find('[')), remedy);
-  };
-  struct Place {
-    std::size_t column;
-    bool may_be_nan;
-  };
-  std::vector<Place> sums;
+  std::vector<SumColumn> sums;
   for (const auto& name : columns_of(StructureSums{}.cells()))
-    sums.push_back({column(name), name.starts_with("n_slide")});  // NaN without friction
-  const LayerKeyReader keys(table, remedy);
-  const auto large = column("yL"), small = column("yS"), bed = column("height");
+    sums.push_back({find_kept_column(table, name, remedy), kind_of(name)});
+  const auto keys = read_layer_keys(table, remedy);
+  std::vector<std::size_t> of_heights;
+  for (const auto& name : columns_of(cells(BedHeights{})))
+    of_heights.push_back(find_column(table, name, remedy));
 
   std::vector<SumsRow> rows;
   rows.reserve(table.rows.size());
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const auto& cells = table.rows[r];
-    const auto key = keys.read(r);
+    const auto& numbers = table.rows[r];
+    const auto& key = keys[r];
     std::vector<double> values;
     values.reserve(sums.size());
-    for (const auto& [place, may_be_nan] : sums)
-      values.push_back(may_be_nan ? cells[place] : finite_cell(table, r, place));
-    rows.push_back({.begin = key.begin,
-                    .end = key.end,
-                    .bottom = key.bottom,
-                    .top = key.top,
-                    .frames = key.frames,
-                    .volume = key.volume,
-                    .sums = StructureSums::from_values(values),
-                    .heights = {cells[large], cells[small], cells[bed]},
-                    .bed_height = nan});
+    for (const auto& sum : sums) values.push_back(value_of(table, r, sum));
+    rows.push_back(
+        {.begin = key.begin,
+         .end = key.end,
+         .bottom = key.bottom,
+         .top = key.top,
+         .frames = key.frames,
+         .volume = key.volume,
+         .sums = StructureSums::from_values(values),
+         .heights = {numbers[of_heights[0]], numbers[of_heights[1]], numbers[of_heights[2]]},
+         .bed_height = nan});
   }
   set_bed_heights(rows);
   return rows;

@@ -3,7 +3,6 @@
 
 #include "formats/cli/table.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace grseg {
@@ -11,14 +10,11 @@ namespace grseg {
 std::string to_tsv(const SegregationSummary& summary, Header header)
 {
   for (const auto& remark : summary.remarks) header.emplace_back("remark", remark);
-  Table table;
-  table.header = std::move(header);
-  table.columns = {"quantity", "value", "low", "high"};
-  std::string text = table.to_text();
+  std::vector<std::vector<std::string>> rows;
   for (const auto& [name, number] : summary.numbers)
-    text += fmt::format("{}\t{}\t{}\t{}\n", name, format_number(number.value),
-                        format_number(number.low), format_number(number.high));
-  return text;
+    rows.push_back(
+        {name, format_number(number.value), format_number(number.low), format_number(number.high)});
+  return table_text(header, {"quantity", "value", "low", "high"}, rows);
 }
 
 std::string to_json(const SegregationSummary& summary, const Header& header)
@@ -31,7 +27,8 @@ std::string to_json(const SegregationSummary& summary, const Header& header)
   table.header = header;
   Json all{{"numbers", numbers}, {"remarks", summary.remarks}};
   const auto rest = Json::parse(table.to_json());
-  for (const char* key : {"settings", "inputs", "history"}) all[key] = rest[key];
+  for (const char* key : {"settings", "inputs", "history", "verified", "incomplete"})
+    if (rest.contains(key)) all[key] = rest[key];
   return all.dump(2) + '\n';
 }
 

@@ -23,13 +23,18 @@ ContactSums ContactSums::operator/(double number) const
   return part;
 }
 
+std::string column_name(const ContactSumColumns& sum, const Component2& component)
+{
+  return fmt::format("{}{}[N m]", sum.name, component.suffix);
+}
+
 std::vector<std::string> sum_column_names(const TableKind& kind)
 {
   std::vector<std::string> names;
   for (const auto& column : contact_sum_columns)
     if (kind.has(column.in))
       for (const auto& component : tensor_components)
-        names.push_back(fmt::format("{}{}[N m]", column.name, component.suffix));
+        names.push_back(column_name(column, component));
   return names;
 }
 

@@ -70,13 +70,13 @@ inline constexpr std::array<ContactSumColumns, 14> contact_sum_columns{{
     {"Mpower", &ContactSums::mixed_power, InTables::power},
 }};
 
-/// Columns of areas, m^2.
+/// Columns of areas, with their unit.
 struct AreaColumn {
   const char* name;
   double ContactSums::*area;
 };
 inline constexpr std::array<AreaColumn, 2> area_columns{
-    {{"area_S", &ContactSums::area_small}, {"area_L", &ContactSums::area_large}}};
+    {{"area_S[m^2]", &ContactSums::area_small}, {"area_L[m^2]", &ContactSums::area_large}}};
 
 /// Components of a tensor in the order of the columns.
 struct Component2 {
@@ -96,6 +96,8 @@ struct TableKind {
   }
 };
 
+/// "A_SS_xx[N m]".
+std::string column_name(const ContactSumColumns& sum, const Component2& component);
 /// Names with units of all sums that a table has, and the numbers under them.
 std::vector<std::string> sum_column_names(const TableKind& kind);
 std::vector<double> sum_cells(const ContactSums& sums, const TableKind& kind);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/contact_sums_reader.hpp"
 
-#include "analysis/frames/layer_key.hpp"
+#include "analysis/frames/layer_table.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace grseg {
 namespace {
@@ -49,11 +50,11 @@ ContactSumsReader::ContactSumsReader(const Table& table, const std::vector<Parti
       auto& place = places_.emplace_back(Place{column.sum, {}});
       for (std::size_t c = 0; c < tensor_components.size(); ++c)
         place.columns[c] =
-            find_column(table, column.name + std::string(tensor_components[c].suffix), remedy);
+            find_kept_column(table, column_name(column, tensor_components[c]), remedy);
     }
   };
   const std::string remedy = "a table of grseg-stress has it";
-  volume_ = find_column(table, "V", remedy);
+  volume_ = find_column(table, volume_column.name_with_unit(), remedy);
   for (std::size_t k = 0; k < areas_.size(); ++k)
     areas_[k] = find_column(table, area_columns[k].name, remedy);
   add_columns(InTables::all, remedy);
@@ -78,12 +79,14 @@ ContactSums ContactSumsReader::read(std::size_t row) const
   ContactSums sums;
   sums.at_centres = at_centres_;
   sums.volume = finite_cell(table_, row, volume_);
+  constexpr double round_off = 1e-12;  // of the volume: areas are differences of larger ones
   for (std::size_t k = 0; k < areas_.size(); ++k)
-    sums.*area_columns[k].area = finite_cell(table_, row, areas_[k]);
+    sums.*area_columns[k].area = non_negative_cell(table_, row, areas_[k], round_off * sums.volume);
   for (const auto& [sum, columns] : places_)
     for (std::size_t c = 0; c < columns.size(); ++c)
       (sums.*sum)(tensor_components[c].row, tensor_components[c].column) =
-          finite_cell(table_, row, columns[c]);
+          columns[c] ? finite_cell(table_, row, *columns[c])
+                     : std::numeric_limits<double>::quiet_NaN();
   return sums;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/merge_tables.hpp"
 
-#include "analysis/frames/layer_key.hpp"
+#include "analysis/frames/distinct_runs.hpp"
+#include "analysis/frames/layer_table.hpp"
+#include "formats/cli/input_tables.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 
@@ -10,8 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
-#include <set>
 
 namespace grseg {
 namespace {
@@ -27,6 +29,7 @@ struct Row {
 
 /// One window of one table.
 struct Part {
+  const Table* table;
   double begin = 0, end = 0, frames = 0;
   std::map<std::int64_t, Row> layers;  // by number of the layer
 };
@@ -53,7 +56,7 @@ void require_stress_table(const Table& table)
         "means per frame",
         table.name, program));
   for (std::size_t c = 0; c < key_columns.size(); ++c)
-    if (table.column(key_columns[c].name) != c)
+    if (find_column(table, key_columns[c].name_with_unit(), "a table of grseg-stress has it") != c)
       throw FormatError(fmt::format("{}: column {} is '{}' where a table of grseg-stress has '{}'",
                                     table.name, c + 1, table.columns[c], key_columns[c].name));
 }
@@ -79,48 +82,57 @@ void require_same_settings(const Table& a, const Table& b)
     throw FormatError(fmt::format("{} and {} have different columns", a.name, b.name));
 }
 
+/// FormatError where `ratio`, of a number in a row to one in the header, is beyond whole numbers.
+std::int64_t nearest_whole(double ratio, const Table& table, std::size_t row)
+{
+  constexpr double most = 1e15;
+  if (std::abs(ratio) > most)
+    throw FormatError(fmt::format("{}: row {}: does not go with the step and layer in the header",
+                                  table.name, row + 1));
+  return std::llround(ratio);
+}
+
 Parts parts_of(const Table& table)
 {
-  const double step = table.header_number("step"), thickness = table.header_number("layer");
-  const LayerKeyReader keys(table, "a table of grseg-stress has it");
+  const double step = table.header_positive("step"), thickness = table.header_positive("layer");
+  const auto keys = read_layer_keys(table, "a table of grseg-stress has it");
   Parts parts;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     for (std::size_t column = 0; column < table.columns.size(); ++column)
       finite_cell(table, row, column);
-    const LayerKey key = keys.read(row);
-    auto& part = parts[{std::llround(key.begin / step), std::llround(key.end / step)}];
-    if (part.layers.empty()) part = {key.begin, key.end, key.frames, {}};
-    if (key.frames != part.frames || !(part.frames > 0))
+    const LayerKey& key = keys[row];
+    auto& part = parts[{nearest_whole(key.begin / step, table, row),
+                        nearest_whole(key.end / step, table, row)}];
+    if (part.layers.empty()) part = {&table, key.begin, key.end, key.frames, {}};
+    if (key.frames != part.frames)
       throw FormatError(fmt::format("{}: row {}: {} frames where others of its window have {}",
                                     table.name, row + 1, format_number(key.frames),
                                     format_number(part.frames)));
-    const auto layer = std::llround(key.bottom / thickness);
+    const auto layer = nearest_whole(key.bottom / thickness, table, row);
     if (!part.layers.emplace(layer, Row{key, &table.rows[row]}).second)
       throw FormatError(fmt::format("{}: row {} repeats a window and layer", table.name, row + 1));
   }
   return parts;
 }
 
-void refuse_same_time_of_same_run(const Table& a, const Parts& of_a, const Table& b,
-                                  const Parts& of_b)
+/// Windows of several tables are merged where they are the same, and must not overlap otherwise.
+void refuse_overlaps(const std::map<Times, std::vector<const Part*>>& windows)
 {
-  const auto inputs = inputs_of(a);
-  for (const auto& input : inputs_of(b)) {
-    if (std::find(inputs.begin(), inputs.end(), input) == inputs.end()) continue;
-    for (const auto& [one, part] : of_a)
-      for (const auto& [other, unused] : of_b)
-        if (one.first < other.second && other.first < one.second)
-          throw UsageError(fmt::format(
-              "{} and {} both hold the time from {:g} s of the same run ({}); counting it twice "
-              "would make intervals too narrow",
-              a.name, b.name, part.begin, input));
+  for (auto next = windows.begin(); next != windows.end(); ++next) {
+    const auto before = next == windows.begin() ? next : std::prev(next);
+    const auto &a = *before->second[0], &b = *next->second[0];
+    if (before != next && next->first.first < before->first.second)
+      throw UsageError(fmt::format(
+          "{} and {} hold windows that overlap in part, from {:g} s and from {:g} s; make them with "
+          "the same --begin and --window, or merge with --all-windows",
+          a.table->name, b.table->name, a.begin, b.begin));
   }
 }
 
 /// Means over the parts, weighted by frames.
 std::vector<std::vector<double>> merged_rows(const std::vector<const Part*>& parts)
 {
-  Part all{parts[0]->begin, parts[0]->end, 0, {}};
+  Part all{nullptr, parts[0]->begin, parts[0]->end, 0, {}};
   for (const auto* part : parts) {
     all.begin = std::min(all.begin, part->begin);
     all.end = std::max(all.end, part->end);
@@ -161,15 +173,14 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   });
 
   std::vector<Parts> parts;
-  for (const auto& table : tables) {
-    parts.push_back(parts_of(table));
-    for (std::size_t earlier = 0; earlier + 1 < parts.size(); ++earlier)
-      refuse_same_time_of_same_run(tables[earlier], parts[earlier], table, parts.back());
-  }
+  parts.reserve(tables.size());
+  for (const auto& table : tables) parts.push_back(parts_of(table));
+  require_distinct_runs(tables);
   std::map<Times, std::vector<const Part*>> windows;
   for (const auto& of_table : parts)
     for (const auto& [window, part] : of_table)
       windows[all_windows ? Times{} : window].push_back(&part);
+  refuse_overlaps(windows);
 
   Table merged;
   merged.header.push_back(program_line(info));
@@ -177,12 +188,13 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
     for (const auto& line : table.header)
       if (is_source(line.first)) merged.header.push_back(line);
   merged.header.emplace_back("history", command);
+  for (auto& line : trust_of(tables)) merged.header.push_back(std::move(line));
   for (const auto& line : settings_of(tables[0])) merged.header.push_back(line);
   merged.columns = tables[0].columns;
   for (const auto& [window, of_window] : windows)
     for (auto& row : merged_rows(of_window)) merged.rows.push_back(std::move(row));
   if (all_windows && !merged.rows.empty()) {
-    const LayerKey whole = LayerKeyReader(merged, "").read(0);
+    const LayerKey whole = read_layer_keys(merged, "")[0];
     for (auto& [key, value] : merged.header)
       if (key == "window") value = format_number(whole.end - whole.begin);
   }

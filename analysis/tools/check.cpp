@@ -125,7 +125,7 @@ int main(int argc, char** argv)
   const auto options = options_into(settings);
   return run_tool(argc, argv, info(), options, [&](const po::variables_map& values) {
     settings.output.check(values);
-    const TrajectoryReader run(single_input(values, "check one at a time"));
+    const TrajectoryReader run(single_input(values, "check one at a time"), Verify::no);
     const auto report = check(run, settings, command_line(argc, argv));
     write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));
     std::cout.flush();

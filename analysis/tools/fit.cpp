@@ -7,12 +7,14 @@
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/presets.hpp"
 #include "analysis/stress/partial_stress.hpp"
+#include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -117,9 +119,6 @@ void check(const Settings& s, const po::variables_map& values)
 {
   if (!values.contains("input"))
     throw UsageError("no table given; name tables of grseg-stress, or - for standard input");
-  const auto& inputs = values["input"].as<std::vector<std::string>>();
-  if (std::count(inputs.begin(), inputs.end(), "-") > 1)
-    throw UsageError("standard input, -, can be read only once");
   if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))
     throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", s.bootstrap));
   if (s.seed < 0) throw UsageError("--seed must not be negative");
@@ -152,10 +151,21 @@ void remark(const std::vector<Table>& tables, const FitReport& report, bool with
   for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step"})
     for (const auto& table : tables)
       if (header_or(table, key, "") != header_or(tables[0], key, ""))
-        std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name, tables[0].name,
-                                 table.name, key);
+        std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name,
+                                 printable(tables[0].name), printable(table.name), key);
   if (!with_doubts) return;
   for (const auto& doubt : doubts(report)) std::cerr << fmt::format("{}: {}\n", info.name, doubt);
+}
+
+/// RunError, saying why, where there is no number to print.
+void require_numbers(const FitReport& report)
+{
+  const auto has_number = [](const RuleFit& fit) {
+    return std::isfinite(fit.value.slope) || std::isfinite(fit.value.B_direct);
+  };
+  const auto& fits = report.scan ? report.scan->fits : report.rules;
+  if (std::none_of(fits.begin(), fits.end(), has_number))
+    throw RunError(fmt::format("{}: {}", rule_name(report, fits[0]), fits[0].doubt));
 }
 
 /// On a terminal, 17 digits of 48 columns are of no use.
@@ -209,6 +219,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
       {"interval", "95 %"}};
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
   report.inputs = header_values(tables, "input");
+  report.trust = trust_of(tables);
   report.history = header_values(tables, "history");
   return report;
 }
@@ -222,12 +233,10 @@ int main(int argc, char** argv)
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
     check(settings, values);
     parse_ratio_range(settings.ratio_range, settings.filters);
-    std::vector<Table> tables;
-    for (const auto& path : values["input"].as<std::vector<std::string>>())
-      tables.push_back(Table::read(path));
-
+    const auto tables = read_tables(info, values, settings.quiet);
     auto report = make_report(settings, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
+    require_numbers(report);
     const bool brief = prints_short(settings);
     if (!settings.quiet) remark(tables, report, !brief);
     if (!brief || !settings.output.path.empty())

@@ -4,6 +4,7 @@
 #include "analysis/stress/contact_assignment.hpp"
 #include "analysis/stress/merge_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
+#include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
@@ -107,7 +108,7 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
   const PartialContactStress no_contacts(loop.layers(), chosen.assignment, power, kernel);
   std::vector<std::string> areas;
   areas.reserve(area_columns.size());
-  for (const auto& column : area_columns) areas.push_back(fmt::format("{}[m^2]", column.name));
+  for (const auto& column : area_columns) areas.emplace_back(column.name);
   auto table = loop.make_table(command, settings, joined(areas, no_contacts.columns()));
 
   for (const auto& window : loop.windows()) {
@@ -130,11 +131,8 @@ void merge(const Settings& s, const po::variables_map& values, const std::string
       throw UsageError(
           fmt::format("--{} does not go with --merge: tables keep what they were made with", name));
   s.frames.output.check(values);
-  std::vector<Table> tables;
-  if (values.count("input") > 0)
-    for (const auto& path : values["input"].as<std::vector<std::string>>())
-      tables.push_back(Table::read(path));
-  const auto merged = merge_tables(std::move(tables), s.all_windows, info, command);
+  const auto merged =
+      merge_tables(read_tables(info, values, s.frames.quiet), s.all_windows, info, command);
   write_whole(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/provenance.hpp"
 
+#include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 #include "formats/trajectory/digest.hpp"
 
@@ -22,7 +23,8 @@ Header provenance(const ToolInfo& info, const std::string& preset, const Traject
   Header header{program_line(info)};
   if (!info.presets.empty()) header.emplace_back("preset", preset);
   std::istringstream history(run.parameters().text("history"));
-  for (std::string line; std::getline(history, line);) header.emplace_back("history", line);
+  for (std::string line; std::getline(history, line);)
+    header.emplace_back("history", printable(line));
   header.emplace_back("history", command);
   header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run.digest())));
   return header;
@@ -55,7 +57,8 @@ Header settings_of(const Table& table)
 {
   Header settings = table.header;
   std::erase_if(settings, [](const HeaderLine& line) {
-    return line.first == "program" || line.first == "history" || line.first == "input";
+    return line.first == "program" || line.first == "history" || line.first == "input" ||
+           line.first == "verified" || line.first == "incomplete";
   });
   return settings;
 }

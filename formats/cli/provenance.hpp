@@ -15,12 +15,14 @@
 ///   preset    what --preset was given; only of tools that have presets
 ///   history   one line per command that led here, the oldest first, this tool's own last
 ///   input     digest of the content of each run the table was made of
+///   verified  "all", or what of the inputs could not be verified
+///   incomplete  which run had not ended
 namespace grseg {
 
 using HeaderLine = std::pair<std::string, std::string>;
 using Header = std::vector<HeaderLine>;
 
-/// The line "program", e.g. "grseg-stress 0.1.0".
+/// The line "program", e.g. "grseg-stress 0.2.0".
 HeaderLine program_line(const ToolInfo& info);
 
 /// The lines above, in that order, of a table made of one run by `command`. `preset` as returned by

@@ -2,6 +2,7 @@
 #include "formats/cli/tool.hpp"
 
 #include "formats/cli/words.hpp"
+#include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 
 #include <fmt/format.h>
@@ -105,6 +106,12 @@ void print_help(const ToolInfo& info, const po::options_description& options)
          "130/143 interrupted.\n";
 }
 
+/// What it says may quote a file or its name, and no file may write to the terminal.
+void print_error(const ToolInfo& info, const std::exception& error)
+{
+  std::cerr << info.name << ": " << printable_lines(error.what()) << '\n';
+}
+
 }  // namespace
 
 int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
@@ -130,12 +137,12 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
     if (!std::cout) throw RunError("cannot write to standard output");
     return exit_done;
   } catch (const ToolError& error) {
-    std::cerr << info.name << ": " << error.what() << '\n';
+    print_error(info, error);
     return error.code();
   } catch (const std::bad_alloc&) {
     std::cerr << info.name << ": out of memory; use fewer frames or a smaller scene\n";
   } catch (const std::exception& error) {
-    std::cerr << info.name << ": " << error.what() << '\n';
+    print_error(info, error);
   }
   return exit_trouble;
 }

@@ -3,6 +3,7 @@
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/cli/verification.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/export/extxyz_writer.hpp"
 #include "formats/export/h5md3d_writer.hpp"
@@ -30,6 +31,7 @@ struct Settings {
   FrameRange range;
   std::string format, output;
   bool overwrite = false, quiet = false;
+  TrustOption trust;
 };
 
 po::options_description options_into(Settings& s)
@@ -40,6 +42,7 @@ po::options_description options_into(Settings& s)
       "vtp: PolyData with times, grains as points and contacts as lines; extxyz: extended XYZ; "
       "lammps: dump custom and dump local; h5md3d: H5MD padded to three dimensions");
   s.range.add_to(options);
+  s.trust.add_to(options);
   add("output,o", po::value(&s.output)->value_name("NAME"),
       "file to write (extxyz and lammps: compressed if it ends in .gz); for vtp a folder");
   add_overwrite_to(options, s.overwrite);
@@ -67,7 +70,7 @@ void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& f
 
 void export_run(const Settings& s, const po::variables_map& values)
 {
-  const TrajectoryReader run(single_input(values, "export one at a time"));
+  const TrajectoryReader run(single_input(values, "export one at a time"), s.trust.verify());
   if (s.output.empty()) throw UsageError("name what to write: -o NAME");
   const auto frames = s.range.frames_of(run);
   const auto cell = view_cell(run, frames.front());

@@ -46,6 +46,53 @@ class Hasher {
   bool float32_;
 };
 
+/// Those with an array in a frame, in the order of frame_digest.
+constexpr Field fields_in_order[] = {
+    Field::position,       Field::image,      Field::velocity,  Field::angular_velocity,
+    Field::force,          Field::contact_i,  Field::contact_j, Field::contact_force,
+    Field::contact_branch, Field::contact_gap};
+
+template <class T>
+void add_values(Hasher& hash, const std::vector<T>& values)
+{
+  hash.add(values.data(), values.size() * sizeof(T));
+}
+
+void add_field(Hasher& hash, Field field, const Frame& frame)
+{
+  const auto& contacts = frame.contacts;
+  switch (field) {
+    case Field::position:
+      return hash.add_reals(frame.position);
+    case Field::image:
+      return add_values(hash, frame.image);
+    case Field::velocity:
+      return hash.add_reals(frame.velocity);
+    case Field::angular_velocity:
+      return hash.add_reals(frame.angular_velocity);
+    case Field::force:
+      return hash.add_reals(frame.force);
+    case Field::contact_i:
+      return add_values(hash, contacts.i);
+    case Field::contact_j:
+      return add_values(hash, contacts.j);
+    case Field::contact_force:
+      return hash.add_reals(contacts.force);
+    case Field::contact_branch:
+      return hash.add_reals(contacts.branch);
+    case Field::contact_gap:
+      return hash.add_reals(contacts.gap);
+    case Field::place:
+    case Field::observables:
+      break;  // not arrays of a frame
+  }
+}
+
+std::uint64_t seed_of(Field field, std::uint64_t index)
+{
+  return 16 * index + static_cast<std::uint64_t>(field);
+}
+
 }  // namespace
 
 std::uint64_t frame_digest(const Frame& frame, std::uint64_t before, bool float32)
@@ -53,17 +100,30 @@ std::uint64_t frame_digest(const Frame& frame, std::uint64_t before, bool float3
   Hasher hash(before, float32);
   hash.add(&frame.step, sizeof frame.step);
   hash.add(&frame.time, sizeof frame.time);
-  hash.add_reals(frame.position);
-  hash.add(frame.image.data(), frame.image.size() * sizeof frame.image[0]);
-  hash.add_reals(frame.velocity);
-  hash.add_reals(frame.angular_velocity);
-  hash.add_reals(frame.force);
-  const auto& contacts = frame.contacts;
-  hash.add(contacts.i.data(), contacts.i.size() * sizeof contacts.i[0]);
-  hash.add(contacts.j.data(), contacts.j.size() * sizeof contacts.j[0]);
-  hash.add_reals(contacts.force);
-  hash.add_reals(contacts.branch);
-  hash.add_reals(contacts.gap);
+  for (const auto field : fields_in_order) add_field(hash, field, frame);
+  return hash.digest();
+}
+
+std::uint64_t field_digest(Field field, std::uint64_t index, const Frame& frame, bool float32)
+{
+  Hasher hash(seed_of(field, index), float32);
+  add_field(hash, field, frame);
+  return hash.digest();
+}
+
+std::uint64_t field_digest(std::uint64_t index, const FramePlace& place)
+{
+  Hasher hash(seed_of(Field::place, index), false);
+  hash.add(&place.step, sizeof place.step);
+  hash.add(&place.time, sizeof place.time);
+  for (const auto number : {place.begin, place.end, place.chain}) hash.add(&number, sizeof number);
+  return hash.digest();
+}
+
+std::uint64_t field_digest(std::uint64_t index, const std::vector<double>& observables)
+{
+  Hasher hash(seed_of(Field::observables, index), false);
+  hash.add_reals(observables);
   return hash.digest();
 }
 

@@ -12,15 +12,6 @@ namespace grseg::h5md {
 
 using namespace hdf5;
 
-Group make_group(hid_t file, const std::string& path)
-{
-  const Properties links(H5Pcreate(H5P_LINK_CREATE));
-  H5Pset_create_intermediate_group(links, 1);
-  Group made(H5Gcreate2(file, path.c_str(), links, H5P_DEFAULT, H5P_DEFAULT));
-  if (!made.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
-  return made;
-}
-
 void write_root(hid_t file)
 {
   write_attribute(make_group(file, "/h5md"), "version", std::vector<int>{1, 1});

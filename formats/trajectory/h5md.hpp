@@ -10,9 +10,6 @@
 /// written.
 namespace grseg::h5md {
 
-/// Creates a group and its parents.
-hdf5::Group make_group(hid_t file, const std::string& path);
-
 /// /h5md: version, author, creator, and module units of system SI.
 void write_root(hid_t file);
 

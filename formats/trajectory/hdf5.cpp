@@ -2,11 +2,19 @@
 #include "formats/trajectory/hdf5.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
 #include "formats/trajectory/hdf5_failure.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <limits>
 
 namespace grseg::hdf5 {
 namespace {
@@ -23,11 +31,54 @@ void check_written(herr_t status, const std::string& what)
   if (status < 0) throw RunError(fmt::format("cannot write {}: {}", what, reason_of_failure()));
 }
 
-Properties with_parents()
+// How much more than its own size a file can hold: deflate packs at most 1032 : 1, and what is small
+// does not matter.
+constexpr hsize_t most_packing = 1100;
+constexpr hsize_t small = 16 << 20;  // bytes
+
+/// Creates the groups that `path` lies in.
+void make_parents(hid_t file, const std::string& path)
 {
-  Properties links(H5Pcreate(H5P_LINK_CREATE));
-  H5Pset_create_intermediate_group(links, 1);
-  return links;
+  const auto slash = path.rfind('/');
+  if (slash != std::string::npos && slash > 0) make_group(file, path.substr(0, slash));
+}
+
+/// Whether the superblock (HDF5 File Format Specification, II.A) says that a writer holds the file
+/// open in SWMR mode, or was killed while it did.
+bool has_swmr_writer(const std::string& path)
+{
+  constexpr char signature[] = "\x89HDF\r\n\x1a\n";
+  constexpr std::size_t version = 8, flags = 11;
+  constexpr char write_access = 1, swmr_access = 4;
+  char bytes[12] = {};
+  std::ifstream(path, std::ios::binary).read(bytes, sizeof bytes);
+  return std::equal(signature, signature + 8, bytes) && bytes[version] == 3 &&
+         (bytes[flags] & write_access) != 0 && (bytes[flags] & swmr_access) != 0;
+}
+
+/// A file that does not open is damaged, or a running simulation holds HDF5's lock on it.
+std::string why_it_does_not_open(const std::string& path)
+{
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (file >= 0) close(file);
+  return locked ? "is being written by a run; wait until the run has ended, or read a copy"
+                : "is not an HDF5 file, or is truncated or damaged";
+}
+
+hsize_t size_of_file(hid_t object)
+{
+  hsize_t bytes = 0;
+  const File file(H5Iget_file_id(object));
+  H5Fget_filesize(file, &bytes);
+  return bytes;
+}
+
+/// The product, or the largest number where that is too large.
+hsize_t product(hsize_t a, hsize_t b)
+{
+  constexpr auto most = std::numeric_limits<hsize_t>::max();
+  return a > 0 && b > most / a ? most : a * b;
 }
 
 }  // namespace
@@ -36,6 +87,41 @@ void silence()
 {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  H5Lunregister(H5L_TYPE_EXTERNAL);
+}
+
+Properties newest_format()
+{
+  Properties access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  return access;
+}
+
+File open_for_reading(const std::string& path, Properties access)
+{
+  silence();
+  require_file(path);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw UsageError(fmt::format("{}: is not a regular file", path));
+  if (!access.valid()) access = Properties(H5Pcreate(H5P_FILE_ACCESS));
+  const unsigned mode = H5F_ACC_RDONLY | (has_swmr_writer(path) ? H5F_ACC_SWMR_READ : 0U);
+  File file(H5Fopen(path.c_str(), mode, access));
+  if (!file.valid()) throw FormatError(fmt::format("{}: {}", path, why_it_does_not_open(path)));
+  return file;
+}
+
+Group make_group(hid_t file, const std::string& path)
+{
+  const Properties create(H5Pcreate(H5P_GROUP_CREATE));
+  H5Pset_obj_track_times(create, 0);
+  for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
+    const auto name = path.substr(0, slash);
+    Group group(exists(file, name)
+                    ? H5Gopen2(file, name.c_str(), H5P_DEFAULT)
+                    : H5Gcreate2(file, name.c_str(), H5P_DEFAULT, create, H5P_DEFAULT));
+    if (slash == std::string::npos || !group.valid()) return opened<Group>(group.release(), path);
+  }
 }
 
 Space space_of(const std::vector<hsize_t>& shape)
@@ -70,10 +156,10 @@ Dataset create_growing(hid_t parent, const std::string& path, hid_t type,
     H5Pset_shuffle(create);
     H5Pset_deflate(create, static_cast<unsigned>(storage.compression));
   }
-  if (storage.compression > 0 || storage.checksum) H5Pset_fletcher32(create);
   H5Pset_obj_track_times(create, 0);  // the same run gives the same bytes
+  make_parents(parent, path);
   return opened<Dataset>(
-      H5Dcreate2(parent, path.c_str(), type, space, with_parents(), create, H5P_DEFAULT), path);
+      H5Dcreate2(parent, path.c_str(), type, space, H5P_DEFAULT, create, H5P_DEFAULT), path);
 }
 
 void write_fixed(hid_t parent, const std::string& path, hid_t file_type, hid_t memory_type,
@@ -82,9 +168,15 @@ void write_fixed(hid_t parent, const std::string& path, hid_t file_type, hid_t m
   const auto space = space_of(shape);
   const Properties create(H5Pcreate(H5P_DATASET_CREATE));
   H5Pset_obj_track_times(create, 0);
+  make_parents(parent, path);
   const auto dataset = opened<Dataset>(
-      H5Dcreate2(parent, path.c_str(), file_type, space, with_parents(), create, H5P_DEFAULT),
-      path);
+      H5Dcreate2(parent, path.c_str(), file_type, space, H5P_DEFAULT, create, H5P_DEFAULT), path);
+  check_written(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), path);
+}
+
+void overwrite(hid_t parent, const std::string& path, hid_t memory_type, const void* data)
+{
+  const auto dataset = opened<Dataset>(H5Dopen2(parent, path.c_str(), H5P_DEFAULT), path);
   check_written(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), path);
 }
 
@@ -115,6 +207,7 @@ CheckedDataset::CheckedDataset(hid_t parent, const std::string& path, H5T_class_
   dataset_ = Dataset(H5Dopen2(parent, path.c_str(), H5P_DEFAULT));
   if (!dataset_.valid()) fail("cannot be opened");
 
+  check_storage();
   const Type type(H5Dget_type(dataset_));
   if (H5Tget_class(type) != kind) fail("does not hold the right kind of values");
   if (kind == H5T_STRING ? H5Tis_variable_str(type) > 0 : H5Tget_size(type) > 8)
@@ -125,11 +218,20 @@ CheckedDataset::CheckedDataset(hid_t parent, const std::string& path, H5T_class_
     fail(fmt::format("should have {} dimensions", rank));
   dims_.resize(static_cast<std::size_t>(rank));
   if (rank > 0) H5Sget_simple_extent_dims(space, dims_.data(), nullptr);
+  row_bytes_ = H5Tget_size(type);
+  for (std::size_t k = 1; k < dims_.size(); ++k) row_bytes_ = product(row_bytes_, dims_[k]);
+  require_possible(rank == 0 ? 1 : std::min<hsize_t>(dims_[0], 1));
+}
 
+/// Where the values are, before anything else is asked: a virtual dataset would open other files.
+void CheckedDataset::check_storage()
+{
   const Properties create(H5Dget_create_plist(dataset_));
   if (H5Pget_layout(create) > H5D_CHUNKED || H5Pget_external_count(create) > 0)
     fail("is stored outside this file");
-  for (int k = 0; k < H5Pget_nfilters(create); ++k) {
+  const int filters = H5Pget_nfilters(create);
+  most_bytes_ = std::max(product(size_of_file(dataset_), filters > 0 ? most_packing : 1), small);
+  for (int k = 0; k < filters; ++k) {
     unsigned flags = 0, config = 0;
     std::size_t values = 0;
     const auto filter = H5Pget_filter2(create, static_cast<unsigned>(k), &flags, &values, nullptr,
@@ -138,6 +240,12 @@ CheckedDataset::CheckedDataset(hid_t parent, const std::string& path, H5T_class_
         filter != H5Z_FILTER_FLETCHER32)
       fail("uses a filter other than deflate, shuffle and fletcher32");
   }
+  if (H5Pget_layout(create) != H5D_CHUNKED) return;
+  hsize_t chunk[H5S_MAX_RANK] = {};
+  const int rank = H5Pget_chunk(create, H5S_MAX_RANK, chunk);
+  hsize_t bytes = H5Tget_size(Type(H5Dget_type(dataset_)));
+  for (int k = 0; k < rank; ++k) bytes = product(bytes, chunk[k]);
+  if (rank < 0 || bytes > most_bytes_) fail("has chunks that are larger than the file");
 }
 
 void CheckedDataset::fail(const std::string& why) const
@@ -150,6 +258,13 @@ void CheckedDataset::require(std::size_t axis, hsize_t size, bool at_least) cons
   if (at_least ? dims_[axis] < size : dims_[axis] != size)
     fail(fmt::format("has {} entries along dimension {}, but {}{} are needed", dims_[axis], axis,
                      at_least ? "at least " : "", size));
+  if (axis == 0) require_possible(size);
+}
+
+void CheckedDataset::require_possible(hsize_t rows) const
+{
+  if (product(rows, row_bytes_) > most_bytes_)
+    fail("claims to hold more than a file of this size can; the file is damaged");
 }
 
 void CheckedDataset::read_rows(hid_t memory_type, hsize_t first, hsize_t count, void* data) const

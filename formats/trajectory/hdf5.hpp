@@ -46,10 +46,18 @@ using Type = Handle<H5Tclose>;
 using Properties = Handle<H5Pclose>;
 using Attribute = Handle<H5Aclose>;
 
-/// Turns off the library's own error messages and its closing of files at exit, which crashes on a
-/// file that could not be written (1.10.8); handles close theirs. Whoever opens a file calls it
-/// before any other function of the library.
+/// Turns off the library's own error messages, its closing of files at exit, which crashes on a file
+/// that could not be written (1.10.8; handles close theirs), and links that lead out of a file.
+/// Whoever opens a file calls it before any other function of the library.
 void silence();
+
+/// How files are written: in the format of HDF5 1.10, whose metadata carry checksums.
+Properties newest_format();
+
+/// Opens a file that anybody may have made, for reading: UsageError where it is missing or not a
+/// regular file, FormatError where HDF5 cannot open it. A file that a running (or killed) writer
+/// holds open in HDF5's SWMR mode can be read, too. `access`: further settings, changed.
+File open_for_reading(const std::string& path, Properties access = Properties());
 
 /// Text of fixed length, UTF-8.
 Type string_type(std::size_t length);
@@ -59,9 +67,12 @@ Space space_of(const std::vector<hsize_t>& shape);
 /// How a growing dataset is stored.
 struct Storage {
   hsize_t chunk_rows = 1;
-  int compression = 0;    // deflate level, with shuffle and fletcher32; 0: none
-  bool checksum = false;  // fletcher32 also without compression
+  int compression = 0;  // deflate level, with shuffle; 0: none
 };
+
+/// Creates a group and its parents, without the time of day, so that the same run gives the same
+/// bytes. RunError on failure.
+Group make_group(hid_t file, const std::string& path);
 
 /// A dataset whose first dimension grows, `shape` being the others. RunError on failure.
 Dataset create_growing(hid_t parent, const std::string& path, hid_t type,
@@ -69,6 +80,8 @@ Dataset create_growing(hid_t parent, const std::string& path, hid_t type,
 /// A dataset of fixed shape with its content; an empty `shape` makes a scalar. RunError on failure.
 void write_fixed(hid_t parent, const std::string& path, hid_t file_type, hid_t memory_type,
                  const std::vector<hsize_t>& shape, const void* data);
+/// Replaces all values of a dataset of fixed shape that is there. RunError on failure.
+void overwrite(hid_t parent, const std::string& path, hid_t memory_type, const void* data);
 /// Grows `dataset` by `rows` rows and writes them. RunError naming `what` on failure.
 void append_rows(hid_t dataset, hid_t memory_type, hsize_t rows, const void* data,
                  const std::string& what);
@@ -76,7 +89,8 @@ void append_rows(hid_t dataset, hid_t memory_type, hsize_t rows, const void* dat
 /// A dataset opened for reading and checked before anything is read: FormatError, naming `file` and
 /// the path, unless it exists, holds numbers of class `kind` (H5T_INTEGER or H5T_FLOAT) of at most
 /// 8 bytes (or H5T_STRING of fixed length), has `rank` dimensions, and uses only plain storage and
-/// the filters deflate, shuffle and fletcher32.
+/// the filters deflate, shuffle and fletcher32. What is read must be possible for a file of this
+/// size, or it is refused before memory is allocated.
 class CheckedDataset {
  public:
   CheckedDataset() = default;
@@ -90,6 +104,8 @@ class CheckedDataset {
 
   /// FormatError unless dimension `axis` has `size` entries (or, at_least, no fewer).
   void require(std::size_t axis, hsize_t size, bool at_least = false) const;
+  /// FormatError unless `rows` rows can be in a file of this size.
+  void require_possible(hsize_t rows) const;
   /// Rows [first, first + count) of the first dimension, all of the others.
   void read_rows(hid_t memory_type, hsize_t first, hsize_t count, void* data) const;
   void read_all(hid_t memory_type, void* data) const;
@@ -97,8 +113,12 @@ class CheckedDataset {
  private:
   [[noreturn]] void fail(const std::string& why) const;
 
+  void check_storage();
+
   Dataset dataset_;
   std::vector<hsize_t> dims_;
+  hsize_t row_bytes_ = 0;   // of a row, as stored
+  hsize_t most_bytes_ = 0;  // that a file of this size can hold
   std::string path_, file_;
 };
 

@@ -19,12 +19,11 @@ struct Departure {
 struct LayoutReport {
   std::vector<Departure> departures;
   std::size_t datasets = 0, chunks = 0;  // read completely
-  std::size_t checksums = 0;             // chunks that carry one
 };
 
 /// Compares the layout of a readable run with formats/README.md: exact types and shapes, units,
 /// attributes, hard links of step and time. Also reads every dataset of the file completely, listed
-/// in README.md or not, so that the checksum of each chunk is verified. FormatError naming the
+/// in README.md or not, so that checksums of HDF5 are verified. FormatError naming the
 /// dataset and the row where that fails, or where a filter is used that a plain reader may not
 /// have.
 LayoutReport check_layout(const TrajectoryReader& run);

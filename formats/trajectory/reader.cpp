@@ -3,46 +3,206 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/digest.hpp"
-#include "formats/trajectory/hdf5_attributes.hpp"
+#include "formats/trajectory/integrity.hpp"
 #include "formats/trajectory/stored_run.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
 #include <numbers>
+#include <optional>
 
 namespace grseg {
+namespace {
 
 using namespace hdf5;
 
+constexpr TrajectoryReader::Fields whole{.velocity = true, .contacts = true, .force = true};
+
+constexpr const char* names_of_fields[number_of_fields] = {
+    "/particles/grains/position/step, time or its rows of contacts",
+    "/particles/grains/position",
+    "/particles/grains/image",
+    "/particles/grains/velocity",
+    "/particles/grains/angular_velocity",
+    "/particles/grains/force",
+    "/grseg/contacts/i",
+    "/grseg/contacts/j",
+    "/grseg/contacts/force",
+    "/grseg/contacts/branch",
+    "/grseg/contacts/gap",
+    "/observables"};
+
+}  // namespace
+
 struct TrajectoryReader::Impl : StoredRun {
-  using StoredRun::StoredRun;
+  Impl(const std::string& its_path, Verify its_verify) : StoredRun(its_path), verify(its_verify) {}
+
+  Verify verify;
+  Seal::Numbers seal{};
+  bool closed = false;
+  mutable bool observables_verified = false;
+
+  void read_seal();
+  std::string damage_of_run() const;
+  std::string damage_of_observables() const;
+  void drop_damaged_end();
+  void read(std::size_t index, Frame& frame, Fields fields) const;
+  std::optional<Field> changed_field(std::size_t index, const Frame& frame, Fields fields) const;
+  void verify_whole(std::size_t index) const;
+  bool matches(std::size_t index, Field field, std::uint64_t digest) const
+  {
+    return field_digests[index][static_cast<std::size_t>(field)] == digest;
+  }
+  bool chain_matches(std::size_t index, const Frame& frame) const
+  {
+    return frame_digest(frame, index == 0 ? 0 : chain[index - 1], stores_float32()) == chain[index];
+  }
+  static std::string changed(Field field, std::size_t index)
+  {
+    return fmt::format(
+        "{} of frame {} is not what was written: the file is damaged; take a copy "
+        "that is whole, or leave the frame out with --begin or --end",
+        names_of_fields[static_cast<std::size_t>(field)], index);
+  }
 };
 
-TrajectoryReader::TrajectoryReader(const std::string& path) : impl_(std::make_unique<Impl>(path))
-{
-  drop_damaged_end();
-}
-
-/// A kill in the middle of a write can leave the last frames committed but damaged, which their
-/// digests reveal. A file that was closed has no such end.
-void TrajectoryReader::drop_damaged_end()
+TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify)
+    : impl_(std::make_unique<Impl>(path, verify))
 {
   auto& my = *impl_;
-  if (my.parameters.numbers.contains("complete") || !exists(my.file, "/grseg/digest")) return;
-  auto digests = this->digests();
-  digests.insert(digests.begin(), 0);
+  if (my.has_field_digests())
+    my.read_seal();
+  else
+    my.drop_damaged_end();
+  if (verify == Verify::no) return;
+  if (const auto damage = my.damage_of_run(); !damage.empty()) my.fail(damage);
+}
+
+/// The seal says that the file was closed; /parameters/complete repeats it for other readers. Before
+/// that, what is known at the end is not there.
+void TrajectoryReader::Impl::read_seal()
+{
+  const auto dataset = open("/grseg/seal", H5T_INTEGER, 1);
+  dataset.require(0, seal.size());
+  dataset.read_all(H5T_NATIVE_UINT64, seal.data());
+  closed = seal != Seal{}.numbers();
+  std::erase_if(run.parameters.numbers,
+                [&](const auto& number) { return !closed && is_known_at_end(number.first); });
+}
+
+/// In files of version 1.0 a kill in the middle of a write can leave the last frames committed but
+/// damaged, which their digests reveal. A file that was closed has no such end.
+void TrajectoryReader::Impl::drop_damaged_end()
+{
+  closed = run.parameters.numbers.contains("complete");
+  if (closed) return;
   Frame frame;
-  const auto whole = [&](std::size_t last) {
+  const auto is_whole = [&](std::size_t last) {
     try {
-      read(last, frame, {.velocity = true, .contacts = true, .force = true});
+      read(last, frame, whole);
     } catch (const FormatError&) {
       return false;
     }
-    return frame_digest(frame, digests[last], stores_float32()) == digests[last + 1];
+    return chain_matches(last, frame);
   };
-  while (size() > 0 && !whole(size() - 1)) {
-    my.offset.pop_back();
-    my.steps.pop_back();
-    my.times.pop_back();
+  while (size() > 0 && !is_whole(size() - 1)) drop_last();
+}
+
+/// What is damaged outside frames, or where they stand.
+std::string TrajectoryReader::Impl::damage_of_run() const
+{
+  if (!has_field_digests()) return {};
+  constexpr const char* remedy = "the file is damaged; take a copy that is whole";
+  std::uint64_t stored = 0;
+  open("/grseg/static_digest", H5T_INTEGER, 0).read_all(H5T_NATIVE_UINT64, &stored);
+  const auto digest = static_digest(run);
+  if (digest != stored)
+    return fmt::format(
+        "box, grains, species, observables or parameters are not what was written: {}", remedy);
+  for (std::size_t k = 0; k < size(); ++k)
+    if (!matches(
+            k, Field::place,
+            field_digest(k, FramePlace{steps[k], times[k], offset[k], offset[k + 1], chain[k]})))
+      return changed(Field::place, k);
+  if (!closed) return {};
+  const auto last = chain.empty() ? 0 : chain.back();
+  if (make_seal(size(), offset.back(), last, digest, run.parameters).numbers() != seal)
+    return fmt::format("/grseg/seal names other frames or another summary than the file holds: {}",
+                       remedy);
+  return {};
+}
+
+std::string TrajectoryReader::Impl::damage_of_observables() const
+{
+  if (!has_field_digests()) return {};
+  std::vector<std::vector<double>> all;
+  for (const auto& observable : run.observables) all.push_back(read_observable(observable.name));
+  std::vector<double> of_frame(all.size());
+  for (std::size_t k = 0; k < size(); ++k) {
+    for (std::size_t q = 0; q < all.size(); ++q) of_frame[q] = all[q][k];
+    if (!matches(k, Field::observables, field_digest(k, of_frame)))
+      return changed(Field::observables, k);
   }
+  return {};
+}
+
+void TrajectoryReader::Impl::read(std::size_t index, Frame& frame, Fields fields) const
+{
+  const std::size_t count = run.grains.size();
+  frame.step = steps.at(index);
+  frame.time = times[index];
+  read_vectors(position, index, frame.position, index);
+  frame.velocity.clear();
+  frame.angular_velocity.clear();
+  frame.force.clear();
+  frame.image.clear();
+  frame.contacts.clear();
+  if (fields.velocity) {
+    read_vectors(velocity, index, frame.velocity, index);
+    frame.angular_velocity.resize(count);
+    angular_velocity.read_rows(H5T_NATIVE_DOUBLE, index, 1, frame.angular_velocity.data());
+    check_finite(frame.angular_velocity.data(), count, angular_velocity.path(), index);
+  }
+  if (fields.force) {
+    if (run.has_force) read_vectors(force, index, frame.force, index);
+    frame.image.resize(count);
+    image.read_rows(H5T_NATIVE_INT32, index, 1, frame.image.data());
+  }
+  if (fields.contacts) read_contacts(index, frame.contacts);
+}
+
+/// The first of the fields that were read which is not as it was written.
+std::optional<Field> TrajectoryReader::Impl::changed_field(std::size_t index, const Frame& frame,
+                                                           Fields fields) const
+{
+  const bool float32 = stores_float32();
+  const auto find = [&](bool was_read, std::initializer_list<Field> these) -> std::optional<Field> {
+    if (was_read)
+      for (const auto field : these)
+        if (!matches(index, field, field_digest(field, index, frame, float32))) return field;
+    return {};
+  };
+  auto found = find(true, {Field::position});
+  if (!found) found = find(fields.velocity, {Field::velocity, Field::angular_velocity});
+  if (!found) found = find(fields.force, {Field::image, Field::force});
+  if (!found)
+    found = find(fields.contacts, {Field::contact_i, Field::contact_j, Field::contact_force,
+                                   Field::contact_branch, Field::contact_gap});
+  return found;
+}
+
+/// In files of version 1.0 only a whole frame can be verified.
+void TrajectoryReader::Impl::verify_whole(std::size_t index) const
+{
+  Frame frame;
+  read(index, frame, whole);
+  if (!chain_matches(index, frame))
+    fail(
+        fmt::format("frame {} is not what was written: the file is damaged; take a copy that is "
+                    "whole, or leave the frame out with --begin or --end",
+                    index));
 }
 
 TrajectoryReader::~TrajectoryReader() = default;
@@ -62,19 +222,27 @@ std::size_t TrajectoryReader::contacts() const
 }
 const Grains& TrajectoryReader::grains() const
 {
-  return impl_->grains;
+  return impl_->run.grains;
 }
 const Box& TrajectoryReader::box() const
 {
-  return impl_->box;
+  return impl_->run.box;
 }
 const Parameters& TrajectoryReader::parameters() const
 {
-  return impl_->parameters;
+  return impl_->run.parameters;
 }
 bool TrajectoryReader::has_force() const
 {
-  return impl_->has_force;
+  return impl_->run.has_force;
+}
+int TrajectoryReader::minor_version() const
+{
+  return impl_->minor_version;
+}
+bool TrajectoryReader::closed() const
+{
+  return impl_->closed;
 }
 const std::vector<std::int64_t>& TrajectoryReader::steps() const
 {
@@ -85,80 +253,76 @@ const std::vector<double>& TrajectoryReader::times() const
   return impl_->times;
 }
 
+std::string TrajectoryReader::verified() const
+{
+  if (impl_->verify == Verify::no) return "no (--trust)";
+  return impl_->has_field_digests() ? "all" : "frames only";
+}
+
 double TrajectoryReader::small_diameter() const
 {
-  return impl_->parameters.number("small_diameter", impl_->path);
+  return parameters().number("small_diameter", path());
 }
 double TrajectoryReader::large_diameter() const
 {
-  return impl_->parameters.number("large_diameter", impl_->path);
+  return parameters().number("large_diameter", path());
 }
 double TrajectoryReader::step() const
 {
-  return impl_->parameters.number("step", impl_->path);
+  return parameters().number("step", path());
 }
 
 Gravity TrajectoryReader::gravity() const
 {
-  const auto& numbers = impl_->parameters.numbers;
+  const auto& numbers = parameters().numbers;
   const auto found = numbers.find("gravity");
   if (found == numbers.end() || found->second.size() != 2)
     impl_->fail("/parameters/gravity should be two numbers; see formats/README.md");
   const double rate =
-      numbers.count("slope_rate") > 0 ? impl_->parameters.number("slope_rate", impl_->path) : 0;
+      numbers.count("slope_rate") > 0 ? parameters().number("slope_rate", path()) : 0;
   return {{found->second[0], found->second[1]}, rate * std::numbers::pi / 180};
 }
 
 void TrajectoryReader::read(std::size_t index, Frame& frame, Fields fields) const
 {
+  load(index, frame, fields);
+  verify(index, frame, fields);
+}
+
+void TrajectoryReader::load(std::size_t index, Frame& frame, Fields fields) const
+{
   const auto& my = *impl_;
-  const std::size_t count = my.grains.size();
-  frame.step = my.steps.at(index);
-  frame.time = my.times[index];
-  my.read_vectors(my.position, index, frame.position, index);
-  frame.velocity.clear();
-  frame.angular_velocity.clear();
-  frame.force.clear();
-  frame.image.clear();
-  frame.contacts.clear();
-  if (fields.velocity) {
-    my.read_vectors(my.velocity, index, frame.velocity, index);
-    frame.angular_velocity.resize(count);
-    my.angular_velocity.read_rows(H5T_NATIVE_DOUBLE, index, 1, frame.angular_velocity.data());
-    my.check_finite(frame.angular_velocity.data(), count, my.angular_velocity.path(), index);
-  }
-  if (fields.force) {
-    if (my.has_force) my.read_vectors(my.force, index, frame.force, index);
-    frame.image.resize(count);
-    my.image.read_rows(H5T_NATIVE_INT32, index, 1, frame.image.data());
-  }
-  if (fields.contacts) my.read_contacts(index, frame.contacts);
+  my.read(index, frame, fields);
+  if (my.verify == Verify::yes && !my.has_field_digests()) my.verify_whole(index);
+}
+
+void TrajectoryReader::verify(std::size_t index, const Frame& frame, Fields fields) const
+{
+  const auto& my = *impl_;
+  if (my.verify == Verify::no || !my.has_field_digests()) return;
+  if (const auto field = my.changed_field(index, frame, fields))
+    my.fail(Impl::changed(*field, index));
 }
 
 bool TrajectoryReader::has_observable(const std::string& name) const
 {
-  return exists(impl_->file, "/observables/" + name + "/value");
+  const auto& all = observables();
+  return std::any_of(all.begin(), all.end(), [&](const auto& known) { return known.name == name; });
 }
 
-std::vector<Observable> TrajectoryReader::observables() const
+const std::vector<Observable>& TrajectoryReader::observables() const
 {
-  std::vector<Observable> all;
-  for (const auto& name : names_in(impl_->file, "/observables")) {
-    if (!has_observable(name)) continue;
-    const auto value = impl_->open("/observables/" + name + "/value", H5T_FLOAT, 1);
-    const auto unit = read_texts(value.id(), "unit");
-    all.push_back({name, unit.empty() ? "" : unit[0]});
-  }
-  return all;
+  return impl_->run.observables;
 }
 
 std::vector<double> TrajectoryReader::observable(const std::string& name) const
 {
-  const auto dataset = impl_->open("/observables/" + name + "/value", H5T_FLOAT, 1);
-  dataset.require(0, size(), true);
-  std::vector<double> values(size());
-  dataset.read_rows(H5T_NATIVE_DOUBLE, 0, size(), values.data());
-  return values;
+  const auto& my = *impl_;
+  if (my.verify == Verify::yes && !my.observables_verified) {
+    if (const auto damage = my.damage_of_observables(); !damage.empty()) my.fail(damage);
+    my.observables_verified = true;
+  }
+  return my.read_observable(name);
 }
 
 std::uint64_t TrajectoryReader::digest() const
@@ -166,18 +330,27 @@ std::uint64_t TrajectoryReader::digest() const
   return size() == 0 ? 0 : digests().back();
 }
 
-std::vector<std::uint64_t> TrajectoryReader::digests() const
+const std::vector<std::uint64_t>& TrajectoryReader::digests() const
 {
-  const auto dataset = impl_->open("/grseg/digest", H5T_INTEGER, 1);
-  dataset.require(0, size(), true);
-  std::vector<std::uint64_t> all(size());
-  dataset.read_rows(H5T_NATIVE_UINT64, 0, size(), all.data());
-  return all;
+  return impl_->chain;
 }
 
 bool TrajectoryReader::stores_float32() const
 {
-  return impl_->position.stores_float32();
+  return impl_->stores_float32();
+}
+
+std::string TrajectoryReader::damage_outside_frames() const
+{
+  const auto damage = impl_->damage_of_run();
+  return damage.empty() ? impl_->damage_of_observables() : damage;
+}
+
+bool TrajectoryReader::is_intact(std::size_t index, const Frame& frame) const
+{
+  const auto& my = *impl_;
+  return my.chain_matches(index, frame) &&
+         (!my.has_field_digests() || !my.changed_field(index, frame, whole));
 }
 
 }  // namespace grseg

@@ -12,10 +12,15 @@
 
 namespace grseg {
 
+/// Whether what is read is compared with its digests.
+enum class Verify { yes, no };
+
 /// Reads a trajectory file (formats/README.md). Every size, type and filter is checked before
-/// anything is read, frame contents (indices in range, all numbers finite) while it is read.
-/// Throws UsageError where the file is missing, FormatError naming file, path in the file and frame
-/// where its content is wrong. Only committed frames are visible.
+/// anything is read, frame contents (indices in range, all numbers finite) while it is read, and
+/// everything that is read is compared with the digests that its writer has left: in files of
+/// version 1.0 there are such of whole frames only. Throws UsageError where the file is missing,
+/// FormatError naming file, path in the file and frame where its content is wrong. Only committed
+/// frames are visible; the file may be that of a run that goes on.
 class TrajectoryReader {
  public:
   /// What `read` reads; the rest stays empty.
@@ -25,7 +30,7 @@ class TrajectoryReader {
     bool force = false;  // force and image
   };
 
-  explicit TrajectoryReader(const std::string& path);
+  explicit TrajectoryReader(const std::string& path, Verify verify = Verify::yes);
   ~TrajectoryReader();
   TrajectoryReader(TrajectoryReader&&) noexcept;
 
@@ -35,7 +40,12 @@ class TrajectoryReader {
   const Grains& grains() const;
   const Box& box() const;
   const Parameters& parameters() const;
-  bool has_force() const;  ///< false for some imports; `force` of their frames is empty
+  bool has_force() const;     ///< false for some imports; `force` of their frames is empty
+  int minor_version() const;  ///< of the module grseg in the file: 1 means 1.1
+  bool closed() const;        ///< whether its writer came to the end and closed it
+
+  /// What has been verified: "all", "frames only" (version 1.0) or "no (--trust)".
+  std::string verified() const;
 
   /// Steps and times (s) of the committed frames.
   const std::vector<std::int64_t>& steps() const;
@@ -49,9 +59,13 @@ class TrajectoryReader {
 
   void read(std::size_t index, Frame& frame, Fields fields) const;
   void read(std::size_t index, Frame& frame) const { read(index, frame, Fields{}); }
+  /// The two halves of `read`: `load` uses HDF5, which knows no threads, `verify` does not, so that
+  /// several threads can call it at once.
+  void load(std::size_t index, Frame& frame, Fields fields) const;
+  void verify(std::size_t index, const Frame& frame, Fields fields) const;
 
   /// The observables of the file, in alphabetical order.
-  std::vector<Observable> observables() const;
+  const std::vector<Observable>& observables() const;
   /// One number per committed frame from /observables.
   std::vector<double> observable(const std::string& name) const;
   bool has_observable(const std::string& name) const;
@@ -59,12 +73,17 @@ class TrajectoryReader {
   /// xxh3 chain up to and including the last committed frame: the content digest of the run.
   std::uint64_t digest() const;
   /// The chain itself, one entry per committed frame (formats/trajectory/digest.hpp).
-  std::vector<std::uint64_t> digests() const;
+  const std::vector<std::uint64_t>& digests() const;
   /// Whether the numbers of grains and contacts are stored in single precision.
   bool stores_float32() const;
 
+  /// What is damaged outside frames, one sentence, or "" (always, for version 1.0): for a reader
+  /// that does not verify.
+  std::string damage_outside_frames() const;
+  /// Whether `frame`, read whole, is as it was written.
+  bool is_intact(std::size_t index, const Frame& frame) const;
+
  private:
-  void drop_damaged_end();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

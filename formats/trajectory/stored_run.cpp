@@ -2,16 +2,11 @@
 #include "formats/trajectory/stored_run.hpp"
 
 #include "formats/core/errors.hpp"
-#include "formats/core/files.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 
 namespace grseg {
@@ -24,6 +19,7 @@ namespace {
 constexpr hsize_t most_grains = 100'000'000;
 constexpr hsize_t most_frames = 100'000'000;
 constexpr hsize_t most_text = 16'000'000;
+constexpr hsize_t most_numbers = 65536;  // in a parameter
 
 /// A small cache for the index of chunks, so that memory does not grow with the number of frames,
 /// which are read one after the other.
@@ -39,43 +35,42 @@ Properties small_index_cache()
   return access;
 }
 
-/// A file that does not open is damaged, or a running simulation holds HDF5's lock on it.
-std::string why_it_does_not_open(const std::string& path)
-{
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  if (file >= 0) close(file);
-  return locked ? "is being written by a run; wait until the run has ended, or read a copy"
-                : "is not an HDF5 file, or is truncated or damaged";
-}
-
 }  // namespace
 
-StoredRun::StoredRun(const std::string& its_path) : path(its_path)
+StoredRun::StoredRun(const std::string& its_path)
+    : path(its_path), file(open_for_reading(path, small_index_cache()))
 {
-  silence();
-  require_file(path);
-  file = File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, small_index_cache()));
-  if (!file.valid()) fail(why_it_does_not_open(path));
   require_version("/h5md");
-  require_version("/h5md/modules/grseg");
+  minor_version = require_version("/h5md/modules/grseg")[1];
   read_offset();
   read_grains();
   read_box();
-  read_times();
   read_parameters();
+  if (has_field_digests()) read_species();
+  read_times();
+  read_digests();
+  read_observables();
 
   position = element("position", H5T_FLOAT, 3);
   velocity = element("velocity", H5T_FLOAT, 3);
   angular_velocity = element("angular_velocity", H5T_FLOAT, 2);
   image = element("image", H5T_INTEGER, 3);
-  has_force = exists(file, "/particles/grains/force/value");
-  if (has_force) force = element("force", H5T_FLOAT, 3);
+  run.has_force = exists(file, "/particles/grains/force/value");
+  if (run.has_force) force = element("force", H5T_FLOAT, 3);
   contact_i = rows("i", H5T_INTEGER, 1);
   contact_j = rows("j", H5T_INTEGER, 1);
   contact_force = rows("force", H5T_FLOAT, 2);
   contact_branch = rows("branch", H5T_FLOAT, 2);
   contact_gap = rows("gap", H5T_FLOAT, 1);
+}
+
+void StoredRun::drop_last()
+{
+  offset.pop_back();
+  steps.pop_back();
+  times.pop_back();
+  chain.pop_back();
+  if (has_field_digests()) field_digests.pop_back();
 }
 
 void StoredRun::fail(const std::string& why) const
@@ -98,7 +93,7 @@ CheckedDataset StoredRun::element(const std::string& name, H5T_class_t kind, int
 {
   auto dataset = open("/particles/grains/" + name + "/value", kind, rank);
   dataset.require(0, size(), true);
-  dataset.require(1, grains.size());
+  dataset.require(1, run.grains.size());
   if (rank == 3) dataset.require(2, 2);
   return dataset;
 }
@@ -111,13 +106,14 @@ CheckedDataset StoredRun::rows(const std::string& name, H5T_class_t kind, int ra
   return dataset;
 }
 
-void StoredRun::require_version(const std::string& module) const
+std::vector<int> StoredRun::require_version(const std::string& module) const
 {
   auto version = read_integers(Group(H5Gopen2(file, module.c_str(), H5P_DEFAULT)), "version");
   if (version.size() != 2) version = {0, 0};
   if (version[0] != 1)
     fail(fmt::format("{} has version {}.{}, but this grseg reads versions 1.x", module, version[0],
                      version[1]));
+  return version;
 }
 
 void StoredRun::read_offset()
@@ -125,6 +121,7 @@ void StoredRun::read_offset()
   const auto dataset = open("/grseg/contacts/offset", H5T_INTEGER, 1);
   if (dataset.dims()[0] < 1 || dataset.dims()[0] > most_frames)
     fail("/grseg/contacts/offset has an impossible length");
+  dataset.require_possible(dataset.dims()[0]);
   offset.resize(dataset.dims()[0]);
   dataset.read_all(H5T_NATIVE_UINT64, offset.data());
   for (std::size_t k = 0; k < offset.size(); ++k) {
@@ -135,9 +132,11 @@ void StoredRun::read_offset()
 
 void StoredRun::read_grains()
 {
+  auto& grains = run.grains;
   const auto radius = open("/particles/grains/radius", H5T_FLOAT, 1);
   const hsize_t count = radius.dims()[0];
   if (count < 1 || count > most_grains) fail("/particles/grains/radius has an impossible length");
+  radius.require_possible(count);
   grains.radius = constant<double>("radius", H5T_FLOAT, H5T_NATIVE_DOUBLE, count);
   grains.mass = constant<double>("mass", H5T_FLOAT, H5T_NATIVE_DOUBLE, count);
   grains.id = constant<std::int32_t>("id", H5T_INTEGER, H5T_NATIVE_INT32, count);
@@ -161,13 +160,41 @@ void StoredRun::read_box()
   double values[2];
   edges.read_all(H5T_NATIVE_DOUBLE, values);
   const Group group(H5Gopen2(file, "/particles/grains/box", H5P_DEFAULT));
+  if (read_integers(group, "dimension") == std::vector<int>{3})
+    fail("is three-dimensional; this grseg reads runs in two dimensions");
   const auto boundary = read_texts(group, "boundary");
   if (boundary.size() != 2 || boundary[1] != "none" ||
       (boundary[0] != "none" && boundary[0] != "periodic"))
     fail(
         "/particles/grains/box: boundary should be (\"periodic\",\"none\") or (\"none\",\"none\")");
   if (!(values[0] > 0) || !std::isfinite(values[0])) fail("/particles/grains/box: edges[0] <= 0");
-  box = {values[0], values[1], boundary[0] == "periodic"};
+  run.box = {values[0], values[1], boundary[0] == "periodic"};
+}
+
+/// The list must be the one that this program knows; other lists are for later versions.
+void StoredRun::read_species()
+{
+  const auto known = species_of(run.parameters);
+  const auto names = open("/grseg/species/name", H5T_STRING, 1);
+  const auto diameters = open("/grseg/species/diameter", H5T_FLOAT, 1);
+  const auto mobile = open("/grseg/species/mobile", H5T_INTEGER, 1);
+  const std::size_t length = H5Tget_size(Type(H5Dget_type(names.id())));
+  bool same = names.dims()[0] == known.size() && length <= 256;
+  std::string text(same ? length * known.size() : 0, '\0');
+  if (same) names.read_all(Type(H5Dget_type(names.id())), text.data());
+  for (std::size_t k = 0; same && k < known.size(); ++k)
+    same = known[k].name == text.substr(k * length, length).c_str();
+  if (!same)
+    fail("/grseg/species/name is not small, large, boundary; this grseg reads runs of two sizes");
+  diameters.require(0, known.size());
+  mobile.require(0, known.size());
+  std::array<double, known.size()> diameter;
+  std::array<std::uint8_t, known.size()> moves;
+  diameters.read_all(H5T_NATIVE_DOUBLE, diameter.data());
+  mobile.read_all(H5T_NATIVE_UINT8, moves.data());
+  for (std::size_t k = 0; k < known.size(); ++k)
+    if (diameter[k] != known[k].diameter || moves[k] != (known[k].mobile ? 1 : 0))
+      fail("/grseg/species disagrees with /parameters: the file is damaged");
 }
 
 void StoredRun::read_times()
@@ -187,31 +214,66 @@ void StoredRun::read_times()
   }
 }
 
+void StoredRun::read_digests()
+{
+  const auto digests = open("/grseg/digest", H5T_INTEGER, 1);
+  digests.require(0, size(), true);
+  chain.resize(size());
+  digests.read_rows(H5T_NATIVE_UINT64, 0, size(), chain.data());
+  if (!has_field_digests()) return;
+  const auto of_fields = open("/grseg/field_digest", H5T_INTEGER, 2);
+  of_fields.require(0, size(), true);
+  of_fields.require(1, number_of_fields);
+  field_digests.resize(size());
+  of_fields.read_rows(H5T_NATIVE_UINT64, 0, size(), field_digests.data());
+}
+
 void StoredRun::read_parameters()
 {
-  for (const auto& name : names_in(file, "/parameters")) {
-    const std::string at = "/parameters/" + name;
-    const Dataset dataset(H5Dopen2(file, at.c_str(), H5P_DEFAULT));
-    if (!dataset.valid()) continue;  // a group of a newer version
-    const Type type(H5Dget_type(dataset));
-    const Space space(H5Dget_space(dataset));
-    const int rank = H5Sget_simple_extent_ndims(space);
-    if (H5Tget_class(type) == H5T_STRING) {
-      const auto text = open(at, H5T_STRING, 0);
-      if (H5Tget_size(type) > most_text) fail(at + " is too long");
-      std::string content(H5Tget_size(type), '\0');
-      text.read_all(type, content.data());
-      content.erase(std::min(content.find('\0'), content.size()));  // padding
-      parameters.texts[name] = content;
-    } else {
-      const auto numbers = open(at, H5T_FLOAT, rank == 0 ? 0 : 1);
-      const hsize_t count = rank == 0 ? 1 : numbers.dims()[0];
-      if (count > most_frames) fail(at + " is too long");
-      std::vector<double> values(count);
-      numbers.read_all(H5T_NATIVE_DOUBLE, values.data());
-      parameters.numbers[name] = values;
-    }
+  for (const auto& name : names_in(file, "/parameters")) read_parameter(name);
+}
+
+void StoredRun::read_parameter(const std::string& name)
+{
+  const std::string at = "/parameters/" + name;
+  const Dataset dataset(H5Dopen2(file, at.c_str(), H5P_DEFAULT));
+  if (!dataset.valid()) return;  // a group of a newer version
+  const Type type(H5Dget_type(dataset));
+  if (H5Tget_class(type) == H5T_STRING) {
+    const auto text = open(at, H5T_STRING, 0);
+    if (H5Tget_size(type) > most_text) fail(at + " is too long");
+    std::string content(H5Tget_size(type), '\0');
+    text.read_all(type, content.data());
+    content.erase(std::min(content.find('\0'), content.size()));  // padding
+    run.parameters.texts[name] = content;
+    return;
   }
+  const int rank = H5Sget_simple_extent_ndims(Space(H5Dget_space(dataset)));
+  const auto numbers = open(at, H5T_FLOAT, rank == 0 ? 0 : 1);
+  const hsize_t count = rank == 0 ? 1 : numbers.dims()[0];
+  if (count > most_numbers) fail(at + " is too long");
+  std::vector<double> values(count);
+  numbers.read_all(H5T_NATIVE_DOUBLE, values.data());
+  run.parameters.numbers[name] = values;
+}
+
+void StoredRun::read_observables()
+{
+  for (const auto& name : names_in(file, "/observables")) {
+    if (!exists(file, "/observables/" + name + "/value")) continue;
+    const auto value = open("/observables/" + name + "/value", H5T_FLOAT, 1);
+    const auto unit = read_texts(value.id(), "unit");
+    run.observables.push_back({name, unit.empty() ? "" : unit[0]});
+  }
+}
+
+std::vector<double> StoredRun::read_observable(const std::string& name) const
+{
+  const auto dataset = open("/observables/" + name + "/value", H5T_FLOAT, 1);
+  dataset.require(0, size(), true);
+  std::vector<double> values(size());
+  dataset.read_rows(H5T_NATIVE_DOUBLE, 0, size(), values.data());
+  return values;
 }
 
 void StoredRun::check_finite(const double* values, std::size_t count, const std::string& what,
@@ -226,7 +288,7 @@ void StoredRun::check_finite(const double* values, std::size_t count, const std:
 void StoredRun::read_vectors(const CheckedDataset& dataset, hsize_t row, std::vector<Vec2>& out,
                              std::size_t frame) const
 {
-  out.resize(grains.size());
+  out.resize(run.grains.size());
   dataset.read_rows(H5T_NATIVE_DOUBLE, row, 1, out.front().data());
   check_finite(out.front().data(), 2 * out.size(), dataset.path(), frame);
 }
@@ -234,9 +296,9 @@ void StoredRun::read_vectors(const CheckedDataset& dataset, hsize_t row, std::ve
 void StoredRun::read_contacts(std::size_t index, ContactList& contacts) const
 {
   const hsize_t begin = offset[index], count = offset[index + 1] - begin;
-  if (count > 64 * grains.size() + 1024)
+  if (count > 64 * run.grains.size() + 1024)
     fail(fmt::format("frame {} claims {} contacts for {} grains; /grseg/contacts/offset is damaged",
-                     index, count, grains.size()));
+                     index, count, run.grains.size()));
   contacts.i.resize(count);
   contacts.j.resize(count);
   contacts.force.resize(count);
@@ -251,7 +313,7 @@ void StoredRun::read_contacts(std::size_t index, ContactList& contacts) const
   check_finite(contacts.force.front().data(), 2 * count, contact_force.path(), index);
   check_finite(contacts.branch.front().data(), 2 * count, contact_branch.path(), index);
   check_finite(contacts.gap.data(), count, contact_gap.path(), index);
-  const auto grain_count = static_cast<std::int64_t>(grains.size());
+  const auto grain_count = static_cast<std::int64_t>(run.grains.size());
   for (std::size_t k = 0; k < count; ++k) {
     if (contacts.i[k] < 0 || contacts.i[k] >= grain_count || contacts.j[k] >= grain_count ||
         contacts.i[k] == contacts.j[k])

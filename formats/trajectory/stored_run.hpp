@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/core/frame.hpp"
-#include "formats/core/parameters.hpp"
+#include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/run_description.hpp"
 
 #include <cstdint>
 #include <string>
@@ -18,15 +18,15 @@ struct StoredRun {
 
   std::string path;
   hdf5::File file;
-  Grains grains;
-  Box box;
-  Parameters parameters;
+  RunDescription run;
   std::vector<std::int64_t> steps;
   std::vector<double> times;
   std::vector<std::uint64_t> offset;
+  std::vector<std::uint64_t> chain;         // /grseg/digest
+  std::vector<FieldDigests> field_digests;  // none in files of version 1.0
+  int minor_version = 0;                    // of the module grseg: 1.1 or later has field digests
   hdf5::CheckedDataset position, image, velocity, angular_velocity, force;
   hdf5::CheckedDataset contact_i, contact_j, contact_force, contact_branch, contact_gap;
-  bool has_force = false;
 
   /// FormatError naming the file.
   [[noreturn]] void fail(const std::string& why) const;
@@ -39,6 +39,11 @@ struct StoredRun {
 
   /// Committed frames.
   std::size_t size() const { return offset.size() - 1; }
+  bool has_field_digests() const { return minor_version >= 1; }
+  /// Forgets the last frame.
+  void drop_last();
+  /// Whether numbers of grains and contacts are stored in single precision.
+  bool stores_float32() const { return position.stores_float32(); }
   /// FormatError naming `what` and `frame` where one of the values is not finite.
   void check_finite(const double* values, std::size_t count, const std::string& what,
                     std::size_t frame) const;
@@ -46,14 +51,20 @@ struct StoredRun {
   void read_vectors(const hdf5::CheckedDataset& dataset, hsize_t row, std::vector<Vec2>& out,
                     std::size_t frame) const;
   void read_contacts(std::size_t frame, ContactList& contacts) const;
+  /// The values of an observable in all committed frames.
+  std::vector<double> read_observable(const std::string& name) const;
 
  private:
-  void require_version(const std::string& module) const;
+  std::vector<int> require_version(const std::string& module) const;
   void read_offset();
   void read_grains();
   void read_box();
+  void read_species();
   void read_times();
+  void read_digests();
   void read_parameters();
+  void read_parameter(const std::string& name);
+  void read_observables();
 
   /// A property of the grains that is the same in all frames.
   template <class T>

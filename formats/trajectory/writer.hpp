@@ -1,37 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/core/frame.hpp"
-#include "formats/core/parameters.hpp"
+#include "formats/trajectory/run_description.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace grseg {
 
-/// What a trajectory file holds once.
-struct RunDescription {
-  Grains grains;
-  Box box;
-  Parameters parameters;
-  std::vector<Observable> observables;
-  bool has_force = true;  // false: no frame has forces on grains, as in some imports
-};
-
 struct StorageSettings {
-  /// Deflate level. With 0 (no compression) a kill at any moment leaves the committed frames
-  /// readable; a compressed file is complete only when it has been closed, so runs are compressed
-  /// when they have ended (repack.hpp).
-  int compression = 0;
+  int compression = 0;   ///< deflate level; not while `live`
   bool float32 = false;  ///< halves the file; contact balances then close to 1e-6 only
+  /// A frame that has been appended is in the file: it survives a kill at any moment and can be read
+  /// meanwhile (HDF5's SWMR mode). Otherwise a file can be read once it has been closed.
+  bool live = false;
+  std::size_t contact_chunk = 8192;  ///< contacts that are stored together
+  std::size_t scalar_chunk = 1024;   ///< frames whose single numbers are stored together
 };
 
 /// Writes a trajectory file (formats/README.md) frame by frame. A frame counts once its end is
 /// entered in /grseg/contacts/offset, which is done last, after everything else has been flushed to
 /// the file; until then readers do not see it. Throws RunError when the file cannot be written.
+///
+/// A live file gets its name once it can be read. Parameters that are known only at its end
+/// (integrity.hpp) must be in the description, as numbers of which only the count matters.
 class TrajectoryWriter {
  public:
   TrajectoryWriter(const std::string& path, const RunDescription& run,
@@ -48,10 +43,11 @@ class TrajectoryWriter {
   std::size_t frames() const;    ///< appended so far
   std::uint64_t digest() const;  ///< xxh3 chain up to the last of them, as in TrajectoryReader
 
-  /// Adds to /parameters what is known only at the end, such as the summary of the run.
+  /// Adds to /parameters, or sets anew, what is known only at the end, such as the summary of the
+  /// run.
   void add_parameters(const Parameters& parameters);
 
-  /// Flushes and closes the file; throws the errors that a destructor would have to ignore.
+  /// Seals, flushes and closes the file; throws the errors that a destructor would have to ignore.
   void close();
 
  private:

@@ -6,6 +6,7 @@ import subprocess
 
 import h5py
 import numpy
+import sealed_tables  # of scripts
 
 
 def tool(folder, name, *arguments):
@@ -28,7 +29,7 @@ def processor():
 
 
 def rows(table):
-    lines = [line for line in table.splitlines() if line and not line.startswith("#")]
+    lines = [line for line in sealed_tables.unsealed(table).splitlines() if line and not line.startswith("#")]
     names = [name.split("[")[0] for name in lines[0].split("\t")]
     return [dict(zip(names, map(float, line.split("\t")))) for line in lines[1:]]
 

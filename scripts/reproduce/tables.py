@@ -7,6 +7,9 @@ import statistics
 import subprocess
 import sys
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import sealed_tables  # noqa: E402
+
 # Name of a run: phi0.30-s23-seed1, phi0.45-s23-e0.5-seed2. Its tables are NAME/QUANTITY.tsv.
 NAME = re.compile(r"phi(?P<phi>[\d.]+)-s(?P<slope>[\d.]+)(?:-(?P<variant>.+?))?-seed(?P<seed>\d+)$")
 CONTROL = "ratio1"  # the variant with equal grains
@@ -59,11 +62,11 @@ def numbers(cells):
         return [number(cell) for cell in cells]
 
 
-def parse(text, columns=None):
+def parse(text, columns=None, path="table"):
     """Lines '# key: value' (the first of each key) and rows by column name without unit, of all columns or
-    those named."""
+    those named. Exits where the table is not as it was written."""
     header, names, rows = {}, None, []
-    for line in text.splitlines():
+    for line in sealed_tables.unsealed(text, path).splitlines():
         if line.startswith("# "):
             key, _, value = line[2:].partition(": ")
             header.setdefault(key, value)
@@ -79,7 +82,7 @@ def parse(text, columns=None):
 
 def read(path, columns=None):
     with open(path) as table:
-        return parse(table.read(), columns)
+        return parse(table.read(), columns, path)
 
 
 def program(options, name, *words, columns=None):
@@ -88,7 +91,7 @@ def program(options, name, *words, columns=None):
                           text=True)
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())
-    return parse(done.stdout, columns)
+    return parse(done.stdout, columns, name)
 
 
 def mean_and_half_width(values):

@@ -110,7 +110,6 @@ class Writer {
   void operator()(const char* path, const std::string& text) const
   {
     const auto type = string_type(text.size());
-    make_groups_of(path);
     write_fixed(file_, path, type, type, {}, text.c_str());
   }
   template <class T>
@@ -118,28 +117,15 @@ class Writer {
   {
     std::vector<hsize_t> shape{values.size()};
     if (rank_of<T> == 2) shape.push_back(Layout<T>::columns);
-    make_groups_of(path);
     write_fixed(file_, path, Layout<T>::file(), Layout<T>::memory(), shape, values.data());
   }
   template <class T>
   void operator()(const char* path, const T& value) const
   {
-    make_groups_of(path);
     write_fixed(file_, path, Layout<T>::file(), Layout<T>::memory(), {}, &value);
   }
 
  private:
-  /// Without the time at which they are made, which groups of this format have by default.
-  void make_groups_of(const std::string& path) const
-  {
-    const Properties create(H5Pcreate(H5P_GROUP_CREATE));
-    H5Pset_obj_track_times(create, 0);
-    for (auto slash = path.find('/', 1); slash != std::string::npos;
-         slash = path.find('/', slash + 1))
-      if (const auto group = path.substr(0, slash); !exists(file_, group))
-        Group(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, create, H5P_DEFAULT));
-  }
-
   hid_t file_;
 };
 
@@ -265,10 +251,7 @@ std::uint64_t digest_of(const Checkpoint& checkpoint)
 
 void write_parts(const std::string& path, const Checkpoint& checkpoint)
 {
-  const Properties access(H5Pcreate(H5P_FILE_ACCESS));
-  // The library's own data carry checksums from this format on.
-  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
-  File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
+  File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, newest_format()));
   if (!file.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   try {
     Writer writer(file);
@@ -282,13 +265,21 @@ void write_parts(const std::string& path, const Checkpoint& checkpoint)
     throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
 }
 
+File open_checkpoint(const std::string& path)
+{
+  try {
+    return open_for_reading(path);
+  } catch (const FormatError&) {
+    throw FormatError(fmt::format("{}: is not a checkpoint, or is truncated or damaged", path));
+  }
+}
+
 Checkpoint read_parts(const std::string& path)
 {
   const auto fail = [&](const std::string& why) {
     throw FormatError(fmt::format("{}: {}", path, why));
   };
-  const File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file.valid()) fail("is not a checkpoint, or is truncated or damaged");
+  const auto file = open_checkpoint(path);
   if (!exists(file, "/version") || !exists(file, "/state"))
     fail("is not a checkpoint of grseg-sim; name the file that --checkpoint wrote");
   const Reader read(file, path);
@@ -342,7 +333,6 @@ Checkpoint read_checkpoint(const std::string& path)
                : wrong.what();
   };
   try {
-    require_file(path);
     return read_parts(path);
   } catch (const UsageError& missing) {
     throw UsageError(hint(missing));

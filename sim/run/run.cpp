@@ -34,12 +34,13 @@ struct Run {
 /// Nothing is compressed until the run is finished (formats/README.md).
 StorageSettings storage_while_running(const Scene& scene)
 {
-  return {.compression = 0, .float32 = scene.float32};
+  return {.float32 = scene.float32, .live = true};
 }
 
 TrajectoryWriter new_trajectory(const Scene& scene, const Simulation& simulation,
-                                const Parameters& parameters, const std::string& part)
+                                Parameters parameters, const std::string& part)
 {
+  add_unknown_summary(parameters);
   return {part,
           {simulation.world().grains, simulation.world().box, parameters, Recorder::observables()},
           storage_while_running(scene)};
@@ -139,7 +140,8 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
   run.writer.close();
   if (!options.quiet) fmt::print(stderr, "{}", to_text(summary, scene, simulation.world().grains));
   if (interrupted()) throw stopped_at(simulation.time(), options);
-  publish_trajectory(options.output, options.overwrite, {scene.compression, scene.float32});
+  publish_trajectory(options.output, options.overwrite,
+                     {.compression = scene.compression, .float32 = scene.float32});
   if (!options.quiet) fmt::print(stderr, "{}", next_steps(options.output));
   if (options.strict) refuse_missed_tolerance(recorder.totals());
 }

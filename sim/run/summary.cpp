@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace grseg {
@@ -128,6 +129,13 @@ Parameters to_parameters(const RunSummary& s)
   n["summary_advised_step"] = {s.stiffness.advised_step};
   n["summary_advised_sweeps"] = {s.stiffness.advised_sweeps};
   return p;
+}
+
+void add_unknown_summary(Parameters& parameters)
+{
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [name, value] : to_parameters(RunSummary{}).numbers)
+    parameters.numbers[name] = {unknown};
 }
 
 std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grains)

@@ -24,6 +24,9 @@ NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals);
 /// As /parameters/summary_*.
 Parameters to_parameters(const RunSummary& summary);
 
+/// Adds these parameters to those of a run that goes on; their values will be known at its end.
+void add_unknown_summary(Parameters& parameters);
+
 /// For the user: what was simulated, how accurate it is, and last what is doubtful, each with its
 /// remedy.
 std::string to_text(const RunSummary& summary, const Scene& scene, const Grains& grains);

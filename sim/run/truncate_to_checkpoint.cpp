@@ -5,6 +5,7 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/repack.hpp"
 #include "sim/run/run_files.hpp"
+#include "sim/run/summary.hpp"
 
 #include <fmt/format.h>
 
@@ -19,12 +20,10 @@ bool same_run(const TrajectoryReader& run, const Checkpoint& checkpoint)
          run.size() >= checkpoint.trajectory.frames;
 }
 
-/// /parameters of a run that continues: it is not complete any more.
+/// /parameters of a run that continues: its end is not known any more.
 Parameters without_end(Parameters parameters, const std::string& history)
 {
-  std::erase_if(parameters.numbers, [](const auto& number) {
-    return number.first == "complete" || number.first.starts_with("summary_");
-  });
+  add_unknown_summary(parameters);
   parameters.texts["history"] = history;
   return parameters;
 }

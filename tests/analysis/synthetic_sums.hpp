@@ -5,6 +5,8 @@
 #include "analysis/stress/contact_sums.hpp"
 #include "formats/cli/table.hpp"
 
+#include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,7 +55,8 @@ inline ContactSums separate_sums(double phi_large, const Tensor2& small, const T
 struct TableRow {
   double begin, end, frames;
   ContactSums sums;
-  double bottom = 0, top = 0.02;
+  // m; NaN: the next layer of 0.02 m in its window
+  double bottom = std::numeric_limits<double>::quiet_NaN(), top = bottom;
 };
 
 /// As grseg-stress --partition power:2 would write it.
@@ -70,12 +73,16 @@ inline Table stress_table(const std::vector<TableRow>& rows, double small_diamet
   std::vector<std::string> names{"area_S[m^2]", "area_L[m^2]"};
   for (const auto& name : sum_column_names(kind)) names.push_back(name);
   table.columns = with_key_columns(names);
+  std::map<double, int> layers;  // of each window
   for (const auto& row : rows) {
     const auto& sums = row.sums;
+    const double next = 0.02 * layers[row.begin]++;
+    const bool given = row.bottom == row.bottom;
     std::vector<double> cells{sums.area_small, sums.area_large};
     for (const double cell : sum_cells(sums, kind)) cells.push_back(cell);
-    table.rows.push_back(
-        with_key({row.begin, row.end, row.bottom, row.top, row.frames, sums.volume}, cells));
+    table.rows.push_back(with_key({row.begin, row.end, given ? row.bottom : next,
+                                   given ? row.top : next + 0.02, row.frames, sums.volume},
+                                  cells));
   }
   return table;
 }

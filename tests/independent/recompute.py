@@ -186,7 +186,10 @@ def table(tool, path, options):
     """Rows of a tool's table as dictionaries, by window."""
     text = subprocess.run([tool, path, "--quiet", *options], check=True, capture_output=True,
                           text=True).stdout
+    end = text.splitlines()[-1]
     lines = [line.split("\t") for line in text.splitlines() if not line.startswith("# ")]
+    if not end.startswith(f"# end: {len(lines) - 1} rows, xxh3 "):
+        sys.exit(f"{tool}: the table ends with '{end}', and {len(lines) - 1} rows were read")
     names = [name.split("[")[0] for name in lines[0]]
     windows = {}
     for line in lines[1:]:

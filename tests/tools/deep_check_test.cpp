@@ -129,8 +129,8 @@ TEST_F(DeepCheck, WantsTheAttributesOfH5mdAndOfTheSpecification)
          [](hid_t f) { H5Adelete(Object(H5Oopen(f, "/h5md/author", H5P_DEFAULT)), "name"); });
   expect(4, "/h5md/modules/units should have the system \"SI\", but has \"cgs\"",
          [](hid_t f) { set_attribute(f, "/h5md/modules/units", "system", std::string("cgs")); });
-  expect(4, "/particles/grains/box should have the dimension [2], but has [3]", [](hid_t f) {
-    set_attribute(f, "/particles/grains/box", "dimension", std::vector<int>{3});
+  expect(4, "/particles/grains/box should have the dimension [2], but has [4]", [](hid_t f) {
+    set_attribute(f, "/particles/grains/box", "dimension", std::vector<int>{4});
   });
   expect(4, "/particles/grains/velocity/value should have the unit \"m s-1\", but has \"m/s\"",
          [](hid_t f) {
@@ -247,7 +247,7 @@ TEST_F(DeepCheck, ReadsDatasetsThatTheSpecificationDoesNotNameToo)
 {
   spoil([](hid_t f) {
     const std::vector<double> zeros(1000);
-    const auto more = create_growing(f, "/more", H5T_IEEE_F64LE, {}, {1000, 4, false});
+    const auto more = create_growing(f, "/more", H5T_IEEE_F64LE, {}, {1000, 4});
     append_rows(more, H5T_NATIVE_DOUBLE, zeros.size(), zeros.data(), "/more");
   });
   EXPECT_EQ(check().code, 0) << check().out;

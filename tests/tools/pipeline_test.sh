@@ -13,8 +13,8 @@ small="$source/sim/scenes/chute.ini --depth 10dS --length 10dL --phi-large 0.5 -
 $bin/grseg-sim $small --duration 3 -o a.h5
 # shellcheck disable=SC2086
 $bin/grseg-sim $small --duration 3 -o b.h5
-$bin/grseg-stress a.h5 --window 0.5 --quiet | grep -v '^# history' >a.tsv
-$bin/grseg-stress b.h5 --window 0.5 --quiet | grep -v '^# history' >b.tsv
+$bin/grseg-stress a.h5 --window 0.5 --quiet | grep -v '^# \(history\|end\)' >a.tsv
+$bin/grseg-stress b.h5 --window 0.5 --quiet | grep -v '^# \(history\|end\)' >b.tsv
 cmp a.tsv b.tsv || fail "the same scene gave different runs"
 grep -q '^# input: xxh3 [0-9a-f]\{16\}$' a.tsv || fail "no content digest"
 

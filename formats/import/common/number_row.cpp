@@ -26,7 +26,7 @@ void read_numbers(const TextSource& source, std::vector<double>& numbers, char s
     if (parsed.ec != std::errc() || !std::isfinite(value) || (at < end && !is_between(*at))) {
       while (at < end && !is_between(*at)) ++at;
       throw FormatError(fmt::format("{}: {} in column {} is not a finite number", source.place(),
-                                    printable({word, static_cast<std::size_t>(at - word)}),
+                                    in_quotes({word, static_cast<std::size_t>(at - word)}),
                                     numbers.size() + 1));
     }
     numbers.push_back(value);

@@ -162,7 +162,7 @@ std::vector<std::string_view> words_of(std::string_view line)
   return words;
 }
 
-std::string printable(std::string_view text)
+std::string in_quotes(std::string_view text)
 {
   constexpr std::size_t most = 40;
   std::string shown = "'";

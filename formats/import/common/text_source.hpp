@@ -36,6 +36,6 @@ class TextSource {
 std::vector<std::string_view> words_of(std::string_view line);
 
 /// Text of a file as it can be quoted in a message: at most 40 characters, all printable.
-std::string printable(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace grseg

@@ -127,7 +127,7 @@ void CsvArchive::read_comment(const std::string& comment)
   const auto k = std::string_view("xyz").find(axis);
   if (axis.size() != 1 || k == std::string_view::npos || !(low < high) || text >> more)
     throw FormatError(
-        fmt::format("{} is not of the form '# periodic: x 0 0.35'", printable(comment)));
+        fmt::format("{} is not of the form '# periodic: x 0 0.35'", in_quotes(comment)));
   periodic_[k] = true;
   low_[static_cast<Eigen::Index>(k)] = low;
   high_[static_cast<Eigen::Index>(k)] = high;

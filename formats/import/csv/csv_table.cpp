@@ -79,7 +79,7 @@ void CsvTable::read_names(std::span<const Column> columns)
     }
     if (column.needed && place_.back() < 0)
       fail(fmt::format("no column {} among {}", fmt::join(known, " or "),
-                       printable(fmt::format("{}", fmt::join(names, " ")))));
+                       in_quotes(fmt::format("{}", fmt::join(names, " ")))));
   }
 }
 

@@ -54,7 +54,7 @@ std::optional<std::string> DumpPair::units() const
     throw FormatError(fmt::format(
         "{}: the grains are in units {} and the contacts in units {}: they are not from "
         "the same run",
-        contacts_.header().place, printable(*a), printable(*b)));
+        contacts_.header().place, in_quotes(*a), in_quotes(*b)));
   return a ? a : b;
 }
 

@@ -78,7 +78,7 @@ void DumpReader::read_header()
   for (bool has_step = false, has_box = false;; next_line("a header")) {
     const auto line = source_.line();
     if (!line.starts_with(item_word))
-      fail(fmt::format("{} found where a text dump has a line 'ITEM: ...'", printable(line)));
+      fail(fmt::format("{} found where a text dump has a line 'ITEM: ...'", in_quotes(line)));
     const auto item = line.substr(item_word.size());
     if (!label.empty() && item.starts_with(label) &&
         (item.size() == label.size() || is_blank(item[label.size()]))) {
@@ -104,21 +104,21 @@ void DumpReader::read_item(std::string_view item, std::string& label)
     next_line("a header");
     const auto rows = parse<std::size_t>(source_.line());
     if (!rows || *rows > most_rows)
-      fail(fmt::format("{} is not a number of rows", printable(source_.line())));
+      fail(fmt::format("{} is not a number of rows", in_quotes(source_.line())));
     header_.rows = *rows;
   } else if (item == "TIMESTEP") {
     next_line("a header");
     const auto step = parse<std::int64_t>(source_.line());
-    if (!step) fail(fmt::format("{} is not a time step", printable(source_.line())));
+    if (!step) fail(fmt::format("{} is not a time step", in_quotes(source_.line())));
     header_.step = *step;
     require_a_later_step();
   } else if (item == "TIME") {
     next_line("a header");
     header_.time = parse<double>(source_.line());
     if (!header_.time || !std::isfinite(*header_.time))
-      fail(fmt::format("{} is not a time", printable(source_.line())));
+      fail(fmt::format("{} is not a time", in_quotes(source_.line())));
   } else {
-    fail(fmt::format("{} is not part of a dump", printable(source_.line())));
+    fail(fmt::format("{} is not part of a dump", in_quotes(source_.line())));
   }
 }
 
@@ -128,7 +128,7 @@ void DumpReader::read_units()
   const std::string now(source_.line());
   if (units_ && *units_ != now)
     fail(fmt::format("units {} after units {}: import the parts of this archive separately",
-                     printable(now), printable(*units_)));
+                     in_quotes(now), in_quotes(*units_)));
   units_ = now;
 }
 
@@ -162,7 +162,7 @@ void DumpReader::read_box(std::string_view item)
       if (good) value[k] = *number;
     }
     if (!good || value[0] > value[1])
-      fail(fmt::format("{} is not a pair of bounds of the cell", printable(source_.line())));
+      fail(fmt::format("{} is not a pair of bounds of the cell", in_quotes(source_.line())));
     if (value[2] != 0) fail("the cell is tilted; only rectangular cells are imported");
     header_.low[axis] = value[0];
     header_.high[axis] = value[1];
@@ -197,7 +197,7 @@ void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<dou
       at = parsed.ptr;
       if (parsed.ec != std::errc() || !std::isfinite(value) || (at < end && !is_blank(*at)))
         fail(fmt::format("{} in column {} ({}) is not a finite number",
-                         printable({word, std::find_if(word, end, is_blank)}), column + 1,
+                         in_quotes({word, std::find_if(word, end, is_blank)}), column + 1,
                          header_.columns[column]));
       values[static_cast<std::size_t>(role[column])].push_back(value);
     } else {

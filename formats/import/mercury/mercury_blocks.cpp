@@ -106,7 +106,7 @@ double MercuryFStat::read_header()
   const double time = std::strtod(text.c_str(), &end);
   if (words.empty() || words[0] != "#" || text.empty() || *end != '\0' || !std::isfinite(time))
     fail(
-        fmt::format("{}, but a block of .fstat begins with '# time 1'", printable(source_.line())));
+        fmt::format("{}, but a block of .fstat begins with '# time 1'", in_quotes(source_.line())));
   for (int k = 0; k < 2; ++k) {
     if (!next_line() || !source_.line_is_whole()) fail_truncated(source_, "a header");
     if (!source_.line().starts_with('#'))

@@ -36,7 +36,7 @@ class Lines {
     const auto word = words_[at];
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number))
-      fail(fmt::format("{} after '{}' is not a finite number", printable(word), key));
+      fail(fmt::format("{} after '{}' is not a finite number", in_quotes(word), key));
     return number;
   }
   Vec3 vector(std::string_view key) const { return {value(key), value(key, 1), value(key, 2)}; }
@@ -46,7 +46,7 @@ class Lines {
     if (words_.empty() || words_[0] != key) return std::nullopt;
     const double number = value(key);
     if (number < 0 || number > 1e9 || std::trunc(number) != number)
-      fail(fmt::format("{} is not a number of {}", printable(source_.line()), key));
+      fail(fmt::format("{} is not a number of {}", in_quotes(source_.line()), key));
     return static_cast<std::size_t>(number);
   }
   std::string_view kind() const { return words_.empty() ? std::string_view() : words_[0]; }
@@ -80,7 +80,7 @@ void read_boundary(const Lines& lines, MercuryRestart& restart)
     return;
   }
   lines.fail(fmt::format("{} is periodic along none of the axes, which is not imported",
-                         printable(lines.kind())));
+                         in_quotes(lines.kind())));
 }
 
 MercuryRestart::Particle read_particle(const Lines& lines, const MercuryRestart& restart)

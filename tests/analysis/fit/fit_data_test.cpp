@@ -38,8 +38,9 @@ TEST(FitData, AWeightIsFramesTimesGrainsOfTheRarerSpecies)
 TEST(FitData, LayersOfOneWindowShareItAndRunsFollowOneAnother)
 {
   const auto sums = neutral_sums(0.3, 2);
+  const auto others = neutral_sums(0.4, 2);
   const auto a = stress_table({{0, 1, 9, sums}, {0, 1, 9, sums}, {1, 2, 9, sums}});
-  const auto b = stress_table({{1, 2, 9, sums}, {0, 1, 9, sums}});
+  const auto b = stress_table({{1, 2, 9, others}, {0, 1, 9, others}});
   const auto data = read({a, b});
   EXPECT_EQ(data.runs, (RunLengths{2, 2}));
   std::vector<std::size_t> windows;
@@ -114,7 +115,68 @@ TEST(FitData, TheSameWindowsOfTheSameRunAreNotCountedTwice)
   late.header.emplace_back("input", "run.h5 0123456789abcdef");
   EXPECT_EQ(sentence_of<UsageError>({early, late}), "");
   EXPECT_TRUE(holds(sentence_of<UsageError>({early, late, early}),
-                    "hold the same windows of the same run"));
+                    "both hold the time from 0 s of the same run"));
+  auto between = stress_table({{0.5, 1.5, 9, neutral_sums(0.4, 2)}});
+  EXPECT_EQ(sentence_of<UsageError>({early, between}), "");
+  between.header.emplace_back("input", "run.h5 0123456789abcdef");
+  EXPECT_TRUE(holds(sentence_of<UsageError>({early, between}), "of the same run (run.h5 0123"));
+}
+
+TEST(FitData, TheSameNumbersUnderAnotherDigestAreTheSameRun)
+{
+  auto a = stress_table({{0, 1, 9, neutral_sums(0.5, 2)}, {0, 1, 9, neutral_sums(0.4, 2)}});
+  auto b = a;
+  a.header.emplace_back("input", "xxh3 1");
+  b.header.emplace_back("input", "xxh3 2");
+  EXPECT_TRUE(holds(sentence_of<UsageError>({a, b}), "(all numbers are the same)"));
+  b.rows[1][b.column("M_yy")] *= 1 + 1e-15;  // a bit of it
+  EXPECT_EQ(sentence_of<UsageError>({a, b}), "");
+}
+
+TEST(FitData, NumbersThatCannotBeAreRefusedWithTheirRow)
+{
+  const auto good =
+      stress_table({{0, 1, 9, neutral_sums(0.5, 2)}, {0, 1, 9, neutral_sums(0.4, 2)}});
+  const auto refusal = [&](const std::string& column, double value) {
+    auto table = good;
+    table.rows[1][table.column(column)] = value;
+    return sentence_of<FormatError>({table});
+  };
+  EXPECT_EQ(sentence_of<FormatError>({good}), "");
+  for (const double volume : {0.0, -2.0})
+    EXPECT_TRUE(holds(refusal("V", volume), "sums.tsv: row 2: a volume V of"));
+  EXPECT_TRUE(holds(refusal("V", std::nan("")), "sums.tsv: row 2, column V[m^2]: nan"));
+  EXPECT_TRUE(holds(refusal("area_S", -0.1),
+                    "row 2, column area_S[m^2]: -0.10000000000000001 "
+                    "should not be negative"));
+  for (const double frames : {0.0, -1.0, 2.5})
+    EXPECT_TRUE(holds(refusal("frames", frames), "row 2: "));
+  EXPECT_TRUE(holds(refusal("t1", 0), "row 2: a window from 0 to 0 s"));
+  EXPECT_TRUE(holds(refusal("y1", 0.01), "row 2: a layer from 0.02 to 0.01 m"));
+  EXPECT_TRUE(holds(refusal("M_yy", std::nan("")), "row 2, column M_yy[N m]"));
+  for (const char* diameter : {"0", "-1", "nan", "0x1", "4dS"}) {
+    auto table = good;
+    table.header[1].second = diameter;
+    EXPECT_TRUE(holds(sentence_of<FormatError>({table}), "'# small_diameter: ")) << diameter;
+  }
+}
+
+TEST(FitData, ASumThatWasNotKeptIsRefusedWhereARuleNeedsIt)
+{
+  auto table = stress_table({{0, 1, 9, neutral_sums(0.5, 2)}, {0, 1, 9, neutral_sums(0.4, 2)}});
+  const auto column = table.column("Mcp_yy");
+  table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(column));
+  for (auto& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
+  EXPECT_TRUE(holds(sentence_of<FormatError>({table}), "no column 'Mcp_yy'"));
+  table.header.emplace_back("not kept", "n_SS Mcp_yy");
+  const auto data = read({table});
+  EXPECT_GT(fit(data, "size").value.slope, 0);
+  try {
+    fit(data, "contact-point");
+    ADD_FAILURE() << "the sum was made up";
+  } catch (const FormatError& error) {
+    EXPECT_TRUE(holds(error.what(), "sums.tsv: the stress (yy) by contact-point is not finite"));
+  }
 }
 
 Table kinetic_table(double slope)
@@ -124,9 +186,12 @@ Table kinetic_table(double slope)
   table.header = {{"small_diameter", "0.005"}, {"large_diameter", "0.01"}};
   table.columns = {"t0[s]",      "t1[s]",      "y0[m]",     "y1[m]",     "frames",    "V[m^2]",
                    "mass_S[kg]", "mass_L[kg]", "K_S_xx[J]", "K_S_yy[J]", "K_L_xx[J]", "K_L_yy[J]"};
-  for (const double phi : compositions)
-    table.rows.push_back(
-        {0, 1, 0, 0.02, 25, 2, 1 - phi, phi, 9 * (1 - phi), slope * (1 - phi), phi, phi});
+  double bottom = 0;
+  for (const double phi : compositions) {
+    table.rows.push_back({0, 1, bottom, bottom + 0.02, 25, 2, 1 - phi, phi, 9 * (1 - phi),
+                          slope * (1 - phi), phi, phi});
+    bottom += 0.02;
+  }
   return table;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_key.hpp"
 
+#include "analysis/frames/layer_table.hpp"
 #include "formats/core/errors.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ TEST(LayerKey, IsTheSameThroughATableAndBack)
   EXPECT_EQ(table.columns, (std::vector<std::string>{"t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames",
                                                      "V[m^2]", "n_SS"}));
   EXPECT_EQ(table.rows[0], (std::vector<double>{1.25, 2.5, 0.02, 0.04, 25, 0.007, 7}));
-  const auto back = LayerKeyReader(table, "").read(0);
+  const auto back = read_layer_keys(table, "")[0];
   for (const auto& column : key_columns) EXPECT_EQ(back.*column.value, key.*column.value);
 }
 
@@ -38,13 +39,13 @@ TEST(LayerKey, OnlyHeightsMayBeNanWhichMeansTheWholeBed)
 {
   auto whole_bed = key;
   whole_bed.bottom = whole_bed.top = nan;
-  EXPECT_TRUE(std::isnan(LayerKeyReader(one_row(whole_bed), "").read(0).bottom));
+  EXPECT_TRUE(std::isnan(read_layer_keys(one_row(whole_bed), "")[0].bottom));
   auto wrong = key;
   wrong.frames = nan;
-  EXPECT_THROW(LayerKeyReader(one_row(wrong), "").read(0), FormatError);
+  EXPECT_THROW(read_layer_keys(one_row(wrong), ""), FormatError);
   auto endless = key;
   endless.top = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(LayerKeyReader(one_row(endless), "").read(0), FormatError);
+  EXPECT_THROW(read_layer_keys(one_row(endless), ""), FormatError);
 }
 
 TEST(LayerKey, AMissingColumnIsNamedWithItsRemedy)
@@ -52,7 +53,7 @@ TEST(LayerKey, AMissingColumnIsNamedWithItsRemedy)
   auto table = one_row(key);
   table.columns[4] = "numbers";
   try {
-    const LayerKeyReader reader(table, "make it anew");
+    read_layer_keys(table, "make it anew");
     ADD_FAILURE() << "the table was read";
   } catch (const FormatError& error) {
     EXPECT_STREQ(error.what(), "t.tsv: no column 'frames'; make it anew");

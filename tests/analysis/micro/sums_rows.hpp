@@ -26,6 +26,7 @@ inline SumsRow bed_of_height(double height, double begin)
 {
   auto bed = layer(0.5);
   bed.begin = begin;
+  bed.end = begin + 1;
   bed.bottom = bed.top = std::numeric_limits<double>::quiet_NaN();
   bed.heights = {1, 2, height};
   return bed;

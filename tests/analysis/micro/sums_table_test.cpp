@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -35,6 +36,7 @@ TEST(SumsTable, LayersFindTheHeightOfTheBedInTheirOwnWindow)
 {
   auto later = layer(0.5);
   later.begin = 1;
+  later.end = 2;
   const auto rows =
       read_sums_rows(table_of({layer(0.5), bed_of_height(20, 0), later, bed_of_height(22, 1)}));
   EXPECT_EQ(rows[0].bed_height, 20);
@@ -69,6 +71,28 @@ TEST(SumsTable, NaNIsRefusedExceptForSlidingContactsOfUnknownFriction)
   } catch (const FormatError& error) {
     EXPECT_NE(std::string(error.what()).find("ends_L"), std::string::npos) << error.what();
   }
+}
+
+TEST(SumsTable, AreasAndNumbersAreNotNegative)
+{
+  for (const char* name : {"area_L", "grains_S", "ends_L", "n_LS"}) {
+    auto table = table_of({layer(0.5)});
+    table.rows[0][table.column(name)] = -1;
+    EXPECT_THROW(read_sums_rows(table), FormatError) << name;
+  }
+}
+
+TEST(SumsTable, WhatWasNotKeptHasNoValue)
+{
+  auto table = table_of({layer(0.5)});
+  table.header = {{"not kept", "n_strong_SS c2_LS"}};
+  const auto at = static_cast<std::ptrdiff_t>(table.column("c2_LS"));
+  table.columns.erase(table.columns.begin() + at);
+  table.rows[0].erase(table.rows[0].begin() + at);
+  const auto sums = read_sums_rows(table)[0].sums;
+  EXPECT_TRUE(std::isnan(sums.of(PairType::LS).fabric.normal.x()));
+  EXPECT_EQ(sums.of(PairType::LS).fabric.normal.y(),
+            layer(0.5).sums.of(PairType::LS).fabric.normal.y());
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(MergeTables, MergingStepByStepIsMergingAtOnce)
 
 TEST(MergeTables, HistoriesAndDigestsOfAllTablesAreKept)
 {
-  const auto t = merged({table("b", {row(0, 0, 1, 1)}), table("a", {row(0, 0, 1, 1)})});
+  const auto t = merged({table("b", {row(0, 0, 1, 2)}), table("a", {row(0, 0, 1, 1)})});
   const std::vector<std::pair<std::string, std::string>> header{
       {"program", std::string("grseg-stress ") + version()},
       {"history", "grseg-sim of a"},
@@ -188,8 +188,24 @@ TEST(MergeTables, TheSameTimeOfOneRunDoesNotCountTwice)
   EXPECT_TRUE(holds(sentence<UsageError>({a, rest, part}), "the time from 0.1 s"));
   const auto shifted = table("a", {{0.25, 0.35, 1, sums(1)}});  // half in the last window of `rest`
   EXPECT_TRUE(holds(sentence<UsageError>({rest, shifted}), "both hold the time from 0.2"));
-  const auto with_b = merged({a, table("b", {row(0, 0, 1, 1)})});
+  const auto with_b = merged({a, table("b", {row(0, 0, 1, 2)})});
   EXPECT_TRUE(holds(sentence<UsageError>({with_b, part}), "of the same run (xxh3 a)"));
+}
+
+TEST(MergeTables, TheSameNumbersUnderAnotherDigestDoNotCountTwice)
+{
+  EXPECT_EQ(sentence<UsageError>({table("a", {row(0, 0, 1, 1)}), table("b", {row(0, 0, 1, 1)})}),
+            "a.tsv and b.tsv both hold the time from 0 s of the same run (all numbers are the "
+            "same); counting it twice would make intervals too narrow");
+}
+
+TEST(MergeTables, WindowsThatOverlapInPartAreMergedOnlyWithAllOthers)
+{
+  const std::vector<Table> tables{table("a", {row(2, 0, 1, 1)}),
+                                  table("b", {{0.25, 0.35, 1, sums(2), 0, 0.02}})};
+  EXPECT_TRUE(
+      holds(sentence<UsageError>(tables), "a.tsv and b.tsv hold windows that overlap in part"));
+  EXPECT_EQ(merged(tables, true).rows.size(), 1u);
 }
 
 TEST(MergeTables, DamagedTablesAreNamedWithTheRow)
@@ -207,6 +223,11 @@ TEST(MergeTables, DamagedTablesAreNamedWithTheRow)
   std::swap(b.columns[4], b.columns[5]);
   EXPECT_TRUE(holds(sentence<FormatError>({b}), "column 5 is 'V[m^2]' where"));
   EXPECT_TRUE(holds(sentence<UsageError>({}), "no tables given"));
+  b = table("b", {row(0, 0, 1, 1)});
+  b.header[3].second = "1e-300";
+  EXPECT_TRUE(holds(sentence<FormatError>({b}), "b.tsv: row 1: does not go with the step"));
+  b.header[3].second = "0";
+  EXPECT_TRUE(holds(sentence<FormatError>({b}), "b.tsv: '# step: 0' should be positive"));
 }
 
 }  // namespace

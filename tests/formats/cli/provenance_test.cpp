@@ -71,6 +71,8 @@ TEST(Provenance, SettingsAreWhatIsLeftWhenSourcesAreTakenAway)
                                   {"preset", "none"},
                                   {"history", "h"},
                                   {"input", "i"},
+                                  {"verified", "all"},
+                                  {"incomplete", "r"},
                                   {"layer", "1"},
                                   {"base", "half"}});
   EXPECT_EQ(settings_of(table), (Header{{"preset", "none"}, {"layer", "1"}, {"base", "half"}}));

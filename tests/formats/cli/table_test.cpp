@@ -2,6 +2,7 @@
 #include "formats/cli/table.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/core/version.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,149 @@ TEST(Table, HeaderNumbersAreNumbers)
   EXPECT_EQ(sample().header_number("layer"), 0.02);
   EXPECT_THROW(sample().header_number("program"), FormatError);
   EXPECT_THROW(sample().header_text("slope"), FormatError);
+}
+
+/// As this grseg writes it.
+Table own_sample()
+{
+  auto table = sample();
+  table.header[0].second = "grseg-stress " + version();
+  return table;
+}
+
+bool is_refused(const std::string& text)
+{
+  return complaint(text).starts_with("t.tsv: ");
+}
+
+TEST(Table, EndsWithTheNumberOfItsRowsAndAChecksumOfAllBytesBefore)
+{
+  Table table;
+  table.header = {{"key", "value"}};
+  table.columns = {"a", "b[m]"};
+  table.rows = {{1, 2}};
+  // Of the lines before it `xxhsum -H3` prints the same digits.
+  EXPECT_EQ(table.to_text(), "# key: value\na\tb[m]\n1\t2\n# end: 1 rows, xxh3 a0f2a9fc4c5d84f7\n");
+  EXPECT_EQ(complaint(table.to_text()), "no complaint");
+}
+
+TEST(Table, ThatChangedInASingleBitIsRefused)
+{
+  const auto text = own_sample().to_text();
+  ASSERT_EQ(complaint(text), "no complaint");
+  for (std::size_t byte = 0; byte < text.size(); ++byte)
+    for (int bit = 0; bit < 8; ++bit) {
+      auto damaged = text;
+      damaged[byte] = static_cast<char>(damaged[byte] ^ (1 << bit));
+      EXPECT_TRUE(is_refused(damaged)) << "byte " << byte << ", bit " << bit;
+    }
+}
+
+TEST(Table, ThatWasCutIsRefusedWhereverItWasCut)
+{
+  const auto text = own_sample().to_text();
+  for (std::size_t length = 0; length < text.size(); ++length)
+    EXPECT_TRUE(is_refused(text.substr(0, length))) << length;
+  const auto end = text.find("# end: ");
+  EXPECT_EQ(complaint(text.substr(0, end)),
+            "t.tsv: does not end with the line '# end: N rows, xxh3 ...' of every table of "
+            "grseg-stress " +
+                version() + "; it is truncated or damaged, make it anew");
+}
+
+TEST(Table, InWhichLinesWereRepeatedOrRemovedIsRefused)
+{
+  const auto text = own_sample().to_text();
+  const auto row = text.find("\n1.25") + 1, end = text.find("# end: ");
+  const auto last_row = text.substr(row, end - row);
+  EXPECT_EQ(complaint(text.substr(0, end) + last_row + text.substr(end)),
+            "t.tsv: has 3 rows, but ends with '# end: 2 rows, xxh3 " +
+                text.substr(text.size() - 17, 16) + "'; it is damaged, make it anew");
+  EXPECT_TRUE(is_refused(text.substr(0, row) + text.substr(end)));
+  EXPECT_TRUE(is_refused(text + last_row));
+  EXPECT_TRUE(is_refused(text + text.substr(end)));
+  EXPECT_TRUE(is_refused(text + "\n"));
+  EXPECT_TRUE(is_refused(text + text));
+}
+
+TEST(Table, MadeByHandNeedsNoEndButIsCheckedWhereItHasOne)
+{
+  const std::string text = "# a remark\n# layer: 0.02\nt0\tV[m^2]\n0\t1\n";
+  const auto table = Table::parse(text, "t.tsv");
+  EXPECT_TRUE(table.made_by_hand());
+  EXPECT_EQ(table.header_text("verified"), "no, made by hand");
+  EXPECT_EQ(complaint(text + end_line(text, 1) + "\n"), "no complaint");
+  EXPECT_EQ(complaint(text + end_line("another", 1) + "\n"),
+            "t.tsv: does not agree with the checksum in its last line: it was changed or damaged "
+            "after it was written; make it anew");
+}
+
+TEST(Table, OfAVersionThatWroteNoEndIsReadAndSaysSo)
+{
+  const std::string rest = "t0\n1\n";
+  const auto table = Table::parse("# program: grseg-fit 0.1.0\n" + rest, "t.tsv");
+  EXPECT_EQ(table.version_without_end, "0.1.0");
+  EXPECT_EQ(table.header_text("verified"), "no, tables of grseg 0.1.0 carry no checksum");
+  for (const char* later : {"0.2.0", "0.2.1", "0.10.0", "1.0.0"})
+    EXPECT_TRUE(is_refused("# program: grseg-fit " + std::string(later) + "\n" + rest)) << later;
+  for (const char* damaged : {"grseg-fit", "grseg-fit 0.1", "grseg-fit 0.1.x", "frseg-fit 0.1.0",
+                              "grseg-fit  0.1.0", "grseg-fit 0.1.0 ", "grseg-fit -1.1.0"})
+    EXPECT_TRUE(is_refused("# program: " + std::string(damaged) + "\n" + rest)) << damaged;
+  EXPECT_EQ(complaint("# program: grseg-fit 0.1.0\n# no colon\n" + rest),
+            "t.tsv: line 2: '# no colon' should be '# key: value'");
+}
+
+TEST(Table, OfWindowsIsRefusedWithTheRemedy)
+{
+  EXPECT_EQ(complaint("a\tb\r\n1\t2\r\n"),
+            "t.tsv: its lines end as on Windows (CR LF); convert it with dos2unix");
+  EXPECT_EQ(complaint("\xef\xbb\xbf"
+                      "a\tb\n1\t2\n"),
+            "t.tsv: begins with a byte order mark; save it as UTF-8 without BOM");
+}
+
+TEST(Table, HoldsPlainTextOnly)
+{
+  EXPECT_EQ(complaint(std::string("a\tb\n1\t\0\n", 8)),
+            "t.tsv: line 2: '\\x00' is not plain text (UTF-8); the table is damaged");
+  EXPECT_EQ(complaint("# key: \x1b[2J\na\n1\n"),
+            "t.tsv: line 1: '# key: \\x1b[2J' is not plain text (UTF-8); the table is damaged");
+  EXPECT_EQ(complaint("# key: \xcf\x86\na\n1\n"), "no complaint");
+}
+
+TEST(Table, NamesEachColumnOnce)
+{
+  EXPECT_EQ(complaint("a[m]\ta[s]\n1\t2\n"), "t.tsv: line 1: two columns are called 'a'");
+  EXPECT_EQ(complaint("a\t\n1\t2\n"),
+            "t.tsv: line 1: '' should be the name of a column, such as V[m^2]");
+  for (const char* name : {"a[m", "a]", "a[m]x", "[m]"})
+    EXPECT_TRUE(is_refused(std::string(name) + "\n1\n")) << name;
+}
+
+TEST(Table, OfAbsurdLinesIsRefusedWithAShortSentence)
+{
+  EXPECT_EQ(complaint(std::string(1 << 20, '\t') + "\n"),
+            "t.tsv: line 1: 1048577 columns are too many");
+  EXPECT_LT(complaint("a\n" + std::string(1 << 20, 'x') + "\n").size(), 120u);
+}
+
+TEST(Table, HoldsDecimalNumbersOnly)
+{
+  for (const char* number : {"0x10", " 1", "1 ", "1,5", "1e999", "NaN", "nan(1)", "-nan",
+                             "infinity", "+1", "1_000", "", "1e", "--1", "."})
+    EXPECT_TRUE(is_refused("a\tb\n1\t" + std::string(number) + "\n")) << number;
+  for (const char* number :
+       {"nan", "inf", "-inf", "1", "-0.5", ".5", "5.", "1e-300", "4.9406564584124654e-324"})
+    EXPECT_EQ(complaint("a\tb\n1\t" + std::string(number) + "\n"), "no complaint") << number;
+}
+
+TEST(Table, AValueCannotPassForAnotherLine)
+{
+  auto table = own_sample();
+  table.header[2].second = "chute\n# input: xxh3 forged\x1b[2J";
+  const auto read = Table::parse(table.to_text(), "t.tsv");
+  EXPECT_EQ(read.header.size(), 3u);
+  EXPECT_EQ(read.header[2].second, "chute\\x0a# input: xxh3 forged\\x1b[2J");
 }
 
 TEST(Table, ThatIsTruncatedIsRefusedWithItsLine)

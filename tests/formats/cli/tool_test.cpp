@@ -29,6 +29,15 @@ TEST(Tool, ReturnsTheExitCodeOfTheError)
   EXPECT_EQ(run({"grseg-test"}, [](const auto&) { throw CheckError("missed"); }), 4);
 }
 
+TEST(Tool, ASentenceThatQuotesAFileDoesNothingToTheTerminal)
+{
+  testing::internal::CaptureStderr();
+  run({"grseg-test"}, [](const auto&) { throw FormatError("a\x1b[2Jb.h5: two\nlines"); });
+  run({"grseg-test"}, [](const auto&) { throw std::runtime_error("\x07"); });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "grseg-test: a\\x1b[2Jb.h5: two\nlines\ngrseg-test: \\x07\n");
+}
+
 TEST(Tool, RefusesAnUnknownOptionAndNamesTheNearest)
 {
   testing::internal::CaptureStderr();

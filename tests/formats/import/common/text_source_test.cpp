@@ -144,8 +144,8 @@ TEST_F(Text, FilesThatMatchAStarAreInOrderOfTheirNumbers)
 
 TEST_F(Text, IsQuotedWithoutControlCharacters)
 {
-  EXPECT_EQ(printable("a\x1b[2J\n"), "'a?[2J?'");
-  EXPECT_EQ(printable(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");
+  EXPECT_EQ(in_quotes("a\x1b[2J\n"), "'a?[2J?'");
+  EXPECT_EQ(in_quotes(std::string(50, 'x')), "'" + std::string(40, 'x') + "...'");
 }
 
 }  // namespace

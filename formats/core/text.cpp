@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/core/text.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+namespace grseg {
+namespace {
+
+/// Bytes of the character that `text` begins with; 0 where it is not UTF-8 or a control character.
+std::size_t character_size(std::string_view text)
+{
+  const auto byte = [text](std::size_t k) {
+    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+  if (first < 0xc2 || first > 0xf4) return 0;
+  const std::size_t size = first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+  unsigned code = first & (0xffu >> (size + 1));
+  for (std::size_t k = 1; k < size; ++k) {
+    if ((byte(k) & 0xc0u) != 0x80u) return 0;
+    code = code << 6u | (byte(k) & 0x3fu);
+  }
+  const unsigned least = size == 2 ? 0xa0 : size == 3 ? 0x800 : 0x10000;  // below 0xa0: controls
+  const bool surrogate = code >= 0xd800 && code < 0xe000;
+  return code >= least && code <= 0x10ffff && !surrogate ? size : 0;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text)
+{
+  std::string safe;
+  safe.reserve(text.size());
+  while (!text.empty()) {
+    const auto size = character_size(text);
+    if (size == 0)
+      safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+    else
+      safe += text.substr(0, size);
+    text.remove_prefix(size == 0 ? 1 : size);
+  }
+  return safe;
+}
+
+std::string printable_lines(std::string_view text)
+{
+  std::string safe;
+  for (auto end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    safe += printable(text.substr(0, end)) + '\n';
+    text.remove_prefix(end + 1);
+  }
+  return safe + printable(text);
+}
+
+std::string excerpt(std::string_view text)
+{
+  constexpr std::size_t enough = 60;
+  return text.size() <= enough ? printable(text) : printable(text.substr(0, enough)) + "...";
+}
+
+}  // namespace grseg

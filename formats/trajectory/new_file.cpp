@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/trajectory/new_file.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/trajectory/digest.hpp"
+#include "formats/trajectory/h5md.hpp"
+#include "formats/trajectory/hdf5_attributes.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
+#include "formats/trajectory/integrity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace grseg {
+namespace {
+
+using namespace hdf5;
+
+class NewFile {
+ public:
+  NewFile(const std::string& path, const RunDescription& run, const StorageSettings& storage)
+      : path_(path), run_(run), storage_(storage)
+  {
+    const Properties create(H5Pcreate(H5P_FILE_CREATE));
+    H5Pset_obj_track_times(create, 0);  // the same run gives the same bytes
+    // Space that the library frees during a run is not reused: a kill may come before the index on
+    // disk is updated.
+    if (storage.live) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
+    file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, newest_format()));
+    if (!file_.valid())
+      throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
+  }
+
+  void write()
+  {
+    write_metadata();
+    write_grains();
+    write_species();
+    create_elements();
+    create_contacts();
+    write_parameters();
+    create_digests();
+    if (H5Fclose(file_.release()) < 0)
+      throw RunError(fmt::format("cannot write {}: {}", path_, reason_of_failure()));
+  }
+
+ private:
+  hid_t real_type() const { return storage_.float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
+
+  void write_metadata();
+  void write_grains();
+  void write_species();
+  void create_elements();
+  void create_contacts();
+  void write_parameters();
+  void create_digests();
+
+  void create_series(const std::string& at, const std::string& unit, hid_t type,
+                     const std::vector<hsize_t>& shape, hsize_t chunk_rows);
+  void create_element(const std::string& at, const std::string& unit, hid_t type,
+                      const std::vector<hsize_t>& shape);
+
+  std::string path_;
+  const RunDescription& run_;
+  StorageSettings storage_;
+  File file_;
+};
+
+void NewFile::write_metadata()
+{
+  h5md::write_root(file_);
+  write_attribute(make_group(file_, "/h5md/modules/grseg"), "version", std::vector<int>{1, 1});
+  h5md::write_box(file_, "grains", {run_.box.periodic_x ? "periodic" : "none", "none"});
+  const double edges[2] = {run_.box.length_x, run_.box.length_y};
+  write_fixed(file_, "/particles/grains/box/edges", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {2}, edges);
+  make_group(file_, "/parameters");
+  make_group(file_, "/observables");
+}
+
+void NewFile::write_grains()
+{
+  const auto& all = run_.grains;
+  const std::vector<hsize_t> shape{all.size()};
+  const std::string at = "/particles/grains/";
+  write_fixed(file_, at + "id", H5T_STD_I32LE, H5T_NATIVE_INT32, shape, all.id.data());
+  write_fixed(file_, at + "species", H5T_STD_I32LE, H5T_NATIVE_INT32, shape, all.species.data());
+  write_fixed(file_, at + "radius", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, all.radius.data());
+  write_fixed(file_, at + "mass", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, all.mass.data());
+  write_fixed(file_, at + "fixed", H5T_STD_U8LE, H5T_NATIVE_UINT8, shape, all.fixed.data());
+}
+
+void NewFile::write_species()
+{
+  constexpr std::size_t longest_name = 16;
+  const auto list = species_of(run_.parameters);
+  std::string names;
+  std::vector<double> diameters;
+  std::vector<std::uint8_t> mobile;
+  for (const auto& species : list) {
+    names += species.name;
+    names.resize(longest_name * (mobile.size() + 1), '\0');
+    diameters.push_back(species.diameter);
+    mobile.push_back(species.mobile ? 1 : 0);
+  }
+  const std::vector<hsize_t> shape{list.size()};
+  const auto text = string_type(longest_name);
+  const std::string at = "/grseg/species/";
+  write_fixed(file_, at + "name", text, text, shape, names.data());
+  write_fixed(file_, at + "diameter", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, diameters.data());
+  write_fixed(file_, at + "mobile", H5T_STD_U8LE, H5T_NATIVE_UINT8, shape, mobile.data());
+}
+
+void NewFile::create_series(const std::string& at, const std::string& unit, hid_t type,
+                            const std::vector<hsize_t>& shape, hsize_t chunk_rows)
+{
+  const auto dataset = create_growing(file_, at, type, shape, {chunk_rows, storage_.compression});
+  if (!unit.empty()) write_attribute(dataset, "unit", unit);
+}
+
+/// Something with a row per frame that has `value`, `step` and `time`, as H5MD demands.
+void NewFile::create_element(const std::string& at, const std::string& unit, hid_t type,
+                             const std::vector<hsize_t>& shape)
+{
+  create_series(at + "/value", unit, type, shape, shape.empty() ? storage_.scalar_chunk : 1);
+  const std::string first = "/particles/grains/position";
+  if (at != first) return h5md::link_times(file_, first, at);
+  create_series(at + "/step", "", H5T_STD_I64LE, {}, storage_.scalar_chunk);
+  create_series(at + "/time", "s", H5T_IEEE_F64LE, {}, storage_.scalar_chunk);
+}
+
+void NewFile::create_elements()
+{
+  const hsize_t n = run_.grains.size();
+  const std::string at = "/particles/grains/";
+  create_element(at + "position", "m", real_type(), {n, 2});
+  create_element(at + "image", "", H5T_STD_I32LE, {n, 2});
+  create_element(at + "velocity", "m s-1", real_type(), {n, 2});
+  create_element(at + "angular_velocity", "s-1", real_type(), {n});
+  if (run_.has_force) create_element(at + "force", "N", real_type(), {n, 2});
+  for (const auto& [name, unit] : run_.observables)
+    create_element("/observables/" + name, unit, H5T_IEEE_F64LE, {});
+}
+
+void NewFile::create_contacts()
+{
+  const std::string at = "/grseg/contacts/";
+  const auto rows = storage_.contact_chunk;
+  create_series(at + "i", "", H5T_STD_I32LE, {}, rows);
+  create_series(at + "j", "", H5T_STD_I32LE, {}, rows);
+  create_series(at + "force", "N", real_type(), {2}, rows);
+  create_series(at + "branch", "m", real_type(), {2}, rows);
+  create_series(at + "gap", "m", real_type(), {}, rows);
+  create_series(at + "offset", "", H5T_STD_U64LE, {}, storage_.scalar_chunk);
+}
+
+void NewFile::write_parameters()
+{
+  for (const auto& [name, values] : run_.parameters.numbers)
+    if (name != "complete") write_parameter(file_, name, values, false);
+  for (const auto& [name, text] : run_.parameters.texts) write_parameter(file_, name, text);
+  write_parameter(file_, "complete", std::vector<double>{0}, false);
+}
+
+void NewFile::create_digests()
+{
+  create_series("/grseg/digest", "", H5T_STD_U64LE, {}, storage_.scalar_chunk);
+  create_series("/grseg/field_digest", "", H5T_STD_U64LE, {number_of_fields},
+                std::max<hsize_t>(storage_.scalar_chunk / 8, 1));
+  const auto digest = static_digest(run_);
+  write_fixed(file_, "/grseg/static_digest", H5T_STD_U64LE, H5T_NATIVE_UINT64, {}, &digest);
+  const auto seal = Seal{}.numbers();
+  write_fixed(file_, "/grseg/seal", H5T_STD_U64LE, H5T_NATIVE_UINT64, {seal.size()}, seal.data());
+}
+
+/// Makes room for a parameter that is written anew.
+std::string cleared(hid_t file, const std::string& name)
+{
+  std::string at = "/parameters/" + name;
+  if (exists(file, at)) H5Ldelete(file, at.c_str(), H5P_DEFAULT);
+  return at;
+}
+
+}  // namespace
+
+void create_trajectory(const std::string& path, const RunDescription& run,
+                       const StorageSettings& storage)
+{
+  silence();
+  NewFile(path, run, storage).write();
+}
+
+void write_parameter(hid_t file, const std::string& name, const std::vector<double>& values,
+                     bool live)
+{
+  if (live) return overwrite(file, "/parameters/" + name, H5T_NATIVE_DOUBLE, values.data());
+  std::vector<hsize_t> shape;
+  if (values.size() != 1) shape = {values.size()};
+  write_fixed(file, cleared(file, name), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, values.data());
+}
+
+void write_parameter(hid_t file, const std::string& name, const std::string& text)
+{
+  const auto type = string_type(text.size());
+  write_fixed(file, cleared(file, name), type, type, {}, text.c_str());
+}
+
+}  // namespace grseg

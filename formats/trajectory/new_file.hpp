@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/run_description.hpp"
+#include "formats/trajectory/writer.hpp"
+
+#include <string>
+
+namespace grseg {
+
+/// Creates the trajectory file `path` (formats/README.md) with everything that a run holds once, no
+/// frame, and a seal of zeros. RunError where it cannot be written.
+void create_trajectory(const std::string& path, const RunDescription& run,
+                       const StorageSettings& storage);
+
+/// Writes one of /parameters into `file`, or replaces it. In a `live` file it must be there already,
+/// with the same number of values. RunError where it cannot be written.
+void write_parameter(hid_t file, const std::string& name, const std::vector<double>& values,
+                     bool live);
+void write_parameter(hid_t file, const std::string& name, const std::string& text);
+
+}  // namespace grseg
