@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/output.hpp"
 #include "formats/cli/tool.hpp"
 #include "sim/run/run.hpp"
 #include "sim/scene/keys/keys.hpp"
@@ -14,7 +15,7 @@ void add_run_options(po::options_description& options, RunOptions& run)
 {
   auto add = options.add_options();
   add("output,o", po::value(&run.output)->value_name("FILE"), "the trajectory to write");
-  add("overwrite", po::bool_switch(&run.overwrite), "replace files that already exist");
+  add_overwrite_to(options, run.overwrite);
   add("isa", po::value(&run.instruction_set)->value_name("NAME"),
       "vector instructions to use: avx512, avx2, sse4 or scalar (default: the best that the "
       "processor has); results are bitwise identical");
@@ -77,6 +78,7 @@ int main(int argc, char** argv)
     if (inputs.size() > 1 || (inputs.empty() && run.restart.empty()))
       throw UsageError("name one scene file, such as sim/scenes/chute.ini; --help shows examples");
     if (run.output.empty()) throw UsageError("name the trajectory to write: -o run.h5");
+    if (!inputs.empty()) run.scene_file = inputs[0];
     if (run.restart.empty()) return simulate(resolve_scene(inputs[0], given), run);
     const auto checkpoint = read_checkpoint(run.restart);
     const auto scene =

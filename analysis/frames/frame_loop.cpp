@@ -2,7 +2,6 @@
 #include "analysis/frames/frame_loop.hpp"
 
 #include "analysis/frames/layer_key.hpp"
-#include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
@@ -86,8 +85,7 @@ void FrameOptions::add_to(po::options_description& options)
   trust.add_to(options);
   options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
-  options.add_options()("output,o", po::value(&output)->value_name("FILE"),
-                        "instead of standard output");
+  output.add_to(options);
 }
 
 void FrameOptions::add_bins_to(po::options_description& options)
@@ -109,6 +107,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
 {
+  options.output.check(values);
   if (options.threads < 0 || options.threads > 1024)
     throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", options.threads));
   if (options.threads == 0)

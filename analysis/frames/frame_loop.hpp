@@ -4,6 +4,7 @@
 #include "analysis/frames/in_order.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/frames/windows.hpp"
+#include "formats/cli/output.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/cli/verification.hpp"
@@ -22,13 +23,15 @@ namespace grseg {
 
 /// The options of every tool that sums over the frames of a run by layer and window.
 struct FrameOptions {
-  std::string output, layer = "4dS", bins = "layers";
+  OutputOptions output;
+  std::string layer = "4dS", bins = "layers";
   WindowSettings windows;
   int threads = 1;
   bool json = false, quiet = false;
   TrustOption trust;
 
-  /// Adds --output --begin --end --stride --layer --window --threads --trust --json --quiet.
+  /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
+  /// --quiet.
   void add_to(po::options_description& options);
   /// Adds --bins, for tools that also know annuli.
   void add_bins_to(po::options_description& options);

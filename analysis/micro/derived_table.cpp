@@ -131,6 +131,7 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
   const auto pool = choose<Pool>(
       options.pool, "--pool",
       {{"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}});
+  frames.output.check(values);
   DerivedSettings settings{measure_of(options), rule_of(options), 0};
   const auto tables = read_tables(info, values, frames.quiet);
   if (tables.empty())

@@ -47,7 +47,7 @@ ToolInfo info()
 
 struct Settings {
   PhysicsSettings physics;
-  std::string output;
+  OutputOptions output;
   bool deep = false, with_physics = false, json = false, quiet = false;
 };
 
@@ -74,8 +74,7 @@ po::options_description options_into(Settings& s)
   }
   add("json", po::bool_switch(&s.json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&s.quiet), "no progress on standard error");
-  add("output,o", po::value(&s.output)->value_name("FILE"),
-      "write to FILE instead of standard output");
+  s.output.add_to(options);
   return options;
 }
 
@@ -125,6 +124,7 @@ int main(int argc, char** argv)
   Settings settings;
   const auto options = options_into(settings);
   return run_tool(argc, argv, info(), options, [&](const po::variables_map& values) {
+    settings.output.check(values);
     const TrajectoryReader run(single_input(values, "check one at a time"), Verify::no);
     const auto report = check(run, settings, command_line(argc, argv));
     write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));

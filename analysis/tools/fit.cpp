@@ -44,7 +44,8 @@ constexpr ToolInfo info{
 
 struct Settings {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range, output;
+  std::string component, quantity, base, scan, ratio_range;
+  OutputOptions output;
   int bootstrap = 0;
   long seed = 0;
   bool json = false, quiet = false, short_form = false;
@@ -98,8 +99,8 @@ po::options_description options_into(Settings& s)
       "print a short table for reading, as on a terminal; with -o beside the whole one in FILE");
   add("json", po::bool_switch(&s.json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&s.quiet), "no remarks on standard error");
-  add("output,o", text(s.output, "FILE"),
-      "write the whole table there; -: to standard output, even on a terminal");
+  s.output.add_to(options,
+                  "write the whole table there; -: to standard output, even on a terminal");
   return options;
 }
 
@@ -121,6 +122,7 @@ void check(const Settings& s, const po::variables_map& values)
   if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))
     throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", s.bootstrap));
   if (s.seed < 0) throw UsageError("--seed must not be negative");
+  s.output.check(values);
   if (std::isnan(s.filters.begin) || std::isnan(s.filters.end))
     throw UsageError("--begin and --end are times in seconds");
   if (!(s.filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
@@ -169,7 +171,7 @@ void require_numbers(const FitReport& report)
 /// On a terminal, 17 digits of 48 columns are of no use.
 bool prints_short(const Settings& s)
 {
-  return s.short_form || (s.output.empty() && !s.json && isatty(STDOUT_FILENO) == 1);
+  return s.short_form || (s.output.path.empty() && !s.json && isatty(STDOUT_FILENO) == 1);
 }
 
 void add_for_short_table(FitReport& report, const FitData& data, const FitSettings& settings,
@@ -237,7 +239,7 @@ int main(int argc, char** argv)
     require_numbers(report);
     const bool brief = prints_short(settings);
     if (!settings.quiet) remark(tables, report, !brief);
-    if (!brief || !settings.output.empty())
+    if (!brief || !settings.output.path.empty())
       write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));
     if (brief) std::cout << short_table(report);
   });

@@ -124,12 +124,13 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
 
 void merge(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const std::set<std::string> about_merging{"merge",  "all-windows", "input",
-                                            "output", "quiet",       "json"};
+  const std::set<std::string> about_merging{"merge",     "all-windows", "input", "output",
+                                            "overwrite", "quiet",       "json"};
   for (const auto& [name, value] : values)
     if (!value.defaulted() && !about_merging.contains(name))
       throw UsageError(
           fmt::format("--{} does not go with --merge: tables keep what they were made with", name));
+  s.frames.output.check(values);
   const auto merged =
       merge_tables(read_tables(info, values, s.frames.quiet), s.all_windows, info, command);
   write_whole(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());

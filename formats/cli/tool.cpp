@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -116,6 +117,8 @@ void print_error(const ToolInfo& info, const std::exception& error)
 int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
              const std::function<void(const po::variables_map&)>& body)
 {
+  // A write beyond a limit on file sizes then fails, which is told, instead of killing the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   po::options_description all = options;
   const auto presets = help_of(info.presets);
   if (!info.presets.empty())

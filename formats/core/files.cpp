@@ -5,9 +5,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
@@ -20,8 +22,35 @@ void flush(const std::string& path, int (*synchronise)(int))
   const bool on_disk = file >= 0 && synchronise(file) == 0;
   const int error = errno;
   if (file >= 0) close(file);
-  if (!on_disk)
-    throw RunError(fmt::format("cannot flush {} to disk: {}", path, std::strerror(error)));
+  if (!on_disk) throw RunError(fmt::format("cannot flush {} to disk: {}", path, reason(error)));
+}
+
+/// Renames unless `to` exists; 0 or an errno. Not every file system knows how to do that in one
+/// call; a second name for the file then does.
+int rename_unless_taken(const std::string& from, const std::string& to)
+{
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(from, ignored)) {  // has no second name
+    if (is_taken(to)) return EEXIST;
+    return rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+  }
+  if (link(from.c_str(), to.c_str()) != 0) return errno;
+  unlink(from.c_str());
+  return 0;
+}
+
+/// Whether the file `path` lies in `folder` or in a folder inside it.
+bool lies_in(const std::string& path, const std::string& folder)
+{
+  std::error_code error;
+  auto above = std::filesystem::canonical(path, error);
+  while (!error && above.has_relative_path()) {
+    above = above.parent_path();
+    if (same_file(above.string(), folder)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -34,7 +63,7 @@ void require_file(const std::string& path)
   if (std::filesystem::is_directory(path, error))
     throw UsageError(fmt::format("{}: is a folder, not a file", path));
   if (access(path.c_str(), R_OK) != 0)
-    throw UsageError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+    throw UsageError(fmt::format("{}: cannot be read: {}", path, reason(errno)));
 }
 
 std::string already_exists(const std::string& path)
@@ -43,11 +72,61 @@ std::string already_exists(const std::string& path)
                      path);
 }
 
-void refuse_to_overwrite(const std::string& path, bool overwrite)
+bool is_taken(const std::string& path)
 {
-  if (std::filesystem::is_directory(path))
+  std::error_code error;
+  return std::filesystem::exists(std::filesystem::symlink_status(path, error));
+}
+
+bool same_file(const std::string& a, const std::string& b)
+{
+  struct stat of_a {
+  }, of_b{};
+  return stat(a.c_str(), &of_a) == 0 && stat(b.c_str(), &of_b) == 0 && of_a.st_dev == of_b.st_dev &&
+         of_a.st_ino == of_b.st_ino;
+}
+
+bool is_device(const std::string& path)
+{
+  std::error_code error;
+  return std::filesystem::is_other(std::filesystem::status(path, error));
+}
+
+void refuse_input_as_output(const std::string& output, const std::vector<std::string>& inputs)
+{
+  if (is_device(output)) return;
+  for (const auto& input : inputs) {
+    if (same_file(output, input))
+      throw UsageError(
+          input == output
+              ? fmt::format("{} is an input and cannot be the output; choose another name", output)
+              : fmt::format("{} is the input {} under another name and cannot be the output; "
+                            "choose another name",
+                            output, input));
+    if (lies_in(input, output))
+      throw UsageError(fmt::format(
+          "the input {} lies in the folder {}, which cannot be the output; choose another name",
+          input, output));
+  }
+}
+
+void check_output(const std::string& path, bool overwrite, const std::vector<std::string>& inputs)
+{
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
     throw UsageError(fmt::format("{} is a folder; name a file inside it", path));
-  if (!overwrite && std::filesystem::exists(path)) throw UsageError(already_exists(path));
+  if (is_device(path)) throw UsageError(fmt::format("{} is a device or a pipe; name a file", path));
+  refuse_input_as_output(path, inputs);
+  if (!overwrite && is_taken(path)) throw UsageError(already_exists(path));
+  const auto folder = std::filesystem::path(path).parent_path();
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+    throw RunError(fmt::format("cannot create {}: {}", path, reason(errno)));
+}
+
+std::string reason(int error)
+{
+  const std::string words = std::strerror(error);
+  return error == EFBIG ? words + "; is there a limit (ulimit -f, quota)?" : words;
 }
 
 std::string temporary_path(const std::string& path)
@@ -58,10 +137,9 @@ std::string temporary_path(const std::string& path)
 void write_file(const std::string& path, std::string_view content, const std::string& name)
 {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) throw RunError(fmt::format("cannot create {}: {}", name, std::strerror(errno)));
+  if (file < 0) throw RunError(fmt::format("cannot create {}: {}", name, reason(errno)));
   const auto fail = [&name](int error) {
-    throw RunError(
-        fmt::format("cannot write {}: {}; is the disk full?", name, std::strerror(error)));
+    throw RunError(fmt::format("cannot write {}: {}", name, reason(error)));
   };
   for (std::size_t done = 0; done < content.size();) {
     const auto count = write(file, content.data() + done, content.size() - done);
@@ -93,10 +171,32 @@ void rename_path(const std::string& from, const std::string& to)
   if (error) throw RunError(fmt::format("cannot rename {} to {}: {}", from, to, error.message()));
 }
 
-void publish_file(const std::string& temporary, const std::string& path)
+void rename_to_new(const std::string& from, const std::string& to, const std::string& remedy)
+{
+  const int error = rename_unless_taken(from, to);
+  if (error == EEXIST)
+    throw RunError(fmt::format("{} has appeared since this program began and is not replaced; {}",
+                               to, remedy));
+  if (error != 0)
+    throw RunError(fmt::format("cannot rename {} to {}: {}", from, to, reason(error)));
+}
+
+void keep_as(const std::string& path, const std::string& second)
+{
+  // Two names of one file are not renamed to each other: the temporary one may be left.
+  const RemoveAtEnd temporary(temporary_path(second));
+  const bool linked = link(path.c_str(), temporary.path().c_str()) == 0;
+  rename_path(linked ? temporary.path() : path, second);
+}
+
+void publish_file(const std::string& temporary, const std::string& path, bool overwrite,
+                  const std::string& remedy)
 {
   flush_to_disk(temporary);
-  rename_path(temporary, path);
+  if (overwrite)
+    rename_path(temporary, path);
+  else
+    rename_to_new(temporary, path, remedy);
 }
 
 RemoveAtEnd::~RemoveAtEnd()

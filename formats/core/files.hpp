@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 /// How every program creates, publishes and removes files: what is being written has a temporary
 /// name and gets its own once it is whole and on disk.
@@ -15,8 +16,27 @@ void require_file(const std::string& path);
 /// The sentence for an output that exists and may not be replaced.
 std::string already_exists(const std::string& path);
 
-/// UsageError where `path` is a folder, or an existing file unless `overwrite`.
-void refuse_to_overwrite(const std::string& path, bool overwrite);
+/// Whether something has this name, be it a link that leads nowhere.
+bool is_taken(const std::string& path);
+
+/// Whether both names lead to one file or folder.
+bool same_file(const std::string& a, const std::string& b);
+
+/// Whether `path` is a device or a pipe: it is written to, never replaced.
+bool is_device(const std::string& path);
+
+/// UsageError where `output` is one of `inputs` under any name (symbolic and hard links), or a
+/// folder in which one of them lies. Inputs that do not exist are passed over.
+void refuse_input_as_output(const std::string& output, const std::vector<std::string>& inputs);
+
+/// What must hold of the file that a program is going to make of `inputs`, before it begins to
+/// work: UsageError where `path` is one of them, also with `overwrite`; where it is a folder, a
+/// device or a pipe; and where it exists, unless `overwrite`. RunError where its folder is missing
+/// or does not allow it.
+void check_output(const std::string& path, bool overwrite, const std::vector<std::string>& inputs);
+
+/// What the system says about `error`, an errno, with a question that helps where it is obscure.
+std::string reason(int error);
 
 /// PATH.tmp.PROCESS: a name beside `path` that no other program uses.
 std::string temporary_path(const std::string& path);
@@ -34,9 +54,19 @@ void flush_file_system(const std::string& path);
 /// Renames `from` to `to`, replacing a file. RunError on failure.
 void rename_path(const std::string& from, const std::string& to);
 
+/// The same without replacing anything: RunError where `to` has appeared in the meantime; `remedy`
+/// ends the sentence.
+void rename_to_new(const std::string& from, const std::string& to, const std::string& remedy);
+
+/// Gives the file `path` the name `second` too, replacing the file that had it. Where the file
+/// system knows no second names the file loses its first one. RunError on failure.
+void keep_as(const std::string& path, const std::string& second);
+
 /// Flushes the closed file `temporary` to disk and renames it to `path`, so that `path` is whole or
-/// absent. RunError on failure; `temporary` then still exists.
-void publish_file(const std::string& temporary, const std::string& path);
+/// absent. Nothing is replaced unless `overwrite`, as in rename_to_new(). RunError on failure;
+/// `temporary` then still exists.
+void publish_file(const std::string& temporary, const std::string& path, bool overwrite,
+                  const std::string& remedy = "choose another name");
 
 /// Removes the file `path`, if it exists (and is empty, with If::empty), when it goes out of scope.
 class RemoveAtEnd {

@@ -23,7 +23,7 @@ ExtxyzWriter::ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell,
     : grains_(run.grains()),
       has_force_(run.has_force()),
       keys_(keys_of(cell, run.has_force())),
-      file_(path, overwrite)
+      file_(path, overwrite, {run.path()})
 {
 }
 

@@ -4,6 +4,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/h5md.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fmt/format.h>
 
@@ -53,14 +54,14 @@ struct H5md3dWriter::Impl {
 
 H5md3dWriter::Impl::Impl(const TrajectoryReader& its_run, const ViewCell& cell,
                          const std::string& its_path, bool overwrite)
-    : run(its_run), path(its_path), output(path, overwrite), edges{cell.length(0), 0, 0, 0,
-                                                                   cell.length(1), 0, 0, 0,
-                                                                   cell.length(2)}
+    : run(its_run),
+      path(its_path),
+      output(path, overwrite, {run.path()}),
+      edges{cell.length(0), 0, 0, 0, cell.length(1), 0, 0, 0, cell.length(2)}
 {
   silence();
   file = File(H5Fcreate(output.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  if (!file.valid())
-    throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
+  if (!file.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   h5md::write_root(file);
   h5md::write_box(file, "trajectory", {cell.periodic_x ? "periodic" : "none", "none", "none"});
 
@@ -145,7 +146,7 @@ void H5md3dWriter::publish()
                         &my.images, &my.spins})
     *dataset = Dataset();
   if (H5Fclose(my.file.release()) < 0)
-    throw RunError(fmt::format("cannot write {}: is the disk full?", my.path));
+    throw RunError(fmt::format("cannot write {}: {}", my.path, reason_of_failure()));
   my.output.publish();
 }
 

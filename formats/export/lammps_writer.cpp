@@ -61,8 +61,8 @@ LammpsWriter::LammpsWriter(const TrajectoryReader& run, const ViewCell& cell,
       import_options_(import_options_for(run)),
       grains_path_(path),
       contacts_path_(contacts_beside(path)),
-      grains_file_(grains_path_, overwrite),
-      contacts_file_(contacts_path_, overwrite)
+      grains_file_(grains_path_, overwrite, {run.path()}),
+      contacts_file_(contacts_path_, overwrite, {run.path()})
 {
   grains_file_.write("ITEM: UNITS\nsi\n");
   contacts_file_.write("ITEM: UNITS\nsi\n");

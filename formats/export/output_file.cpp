@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <ios>
 
 namespace grseg {
@@ -21,23 +20,23 @@ namespace io = boost::iostreams;
 
 constexpr std::streamsize buffer_size = 1 << 16;
 
-/// Remembers whether it failed and from then on swallows what comes: Boost reports no error that
+/// Remembers how it failed and from then on swallows what comes: Boost reports no error that
 /// happens while a chain of filters is closed.
 struct Descriptor {
   using char_type = char;
   using category = io::sink_tag;
 
   int file;
-  bool* failed;
+  int* error;
 
   std::streamsize write(const char* bytes, std::streamsize count) const
   {
-    for (std::streamsize done = 0; done < count && !*failed;) {
+    for (std::streamsize done = 0; done < count && *error == 0;) {
       const auto n = ::write(file, bytes + done, static_cast<std::size_t>(count - done));
       if (n > 0)
         done += n;
-      else
-        *failed = n == 0 || errno != EINTR;
+      else if (n == 0 || errno != EINTR)
+        *error = n == 0 ? ENOSPC : errno;
     }
     return count;
   }
@@ -47,11 +46,12 @@ struct OpenFile {
   int number = -1;
 
   ~OpenFile() { close(); }
-  bool close()
+  /// 0 or an errno.
+  int close()
   {
     const bool closed = number < 0 || ::close(number) == 0;
     number = -1;
-    return closed;
+    return closed ? 0 : errno;
   }
 };
 
@@ -60,30 +60,30 @@ struct OpenFile {
 struct OutputFile::Stream {
   std::string name;
   OpenFile file;
-  bool failed = false;
+  int error = 0;                // an errno
   io::filtering_ostream bytes;  // last: its destructor writes to the file
 
   [[noreturn]] void fail() const
   {
-    throw RunError(fmt::format("cannot write {}: is the disk full?", name));
+    throw RunError(fmt::format("cannot write {}: {}", name, reason(error)));
   }
 };
 
-OutputFile::OutputFile(const std::string& path, bool overwrite)
-    : output_(path, overwrite), stream_(std::make_unique<Stream>())
+OutputFile::OutputFile(const std::string& path, bool overwrite,
+                       const std::vector<std::string>& inputs)
+    : output_(path, overwrite, inputs), stream_(std::make_unique<Stream>())
 {
   auto& my = *stream_;
   my.name = path;
   my.file.number =
       open(output_.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (my.file.number < 0)
-    throw RunError(fmt::format("cannot create {}: {}", path, std::strerror(errno)));
+  if (my.file.number < 0) throw RunError(fmt::format("cannot create {}: {}", path, reason(errno)));
   if (path.ends_with(".gz")) {
     io::zlib_params gzip(io::zlib::best_speed);  // digits of reals hardly pack better, only slower
     gzip.window_bits = 16 + 15;  // zlib's deflateInit2: 16 more ask for the frame of gzip
     my.bytes.push(io::zlib_compressor(gzip), buffer_size);
   }
-  my.bytes.push(Descriptor{my.file.number, &my.failed}, buffer_size);
+  my.bytes.push(Descriptor{my.file.number, &my.error}, buffer_size);
   my.bytes.exceptions(std::ios_base::badbit | std::ios_base::failbit);
 }
 
@@ -92,7 +92,7 @@ OutputFile::~OutputFile() = default;
 void OutputFile::write(std::string_view bytes)
 {
   stream_->bytes.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (stream_->failed) stream_->fail();
+  if (stream_->error != 0) stream_->fail();
 }
 
 void OutputFile::close()
@@ -100,7 +100,9 @@ void OutputFile::close()
   auto& my = *stream_;
   if (my.file.number < 0) return;
   my.bytes.reset();
-  if (!my.file.close() || my.failed) my.fail();
+  const int error = my.file.close();
+  if (my.error == 0) my.error = error;
+  if (my.error != 0) my.fail();
 }
 
 void OutputFile::publish()

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace grseg {
 
@@ -13,13 +14,14 @@ namespace grseg {
 /// ends in .gz, without a time in its header: the same content gives the same bytes.
 class OutputFile {
  public:
-  /// UsageError where `path` exists, unless `overwrite`; RunError where it cannot be created.
-  OutputFile(const std::string& path, bool overwrite);
+  /// UsageError where `path` cannot be what is made of `inputs` (check_output()), RunError where it
+  /// cannot be created.
+  OutputFile(const std::string& path, bool overwrite, const std::vector<std::string>& inputs);
   ~OutputFile();
 
-  /// RunError where the disk is full.
+  /// RunError where the system refuses.
   void write(std::string_view bytes);
-  /// Hands the last bytes to the system; RunError where the disk is full. Of several files that
+  /// Hands the last bytes to the system; RunError where it refuses. Of several files that
   /// belong together all are closed before one is published.
   void close();
   void publish();

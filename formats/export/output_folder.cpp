@@ -29,20 +29,27 @@ void create_folder(const std::string& path)
 
 }  // namespace
 
-OutputFolder::OutputFolder(std::string path, std::string mark, bool overwrite)
+OutputFolder::OutputFolder(std::string path, std::string mark, bool overwrite,
+                           const std::vector<std::string>& inputs)
     : path_(without_last_slashes(std::move(path))),
       mark_(std::move(mark)),
-      temporary_(temporary_path(path_))
+      temporary_(temporary_path(path_)),
+      overwrite_(overwrite)
 {
+  refuse_input_as_output(path_, inputs);
+  if (is_taken(path_)) require_replaceable();
+  create_folder(temporary_);
+}
+
+void OutputFolder::require_replaceable() const
+{
+  if (!overwrite_) throw UsageError(already_exists(path_));
   std::error_code error;
-  const bool exists = fs::exists(path_, error);
-  if (exists && !overwrite) throw UsageError(already_exists(path_));
-  if (exists && !fs::exists(fs::path(path_) / mark_, error))
+  if (!fs::exists(fs::path(path_) / mark_, error))
     throw UsageError(fmt::format(
         "{} already exists and holds no {}, so --overwrite does not replace it; choose another "
         "name",
         path_, mark_));
-  create_folder(temporary_);
 }
 
 OutputFolder::~OutputFolder()
@@ -65,17 +72,19 @@ void OutputFolder::add_file(const std::string& name, std::string_view content) c
 void OutputFolder::publish()
 {
   flush_file_system(temporary_);
+  const std::string remedy = "choose another name";
+  if (!overwrite_ || !is_taken(path_)) return rename_to_new(temporary_, path_, remedy);
+  require_replaceable();
   const auto old = fmt::format("{}.old.{}", path_, getpid());
   std::error_code error;
-  const bool replaces = fs::exists(path_, error);
-  if (replaces) rename_path(path_, old);
+  rename_path(path_, old);
   try {
-    rename_path(temporary_, path_);
+    rename_to_new(temporary_, path_, remedy);
   } catch (const RunError&) {
-    if (replaces) fs::rename(old, path_, error);
+    fs::rename(old, path_, error);
     throw;
   }
-  if (replaces) fs::remove_all(old, error);
+  fs::remove_all(old, error);
 }
 
 }  // namespace grseg

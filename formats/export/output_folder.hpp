@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace grseg {
 
@@ -10,19 +11,24 @@ namespace grseg {
 class OutputFolder {
  public:
   /// `mark` is a file by which an earlier export is recognised: no other folder is ever replaced,
-  /// not even with `overwrite` (UsageError).
-  OutputFolder(std::string path, std::string mark, bool overwrite);
+  /// nor one that holds one of `inputs`, not even with `overwrite` (UsageError).
+  OutputFolder(std::string path, std::string mark, bool overwrite,
+               const std::vector<std::string>& inputs);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
   ~OutputFolder();
 
   void add_folder(const std::string& name) const;
   void add_file(const std::string& name, std::string_view content) const;
-  /// RunError where the system refuses; a folder that was to be replaced is then back in place.
+  /// RunError where the system refuses, or where something of this name has appeared that may not
+  /// be replaced; a folder that was to be replaced is then back in place.
   void publish();
 
  private:
+  void require_replaceable() const;
+
   std::string path_, mark_, temporary_;
+  bool overwrite_;
 };
 
 }  // namespace grseg

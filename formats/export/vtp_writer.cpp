@@ -48,7 +48,7 @@ std::string collection(const std::string& list)
 }  // namespace
 
 VtpWriter::VtpWriter(const TrajectoryReader& run, const std::string& folder, bool overwrite)
-    : run_(run), folder_(folder, "grains.pvd", overwrite)
+    : run_(run), folder_(folder, "grains.pvd", overwrite, {run.path()})
 {
   folder_.add_folder("grains");
   folder_.add_folder("contacts");

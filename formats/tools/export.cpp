@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/frame_range.hpp"
 #include "formats/cli/interruption.hpp"
+#include "formats/cli/output.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/cli/verification.hpp"
 #include "formats/cli/words.hpp"
@@ -44,7 +45,7 @@ po::options_description options_into(Settings& s)
   s.trust.add_to(options);
   add("output,o", po::value(&s.output)->value_name("NAME"),
       "file to write (extxyz and lammps: compressed if it ends in .gz); for vtp a folder");
-  add("overwrite", po::bool_switch(&s.overwrite), "replace an existing export");
+  add_overwrite_to(options, s.overwrite);
   add("quiet", po::bool_switch(&s.quiet), "print no progress and no remarks");
   return options;
 }

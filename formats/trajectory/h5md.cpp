@@ -4,6 +4,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/version.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fmt/format.h>
 
@@ -35,7 +36,7 @@ void link_times(hid_t file, const std::string& of, const std::string& element)
   for (const std::string name : {"step", "time"})
     if (H5Lcreate_hard(file, fmt::format("{}/{}", of, name).c_str(), file,
                        fmt::format("{}/{}", element, name).c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
-      throw RunError(fmt::format("cannot create {}/{}: is the disk full?", element, name));
+      throw RunError(fmt::format("cannot create {}/{}: {}", element, name, reason_of_failure()));
 }
 
 }  // namespace grseg::h5md

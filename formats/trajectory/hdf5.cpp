@@ -3,6 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -21,13 +22,13 @@ namespace {
 template <class Owner>
 Owner opened(hid_t id, const std::string& what)
 {
-  if (id < 0) throw RunError(fmt::format("cannot create {}: is the disk full?", what));
+  if (id < 0) throw RunError(fmt::format("cannot create {}: {}", what, reason_of_failure()));
   return Owner(id);
 }
 
 void check_written(herr_t status, const std::string& what)
 {
-  if (status < 0) throw RunError(fmt::format("cannot write {}: is the disk full?", what));
+  if (status < 0) throw RunError(fmt::format("cannot write {}: {}", what, reason_of_failure()));
 }
 
 // How much more than its own size a file can hold: deflate packs at most 1032 : 1, and what is small

@@ -2,6 +2,7 @@
 #include "formats/trajectory/hdf5_attributes.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ void write_attribute(hid_t object, const std::string& name, hid_t type,
   const Attribute attribute(
       H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
   if (!attribute.valid() || H5Awrite(attribute, type, data) < 0)
-    throw RunError(fmt::format("cannot write attribute {}: is the disk full?", name));
+    throw RunError(fmt::format("cannot write attribute {}: {}", name, reason_of_failure()));
 }
 
 constexpr hssize_t most_in_attribute = 4096;  // entries, or bytes of a text of fixed length

@@ -5,6 +5,7 @@
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/h5md.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
 #include "formats/trajectory/integrity.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ class NewFile {
     if (storage.live) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
     file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, newest_format()));
     if (!file_.valid())
-      throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
+      throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   }
 
   void write()
@@ -42,7 +43,7 @@ class NewFile {
     write_parameters();
     create_digests();
     if (H5Fclose(file_.release()) < 0)
-      throw RunError(fmt::format("cannot write {}: is the disk full?", path_));
+      throw RunError(fmt::format("cannot write {}: {}", path_, reason_of_failure()));
   }
 
  private:

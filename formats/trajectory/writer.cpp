@@ -5,6 +5,7 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
 #include "formats/trajectory/integrity.hpp"
 #include "formats/trajectory/new_file.hpp"
 
@@ -73,7 +74,7 @@ struct TrajectoryWriter::Impl {
   void flush()
   {
     if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0)
-      throw RunError(fmt::format("cannot write {}: is the disk full?", path));
+      throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
   }
 };
 
@@ -238,7 +239,7 @@ void TrajectoryWriter::close()
   File file = std::move(my.file);
   impl_ = std::make_unique<Impl>();  // closes every dataset before the file
   if (H5Fclose(file.release()) < 0)
-    throw RunError(fmt::format("cannot write {}: is the disk full?", path));
+    throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
 }
 
 }  // namespace grseg

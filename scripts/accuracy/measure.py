@@ -86,12 +86,12 @@ def of_micro(table):
 def everything(folder, trajectory, begin):
     numbers = of_simulator(trajectory, begin)
     stress, kinetic, micro = (f"{trajectory}.{name}.tsv" for name in ("stress", "kinetic", "micro"))
-    tool(folder, "grseg-stress", trajectory, "--begin", str(begin), "-o", stress)
-    tool(folder, "grseg-kinetic", trajectory, "--begin", str(begin), "-o", kinetic)
+    tool(folder, "grseg-stress", trajectory, "--begin", str(begin), "--overwrite", "-o", stress)
+    tool(folder, "grseg-kinetic", trajectory, "--begin", str(begin), "--overwrite", "-o", kinetic)
     heights = {"heights": "4dS:56dS"}
     numbers["B_size"], numbers["B_half"] = of_fit(folder, stress, partition="size,half", **heights)
     (numbers["B_kappa"],) = of_fit(folder, kinetic, quantity="kinetic", **heights)
-    tool(folder, "grseg-micro", trajectory, "--begin", str(begin), "-o", micro)
+    tool(folder, "grseg-micro", trajectory, "--begin", str(begin), "--overwrite", "-o", micro)
     numbers.update(of_micro(rows(tool(folder, "grseg-micro", "--derived", micro))))
     for path in (stress, kinetic, micro):
         os.remove(path)

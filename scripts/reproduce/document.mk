@@ -51,8 +51,8 @@ figures: $(pictures)
 $(names:%=figures/%.png): figures/%.png: $(work)/%.png
 
 inside := --heights 4dS:56dS --quiet
-fit = $(bin)/grseg-fit --bootstrap $(BOOTSTRAP) $(inside) -o $@
-micro = $(bin)/grseg-micro --derived -o $@
+fit = $(bin)/grseg-fit --bootstrap $(BOOTSTRAP) $(inside) --overwrite -o $@
+micro = $(bin)/grseg-micro --derived --overwrite -o $@
 scripts := $(CURDIR)/tables.py $(CURDIR)/profiles.py
 every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
 

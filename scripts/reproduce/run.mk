@@ -10,8 +10,8 @@ done: checksums
 	@:
 # Made last, after the trajectory is deleted: a run that has this file is finished.
 checksums: $(TABLES) cost.tsv
-	$(if $(KEEP),,rm -f run.chk run.h5)
-	rm -f run.lock *.part
+	$(if $(KEEP),,rm -f run.chk run_prev.chk run.h5)
+	rm -f *.lock *.part
 	sha256sum $(sort $(TABLES)) > $@.new
 	mv $@.new $@
 

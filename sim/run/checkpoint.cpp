@@ -5,10 +5,13 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/hdf5_failure.hpp"
+#include "sim/run/checkpoint_check.hpp"
 #include "sim/run/run_files.hpp"
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <type_traits>
 
 namespace grseg {
@@ -17,8 +20,6 @@ namespace {
 using namespace hdf5;
 
 constexpr std::int32_t format_version = 2;
-// A damaged size is refused before memory is allocated.
-constexpr hsize_t most_values = 1'000'000'000;
 
 /// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
 /// numbers.
@@ -130,13 +131,17 @@ class Writer {
 
 class Reader {
  public:
-  Reader(hid_t file, std::string name) : file_(file), name_(std::move(name)) {}
+  Reader(hid_t file, std::string name) : file_(file), name_(std::move(name))
+  {
+    H5Fget_filesize(file_, &bytes_);
+  }
 
   void operator()(const char* path, std::string& text) const
   {
     const CheckedDataset dataset(file_, path, H5T_STRING, 0, name_);
     const Type type(H5Dget_type(dataset.id()));
-    text.resize(std::min<std::size_t>(H5Tget_size(type), most_values));
+    require_room(path, 1, H5Tget_size(type));
+    text.resize(H5Tget_size(type));
     dataset.read_all(type, text.data());
     text.erase(std::min(text.find('\0'), text.size()));  // padding
   }
@@ -145,8 +150,8 @@ class Reader {
   {
     const CheckedDataset dataset(file_, path, Layout<T>::kind, rank_of<T>, name_);
     if (rank_of<T> == 2) dataset.require(1, Layout<T>::columns);
-    if (dataset.dims()[0] > most_values)
-      throw FormatError(fmt::format("{}: {} has an impossible length", name_, path));
+    const Type type(H5Dget_type(dataset.id()));
+    require_room(path, dataset.dims()[0], Layout<T>::columns * H5Tget_size(type));
     values.resize(dataset.dims()[0]);
     dataset.read_all(Layout<T>::memory(), values.data());
   }
@@ -163,8 +168,19 @@ class Reader {
   }
 
  private:
+  /// Nothing is packed, so nothing is larger than the file: no memory for a size that is damaged.
+  void require_room(const char* path, hsize_t rows, std::size_t row_bytes) const
+  {
+    if (rows > bytes_ / row_bytes)
+      throw FormatError(
+          fmt::format("{}: {} has {} entries, more than fit into the file: it is damaged; use an "
+                      "older checkpoint",
+                      name_, path, rows));
+  }
+
   hid_t file_;
   std::string name_;
+  hsize_t bytes_ = 0;
 };
 
 template <class Visitor, class Totals>
@@ -233,52 +249,37 @@ std::uint64_t digest_of(const Checkpoint& checkpoint)
   return digester.digest();
 }
 
-/// The digest vouches for the values; this, for a file by other hands, that they can be used.
-bool consistent(const Checkpoint& c)
-{
-  const auto n = c.grains.size(), pairs = c.state.pairs.i.size();
-  const auto& made_at = c.state.pairs.made_at;
-  return n > 0 && c.grains.id.size() == n && c.grains.species.size() == n &&
-         c.grains.mass.size() == n && c.grains.fixed.size() == n && c.state.position.size() == n &&
-         c.state.image.size() == n && c.state.velocity.size() == n &&
-         c.state.rim_speed.size() == n && c.state.row.size() == n &&
-         (made_at.empty() || made_at.size() > n) && c.state.pairs.impulse_n.size() == pairs &&
-         c.state.pairs.impulse_t.size() == pairs && c.state.pairs.approach.size() == pairs;
-}
-
 void write_parts(const std::string& path, const Checkpoint& checkpoint)
 {
-  File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  if (!file.valid())
-    throw RunError(fmt::format("cannot create {}: does the folder exist and allow it?", path));
-  Writer writer(file);
-  writer("/version", format_version);
-  visit_all(writer, checkpoint);
-  writer("/digest", digest_of(checkpoint));
+  File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, newest_format()));
+  if (!file.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
+  try {
+    Writer writer(file);
+    writer("/version", format_version);
+    visit_all(writer, checkpoint);
+    writer("/digest", digest_of(checkpoint));
+  } catch (const RunError& failed) {
+    throw RunError(fmt::format("{}: {}", path, failed.what()));
+  }
   if (H5Fclose(file.release()) < 0)
-    throw RunError(fmt::format("cannot write {}: is the disk full?", path));
+    throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
 }
 
-}  // namespace
-
-void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
+File open_checkpoint(const std::string& path)
 {
-  silence();
-  const auto part = part_of(path);
-  const RemoveAtEnd clean_up(part);
-  write_parts(part, checkpoint);
-  publish_file(part, path);
+  try {
+    return open_for_reading(path);
+  } catch (const FormatError&) {
+    throw FormatError(fmt::format("{}: is not a checkpoint, or is truncated or damaged", path));
+  }
 }
 
-Checkpoint read_checkpoint(const std::string& path)
+Checkpoint read_parts(const std::string& path)
 {
-  silence();
-  require_file(path);
   const auto fail = [&](const std::string& why) {
     throw FormatError(fmt::format("{}: {}", path, why));
   };
-  const File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file.valid()) fail("is not a checkpoint, or is truncated or damaged");
+  const auto file = open_checkpoint(path);
   if (!exists(file, "/version") || !exists(file, "/state"))
     fail("is not a checkpoint of grseg-sim; name the file that --checkpoint wrote");
   const Reader read(file, path);
@@ -293,9 +294,51 @@ Checkpoint read_checkpoint(const std::string& path)
   visit_all(read, checkpoint);
   std::uint64_t digest = 0;
   read("/digest", digest);
-  if (digest != digest_of(checkpoint) || !consistent(checkpoint))
+  if (digest != digest_of(checkpoint))
     fail("does not have the content that its digest names: it is damaged; use an older checkpoint");
+  check_checkpoint(checkpoint, path);
   return checkpoint;
+}
+
+bool is_whole(const std::string& path)
+{
+  try {
+    read_checkpoint(path);
+    return true;
+  } catch (const ToolError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
+{
+  silence();
+  const auto part = part_of(path);
+  const RemoveAtEnd clean_up(part);
+  write_parts(part, checkpoint);
+  flush_to_disk(part);
+  if (is_whole(path)) keep_as(path, previous_of(path));
+  rename_path(part, path);
+}
+
+Checkpoint read_checkpoint(const std::string& path)
+{
+  silence();
+  const auto previous = previous_of(path);
+  const auto hint = [&](const ToolError& wrong) {
+    return std::filesystem::exists(previous)
+               ? fmt::format("{}; {} is the checkpoint before it", wrong.what(), previous)
+               : wrong.what();
+  };
+  try {
+    return read_parts(path);
+  } catch (const UsageError& missing) {
+    throw UsageError(hint(missing));
+  } catch (const FormatError& damaged) {
+    throw FormatError(hint(damaged));
+  }
 }
 
 }  // namespace grseg

@@ -33,12 +33,15 @@ struct Checkpoint {
   TrajectoryProgress trajectory;
 };
 
-/// Writes `checkpoint` whole or not at all: as PATH.part, flushed to disk, then renamed. An HDF5
-/// file, laid out as formats/README.md says. RunError where it cannot be written.
+/// Writes `checkpoint` whole or not at all: as PATH.part, flushed to disk, then renamed. A whole
+/// checkpoint that had the name is kept as previous_of(path) (run_files.hpp); at every moment there
+/// is a whole one. An HDF5 file, laid out as formats/README.md says. RunError where it cannot be
+/// written.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
 /// UsageError where `path` is missing, FormatError where it is not a checkpoint, is damaged (its
-/// digest detects any changed bit), or is of another version.
+/// digest detects any changed bit), is of another version, or holds what no run can continue from
+/// (checkpoint_check.hpp). The sentence names the previous checkpoint where there is one.
 Checkpoint read_checkpoint(const std::string& path);
 
 }  // namespace grseg

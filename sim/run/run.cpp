@@ -31,20 +31,6 @@ struct Run {
   std::string history;
 };
 
-/// What must hold before time is spent on a run.
-void check_outputs(const RunOptions& options)
-{
-  refuse_to_overwrite(options.output, options.overwrite);
-  if (options.checkpoint.empty()) return;
-  if (options.checkpoint == options.output)
-    throw UsageError("checkpoint and trajectory cannot be one file; name another for --checkpoint");
-  if (options.checkpoint != options.restart)
-    refuse_to_overwrite(options.checkpoint, options.overwrite);
-  const auto part = part_of(options.checkpoint);
-  const RemoveAtEnd trial(part, RemoveAtEnd::If::empty);
-  require_writable(part);
-}
-
 /// Nothing is compressed until the run is finished (formats/README.md).
 StorageSettings storage_while_running(const Scene& scene)
 {
@@ -154,7 +140,7 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
   run.writer.close();
   if (!options.quiet) fmt::print(stderr, "{}", to_text(summary, scene, simulation.world().grains));
   if (interrupted()) throw stopped_at(simulation.time(), options);
-  publish_trajectory(part_of(options.output), options.output,
+  publish_trajectory(options.output, options.overwrite,
                      {.compression = scene.compression, .float32 = scene.float32});
   if (!options.quiet) fmt::print(stderr, "{}", next_steps(options.output));
   if (options.strict) refuse_missed_tolerance(recorder.totals());
@@ -176,7 +162,8 @@ void simulate(const Scene& scene, const RunOptions& options)
 {
   const auto part = part_of(options.output);
   check_outputs(options);
-  refuse_to_overwrite(part, options.overwrite);
+  const RunLocks locks(options);
+  check_output(part, options.overwrite, {});
   require_writable(part);
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
   listen_to_signals();
@@ -201,16 +188,17 @@ void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& 
   const auto part = part_of(options.output);
   const auto before = scene_of(checkpoint, options.restart);
   require_same_bed(before, scene);
+  check_outputs(options);
+  const RunLocks locks(options);
   const bool perturbed = options.perturbation.size > 0;
   const bool unchanged = !perturbed && to_text(scene) == to_text(before);
   const bool in_place = unchanged && holds_something(part);
-  check_outputs(options);
   auto simulation = restored_simulation(checkpoint, before, scene, options.perturbation);
   if (!in_place && simulation.steps_done() >= scene.steps_in_all())
     throw UsageError(fmt::format(
         "{} is at t = {:g} s and the run ends at {:g} s; a larger --duration prolongs it",
         options.restart, simulation.time(), scene.duration));
-  if (!in_place && holds_something(part)) refuse_to_overwrite(part, options.overwrite);
+  if (!in_place && holds_something(part)) check_output(part, options.overwrite, {});
   require_writable(part);
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
   listen_to_signals();

@@ -9,6 +9,7 @@
 namespace grseg {
 
 struct RunOptions {
+  std::string scene_file;  ///< that the scene was read from, "" for none
   std::string output;
   std::string command_line;
   bool overwrite = false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/run/run_files.hpp"
 
-#include "formats/cli/output.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "formats/trajectory/repack.hpp"
@@ -11,20 +10,67 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 namespace grseg {
+namespace {
+
+/// Whether both are names of one file, be it there or not.
+bool is_one_name(const std::string& a, const std::string& b)
+{
+  std::error_code error;
+  const auto whole = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
+  };
+  return same_file(a, b) || whole(a) == whole(b);
+}
+
+}  // namespace
 
 std::string part_of(const std::string& path)
 {
   return path + ".part";
 }
 
+std::string previous_of(const std::string& path)
+{
+  const std::filesystem::path whole(path);
+  return (whole.parent_path() / (whole.stem().string() + "_prev" + whole.extension().string()))
+      .string();
+}
+
+void check_outputs(const RunOptions& options)
+{
+  const std::vector<std::string> inputs{options.scene_file, options.restart};
+  check_output(options.output, options.overwrite, inputs);
+  refuse_input_as_output(part_of(options.output), inputs);
+  const auto& checkpoint = options.checkpoint;
+  if (checkpoint.empty()) return;
+  for (const auto& of_trajectory : {options.output, part_of(options.output)})
+    for (const auto& own : {checkpoint, part_of(checkpoint), previous_of(checkpoint)})
+      if (is_one_name(own, of_trajectory))
+        throw UsageError(
+            "checkpoint and trajectory cannot be one file; name another for --checkpoint");
+  for (const auto& own : {checkpoint, previous_of(checkpoint)}) {
+    if (same_file(checkpoint, options.restart)) break;
+    if (!same_file(own, options.restart)) check_output(own, options.overwrite, inputs);
+  }
+  refuse_input_as_output(part_of(checkpoint), inputs);
+}
+
+RunLocks::RunLocks(const RunOptions& options) : trajectory_(options.output)
+{
+  if (options.checkpoint.empty()) return;
+  checkpoint_.emplace(options.checkpoint);
+  const auto part = part_of(options.checkpoint);
+  const RemoveAtEnd trial(part, RemoveAtEnd::If::empty);
+  require_writable(part);
+}
+
 void require_writable(const std::string& path)
 {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) throw RunError(fmt::format("cannot create {}: {}", path, std::strerror(errno)));
+  if (file < 0) throw RunError(fmt::format("cannot create {}: {}", path, reason(errno)));
   close(file);
 }
 
@@ -35,16 +81,15 @@ bool holds_something(const std::string& path)
   return !error && size > 0;
 }
 
-void publish_trajectory(const std::string& part, const std::string& output,
-                        const StorageSettings& storage)
+void publish_trajectory(const std::string& output, bool overwrite, const StorageSettings& storage)
 {
-  if (storage.compression == 0) {
-    publish_file(part, output);
-    return;
-  }
-  Output compressed(output, true);
-  repack(part, compressed.temporary(), storage);
-  compressed.publish();
+  const auto part = part_of(output);
+  const auto remedy =
+      fmt::format("all frames are in {}; rename it, as in: mv -n {} other.h5", part, part);
+  if (storage.compression == 0) return publish_file(part, output, overwrite, remedy);
+  const RemoveAtEnd compressed(temporary_path(output));
+  repack(part, compressed.path(), storage);
+  publish_file(compressed.path(), output, overwrite, remedy);
   std::error_code ignored;
   std::filesystem::remove(part, ignored);
 }

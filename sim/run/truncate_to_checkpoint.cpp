@@ -51,7 +51,7 @@ TrajectoryWriter truncate_to_checkpoint(const std::string& part, const Checkpoin
                     Recorder::observables(), storage);
     require(writer.digest() == checkpoint.trajectory.digest);
     writer.flush();
-    publish_file(copy, part);
+    publish_file(copy, part, true);
     return writer;
   } catch (const FormatError& damaged) {
     throw FormatError(fmt::format("{}; move it away to begin a new trajectory at the checkpoint",

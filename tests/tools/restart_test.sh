@@ -59,6 +59,16 @@ content killed.h5 | cmp - whole || fail "kills and restarts changed the run"
 [ "$(h5dump -d /parameters/history killed.h5 | grep -c 'grseg-sim.*killed.h5')" -ge 2 ] ||
   fail "the history does not list the restarts"
 
+# The checkpoint before the last one, which takes over where the last one is damaged.
+# shellcheck disable=SC2086
+stopped INT old.chk 0.1 $chute --duration 10 --checkpoint-every 0 -o old.h5
+head -c 20000 old.chk >torn
+mv torn old.chk
+refused 3 "old.chk: is not a checkpoint, or is truncated or damaged; old_prev.chk is the checkpoint before it" \
+  --restart old.chk -o old.h5
+"$bin/grseg-sim" --quiet --restart old_prev.chk --checkpoint old.chk --overwrite -o old.h5
+content old.h5 | cmp - whole || fail "a restart from the checkpoint before the last one changed the run"
+
 # In single precision, compressed at the end, with the deposition before it.
 # shellcheck disable=SC2086
 $bin/grseg-sim --quiet $chute --duration 6 --store float32 --compression 1 --keep-deposition -o single.h5

@@ -57,6 +57,16 @@ bool natural_less(const std::string& a, const std::string& b)
   return a.size() - i < b.size() - j;
 }
 
+std::vector<std::string> files_meant(const std::vector<std::string>& names)
+{
+  auto files = names;
+  for (const auto& name : names) {
+    const auto found = matches_of(name);
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
 std::vector<std::string> archive_files(const std::vector<std::string>& names,
                                        const std::string& option)
 {

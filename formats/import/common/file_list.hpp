@@ -12,6 +12,9 @@ namespace grseg {
 std::vector<std::string> archive_files(const std::vector<std::string>& names,
                                        const std::string& option);
 
+/// `names` and the files that those with `*` stand for, whether they exist or not.
+std::vector<std::string> files_meant(const std::vector<std::string>& names);
+
 /// Whether a sorts before b where runs of digits are compared as numbers.
 bool natural_less(const std::string& a, const std::string& b);
 

@@ -5,6 +5,7 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/version.hpp"
+#include "formats/import/common/file_list.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 
 #include <fmt/format.h>
@@ -98,6 +99,15 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   return run;
 }
 
+/// All files that an import reads.
+std::vector<std::string> inputs_of(const ArchiveFiles& files)
+{
+  auto names = files.grains;
+  names.insert(names.end(), files.contacts.begin(), files.contacts.end());
+  names.push_back(files.restart);
+  return files_meant(names);
+}
+
 [[noreturn]] void refuse(const VerifiedFrames& frames, const ImportSettings& settings,
                          const Complaint& complaint, std::size_t moments)
 {
@@ -174,7 +184,7 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
 {
   if (settings.output.empty())
     throw UsageError("name the trajectory to write with -o, e.g. -o run.h5");
-  Output output(settings.output, settings.overwrite);
+  Output output(settings.output, settings.overwrite, inputs_of(settings.files));
   VerifiedFrames frames(settings, settings.files.columns);
   const auto run = describe(frames, settings, command_line);
   ImportReport report;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/import_settings.hpp"
 
+#include "formats/cli/output.hpp"
 #include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
@@ -82,8 +83,9 @@ po::options_description import_options(ImportSettings& s)
                           po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
                           "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
                                                    "single precision, half the size")(
-      "overwrite", po::bool_switch(&s.overwrite), "replace an existing file")(
       "quiet", po::bool_switch(&s.quiet), "print no summary on standard error");
+
+  add_overwrite_to(output, s.overwrite);
 
   po::options_description all;
   all.add(archive).add(facts).add(sizes).add(output);

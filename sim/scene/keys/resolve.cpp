@@ -19,6 +19,7 @@ namespace po = boost::program_options;
 
 // Restitution and geometry err by O(h); beyond this step a scene is a different one.
 constexpr double largest_step = 0.05;  // in sqrt(d_S/g)
+constexpr double most_steps = 1e15;    // so that a double counts them
 constexpr double largest_turn = 1;     // degree per step: a step feels the gravity of its middle
 
 void read_keys(const po::variables_map& values, Scene& scene)
@@ -82,6 +83,16 @@ void resolve_accuracy(Scene& scene, const KeyGiven& given)
 
 void check_frames(const Scene& scene)
 {
+  for (const auto& [key, time] :
+       {std::pair{"duration", scene.duration}, {"frame-interval", scene.frame_interval}})
+    require(time / scene.step <= most_steps, key,
+            fmt::format("{} is {:.6g} s: that is more than {:.0g} steps of {:.6g} s; choose a "
+                        "shorter one",
+                        key, time, most_steps, scene.step));
+  require(scene.steps_in_all() > 0, "duration",
+          fmt::format("duration is {:.6g} s, less than a step of {:.6g} s: the run would have no "
+                      "frame; choose a longer one",
+                      scene.duration, scene.step));
   require_within(static_cast<double>(scene.burst), "burst", 1,
                  static_cast<double>(scene.steps_per_frame()));
   require(!scene.keep_deposition || scene.geometry->keeps_grains(), "keep-deposition",

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/tool.hpp"
 
-#include "formats/cli/output.hpp"
-
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace grseg {
 namespace {
-
-namespace fs = std::filesystem;
 
 int run(std::vector<std::string> words, const std::function<void(const po::variables_map&)>& body)
 {
@@ -112,23 +104,6 @@ TEST(Tool, HelpShowsExamplesAndRunsNothing)
   testing::internal::CaptureStdout();
   EXPECT_EQ(run({"grseg-test", "--help"}, [](const auto&) { FAIL(); }), 0);
   EXPECT_NE(testing::internal::GetCapturedStdout().find("Examples:"), std::string::npos);
-}
-
-TEST(Output, AppearsWholeOrNotAtAll)
-{
-  const auto folder = fs::temp_directory_path() / ("grseg_tool_test_" + std::to_string(getpid()));
-  fs::create_directory(folder);
-  const auto path = (folder / "t.tsv").string();
-  write_whole(path, "first\n");
-  write_whole(path, "second\n");
-  std::ifstream file(path);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "second\n");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
-  EXPECT_THROW(write_whole((folder / "missing" / "t.tsv").string(), "x"), RunError);
-  fs::create_directory(folder / "taken");
-  EXPECT_THROW(write_whole((folder / "taken").string(), "x"), RunError);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
-  fs::remove_all(folder);
 }
 
 }  // namespace

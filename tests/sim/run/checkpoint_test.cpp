@@ -2,14 +2,18 @@
 #include "sim/run/checkpoint.hpp"
 
 #include "formats/core/errors.hpp"
+#include "sim/run/run_files.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <limits>
 
 namespace grseg {
 namespace {
@@ -21,6 +25,7 @@ class CheckpointFile : public testing::Test {
   std::string path =
       (fs::temp_directory_path() / ("grseg_checkpoint_test_" + std::to_string(getpid()) + ".chk"))
           .string();
+  std::string previous = previous_of(path);
   Scene scene = small_chute::scene({"--base", "wall", "--lateral", "walls"});
   void SetUp() override
   {
@@ -29,7 +34,11 @@ class CheckpointFile : public testing::Test {
     written = small_chute::checkpoint_of(simulation, scene);
     write_checkpoint(path, written);
   }
-  void TearDown() override { fs::remove(path); }
+  void TearDown() override
+  {
+    fs::remove(path);
+    fs::remove(previous);
+  }
 
   template <class Damage>
   void tamper(Damage damage) const
@@ -162,6 +171,187 @@ TEST_F(CheckpointFile, AnotherHdf5FileIsNoCheckpoint)
 TEST_F(CheckpointFile, AMissingFileIsAUsageError)
 {
   EXPECT_THROW(read_checkpoint("/nowhere/run.chk"), UsageError);
+}
+
+TEST_F(CheckpointFile, TheOneBeforeIsKept)
+{
+  EXPECT_FALSE(fs::exists(previous));
+  for (const std::int64_t step : {51, 52, 53}) {
+    written.state.steps_done = step;
+    write_checkpoint(path, written);
+    EXPECT_EQ(read_checkpoint(path).state.steps_done, step);
+    EXPECT_EQ(read_checkpoint(previous).state.steps_done, step - 1);
+  }
+}
+
+TEST_F(CheckpointFile, ADamagedOneDoesNotReplaceTheOneBefore)
+{
+  write_checkpoint(path, written);
+  fs::resize_file(path, 1000);
+  EXPECT_EQ(complaint(), path + ": is not a checkpoint, or is truncated or damaged; " + previous +
+                             " is the checkpoint before it");
+  written.state.steps_done = 51;
+  write_checkpoint(path, written);
+  EXPECT_EQ(read_checkpoint(path).state.steps_done, 51);
+  EXPECT_EQ(read_checkpoint(previous).state.steps_done, 50);
+}
+
+TEST_F(CheckpointFile, WhereItIsMissingTheOneBeforeIsNamed)
+{
+  fs::rename(path, previous);
+  try {
+    read_checkpoint(path);
+    FAIL();
+  } catch (const UsageError& missing) {
+    EXPECT_EQ(missing.what(),
+              path + ": no such file; " + previous + " is the checkpoint before it");
+  }
+}
+
+TEST(PreviousCheckpoint, IsNamedBeforeTheExtension)
+{
+  EXPECT_EQ(previous_of("run.chk"), "run_prev.chk");
+  EXPECT_EQ(previous_of("a.b/run"), "a.b/run_prev");
+  EXPECT_EQ(previous_of("../run.h5.chk"), "../run.h5_prev.chk");
+}
+
+/// Forged with a right digest: what is changed, and what is then said of it.
+struct Forgery {
+  std::string complaint;
+  std::function<void(Checkpoint&)> forge;
+};
+
+class ForgedCheckpoint : public CheckpointFile, public testing::WithParamInterface<Forgery> {};
+
+TEST_P(ForgedCheckpoint, IsRefusedByItsEntry)
+{
+  auto forged = written;
+  GetParam().forge(forged);
+  fs::remove(path);
+  write_checkpoint(path, forged);
+  EXPECT_EQ(complaint(), path + ": " + GetParam().complaint +
+                             ": this was not written by grseg-sim, or is damaged; use an older "
+                             "checkpoint");
+}
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+INSTANTIATE_TEST_SUITE_P(
+    EveryEntry, ForgedCheckpoint,
+    testing::Values(
+        Forgery{"/state/steps_done is -4611686018427387904, and the run has 375000 steps",
+                [](Checkpoint& c) { c.state.steps_done = -(std::int64_t{1} << 62); }},
+        Forgery{"/state/steps_done is 375001, and the run has 375000 steps",
+                [](Checkpoint& c) { c.state.steps_done = 375'001; }},
+        Forgery{"/state/row, entry 3, is not the row of a grain",
+                [](Checkpoint& c) { c.state.row[3] = 1'000'000; }},
+        Forgery{"/state/row, entry 0, is not the row of a grain",
+                [](Checkpoint& c) { c.state.row[0] = -1; }},
+        Forgery{"/state/row has 0 twice",
+                [](Checkpoint& c) { *std::find(c.state.row.begin(), c.state.row.end(), 1) = 0; }},
+        Forgery{"/state/row has 70 entries for 71 grains",
+                [](Checkpoint& c) { c.state.row.pop_back(); }},
+        Forgery{"/grains/species, entry 2, is not 0, 1 or 2",
+                [](Checkpoint& c) { c.grains.species[2] = static_cast<Species>(77); }},
+        Forgery{"/grains/id has 5 twice",
+                [](Checkpoint& c) { c.grains.id[1] = c.grains.id[2] = 5, c.grains.id[5] = -1; }},
+        Forgery{"/grains/fixed, entry 1, is not 0 or 1",
+                [](Checkpoint& c) { c.grains.fixed[1] = 2; }},
+        Forgery{"/grains/radius, entry 0, is not a positive number",
+                [](Checkpoint& c) { c.grains.radius[0] = 0; }},
+        Forgery{"/grains/radius, entry 0, is larger than the large grains' diameter",
+                [](Checkpoint& c) { c.grains.radius[0] = 1e6; }},
+        Forgery{"/grains/mass, entry 1, is not a positive number",
+                [](Checkpoint& c) { c.grains.mass[1] = -1; }},
+        Forgery{"/walls, entry 0, is not a point and a normal of length 1",
+                [](Checkpoint& c) { c.walls[0].normal *= 2; }},
+        Forgery{"/box/length_x is not a positive number",
+                [](Checkpoint& c) {
+                  c.box = {0, 1, true};
+                }},
+        Forgery{"/box/length_y is not a positive number",
+                [](Checkpoint& c) { c.box.length_y = no_number; }},
+        Forgery{"/deposited_height is not a finite number",
+                [](Checkpoint& c) { c.deposited_height = infinite; }},
+        Forgery{"/state/position, entry 4, is not a finite number",
+                [](Checkpoint& c) { c.state.position[4].y() = no_number; }},
+        Forgery{"/state/position, entry 4, is too far away",
+                [](Checkpoint& c) { c.state.position[4].x() = 1e300; }},
+        Forgery{"/state/velocity, entry 0, is not a finite number",
+                [](Checkpoint& c) { c.state.velocity[0].x() = infinite; }},
+        Forgery{"/state/rim_speed, entry 0, is not a finite number",
+                [](Checkpoint& c) { c.state.rim_speed[0] = no_number; }},
+        Forgery{"/state/image, entry 0, is not a number of periods",
+                [](Checkpoint& c) { c.state.image[0] = std::numeric_limits<int>::min(); }},
+        Forgery{"/state/pairs/i, entry 0, is not a grain",
+                [](Checkpoint& c) { c.state.pairs.i[0] = 4'000'000'000; }},
+        Forgery{"/state/pairs/j, entry 0, is not a grain",
+                [](Checkpoint& c) { c.state.pairs.j[0] = 1; }},
+        Forgery{"/state/pairs/impulse_n, entry 0, is not a finite number",
+                [](Checkpoint& c) { c.state.pairs.impulse_n[0] = no_number; }},
+        Forgery{"/state/pairs/age is not a number of steps",
+                [](Checkpoint& c) { c.state.pairs.age = std::uint64_t{1} << 63; }},
+        Forgery{"/state/pairs/renewals is not a number of lists",
+                [](Checkpoint& c) { c.state.pairs.renewals = std::uint64_t{1} << 63; }},
+        Forgery{"/trajectory/frames is not a number of frames",
+                [](Checkpoint& c) { c.trajectory.frames = std::uint64_t{1} << 63; }},
+        Forgery{"/trajectory/begin is not a finite number",
+                [](Checkpoint& c) { c.trajectory.begin = no_number; }},
+        Forgery{"/trajectory/wall is not a duration in s",
+                [](Checkpoint& c) { c.trajectory.wall = -1; }},
+        Forgery{"/trajectory/totals has a negative number of steps",
+                [](Checkpoint& c) { c.trajectory.recorder.totals.steps = -1; }},
+        Forgery{"/trajectory/since_frame has a number that is not finite",
+                [](Checkpoint& c) { c.trajectory.recorder.since_frame.sweeps = no_number; }}));
+
+TEST_F(CheckpointFile, ASceneThatIsNoneIsRefused)
+{
+  fs::remove(path);
+  written.scene = "phi-large = 7\n";
+  write_checkpoint(path, written);
+  EXPECT_EQ(complaint().rfind(path + ": /scene is not one (", 0), 0u) << complaint();
+}
+
+TEST_F(CheckpointFile, GrainsInOnePlaceAreRefused)
+{
+  fs::remove(path);
+  auto& grains = written.grains;
+  for (int g = 0; g < 100; ++g) {
+    grains.id.push_back(10'000 + g);
+    grains.species.push_back(grains.species[0]);
+    grains.radius.push_back(grains.radius[0]);
+    grains.mass.push_back(grains.mass[0]);
+    grains.fixed.push_back(0);
+    written.state.row.push_back(static_cast<std::int32_t>(written.state.row.size()));
+    written.state.position.emplace_back(1e-3, 1e-3);
+    written.state.velocity.emplace_back(0, 0);
+    written.state.image.push_back(0);
+    written.state.rim_speed.push_back(0);
+    written.state.pairs.made_at.emplace_back(0, 0);
+  }
+  write_checkpoint(path, written);
+  EXPECT_NE(complaint().find("/state/position has more than 64 grains in one place"),
+            std::string::npos)
+      << complaint();
+}
+
+TEST_F(CheckpointFile, ASizeThatTheFileCannotHoldIsRefusedBeforeMemoryIsTaken)
+{
+  tamper([](hid_t file) {
+    H5Ldelete(file, "/state/rim_speed", H5P_DEFAULT);
+    const hsize_t size = hsize_t{1} << 50, chunk = 1 << 20;
+    const hid_t space = H5Screate_simple(1, &size, nullptr);
+    const hid_t create = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(create, 1, &chunk);
+    H5Dclose(H5Dcreate2(file, "/state/rim_speed", H5T_IEEE_F64LE, space, H5P_DEFAULT, create,
+                        H5P_DEFAULT));
+    H5Pclose(create);
+    H5Sclose(space);
+  });
+  EXPECT_EQ(complaint(), path +
+                             ": /state/rim_speed has 1125899906842624 entries, more than fit into "
+                             "the file: it is damaged; use an older checkpoint");
 }
 
 TEST_F(CheckpointFile, OneThatCannotBeWrittenLeavesTheOldOneWhole)
