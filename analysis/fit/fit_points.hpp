@@ -29,6 +29,7 @@ struct FitSettings {
   BasePart base = BasePart::contact_point;
 };
 
+/// FormatError, naming the table, where a stress is not finite because a sum was not kept.
 std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings);
 

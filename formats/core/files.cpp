@@ -118,6 +118,9 @@ void check_output(const std::string& path, bool overwrite, const std::vector<std
   if (is_device(path)) throw UsageError(fmt::format("{} is a device or a pipe; name a file", path));
   refuse_input_as_output(path, inputs);
   if (!overwrite && is_taken(path)) throw UsageError(already_exists(path));
+  const auto folder = std::filesystem::path(path).parent_path();
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+    throw RunError(fmt::format("cannot create {}: {}", path, reason(errno)));
 }
 
 std::string reason(int error)

@@ -31,7 +31,8 @@ void refuse_input_as_output(const std::string& output, const std::vector<std::st
 
 /// What must hold of the file that a program is going to make of `inputs`, before it begins to
 /// work: UsageError where `path` is one of them, also with `overwrite`; where it is a folder, a
-/// device or a pipe; and where it exists, unless `overwrite`.
+/// device or a pipe; and where it exists, unless `overwrite`. RunError where its folder is missing
+/// or does not allow it.
 void check_output(const std::string& path, bool overwrite, const std::vector<std::string>& inputs);
 
 /// What the system says about `error`, an errno, with a question that helps where it is obscure.

@@ -64,6 +64,7 @@ struct TrajectoryWriter::Impl {
   std::size_t frames_so_far = 0;
   std::uint64_t contacts_so_far = 0;
   std::uint64_t digest_so_far = 0;
+  bool is_writing = false;  ///< still so after a write that failed
 
   void open_file();
   Series series(const std::string& at, hid_t memory_type) const;
@@ -172,7 +173,14 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
   if (storage.live) my.flush();
 }
 
-TrajectoryWriter::~TrajectoryWriter() = default;
+TrajectoryWriter::~TrajectoryWriter()
+{
+  // Closing a live file after a write that failed would mark it as whole, and HDF5 refuses it then:
+  // it is left as a kill would leave it, with all frames but the last one.
+  static Impl* abandoned = nullptr;
+  if (impl_ && impl_->storage.live && impl_->is_writing) abandoned = impl_.release();
+  static_cast<void>(abandoned);
+}
 TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
 
 void TrajectoryWriter::append(const Frame& frame, std::span<const double> observables)
@@ -181,6 +189,7 @@ void TrajectoryWriter::append(const Frame& frame, std::span<const double> observ
   assert(frame.position.size() == my.run.grains.size());
   assert(frame.force.size() == (my.run.has_force ? my.run.grains.size() : 0));
   assert(observables.size() == my.observables.size());
+  my.is_writing = true;
   my.append_contacts(frame.contacts);
   my.position.append(1, first(frame.position));
   my.image.append(1, frame.image.data());
@@ -196,11 +205,14 @@ void TrajectoryWriter::append(const Frame& frame, std::span<const double> observ
   my.offset.append(1, &my.contacts_so_far);
   if (my.storage.live) H5Dflush(my.offset.dataset);
   ++my.frames_so_far;
+  my.is_writing = false;
 }
 
 void TrajectoryWriter::flush()
 {
+  impl_->is_writing = true;
   impl_->flush();
+  impl_->is_writing = false;
 }
 
 std::size_t TrajectoryWriter::frames() const
@@ -231,6 +243,7 @@ void TrajectoryWriter::add_parameters(const Parameters& parameters)
 void TrajectoryWriter::close()
 {
   auto& my = *impl_;
+  my.is_writing = true;
   my.write_seal();
   my.flush();
   write_parameter(my.file, "complete", {1}, my.storage.live);

@@ -62,7 +62,7 @@ TEST_F(CheckProgram, ChecksOnlyTheFileWithoutPhysics)
   EXPECT_EQ(outcome.code, 0) << outcome.out;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_TRUE(json["passed"].get<bool>());
-  EXPECT_EQ(json["lines"].size(), 3u);
+  EXPECT_EQ(json["lines"].size(), 4u);
   EXPECT_EQ(json["lines"][2]["quantity"], "damaged_frames");
 }
 

@@ -138,6 +138,13 @@ TEST_F(OutputCheck, RefusesFoldersAndDevices)
   EXPECT_EQ(complaint("/dev/null"), "/dev/null is a device or a pipe; name a file");
 }
 
+TEST_F(OutputCheck, NamesAFolderThatIsMissing)
+{
+  EXPECT_EQ(complaint_of<RunError>([&] { check_output(path("absent/t.tsv"), false, {}); }),
+            "cannot create " + path("absent/t.tsv") + ": No such file or directory");
+  EXPECT_NO_THROW(check_output("a_file_of_this_name_is_nowhere", false, {}));
+}
+
 TEST_F(OutputCheck, KnowsAnInputInsideAFolder)
 {
   fs::create_directories(path("view/deep"));

@@ -328,6 +328,7 @@ struct Change {
   const char* dataset;
   hsize_t entry;
   std::string place;
+  double by = 1;
 };
 
 TEST_F(Trajectory, OneOtherNumberAnywhereIsNamed)
@@ -335,7 +336,7 @@ TEST_F(Trajectory, OneOtherNumberAnywhereIsNamed)
   const std::string once = "box, grains, species, observables or parameters are";
   const std::string place =
       "/particles/grains/position/step, time or its rows of contacts of frame 1";
-  for (const auto& [dataset, entry, what] : std::initializer_list<Change>{
+  for (const auto& [dataset, entry, what, by] : std::initializer_list<Change>{
            {"/particles/grains/radius", 1, once},
            {"/particles/grains/mass", 0, once},
            {"/particles/grains/species", 1, once},
@@ -346,7 +347,7 @@ TEST_F(Trajectory, OneOtherNumberAnywhereIsNamed)
            {"/parameters/density", 0, once},
            {"/grseg/static_digest", 0, once},
            {"/particles/grains/position/step", 1, place},
-           {"/particles/grains/position/time", 1, place},
+           {"/particles/grains/position/time", 1, place, 1e-9},
            {"/grseg/digest", 1, place},
            {"/grseg/field_digest", 12, place},
            {"/particles/grains/position/value", 7, "/particles/grains/position of frame 1"},
@@ -355,14 +356,14 @@ TEST_F(Trajectory, OneOtherNumberAnywhereIsNamed)
            {"/particles/grains/angular_velocity/value", 4,
             "/particles/grains/angular_velocity of frame 1"},
            {"/particles/grains/force/value", 7, "/particles/grains/force of frame 1"},
-           {"/grseg/contacts/i", 2, "/grseg/contacts/i of frame 1"},
-           {"/grseg/contacts/j", 2, "/grseg/contacts/j of frame 1"},
+           {"/grseg/contacts/i", 3, "/grseg/contacts/i of frame 1"},
+           {"/grseg/contacts/j", 3, "/grseg/contacts/j of frame 1", 3},
            {"/grseg/contacts/force", 5, "/grseg/contacts/force of frame 1"},
            {"/grseg/contacts/branch", 5, "/grseg/contacts/branch of frame 1"},
            {"/grseg/contacts/gap", 2, "/grseg/contacts/gap of frame 1"},
            {"/observables/translational_energy/value", 1, "/observables of frame 1"}}) {
     three_grains::write(path, 3);
-    tamper([&](hid_t file) { add_to(file, dataset, entry, 1); });
+    tamper([&](hid_t file) { add_to(file, dataset, entry, by); });
     EXPECT_TRUE(complaint_of_all().starts_with(path + ": " + what)) << complaint_of_all();
     EXPECT_NE(complaint_of_all().find(" not what was written: the file is damaged"),
               std::string::npos);
