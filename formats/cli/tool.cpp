@@ -74,6 +74,9 @@ po::variables_map parse(int argc, char** argv, const ToolInfo& info,
   po::positional_options_description positional;
   positional.add("input", -1);
 
+  for (int k = 1; k < argc; ++k)
+    if (const auto word = placeholder_in(argv[k]); !word.empty())
+      throw UsageError(fmt::format("no argument may hold {}; --help lists all options", word));
   po::variables_map values;
   try {
     po::store(po::command_line_parser(argc, argv)

@@ -58,4 +58,12 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   return best;
 }
 
+std::string placeholder_in(std::string_view text)
+{
+  for (const char* word : {"%canonical_option%", "%invalid_line%", "%option%", "%original_token%",
+                           "%prefix%", "%value%"})
+    if (text.find(word) != std::string_view::npos) return word;
+  return "";
+}
+
 }  // namespace grseg

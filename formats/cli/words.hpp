@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace grseg {
@@ -73,6 +74,10 @@ Value choose(const std::string& word, const char* what, const Choice<Value> (&ch
   if (const auto found = find_choice(word, choices)) return *found;
   throw UsageError(unknown_word(what, word, words_of(choices)));
 }
+
+/// "%value%" or the like where `text` holds one, else "". Boost.ProgramOptions puts what was typed in
+/// the place of such words of its sentences, and never ends where that is again such a word.
+std::string placeholder_in(std::string_view text);
 
 /// The known word nearest to `word`, or "" where none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);

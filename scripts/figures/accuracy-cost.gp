@@ -1,8 +1,9 @@
 # One panel per observable: its difference from the reference over the processor time of a simulated
 # second, with 95 % bars; the presets in red.
 #   gnuplot -c scripts/figures/accuracy-cost.gp accuracy-cost.tsv fronts.png
-table = ARGC > 0 ? ARG1 : "accuracy-cost.tsv"
-out = ARGC > 1 ? ARG2 : "fronts.png"
+load ARG0[:strstrt(ARG0, "accuracy-cost.gp") - 1]."names.gp"
+table = ARGC > 0 ? named(ARG1) : "accuracy-cost.tsv"
+out = ARGC > 1 ? named(ARG2) : "fronts.png"
 set terminal pngcairo size 1500,1500 font "DejaVu Sans,10" noenhanced
 set output out
 set datafile separator "\t"

@@ -1,7 +1,8 @@
 # B of three flows that start from the same state, by partition rule and from the per-atom stress that the
 # programs print themselves: FOLDER/b.tsv of scripts/archives/compare.
 #   gnuplot -c scripts/figures/archives-b.gp FOLDER
-folder = ARG1
+load ARG0[:strstrt(ARG0, "archives-b.gp") - 1]."names.gp"
+folder = named(ARG1)
 set datafile separator tab
 set terminal pngcairo size 900,560 font "DejaVu Sans,12"
 set output folder."/archives-b.png"

@@ -1,7 +1,8 @@
 # B by size and -B_kappa with 95 % intervals: by mixture, by slope and by stage, of FOLDER/fits.tsv
 # (scripts/reproduce/fits):
 #   gnuplot -c scripts/figures/b-of-flows.gp FOLDER
-folder = ARG1
+load ARG0[:strstrt(ARG0, "b-of-flows.gp") - 1]."names.gp"
+folder = named(ARG1)
 fits = folder."/fits.tsv"
 set datafile separator tab
 set datafile missing NaN

@@ -2,12 +2,13 @@
 # FOLDER/scan.tsv, with the line of neutral contacts and, if FOLDER/stock.tsv exists (grseg-fit
 # --partition stock), the rules of published codes; below: the difference from neutral contacts:
 #   gnuplot -c scripts/figures/b-of-p.gp FOLDER
-folder = ARG1
+load ARG0[:strstrt(ARG0, "b-of-p.gp") - 1]."names.gp"
+folder = named(ARG1)
 scan = folder."/scan.tsv"
 stock = folder."/stock.tsv"
-marked = system("test -f '".stock."' && echo yes") eq "yes"
-cell(rule, name) = real(system("grep -v '^#' '".stock."' | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"".name."\") at = c} $1 == \"".rule."\" {print $at}'"))
-p_zero = real(system("awk '/^# p_zero:/ {print $3}' '".scan."'"))
+marked = system("test -f ".quoted(stock)." && echo yes") eq "yes"
+cell(rule, name) = real(system("grep -v '^#' ".quoted(stock)." | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"".name."\") at = c} $1 == \"".rule."\" {print $at}'"))
+p_zero = real(system("awk '/^# p_zero:/ {print $3}' ".quoted(scan)))
 
 set datafile separator tab
 set terminal pngcairo size 900,900 font "DejaVu Sans,12"

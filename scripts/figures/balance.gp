@@ -3,7 +3,8 @@
 #   gnuplot -c scripts/figures/balance.gp FOLDER
 # Left: forces on the large grains in units of their weight. Right: the B and -B_kappa behind them, with the
 # values of Staron & Phillips (2015) dashed. Bars are standard errors over windows.
-folder = ARG1
+load ARG0[:strstrt(ARG0, "balance.gp") - 1]."names.gp"
+folder = named(ARG1)
 profile = folder."/balance-profile.tsv"
 set datafile separator tab
 set terminal pngcairo size 1100,700 font "DejaVu Sans,13"

@@ -3,14 +3,15 @@
 # scan.tsv, stock.tsv and fits.tsv, as make -C scripts reproduction.md leaves them in
 # reproduction-figures:
 #   gnuplot -c scripts/figures/either-sign.gp reproduction-figures docs/figures/either-sign.png
-folder = ARG1
+load ARG0[:strstrt(ARG0, "either-sign.gp") - 1]."names.gp"
+folder = named(ARG1)
 scan = folder."/scan.tsv"
 stock = folder."/stock.tsv"
 fits = folder."/fits.tsv"
 set datafile separator tab
 set datafile missing NaN
 set terminal pngcairo size 1200,440 font "DejaVu Sans,12" background rgb "white"
-set output ARG2
+set output named(ARG2)
 blue = "#1f77b4"
 red = "#d62728"
 grey = "#606060"
@@ -18,8 +19,8 @@ is(name, value) = strcol(name) eq value
 mixture(rule) = is("rule", rule) && is("stage", "all") && is("heights", "inside") && is("component", "yy") \
   && is("quantity", "contact") && column("slope") == 23 && column("phi") > 0
 rules(dummy) = mixture("size") || mixture("half") || mixture("uniform:0.8") || mixture("uniform:0.6")
-cell(rule, name) = real(system("grep -v '^#' '".stock."' | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"".name."\") at = c} $1 == \"".rule."\" {print $at}'"))
-p_zero = real(system("awk '/^# p_zero:/ {print $3}' '".scan."'"))
+cell(rule, name) = real(system("grep -v '^#' ".quoted(stock)." | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"".name."\") at = c} $1 == \"".rule."\" {print $at}'"))
+p_zero = real(system("awk '/^# p_zero:/ {print $3}' ".quoted(scan)))
 $paper << EOD
 0.5	-0.32
 0.6	-0.1

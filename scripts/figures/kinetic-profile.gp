@@ -2,7 +2,8 @@
 # contact stress, from FOLDER/profile.tsv (scripts/profile with --kinetic):
 #   gnuplot -c scripts/figures/kinetic-profile.gp FOLDER
 # Per area of grains, in units of rho g d_S, beside the paper's fit (Staron & Phillips 2015, figure 3a).
-folder = ARG1
+load ARG0[:strstrt(ARG0, "kinetic-profile.gp") - 1]."names.gp"
+folder = named(ARG1)
 profile = folder."/profile.tsv"
 set datafile separator tab
 set terminal pngcairo size 1200,600 font "DejaVu Sans,12"

@@ -1,7 +1,8 @@
 # Height of the large grains, contacts per grain and mean forces of the whole bed over time (Staron &
 # Phillips 2015, figure 6), of FOLDER/time.tsv (grseg-micro --derived):
 #   gnuplot -c scripts/figures/micro-over-time.gp FOLDER
-folder = ARG1
+load ARG0[:strstrt(ARG0, "micro-over-time.gp") - 1]."names.gp"
+folder = named(ARG1)
 time = folder."/time.tsv"
 set datafile separator tab
 set datafile missing NaN

@@ -2,7 +2,8 @@
 # FOLDER/million-steps-21.tsv and -26.tsv:
 #   GRSEG_HARD_CASES=FOLDER build/bin/million_steps_test
 #   gnuplot -c scripts/figures/million-steps.gp FOLDER
-folder = ARG1
+load ARG0[:strstrt(ARG0, "million-steps.gp") - 1]."names.gp"
+folder = named(ARG1)
 set terminal pngcairo size 1000,420 font "DejaVu Sans,11"
 set output folder."/million-steps.png"
 set multiplot layout 1,2

@@ -1,7 +1,8 @@
 # Share of mixed contacts against composition, for every layer and window of FOLDER/micro.tsv, and the
 # neutral model's curve (Staron & Phillips 2015, figure 2c):
 #   gnuplot -c scripts/figures/mixed-share.gp FOLDER
-folder = ARG1
+load ARG0[:strstrt(ARG0, "mixed-share.gp") - 1]."names.gp"
+folder = named(ARG1)
 set datafile separator tab
 set terminal pngcairo size 900,700 font "DejaVu Sans,13"
 set output folder."/mixed-share.png"

@@ -1,7 +1,8 @@
 # Errors of the pressures that contacts per grain and mean forces give, over composition (Staron & Phillips
 # 2015, figure 5), of FOLDER/paper.tsv and ends.tsv, as docs/studies/microstructure.md makes them:
 #   gnuplot -c scripts/figures/pressure-estimates.gp FOLDER
-folder = ARG1
+load ARG0[:strstrt(ARG0, "pressure-estimates.gp") - 1]."names.gp"
+folder = named(ARG1)
 set datafile separator tab
 set datafile missing NaN
 set terminal pngcairo size 900,700 font "DejaVu Sans,13"

@@ -2,9 +2,10 @@
 #   gnuplot -c scripts/figures/pressure-profile.gp FOLDER
 # Bulk pressure (voids included) and pressure per area of grains, in units of rho g d_S with rho = 1
 # kg/m^2, against the weight of the grains above (Staron & Phillips 2015, figure 2a).
-folder = ARG1
+load ARG0[:strstrt(ARG0, "pressure-profile.gp") - 1]."names.gp"
+folder = named(ARG1)
 profile = folder."/profile.tsv"
-number(key) = real(system("grep '^# ".key.":' '".profile."' | cut -d ' ' -f 3"))
+number(key) = real(system("grep '^# ".key.":' ".quoted(profile)." | cut -d ' ' -f 3"))
 slope = number("slope")
 H = number("height/d_S")
 set datafile separator tab

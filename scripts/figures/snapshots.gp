@@ -1,10 +1,11 @@
 # The grains at the instants of FOLDER/snapshots.tsv, one picture beside the other
 # (Staron & Phillips 2015, figure 1):
 #   gnuplot -c scripts/figures/snapshots.gp FOLDER
-folder = ARG1
+load ARG0[:strstrt(ARG0, "snapshots.gp") - 1]."names.gp"
+folder = named(ARG1)
 table = folder."/snapshots.tsv"
 set datafile separator tab
-times = system("grep -v '^#' '".table."' | awk -F '\\t' 'NR > 1 && !seen[$1]++ {print $1}'")
+times = system("grep -v '^#' ".quoted(table)." | awk -F '\\t' 'NR > 1 && !seen[$1]++ {print $1}'")
 stats table using "x[m]" nooutput name "X"
 length = X_max
 stats table using "y[m]" nooutput

@@ -3,11 +3,12 @@
 #   gnuplot -c scripts/figures/stress-ratio.gp FOLDER
 # or of the kinetic stress, of FOLDER/kinetic.tsv and kinetic-fit.tsv, into kinetic-ratio.png (figure 3b):
 #   gnuplot -c scripts/figures/stress-ratio.gp FOLDER kinetic
-folder = ARG1
+load ARG0[:strstrt(ARG0, "stress-ratio.gp") - 1]."names.gp"
+folder = named(ARG1)
 kinetic = ARGC > 1 && ARG2 eq "kinetic"
 sums = folder.(kinetic ? "/kinetic.tsv" : "/stress.tsv")
 fit = folder.(kinetic ? "/kinetic-fit.tsv" : "/fit.tsv")
-slope = real(system("grep -v '^#' '".fit."' | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"slope\") at = c} $1 == \"".(kinetic ? "kinetic" : "size")."\" {print $at}'"))
+slope = real(system("grep -v '^#' ".quoted(fit)." | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"slope\") at = c} $1 == \"".(kinetic ? "kinetic" : "size")."\" {print $at}'"))
 set datafile separator tab
 set terminal pngcairo size 900,700 font "DejaVu Sans,13"
 set output folder.(kinetic ? "/kinetic-ratio.png" : "/stress-ratio.png")

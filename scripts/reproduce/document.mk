@@ -8,7 +8,9 @@
 #
 # Relative names refer to the folder where make was called.
 
-HERE ?= $(or $(PWD),$(CURDIR))
+include ../values.mk
+
+HERE ?= $(or $(value PWD),$(CURDIR))
 BIN ?= $(CURDIR)/../../build/bin
 KEPT := $(CURDIR)/../../data/reproduction
 TABLES ?=
@@ -17,7 +19,8 @@ DOCUMENT ?= $(CURDIR)/../../docs/studies/reproduction.md
 PICTURES ?= $(CURDIR)/../../docs/studies/figures/reproduction
 BOOTSTRAP ?= 1000
 
-absolute = $(foreach path,$(1),$(if $(filter /%,$(path)),$(path),$(HERE)/$(path)))
+$(call check_names,HERE BIN TABLES WORK DOCUMENT PICTURES)
+$(call check_values,BOOTSTRAP)
 work := $(call absolute,$(WORK))
 bin := $(call absolute,$(BIN))
 tables := $(if $(TABLES),$(call absolute,$(TABLES)),$(work)/kept)
@@ -51,7 +54,7 @@ figures: $(pictures)
 $(names:%=figures/%.png): figures/%.png: $(work)/%.png
 
 inside := --heights 4dS:56dS --quiet
-fit = $(bin)/grseg-fit --bootstrap $(BOOTSTRAP) $(inside) --overwrite -o $@
+fit = $(bin)/grseg-fit --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
 micro = $(bin)/grseg-micro --derived --overwrite -o $@
 scripts := $(CURDIR)/tables.py $(CURDIR)/profiles.py
 every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
@@ -83,12 +86,12 @@ $(work)/balance-profile.tsv: $(every) ../balance-profile | $(work)
 $(work)/snapshots.tsv: $(every) | $(work)
 	cp $(firstword $(call of,phi0.30-s23,snapshots)) $@
 $(work)/fits.tsv: $(every) fits $(scripts) | $(work)
-	./fits $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP)
+	./fits $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP))
 $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
 	./flows $(tables) $< -o $@ --bin $(bin)
 # The tables behind the choices are not kept, only their result.
 $(work)/choices.tsv: $(every) choices $(scripts) | $(work)
-	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(BOOTSTRAP),cp $(KEPT)/choices.tsv $@)
+	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
 $(work)/numbers.tsv: $(every) numbers $(scripts) | $(work)
 	./numbers $(tables) -o $@ --bin $(bin)
 

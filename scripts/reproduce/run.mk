@@ -1,5 +1,8 @@
 # One run, in its own folder: scene.ini -> run.h5 -> TABLES -> checksums. Called by Makefile.
 
+include $(scripts)/../values.mk
+run := $(call quote_each,$(RUN))
+
 .PHONY: done FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -16,7 +19,7 @@ checksums: $(TABLES) cost.tsv
 	mv $@.new $@
 
 run.h5: scene.ini
-	$(RUN) $(scripts)/simulate $(bin)/grseg-sim $(CHECKPOINT_EVERY)
+	$(run) $(scripts)/simulate $(bin)/grseg-sim $(call quote,$(CHECKPOINT_EVERY))
 
 options_stress-branch := --assign branch
 options_stress-grain := --assign grain
@@ -40,18 +43,18 @@ sums := $(filter-out $(extracts),$(TABLES))
 command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_$(1)) --quiet)
 
 # Tables that were made by another command are made again.
-outdated := $(shell $(scripts)/outdated '$(AGAIN)' $(extracts) $(foreach table,$(sums:.tsv=),'$(table).tsv: $(call command_of,$(table))'))
+outdated := $(shell $(scripts)/outdated $(call quote,$(AGAIN)) $(extracts) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))
 $(if $(filter gone,$(outdated)),$(error $(notdir $(CURDIR)): $(filter-out gone,$(outdated)): missing, or made by another \
   command than now, and the trajectory was deleted; AGAIN=yes simulates the run again))
 $(outdated): FORCE
 
-table = $(RUN) $(scripts)/table $@
+table = $(run) $(scripts)/table $@
 $(filter-out stress-random.tsv,$(sums)): run.h5
 	$(table) $(bin)/$(call command_of,$(basename $@))
 $(extracts): run.h5
 	$(table) $(scripts)/extract $(basename $@) run.h5
 stress-random.tsv: run.h5
-	$(RUN) $(scripts)/relabel run.h5 $(trajectory_stress-random)
+	$(run) $(scripts)/relabel run.h5 $(trajectory_stress-random)
 	$(table) $(bin)/$(call command_of,$(basename $@))
 	rm $(trajectory_stress-random)
 

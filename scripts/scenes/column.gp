@@ -1,7 +1,9 @@
 # Run-out of collapsed columns over their aspect ratio, beside the laws of Staron and Hinch (2005) and Lube et al. (2005).
 #   gnuplot -c scripts/scenes/column.gp column.tsv column.png
 set terminal pngcairo size 800,560 font "DejaVu Sans,11"
-set output ARG2
+load ARG0[:strstrt(ARG0, "column.gp") - 1]."../figures/names.gp"
+table = named(ARG1)
+set output named(ARG2)
 set datafile separator "\t"
 set grid
 set key top left
@@ -12,9 +14,9 @@ low(x) = c*x
 high(x) = exp(lnA)*x**n
 c = 2; lnA = 1; n = 0.7
 set fit quiet logfile "/dev/null" errorvariables
-fit [*:2.1] low(x) ARG1 using 1:3 skip 1 via c
-fit [1.9:*] lnA + n*log(x) ARG1 using 1:(log($3)) skip 1 via lnA, n
-plot ARG1 using 1:3 skip 1 with points pointtype 7 title "grseg", \
+fit [*:2.1] low(x) table using 1:3 skip 1 via c
+fit [1.9:*] lnA + n*log(x) table using 1:(log($3)) skip 1 via lnA, n
+plot table using 1:3 skip 1 with points pointtype 7 title "grseg", \
      x < 2 ? low(x) : NaN with lines title sprintf("%.2f a", c), \
      x > 2 ? high(x) : NaN with lines title sprintf("%.2f a^{%.2f ± %.2f}", exp(lnA), n, n_err), \
      x < 2 ? 2.5*x : 3.25*x**0.7 with lines dashtype 2 title "Staron and Hinch: 2.5 a, 3.25 a^{0.7}", \

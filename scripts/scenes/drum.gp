@@ -1,11 +1,13 @@
 # How far small grains have gathered about the axis of a drum.
 #   gnuplot -c scripts/scenes/drum.gp drum.tsv drum.png
 set terminal pngcairo size 800,560 font "DejaVu Sans,11"
-set output ARG2
+load ARG0[:strstrt(ARG0, "drum.gp") - 1]."../figures/names.gp"
+table = named(ARG1)
+set output named(ARG2)
 set datafile separator "\t"
 set grid
 set key bottom right
 set xlabel "turns"
 set ylabel "index of radial segregation"
 set yrange [-0.6:1]
-plot ARG1 using 1:2 skip 1 with lines title "1: all small grains nearest to the axis", 0 with lines linecolor "gray" title "0: mixed"
+plot table using 1:2 skip 1 with lines title "1: all small grains nearest to the axis", 0 with lines linecolor "gray" title "0: mixed"

@@ -42,7 +42,8 @@ struct TextSource::Impl {
   std::vector<std::string> files;
   std::size_t opened = 0;  // files
   std::unique_ptr<io::filtering_streambuf<io::input>> stream;
-  std::vector<char> buffer = std::vector<char>(buffer_size);
+  // Memory that a small file does not fill is never touched.
+  std::unique_ptr<char[]> buffer = std::make_unique_for_overwrite<char[]>(buffer_size);
   std::size_t begin = 0, end = 0;  // of what is not yet handed out
   std::string_view line;
   std::size_t number = 0;
@@ -72,15 +73,15 @@ void TextSource::Impl::open_next()
 std::size_t TextSource::Impl::read_more()
 {
   stop_if_interrupted();
-  std::memmove(buffer.data(), buffer.data() + begin, end - begin);
+  std::memmove(buffer.get(), buffer.get() + begin, end - begin);
   end -= begin;
   begin = 0;
-  if (end == buffer.size())
+  if (end == buffer_size)
     throw FormatError(fmt::format("{}, line {}: is longer than a megabyte; is this a text archive?",
                                   file(), number + 1));
   std::streamsize count = 0;
   try {
-    count = stream->sgetn(buffer.data() + end, static_cast<std::streamsize>(buffer.size() - end));
+    count = stream->sgetn(buffer.get() + end, static_cast<std::streamsize>(buffer_size - end));
   } catch (const std::exception& error) {
     throw FormatError(fmt::format(
         "{}, after line {}: the compressed data is damaged or truncated ({}); copy the file again",
@@ -95,7 +96,7 @@ bool TextSource::Impl::take_line()
 {
   std::size_t searched = 0;
   for (;;) {
-    const char* from = buffer.data() + begin;
+    const char* from = buffer.get() + begin;
     const auto* stop =
         static_cast<const char*>(std::memchr(from + searched, '\n', end - begin - searched));
     if (stop != nullptr) {
@@ -107,7 +108,7 @@ bool TextSource::Impl::take_line()
     searched = end - begin;
     if (read_more() > 0) continue;
     if (begin == end) return false;
-    line = {buffer.data() + begin, end - begin};
+    line = {buffer.get() + begin, end - begin};
     begin = end;
     whole = false;
     break;

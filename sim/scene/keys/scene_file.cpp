@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <sstream>
 
 namespace grseg {
@@ -39,12 +40,15 @@ std::string without_dashes(std::string option)
   return option;
 }
 
-/// Stores the keys that `in` sets, but those in `leave_out`. `place` gives the line of a key.
-void read_keys(std::istream& in, const std::string& name,
+/// Stores the keys that `text` sets, but those in `leave_out`. `place` gives the line of a key.
+void read_keys(const std::string& text, const std::string& name,
                const std::function<std::string(const std::string&)>& place,
                const std::vector<std::string>& leave_out, po::variables_map& values)
 {
+  if (const auto word = placeholder_in(text); !word.empty())
+    throw FormatError(fmt::format("{}: no key and no value may hold {}", name, word));
   const auto keys = scene_options();
+  std::istringstream in(text);
   try {
     auto parsed = po::parse_config_file(in, keys);
     std::erase_if(parsed.options, [&](const auto& option) {
@@ -77,15 +81,15 @@ void read_scene_file(const std::string& path, po::variables_map& values)
   require_file(path);
   std::ifstream file(path);
   read_keys(
-      file, path, [&](const std::string& key) { return place_of(path, key); }, {}, values);
+      std::string(std::istreambuf_iterator<char>(file), {}), path,
+      [&](const std::string& key) { return place_of(path, key); }, {}, values);
 }
 
 void read_scene_text(const std::string& text, const std::string& name,
                      const std::vector<std::string>& leave_out, po::variables_map& values)
 {
-  std::istringstream in(text);
   read_keys(
-      in, name, [&](const std::string&) { return name; }, leave_out, values);
+      text, name, [&](const std::string&) { return name; }, leave_out, values);
 }
 
 Scene resolve_scene(const std::string& path, const po::variables_map& given)

@@ -148,6 +148,13 @@ TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLineAndTheNearestKnownOne)
             path + ":3: unknown key 'frction', did you mean 'friction'?");
 }
 
+/// Boost.ProgramOptions would put such a word in its own place again and again.
+TEST_F(SceneFile, APlaceholderOfTheParserIsRefused)
+{
+  for (const char* text : {"%invalid_line%\n", "%option% = 1\n", "slope = %value%\n"})
+    EXPECT_NE(complaint(text).find("no key and no value may hold %"), std::string::npos) << text;
+}
+
 TEST_F(SceneFile, AValueThatIsNotANumberIsNamedWithItsLine)
 {
   EXPECT_EQ(complaint("# a chute\nslope = steep\n"), path + ":2: slope: 'steep' is not a number");

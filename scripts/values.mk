@@ -1,0 +1,40 @@
+# What users pass to make, kept from running anything: included by Makefile, reproduce/Makefile and
+# reproduce/document.mk.
+
+# quote TEXT: one word for the shell. quote_each LIST: so is each of its words.
+quote = '$(subst ','\'',$(1))'
+quote_each = $(foreach word,$(1),$(call quote,$(word)))
+
+absolute = $(foreach path,$(1),$(if $(filter /%,$(path)),$(path),$(HERE)/$(path)))
+
+empty :=
+blank := $(empty) $(empty)
+tab := $(empty)	$(empty)
+define newline
+
+
+endef
+# Make runs what stands behind a dollar sign, and a line break ends a command.
+in_no_value := $$
+# To make these are more than letters of a name, and to the shell, of which names are not kept here.
+in_no_name := $$ \# % : ; = & | \ * ? [ ] ( ) { } < > ~ ! ' " `
+
+# given VARIABLE: its value as given, which nothing has expanded; a default is that of the Makefile.
+given = $(if $(filter file,$(origin $(1))),$($(1)),$(value $(1)))
+# first_of CHARACTERS,VARIABLE: the first of them that the variable holds.
+first_of = $(firstword $(foreach character,$(1),$(findstring $(character),$(call given,$(2)))))
+title_HERE := the folder where make was called
+refuse = $(error $(or $(title_$(1)),$(1)) holds $(2); $(3))
+check = $(if $(call first_of,$(1),$(3)),$(call refuse,$(3),$(call first_of,$(1),$(3)),$(2)))$(if \
+  $(findstring $(newline),$(call given,$(3))),$(call refuse,$(3),a line break,$(2)))
+blanks = $(findstring $(blank),$(call given,$(1)))$(findstring $(tab),$(call given,$(1)))
+
+# check_values, check_lists, check_names VARIABLES: make ends with one sentence if one of these values, lists
+# of names or names cannot be used, before anything is run.
+advice := make cannot take that in names; choose another, or rename the file
+check_values = $(foreach variable,$(1),$(call check,$(in_no_value),write it without,$(variable)))
+check_lists = $(foreach variable,$(1),$(call check,$(in_no_name),$(advice),$(variable)))
+check_names = $(call check_lists,$(1))$(foreach variable,$(1),$(if $(call blanks,$(variable)),$(call refuse,$(variable),a blank,$(advice))))
+# All that is on the command line: make expands it for the environment of commands, used or not.
+on_command_line = $(filter command,$(firstword $(origin $(1))))
+$(call check_values,$(foreach variable,$(.VARIABLES),$(if $(call on_command_line,$(variable)),$(variable))))

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A checkpoint, up to the simulation that continues from it.
+#include "sim/run/restart.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  using namespace grseg;
+  static fuzz::ScratchFile file("run.chk");
+  file.write(fuzz::text_of(data, size));
+  fuzz::try_to([&] {
+    const auto checkpoint = read_checkpoint(file.path());
+    const auto scene = scene_of(checkpoint, file.path());
+    auto simulation = restored_simulation(checkpoint, scene, scene, {});
+    simulation.advance();
+  });
+  return 0;
+}

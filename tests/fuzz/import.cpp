@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An archive of another program, moment by moment, up to what would be written. The parts of an
+// input: words of the command line, grains, contacts, restart file.
+#include "formats/import/convert/verified_frames.hpp"
+#include "formats/import/facts/import_settings.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+#include <map>
+#include <sstream>
+
+namespace {
+
+using namespace grseg;
+namespace po = boost::program_options;
+
+ImportSettings settings_of(std::string_view words)
+{
+  ImportSettings settings;
+  std::istringstream line{std::string(words)};
+  std::vector<std::string> arguments;
+  for (std::string word; line >> word;) arguments.push_back(word);
+  po::variables_map values;
+  po::store(po::command_line_parser(arguments).options(import_options(settings)).run(), values);
+  po::notify(values);
+  return settings;
+}
+
+void require_a_whole_frame(const Frame& frame, const Grains& grains)
+{
+  const auto n = grains.size(), contacts = frame.contacts.size();
+  fuzz::require(frame.position.size() == n && frame.velocity.size() == n, "a row for each grain");
+  fuzz::require(frame.contacts.j.size() == contacts && frame.contacts.force.size() == contacts &&
+                    frame.contacts.branch.size() == contacts,
+                "a row for each contact");
+  for (std::size_t c = 0; c < contacts; ++c) {
+    const auto i = frame.contacts.i[c], j = frame.contacts.j[c];
+    fuzz::require(i >= 0 && i < static_cast<int>(n) && j < static_cast<int>(n), "i and j are rows");
+    fuzz::require(frame.contacts.force[c].allFinite(), "forces are finite");
+  }
+}
+
+/// The same without parsing again what most inputs have in common.
+const ImportSettings& known_settings(std::string_view words)
+{
+  static std::map<std::string, ImportSettings, std::less<>> known;
+  if (known.size() > 1000) known.clear();
+  const auto found = known.find(words);
+  return found != known.end() ? found->second
+                              : known.emplace(words, settings_of(words)).first->second;
+}
+
+void import(const std::vector<std::string_view>& parts)
+{
+  static fuzz::ScratchFile grains("grains"), contacts("contacts"), restart("restart");
+  auto settings = known_settings(parts[0]);
+  settings.format = FUZZED_FORMAT;
+  const auto part = [&](std::size_t k) { return k < parts.size() ? parts[k] : ""; };
+  grains.write(part(1));
+  contacts.write(part(2));
+  restart.write(part(3));
+  settings.files.grains = {grains.path()};
+  if (parts.size() > 2) settings.files.contacts = {contacts.path()};
+  if (parts.size() > 3) settings.files.restart = restart.path();
+  VerifiedFrames frames(settings, settings.files.columns);
+  for (Frame frame; frames.next(frame);)
+    if (!frames.complaint()) require_a_whole_frame(frame, frames.builder().bed().grains);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  const auto parts = fuzz::parts_of(fuzz::text_of(data, size));
+  fuzz::try_to([&] {
+    try {
+      import(parts);
+    } catch (const po::error&) {  // run_tool refuses the command line
+    }
+  });
+  return 0;
+}
