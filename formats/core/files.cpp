@@ -89,6 +89,8 @@ bool same_file(const std::string& a, const std::string& b)
 bool is_device(const std::string& path)
 {
   std::error_code error;
+  for (const char* of_process : {"/dev/std", "/dev/fd/", "/proc/"})  // a file, where redirected
+    if (path.starts_with(of_process)) return true;
   return std::filesystem::is_other(std::filesystem::status(path, error));
 }
 

@@ -92,6 +92,7 @@ void silence()
 
 Properties newest_format()
 {
+  silence();
   Properties access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   return access;

@@ -25,6 +25,7 @@ constexpr hsize_t most_numbers = 65536;  // in a parameter
 /// which are read one after the other.
 Properties small_index_cache()
 {
+  silence();
   Properties access(H5Pcreate(H5P_FILE_ACCESS));
   H5AC_cache_config_t cache{};
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;

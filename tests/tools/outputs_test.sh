@@ -86,6 +86,9 @@ grep -q '^# program: grseg-fit' old || fail "--overwrite does not replace a tabl
 "$bin/grseg-fit" sums.tsv --bootstrap 0 --quiet -o /dev/null
 [ -c /dev/null ] || fail "/dev/null was replaced"
 "$bin/grseg-fit" sums.tsv --bootstrap 0 --quiet -o /dev/stdout | grep -q '^# program' || fail "no table in the pipe"
+"$bin/grseg-fit" sums.tsv --bootstrap 0 --quiet -o /dev/stdout --overwrite >redirected.tsv
+grep -q '^# program' redirected.tsv || fail "no table where standard output is redirected to a file"
+[ -L /dev/stdout ] || fail "/dev/stdout was replaced"
 for file in said.* *.tmp.* *.lock; do [ ! -e "$file" ] || fail "$file was left behind"; done
 
 # A run of no frame.

@@ -278,13 +278,7 @@ std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
 {
   const auto names = archive_files(files.grains, "--grains");
   if (names.size() != 1) throw UsageError("--grains: a Siconos run is one HDF5 file");
-  silence();
-  File file(H5Fopen(names[0].c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file.valid())
-    throw FormatError(fmt::format(
-        "{}: is not an HDF5 file, or is truncated or damaged; is the run still writing it?",
-        names[0]));
-  return std::make_unique<SiconosArchive>(names[0], std::move(file));
+  return std::make_unique<SiconosArchive>(names[0], open_for_reading(names[0]));
 }
 
 const ArchiveFormat siconos_format{

@@ -157,7 +157,8 @@ TEST_F(FrameTools, ARunInTwoPartsMergesIntoTheWhole)
 {
   const auto part = [&](const std::string& name, const std::string& options) {
     const auto path = (folder / name).string();
-    EXPECT_EQ(run(stress + " " + file + " --layer 6mm " + options + " --overwrite -o " + path).code, 0);
+    EXPECT_EQ(run(stress + " " + file + " --layer 6mm " + options + " --overwrite -o " + path).code,
+              0);
     return " " + path;
   };
   for (const std::string rule :
