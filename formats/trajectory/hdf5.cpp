@@ -306,7 +306,10 @@ std::vector<std::string> names_in(hid_t parent, const std::string& path)
     static_cast<std::vector<std::string>*>(out)->emplace_back(name);
     return 0;
   };
-  H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &names);
+  // In an order of its own: to sort, HDF5 1.10 makes a list first, and where the file is damaged it
+  // frees entries of it that it has not filled.
+  H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, visit, &names);
+  std::sort(names.begin(), names.end());
   return names;
 }
 
