@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A text file of an archive, plain or compressed: its lines, words and numbers.
+#include "formats/core/text.hpp"
+
 #include "formats/import/common/number_row.hpp"
 #include "formats/import/common/text_source.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -19,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::require(source.line().find('\n') == std::string_view::npos, "a line is one line");
       for (const auto& word : words_of(source.line()))
         fuzz::require(!word.empty(), "no word is empty");
-      for (const char c : printable(source.line()))
+      for (const unsigned char c : printable(source.line()))
         fuzz::require(c >= ' ' && c != 127, "printable text holds no control character");
       fuzz::try_to([&] { read_numbers(source, numbers, " ,;\t"[data[0] % 4]); });
     }
