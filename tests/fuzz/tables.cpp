@@ -49,6 +49,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& table : tables) {
     const auto text = table.to_text();
     table.to_json();
+    // Comments of tables made by hand need not have the form "# key: value".
+    if (table.made_by_hand()) continue;
     fuzz::try_to([&] {
       fuzz::require(Table::parse(text, "again").to_text() == text,
                     "a table is read as it was written");
