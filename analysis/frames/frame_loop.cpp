@@ -180,10 +180,11 @@ std::vector<double> FrameLoop::row(const Window& window, std::size_t layer,
 std::vector<double> FrameLoop::bed_row(const Window& window, double height,
                                        const std::vector<double>& values) const
 {
-  constexpr double all = std::numeric_limits<double>::quiet_NaN();
-  return with_key({window.begin, window.end, all, all, static_cast<double>(window.frames.size()),
-                   layers_.length() * height},
-                  values);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const double volume = height < 0 ? nan : layers_.length() * height;
+  return with_key(
+      {window.begin, window.end, nan, nan, static_cast<double>(window.frames.size()), volume},
+      values);
 }
 
 void FrameLoop::write(const Table& table) const

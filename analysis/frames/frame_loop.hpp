@@ -72,7 +72,8 @@ class FrameLoop {
   /// The key columns t0 t1 y0 y1 frames V of a layer, followed by `values`.
   std::vector<double> row(const Window& window, std::size_t layer,
                           const std::vector<double>& values) const;
-  /// The same for the whole bed of a given height: y0 = y1 = nan, V = Lx times the height.
+  /// The same for the whole bed of a given height: y0 = y1 = nan, V = Lx times the height,
+  /// nan for a bed whose top lies below y = 0, as in a hopper that runs out.
   std::vector<double> bed_row(const Window& window, double height,
                               const std::vector<double>& values) const;
   /// To the file of --output, or to standard output.

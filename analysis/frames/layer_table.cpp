@@ -101,9 +101,11 @@ std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& rem
   for (std::size_t row = 0; row < keys.size(); ++row) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const auto value = key_columns[c].value;
-      const bool is_height = value == &LayerKey::bottom || value == &LayerKey::top;
-      keys[row].*value = is_height ? table.rows[row][columns[c]]  // NaN: the whole bed
-                                   : finite_cell(table, row, columns[c]);
+      // NaN heights: the whole bed, which has no volume where its top lies below y = 0.
+      const bool may_be_nan = value == &LayerKey::bottom || value == &LayerKey::top ||
+                              (value == &LayerKey::volume && std::isnan(keys[row].bottom));
+      keys[row].*value =
+          may_be_nan ? table.rows[row][columns[c]] : finite_cell(table, row, columns[c]);
     }
     require_sense(table, row, keys[row]);
   }

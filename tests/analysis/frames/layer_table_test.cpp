@@ -52,6 +52,14 @@ TEST(LayerTable, HoldsEachLayerOfAWindowOnce)
             "t.tsv: row 3 repeats a window and layer, those of row 1");
 }
 
+TEST(LayerTable, HasNoVolumeForABedBelowTheBase)
+{
+  auto bed = key(0, 1, nan, nan), layer = key(0, 1, 0, 0.02);
+  bed.volume = layer.volume = nan;
+  EXPECT_EQ(refusal({bed, key(0, 1, 0, 0.02)}), "");
+  EXPECT_NE(refusal({layer}), "");
+}
+
 TEST(LayerTable, HoldsNoWindowsAndLayersThatOverlapBeyondRoundOff)
 {
   EXPECT_EQ(refusal({key(1, 2, 0, 0.02), key(0, 1.5, 0, 0.02)}),
