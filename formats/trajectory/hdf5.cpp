@@ -36,6 +36,11 @@ void check_written(herr_t status, const std::string& what)
 constexpr hsize_t most_packing = 1100;
 constexpr hsize_t small = 16 << 20;  // bytes
 
+// Of reading a structure whose checksum is wrong, while a writer may be about to complete it. HDF5
+// waits 1 ns after the first and twice as long after each: 17 ms in all. Its default, 100, waits for
+// ever where the structure is damaged.
+constexpr unsigned most_attempts = 24;
+
 /// Creates the groups that `path` lies in.
 void make_parents(hid_t file, const std::string& path)
 {
@@ -106,7 +111,9 @@ File open_for_reading(const std::string& path, Properties access)
   if (!std::filesystem::is_regular_file(path, error))
     throw UsageError(fmt::format("{}: is not a regular file", path));
   if (!access.valid()) access = Properties(H5Pcreate(H5P_FILE_ACCESS));
-  const unsigned mode = H5F_ACC_RDONLY | (has_swmr_writer(path) ? H5F_ACC_SWMR_READ : 0U);
+  const bool is_live = has_swmr_writer(path);
+  if (is_live) H5Pset_metadata_read_attempts(access, most_attempts);
+  const unsigned mode = H5F_ACC_RDONLY | (is_live ? H5F_ACC_SWMR_READ : 0U);
   File file(H5Fopen(path.c_str(), mode, access));
   if (!file.valid()) throw FormatError(fmt::format("{}: {}", path, why_it_does_not_open(path)));
   return file;

@@ -305,6 +305,33 @@ TEST_F(Trajectory, ARunThatGoesOnCanBeRead)
   EXPECT_TRUE(TrajectoryReader(path).closed());
 }
 
+// HDF5 reads such structures again and again, in case that their writer is about to complete them.
+TEST_F(Trajectory, ADamagedStructureOfARunThatWasKilledIsNamedAtOnce)
+{
+  const pid_t child = fork();
+  if (child == 0) {
+    TrajectoryWriter writer(path, three_grains::description(), {.live = true});
+    for (int k = 0; k < 3; ++k) writer.append(three_grains::frame(k), std::vector<double>{0});
+    std::raise(SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  std::ifstream file(path, std::ios::binary);
+  const std::string whole(std::istreambuf_iterator<char>(file), {});
+  int damaged = 0;
+  for (const char* structure : {"OHDR", "EAHD", "EAIB"}) {  // object header, index of chunks
+    auto bytes = whole;
+    const auto at = bytes.rfind(structure);
+    ASSERT_NE(at, std::string::npos);
+    bytes[at + 12] = static_cast<char>(bytes[at + 12] ^ 4);
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+    alarm(20);
+    damaged += complaint_of_all() != "no complaint" ? 1 : 0;
+    alarm(0);
+  }
+  EXPECT_EQ(damaged, 3);
+}
+
 // Version 1.0 was written so that a kill could leave the last frames damaged.
 TEST_F(Trajectory, ADamagedLastFrameOfAnUnfinishedRunOfVersion1_0IsLeftOut)
 {
