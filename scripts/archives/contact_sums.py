@@ -11,17 +11,21 @@ import sealed_tables  # noqa: E402
 BETWEEN = ("M", "Msize", "Mcp", "Mpower", "ML", "MS")
 
 
+def read_table(path):
+    """Lines of the header, names of the columns, and rows."""
+    with open(path) as table:
+        lines = sealed_tables.unsealed(table.read(), path).splitlines()
+    header = [line for line in lines if line.startswith("#")]
+    names, *rows = lines[len(header):]
+    return header, names.split("\t"), np.array([row.split("\t") for row in rows], float)
+
+
 class Sums:
     """A table of grseg-stress, made with --assign ASSIGN."""
 
     def __init__(self, path, assign):
-        with open(path) as table:
-            lines = sealed_tables.unsealed(table.read(), path).splitlines()
-        self.header = [line for line in lines if line.startswith("# ")]
-        head, *rows = lines[len(self.header):]
-        self.head = head.split("\t")
+        self.header, self.head, self.rows = read_table(path)
         self.names = [name.split("[")[0] for name in self.head]
-        self.rows = np.array([row.split("\t") for row in rows], float)
         if f"# assign: {assign}" not in self.header:
             sys.exit(f"{path}: was not made with --assign {assign}")
         self.axes = "xyz" if "# dimension: 3" in self.header else "xy"
