@@ -9,7 +9,7 @@ namespace {
 
 /// Sum of of(grain) times l by layer, over the mobile grains.
 template <class What, class Of>
-std::vector<What> moments_above(const Grains& grains, const Frame& frame, const Layers& layers,
+std::vector<What> moments_above(const Grains& grains, const Frame<2>& frame, const Layers& layers,
                                 const What& zero, const Of& of)
 {
   const std::size_t count = layers.count(grains, frame);
@@ -93,7 +93,7 @@ WeightSums::WeightSums(const Layers& layers, const Vec2& gravity, double bin)
 {
 }
 
-void WeightSums::add_to_mean(const Grains& grains, const Frame& frame)
+void WeightSums::add_to_mean(const Grains& grains, const Frame<2>& frame)
 {
   mean_.add(grains, frame);
   if (!momentum_.empty()) return;
@@ -103,7 +103,7 @@ void WeightSums::add_to_mean(const Grains& grains, const Frame& frame)
   });
 }
 
-void WeightSums::add(const Grains& grains, const Frame& frame)
+void WeightSums::add(const Grains& grains, const Frame<2>& frame)
 {
   if (!kinetic_) {
     mean_.finish();

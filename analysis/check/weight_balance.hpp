@@ -36,8 +36,8 @@ class WeightSums {
   /// Gravity, m/s^2; bins of the mean velocity's profile no thicker than `bin`, m.
   WeightSums(const Layers& layers, const Vec2& gravity, double bin);
 
-  void add_to_mean(const Grains& grains, const Frame& frame);
-  void add(const Grains& grains, const Frame& frame);
+  void add_to_mean(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   WeightWindow window() const;
 
  private:

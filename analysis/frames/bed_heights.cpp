@@ -7,7 +7,7 @@
 
 namespace grseg {
 
-BedHeights bed_heights(const Grains& grains, const Frame& frame)
+BedHeights bed_heights(const Grains& grains, const Frame<2>& frame)
 {
   std::array<double, 2> mass{}, moment{};
   double area = 0, area_moment = 0;  // over pi

@@ -18,7 +18,7 @@ struct BedHeights {
 };
 
 /// Those of one frame; NaN for a species without mobile grains.
-BedHeights bed_heights(const Grains& grains, const Frame& frame);
+BedHeights bed_heights(const Grains& grains, const Frame<2>& frame);
 
 /// The columns yL, yS and height.
 std::vector<Cell> cells(const BedHeights& heights);

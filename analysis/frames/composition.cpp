@@ -7,7 +7,7 @@
 
 namespace grseg {
 
-void Composition::add(const Grains& grains, const Frame& frame)
+void Composition::add(const Grains& grains, const Frame<2>& frame)
 {
   ++frames_;
   const std::size_t count = layers_.count(grains, frame);

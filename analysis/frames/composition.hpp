@@ -37,7 +37,7 @@ class Composition {
     assert(kernel_ || rule_ != GrainArea::kernel);
   }
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   void merge(const Composition& others);
   std::size_t layers() const { return sums_.size(); }
   Areas mean(std::size_t layer) const;

@@ -8,7 +8,7 @@
 namespace grseg {
 
 /// Whether a contact bears a force at all. Files also list pairs that are only close.
-inline bool bears_force(const ContactList& contacts, std::size_t contact)
+inline bool bears_force(const ContactList<2>& contacts, std::size_t contact)
 {
   const Vec2& f = contacts.force[contact];
   return f.x() != 0 || f.y() != 0;
@@ -20,7 +20,7 @@ struct ForceParts {
   Vec2 n;           // from j to i
   double f_n, f_t;  // N
 };
-inline ForceParts force_parts(const ContactList& contacts, std::size_t contact)
+inline ForceParts force_parts(const ContactList<2>& contacts, std::size_t contact)
 {
   const Vec2& f = contacts.force[contact];
   const Vec2 n = contacts.branch[contact].normalized();

@@ -119,7 +119,7 @@ FrameLoop::~FrameLoop()
   if (progress_) fmt::print(stderr, "\r\033[K");
 }
 
-void FrameLoop::read(std::size_t index, Frame& frame, TrajectoryReader::Fields fields)
+void FrameLoop::read(std::size_t index, Frame<2>& frame, TrajectoryReader::Fields fields)
 {
   {
     const std::lock_guard lock(reading_);
@@ -147,7 +147,7 @@ Table FrameLoop::make_table(const std::string& command,
 
   const auto& first = windows_.front();
   constexpr double no_one = std::numeric_limits<double>::quiet_NaN();
-  const Vec2 gravity = run_.gravity().turns() ? Vec2(no_one, no_one) : run_.gravity().start;
+  const Vec2 gravity = run_.gravity<2>().turns() ? Vec2(no_one, no_one) : run_.gravity<2>().start;
   for (const auto& [key, value] : {std::pair{"small_diameter", run_.small_diameter()},
                                    {"large_diameter", run_.large_diameter()},
                                    {"gravity_x", gravity.x()},

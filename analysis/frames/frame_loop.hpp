@@ -80,7 +80,7 @@ class FrameLoop {
   void write(const Table& table) const;
 
  private:
-  void read(std::size_t index, Frame& frame, TrajectoryReader::Fields fields);
+  void read(std::size_t index, Frame<2>& frame, TrajectoryReader::Fields fields);
   void report_progress(const Window& window);
 
   ToolInfo info_;
@@ -101,7 +101,7 @@ std::tuple<Sums...> FrameLoop::sum(const Window& window, TrajectoryReader::Field
   const auto& frames = window.frames;
   const auto sums_of_block = [&](std::size_t number) {
     std::tuple<Sums...> sums(empty...);
-    Frame frame;
+    Frame<2> frame;
     const std::size_t end = std::min(frames.size(), (number + 1) * block);
     for (std::size_t k = number * block; k < end; ++k) {
       read(frames[k], frame, fields);

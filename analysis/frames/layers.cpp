@@ -74,7 +74,7 @@ Vec2 Layers::turned(const Vec2& vector, const Vec2& position) const
   return {outward.y() * vector.x() - outward.x() * vector.y(), outward.dot(vector)};
 }
 
-std::size_t Layers::count(const Grains& grains, const Frame& frame) const
+std::size_t Layers::count(const Grains& grains, const Frame<2>& frame) const
 {
   double highest = 0;
   for (std::size_t g = 0; g < grains.size(); ++g)

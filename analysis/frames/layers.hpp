@@ -52,7 +52,7 @@ class Layers {
   std::size_t at(double y) const;
   /// Layers up to the top of the highest mobile grain, at least 1. RunError where that would be
   /// more than a bed can have, which means that a grain is lost.
-  std::size_t count(const Grains& grains, const Frame& frame) const;
+  std::size_t count(const Grains& grains, const Frame<2>& frame) const;
 
   /// Calls book(layer, share) with the shares of its length that a straight segment between two
   /// heights has in each of `count` layers; the shares add up to 1. Not of annuli.

@@ -16,7 +16,7 @@ MeanVelocity::MeanVelocity(const Layers& layers, double bin)
 {
 }
 
-void MeanVelocity::add(const Grains& grains, const Frame& frame)
+void MeanVelocity::add(const Grains& grains, const Frame<2>& frame)
 {
   of_bin_.resize(std::max(of_bin_.size(), bins_.count(grains, frame)));
   of_layer_.resize(std::max(of_layer_.size(), layers_.count(grains, frame)));

@@ -42,7 +42,7 @@ class MeanVelocity {
   /// Bins no thicker than `bin` (m), a whole number of them per layer.
   MeanVelocity(const Layers& layers, double bin);
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   void merge(const MeanVelocity& others);
   /// Takes the means; nothing can be added after that.
   void finish();

@@ -8,7 +8,7 @@
 
 namespace grseg {
 
-double mixing_index(const Layers& layers, const Grains& grains, const Frame& frame)
+double mixing_index(const Layers& layers, const Grains& grains, const Frame<2>& frame)
 {
   Composition composition(layers, GrainArea::centre);
   composition.add(grains, frame);

@@ -137,7 +137,7 @@ Motion KineticStress::mean_at(std::size_t layer, Species species, double y,
   return Motion::Constant(nan);
 }
 
-void KineticStress::add(const Grains& grains, const Frame& frame)
+void KineticStress::add(const Grains& grains, const Frame<2>& frame)
 {
   ++frames_;
   sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));

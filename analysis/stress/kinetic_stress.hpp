@@ -51,7 +51,7 @@ class KineticStress {
   /// About the mean over the frames that `mean` was given, which are those to be added.
   KineticStress(const Layers& layers, MeanFlow flow, const MeanVelocity& mean);
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   void merge(const KineticStress& others);
 
   std::size_t layers() const { return sums_.size(); }

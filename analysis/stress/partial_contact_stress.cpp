@@ -79,7 +79,7 @@ void PartialContactStress::add_mixed(const Contact& contact, const MixedContact&
   add_stretch(&ContactSums::mixed_at_small, contact, {y_small, y_large, 1});
 }
 
-void PartialContactStress::add(const Grains& grains, const Frame& frame)
+void PartialContactStress::add(const Grains& grains, const Frame<2>& frame)
 {
   ++frames_;
   count_ = layers_.count(grains, frame);

@@ -56,7 +56,7 @@ class PartialContactStress {
                        std::optional<double> power = std::nullopt,
                        std::optional<Kernel> kernel = std::nullopt);
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   void merge(const PartialContactStress& others);
   std::size_t layers() const { return sums_.size(); }
   Mean mean(std::size_t layer) const;

@@ -58,7 +58,7 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   for (const auto& window : loop.windows()) {
     const auto [balance] =
         loop.sum(window, {.velocity = true, .contacts = true, .force = true},
-                 MomentumBalance(loop.layers(), kernel, run.gravity(), run.step()));
+                 MomentumBalance(loop.layers(), kernel, run.gravity<2>(), run.step()));
     for (std::size_t layer = 0; layer < balance.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, balance_row(balance, layer)));
     summary.add(balance);

@@ -7,7 +7,8 @@
 
 namespace grseg {
 
-PairType pair_type(const Grains& grains, const Frame& frame, std::size_t contact)
+template <int D>
+PairType pair_type(const Grains& grains, const Frame<D>& frame, std::size_t contact)
 {
   const auto i = static_cast<std::size_t>(frame.contacts.i[contact]);
   const auto j = frame.contacts.j[contact];
@@ -23,5 +24,8 @@ PairType pair_type(const Grains& grains, const Frame& frame, std::size_t contact
   if (large != other_large) return PairType::LS;
   return large ? PairType::LL : PairType::SS;
 }
+
+template PairType pair_type(const Grains&, const Frame<2>&, std::size_t);
+template PairType pair_type(const Grains&, const Frame<3>&, std::size_t);
 
 }  // namespace grseg

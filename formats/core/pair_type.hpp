@@ -15,6 +15,7 @@ constexpr std::size_t pair_types = 5;
 constexpr std::array<const char*, pair_types> pair_type_names{"SS", "LS", "LL", "Sb", "Lb"};
 
 /// FormatError where the first grain of the contact is not mobile.
-PairType pair_type(const Grains& grains, const Frame& frame, std::size_t contact);
+template <int D>
+PairType pair_type(const Grains& grains, const Frame<D>& frame, std::size_t contact);
 
 }  // namespace grseg

@@ -11,7 +11,7 @@ namespace grseg {
 /// Grains and one frame, written by hand.
 struct Packing {
   Grains grains;
-  Frame frame;
+  Frame<2> frame;
 
   /// Adds a grain of density 1 kg/m^2; its row.
   std::int32_t grain(Species species, double radius, const Vec2& position,
