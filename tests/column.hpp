@@ -20,7 +20,7 @@ inline constexpr std::size_t discs = 6;
 /// at y = 0. Row 0 is the boundary, row k the k-th disc from below; contact k-1 is that below it.
 struct Column {
   RunDescription description;
-  std::vector<Frame> frames;
+  std::vector<Frame<2>> frames;
   std::vector<std::vector<double>> observables;  // base_force_x, base_force_y, energy_defect
 
   /// `acceleration` is along x; 20 frames, 500 steps apart unless told otherwise.
@@ -51,7 +51,7 @@ struct Column {
 
   void add_frame(int step, const Vec2& gravity, const Vec2& acceleration)
   {
-    Frame f;
+    Frame<2> f;
     f.step = step;
     f.time = (step + 0.5) * h;
     const double mass = description.grains.mass[0];
@@ -78,14 +78,14 @@ struct Column {
   }
 
   /// Shifts the top disc along y, with branch and gap.
-  static void lift_top(Frame& f, double way)
+  static void lift_top(Frame<2>& f, double way)
   {
     f.position[discs].y() += way;
     f.contacts.branch[discs - 1].y() += way;
     f.contacts.gap[discs - 1] += way;
   }
   /// Changes a contact's force, and the `force` of the two grains with it.
-  static void push(Frame& f, std::size_t contact, const Vec2& more)
+  static void push(Frame<2>& f, std::size_t contact, const Vec2& more)
   {
     f.contacts.force[contact] += more;
     f.force[contact + 1] += more;

@@ -22,9 +22,9 @@ inline Grains grains()
 
 /// The large grain (row 0) sits on the boundary grain (row 2), the small one (row 1) on the large.
 /// Frame `number` is moved by that many millimetres along x.
-inline Frame frame(std::int64_t number)
+inline Frame<2> frame(std::int64_t number)
 {
-  Frame f;
+  Frame<2> f;
   f.step = 500 * number;
   f.time = (static_cast<double>(f.step) + 0.5) * 1e-4;
   const double x = 0.05 + 0.001 * static_cast<double>(number);

@@ -44,13 +44,13 @@ Vec2 MomentumBalance::Instant::at(std::size_t layer, Species species) const
   return layer < momentum.size() ? momentum[layer][index(species)] : Vec2(0, 0);
 }
 
-MomentumBalance::MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity& gravity,
-                                 double step)
+MomentumBalance::MomentumBalance(const Layers& layers, const Kernel& kernel,
+                                 const Gravity<2>& gravity, double step)
     : layers_(layers), kernel_(kernel), gravity_(gravity), step_(step)
 {
 }
 
-void MomentumBalance::add(const Grains& grains, const Frame& frame)
+void MomentumBalance::add(const Grains& grains, const Frame<2>& frame)
 {
   assert(frame.force.size() == grains.size());
   ++frames_;
@@ -67,7 +67,7 @@ void MomentumBalance::add(const Grains& grains, const Frame& frame)
   last_ = std::move(before);
 }
 
-void MomentumBalance::add_contact(const Grains& grains, const Frame& frame, std::size_t contact,
+void MomentumBalance::add_contact(const Grains& grains, const Frame<2>& frame, std::size_t contact,
                                   std::size_t count)
 {
   const auto& list = frame.contacts;
@@ -111,7 +111,7 @@ void MomentumBalance::add_stress(Species species, const Tensor2& force_by_arm, d
   });
 }
 
-void MomentumBalance::add_grain(const Grains& grains, const Frame& frame, std::size_t grain,
+void MomentumBalance::add_grain(const Grains& grains, const Frame<2>& frame, std::size_t grain,
                                 const Vec2& gravity, Instant& before)
 {
   const std::size_t species = index(grains.species[grain]), count = before.momentum.size();

@@ -64,10 +64,11 @@ struct SpeciesMomentum {
 class MomentumBalance {
  public:
   /// Gravity in m/s^2, step h in s.
-  MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity& gravity, double step);
+  MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity<2>& gravity,
+                  double step);
 
   /// Frames come in order of time, with velocities, forces and contacts.
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   /// Adds the frames of `later`, which come after those here.
   void merge(const MomentumBalance& later);
 
@@ -85,16 +86,16 @@ class MomentumBalance {
     Vec2 at(std::size_t layer, Species species) const;
   };
 
-  void add_contact(const Grains& grains, const Frame& frame, std::size_t contact,
+  void add_contact(const Grains& grains, const Frame<2>& frame, std::size_t contact,
                    std::size_t count);
   void add_stress(Species species, const Tensor2& force_by_arm, double from, double to,
                   std::size_t count);
-  void add_grain(const Grains& grains, const Frame& frame, std::size_t grain, const Vec2& gravity,
-                 Instant& before);
+  void add_grain(const Grains& grains, const Frame<2>& frame, std::size_t grain,
+                 const Vec2& gravity, Instant& before);
 
   Layers layers_;
   Kernel kernel_;
-  Gravity gravity_;
+  Gravity<2> gravity_;
   double step_;
   std::size_t frames_ = 0;
   std::vector<std::array<SpeciesMomentum, 2>> sums_;  // by layer and species, times V

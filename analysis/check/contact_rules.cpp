@@ -31,7 +31,7 @@ ContactRules read_contact_rules(const TrajectoryReader& run)
     rules.look_ahead = rules.horizon = parameters.number("horizon", run.path());
     // For files without /parameters/contact_margin.
     const double by_gravity =
-        rules.horizon * rules.step * std::sqrt(run.gravity().norm() * run.small_diameter());
+        rules.horizon * rules.step * std::sqrt(run.gravity<2>().norm() * run.small_diameter());
     rules.margin =
         std::max(rules.margin, parameters.find_number("contact_margin").value_or(by_gravity));
   } else {

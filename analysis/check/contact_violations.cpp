@@ -14,7 +14,7 @@ struct Approach {
   Vec2 after, before;
 };
 
-Approach approach_of(const Grains& grains, const Frame& frame, std::size_t contact, double step)
+Approach approach_of(const Grains& grains, const Frame<2>& frame, std::size_t contact, double step)
 {
   Approach relative{Vec2::Zero(), Vec2::Zero()};
   const auto add = [&](std::size_t g, double sign) {
@@ -30,7 +30,7 @@ Approach approach_of(const Grains& grains, const Frame& frame, std::size_t conta
 
 }  // namespace
 
-void ContactViolations::add(const Grains& grains, const Frame& frame)
+void ContactViolations::add(const Grains& grains, const Frame<2>& frame)
 {
   const auto& contacts = frame.contacts;
   double scale = 0;
@@ -42,7 +42,7 @@ void ContactViolations::add(const Grains& grains, const Frame& frame)
   }
 }
 
-void ContactViolations::add_forces(const Frame& frame, std::size_t contact, double scale)
+void ContactViolations::add_forces(const Frame<2>& frame, std::size_t contact, double scale)
 {
   const auto [n, f_n, f_t] = force_parts(frame.contacts, contact);
   tension_.add(std::max(0.0, -f_n) / scale, frame.time, contact);
@@ -51,7 +51,7 @@ void ContactViolations::add_forces(const Frame& frame, std::size_t contact, doub
                  frame.time, contact);
 }
 
-void ContactViolations::add_motion(const Grains& grains, const Frame& frame, std::size_t contact)
+void ContactViolations::add_motion(const Grains& grains, const Frame<2>& frame, std::size_t contact)
 {
   const auto& contacts = frame.contacts;
   const double gap = contacts.gap[contact], reach = contacts.branch[contact].norm() - gap;

@@ -23,7 +23,7 @@ class ContactViolations {
  public:
   explicit ContactViolations(const ContactRules& rules) : rules_(rules) {}
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
 
   // By contact; forces over the largest contact force of the frame.
   const WorstCase& coulomb() const { return coulomb_; }    // (|f_t| - mu f_n)/f_max
@@ -33,8 +33,8 @@ class ContactViolations {
   const WorstCase& overlap() const { return overlap_; }    // m
 
  private:
-  void add_forces(const Frame& frame, std::size_t contact, double scale);
-  void add_motion(const Grains& grains, const Frame& frame, std::size_t contact);
+  void add_forces(const Frame<2>& frame, std::size_t contact, double scale);
+  void add_motion(const Grains& grains, const Frame<2>& frame, std::size_t contact);
 
   ContactRules rules_;
   WorstCase coulomb_, tension_, open_gap_, approach_, overlap_;

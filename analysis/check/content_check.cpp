@@ -5,7 +5,7 @@
 
 namespace grseg {
 
-void ContentCheck::add(std::size_t index, const Frame& frame)
+void ContentCheck::add(std::size_t index, const Frame<2>& frame)
 {
   ++frames_;
   if (!run_.is_intact(index, frame) && damaged_++ == 0) first_damaged_ = index;

@@ -17,7 +17,7 @@ class ContentCheck {
   explicit ContentCheck(const TrajectoryReader& run) : run_(run) {}
 
   /// Any frame, whole (all of TrajectoryReader::Fields).
-  void add(std::size_t index, const Frame& frame);
+  void add(std::size_t index, const Frame<2>& frame);
   std::vector<CheckLine> lines() const;
 
  private:

@@ -10,7 +10,7 @@ namespace grseg {
 namespace {
 
 /// N: the largest of the frame's contact forces and of the mobile grains' weights.
-double largest_force(const Grains& grains, const Frame& frame, const Gravity& gravity)
+double largest_force(const Grains& grains, const Frame<2>& frame, const Gravity<2>& gravity)
 {
   double largest = 0;
   for (const auto& force : frame.contacts.force) largest = std::max(largest, force.norm());
@@ -20,7 +20,7 @@ double largest_force(const Grains& grains, const Frame& frame, const Gravity& gr
 }
 
 /// Torques of the contacts on all grains, N m, counter-clockwise.
-std::vector<double> torques_of(const Grains& grains, const ContactList& contacts)
+std::vector<double> torques_of(const Grains& grains, const ContactList<2>& contacts)
 {
   std::vector<double> torque(grains.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -41,7 +41,7 @@ std::vector<double> torques_of(const Grains& grains, const ContactList& contacts
 
 }  // namespace
 
-void ForceBalance::add(const Grains& grains, const Frame& frame)
+void ForceBalance::add(const Grains& grains, const Frame<2>& frame)
 {
   const double scale = largest_force(grains, frame, gravity_);
   if (!frame.force.empty()) add_forces(grains, frame, scale);
@@ -60,7 +60,7 @@ void ForceBalance::add(const Grains& grains, const Frame& frame)
   last_ = std::move(now);
 }
 
-void ForceBalance::add_forces(const Grains& grains, const Frame& frame, double scale)
+void ForceBalance::add_forces(const Grains& grains, const Frame<2>& frame, double scale)
 {
   const Vec2 gravity = gravity_.at(frame.time);
   std::vector<Vec2> defect(grains.size());

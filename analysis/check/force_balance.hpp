@@ -19,10 +19,10 @@ namespace grseg {
 class ForceBalance {
  public:
   /// Gravity and the step h, s.
-  ForceBalance(const Gravity& gravity, double step) : gravity_(gravity), step_(step) {}
+  ForceBalance(const Gravity<2>& gravity, double step) : gravity_(gravity), step_(step) {}
 
   /// Frames in order. A frame without `force` counts for torques only.
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
 
   /// |defect| over the frame's largest force, weights included; by grain.
   const WorstCase& forces() const { return forces_; }
@@ -36,10 +36,10 @@ class ForceBalance {
     std::vector<double> inertia_times_spin;  // kg m^2/s; of mobile grains, 0 of others
     std::vector<double> torque;              // N m; of mobile grains, 0 of others
   };
-  void add_forces(const Grains& grains, const Frame& frame, double scale);
+  void add_forces(const Grains& grains, const Frame<2>& frame, double scale);
   void add_torques(const Spin& before, const Spin& after);
 
-  Gravity gravity_;
+  Gravity<2> gravity_;
   double step_;
   WorstCase forces_, torques_;
   Spin last_;  // of the last frame added; inertia_times_spin is empty before the first

@@ -55,7 +55,7 @@ PhysicsCheck::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& s
     : run_(run),
       tolerances_(settings.tolerances),
       judge_(settings.tolerances, run.stores_float32()),
-      gravity_(run.gravity()),
+      gravity_(run.gravity<2>()),
       small_diameter_(run.small_diameter()),
       rules_(read_contact_rules(run)),
       rotation_(run.parameters().find_number("rotation").value_or(1) != 0),
@@ -97,7 +97,7 @@ bool PhysicsCheck::at_rest(const TotalMotion& total) const
   return total.energy < least * total.mass * gravity_.norm() * small_diameter_;
 }
 
-void PhysicsCheck::add(std::size_t index, const Frame& frame)
+void PhysicsCheck::add(std::size_t index, const Frame<2>& frame)
 {
   if (frame.time < begin_ || frame.time >= end_) return;
   const auto& grains = run_.grains();
@@ -117,7 +117,7 @@ void PhysicsCheck::add(std::size_t index, const Frame& frame)
   if (windows_[window_].frames.back() == index) end_window();
 }
 
-void PhysicsCheck::begin_window(const Frame& frame)
+void PhysicsCheck::begin_window(const Frame<2>& frame)
 {
   const auto& overlap = contacts_.overlap();
   window_starts_.push_back(
@@ -131,7 +131,7 @@ void PhysicsCheck::begin_window(const Frame& frame)
 void PhysicsCheck::end_window()
 {
   if (weights_) {
-    Frame frame;
+    Frame<2> frame;
     for (const std::size_t k : windows_[window_].frames) {
       run_.read(k, frame, {.velocity = true, .contacts = true});
       weights_->add(run_.grains(), frame);

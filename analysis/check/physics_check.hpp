@@ -35,14 +35,14 @@ class PhysicsCheck {
 
   /// Frames in order, whole (all of TrajectoryReader::Fields); those before --begin (t = 0) and
   /// from --end on are not used.
-  void add(std::size_t index, const Frame& frame);
+  void add(std::size_t index, const Frame<2>& frame);
   std::vector<CheckLine> lines() const;
 
  private:
   bool in_window(std::size_t index) const;
   bool steady_slope() const;
   bool at_rest(const TotalMotion& total) const;
-  void begin_window(const Frame& frame);
+  void begin_window(const Frame<2>& frame);
   void end_window();
   std::string why_no_layers() const;
   void add_balances(std::vector<CheckLine>& lines) const;
@@ -53,7 +53,7 @@ class PhysicsCheck {
   const TrajectoryReader& run_;
   CheckTolerances tolerances_;
   Judge judge_;
-  Gravity gravity_;
+  Gravity<2> gravity_;
   double small_diameter_;
   ContactRules rules_;
   bool rotation_, has_force_ = true;

@@ -67,7 +67,7 @@ void SpecificationCheck::check_observables()
   }
 }
 
-void SpecificationCheck::add(std::size_t index, const Frame& frame)
+void SpecificationCheck::add(std::size_t index, const Frame<2>& frame)
 {
   const double length = run_.box().length_x;
   // Single precision may round a position just below the length up to it.

@@ -22,7 +22,7 @@ class SpecificationCheck {
   explicit SpecificationCheck(const TrajectoryReader& run);
 
   /// Any frame, with contacts.
-  void add(std::size_t index, const Frame& frame);
+  void add(std::size_t index, const Frame<2>& frame);
 
   /// `specification`, the number of paths that depart from it; then a line for each of these paths,
   /// with the number of departures.

@@ -18,7 +18,7 @@ double largest_component(const Tensor2& t)
 }
 
 /// x_i - x_j of the nearest image, m; at a straight wall the branch.
-Vec2 between_centres(const Frame& frame, const Box& box, std::size_t contact)
+Vec2 between_centres(const Frame<2>& frame, const Box& box, std::size_t contact)
 {
   const auto j = frame.contacts.j[contact];
   if (j < 0) return frame.contacts.branch[contact];
@@ -29,7 +29,7 @@ Vec2 between_centres(const Frame& frame, const Box& box, std::size_t contact)
 }
 
 /// Sums over the contact ends on small and on large grains, N m.
-std::array<Tensor2, 2> sums_of_ends(const Grains& grains, const Frame& frame, const Box& box)
+std::array<Tensor2, 2> sums_of_ends(const Grains& grains, const Frame<2>& frame, const Box& box)
 {
   std::array<Tensor2, 2> sums{Tensor2::Zero(), Tensor2::Zero()};
   const auto& contacts = frame.contacts;
@@ -49,11 +49,11 @@ std::array<Tensor2, 2> sums_of_ends(const Grains& grains, const Frame& frame, co
 
 }  // namespace
 
-void StressClosure::add(const Grains& grains, const Frame& frame)
+void StressClosure::add(const Grains& grains, const Frame<2>& frame)
 {
   // One layer that holds the whole bed.
   constexpr double higher_than_any_bed = 1e6;  // m
-  PartialContactStress stress(Layers(higher_than_any_bed, 1), Assignment::contact_point);
+  PartialContactStress<2> stress(Layers(higher_than_any_bed, 1), Assignment::contact_point);
   stress.add(grains, frame);
   auto sums = stress.mean(0).sums;
   sums.volume = 1;
@@ -64,8 +64,8 @@ void StressClosure::add(const Grains& grains, const Frame& frame)
   const double scale = largest_component(by_contact.total);
   const double defect = std::max(
       {largest_component(small + large - by_contact.total),
-       largest_component(small - by_contact.small), largest_component(large - by_contact.large),
-       largest_component(by_size.small + by_size.large - by_size.total)});
+       largest_component(small - by_contact.small()), largest_component(large - by_contact.large()),
+       largest_component(by_size.small() + by_size.large() - by_size.total)});
   defect_.add(scale > 0 ? defect / scale : defect, frame.time, 0);
 }
 

@@ -17,7 +17,7 @@ class StressClosure {
  public:
   explicit StressClosure(const Box& box) : box_(box) {}
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
 
   /// Largest component of the differences over the largest of sigma, by frame.
   const WorstCase& defect() const { return defect_; }

@@ -7,7 +7,7 @@
 
 namespace grseg {
 
-TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& box)
+TotalMotion total_motion(const Grains& grains, const Frame<2>& frame, const Box& box)
 {
   TotalMotion total;
   total.step = frame.step;

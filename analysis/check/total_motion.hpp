@@ -20,7 +20,7 @@ struct TotalMotion {
   double energy = 0;             // J, kinetic, of translation
   double x = 0;                  // m, of the centre of mass, periods counted
 };
-TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& box);
+TotalMotion total_motion(const Grains& grains, const Frame<2>& frame, const Box& box);
 
 /// The mobile grains as one body from frame to frame:
 ///   momentum now - momentum before = (time between) (M g + mean force of base and walls),
@@ -30,7 +30,7 @@ TotalMotion total_motion(const Grains& grains, const Frame& frame, const Box& bo
 class MotionBalance {
  public:
   /// Gravity and the step, s.
-  MotionBalance(const Gravity& gravity, double step) : gravity_(gravity), step_(step) {}
+  MotionBalance(const Gravity<2>& gravity, double step) : gravity_(gravity), step_(step) {}
 
   /// Frames in order; `base_force` (N) is the mean over the steps since the frame before.
   void add(const TotalMotion& now, const std::optional<Vec2>& base_force);
@@ -43,7 +43,7 @@ class MotionBalance {
   double stray() const { return first_ ? last_.x - first_->x - by_velocity_ : 0; }
 
  private:
-  Gravity gravity_;
+  Gravity<2> gravity_;
   double step_;
   std::size_t frames_ = 0;
   std::optional<TotalMotion> first_;

@@ -9,7 +9,7 @@ namespace {
 
 /// Sum of of(grain) times l by layer, over the mobile grains.
 template <class What, class Of>
-std::vector<What> moments_above(const Grains& grains, const Frame& frame, const Layers& layers,
+std::vector<What> moments_above(const Grains& grains, const Frame<2>& frame, const Layers& layers,
                                 const What& zero, const Of& of)
 {
   const std::size_t count = layers.count(grains, frame);
@@ -93,7 +93,7 @@ WeightSums::WeightSums(const Layers& layers, const Vec2& gravity, double bin)
 {
 }
 
-void WeightSums::add_to_mean(const Grains& grains, const Frame& frame)
+void WeightSums::add_to_mean(const Grains& grains, const Frame<2>& frame)
 {
   mean_.add(grains, frame);
   if (!momentum_.empty()) return;
@@ -103,7 +103,7 @@ void WeightSums::add_to_mean(const Grains& grains, const Frame& frame)
   });
 }
 
-void WeightSums::add(const Grains& grains, const Frame& frame)
+void WeightSums::add(const Grains& grains, const Frame<2>& frame)
 {
   if (!kinetic_) {
     mean_.finish();
@@ -126,7 +126,7 @@ WeightWindow WeightSums::window() const
   for (std::size_t n = 0; n < count; ++n) {
     const double volume = layers_.volume(n);
     const auto sums = contact_.mean(n).sums;
-    const Tensor2 all = sums.ss + sums.ll + sums.mixed + sums.whole_small + sums.whole_large +
+    const Tensor2 all = sums.of(OwnSum::inside, 0) + sums.of(OwnSum::inside, 1) + sums.of(PairSum::whole, 0) + sums.of(OwnSum::whole_base, 0) + sums.of(OwnSum::whole_base, 1) +
                         kinetic_->mean(n, Species::small).about_mean.kinetic +
                         kinetic_->mean(n, Species::large).about_mean.kinetic;
     window.stress.emplace_back(all.col(1) / volume);

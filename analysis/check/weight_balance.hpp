@@ -36,16 +36,16 @@ class WeightSums {
   /// Gravity, m/s^2; bins of the mean velocity's profile no thicker than `bin`, m.
   WeightSums(const Layers& layers, const Vec2& gravity, double bin);
 
-  void add_to_mean(const Grains& grains, const Frame& frame);
-  void add(const Grains& grains, const Frame& frame);
+  void add_to_mean(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   WeightWindow window() const;
 
  private:
   Layers layers_;
   Vec2 gravity_;
-  MeanVelocity mean_;
-  std::optional<KineticStress> kinetic_;  // once the mean is known
-  PartialContactStress contact_;
+  MeanVelocity<2> mean_;
+  std::optional<KineticStress<2>> kinetic_;  // once the mean is known
+  PartialContactStress<2> contact_;
   std::size_t frames_ = 0;
   double time_ = 0;                 // s, of the first frame
   std::vector<double> mass_above_;  // kg m, sum m l over frames

@@ -15,7 +15,7 @@ namespace {
 
 /// Calls use(layer, type, f_n) for every contact that bears a force.
 template <class Use>
-void for_each_loaded_contact(const Grains& grains, const Frame& frame, const Layers& layers,
+void for_each_loaded_contact(const Grains& grains, const Frame<2>& frame, const Layers& layers,
                              std::size_t count, const Use& use)
 {
   const auto& list = frame.contacts;
@@ -57,7 +57,7 @@ MeanNormalForce::Sum& MeanNormalForce::Sum::operator+=(const Sum& other)
   return *this;
 }
 
-void MeanNormalForce::add(const Grains& grains, const Frame& frame)
+void MeanNormalForce::add(const Grains& grains, const Frame<2>& frame)
 {
   sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));
   for_each_loaded_contact(grains, frame, layers_, sums_.size(),
@@ -107,7 +107,7 @@ std::size_t ForceDistribution::bin_of(double x) const
   return bin;
 }
 
-void ForceDistribution::add(const Grains& grains, const Frame& frame)
+void ForceDistribution::add(const Grains& grains, const Frame<2>& frame)
 {
   ++frames_;
   counts_.resize(std::max(counts_.size(), layers_.count(grains, frame)));

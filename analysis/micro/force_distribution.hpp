@@ -17,7 +17,7 @@ class MeanNormalForce {
  public:
   explicit MeanNormalForce(const Layers& layers) : layers_(layers) {}
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   void merge(const MeanNormalForce& others);
   /// N; NaN without contacts.
   double of(std::size_t layer, PairType type) const;
@@ -50,7 +50,7 @@ class ForceDistribution {
   ForceDistribution(const Layers& layers, const MeanNormalForce& mean, ForceUnit unit,
                     double width);
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   void merge(const ForceDistribution& others);
   std::size_t layers() const { return counts_.size(); }
 

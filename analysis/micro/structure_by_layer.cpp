@@ -23,7 +23,7 @@ bool is_base(PairType type)
 }
 
 /// The large grain's share of a mixed contact by size, r_L/(r_L + r_S).
-double share_by_size(const Grains& grains, const ContactList& list, std::size_t contact)
+double share_by_size(const Grains& grains, const ContactList<2>& list, std::size_t contact)
 {
   const auto i = static_cast<std::size_t>(list.i[contact]);
   const auto j = static_cast<std::size_t>(list.j[contact]);
@@ -57,7 +57,7 @@ StructureByLayer::StructureByLayer(const Layers& layers, GrainArea area, double 
 {
 }
 
-void StructureByLayer::add(const Grains& grains, const Frame& frame)
+void StructureByLayer::add(const Grains& grains, const Frame<2>& frame)
 {
   ++frames_;
   composition_.add(grains, frame);
@@ -76,7 +76,7 @@ void StructureByLayer::merge(const StructureByLayer& others)
   heights_.bed += others.heights_.bed;
 }
 
-void StructureByLayer::add_grains(const Grains& grains, const Frame& frame)
+void StructureByLayer::add_grains(const Grains& grains, const Frame<2>& frame)
 {
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g))
@@ -89,7 +89,7 @@ void StructureByLayer::add_grains(const Grains& grains, const Frame& frame)
   heights_.bed += now.bed;
 }
 
-void StructureByLayer::add_ends(const Grains& grains, const Frame& frame, std::size_t contact,
+void StructureByLayer::add_ends(const Grains& grains, const Frame<2>& frame, std::size_t contact,
                                 PairType type)
 {
   const auto add_end = [&](std::int32_t grain) {
@@ -110,7 +110,7 @@ double StructureByLayer::slides(double f_n, double f_t) const
   return f_n > 0 && std::abs(f_t) >= (1 - sliding_tolerance) * friction_ * f_n ? 1 : 0;
 }
 
-void StructureByLayer::add_contacts(const Grains& grains, const Frame& frame)
+void StructureByLayer::add_contacts(const Grains& grains, const Frame<2>& frame)
 {
   const auto& list = frame.contacts;
   std::vector<LayerForce> forces(sums_.size());
@@ -151,8 +151,8 @@ StructureSums StructureByLayer::mean(std::size_t layer) const
 {
   StructureSums mean = sums_[layer] / static_cast<double>(frames_);
   const auto areas = composition_.mean(layer);
-  mean.species[0].area = areas.small;
-  mean.species[1].area = areas.large;
+  mean.species[0].area = areas[0];
+  mean.species[1].area = areas[1];
   return mean;
 }
 

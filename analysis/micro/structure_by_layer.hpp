@@ -24,7 +24,7 @@ class StructureByLayer {
   StructureByLayer(const Layers& layers, GrainArea area,
                    double friction = std::numeric_limits<double>::quiet_NaN());
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   void merge(const StructureByLayer& others);
   std::size_t layers() const { return sums_.size(); }
   StructureSums mean(std::size_t layer) const;
@@ -37,14 +37,14 @@ class StructureByLayer {
   std::vector<double> bed_row() const;
 
  private:
-  void add_grains(const Grains& grains, const Frame& frame);
-  void add_contacts(const Grains& grains, const Frame& frame);
+  void add_grains(const Grains& grains, const Frame<2>& frame);
+  void add_contacts(const Grains& grains, const Frame<2>& frame);
   /// Whether a contact slides, as 1 or 0; NaN where friction is unknown.
   double slides(double f_n, double f_t) const;
-  void add_ends(const Grains& grains, const Frame& frame, std::size_t contact, PairType type);
+  void add_ends(const Grains& grains, const Frame<2>& frame, std::size_t contact, PairType type);
 
   Layers layers_;
-  Composition composition_;
+  Composition<2> composition_;
   double friction_;
   std::size_t frames_ = 0;
   std::vector<StructureSums> sums_;  // without areas: those are in composition_

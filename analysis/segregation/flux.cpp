@@ -74,7 +74,7 @@ SegregationFlux::SegregationFlux(const Layers& layers, const Window& window, dou
 {
 }
 
-void SegregationFlux::add(const Grains& grains, const Frame& frame)
+void SegregationFlux::add(const Grains& grains, const Frame<2>& frame)
 {
   ++frames_;
   const double passed = (frame.time - begin_) / length_ * static_cast<double>(parts);

@@ -50,7 +50,7 @@ class SegregationFlux {
   SegregationFlux(const Layers& layers, const Window& window, double small_diameter,
                   double large_diameter);
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   void merge(const SegregationFlux& others);
 
   /// One layer.

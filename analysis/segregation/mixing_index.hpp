@@ -12,6 +12,6 @@ namespace grseg {
 /// species and s_r^2 = n Phi_L Phi_S (Phi_S a_L + Phi_L a_S)/A that of a random mixture (Stange
 /// 1954), for n layers, the area A of all grains and a_S, a_L of one grain. Each grain belongs to
 /// the layer of its centre. NaN where a species is missing.
-double mixing_index(const Layers& layers, const Grains& grains, const Frame& frame);
+double mixing_index(const Layers& layers, const Grains& grains, const Frame<2>& frame);
 
 }  // namespace grseg

@@ -9,7 +9,7 @@ namespace grseg {
 namespace {
 
 /// From 10 to 90 % of the height of the bed.
-double shear_rate(const Grains& grains, const Frame& frame, double bed)
+double shear_rate(const Grains& grains, const Frame<2>& frame, double bed)
 {
   LayerFlowSums sums;
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -22,7 +22,7 @@ double shear_rate(const Grains& grains, const Frame& frame, double bed)
 
 }  // namespace
 
-void SegregationSeries::add(const Grains& grains, const Frame& frame)
+void SegregationSeries::add(const Grains& grains, const Frame<2>& frame)
 {
   const auto heights = bed_heights(grains, frame);
   Moment now;

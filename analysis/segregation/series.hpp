@@ -25,7 +25,7 @@ class SegregationSeries {
 
   explicit SegregationSeries(const Layers& layers) : layers_(layers) {}
 
-  void add(const Grains& grains, const Frame& frame);
+  void add(const Grains& grains, const Frame<2>& frame);
   /// Appends the frames of another, which come later.
   void merge(const SegregationSeries& later);
   const std::vector<Moment>& moments() const { return moments_; }

@@ -97,7 +97,7 @@ CheckReport check(const TrajectoryReader& run, const Settings& s, const std::str
   std::optional<PhysicsCheck> physics;
   if (s.with_physics) physics.emplace(run, s.physics);
   const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
-  Frame frame;
+  Frame<2> frame;
   for (std::size_t k = 0; k < run.size(); ++k) {
     run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
     content.add(k, frame);

@@ -3,7 +3,8 @@
 
 namespace grseg {
 
-void ContactList::clear()
+template <int D>
+void ContactList<D>::clear()
 {
   i.clear();
   j.clear();
@@ -12,7 +13,8 @@ void ContactList::clear()
   gap.clear();
 }
 
-void ContactList::reserve(std::size_t contacts)
+template <int D>
+void ContactList<D>::reserve(std::size_t contacts)
 {
   i.reserve(contacts);
   j.reserve(contacts);
@@ -21,7 +23,11 @@ void ContactList::reserve(std::size_t contacts)
   gap.reserve(contacts);
 }
 
-double share_of_first(const Grains& grains, const ContactList& contacts, std::size_t contact)
+template struct ContactList<2>;
+template struct ContactList<3>;
+
+template <int D>
+double share_of_first(const Grains& grains, const ContactList<D>& contacts, std::size_t contact)
 {
   const auto j = contacts.j[contact];
   if (j < 0) return 1;
@@ -31,11 +37,17 @@ double share_of_first(const Grains& grains, const ContactList& contacts, std::si
   return (radius_i + gap / 2) / (radius_i + radius_j + gap);
 }
 
-Vec2 contact_point(const Grains& grains, const Frame& frame, std::size_t contact)
+template <int D>
+Vector<D> contact_point(const Grains& grains, const Frame<D>& frame, std::size_t contact)
 {
   const auto i = static_cast<std::size_t>(frame.contacts.i[contact]);
   return frame.position[i] -
          share_of_first(grains, frame.contacts, contact) * frame.contacts.branch[contact];
 }
+
+template double share_of_first(const Grains&, const ContactList<2>&, std::size_t);
+template double share_of_first(const Grains&, const ContactList<3>&, std::size_t);
+template Vec2 contact_point(const Grains&, const Frame<2>&, std::size_t);
+template Vec3 contact_point(const Grains&, const Frame<3>&, std::size_t);
 
 }  // namespace grseg

@@ -4,17 +4,32 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <numbers>
+#include <type_traits>
 #include <vector>
 
-/// The data that simulator and analysis share. Everything is in SI units and two-dimensional: a
-/// density is in kg/m^2, a force in N, a stress in N/m. x points down the slope and may be
-/// periodic, y is normal to the base and points up.
+/// The data that simulator and analysis share, in D = 2 or 3 dimensions. Everything is in SI units.
+/// x points down the slope, y is normal to the base and points up, z goes across; the cell may be
+/// periodic along x and z. In two dimensions a density is in kg/m^2 and a stress in N/m, in three in
+/// kg/m^3 and Pa. The simulator knows two dimensions only.
 namespace grseg {
 
-using Vec2 = Eigen::Vector2d;
-using Tensor2 = Eigen::Matrix2d;
+template <int D>
+using Vector = Eigen::Matrix<double, D, 1>;
+template <int D>
+using Tensor = Eigen::Matrix<double, D, D>;
+/// Of a turning grain: counter-clockwise in two dimensions, right-handed about each axis in three.
+template <int D>
+using Spin = std::conditional_t<D == 2, double, Vector<3>>;
 
-enum class Species : std::int32_t { small = 0, large = 1, boundary = 2 };
+using Vec2 = Vector<2>;
+using Vec3 = Vector<3>;
+using Tensor2 = Tensor<2>;
+using Tensor3 = Tensor<3>;
+
+/// Mobile species are numbered in order of their nominal diameters, from 0; most runs have the two
+/// that have names here. Boundary grains belong to none.
+enum class Species : std::int32_t { boundary = -1, small = 0, large = 1 };
 
 /// What never changes during a run; entry g describes grain g in every frame.
 struct Grains {
@@ -33,12 +48,29 @@ inline bool is_mobile(const Grains& grains, std::size_t grain)
   return grains.fixed[grain] == 0 && grains.species[grain] != Species::boundary;
 }
 
-/// The cell. Where it is periodic, positions lie in [0, length_x).
+/// The cell. Where it is periodic, positions lie in [0, length).
 struct Box {
   double length_x = 0;  // m
   double length_y = 0;  // m, only for viewers: nothing is periodic in y
   bool periodic_x = true;
+  int dimension = 2;
+  double length_z = 0;  // m; 0 in two dimensions
+  bool periodic_z = false;
 };
+
+/// Area (m^2) or volume (m^3) of a grain: a disc or a sphere.
+template <int D>
+double grain_volume(double radius)
+{
+  if constexpr (D == 2)
+    return std::numbers::pi * radius * radius;
+  else
+    return 4 * std::numbers::pi / 3 * radius * radius * radius;
+}
+
+/// Moment of inertia of a grain over its mass times the square of its radius: a disc or a sphere.
+template <int D>
+inline constexpr double inertia_factor = D == 2 ? 0.5 : 0.4;
 
 /// Touching pairs as parallel arrays, one entry per contact.
 ///
@@ -46,11 +78,12 @@ struct Box {
 /// sigma = (1/V) sum force (x) branch is positive in compression (Rothenburg & Selvadurai 1981).
 /// i is a mobile grain. i and j are rows of Grains, not ids; j < 0 is straight wall number -j-1,
 /// and then `branch` is x_i minus the contact point. Two boundary grains never form a contact.
+template <int D>
 struct ContactList {
   std::vector<std::int32_t> i, j;
-  std::vector<Vec2> force;   // N, impulse of the whole step divided by the step
-  std::vector<Vec2> branch;  // m
-  std::vector<double> gap;   // m, negative where the two overlap
+  std::vector<Vector<D>> force;   // N, impulse of the whole step divided by the step
+  std::vector<Vector<D>> branch;  // m
+  std::vector<double> gap;        // m, negative where the two overlap
 
   std::size_t size() const { return i.size(); }
   void clear();
@@ -61,23 +94,26 @@ struct ContactList {
 /// step, at which contacts are detected; `velocity` and `angular_velocity` are those after the
 /// solve; `force` is m (v_after - v_before)/h, so that for every mobile grain
 /// sum of its contact forces + m g - force = 0 to round-off.
+template <int D>
 struct Frame {
   std::int64_t step = 0;                           // time = (step + 1/2) h
   double time = 0;                                 // s, 0 at the tilt
-  std::vector<Vec2> position;                      // m, x wrapped into [0, length_x)
-  std::vector<std::array<std::int32_t, 2>> image;  // periods to add to `position`
-  std::vector<Vec2> velocity;                      // m/s
-  std::vector<double> angular_velocity;            // rad/s, counter-clockwise
-  std::vector<Vec2> force;                         // N; empty where an import had none
-  ContactList contacts;
+  std::vector<Vector<D>> position;                 // m, wrapped into the cell
+  std::vector<std::array<std::int32_t, D>> image;  // periods to add to `position`
+  std::vector<Vector<D>> velocity;                 // m/s
+  std::vector<Spin<D>> angular_velocity;           // rad/s
+  std::vector<Vector<D>> force;                    // N; empty where an import had none
+  ContactList<D> contacts;
 };
 
 /// Where two grains touch: x_i - branch (r_i + gap/2)/(r_i + r_j + gap); at a wall the contact
 /// point is x_i - branch.
-Vec2 contact_point(const Grains& grains, const Frame& frame, std::size_t contact);
+template <int D>
+Vector<D> contact_point(const Grains& grains, const Frame<D>& frame, std::size_t contact);
 
 /// Fraction of the branch that lies between the centre of grain i and the contact point; 1 at a
 /// wall.
-double share_of_first(const Grains& grains, const ContactList& contacts, std::size_t contact);
+template <int D>
+double share_of_first(const Grains& grains, const ContactList<D>& contacts, std::size_t contact);
 
 }  // namespace grseg

@@ -6,16 +6,21 @@
 
 namespace grseg {
 
-Vec2 Gravity::at(double time) const
+template <int D>
+Vector<D> Gravity<D>::at(double time) const
 {
   if (!turns()) return start;
   const double angle = slope_rate * std::max(time, 0.0);
   const double c = std::cos(angle), s = std::sin(angle);
   // A slope that becomes steeper turns gravity from -y towards +x.
-  return {c * start.x() - s * start.y(), s * start.x() + c * start.y()};
+  Vector<D> turned = start;
+  turned.x() = c * start.x() - s * start.y();
+  turned.y() = s * start.x() + c * start.y();
+  return turned;
 }
 
-Vec2 Gravity::mean(double last, std::int64_t steps, double step) const
+template <int D>
+Vector<D> Gravity<D>::mean(double last, std::int64_t steps, double step) const
 {
   if (!turns()) return start;
   // Mean of vectors of one length, each turned by `angle` against the last (Dirichlet's kernel).
@@ -23,5 +28,8 @@ Vec2 Gravity::mean(double last, std::int64_t steps, double step) const
   const auto count = static_cast<double>(steps);
   return std::sin(count * half) / (count * std::sin(half)) * at(last - (count - 1) * step / 2);
 }
+
+template struct Gravity<2>;
+template struct Gravity<3>;
 
 }  // namespace grseg

@@ -11,7 +11,7 @@ struct ContactParts {
   double normal, tangential;  // N, on i; normal > 0 pushes i away from j
 };
 
-inline ContactParts contact_parts(const ContactList& contacts, std::size_t contact)
+inline ContactParts contact_parts(const ContactList<2>& contacts, std::size_t contact)
 {
   const Vec2 n = contacts.branch[contact].normalized(), &force = contacts.force[contact];
   return {n, n.dot(force), n.x() * force.y() - n.y() * force.x()};

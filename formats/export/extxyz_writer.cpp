@@ -21,22 +21,23 @@ std::string keys_of(const ViewCell& cell, bool has_force)
 ExtxyzWriter::ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell,
                            const std::string& path, bool overwrite)
     : grains_(run.grains()),
+      species_(species_numbers(run.grains().species, run.species().size())),
       has_force_(run.has_force()),
       keys_(keys_of(cell, run.has_force())),
       file_(path, overwrite, {run.path()})
 {
 }
 
-void ExtxyzWriter::add(const Frame& frame)
+void ExtxyzWriter::add(const Frame<2>& frame)
 {
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);
   fmt::format_to(end, "{}\n{} Time={}\n", grains_.size(), keys_, frame.time);
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     const auto &x = frame.position[g], &v = frame.velocity[g];
-    fmt::format_to(end, "{} {} {} {} 0 {} {} 0 {} {} 0 0 {}", grains_.id[g],
-                   static_cast<int>(grains_.species[g]) + 1, x.x(), x.y(), v.x(), v.y(),
-                   grains_.radius[g], grains_.mass[g], frame.angular_velocity[g]);
+    fmt::format_to(end, "{} {} {} {} 0 {} {} 0 {} {} 0 0 {}", grains_.id[g], species_[g] + 1, x.x(),
+                   x.y(), v.x(), v.y(), grains_.radius[g], grains_.mass[g],
+                   frame.angular_velocity[g]);
     if (has_force_) fmt::format_to(end, " {} {} 0", frame.force[g].x(), frame.force[g].y());
     text.push_back('\n');
   }

@@ -19,11 +19,12 @@ class ExtxyzWriter {
                bool overwrite);
 
   /// Needs velocities, and forces where the run has them.
-  void add(const Frame& frame);
+  void add(const Frame<2>& frame);
   void publish() { file_.publish(); }
 
  private:
   const Grains& grains_;
+  std::vector<std::int32_t> species_;
   bool has_force_;
   std::string keys_;
   OutputFile file_;

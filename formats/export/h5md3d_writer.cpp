@@ -102,8 +102,8 @@ void H5md3dWriter::Impl::write_grains() const
   const auto& grains = run.grains();
   const std::vector<hsize_t> shape{grains.size()};
   write_fixed(file, group + "id", H5T_STD_I32LE, H5T_NATIVE_INT32, shape, grains.id.data());
-  write_fixed(file, group + "species", H5T_STD_I32LE, H5T_NATIVE_INT32, shape,
-              grains.species.data());
+  const auto species = species_numbers(grains.species, run.species().size());
+  write_fixed(file, group + "species", H5T_STD_I32LE, H5T_NATIVE_INT32, shape, species.data());
   write_fixed(file, group + "radius", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape,
               grains.radius.data());
   write_fixed(file, group + "mass", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, grains.mass.data());
@@ -117,7 +117,7 @@ H5md3dWriter::H5md3dWriter(const TrajectoryReader& run, const ViewCell& cell,
 H5md3dWriter::~H5md3dWriter() = default;
 H5md3dWriter::H5md3dWriter(H5md3dWriter&&) noexcept = default;
 
-void H5md3dWriter::add(const Frame& frame)
+void H5md3dWriter::add(const Frame<2>& frame)
 {
   const auto& my = *impl_;
   const auto append = [&](const Dataset& dataset, hid_t type, const void* data) {

@@ -26,7 +26,7 @@ class H5md3dWriter {
   H5md3dWriter(H5md3dWriter&&) noexcept;
 
   /// Needs velocities, images, and forces where the run has them.
-  void add(const Frame& frame);
+  void add(const Frame<2>& frame);
   void publish();
 
  private:

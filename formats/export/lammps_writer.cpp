@@ -30,9 +30,11 @@ std::string bounds_of(const ViewCell& cell)
   return text;
 }
 
-int type_of(Species species)
+/// Types begin at 1; that of boundary grains is the last one.
+int type_of(Species species, std::size_t mobile)
 {
-  return static_cast<int>(species) + 1;
+  return species == Species::boundary ? static_cast<int>(mobile) + 1
+                                      : static_cast<int>(species) + 1;
 }
 
 /// Options of grseg-import for what dumps cannot hold.
@@ -41,9 +43,9 @@ std::string import_options_for(const TrajectoryReader& run)
   const auto& species = run.grains().species;
   const auto type = [&](Species kind) -> std::string {
     const bool there = std::find(species.begin(), species.end(), kind) != species.end();
-    return there ? std::to_string(type_of(kind)) : "none";
+    return there ? std::to_string(type_of(kind, run.species().size())) : "none";
   };
-  const Vec2 gravity = run.gravity().start;
+  const Vec2 gravity = run.gravity<2>().start;
   return fmt::format(
       "--units si --step {} --gravity {},{},0 --grains-are discs --origin 0 --small {} --large {} "
       "--boundary {} --small-diameter {} --large-diameter {}{}",
@@ -68,19 +70,19 @@ LammpsWriter::LammpsWriter(const TrajectoryReader& run, const ViewCell& cell,
   contacts_file_.write("ITEM: UNITS\nsi\n");
 }
 
-std::string LammpsWriter::head(const Frame& frame, const char* label, std::size_t rows) const
+std::string LammpsWriter::head(const Frame<2>& frame, const char* label, std::size_t rows) const
 {
   return fmt::format("ITEM: TIME\n{}\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF {}\n{}\n{}ITEM: {} ",
                      frame.time, frame.step, label, rows, bounds_, label);
 }
 
-void LammpsWriter::add(const Frame& frame)
+void LammpsWriter::add(const Frame<2>& frame)
 {
   add_grains(frame);
   add_contacts(frame);
 }
 
-void LammpsWriter::add_grains(const Frame& frame)
+void LammpsWriter::add_grains(const Frame<2>& frame)
 {
   const auto& grains = run_.grains();
   const bool has_force = run_.has_force();
@@ -91,15 +93,16 @@ void LammpsWriter::add_grains(const Frame& frame)
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const auto &x = frame.position[g], &v = frame.velocity[g];
     fmt::format_to(end, "{} {} {} {} {} {} 0 {} {} 0 {} {} 0 {}", grains.id[g],
-                   type_of(grains.species[g]), grains.mass[g], grains.radius[g], x.x(), x.y(),
-                   frame.image[g][0], frame.image[g][1], v.x(), v.y(), frame.angular_velocity[g]);
+                   type_of(grains.species[g], run_.species().size()), grains.mass[g],
+                   grains.radius[g], x.x(), x.y(), frame.image[g][0], frame.image[g][1], v.x(),
+                   v.y(), frame.angular_velocity[g]);
     if (has_force) fmt::format_to(end, " {} {} 0", frame.force[g].x(), frame.force[g].y());
     text.push_back('\n');
   }
   grains_file_.write({text.data(), text.size()});
 }
 
-void LammpsWriter::add_contacts(const Frame& frame)
+void LammpsWriter::add_contacts(const Frame<2>& frame)
 {
   const auto& contacts = frame.contacts;
   const auto& id = run_.grains().id;

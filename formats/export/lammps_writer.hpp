@@ -27,7 +27,7 @@ class LammpsWriter {
                bool overwrite);
 
   /// Needs velocities, images, contacts, and forces where the run has them.
-  void add(const Frame& frame);
+  void add(const Frame<2>& frame);
   void publish();
 
   /// The command that turns the dumps back into a run, with options for what dumps cannot hold.
@@ -35,9 +35,9 @@ class LammpsWriter {
   std::string import_command() const;
 
  private:
-  std::string head(const Frame& frame, const char* label, std::size_t rows) const;
-  void add_grains(const Frame& frame);
-  void add_contacts(const Frame& frame);
+  std::string head(const Frame<2>& frame, const char* label, std::size_t rows) const;
+  void add_grains(const Frame<2>& frame);
+  void add_contacts(const Frame<2>& frame);
 
   const TrajectoryReader& run_;
   std::string bounds_, import_options_, grains_path_, contacts_path_;

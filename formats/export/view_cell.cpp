@@ -7,7 +7,7 @@ namespace grseg {
 
 ViewCell view_cell(const TrajectoryReader& run, std::size_t frame)
 {
-  Frame first;
+  Frame<2> first;
   run.read(frame, first, {.velocity = false, .contacts = false, .force = false});
   const auto& radius = run.grains().radius;
   const double largest = *std::max_element(radius.begin(), radius.end());

@@ -54,19 +54,17 @@ VtpWriter::VtpWriter(const TrajectoryReader& run, const std::string& folder, boo
   folder_.add_folder("contacts");
 }
 
-std::string VtpWriter::grains_text(const Frame& frame) const
+std::string VtpWriter::grains_text(const Frame<2>& frame) const
 {
   const auto& grains = run_.grains();
   auto diameter = grains.radius;
   for (auto& value : diameter) value *= 2;
-  std::vector<std::int32_t> species;
-  for (const auto kind : grains.species) species.push_back(static_cast<std::int32_t>(kind));
 
   PolyData data(PolyData::Cells::vertices, padded(frame.position), frame.time);
   data.point_array("diameter", single(diameter));
   data.point_array("radius", single(grains.radius));
   data.point_array("mass", single(grains.mass));
-  data.point_array("species", species);
+  data.point_array("species", species_numbers(grains.species, run_.species().size()));
   data.point_array("id", grains.id);
   data.point_array("velocity", padded(frame.velocity), 3);
   data.point_array("angular_velocity", single(frame.angular_velocity));
@@ -74,7 +72,7 @@ std::string VtpWriter::grains_text(const Frame& frame) const
   return data.text();
 }
 
-std::string VtpWriter::contacts_text(const Frame& frame) const
+std::string VtpWriter::contacts_text(const Frame<2>& frame) const
 {
   const auto& grains = run_.grains();
   const auto& contacts = frame.contacts;
@@ -105,7 +103,7 @@ std::string VtpWriter::contacts_text(const Frame& frame) const
   return data.text();
 }
 
-void VtpWriter::add(const Frame& frame)
+void VtpWriter::add(const Frame<2>& frame)
 {
   const auto add = [&](const char* what, const std::string& text, std::string& list) {
     const auto name = fmt::format("{}/{:06}.vtp", what, frames_);

@@ -24,12 +24,12 @@ class VtpWriter {
   VtpWriter(const TrajectoryReader& run, const std::string& folder, bool overwrite);
 
   /// Needs velocities, contacts, and forces where the run has them.
-  void add(const Frame& frame);
+  void add(const Frame<2>& frame);
   void publish();
 
  private:
-  std::string grains_text(const Frame& frame) const;
-  std::string contacts_text(const Frame& frame) const;
+  std::string grains_text(const Frame<2>& frame) const;
+  std::string contacts_text(const Frame<2>& frame) const;
 
   const TrajectoryReader& run_;
   OutputFolder folder_;

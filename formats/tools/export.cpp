@@ -56,7 +56,7 @@ void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& f
                   const Settings& s, Writer& writer)
 {
   const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
-  Frame frame;
+  Frame<2> frame;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     stop_if_interrupted();
     run.read(frames[k], frame, {.velocity = true, .contacts = true, .force = true});
@@ -84,7 +84,7 @@ void export_run(const Settings& s, const po::variables_map& values)
     LammpsWriter writer(run, cell, s.output, s.overwrite);
     write(writer);
     if (s.quiet) return;
-    if (run.gravity().turns())
+    if (run.gravity<2>().turns())
       fmt::print(
           stderr,
           "{}: the slope changes with time, which an archive cannot pass on to grseg-import\n",

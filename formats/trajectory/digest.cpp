@@ -30,9 +30,10 @@ class Hasher {
     add(rounded_.data(), count * sizeof(float));
   }
   void add_reals(const std::vector<double>& values) { add_reals(values.data(), values.size()); }
-  void add_reals(const std::vector<Vec2>& values)
+  template <int D>
+  void add_reals(const std::vector<Vector<D>>& values)
   {
-    if (!values.empty()) add_reals(values.front().data(), 2 * values.size());
+    if (!values.empty()) add_reals(values.front().data(), D * values.size());
   }
   std::uint64_t digest() const { return XXH3_64bits_digest(&state_); }
 
@@ -61,7 +62,8 @@ void add_values(Hasher& hash, const std::vector<T>& values)
   hash.add(values.data(), values.size() * sizeof(T));
 }
 
-void add_field(Hasher& hash, Field field, const Frame& frame)
+template <int D>
+void add_field(Hasher& hash, Field field, const Frame<D>& frame)
 {
   const auto& contacts = frame.contacts;
   switch (field) {
@@ -98,7 +100,8 @@ std::uint64_t seed_of(Field field, std::uint64_t index)
 
 }  // namespace
 
-std::uint64_t frame_digest(const Frame& frame, std::uint64_t before, bool float32)
+template <int D>
+std::uint64_t frame_digest(const Frame<D>& frame, std::uint64_t before, bool float32)
 {
   Hasher hash(before, float32);
   hash.add(&frame.step, sizeof frame.step);
@@ -107,12 +110,18 @@ std::uint64_t frame_digest(const Frame& frame, std::uint64_t before, bool float3
   return hash.digest();
 }
 
-std::uint64_t field_digest(Field field, std::uint64_t index, const Frame& frame, bool float32)
+template <int D>
+std::uint64_t field_digest(Field field, std::uint64_t index, const Frame<D>& frame, bool float32)
 {
   Hasher hash(seed_of(field, index), float32);
   add_field(hash, field, frame);
   return hash.digest();
 }
+
+template std::uint64_t frame_digest(const Frame<2>&, std::uint64_t, bool);
+template std::uint64_t frame_digest(const Frame<3>&, std::uint64_t, bool);
+template std::uint64_t field_digest(Field, std::uint64_t, const Frame<2>&, bool);
+template std::uint64_t field_digest(Field, std::uint64_t, const Frame<3>&, bool);
 
 std::uint64_t field_digest(std::uint64_t index, const FramePlace& place)
 {

@@ -18,7 +18,8 @@ namespace grseg {
 /// bytes are, in this order: step, time, position, image, velocity, angular_velocity, force, then
 /// i, j, force, branch, gap of the contacts. With `float32` the floating-point arrays (not `time`)
 /// are rounded to 4 bytes first, as in the file.
-std::uint64_t frame_digest(const Frame& frame, std::uint64_t before, bool float32);
+template <int D>
+std::uint64_t frame_digest(const Frame<D>& frame, std::uint64_t before, bool float32);
 
 /// The parts of a frame that have digests of their own, the columns of /grseg/field_digest: a
 /// reader that takes some of them verifies those.
@@ -50,7 +51,8 @@ struct FramePlace {
 /// Digest of a field of frame number `index`: of the number 16 index + field, then the bytes of the
 /// field, floating-point numbers as in frame_digest. A field that moved to another frame or dataset
 /// has another digest. Not for `place` and `observables`.
-std::uint64_t field_digest(Field field, std::uint64_t index, const Frame& frame, bool float32);
+template <int D>
+std::uint64_t field_digest(Field field, std::uint64_t index, const Frame<D>& frame, bool float32);
 /// The same of Field::place.
 std::uint64_t field_digest(std::uint64_t index, const FramePlace& place);
 /// The same of Field::observables: one value per observable, in the alphabetical order of names.

@@ -23,10 +23,10 @@ void add_parameters(Digester& digester, const Parameters& parameters, bool known
   add(parameters.texts);
 }
 
-void add_grains(Digester& digester, const Grains& grains)
+void add_grains(Digester& digester, const Grains& grains, std::size_t mobile_species)
 {
   digester.add(grains.id);
-  digester.add(grains.species);
+  digester.add(species_numbers(grains.species, mobile_species));
   digester.add(grains.radius);
   digester.add(grains.mass);
   digester.add(grains.fixed);
@@ -45,12 +45,19 @@ std::uint64_t static_digest(const RunDescription& run)
   digester.add(run.box.length_x);
   digester.add(run.box.length_y);
   digester.add(run.box.periodic_x);
-  add_grains(digester, run.grains);
-  for (const auto& [name, diameter, mobile] : species_of(run.parameters)) {
+  if (run.box.dimension == 3) {
+    digester.add(run.box.length_z);
+    digester.add(run.box.periodic_z);
+  }
+  const auto species = species_of(run);
+  add_grains(digester, run.grains, species.size());
+  const auto add_species = [&](const std::string& name, double diameter, bool mobile) {
     digester.add(name);
     digester.add(diameter);
     digester.add(mobile);
-  }
+  };
+  for (const auto& [name, diameter] : species) add_species(name, diameter, true);
+  add_species(name_of_boundary, 0, false);
   digester.add(run.has_force);
   auto observables = run.observables;
   std::sort(observables.begin(), observables.end(),

@@ -31,7 +31,7 @@ constexpr NumberType float32{"float32", H5T_FLOAT, 4};
 constexpr NumberType float64{"float64", H5T_FLOAT, 8};
 
 /// A row of the table of formats/README.md. A letter of `shape` is F frames, O = F+1, N grains, C
-/// contacts, K species, D digests of a frame, 2 or 4. `stored`: float32 where the run says so.
+/// contacts, K species, D digests of a frame, d dimensions, w those of a spin, or 4. `stored`: float32 where the run says so.
 /// `since`: the minor version that has it.
 struct Row {
   const char* path;
@@ -42,24 +42,24 @@ struct Row {
   int since = 0;
 };
 constexpr std::array table{
-    Row{"/particles/grains/box/edges", float64, false, "2", ""},
+    Row{"/particles/grains/box/edges", float64, false, "d", ""},
     Row{"/particles/grains/id", int32, false, "N", ""},
     Row{"/particles/grains/species", int32, false, "N", ""},
     Row{"/particles/grains/radius", float64, false, "N", ""},
     Row{"/particles/grains/mass", float64, false, "N", ""},
     Row{"/particles/grains/fixed", uint8, false, "N", ""},
-    Row{"/particles/grains/position/value", float64, true, "FN2", "m"},
+    Row{"/particles/grains/position/value", float64, true, "FNd", "m"},
     Row{"/particles/grains/position/step", int64, false, "F", ""},
     Row{"/particles/grains/position/time", float64, false, "F", "s"},
-    Row{"/particles/grains/image/value", int32, false, "FN2", ""},
-    Row{"/particles/grains/velocity/value", float64, true, "FN2", "m s-1"},
-    Row{"/particles/grains/angular_velocity/value", float64, true, "FN", "s-1"},
-    Row{"/particles/grains/force/value", float64, true, "FN2", "N"},
+    Row{"/particles/grains/image/value", int32, false, "FNd", ""},
+    Row{"/particles/grains/velocity/value", float64, true, "FNd", "m s-1"},
+    Row{"/particles/grains/angular_velocity/value", float64, true, "FNw", "s-1"},
+    Row{"/particles/grains/force/value", float64, true, "FNd", "N"},
     Row{"/grseg/contacts/offset", uint64, false, "O", ""},
     Row{"/grseg/contacts/i", int32, false, "C", ""},
     Row{"/grseg/contacts/j", int32, false, "C", ""},
-    Row{"/grseg/contacts/force", float64, true, "C2", "N"},
-    Row{"/grseg/contacts/branch", float64, true, "C2", "m"},
+    Row{"/grseg/contacts/force", float64, true, "Cd", "N"},
+    Row{"/grseg/contacts/branch", float64, true, "Cd", "m"},
     Row{"/grseg/contacts/gap", float64, true, "C", "m"},
     Row{"/grseg/digest", uint64, false, "F", ""},
     Row{"/grseg/field_digest", uint64, false, "FD", "", 1},
@@ -155,7 +155,7 @@ void LayoutCheck::check_attributes()
   numbers("/h5md", "version", {1, 1});
   numbers("/h5md/modules/units", "version", {1, 0});
   numbers("/h5md/modules/grseg", "version", {1, std::min(run_.minor_version(), 1)});
-  numbers("/particles/grains/box", "dimension", {2});
+  numbers("/particles/grains/box", "dimension", {run_.dimension()});
 }
 
 std::vector<hsize_t> LayoutCheck::shape_of(const std::string& letters) const
@@ -166,9 +166,10 @@ std::vector<hsize_t> LayoutCheck::shape_of(const std::string& letters) const
     if (letter == 'O') shape.push_back(run_.size() + 1);
     if (letter == 'N') shape.push_back(run_.grains().size());
     if (letter == 'C') shape.push_back(run_.contacts());
-    if (letter == 'K') shape.push_back(species_of({}).size());
+    if (letter == 'K') shape.push_back(run_.species().size() + 1);
     if (letter == 'D') shape.push_back(number_of_fields);
-    if (letter == '2') shape.push_back(2);
+    if (letter == 'd' || (letter == 'w' && run_.dimension() == 3))
+      shape.push_back(static_cast<hsize_t>(run_.dimension()));
     if (letter == '4') shape.push_back(4);
   }
   return shape;

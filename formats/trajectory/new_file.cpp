@@ -47,6 +47,7 @@ class NewFile {
   }
 
  private:
+  hsize_t components() const { return static_cast<hsize_t>(run_.box.dimension); }
   hid_t real_type() const { return storage_.float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
 
   void write_metadata();
@@ -72,9 +73,14 @@ void NewFile::write_metadata()
 {
   h5md::write_root(file_);
   write_attribute(make_group(file_, "/h5md/modules/grseg"), "version", std::vector<int>{1, 1});
-  h5md::write_box(file_, "grains", {run_.box.periodic_x ? "periodic" : "none", "none"});
-  const double edges[2] = {run_.box.length_x, run_.box.length_y};
-  write_fixed(file_, "/particles/grains/box/edges", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {2}, edges);
+  const auto& box = run_.box;
+  const auto word = [](bool periodic) { return periodic ? "periodic" : "none"; };
+  std::vector<std::string> boundary{word(box.periodic_x), word(false)};
+  if (box.dimension == 3) boundary.emplace_back(word(box.periodic_z));
+  h5md::write_box(file_, "grains", boundary);
+  const double edges[3] = {box.length_x, box.length_y, box.length_z};
+  write_fixed(file_, "/particles/grains/box/edges", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+              {components()}, edges);
   make_group(file_, "/parameters");
   make_group(file_, "/observables");
 }
@@ -85,7 +91,8 @@ void NewFile::write_grains()
   const std::vector<hsize_t> shape{all.size()};
   const std::string at = "/particles/grains/";
   write_fixed(file_, at + "id", H5T_STD_I32LE, H5T_NATIVE_INT32, shape, all.id.data());
-  write_fixed(file_, at + "species", H5T_STD_I32LE, H5T_NATIVE_INT32, shape, all.species.data());
+  const auto species = species_numbers(all.species, species_of(run_).size());
+  write_fixed(file_, at + "species", H5T_STD_I32LE, H5T_NATIVE_INT32, shape, species.data());
   write_fixed(file_, at + "radius", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, all.radius.data());
   write_fixed(file_, at + "mass", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, all.mass.data());
   write_fixed(file_, at + "fixed", H5T_STD_U8LE, H5T_NATIVE_UINT8, shape, all.fixed.data());
@@ -93,19 +100,19 @@ void NewFile::write_grains()
 
 void NewFile::write_species()
 {
-  constexpr std::size_t longest_name = 16;
-  const auto list = species_of(run_.parameters);
+  auto list = species_of(run_);
+  std::vector<std::uint8_t> mobile(list.size(), 1);
+  list.push_back({name_of_boundary, 0});
+  mobile.push_back(0);
   std::string names;
   std::vector<double> diameters;
-  std::vector<std::uint8_t> mobile;
-  for (const auto& species : list) {
-    names += species.name;
-    names.resize(longest_name * (mobile.size() + 1), '\0');
-    diameters.push_back(species.diameter);
-    mobile.push_back(species.mobile ? 1 : 0);
+  for (const auto& [name, diameter] : list) {
+    names += name.substr(0, longest_species_name);
+    diameters.push_back(diameter);
+    names.resize(longest_species_name * diameters.size(), '\0');
   }
   const std::vector<hsize_t> shape{list.size()};
-  const auto text = string_type(longest_name);
+  const auto text = string_type(longest_species_name);
   const std::string at = "/grseg/species/";
   write_fixed(file_, at + "name", text, text, shape, names.data());
   write_fixed(file_, at + "diameter", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, diameters.data());
@@ -132,13 +139,14 @@ void NewFile::create_element(const std::string& at, const std::string& unit, hid
 
 void NewFile::create_elements()
 {
-  const hsize_t n = run_.grains.size();
+  const hsize_t n = run_.grains.size(), d = components();
+  const std::vector<hsize_t> spins = d == 2 ? std::vector{n} : std::vector{n, d};
   const std::string at = "/particles/grains/";
-  create_element(at + "position", "m", real_type(), {n, 2});
-  create_element(at + "image", "", H5T_STD_I32LE, {n, 2});
-  create_element(at + "velocity", "m s-1", real_type(), {n, 2});
-  create_element(at + "angular_velocity", "s-1", real_type(), {n});
-  if (run_.has_force) create_element(at + "force", "N", real_type(), {n, 2});
+  create_element(at + "position", "m", real_type(), {n, d});
+  create_element(at + "image", "", H5T_STD_I32LE, {n, d});
+  create_element(at + "velocity", "m s-1", real_type(), {n, d});
+  create_element(at + "angular_velocity", "s-1", real_type(), spins);
+  if (run_.has_force) create_element(at + "force", "N", real_type(), {n, d});
   for (const auto& [name, unit] : run_.observables)
     create_element("/observables/" + name, unit, H5T_IEEE_F64LE, {});
 }
@@ -149,8 +157,8 @@ void NewFile::create_contacts()
   const auto rows = storage_.contact_chunk;
   create_series(at + "i", "", H5T_STD_I32LE, {}, rows);
   create_series(at + "j", "", H5T_STD_I32LE, {}, rows);
-  create_series(at + "force", "N", real_type(), {2}, rows);
-  create_series(at + "branch", "m", real_type(), {2}, rows);
+  create_series(at + "force", "N", real_type(), {components()}, rows);
+  create_series(at + "branch", "m", real_type(), {components()}, rows);
   create_series(at + "gap", "m", real_type(), {}, rows);
   create_series(at + "offset", "", H5T_STD_U64LE, {}, storage_.scalar_chunk);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/trajectory/reader.hpp"
 
+#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/integrity.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <initializer_list>
 #include <numbers>
 #include <optional>
@@ -48,14 +50,17 @@ struct TrajectoryReader::Impl : StoredRun {
   std::string damage_of_run() const;
   std::string damage_of_observables() const;
   void drop_damaged_end();
-  void read(std::size_t index, Frame& frame, Fields fields) const;
-  std::optional<Field> changed_field(std::size_t index, const Frame& frame, Fields fields) const;
+  template <int D>
+  void read(std::size_t index, Frame<D>& frame, Fields fields) const;
+  template <int D>
+  std::optional<Field> changed_field(std::size_t index, const Frame<D>& frame, Fields fields) const;
   void verify_whole(std::size_t index) const;
   bool matches(std::size_t index, Field field, std::uint64_t digest) const
   {
     return field_digests[index][static_cast<std::size_t>(field)] == digest;
   }
-  bool chain_matches(std::size_t index, const Frame& frame) const
+  template <int D>
+  bool chain_matches(std::size_t index, const Frame<D>& frame) const
   {
     return frame_digest(frame, index == 0 ? 0 : chain[index - 1], stores_float32()) == chain[index];
   }
@@ -98,14 +103,16 @@ void TrajectoryReader::Impl::drop_damaged_end()
 {
   closed = run.parameters.numbers.contains("complete");
   if (closed) return;
-  Frame frame;
   const auto is_whole = [&](std::size_t last) {
-    try {
-      read(last, frame, whole);
-    } catch (const FormatError&) {
-      return false;
-    }
-    return chain_matches(last, frame);
+    return with_dimension(dimension(), [&](auto d) {
+      Frame<d> frame;
+      try {
+        read(last, frame, whole);
+      } catch (const FormatError&) {
+        return false;
+      }
+      return chain_matches(last, frame);
+    });
   };
   while (size() > 0 && !is_whole(size() - 1)) drop_last();
 }
@@ -148,33 +155,33 @@ std::string TrajectoryReader::Impl::damage_of_observables() const
   return {};
 }
 
-void TrajectoryReader::Impl::read(std::size_t index, Frame& frame, Fields fields) const
+template <int D>
+void TrajectoryReader::Impl::read(std::size_t index, Frame<D>& frame, Fields fields) const
 {
-  const std::size_t count = run.grains.size();
+  assert(D == dimension());
   frame.step = steps.at(index);
   frame.time = times[index];
-  read_vectors(position, index, frame.position, index);
+  read_row(position, index, frame.position);
   frame.velocity.clear();
   frame.angular_velocity.clear();
   frame.force.clear();
   frame.image.clear();
   frame.contacts.clear();
   if (fields.velocity) {
-    read_vectors(velocity, index, frame.velocity, index);
-    frame.angular_velocity.resize(count);
-    angular_velocity.read_rows(H5T_NATIVE_DOUBLE, index, 1, frame.angular_velocity.data());
-    check_finite(frame.angular_velocity.data(), count, angular_velocity.path(), index);
+    read_row(velocity, index, frame.velocity);
+    read_row(angular_velocity, index, frame.angular_velocity);
   }
   if (fields.force) {
-    if (run.has_force) read_vectors(force, index, frame.force, index);
-    frame.image.resize(count);
+    if (run.has_force) read_row(force, index, frame.force);
+    frame.image.resize(run.grains.size());
     image.read_rows(H5T_NATIVE_INT32, index, 1, frame.image.data());
   }
   if (fields.contacts) read_contacts(index, frame.contacts);
 }
 
 /// The first of the fields that were read which is not as it was written.
-std::optional<Field> TrajectoryReader::Impl::changed_field(std::size_t index, const Frame& frame,
+template <int D>
+std::optional<Field> TrajectoryReader::Impl::changed_field(std::size_t index, const Frame<D>& frame,
                                                            Fields fields) const
 {
   const bool float32 = stores_float32();
@@ -196,13 +203,15 @@ std::optional<Field> TrajectoryReader::Impl::changed_field(std::size_t index, co
 /// In files of version 1.0 only a whole frame can be verified.
 void TrajectoryReader::Impl::verify_whole(std::size_t index) const
 {
-  Frame frame;
-  read(index, frame, whole);
-  if (!chain_matches(index, frame))
-    fail(
-        fmt::format("frame {} is not what was written: the file is damaged; take a copy that is "
-                    "whole, or leave the frame out with --begin or --end",
-                    index));
+  with_dimension(dimension(), [&](auto d) {
+    Frame<d> frame;
+    read(index, frame, whole);
+    if (!chain_matches(index, frame))
+      fail(
+          fmt::format("frame {} is not what was written: the file is damaged; take a copy that is "
+                      "whole, or leave the frame out with --begin or --end",
+                      index));
+  });
 }
 
 TrajectoryReader::~TrajectoryReader() = default;
@@ -223,6 +232,10 @@ std::size_t TrajectoryReader::contacts() const
 const Grains& TrajectoryReader::grains() const
 {
   return impl_->run.grains;
+}
+const SpeciesList& TrajectoryReader::species() const
+{
+  return impl_->run.species;
 }
 const Box& TrajectoryReader::box() const
 {
@@ -272,31 +285,29 @@ double TrajectoryReader::step() const
   return parameters().number("step", path());
 }
 
-Gravity TrajectoryReader::gravity() const
+template <int D>
+Gravity<D> TrajectoryReader::gravity() const
 {
   const auto& numbers = parameters().numbers;
   const auto found = numbers.find("gravity");
-  if (found == numbers.end() || found->second.size() != 2)
-    impl_->fail("/parameters/gravity should be two numbers; see formats/README.md");
+  if (found == numbers.end() || found->second.size() != D)
+    impl_->fail(fmt::format("/parameters/gravity should be {} numbers; see formats/README.md",
+                            D == 2 ? "two" : "three"));
   const double rate =
       numbers.count("slope_rate") > 0 ? parameters().number("slope_rate", path()) : 0;
-  return {{found->second[0], found->second[1]}, rate * std::numbers::pi / 180};
+  return {Vector<D>(found->second.data()), rate * std::numbers::pi / 180};
 }
 
-void TrajectoryReader::read(std::size_t index, Frame& frame, Fields fields) const
-{
-  load(index, frame, fields);
-  verify(index, frame, fields);
-}
-
-void TrajectoryReader::load(std::size_t index, Frame& frame, Fields fields) const
+template <int D>
+void TrajectoryReader::load(std::size_t index, Frame<D>& frame, Fields fields) const
 {
   const auto& my = *impl_;
   my.read(index, frame, fields);
   if (my.verify == Verify::yes && !my.has_field_digests()) my.verify_whole(index);
 }
 
-void TrajectoryReader::verify(std::size_t index, const Frame& frame, Fields fields) const
+template <int D>
+void TrajectoryReader::verify(std::size_t index, const Frame<D>& frame, Fields fields) const
 {
   const auto& my = *impl_;
   if (my.verify == Verify::no || !my.has_field_digests()) return;
@@ -346,11 +357,21 @@ std::string TrajectoryReader::damage_outside_frames() const
   return damage.empty() ? impl_->damage_of_observables() : damage;
 }
 
-bool TrajectoryReader::is_intact(std::size_t index, const Frame& frame) const
+template <int D>
+bool TrajectoryReader::is_intact(std::size_t index, const Frame<D>& frame) const
 {
   const auto& my = *impl_;
   return my.chain_matches(index, frame) &&
          (!my.has_field_digests() || !my.changed_field(index, frame, whole));
 }
+
+template Gravity<2> TrajectoryReader::gravity() const;
+template Gravity<3> TrajectoryReader::gravity() const;
+template void TrajectoryReader::load(std::size_t, Frame<2>&, Fields) const;
+template void TrajectoryReader::load(std::size_t, Frame<3>&, Fields) const;
+template void TrajectoryReader::verify(std::size_t, const Frame<2>&, Fields) const;
+template void TrajectoryReader::verify(std::size_t, const Frame<3>&, Fields) const;
+template bool TrajectoryReader::is_intact(std::size_t, const Frame<2>&) const;
+template bool TrajectoryReader::is_intact(std::size_t, const Frame<3>&) const;
 
 }  // namespace grseg

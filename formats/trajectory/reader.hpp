@@ -4,6 +4,7 @@
 #include "formats/core/frame.hpp"
 #include "formats/core/gravity.hpp"
 #include "formats/core/parameters.hpp"
+#include "formats/core/species.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -39,6 +40,10 @@ class TrajectoryReader {
   std::size_t contacts() const;  ///< of all committed frames
   const Grains& grains() const;
   const Box& box() const;
+  /// 2 or 3, the D of all its frames.
+  int dimension() const { return box().dimension; }
+  /// Its mobile species, at least one.
+  const SpeciesList& species() const;
   const Parameters& parameters() const;
   bool has_force() const;     ///< false for some imports; `force` of their frames is empty
   int minor_version() const;  ///< of the module grseg in the file: 1 means 1.1
@@ -51,18 +56,30 @@ class TrajectoryReader {
   const std::vector<std::int64_t>& steps() const;
   const std::vector<double>& times() const;
 
-  /// Shorthands for /parameters: nominal diameters (m), step (s), gravity.
+  /// Shorthands for /parameters: the smallest and largest nominal diameter (m), step (s), gravity.
   double small_diameter() const;
   double large_diameter() const;
   double step() const;
-  Gravity gravity() const;
+  template <int D>
+  Gravity<D> gravity() const;
 
-  void read(std::size_t index, Frame& frame, Fields fields) const;
-  void read(std::size_t index, Frame& frame) const { read(index, frame, Fields{}); }
+  template <int D>
+  void read(std::size_t index, Frame<D>& frame, Fields fields) const
+  {
+    load(index, frame, fields);
+    verify(index, frame, fields);
+  }
+  template <int D>
+  void read(std::size_t index, Frame<D>& frame) const
+  {
+    read(index, frame, Fields{});
+  }
   /// The two halves of `read`: `load` uses HDF5, which knows no threads, `verify` does not, so that
   /// several threads can call it at once.
-  void load(std::size_t index, Frame& frame, Fields fields) const;
-  void verify(std::size_t index, const Frame& frame, Fields fields) const;
+  template <int D>
+  void load(std::size_t index, Frame<D>& frame, Fields fields) const;
+  template <int D>
+  void verify(std::size_t index, const Frame<D>& frame, Fields fields) const;
 
   /// The observables of the file, in alphabetical order.
   const std::vector<Observable>& observables() const;
@@ -81,7 +98,8 @@ class TrajectoryReader {
   /// that does not verify.
   std::string damage_outside_frames() const;
   /// Whether `frame`, read whole, is as it was written.
-  bool is_intact(std::size_t index, const Frame& frame) const;
+  template <int D>
+  bool is_intact(std::size_t index, const Frame<D>& frame) const;
 
  private:
   struct Impl;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/trajectory/repack.hpp"
 
+#include "formats/core/dimension.hpp"
+
 namespace grseg {
 
 TrajectoryWriter copy_frames(const TrajectoryReader& run, std::size_t frames, const std::string& to,
@@ -12,15 +14,18 @@ TrajectoryWriter copy_frames(const TrajectoryReader& run, std::size_t frames, co
   series.reserve(observables.size());
   for (const auto& observable : observables) series.push_back(run.observable(observable.name));
 
-  TrajectoryWriter writer(to, {run.grains(), run.box(), parameters, observables, run.has_force()},
-                          storage);
-  Frame frame;
+  TrajectoryWriter writer(
+      to, {run.grains(), run.box(), parameters, observables, run.has_force(), run.species()},
+      storage);
   std::vector<double> values(observables.size());
-  for (std::size_t k = 0; k < frames; ++k) {
-    run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
-    for (std::size_t q = 0; q < values.size(); ++q) values[q] = series[q][k];
-    writer.append(frame, values);
-  }
+  with_dimension(run.dimension(), [&](auto d) {
+    Frame<d> frame;
+    for (std::size_t k = 0; k < frames; ++k) {
+      run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
+      for (std::size_t q = 0; q < values.size(); ++q) values[q] = series[q][k];
+      writer.append(frame, values);
+    }
+  });
   return writer;
 }
 

@@ -3,9 +3,8 @@
 
 #include "formats/core/frame.hpp"
 #include "formats/core/parameters.hpp"
+#include "formats/core/species.hpp"
 
-#include <array>
-#include <string_view>
 #include <vector>
 
 namespace grseg {
@@ -16,23 +15,17 @@ struct RunDescription {
   Box box;
   Parameters parameters;
   std::vector<Observable> observables;
-  bool has_force = true;  // false: no frame has forces on grains, as in some imports
+  bool has_force = true;     // false: no frame has forces on grains, as in some imports
+  SpeciesList species = {};  // of mobile grains; none: small and large
 };
 
-/// An entry of the list of species in the file; its row is the number in /particles/grains/species.
-struct SpeciesEntry {
-  std::string_view name;
-  double diameter;  // nominal, m; 0 for boundary grains, which have none
-  bool mobile;      // part of phi
-};
-
-/// The species of a run: small, large, boundary. Diameters are those of /parameters, 0 where these
-/// name none.
-inline std::array<SpeciesEntry, 3> species_of(const Parameters& parameters)
+/// The mobile species of a run, of which there is at least one: where the description lists none,
+/// small and large with the diameters of /parameters (0 where these name none).
+inline SpeciesList species_of(const RunDescription& run)
 {
-  return {{{"small", parameters.find_number("small_diameter").value_or(0), true},
-           {"large", parameters.find_number("large_diameter").value_or(0), true},
-           {"boundary", 0, false}}};
+  if (!run.species.empty()) return run.species;
+  return two_sizes(run.parameters.find_number("small_diameter").value_or(0),
+                   run.parameters.find_number("large_diameter").value_or(0));
 }
 
 }  // namespace grseg

@@ -2,6 +2,7 @@
 #include "formats/trajectory/stored_run.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/core/text.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@ namespace {
 // Limits far beyond any real run: a damaged size is refused before memory is allocated.
 constexpr hsize_t most_grains = 100'000'000;
 constexpr hsize_t most_frames = 100'000'000;
+constexpr hsize_t most_species = 65536;
 constexpr hsize_t most_text = 16'000'000;
 constexpr hsize_t most_numbers = 65536;  // in a parameter
 
@@ -36,6 +38,15 @@ Properties small_index_cache()
   return access;
 }
 
+/// "0 small, 1 large, 2 boundary"
+std::string numbers_and_names(const SpeciesList& list)
+{
+  std::string words;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    words += fmt::format("{} {}, ", k, printable(list[k].name));
+  return words + fmt::format("{} {}", list.size(), name_of_boundary);
+}
+
 }  // namespace
 
 StoredRun::StoredRun(const std::string& its_path)
@@ -44,17 +55,20 @@ StoredRun::StoredRun(const std::string& its_path)
   require_version("/h5md");
   minor_version = require_version("/h5md/modules/grseg")[1];
   read_offset();
-  read_grains();
   read_box();
   read_parameters();
-  if (has_field_digests()) read_species();
+  if (has_field_digests())
+    read_species();
+  else
+    run.species = species_of(run);
+  read_grains();
   read_times();
   read_digests();
   read_observables();
 
   position = element("position", H5T_FLOAT, 3);
   velocity = element("velocity", H5T_FLOAT, 3);
-  angular_velocity = element("angular_velocity", H5T_FLOAT, 2);
+  angular_velocity = element("angular_velocity", H5T_FLOAT, dimension() == 2 ? 2 : 3);
   image = element("image", H5T_INTEGER, 3);
   run.has_force = exists(file, "/particles/grains/force/value");
   if (run.has_force) force = element("force", H5T_FLOAT, 3);
@@ -95,7 +109,7 @@ CheckedDataset StoredRun::element(const std::string& name, H5T_class_t kind, int
   auto dataset = open("/particles/grains/" + name + "/value", kind, rank);
   dataset.require(0, size(), true);
   dataset.require(1, run.grains.size());
-  if (rank == 3) dataset.require(2, 2);
+  if (rank == 3) dataset.require(2, static_cast<hsize_t>(dimension()));
   return dataset;
 }
 
@@ -103,7 +117,7 @@ CheckedDataset StoredRun::rows(const std::string& name, H5T_class_t kind, int ra
 {
   auto dataset = open("/grseg/contacts/" + name, kind, rank);
   dataset.require(0, offset.back(), true);
-  if (rank == 2) dataset.require(1, 2);
+  if (rank == 2) dataset.require(1, static_cast<hsize_t>(dimension()));
   return dataset;
 }
 
@@ -143,11 +157,12 @@ void StoredRun::read_grains()
   grains.id = constant<std::int32_t>("id", H5T_INTEGER, H5T_NATIVE_INT32, count);
   grains.fixed = constant<std::uint8_t>("fixed", H5T_INTEGER, H5T_NATIVE_UINT8, count);
   const auto species = constant<std::int32_t>("species", H5T_INTEGER, H5T_NATIVE_INT32, count);
+  const auto list = species_of(run);
   for (std::size_t g = 0; g < count; ++g) {
-    if (species[g] < 0 || species[g] > 2)
-      fail(fmt::format("/particles/grains/species is {} for grain {}; 0 small, 1 large, 2 boundary",
-                       species[g], g));
-    grains.species.push_back(static_cast<Species>(species[g]));
+    if (species[g] < 0 || static_cast<std::size_t>(species[g]) > list.size())
+      fail(fmt::format("/particles/grains/species is {} for grain {}; {}", species[g], g,
+                       numbers_and_names(list)));
+    grains.species.push_back(species_of_number(species[g], list.size()));
     if (!(grains.radius[g] > 0) || !(grains.mass[g] > 0) || !std::isfinite(grains.radius[g]) ||
         !std::isfinite(grains.mass[g]))
       fail(fmt::format("the radius or mass of grain {} is not positive", g));
@@ -156,46 +171,71 @@ void StoredRun::read_grains()
 
 void StoredRun::read_box()
 {
-  const auto edges = open("/particles/grains/box/edges", H5T_FLOAT, 1);
-  edges.require(0, 2);
-  double values[2];
-  edges.read_all(H5T_NATIVE_DOUBLE, values);
   const Group group(H5Gopen2(file, "/particles/grains/box", H5P_DEFAULT));
-  if (read_integers(group, "dimension") == std::vector<int>{3})
-    fail("is three-dimensional; this grseg reads runs in two dimensions");
+  const auto dimension = read_integers(group, "dimension");
+  const bool spatial = dimension == std::vector<int>{3};
+  const std::size_t size = spatial ? 3 : 2;
+  const auto edges = open("/particles/grains/box/edges", H5T_FLOAT, 1);
+  edges.require(0, size);
+  double values[3] = {0, 0, 0};
+  edges.read_all(H5T_NATIVE_DOUBLE, values);
   const auto boundary = read_texts(group, "boundary");
-  if (boundary.size() != 2 || boundary[1] != "none" ||
-      (boundary[0] != "none" && boundary[0] != "periodic"))
-    fail(
-        "/particles/grains/box: boundary should be (\"periodic\",\"none\") or (\"none\",\"none\")");
-  if (!(values[0] > 0) || !std::isfinite(values[0])) fail("/particles/grains/box: edges[0] <= 0");
+  const auto known = [&](std::size_t axis) {
+    return boundary[axis] == "none" || (axis != 1 && boundary[axis] == "periodic");
+  };
+  bool good = boundary.size() == size;
+  for (std::size_t axis = 0; good && axis < size; ++axis) good = known(axis);
+  if (!good)
+    fail(spatial
+             ? "/particles/grains/box: boundary should be \"periodic\" or \"none\" along x and z, "
+               "and \"none\" along y"
+             : "/particles/grains/box: boundary should be (\"periodic\",\"none\") or "
+               "(\"none\",\"none\")");
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{2}})
+    if (axis < size && (!(values[axis] > 0) || !std::isfinite(values[axis])))
+      fail(fmt::format("/particles/grains/box: edges[{}] <= 0", axis));
   run.box = {values[0], values[1], boundary[0] == "periodic"};
+  if (spatial) {
+    run.box.dimension = 3;
+    run.box.length_z = values[2];
+    run.box.periodic_z = boundary[2] == "periodic";
+  }
 }
 
-/// The list must be the one that this program knows; other lists are for later versions.
+/// Mobile species in order of their diameters, then the boundary.
 void StoredRun::read_species()
 {
-  const auto known = species_of(run.parameters);
   const auto names = open("/grseg/species/name", H5T_STRING, 1);
   const auto diameters = open("/grseg/species/diameter", H5T_FLOAT, 1);
   const auto mobile = open("/grseg/species/mobile", H5T_INTEGER, 1);
+  const auto count = names.dims()[0];
   const std::size_t length = H5Tget_size(Type(H5Dget_type(names.id())));
-  bool same = names.dims()[0] == known.size() && length <= 256;
-  std::string text(same ? length * known.size() : 0, '\0');
-  if (same) names.read_all(Type(H5Dget_type(names.id())), text.data());
-  for (std::size_t k = 0; same && k < known.size(); ++k)
-    same = known[k].name == text.substr(k * length, length).c_str();
-  if (!same)
-    fail("/grseg/species/name is not small, large, boundary; this grseg reads runs of two sizes");
-  diameters.require(0, known.size());
-  mobile.require(0, known.size());
-  std::array<double, known.size()> diameter;
-  std::array<std::uint8_t, known.size()> moves;
+  if (count < 2 || count > most_species || length > 256)
+    fail("/grseg/species/name has an impossible length");
+  diameters.require(0, count);
+  mobile.require(0, count);
+  std::string text(length * count, '\0');
+  std::vector<double> diameter(count);
+  std::vector<std::uint8_t> moves(count);
+  names.read_all(Type(H5Dget_type(names.id())), text.data());
   diameters.read_all(H5T_NATIVE_DOUBLE, diameter.data());
   mobile.read_all(H5T_NATIVE_UINT8, moves.data());
-  for (std::size_t k = 0; k < known.size(); ++k)
-    if (diameter[k] != known[k].diameter || moves[k] != (known[k].mobile ? 1 : 0))
-      fail("/grseg/species disagrees with /parameters: the file is damaged");
+  bool good = moves.back() == 0 && diameter.back() == 0 &&
+              text.substr((count - 1) * length).c_str() == std::string(name_of_boundary);
+  for (std::size_t k = 0; good && k + 1 < count; ++k) {
+    run.species.push_back({text.substr(k * length, length).c_str(), diameter[k]});
+    good = moves[k] == 1 && !run.species[k].name.empty() && std::isfinite(diameter[k]) &&
+           diameter[k] >= (k == 0 ? 0 : diameter[k - 1]);
+  }
+  if (!good)
+    fail(
+        "/grseg/species should list mobile species in order of their diameters, and last the "
+        "boundary");
+  const auto of_parameters = two_sizes(run.parameters.find_number("small_diameter").value_or(0),
+                                       run.parameters.find_number("large_diameter").value_or(0));
+  if (run.species.front().diameter != of_parameters.front().diameter ||
+      run.species.back().diameter != of_parameters.back().diameter)
+    fail("/grseg/species disagrees with /parameters: the file is damaged");
 }
 
 void StoredRun::read_times()
@@ -286,15 +326,17 @@ void StoredRun::check_finite(const double* values, std::size_t count, const std:
                        what, frame, k));
 }
 
-void StoredRun::read_vectors(const CheckedDataset& dataset, hsize_t row, std::vector<Vec2>& out,
-                             std::size_t frame) const
+template <class T>
+void StoredRun::read_row(const CheckedDataset& dataset, hsize_t row, std::vector<T>& out) const
 {
   out.resize(run.grains.size());
-  dataset.read_rows(H5T_NATIVE_DOUBLE, row, 1, out.front().data());
-  check_finite(out.front().data(), 2 * out.size(), dataset.path(), frame);
+  auto* const values = reinterpret_cast<double*>(out.data());
+  dataset.read_rows(H5T_NATIVE_DOUBLE, row, 1, values);
+  check_finite(values, out.size() * sizeof(T) / sizeof(double), dataset.path(), row);
 }
 
-void StoredRun::read_contacts(std::size_t index, ContactList& contacts) const
+template <int D>
+void StoredRun::read_contacts(std::size_t index, ContactList<D>& contacts) const
 {
   const hsize_t begin = offset[index], count = offset[index + 1] - begin;
   if (count > 64 * run.grains.size() + 1024)
@@ -311,8 +353,8 @@ void StoredRun::read_contacts(std::size_t index, ContactList& contacts) const
   contact_force.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.force.front().data());
   contact_branch.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.branch.front().data());
   contact_gap.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.gap.data());
-  check_finite(contacts.force.front().data(), 2 * count, contact_force.path(), index);
-  check_finite(contacts.branch.front().data(), 2 * count, contact_branch.path(), index);
+  check_finite(contacts.force.front().data(), D * count, contact_force.path(), index);
+  check_finite(contacts.branch.front().data(), D * count, contact_branch.path(), index);
   check_finite(contacts.gap.data(), count, contact_gap.path(), index);
   const auto grain_count = static_cast<std::int64_t>(run.grains.size());
   for (std::size_t k = 0; k < count; ++k) {
@@ -322,5 +364,11 @@ void StoredRun::read_contacts(std::size_t index, ContactList& contacts) const
                        index, contacts.i[k], contacts.j[k]));
   }
 }
+
+template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<double>&) const;
+template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<Vec2>&) const;
+template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<Vec3>&) const;
+template void StoredRun::read_contacts(std::size_t, ContactList<2>&) const;
+template void StoredRun::read_contacts(std::size_t, ContactList<3>&) const;
 
 }  // namespace grseg

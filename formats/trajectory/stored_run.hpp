@@ -47,19 +47,21 @@ struct StoredRun {
   /// FormatError naming `what` and `frame` where one of the values is not finite.
   void check_finite(const double* values, std::size_t count, const std::string& what,
                     std::size_t frame) const;
-  /// A row of a dataset with one vector per grain.
-  void read_vectors(const hdf5::CheckedDataset& dataset, hsize_t row, std::vector<Vec2>& out,
-                    std::size_t frame) const;
-  void read_contacts(std::size_t frame, ContactList& contacts) const;
+  int dimension() const { return run.box.dimension; }
+  /// A row of a dataset with one vector, or one number, per grain.
+  template <class T>
+  void read_row(const hdf5::CheckedDataset& dataset, hsize_t row, std::vector<T>& out) const;
+  template <int D>
+  void read_contacts(std::size_t frame, ContactList<D>& contacts) const;
   /// The values of an observable in all committed frames.
   std::vector<double> read_observable(const std::string& name) const;
 
  private:
   std::vector<int> require_version(const std::string& module) const;
   void read_offset();
-  void read_grains();
   void read_box();
   void read_species();
+  void read_grains();
   void read_times();
   void read_digests();
   void read_parameters();

@@ -32,9 +32,10 @@ struct Series {
   }
 };
 
-const double* first(const std::vector<Vec2>& values)
+template <class T>
+const void* first(const std::vector<T>& values)
 {
-  return values.front().data();
+  return values.data();
 }
 
 /// Numbers of the observables in alphabetical order.
@@ -69,8 +70,10 @@ struct TrajectoryWriter::Impl {
   void open_file();
   Series series(const std::string& at, hid_t memory_type) const;
   void open_series();
-  void append_contacts(const ContactList& contacts);
-  void append_digests(const Frame& frame, std::span<const double> values);
+  template <int D>
+  void append_contacts(const ContactList<D>& contacts);
+  template <int D>
+  void append_digests(const Frame<D>& frame, std::span<const double> values);
   void write_seal();
   void flush()
   {
@@ -120,7 +123,8 @@ void TrajectoryWriter::Impl::open_series()
   field_digests = series("/grseg/field_digest", H5T_NATIVE_UINT64);
 }
 
-void TrajectoryWriter::Impl::append_contacts(const ContactList& contacts)
+template <int D>
+void TrajectoryWriter::Impl::append_contacts(const ContactList<D>& contacts)
 {
   const hsize_t rows = contacts.size();
   if (rows == 0) return;
@@ -131,7 +135,8 @@ void TrajectoryWriter::Impl::append_contacts(const ContactList& contacts)
   contact_gap.append(rows, contacts.gap.data());
 }
 
-void TrajectoryWriter::Impl::append_digests(const Frame& frame, std::span<const double> values)
+template <int D>
+void TrajectoryWriter::Impl::append_digests(const Frame<D>& frame, std::span<const double> values)
 {
   digest_so_far = frame_digest(frame, digest_so_far, storage.float32);
   digest.append(1, &digest_so_far);
@@ -183,9 +188,11 @@ TrajectoryWriter::~TrajectoryWriter()
 }
 TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
 
-void TrajectoryWriter::append(const Frame& frame, std::span<const double> observables)
+template <int D>
+void TrajectoryWriter::append(const Frame<D>& frame, std::span<const double> observables)
 {
   auto& my = *impl_;
+  assert(D == my.run.box.dimension);
   assert(frame.position.size() == my.run.grains.size());
   assert(frame.force.size() == (my.run.has_force ? my.run.grains.size() : 0));
   assert(observables.size() == my.observables.size());
@@ -207,6 +214,9 @@ void TrajectoryWriter::append(const Frame& frame, std::span<const double> observ
   ++my.frames_so_far;
   my.is_writing = false;
 }
+
+template void TrajectoryWriter::append(const Frame<2>&, std::span<const double>);
+template void TrajectoryWriter::append(const Frame<3>&, std::span<const double>);
 
 void TrajectoryWriter::flush()
 {

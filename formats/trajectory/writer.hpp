@@ -35,7 +35,8 @@ class TrajectoryWriter {
   TrajectoryWriter(TrajectoryWriter&&) noexcept;
 
   /// `observables` holds one value per entry of RunDescription::observables.
-  void append(const Frame& frame, std::span<const double> observables);
+  template <int D>
+  void append(const Frame<D>& frame, std::span<const double> observables);
 
   /// Hands all frames so far to the system, so that a kill cannot lose them.
   void flush();

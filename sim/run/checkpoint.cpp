@@ -19,7 +19,7 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int32_t format_version = 2;
+constexpr std::int32_t format_version = 3;
 
 /// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
 /// numbers.

@@ -109,7 +109,8 @@ class Check {
     each_once("/grains/id", c_.grains.id);
     each(
         "/grains/species", c_.grains.species,
-        [](Species species) { return species <= Species::boundary; }, "is not 0, 1 or 2");
+        [](Species species) { return Species::boundary <= species && species <= Species::large; },
+        "is not -1, 0 or 1");
     each("/grains/radius", c_.grains.radius, positive, "is not a positive number");
     each("/grains/mass", c_.grains.mass, positive, "is not a positive number");
     each(

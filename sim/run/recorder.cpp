@@ -84,7 +84,7 @@ Recorder::Recorder(TrajectoryWriter& writer, double small_diameter, const State&
 {
 }
 
-void Recorder::write(const Frame& frame, const Simulation& simulation)
+void Recorder::write(const Frame<2>& frame, const Simulation& simulation)
 {
   check_bounds(frame, simulation);
   const auto& t = state_.since_frame;
@@ -117,7 +117,7 @@ void Recorder::write(const Frame& frame, const Simulation& simulation)
   state_.since_frame = {};
 }
 
-void Recorder::check_bounds(const Frame& frame, const Simulation& simulation) const
+void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation) const
 {
   if (!all_finite(frame.position) || !all_finite(frame.velocity))
     throw RunError(fmt::format(
@@ -137,7 +137,7 @@ void Recorder::check_bounds(const Frame& frame, const Simulation& simulation) co
         crossing, frame.time, most_approach, simulation.world().step * most_approach / crossing));
 }
 
-double momentum_defect(const Grains& grains, const Frame& frame, const Vec2& gravity)
+double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& gravity)
 {
   std::vector<Vec2> defect(grains.size());
   double largest_force = 0;

@@ -51,13 +51,13 @@ class Recorder {
   /// Writes `frame`; its own step must have been added. RunError where the mean overlap since the
   /// last frame is above 1 % of d_S, a grain approaches its neighbour by more than half of d_S per
   /// step, or a number is not finite.
-  void write(const Frame& frame, const Simulation& simulation);
+  void write(const Frame<2>& frame, const Simulation& simulation);
 
   const StepTotals& totals() const { return state_.totals; }
   const State& state() const { return state_; }
 
  private:
-  void check_bounds(const Frame& frame, const Simulation& simulation) const;
+  void check_bounds(const Frame<2>& frame, const Simulation& simulation) const;
 
   TrajectoryWriter& writer_;
   double small_diameter_;
@@ -66,6 +66,6 @@ class Recorder {
 
 /// Largest |sum of contact forces + m g - force| of a mobile grain over the largest |contact
 /// force|.
-double momentum_defect(const Grains& grains, const Frame& frame, const Vec2& gravity);
+double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& gravity);
 
 }  // namespace grseg

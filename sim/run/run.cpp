@@ -93,7 +93,7 @@ void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkp
           Progress& progress)
 {
   const auto every = scene.steps_per_frame(), end = scene.steps_in_all();
-  Frame frame;
+  Frame<2> frame;
   while (simulation.steps_done() < end && !interrupted()) {
     const auto since_due = simulation.steps_done() % every;
     const bool due = since_due < scene.burst;
@@ -149,7 +149,7 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
 void record_deposition(const Scene& scene, TrajectoryWriter& writer)
 {
   Recorder recorder(writer, scene.small_diameter);
-  const auto record = [&](const StepReport& report, const Simulation& now, const Frame* frame) {
+  const auto record = [&](const StepReport& report, const Simulation& now, const Frame<2>* frame) {
     recorder.add(report);
     if (frame != nullptr) recorder.write(*frame, now);
   };

@@ -142,7 +142,7 @@ std::int64_t settle(Simulation& simulation, const Scene& scene, const Deposition
 void replay(Simulation& simulation, std::int64_t steps, const Scene& scene,
             const DepositionHooks& hooks)
 {
-  Frame frame;
+  Frame<2> frame;
   simulation.set_clock(-steps);
   while (simulation.steps_done() < 0) {
     const bool due = simulation.steps_done() % scene.steps_per_frame() == 0;

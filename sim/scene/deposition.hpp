@@ -14,7 +14,7 @@ struct DepositionHooks {
   std::function<void()> each_step;
   /// Where set, the accepted deposition is run once more with the clock below 0, and this is called
   /// after every step of it, with the frame where one is due and null otherwise.
-  std::function<void(const StepReport&, const Simulation&, const Frame*)> record;
+  std::function<void(const StepReport&, const Simulation&, const Frame<2>*)> record;
 };
 
 /// A bed of large grains under small ones, at rest on its base at slope 0, made by letting a loose

@@ -27,7 +27,7 @@ std::vector<BoundaryBody> Geometry::bodies(const Scene&, const Grains&) const
   return {};
 }
 
-Gravity Geometry::gravity(const Scene& scene) const
+Gravity<2> Geometry::gravity(const Scene& scene) const
 {
   const double slope = scene.slope * std::numbers::pi / 180;
   return {{scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)},

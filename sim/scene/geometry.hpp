@@ -63,7 +63,7 @@ class Geometry {
   /// Boundary grains that move from t = 0 on; they are the last rows of `grains`.
   virtual std::vector<BoundaryBody> bodies(const Scene& scene, const Grains& grains) const;
   /// From t = 0 on.
-  virtual Gravity gravity(const Scene& scene) const;
+  virtual Gravity<2> gravity(const Scene& scene) const;
   /// N/m, of the flow on its base, of which its weight makes `weight`.
   virtual double base_pressure(const Scene& scene, double weight) const;
 

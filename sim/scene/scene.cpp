@@ -19,7 +19,7 @@ std::int64_t Scene::steps_in_all() const
   return std::llround(duration / step);
 }
 
-Gravity gravity_of(const Scene& scene)
+Gravity<2> gravity_of(const Scene& scene)
 {
   return scene.geometry->gravity(scene);
 }

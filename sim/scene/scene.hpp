@@ -70,7 +70,7 @@ struct Scene {
 };
 
 /// Gravity of the flow, slope included. Of a shear cell: none, its plate presses instead.
-Gravity gravity_of(const Scene& scene);
+Gravity<2> gravity_of(const Scene& scene);
 
 /// What the contact law of a scene amounts to.
 LawParameters law_parameters(const Scene& scene);

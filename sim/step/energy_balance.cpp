@@ -23,7 +23,7 @@ double EnergyBalance::defect() const
   return largest > 0 ? std::abs(missing) / largest : 0;
 }
 
-EnergyBalance energy_balance(const Grains& grains, const Frame& frame,
+EnergyBalance energy_balance(const Grains& grains, const Frame<2>& frame,
                              std::span<const Motion> before, const Vec2& gravity, double step)
 {
   EnergyBalance balance;

@@ -22,7 +22,7 @@ struct EnergyBalance {
 };
 
 /// `before` is the motion of each grain at the beginning of the step in `frame`.
-EnergyBalance energy_balance(const Grains& grains, const Frame& frame,
+EnergyBalance energy_balance(const Grains& grains, const Frame<2>& frame,
                              std::span<const Motion> before, const Vec2& gravity, double step);
 
 }  // namespace grseg

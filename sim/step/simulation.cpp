@@ -63,12 +63,12 @@ StepReport Simulation::advance()
   return step(nullptr);
 }
 
-StepReport Simulation::advance(Frame& frame)
+StepReport Simulation::advance(Frame<2>& frame)
 {
   return step(&frame);
 }
 
-StepReport Simulation::step(Frame* frame)
+StepReport Simulation::step(Frame<2>* frame)
 {
   const double h = world_.step;
   StepReport report;

@@ -57,7 +57,7 @@ class Simulation {
 
   StepReport advance();
   /// The same, and writes the step to `frame` (snapshot.hpp).
-  StepReport advance(Frame& frame);
+  StepReport advance(Frame<2>& frame);
 
   State state() const;
 
@@ -66,7 +66,7 @@ class Simulation {
   double time() const { return static_cast<double>(steps_done_) * world_.step; }  // s
 
   /// Sets gravity, which may turn as the clock runs.
-  void tilt(const Gravity& gravity)
+  void tilt(const Gravity<2>& gravity)
   {
     gravity_ = gravity;
     world_.gravity = gravity.at(time());
@@ -92,7 +92,7 @@ class Simulation {
   std::size_t pair_list_renewals() const { return pairs_.renewals(); }
 
  private:
-  StepReport step(Frame* frame);
+  StepReport step(Frame<2>* frame);
   void remember_motion();
   void find_contacts(StepReport& report);
   void renew_pairs();
@@ -105,7 +105,7 @@ class Simulation {
   std::span<Pairs::Memory> memories();
 
   World world_;
-  Gravity gravity_;
+  Gravity<2> gravity_;
   Effects effects_;
   int threads_;
   PairList pairs_;

@@ -28,7 +28,7 @@ std::int32_t name_of_wall(const Pairs& pairs, std::size_t pair)
   return -1;
 }
 
-void write_positions(const SolvedStep& s, Frame& frame)
+void write_positions(const SolvedStep& s, Frame<2>& frame)
 {
   const std::size_t count = s.grains.size();
   frame.step = s.steps_done;
@@ -53,7 +53,7 @@ void write_positions(const SolvedStep& s, Frame& frame)
   }
 }
 
-void write_contacts(const SolvedStep& s, ContactList& list)
+void write_contacts(const SolvedStep& s, ContactList<2>& list)
 {
   const auto& pairs = s.pairs;
   const auto row_of = [&](std::uint32_t twice) { return s.grains.row[twice / 2]; };
@@ -88,7 +88,7 @@ void write_contacts(const SolvedStep& s, ContactList& list)
   }
 }
 
-void write_motion(const SolvedStep& s, Frame& frame)
+void write_motion(const SolvedStep& s, Frame<2>& frame)
 {
   const std::size_t count = s.grains.size();
   frame.velocity.resize(count);
@@ -106,7 +106,7 @@ void write_motion(const SolvedStep& s, Frame& frame)
 
 }  // namespace
 
-void write_frame(const SolvedStep& step, Frame& frame)
+void write_frame(const SolvedStep& step, Frame<2>& frame)
 {
   write_positions(step, frame);
   write_contacts(step, frame.contacts);

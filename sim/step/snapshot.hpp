@@ -25,6 +25,6 @@ struct SolvedStep {
 
 /// The step as a frame of a trajectory (formats/README.md): positions and contacts at mid-step,
 /// velocities at its end, forces as means over it, everything in the order of Grains.
-void write_frame(const SolvedStep& step, Frame& frame);
+void write_frame(const SolvedStep& step, Frame<2>& frame);
 
 }  // namespace grseg

@@ -5,13 +5,14 @@
 
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 namespace grseg {
 
 /// Grains and one frame, written by hand.
 struct Packing {
   Grains grains;
-  Frame frame;
+  Frame<2> frame;
 
   /// Adds a grain of density 1 kg/m^2; its row.
   std::int32_t grain(Species species, double radius, const Vec2& position,
@@ -60,6 +61,12 @@ struct Packing {
     frame.contacts.gap.push_back(gap);
   }
 };
+
+/// The large grains' part of what Composition tells.
+inline double phi_large(const std::vector<double>& contents)
+{
+  return contents[1] / (contents[0] + contents[1]);
+}
 
 /// All components alike to round-off.
 inline bool same(const Tensor2& a, const Tensor2& b, double tolerance = 1e-14)

@@ -90,7 +90,7 @@ void leave_out(benchmark::State& state, const std::vector<Change>& with,
 
 void frames(benchmark::State& state)
 {
-  Frame frame;
+  Frame<2> frame;
   const auto write_down = [&](Simulation& s) { return s.advance(frame); };
   compare(state, {chute({}), write_down}, {chute({})});
 }
@@ -104,7 +104,7 @@ void frames_in_a_file(benchmark::State& state)
   TrajectoryWriter writer(path,
                           {start.world().grains, start.world().box, {}, Recorder::observables()});
   Recorder recorder(writer, 2 * start.world().skin);  // the skin is half a diameter
-  Frame frame;
+  Frame<2> frame;
   const auto record = [&](Simulation& s) {
     auto report = s.advance(frame);
     recorder.add(report);

@@ -25,7 +25,7 @@ ImportSettings settings_of(std::string_view words)
   return settings;
 }
 
-void require_a_whole_frame(const Frame& frame, const Grains& grains)
+void require_a_whole_frame(const Frame<2>& frame, const Grains& grains)
 {
   const auto n = grains.size(), contacts = frame.contacts.size();
   fuzz::require(frame.position.size() == n && frame.velocity.size() == n, "a row for each grain");
@@ -62,7 +62,7 @@ void import(const std::vector<std::string_view>& parts)
   if (parts.size() > 2) settings.files.contacts = {contacts.path()};
   if (parts.size() > 3) settings.files.restart = restart.path();
   VerifiedFrames frames(settings, settings.files.columns);
-  for (Frame frame; frames.next(frame);)
+  for (Frame<2> frame; frames.next(frame);)
     if (!frames.complaint()) require_a_whole_frame(frame, frames.builder().bed().grains);
 }
 

@@ -16,7 +16,7 @@ void read(const TrajectoryReader& run)
   const auto grains = run.grains().size();
   fuzz::require(run.steps().size() == run.size() && run.times().size() == run.size(),
                 "every frame has its step and its time");
-  Frame frame;
+  Frame<2> frame;
   for (std::size_t n = 0; n < run.size(); ++n)
     fuzz::try_to([&] {
       run.read(n, frame, {true, true, true});
@@ -28,7 +28,7 @@ void read(const TrajectoryReader& run)
                           frame.contacts.j[c] < static_cast<std::int32_t>(grains),
                       "i and j are rows of grains");
     });
-  fuzz::try_to([&] { run.gravity(); });
+  fuzz::try_to([&] { run.gravity<2>(); });
   for (const auto& observable : run.observables())
     fuzz::try_to([&] { run.observable(observable.name); });
   fuzz::try_to([&] { check_layout(run); });

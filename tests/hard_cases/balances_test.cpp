@@ -31,7 +31,7 @@ EnergyBalance balance_of_a_step(Simulation& simulation)
   const Velocities before(simulation);
   EnergyBalance balance;
   balance.before = kinetic_energy(simulation);
-  Frame frame;
+  Frame<2> frame;
   simulation.advance(frame);
   const Velocities after(simulation);
   balance.after = kinetic_energy(simulation);

@@ -62,7 +62,7 @@ void run(Simulation& simulation, std::int64_t steps)
 struct Cut {
   double weight = 0, carried = 0;  // N
 
-  Cut(const World& world, const Frame& frame, double y)
+  Cut(const World& world, const Frame<2>& frame, double y)
   {
     const auto above = [&](std::int32_t k) {
       return k >= 0 && frame.position[static_cast<std::size_t>(k)].y() > y;
@@ -87,7 +87,7 @@ TEST(StaticBed, PressesOnItsBaseWithItsWeightAndOnEachLevelWithThatOfWhatIsAbove
   Case base("H31", "force on the base over the weight, each step"),
       level("H31", "force across a level over the weight above");
   const double weight = mobile_mass(bed.world()) * g;
-  Frame frame;
+  Frame<2> frame;
   for (int step = 0; step < 20; ++step) {
     const auto report = bed.advance(frame);
     base.near(report.base_impulse.y() / bed.world().step / weight, 1, 1e-8);
@@ -232,7 +232,7 @@ TEST(JammedHopper, HoldsItsLoadForAHundredThousandSteps)
   Case rest("G13", "kinetic energy over m g d per grain of a jammed hopper, 1e5 steps"),
       load("G13", "force of walls and base over the weight inside, 1e5 steps"),
       stays("G13", "creep of a jammed hopper in 1e5 steps, d");
-  Frame frame;
+  Frame<2> frame;
   for (int k = 0; k < 100; ++k) {
     run(hopper, 999);
     hopper.advance(frame);
@@ -313,7 +313,7 @@ struct SlidingSilo {
     auto pile = silo(width, rows, 0, 0.5);
     run(pile, 12000);
     weight = mobile_mass(pile.world()) * g;
-    Frame frame;
+    Frame<2> frame;
     pile.advance(frame);
     add(pile.world(), frame, width, 1);
     balance = std::abs((base + walls_total_) / weight - 1);
@@ -337,7 +337,7 @@ struct SlidingSilo {
   }
 
  private:
-  void add(const World& world, const Frame& frame, double width, double share)
+  void add(const World& world, const Frame<2>& frame, double width, double share)
   {
     const auto& list = frame.contacts;
     const auto height = [&](std::size_t c) {

@@ -15,7 +15,7 @@ struct ContactProblem {
 };
 
 /// The problem of the step that `frame` records, under the touching law.
-inline ContactProblem contact_problem(const Simulation& simulation, const Frame& frame)
+inline ContactProblem contact_problem(const Simulation& simulation, const Frame<2>& frame)
 {
   const auto& world = simulation.world();
   ContactProblem problem;

@@ -96,7 +96,7 @@ TEST(Coefficients, AtTheEndsOfTheirRangesKeepTheBalanceAndTheGrains)
       auto c = flow(8, 8, 0.5);
       c.world.material = {mu, e};
       auto simulation = c.simulation();
-      Frame frame;
+      Frame<2> frame;
       for (int step = 0; step < 1500; ++step) {
         simulation.advance(frame);
         const auto balance = energy_balance(c.world.grains, frame, simulation.before(),

@@ -199,7 +199,7 @@ class Tunnelling : public UnderEveryLaw {
     const auto& world = simulation.world();
     TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
     Recorder recorder(writer, 2 * r);
-    Frame frame;
+    Frame<2> frame;
     for (int k = 0; k < 10; ++k) {
       recorder.add(simulation.advance(frame));
       recorder.write(frame, simulation);

@@ -32,7 +32,7 @@ struct Encounter {
 
 Encounter encounter(Simulation simulation)
 {
-  Frame frame;
+  Frame<2> frame;
   for (;;) {
     const Velocities before(simulation);
     const double energy = kinetic_energy(simulation);
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, EarlyImpact, testing::ValuesIn(early_laws()), nam
 TEST_P(EarlyImpact, TwoDiscsReboundHeadOnWithRestitutionEAtEveryPhaseOfTheStep)
 {
   double largest_error = 0, largest_overlap = 0;
-  Frame frame;
+  Frame<2> frame;
   for (const double mass : {1.0, 1e-2, 1e6})
     for (const double e : restitutions)
       for (int phase = 0; phase < 1000; ++phase) {

@@ -39,7 +39,7 @@ TEST(Units, LengthsAThousandthAndMassesAMillionTimesGiveTheSameFlow)
   const auto original = flow(6, 6, 0.5);
   const double length = 1e-3, mass = 1e6, speed = std::sqrt(length);
   auto a = original.simulation(), b = scaled(original, length, mass).simulation();
-  Frame in_a, in_b;
+  Frame<2> in_a, in_b;
   for (int step = 0; step < 1000; ++step) {
     a.advance(in_a);
     b.advance(in_b);
@@ -83,7 +83,7 @@ std::vector<double> seen_of_a_chute(int k)
   const auto scene = small_chute::scene({"--small-diameter", fmt::format("{}", 0.005 * length),
                                          "--frame-interval", fmt::format("{}", 0.05 * time)});
   auto simulation = small_chute::bed(scene);
-  Frame frame;
+  Frame<2> frame;
   std::size_t contacts = 0;
   for (int step = 0; step < 200; ++step) {
     simulation.advance(frame);
@@ -113,13 +113,13 @@ TEST(Units, DiametersFromNanometresToKilometresGiveTheSameSceneToTheLastBit)
 /// The contact forces of the step that follows, of contacts in the order of ids: 50 sweeps without
 /// an initial guess. Gauss-Seidel's result depends on the order, which in a step is that of space.
 struct Forces {
-  ContactList list;
+  ContactList<2> list;
   std::vector<Vec2> impulse;  // kg m/s
   std::vector<Vec2> velocity;
 
   explicit Forces(Simulation simulation)
   {
-    Frame frame;
+    Frame<2> frame;
     simulation.advance(frame);
     list = frame.contacts;
     auto problem = contact_problem(simulation, frame);
@@ -194,7 +194,7 @@ std::vector<std::uint64_t> bits_of_a_flow()
   auto c = flow(8, 8, 0.5);
   c.world.material.restitution = 0.25;
   auto simulation = c.simulation();
-  Frame frame;
+  Frame<2> frame;
   for (int step = 0; step < 1000; ++step) simulation.advance(frame);
   std::vector<std::uint64_t> bits;
   const auto add = [&](double x) { bits.push_back(std::bit_cast<std::uint64_t>(x)); };

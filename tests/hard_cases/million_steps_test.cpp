@@ -40,7 +40,7 @@ double total_energy(const Simulation& s)
   return translational_energy(s) + rotational_energy(s) + potential_energy(s);
 }
 
-Sample sample_of(const Simulation& simulation, const Frame& frame)
+Sample sample_of(const Simulation& simulation, const Frame<2>& frame)
 {
   const auto& world = simulation.world();
   const auto energy =
@@ -63,7 +63,7 @@ History flow_at(const char* slope)
   history.d_s = scene.small_diameter;
   history.depth = scene.depth;
   const double start = total_energy(simulation);
-  Frame frame;
+  Frame<2> frame;
   double overlap = 0, touching = 0, sweeps = 0;
   for (int k = 1; k <= all_steps; ++k) {
     const bool due = k % between_samples == 0;

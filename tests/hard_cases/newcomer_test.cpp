@@ -40,7 +40,7 @@ Simulation settled_bed()
 
 /// The most that relaxing a contact by itself would still change after a step, over the reference
 /// velocity of the tolerance (solver.hpp), computed from the frame.
-double change_left(const Simulation& bed, const Frame& frame)
+double change_left(const Simulation& bed, const Frame<2>& frame)
 {
   auto problem = contact_problem(bed, frame);
   for (std::size_t k = 0; k < bed.world().grains.size(); ++k) {
@@ -74,7 +74,7 @@ struct Landing {
     const std::size_t last = bed.world().grains.size() - 1;
     bed.set_velocity(last, {0, -speed});
     bool landed = false;
-    Frame frame;
+    Frame<2> frame;
     for (int step = 0; step < 60; ++step) {
       EXPECT_TRUE(bed.advance(frame).solver.converged);
       change = std::max(change, change_left(bed, frame));

@@ -34,7 +34,7 @@ struct SeenContact {
   Vec2 impulse;    // kg m/s, on i
   double overlap;  // m
 
-  SeenContact(const World& world, const ContactList& list, std::size_t c)
+  SeenContact(const World& world, const ContactList<2>& list, std::size_t c)
       : i(static_cast<std::size_t>(list.i[c])),
         j(list.j[c]),
         n(list.branch[c].normalized()),

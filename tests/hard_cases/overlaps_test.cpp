@@ -74,7 +74,7 @@ TEST(Gap, OfABillionthOfADiameterMoreOrLessMakesNoDifference)
     world.walls = {worlds::floor_at(0)};
     world.gravity = {0, -9.8};
     Simulation disc(world, positions_of(discs));
-    Frame frame;
+    Frame<2> frame;
     for (int step = 0; step < 100; ++step) {
       disc.advance(frame);
       ASSERT_EQ(frame.contacts.size(), 1u);

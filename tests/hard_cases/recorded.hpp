@@ -24,7 +24,7 @@ inline std::string words_of_a_run(Simulation simulation, double small_diameter, 
     const auto& world = simulation.world();
     TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
     Recorder recorder(writer, small_diameter);
-    Frame frame;
+    Frame<2> frame;
     for (int k = 1; k <= steps; ++k) {
       const bool due = k % every == 0;
       recorder.add(due ? simulation.advance(frame) : simulation.advance());

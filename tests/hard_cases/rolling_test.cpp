@@ -81,7 +81,7 @@ TEST(DiscOnAnIncline, RollsIfTanIsAtMostThreeMuAndSlidesOtherwise)
   for (const double part : {0.1, 0.9, 0.999, 1.001, 1.1, 5.0}) {  // of tan/3
     const double mu = part * std::tan(slope) / 3;
     auto disc = on_a_plane(slope, mu, true);
-    Frame frame;
+    Frame<2> frame;
     while (disc.time() < 1 - h / 2) disc.advance(frame);
     const bool rolls = part > 1;
     const double a = rolls ? 2.0 / 3 * g * sine : g * (sine - mu * cosine);

@@ -41,7 +41,7 @@ Crowd large_and_small(double ratio)
 }
 
 /// Pairs that touch, found by looking at all.
-std::set<std::pair<int, int>> touching(const World& world, const Frame& frame, double margin)
+std::set<std::pair<int, int>> touching(const World& world, const Frame<2>& frame, double margin)
 {
   std::set<std::pair<int, int>> pairs;
   const int count = static_cast<int>(frame.position.size());
@@ -66,7 +66,7 @@ TEST(SizeRatio, OfTenAndAHundredLosesNoPair)
   for (const double ratio : {10.0, 100.0}) {
     const auto c = large_and_small(ratio);
     auto simulation = c.simulation();
-    Frame frame;
+    Frame<2> frame;
     std::size_t most = 0;
     for (int step = 0; step < 200; ++step) {
       simulation.advance(frame);
@@ -105,7 +105,7 @@ TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheSuggestedStepKeepsIts
   for (const double m : grains.mass) mass += m;
   const Vec2 start = momentum();
   Vec2 floor = Vec2::Zero();
-  Frame frame;
+  Frame<2> frame;
   const int steps = 1500;
   for (int step = 0; step < steps; ++step) {
     floor += simulation.advance(frame).base_impulse;

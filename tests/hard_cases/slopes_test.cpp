@@ -31,7 +31,7 @@ Simulation disc_on_turning_floor(double angle, double friction)
   world.gravity = {0, -g};
   world.material = {friction, 0};
   Simulation simulation(world, positions_of(discs));
-  simulation.tilt(Gravity(world.gravity, angle / world.step));
+  simulation.tilt(Gravity<2>(world.gravity, angle / world.step));
   return simulation;
 }
 
@@ -129,7 +129,7 @@ TEST(Slope, ThatChangesDuringTheRunKeepsTheEnergyBudgetOfEveryStep)
       overlaps("G12", "mean overlap, of d_S"), height("G12", "lowest centre, d_S");
   auto c = flow(8, 8, 0);
   auto simulation = c.simulation();
-  Frame frame;
+  Frame<2> frame;
   const int steps = 6000;
   double overlap = 0, touching = 0;
   for (int step = 0; step < steps; ++step) {

@@ -38,7 +38,7 @@ TEST(Column, TheKthDiscCarriesTheWeightOfThoseAboveAndNothingMovesSideways)
   world.walls = {worlds::floor_at(0)};
   world.gravity = {0, -g};
   Simulation column(world, positions_of(discs));
-  Frame frame;
+  Frame<2> frame;
   for (int step = 0; step < 100; ++step) {
     column.advance(frame);
     ASSERT_EQ(frame.contacts.size(), static_cast<std::size_t>(count));
@@ -78,7 +78,7 @@ TEST(Pyramid, OfThreeDiscsStandsIfFrictionIsAtLeastTheTangentOf15Degrees)
       below("H17", "force of the floor over 3mg/2"), still("H17", "speed after 2 s, μ = 0.28, m/s");
   const double weight = mass_of(0.5) * g;
   auto stands = pyramid(0.28);
-  Frame frame;
+  Frame<2> frame;
   for (int step = 0; step < 2000; ++step) stands.advance(frame);
   ASSERT_EQ(frame.contacts.size(), 4u);
   for (std::size_t c = 0; c < 4; ++c) {
@@ -115,7 +115,7 @@ TEST(Groove, ADiscBetweenTwoWallsRestsAndItsForcesLieInTheInterval)
       world.material.friction = mu;
       world.gravity = {0, -g};
       Simulation groove(world, positions_of(discs));
-      Frame frame;
+      Frame<2> frame;
       for (int step = 0; step < 200; ++step) groove.advance(frame);
       ASSERT_EQ(frame.contacts.size(), 2u);
       still.at_most(groove.velocity(0).norm(), 1e-9);
@@ -141,7 +141,7 @@ TEST(Heap, ForcesDependOnTheOrderOfContactsAndVelocitiesDoNot)
   world.gravity = {0, -g};
   world.solver = {1e-10, 100000};
   Simulation heap(world, positions_of(discs));
-  Frame frame;
+  Frame<2> frame;
   heap.advance(frame);
   const auto problem = contact_problem(heap, frame);
   const double gh = g * world.step;

@@ -68,7 +68,7 @@ TEST_F(ImportedFile, OfMercuryDpmIsAsSpecified)
   const TrajectoryReader sample(inputs + "/../../data/sample/chute.h5");
   std::string data, fstat;
   for (const std::size_t k : {5, 6, 7}) {
-    Frame frame;
+    Frame<2> frame;
     sample.read(k, frame);
     data += mercury_files::data(sample.grains(), sample.box(), frame, {});
     fstat += mercury_files::fstat(sample.grains(), frame, {});

@@ -71,7 +71,7 @@ class Content {
       add(text);
     }
   }
-  void add(const Frame& frame)
+  void add(const Frame<2>& frame)
   {
     add(static_cast<double>(frame.step));
     add(frame.time);
@@ -104,7 +104,7 @@ Way frames_with(TrajectoryReader::Fields fields, std::size_t stride)
     content.add(run.steps());
     content.add(run.times());
     content.add(fmt::format("{:x}", run.digest()));
-    Frame frame;
+    Frame<2> frame;
     for (std::size_t n = 0; n < run.size(); n += stride) {
       run.read(n, frame, fields);
       content.add(frame);
@@ -168,7 +168,7 @@ void archive(const std::vector<std::string>& words, const std::string& original,
   VerifiedFrames frames(settings, settings.files.columns);
   content.add(frames.builder().bed().grains);
   content.add(frames.builder().bed().box);
-  for (Frame frame; frames.next(frame);) {
+  for (Frame<2> frame; frames.next(frame);) {
     if (frames.complaint()) throw CheckError(frames.complaint()->sentence);
     content.add(frame);
   }

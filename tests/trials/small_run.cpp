@@ -52,9 +52,9 @@ double number(int frame, int entry)
   return 1 + 0.5 * std::sin(1.7 * frame + 0.9 * entry);
 }
 
-Frame frame(int n)
+Frame<2> frame(int n)
 {
-  Frame frame;
+  Frame<2> frame;
   frame.step = static_cast<std::int64_t>(n * interval / step);
   frame.time = (static_cast<double>(frame.step) + 0.5) * step;
   for (int g = 0; g < grains; ++g) {

@@ -22,7 +22,7 @@ std::size_t FrameBuilder::row_of(std::int64_t id, const ArchiveMoment& moment) c
       moment.place, id));
 }
 
-void FrameBuilder::build(const ArchiveMoment& moment, Frame& frame) const
+void FrameBuilder::build(const ArchiveMoment& moment, Frame<2>& frame) const
 {
   if (moment.step)
     frame.step = *moment.step;
@@ -36,7 +36,7 @@ void FrameBuilder::build(const ArchiveMoment& moment, Frame& frame) const
 }
 
 /// Readers of some formats do not check this.
-void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame& frame) const
+void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame<2>& frame) const
 {
   const auto fail = [&](const std::string& what) {
     throw FormatError(fmt::format("{}: {} has a number that is not finite", moment.place, what));
@@ -66,7 +66,7 @@ void FrameBuilder::require_same_cell(const ArchiveMoment& moment) const
                     moment.place, length, bed_.box.length_x));
 }
 
-void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame& frame) const
+void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame<2>& frame) const
 {
   const auto& from = moment.grains;
   const auto n = bed_.grains.size();
@@ -96,7 +96,7 @@ void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame& frame) const
 }
 
 void FrameBuilder::place(const ArchiveMoment& moment, std::size_t g, std::size_t row,
-                         Frame& frame) const
+                         Frame<2>& frame) const
 {
   const auto& from = moment.grains;
   Vec2 x = bed_.axes.in_plane(from.position[g]);
@@ -124,16 +124,16 @@ void FrameBuilder::place(const ArchiveMoment& moment, std::size_t g, std::size_t
     frame.force[row] = bed_.axes.in_plane(from.force[g]);
 }
 
-void FrameBuilder::add_contacts(const ArchiveMoment& moment, ContactList& contacts,
-                                const Frame& frame) const
+void FrameBuilder::add_contacts(const ArchiveMoment& moment, ContactList<2>& contacts,
+                                const Frame<2>& frame) const
 {
   contacts.clear();
   contacts.reserve(moment.contacts.size());
   for (std::size_t c = 0; c < moment.contacts.size(); ++c) add_contact(moment, c, frame, contacts);
 }
 
-void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const Frame& frame,
-                               ContactList& contacts) const
+void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const Frame<2>& frame,
+                               ContactList<2>& contacts) const
 {
   const auto& from = moment.contacts;
   const bool wall = !from.wall.empty() && from.wall[c] >= 0;

@@ -20,16 +20,17 @@ class FrameBuilder {
   const ImportedBed& bed() const { return bed_; }
 
   /// FormatError naming the moment where grains or contacts are impossible.
-  void build(const ArchiveMoment& moment, Frame& frame) const;
+  void build(const ArchiveMoment& moment, Frame<2>& frame) const;
 
  private:
-  void require_numbers(const ArchiveMoment& moment, const Frame& frame) const;
+  void require_numbers(const ArchiveMoment& moment, const Frame<2>& frame) const;
   void require_same_cell(const ArchiveMoment& moment) const;
-  void place_grains(const ArchiveMoment& moment, Frame& frame) const;
-  void place(const ArchiveMoment& moment, std::size_t g, std::size_t row, Frame& frame) const;
-  void add_contacts(const ArchiveMoment& moment, ContactList& contacts, const Frame& frame) const;
-  void add_contact(const ArchiveMoment& moment, std::size_t c, const Frame& frame,
-                   ContactList& contacts) const;
+  void place_grains(const ArchiveMoment& moment, Frame<2>& frame) const;
+  void place(const ArchiveMoment& moment, std::size_t g, std::size_t row, Frame<2>& frame) const;
+  void add_contacts(const ArchiveMoment& moment, ContactList<2>& contacts,
+                    const Frame<2>& frame) const;
+  void add_contact(const ArchiveMoment& moment, std::size_t c, const Frame<2>& frame,
+                   ContactList<2>& contacts) const;
   std::size_t row_of(std::int64_t id, const ArchiveMoment& moment) const;
 
   ImportedBed bed_;

@@ -196,7 +196,7 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
   report.sizes = frames.builder().bed().species.sizes;
   TrajectoryWriter writer(output.temporary(), run, settings.storage);
   Residuals residuals;
-  for (Frame frame; frames.next(frame);) {
+  for (Frame<2> frame; frames.next(frame);) {
     stop_if_interrupted();
     if (frames.complaint()) refuse(frames, settings, *frames.complaint(), report.frames + 1);
     const double defect = frames.residual() ? frames.residual()->largest : 0;

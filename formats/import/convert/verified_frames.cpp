@@ -37,7 +37,7 @@ bool VerifiedFrames::read_moment()
   }
 }
 
-bool VerifiedFrames::next(Frame& frame)
+bool VerifiedFrames::next(Frame<2>& frame)
 {
   if (!std::exchange(first_, false) && !read_moment()) return false;
   if (moment_.grains.force.empty() == has_force_)
@@ -63,7 +63,7 @@ std::optional<double> residual_with(const ImportSettings& settings, const std::s
 {
   try {
     VerifiedFrames frames(settings, columns);
-    Frame frame;
+    Frame<2> frame;
     std::optional<double> largest;
     for (std::size_t k = 0; k < moments && frames.next(frame); ++k) {
       if (frames.complaint()) return std::nullopt;

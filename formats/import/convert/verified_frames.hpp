@@ -20,7 +20,7 @@ class VerifiedFrames {
   VerifiedFrames(const ImportSettings& settings, const std::string& columns);
 
   /// False at the end. `complaint` then says what is wrong with the frame, if anything.
-  bool next(Frame& frame);
+  bool next(Frame<2>& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }
   const std::optional<Residual>& residual() const { return verification_->residual(); }
   const std::string& place() const { return moment_.place; }

@@ -21,7 +21,7 @@ void multiply(Values& values, double factor)
 
 }  // namespace
 
-void Units::convert(Frame& frame) const
+void Units::convert(Frame<2>& frame) const
 {
   frame.time *= time;
   multiply(frame.position, length);

@@ -16,7 +16,7 @@ struct Units {
   double force() const { return mass * acceleration(); }
 
   /// Converts from the archive's units to SI.
-  void convert(Frame& frame) const;
+  void convert(Frame<2>& frame) const;
   void convert(Grains& grains) const;
 };
 

@@ -18,13 +18,13 @@ struct Split {
   Vec2 n, t;
   double normal, tangential;
 };
-Split split(const ContactList& contacts, std::size_t c)
+Split split(const ContactList<2>& contacts, std::size_t c)
 {
   const Vec2 n = contacts.branch[c].normalized(), t(-n.y(), n.x());
   return {n, t, contacts.force[c].dot(n), contacts.force[c].dot(t)};
 }
 
-std::vector<double> angular_accelerations(const Grains& grains, const ContactList& contacts,
+std::vector<double> angular_accelerations(const Grains& grains, const ContactList<2>& contacts,
                                           double inertia)
 {
   std::vector<double> acceleration(grains.size());
@@ -41,7 +41,7 @@ std::vector<double> angular_accelerations(const Grains& grains, const ContactLis
 }
 
 /// Largest ratio of friction to normal force: where it is reached, contacts slide.
-double friction_of(const ContactList& contacts)
+double friction_of(const ContactList<2>& contacts)
 {
   double largest = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -53,7 +53,7 @@ double friction_of(const ContactList& contacts)
 
 }  // namespace
 
-LateDamping subtract_late_damping(const Grains& grains, const Frame& frame, double step,
+LateDamping subtract_late_damping(const Grains& grains, const Frame<2>& frame, double step,
                                   double inertia, std::vector<Vec2>& defect)
 {
   const auto& contacts = frame.contacts;

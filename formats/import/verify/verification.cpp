@@ -42,7 +42,7 @@ Verification::Verification(const Grains& grains, const Box& box, const Vec2& gra
 {
 }
 
-std::optional<Complaint> Verification::check(const Frame& frame)
+std::optional<Complaint> Verification::check(const Frame<2>& frame)
 {
   residual_ = residual_with(frame, frame.contacts.force);
   auto complaint = geometry(frame);
@@ -54,7 +54,7 @@ std::optional<Complaint> Verification::check(const Frame& frame)
   return complaint;
 }
 
-std::string Verification::pair_of(const ContactList& contacts, std::size_t c) const
+std::string Verification::pair_of(const ContactList<2>& contacts, std::size_t c) const
 {
   const auto i = grains_.id[row(contacts.i[c])];
   if (contacts.j[c] < 0) return fmt::format("grain {} and wall {}", i, -contacts.j[c] - 1);
@@ -62,7 +62,7 @@ std::string Verification::pair_of(const ContactList& contacts, std::size_t c) co
 }
 
 /// Contacts that carry force must join grains that touch. Wall contacts are not checked.
-std::optional<Complaint> Verification::geometry(const Frame& frame) const
+std::optional<Complaint> Verification::geometry(const Frame<2>& frame) const
 {
   const auto& contacts = frame.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -89,7 +89,7 @@ std::optional<Complaint> Verification::geometry(const Frame& frame) const
   return std::nullopt;
 }
 
-std::optional<Complaint> Verification::double_rows(const Frame& frame) const
+std::optional<Complaint> Verification::double_rows(const Frame<2>& frame) const
 {
   const auto& contacts = frame.contacts;
   std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, std::size_t>> pairs;
@@ -105,7 +105,7 @@ std::optional<Complaint> Verification::double_rows(const Frame& frame) const
   return std::nullopt;
 }
 
-std::optional<Complaint> Verification::pull(const Frame& frame) const
+std::optional<Complaint> Verification::pull(const Frame<2>& frame) const
 {
   const auto& contacts = frame.contacts;
   double pushing = 0, pulling = 0;
@@ -119,7 +119,7 @@ std::optional<Complaint> Verification::pull(const Frame& frame) const
                    true};
 }
 
-std::vector<Vec2> Verification::sums(const ContactList& contacts,
+std::vector<Vec2> Verification::sums(const ContactList<2>& contacts,
                                      const std::vector<Vec2>& forces) const
 {
   std::vector<Vec2> sum(grains_.size(), Vec2::Zero());
@@ -130,7 +130,7 @@ std::vector<Vec2> Verification::sums(const ContactList& contacts,
   return sum;
 }
 
-std::optional<Residual> Verification::residual_with(const Frame& frame,
+std::optional<Residual> Verification::residual_with(const Frame<2>& frame,
                                                     const std::vector<Vec2>& forces) const
 {
   const bool has_force = !frame.force.empty();
@@ -160,7 +160,7 @@ std::optional<Residual> Verification::residual_with(const Frame& frame,
   return residual;
 }
 
-std::optional<Complaint> Verification::balance(const Frame& frame) const
+std::optional<Complaint> Verification::balance(const Frame<2>& frame) const
 {
   if (!residual_ || residual_->unexplained <= accuracy_.tolerance) return std::nullopt;
   return Complaint{
@@ -181,7 +181,7 @@ std::optional<Complaint> Verification::balance(const Frame& frame) const
 }
 
 /// Another meaning of the rows with which the grains balance, if there is one.
-std::string Verification::other_readings(const Frame& frame) const
+std::string Verification::other_readings(const Frame<2>& frame) const
 {
   using Reading = std::pair<const char*, std::function<Vec2(const Vec2& force, const Vec2& n)>>;
   const auto normal = [](const Vec2& f, const Vec2& n) { return Vec2(f.dot(n) * n); };

@@ -45,22 +45,23 @@ class Verification {
                const OutputAccuracy& accuracy);
 
   /// To be called for the frames in order; what is wrong with this one, if anything.
-  std::optional<Complaint> check(const Frame& frame);
+  std::optional<Complaint> check(const Frame<2>& frame);
 
   /// Of the last frame; empty where there is nothing to compare with.
   const std::optional<Residual>& residual() const { return residual_; }
 
  private:
-  std::optional<Complaint> geometry(const Frame& frame) const;
-  std::optional<Complaint> double_rows(const Frame& frame) const;
-  std::optional<Complaint> pull(const Frame& frame) const;
-  std::optional<Complaint> balance(const Frame& frame) const;
+  std::optional<Complaint> geometry(const Frame<2>& frame) const;
+  std::optional<Complaint> double_rows(const Frame<2>& frame) const;
+  std::optional<Complaint> pull(const Frame<2>& frame) const;
+  std::optional<Complaint> balance(const Frame<2>& frame) const;
 
   /// Contact forces on every grain if `forces` are those of the frame's contacts.
-  std::vector<Vec2> sums(const ContactList& contacts, const std::vector<Vec2>& forces) const;
-  std::optional<Residual> residual_with(const Frame& frame, const std::vector<Vec2>& forces) const;
-  std::string other_readings(const Frame& frame) const;
-  std::string pair_of(const ContactList& contacts, std::size_t c) const;
+  std::vector<Vec2> sums(const ContactList<2>& contacts, const std::vector<Vec2>& forces) const;
+  std::optional<Residual> residual_with(const Frame<2>& frame,
+                                        const std::vector<Vec2>& forces) const;
+  std::string other_readings(const Frame<2>& frame) const;
+  std::string pair_of(const ContactList<2>& contacts, std::size_t c) const;
 
   const Grains& grains_;
   Box box_;

@@ -79,7 +79,7 @@ class ShearCell : public Geometry {
     return {plate};
   }
 
-  Gravity gravity(const Scene&) const override { return {}; }
+  Gravity<2> gravity(const Scene&) const override { return {}; }
 
   double base_pressure(const Scene& scene, double) const override { return scene.plate_pressure; }
 };

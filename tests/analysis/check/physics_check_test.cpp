@@ -39,7 +39,7 @@ class CheckedColumn : public testing::Test {
     settings.windows.length = run.parameters().number("frame_interval", path) * 4;
     ContentCheck content(run);
     PhysicsCheck physics(run, settings);
-    Frame frame;
+    Frame<2> frame;
     for (std::size_t k = 0; k < run.size(); ++k) {
       run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
       content.add(k, frame);

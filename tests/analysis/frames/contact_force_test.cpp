@@ -9,7 +9,7 @@ namespace {
 TEST(ContactForce, ItsPartsAreAlongTheBranchAndAcrossItCounterClockwise)
 {
   const Vec2 n{0.6, 0.8}, t{-0.8, 0.6};
-  ContactList contacts;
+  ContactList<2> contacts;
   contacts.force = {3 * n + 2 * t};
   contacts.branch = {1.7 * n};
   const auto parts = force_parts(contacts, 0);
@@ -19,7 +19,7 @@ TEST(ContactForce, ItsPartsAreAlongTheBranchAndAcrossItCounterClockwise)
 
 TEST(ContactForce, AContactBearsAForceIfAnyComponentIsNotZero)
 {
-  ContactList contacts;
+  ContactList<2> contacts;
   contacts.force = {{0, 0}, {1e-300, 0}, {0, -1}};
   EXPECT_FALSE(bears_force(contacts, 0));
   EXPECT_TRUE(bears_force(contacts, 1));

@@ -15,14 +15,14 @@ const Vec2 level{0, -9.8};
 
 TEST(Gravity, OfAFixedSlopeIsTheSameAtAnyTime)
 {
-  const Gravity gravity(level);
+  const Gravity<2> gravity(level);
   for (const double time : {-1.0, 0.0, 1e6}) EXPECT_EQ(gravity.at(time), level);
   EXPECT_EQ(gravity.mean(7, 100, 0.01), level);
 }
 
 TEST(Gravity, TurnsDownTheSlopeFromTimeZeroOn)
 {
-  const Gravity gravity(level, pi / 6);  // 30 degrees per second
+  const Gravity<2> gravity(level, pi / 6);  // 30 degrees per second
   EXPECT_EQ(gravity.at(-1), level);
   EXPECT_LT((gravity.at(1) - 9.8 * Vec2(0.5, -std::sqrt(0.75))).norm(), 1e-14);
   EXPECT_LT((gravity.at(3) - Vec2(9.8, 0)).norm(), 1e-14);
@@ -31,7 +31,7 @@ TEST(Gravity, TurnsDownTheSlopeFromTimeZeroOn)
 
 TEST(Gravity, OfManyStepsIsTheMeanOverTheirMiddles)
 {
-  const Gravity gravity(level, 0.7);
+  const Gravity<2> gravity(level, 0.7);
   const double step = 0.013, last = 5.2;
   for (const int steps : {1, 2, 50, 300}) {
     Vec2 sum = Vec2::Zero();

@@ -86,7 +86,7 @@ class Export : public testing::Test {
   template <class Writer>
   void write(Writer&& writer, const TrajectoryReader& run, std::size_t count)
   {
-    Frame frame;
+    Frame<2> frame;
     for (std::size_t k = 0; k < count; ++k) {
       run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
       writer.add(frame);
@@ -208,7 +208,7 @@ TEST_F(Export, AnUnfinishedExportLeavesNothingBehind)
 {
   const TrajectoryReader run(run_path);
   const auto cell = view_cell(run, 0);
-  Frame frame;
+  Frame<2> frame;
   run.read(0, frame, {.velocity = true, .contacts = true, .force = true});
   {
     VtpWriter vtp(run, at("view"), false);

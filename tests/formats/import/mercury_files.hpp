@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/core/species.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ struct Style {
   double info = -1;    // instead of the species
 };
 
-inline std::string data(const Grains& grains, const Box& box, const Frame& frame,
+inline std::string data(const Grains& grains, const Box& box, const Frame<2>& frame,
                         const Style& style)
 {
   const bool plane = style.format == 8;
@@ -31,7 +32,7 @@ inline std::string data(const Grains& grains, const Box& box, const Frame& frame
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const Vec2 x = frame.position[g], v = frame.velocity[g];
     const double w = frame.angular_velocity[g], r = grains.radius[g];
-    const double info = style.info >= 0 ? style.info : static_cast<double>(grains.species[g]);
+    const double info = style.info >= 0 ? style.info : static_cast<double>(species_numbers(grains.species, 2)[g]);
     switch (style.format) {
       case 8:
         text += fmt::format("{:.15g} {:.15g} {:.10g} {:.10g} {:.10g} 0 {:.10g} {}", x.x(), x.y(),
@@ -64,7 +65,7 @@ inline std::string row(double time, std::int64_t i, std::int64_t j, const Vec2& 
 }
 
 /// Pairs twice, unless one is fixed or they touch across the period; walls the other way round.
-inline std::string fstat(const Grains& grains, const Frame& frame, const Style& style)
+inline std::string fstat(const Grains& grains, const Frame<2>& frame, const Style& style)
 {
   auto text = fmt::format("# {:.10g} {}\n# 0 0 0 1 1 0\n# 0 0 0 0 0 0\n", frame.time, style.point);
   const auto& contacts = frame.contacts;
@@ -91,7 +92,7 @@ inline std::string fstat(const Grains& grains, const Frame& frame, const Style& 
 
 inline std::string restart(const Grains& grains, const TrajectoryReader& run)
 {
-  const Vec2 g = run.gravity().start;
+  const Vec2 g = run.gravity<2>().start;
   const double length = run.box().length_x;
   auto text = fmt::format(
       "MercuryDPM 0.14 name chute revision 5000\n"
@@ -113,7 +114,7 @@ inline std::string restart(const Grains& grains, const TrajectoryReader& run)
     text += fmt::format(
         "BaseParticle id {} indSpecies {} position 0 0 0 orientation 1 0 0 0 velocity 0 0 0 "
         "angularVelocity 0 0 0 force 0 0 0 torque 0 0 0 radius {:.15g} invMass {:.15g}\n",
-        k, static_cast<int>(grains.species[k]), grains.radius[k],
+        k, species_numbers(grains.species, 2)[k], grains.radius[k],
         grains.fixed[k] ? 0 : 1 / grains.mass[k]);
   return text + "Interactions 0\n";
 }

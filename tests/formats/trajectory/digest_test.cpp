@@ -19,19 +19,19 @@ TEST(Digest, ChangesWithTheLastBitOfEveryFieldAndWithEarlierFrames)
   const auto digest = frame_digest(whole, 1, false);
   EXPECT_NE(frame_digest(whole, 2, false), digest);
   const auto nudge = [](double& x) { x = std::nextafter(x, 1e9); };
-  const std::vector<std::function<void(Frame&)>> changes{
-      [](Frame& f) { ++f.step; },
-      [&](Frame& f) { nudge(f.time); },
-      [&](Frame& f) { nudge(f.position.back().y()); },
-      [](Frame& f) { ++f.image.back()[1]; },
-      [&](Frame& f) { nudge(f.velocity.back().y()); },
-      [&](Frame& f) { nudge(f.angular_velocity.back()); },
-      [&](Frame& f) { nudge(f.force.back().y()); },
-      [](Frame& f) { ++f.contacts.i.back(); },
-      [](Frame& f) { ++f.contacts.j.back(); },
-      [&](Frame& f) { nudge(f.contacts.force.back().y()); },
-      [&](Frame& f) { nudge(f.contacts.branch.back().y()); },
-      [&](Frame& f) { nudge(f.contacts.gap.back()); }};
+  const std::vector<std::function<void(Frame<2>&)>> changes{
+      [](Frame<2>& f) { ++f.step; },
+      [&](Frame<2>& f) { nudge(f.time); },
+      [&](Frame<2>& f) { nudge(f.position.back().y()); },
+      [](Frame<2>& f) { ++f.image.back()[1]; },
+      [&](Frame<2>& f) { nudge(f.velocity.back().y()); },
+      [&](Frame<2>& f) { nudge(f.angular_velocity.back()); },
+      [&](Frame<2>& f) { nudge(f.force.back().y()); },
+      [](Frame<2>& f) { ++f.contacts.i.back(); },
+      [](Frame<2>& f) { ++f.contacts.j.back(); },
+      [&](Frame<2>& f) { nudge(f.contacts.force.back().y()); },
+      [&](Frame<2>& f) { nudge(f.contacts.branch.back().y()); },
+      [&](Frame<2>& f) { nudge(f.contacts.gap.back()); }};
   for (std::size_t k = 0; k < changes.size(); ++k) {
     auto other = whole;
     changes[k](other);
@@ -54,19 +54,19 @@ class TrajectoryMore : public testing::Test {
       (std::filesystem::temp_directory_path() / ("grseg_more_" + std::to_string(getpid()) + ".h5"))
           .string();
   void TearDown() override { std::filesystem::remove(path); }
-  void write(const RunDescription& run, const std::vector<Frame>& frames)
+  void write(const RunDescription& run, const std::vector<Frame<2>>& frames)
   {
     TrajectoryWriter writer(path, run);
     for (const auto& frame : frames) writer.append(frame, std::vector<double>{0});
     writer.add_parameters({{{"summary_height", {2.5}}}, {}});
     writer.close();
   }
-  std::string complaint(const std::vector<Frame>& frames)
+  std::string complaint(const std::vector<Frame<2>>& frames)
   {
     write(three_grains::description(), frames);
     try {
       const TrajectoryReader reader(path);
-      Frame frame;
+      Frame<2> frame;
       for (std::size_t k = 0; k < reader.size(); ++k) reader.read(k, frame);
     } catch (const FormatError& error) {
       return error.what();

@@ -81,7 +81,7 @@ class Trajectory : public testing::Test {
   {
     try {
       const TrajectoryReader reader(path, verify);
-      Frame frame;
+      Frame<2> frame;
       for (std::size_t k = 0; k < reader.size(); ++k) reader.read(k, frame, fields);
       if (fields.force) reader.observable("translational_energy");
     } catch (const FormatError& error) {
@@ -98,7 +98,7 @@ class Trajectory : public testing::Test {
       "out with --begin or --end";
 };
 
-void expect_same(const Frame& a, const Frame& b)
+void expect_same(const Frame<2>& a, const Frame<2>& b)
 {
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.time, b.time);
@@ -126,10 +126,10 @@ TEST_F(Trajectory, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(reader.grains().fixed, three_grains::grains().fixed);
   EXPECT_EQ(reader.box().length_x, 0.35);
   EXPECT_TRUE(reader.box().periodic_x);
-  EXPECT_EQ(reader.gravity().start, Vec2(3.8, -9.0));
+  EXPECT_EQ(reader.gravity<2>().start, Vec2(3.8, -9.0));
   EXPECT_EQ(reader.parameters().text("history"), "three grains by hand");
   EXPECT_EQ(reader.observable("translational_energy"), (std::vector<double>{0, 0.5, 1}));
-  Frame frame;
+  Frame<2> frame;
   for (std::size_t k = 0; k < 3; ++k) {
     reader.read(k, frame, {.velocity = true, .contacts = true, .force = true});
     expect_same(frame, three_grains::frame(static_cast<std::int64_t>(k)));
@@ -143,7 +143,7 @@ TEST_F(Trajectory, CompressionChangesNoNumberAndNoDigest)
   three_grains::write(path, 2, {.compression = 9});
   const TrajectoryReader reader(path);
   EXPECT_EQ(reader.digest(), plain);
-  Frame frame;
+  Frame<2> frame;
   reader.read(1, frame, {.velocity = true, .contacts = true, .force = true});
   expect_same(frame, three_grains::frame(1));
 }
@@ -162,7 +162,7 @@ TEST_F(Trajectory, RepackingKeepsEveryNumberAndTheDigest)
     EXPECT_EQ(after.parameters().texts, before.parameters().texts);
     EXPECT_EQ(after.observable("translational_energy"), before.observable("translational_energy"));
     EXPECT_EQ(after.observables()[0].unit, "J");
-    Frame frame;
+    Frame<2> frame;
     after.read(2, frame, {.velocity = true, .contacts = true, .force = true});
     expect_same(frame, three_grains::frame(2));
   }
@@ -177,7 +177,7 @@ TEST_F(Trajectory, RepackingKeepsEveryNumberAndTheDigest)
 TEST_F(Trajectory, SinglePrecisionKeepsSevenDigits)
 {
   three_grains::write(path, 1, {.float32 = true});
-  Frame frame;
+  Frame<2> frame;
   TrajectoryReader(path).read(0, frame);
   EXPECT_NEAR(frame.contacts.force[1].y(), 1e-3, 1e-10);
   EXPECT_NE(frame.contacts.force[1].y(), 1e-3);
@@ -207,7 +207,7 @@ TEST_F(Trajectory, AnInterruptedFrameIsInvisible)
   const TrajectoryReader reader(path);
   ASSERT_EQ(reader.size(), 2u);
   EXPECT_EQ(reader.times().size(), 2u);
-  Frame frame;
+  Frame<2> frame;
   reader.read(1, frame);
   EXPECT_EQ(frame.contacts.force, three_grains::frame(1).contacts.force);
 }
@@ -228,7 +228,7 @@ TEST_F(Trajectory, AWriterKilledAtAnyMomentLeavesWholeFrames)
     const TrajectoryReader reader(path);
     EXPECT_EQ(reader.size(), static_cast<std::size_t>(frames_before_death));
     EXPECT_FALSE(reader.closed());
-    Frame frame;
+    Frame<2> frame;
     for (std::size_t k = 0; k < reader.size(); ++k) {
       reader.read(k, frame, {.velocity = true, .contacts = true, .force = true});
       expect_same(frame, three_grains::frame(static_cast<std::int64_t>(k)));
@@ -262,7 +262,7 @@ TEST_F(Trajectory, AWriterKilledInTheMiddleOfAFrameLeavesAllFramesBeforeIt)
     const TrajectoryReader reader(path);
     EXPECT_GE(reader.size(), appended);
     EXPECT_LE(reader.size(), appended + 1);
-    Frame frame;
+    Frame<2> frame;
     for (std::size_t k = 0; k < reader.size(); ++k) {
       reader.read(k, frame, {.velocity = true, .contacts = true, .force = true});
       expect_same(frame, three_grains::frame(static_cast<std::int64_t>(k)));
@@ -292,7 +292,7 @@ TEST_F(Trajectory, ARunThatGoesOnCanBeRead)
     const TrajectoryReader reader(path);
     EXPECT_FALSE(reader.closed());
     EXPECT_EQ(reader.size(), static_cast<std::size_t>(k + 1));
-    Frame frame;
+    Frame<2> frame;
     reader.read(reader.size() - 1, frame);
     EXPECT_EQ(frame.contacts.force, three_grains::frame(k).contacts.force);
     EXPECT_EQ(reader.observable("translational_energy").back(), 0.5 * k);
@@ -442,7 +442,7 @@ TEST_F(Trajectory, AFieldThatIsNotReadNeedNotBeWhole)
   three_grains::write(path, 2);
   tamper([](hid_t file) { add_to(file, "/particles/grains/velocity/value", 0, 1); });
   const TrajectoryReader reader(path);
-  Frame frame;
+  Frame<2> frame;
   reader.read(0, frame, {.velocity = false, .contacts = true, .force = false});
   EXPECT_THROW(reader.read(0, frame), FormatError);
   EXPECT_EQ(reader.verified(), "all");
@@ -503,7 +503,7 @@ TEST_F(Trajectory, AFrameWithoutContactsIsAFrame)
     writer.append(falling, std::vector<double>{0});
     writer.close();
   }
-  Frame frame;
+  Frame<2> frame;
   const TrajectoryReader reader(path);
   ASSERT_EQ(reader.size(), 1u);
   reader.read(0, frame);
@@ -519,7 +519,7 @@ TEST_F(Trajectory, EveryTruncationIsRefusedOrReadsWholeFrames)
     std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, length);
     try {
       const TrajectoryReader reader(path);
-      Frame frame;
+      Frame<2> frame;
       for (std::size_t k = 0; k < reader.size(); ++k) {
         reader.read(k, frame);
         EXPECT_EQ(frame.position, three_grains::frame(static_cast<std::int64_t>(k)).position);

@@ -127,7 +127,7 @@ Gaps gaps_by_brute_force(const World& world, const std::vector<Vec2>& position, 
 void expect_all_contacts(const Bed& bed, int steps)
 {
   auto simulation = simulation_of(bed);
-  Frame frame;
+  Frame<2> frame;
   std::size_t seen = 0;
   for (int step = 0; step < steps; ++step) {
     std::vector<Vec2> ahead;

@@ -150,7 +150,7 @@ TEST_F(CheckpointFile, AnotherVersionIsRefused)
   for (const int version : {1, 99}) {
     tamper([&](hid_t file) { put(file, "/version", H5T_NATIVE_INT, version); });
     EXPECT_EQ(complaint(), path + ": is a checkpoint of version " + std::to_string(version) +
-                               ", and this grseg-sim reads version 2; continue with the "
+                               ", and this grseg-sim reads version 3; continue with the "
                                "program that wrote it");
   }
 }
@@ -252,7 +252,7 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Checkpoint& c) { *std::find(c.state.row.begin(), c.state.row.end(), 1) = 0; }},
         Forgery{"/state/row has 70 entries for 71 grains",
                 [](Checkpoint& c) { c.state.row.pop_back(); }},
-        Forgery{"/grains/species, entry 2, is not 0, 1 or 2",
+        Forgery{"/grains/species, entry 2, is not -1, 0 or 1",
                 [](Checkpoint& c) { c.grains.species[2] = static_cast<Species>(77); }},
         Forgery{"/grains/id has 5 twice",
                 [](Checkpoint& c) { c.grains.id[1] = c.grains.id[2] = 5, c.grains.id[5] = -1; }},

@@ -20,7 +20,7 @@ TEST(Recorder, TheMomentumDefectIsTheForceThatIsMissingOverTheLargest)
   World world;
   worlds::add(world, {{0, 0}, 0.5});
   worlds::add(world, {{1, 0}, 0.5});
-  Frame frame;
+  Frame<2> frame;
   frame.contacts.i = {1};
   frame.contacts.j = {0};
   frame.contacts.force = {{4, 0}};
@@ -41,7 +41,7 @@ class RecorderFile : public testing::Test {
   double record(const StepReport& report, const std::string& name)
   {
     Simulation simulation(world, {{0, 0.5}});
-    Frame frame;
+    Frame<2> frame;
     simulation.advance(frame);
     {
       TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
@@ -88,7 +88,7 @@ TEST_F(RecorderFile, WhatMovingBoundariesDoIsRecorded)
   base.end = 2;
   base.velocity = {0, 2};
   simulation.drive({base});
-  Frame frame;
+  Frame<2> frame;
   {
     TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
     Recorder recorder(writer, 1);

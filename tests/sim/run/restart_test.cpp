@@ -23,7 +23,7 @@ using small_chute::tilted_gravity;
 /// The digest chained over every frame of `steps` steps.
 std::uint64_t digest_of_steps(Simulation& simulation, int steps, std::uint64_t before = 0)
 {
-  Frame frame;
+  Frame<2> frame;
   for (int k = 0; k < steps; ++k) {
     simulation.advance(frame);
     before = frame_digest(frame, before, false);
@@ -132,7 +132,7 @@ TEST(Restart, WithoutFrictionNoContactKeepsItsTangentialForce)
   digest_of_steps(first, 50);
   auto again = restored_simulation(checkpoint_of(first, chute), chute, smooth, {});
   again.tilt(tilted_gravity(smooth));
-  Frame frame;
+  Frame<2> frame;
   again.advance(frame);
   ASSERT_GT(frame.contacts.size(), 30u);
   for (std::size_t c = 0; c < frame.contacts.size(); ++c) {

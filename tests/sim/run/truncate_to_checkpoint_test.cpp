@@ -29,7 +29,7 @@ class CutBack : public testing::Test {
 
   void record(TrajectoryWriter& writer, Recorder& recorder, int frames)
   {
-    Frame frame;
+    Frame<2> frame;
     for (int k = 0; k < frames; ++k) {
       recorder.add(simulation.advance(frame));
       recorder.write(frame, simulation);

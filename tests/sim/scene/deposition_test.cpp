@@ -102,7 +102,7 @@ TEST(Deposition, IsRecordedBeforeTheTiltWithoutChangingTheBed)
   std::vector<double> times;
   const auto recorded = deposit(
       scene,
-      {.each_step = {}, .record = [&](const StepReport&, const Simulation&, const Frame* frame) {
+      {.each_step = {}, .record = [&](const StepReport&, const Simulation&, const Frame<2>* frame) {
          ++steps;
          if (frame != nullptr) times.push_back(frame->time);
        }});

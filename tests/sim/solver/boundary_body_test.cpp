@@ -40,7 +40,7 @@ TEST(BoundaryBody, APlateAtRestPutsItsLoadOnTheFloor)
   scene.world.material = {0, 0};
   Simulation simulation(scene.world, positions_of(scene.discs));
   simulation.drive({scene.plate});
-  Frame frame;
+  Frame<2> frame;
   for (int step = 0; step < 200; ++step) simulation.advance(frame);
   Vec2 on_floor = Vec2::Zero();
   for (std::size_t c = 0; c < frame.contacts.size(); ++c)
@@ -144,7 +144,7 @@ TEST(BoundaryBody, TheWorkOfAMovingBaseClosesTheEnergyBalance)
   base.velocity = {0.3, 2};
   base.spin = 5;
   simulation.drive({base});
-  Frame frame;
+  Frame<2> frame;
   double work = 0;
   for (int step = 0; step < 20; ++step) {
     simulation.advance(frame);

@@ -33,7 +33,7 @@ std::uint64_t flow(Simulation simulation)
 {
   std::uint64_t digest = 0;
   std::size_t contacts = 0;
-  Frame frame;
+  Frame<2> frame;
   for (int k = 0; k < 400; ++k) {
     simulation.advance(frame);
     contacts += frame.contacts.size();

@@ -233,7 +233,7 @@ class LeftOutOfAStep : public testing::Test {
 long blocks_of_a_step(const Change& change)
 {
   auto simulation = chute_with(change);
-  Frame frame;
+  Frame<2> frame;
   simulation.advance(frame);
   return static_cast<long>(frame.contacts.size() / block_lanes);
 }
@@ -277,7 +277,7 @@ TEST_F(LeftOutOfAStep, AStepWithoutAFrameSpendsNothingOnRecording)
 {
   const Change nothing = [](World&) {};
   auto simulation = chute_with(nothing);
-  Frame frame;
+  Frame<2> frame;
   auto recorded = simulation;
   const long with = instructions_of([&] { recorded.advance(frame); }).value();
   EXPECT_GE(with - step_of(simulation), 10 * static_cast<long>(simulation.world().grains.size()));

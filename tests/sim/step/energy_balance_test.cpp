@@ -13,7 +13,7 @@ using worlds::Disc;
 /// Two discs of which the upper one, spinning, hits the lower one, and a floor below.
 struct Impact {
   World world = worlds::world_of({{{0, 0.4999}, 0.5}, {{0.3, 1.45}, 0.5}});
-  Frame frame;
+  Frame<2> frame;
   EnergyBalance balance;
 
   explicit Impact(double restitution)
@@ -43,7 +43,7 @@ TEST(EnergyBalance, TheWorkOfGravityIsTheWeightTimesTheWay)
   auto world = worlds::world_of({{{0, 9}, 0.5}});
   world.gravity = {0, -9.8};
   Simulation simulation(world, {{0, 9}});
-  Frame frame;
+  Frame<2> frame;
   simulation.advance(frame);
   const auto balance =
       energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
@@ -59,7 +59,7 @@ TEST(EnergyBalance, AForceThatIsMissingShowsAsADefect)
   without.contacts.force[1] *= 0.99;
   Simulation simulation(impact.world, {{0, 0.4999}, {0.3, 1.45}});
   simulation.set_velocity(1, {0.2, -2}, 3);
-  Frame again;
+  Frame<2> again;
   simulation.advance(again);
   const auto balance = energy_balance(impact.world.grains, without, simulation.before(),
                                       impact.world.gravity, impact.world.step);

@@ -47,7 +47,7 @@ TEST(Simulation, ASettledBedPressesOnItsBaseWithItsWeightAtEveryStep)
   auto simulation = settled_heap(1e-9);
   double weight = 0;
   for (const double m : simulation.world().grains.mass) weight += m * g;
-  Frame frame;
+  Frame<2> frame;
   for (int k = 0; k < 20; ++k) {
     simulation.advance(frame);
     double base = 0;
@@ -62,7 +62,7 @@ TEST(Simulation, ContactForcesAndWeightMakeUpTheForceOfEveryGrainToRoundOff)
 {
   auto simulation = settled_heap(1e-2);
   simulation.tilt(Vec2(g * std::sin(0.5), -g * std::cos(0.5)));
-  Frame frame;
+  Frame<2> frame;
   for (int k = 0; k < 100; ++k) {
     simulation.advance(frame);
     EXPECT_LT(momentum_defect(simulation.world().grains, frame, simulation.world().gravity), 1e-12);
@@ -76,7 +76,7 @@ TEST(Simulation, AFrameIsTheMiddleOfItsStep)
   world.box = {10, 10, true};
   Simulation simulation(world, positions_of(discs));
   simulation.set_velocity(0, {1, 0});
-  Frame frame;
+  Frame<2> frame;
   simulation.advance(frame);
   EXPECT_EQ(frame.step, 0);
   EXPECT_DOUBLE_EQ(frame.time, 0.5e-3);
@@ -89,7 +89,7 @@ TEST(Simulation, AFrameIsTheMiddleOfItsStep)
 TEST(Simulation, WritingFramesChangesNothing)
 {
   auto watched = settled_heap(1e-2), alone = watched;
-  Frame frame;
+  Frame<2> frame;
   for (int k = 0; k < 50; ++k) {
     watched.advance(frame);
     alone.advance();
@@ -113,7 +113,7 @@ TEST(Simulation, AShiftAlongThePeriodChangesNoForce)
     world.walls = {floor_at(0)};
     world.gravity = {1, -g};
     Simulation simulation(world, positions_of(discs));
-    Frame frame;
+    Frame<2> frame;
     for (int k = 0; k < 100; ++k) simulation.advance(frame);
     std::vector<Vec2> on(discs.size(), Vec2::Zero());
     for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
@@ -152,7 +152,7 @@ TEST(Simulation, ARestingDiscWithRestitutionCarriesItsWeightAndDoesNotRattle)
   world.walls = {floor_at(0)};
   world.gravity = {0, -g};
   Simulation simulation(world, positions_of(discs));
-  Frame frame;
+  Frame<2> frame;
   for (int k = 0; k < 10; ++k) {
     simulation.advance(frame);
     ASSERT_EQ(frame.contacts.size(), 1u);
@@ -180,7 +180,7 @@ TEST(Simulation, BranchIsTheDistanceOfTheCentresAndGapNegativeWhereDiscsOverlap)
   auto world = world_of(discs);
   world.walls = {floor_at(0)};
   Simulation simulation(world, positions_of(discs));
-  Frame frame;
+  Frame<2> frame;
   simulation.advance(frame);
   ASSERT_EQ(frame.contacts.size(), 2u);
   EXPECT_NEAR((frame.contacts.branch[0] - Vec2(-0.59, 0)).norm(), 0, 1e-15);
@@ -197,7 +197,7 @@ TEST(Simulation, AFrameUnwrapsToTheTruePositionWheneverTheListWasMade)
     auto world = world_of(discs);
     world.box = {10, 10, true};
     Simulation simulation(world, positions_of(discs));
-    Frame frame;
+    Frame<2> frame;
     simulation.advance(frame);
     simulation.set_velocity(0, {(x - 1e-3) / (world.step / 2), 0});
     simulation.advance(frame);

@@ -28,11 +28,11 @@ class Lammps : public testing::Test {
  protected:
   Folder folder;
 
-  Frame frame_of(const ImportSettings& s, std::size_t index = 0)
+  Frame<2> frame_of(const ImportSettings& s, std::size_t index = 0)
   {
     import_archive(s, "grseg-import");
     const TrajectoryReader run(s.output);
-    Frame frame;
+    Frame<2> frame;
     run.read(index, frame, {.velocity = true, .contacts = true, .force = true});
     return frame;
   }
@@ -255,7 +255,7 @@ TEST_F(Lammps, RowsStandInAnyOrder)
   const TrajectoryReader run(s.output);
   EXPECT_EQ(run.grains().id, (std::vector<std::int32_t>{4, 7, 9}));
   EXPECT_EQ(run.grains().species, (std::vector{Species::small, Species::large, Species::boundary}));
-  Frame first, second;
+  Frame<2> first, second;
   run.read(0, first);
   run.read(1, second);
   EXPECT_EQ(first.position, second.position);
@@ -333,7 +333,7 @@ TEST_F(Lammps, DimensionlessUnitsMustBeGiven)
   EXPECT_NEAR(frame.position[1].y(), 0.005 * 0.5, 1e-17);
   EXPECT_NEAR(frame.contacts.force[0].y(), -small_mass * gy * 2 * 0.5 / 0.01, 1e-12);
   const TrajectoryReader run(s.output);
-  EXPECT_NEAR(run.gravity().start.x(), gx * 0.5 / 0.01, 1e-10);
+  EXPECT_NEAR(run.gravity<2>().start.x(), gx * 0.5 / 0.01, 1e-10);
   EXPECT_NEAR(run.step(), 1e-6, 1e-20);
   EXPECT_NEAR(run.small_diameter(), 0.0025, 1e-17);
 }

@@ -162,7 +162,7 @@ TEST_F(Liggghts, OverlapIsDeltaNotADifferenceOfRoundedPositions)
     const auto s = settings(files(contacts));
     import_archive(s, "grseg-import");
     const TrajectoryReader run(s.output);
-    Frame frame;
+    Frame<2> frame;
     run.read(3, frame);
     return frame;
   };

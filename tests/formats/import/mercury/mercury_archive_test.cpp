@@ -23,13 +23,13 @@ class Mercury : public testing::Test {
  protected:
   TrajectoryReader run{GRSEG_TEST_INPUTS "/../../data/sample/chute.h5"};
   fs::path folder = fs::temp_directory_path() / ("grseg_mercury_" + std::to_string(getpid()));
-  std::vector<Frame> frames;
+  std::vector<Frame<2>> frames;
 
   void SetUp() override
   {
     fs::create_directory(folder);
     for (const std::size_t k : {5, 6, 7}) {
-      Frame frame;
+      Frame<2> frame;
       run.read(k, frame);
       auto& contacts = frame.contacts;
       std::size_t mobile = 0;
@@ -82,7 +82,8 @@ class Mercury : public testing::Test {
   void expect_frames(const ArchiveFiles& all, bool with_spin = true) const;
 };
 
-void expect_contacts(const ContactList& meant, const ArchiveContacts& read, const std::string& what)
+void expect_contacts(const ContactList<2>& meant, const ArchiveContacts& read,
+                     const std::string& what)
 {
   ASSERT_EQ(read.size(), meant.size()) << what;
   const double scale = largest_force(read);
@@ -186,14 +187,14 @@ TEST_F(Mercury, RestartGivesMassesFixedGrainsAndThePeriod)
   const auto moment = all_of(*archive).front();
   const auto& facts = archive->facts();
   EXPECT_DOUBLE_EQ(*facts.step, run.step());
-  EXPECT_LT((facts.gravity->head<2>() - run.gravity().start).norm(), 1e-13);
+  EXPECT_LT((facts.gravity->head<2>() - run.gravity<2>().start).norm(), 1e-13);
   EXPECT_TRUE(*facts.discs);
   EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, false, false}));
   EXPECT_NEAR(moment.high.x() - moment.low.x(), run.box().length_x, 1e-14);
   for (std::size_t g = 0; g < moment.grains.size(); ++g) {
     const double r = run.grains().radius[g];
     EXPECT_EQ(moment.grains.fixed[g], run.grains().fixed[g]);
-    EXPECT_EQ(moment.grains.type[g], static_cast<std::int32_t>(run.grains().species[g]));
+    EXPECT_EQ(moment.grains.type[g], species_numbers(run.grains().species, 2)[g]);
     EXPECT_NEAR(moment.grains.mass[g], std::numbers::pi * r * r, 1e-6 * r * r);
   }
 }
@@ -211,7 +212,7 @@ TEST_F(Mercury, InfoIsASpeciesOnlyOnRequest)
 TEST_F(Mercury, BlocksAreMatchedByTimeNotByOrder)
 {
   auto all = files({});
-  Frame early = frames[0], late = frames[2];
+  Frame<2> early = frames[0], late = frames[2];
   early.time -= 0.01;
   late.time += 0.01;
   all.contacts = {file("more.fstat", mercury_files::fstat(run.grains(), early, {}) + fstat({}))};

@@ -18,7 +18,7 @@ struct Scene {
   Grains grains;
   Box box{10, 10, true};
   Vec2 gravity{0, -10};
-  Frame frame;
+  Frame<2> frame;
 
   Scene()
   {

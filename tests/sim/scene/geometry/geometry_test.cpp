@@ -125,7 +125,7 @@ TEST(Geometry, AShearCellHoldsItsPressureAndItsPlateItsSpeed)
   const auto& grains = simulation.world().grains;
   const auto plate = bodies_of(scene, grains).front();
   run_for(simulation, 1);
-  Frame frame;
+  Frame<2> frame;
   double pressure = 0;
   constexpr int steps = 4000;
   for (int step = 0; step < steps; ++step) {
@@ -146,7 +146,7 @@ TEST(Geometry, APlateSinksIntoItsGrainsNoFasterThanTheyIntoEachOther)
   auto simulation = released(scene);
   const auto first = static_cast<int>(bodies_of(scene, simulation.world().grains).front().begin);
   run_for(simulation, 0.25);
-  Frame frame;
+  Frame<2> frame;
   double at_plate = 0, elsewhere = 0, count_at_plate = 0, count_elsewhere = 0;
   for (int step = 0; step < 2000; ++step) {
     simulation.advance(frame);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// A species of mobile grains; its place in a list is its number (Species).
+struct SpeciesEntry {
+  std::string name;
+  double diameter = 0;  // nominal, m; 0: unknown
+};
+
+/// The mobile species of a run or table in order of their diameters.
+using SpeciesList = std::vector<SpeciesEntry>;
+
+/// Bytes of a name in a file.
+inline constexpr std::size_t longest_species_name = 16;
+inline constexpr const char* name_of_boundary = "boundary";
+
+/// What most runs have: "small" and "large".
+SpeciesList two_sizes(double small_diameter, double large_diameter);
+
+/// Whether tables must name the species: they are other than small and large.
+bool names_species(const SpeciesList& species);
+
+/// "small 0.005, large 0.01", and what such a line stands for; empty where it is no such line.
+std::string species_text(const SpeciesList& species);
+SpeciesList parse_species(const std::string& text);
+
+/// Whether a name can stand in files, command lines and names of columns: 1 to 15 of A-Z a-z 0-9 _ -
+/// ., and neither "boundary" nor "b", which stand for the base.
+bool is_species_name(const std::string& name);
+
+/// Species as files number them: rows of a list in which the boundary grains come last.
+std::vector<std::int32_t> species_numbers(const std::vector<Species>& species, std::size_t mobile);
+
+/// The species of the number `number` in such a list.
+inline Species species_of_number(std::int32_t number, std::size_t mobile)
+{
+  return static_cast<std::size_t>(number) == mobile ? Species::boundary
+                                                    : static_cast<Species>(number);
+}
+
+}  // namespace grseg
