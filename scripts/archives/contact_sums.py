@@ -29,10 +29,9 @@ class Sums:
         if f"# assign: {assign}" not in self.header:
             sys.exit(f"{path}: was not made with --assign {assign}")
         self.axes = "xyz" if "# dimension: 3" in self.header else "xy"
-        listed = [line for line in self.header if line.startswith("# species: ")]
-        self.two = not listed
-        self.species = ["S", "L"] if self.two else [
-            one.rsplit(" ", 1)[0] for one in listed[0].removeprefix("# species: ").split(", ")]
+        self.two = "M_yy" in self.names
+        listed = [line.removeprefix("# species: ") for line in self.header if line.startswith("# species: ")]
+        self.species = ["S", "L"] if self.two else [one.rsplit(" ", 1)[0] for one in listed[0].split(", ")]
 
     def __getitem__(self, name):
         return self.rows[:, self.names.index(name)]
