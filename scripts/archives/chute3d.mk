@@ -13,16 +13,16 @@ BIN ?= $(ROOT)/build/bin
 
 # Flows of chute3d.lammps: seeds, parts and words for lmp.
 flows := long mix20 mix70 three any
-seeds_long := 1 2 3 4 5 6
-seeds_mix20 := 1 2
-seeds_mix70 := 1 2
+seeds_long := 1 2 3
+seeds_mix20 := 1
+seeds_mix70 := 1
 seeds_three := 1
 seeds_any := 1
 parts_long := 2
 parts_mix20 := 1
 parts_mix70 := 1
-parts_three := 1
-parts_any := 1
+parts_three := 4
+parts_any := 4
 words_mix20 := -var large 0.2 -var grains 2870
 words_mix70 := -var large 0.7 -var grains 1350
 words_three := -var mixture three -var frames 60
@@ -35,8 +35,6 @@ species_any := --species any=2
 two := --small 2 --large 3
 units := --units 1:1:1 --step 8.8e-4 --gravity 1 --slope 26
 turned := $(units) --axes xz --boundary 1
-steady := --begin 308
-bed := --heights 4dS:20dS
 # young collisions of large grains, whose force is mostly damping, miss up to 0.09 of the largest force half a step later
 late_long := --accept-residual 0.1
 outputs := 0.0088
@@ -126,39 +124,49 @@ $(OUT)/stress/%.tsv: $(OUT)/runs/%.h5
 	$(BIN)/grseg-stress $< --assign grain --window $(outputs) --quiet --overwrite -o $(@D)/$*.sums.tsv
 	$(HERE)/stress-atom $< $(@D)/$*.sums.tsv $(dumps_$*) --axes xz --printed $(@D)/$*.printed.tsv > $@
 
-# Fits
+# Fits: of layers 4 m thick, which is 4 dS but for classes, whose smallest is larger than the smallest grain
 
+windows := --layer 4 --window 17.6 --begin 308 --quiet --overwrite
+classes := 2 4 8
 $(OUT)/sums/%.stress.tsv: $(OUT)/runs/%.h5
 	mkdir -p $(@D)
-	$(BIN)/grseg-stress $< --window 17.6 $(steady) --quiet --overwrite -o $@
+	$(BIN)/grseg-stress $< $(windows) -o $@
 $(OUT)/sums/%.kinetic.tsv: $(OUT)/runs/%.h5
 	mkdir -p $(@D)
-	$(BIN)/grseg-kinetic $< --mean species --window 17.6 $(steady) --quiet --overwrite -o $@
-$(foreach n,2 4 8,$(eval $$(OUT)/sums/any-$(n).tsv: $$(OUT)/runs/any-1.h5; mkdir -p $$(@D); $$(BIN)/grseg-stress $$< --classes $(n) --window 17.6 --quiet --overwrite -o $$@))
+	$(BIN)/grseg-kinetic $< --mean species $(windows) -o $@
+$(classes:%=$(OUT)/sums/any-%.tsv): $(OUT)/sums/any-%.tsv: $(OUT)/runs/any-1.h5
+	mkdir -p $(@D)
+	$(BIN)/grseg-stress $< --classes $* $(windows) -o $@
 
-stress_of = $(patsubst $(OUT)/runs/%.h5,$(OUT)/sums/%.stress.tsv,$(call runs,$(1)))
-pairs_of = $(foreach run,$(call runs,$(1)),$(patsubst $(OUT)/runs/%.h5,$(OUT)/sums/%,$(run)).stress.tsv $(patsubst $(OUT)/runs/%.h5,$(OUT)/sums/%,$(run)).kinetic.tsv)
-two_sizes := long mix20 mix70
-fit := $(BIN)/grseg-fit $(bed) --quiet --overwrite
+two_sizes := mix20 long mix70
+tables = $(foreach seed,$(seeds_$(1)),$(2:%=$(OUT)/sums/$(1)-$(seed).%.tsv))
+fit := $(BIN)/grseg-fit --heights 4:20 --quiet --overwrite
+many := --exponent --partition stock,uniform:0.6
 
-fits: $(two_sizes:%=$(OUT)/fits/%.stock.tsv) $(two_sizes:%=$(OUT)/fits/%.fractions.tsv) $(OUT)/fits/long.scan.tsv \
-  $(OUT)/fits/three.tsv $(patsubst %,$(OUT)/fits/any-%.tsv,2 4 8)
+fits: $(foreach what,stock scan pressure kinetic fractions,$(two_sizes:%=$(OUT)/fits/%.$(what).tsv)) \
+  $(OUT)/fits/three.tsv $(classes:%=$(OUT)/fits/any-%.tsv)
 
 define fits_of_flow
-$(OUT)/fits/$(1).stock.tsv: $(call stress_of,$(1))
+$(OUT)/fits/$(1).stock.tsv: $(call tables,$(1),stress)
 	mkdir -p $$(@D)
-	$$(fit) $$^ --partition stock -o $$@
-$(OUT)/fits/$(1).scan.tsv: $(call stress_of,$(1))
+	$$(fit) $$^ --partition stock --exponent -o $$@
+$(OUT)/fits/$(1).pressure.tsv: $(call tables,$(1),stress)
+	mkdir -p $$(@D)
+	$$(fit) $$^ --component pressure --exponent -o $$@
+$(OUT)/fits/$(1).scan.tsv: $(call tables,$(1),stress)
 	mkdir -p $$(@D)
 	$$(fit) $$^ --scan 0.4:0.9:0.005 -o $$@
-$(OUT)/fits/$(1).fractions.tsv: $(call pairs_of,$(1))
+$(OUT)/fits/$(1).kinetic.tsv: $(call tables,$(1),kinetic)
+	mkdir -p $$(@D)
+	$$(fit) $$^ --quantity kinetic --exponent -o $$@
+$(OUT)/fits/$(1).fractions.tsv: $(call tables,$(1),stress kinetic)
 	mkdir -p $$(@D)
 	$$(HERE)/stress-fractions $$^ --heights 4:20 > $$@
 endef
 $(foreach flow,$(two_sizes),$(eval $(call fits_of_flow,$(flow))))
 $(OUT)/fits/three.tsv: $(OUT)/sums/three-1.stress.tsv
 	mkdir -p $(@D)
-	$(fit) $^ --partition stock -o $@
-$(OUT)/fits/any-%.tsv: $(OUT)/sums/any-%.tsv
+	$(fit) $^ $(many) -o $@
+$(classes:%=$(OUT)/fits/any-%.tsv): $(OUT)/fits/any-%.tsv: $(OUT)/sums/any-%.tsv
 	mkdir -p $(@D)
-	$(fit) $^ --partition stock,power:2,uniform:0.6 -o $@
+	$(fit) $^ $(many) -o $@
