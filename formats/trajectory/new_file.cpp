@@ -107,7 +107,10 @@ void NewFile::write_species()
   std::string names;
   std::vector<double> diameters;
   for (const auto& [name, diameter] : list) {
-    names += name.substr(0, longest_species_name);
+    if (name.size() > longest_species_name)
+      throw UsageError(fmt::format("the name of the species '{}' has more than {} characters", name,
+                                   longest_species_name));
+    names += name;
     diameters.push_back(diameter);
     names.resize(longest_species_name * diameters.size(), '\0');
   }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace grseg {
 
@@ -231,6 +232,10 @@ void StoredRun::read_species()
     fail(
         "/grseg/species should list mobile species in order of their diameters, and last the "
         "boundary");
+  std::set<std::string> different{name_of_boundary};
+  for (const auto& species : run.species)
+    if (!different.insert(species.name).second)
+      fail(fmt::format("/grseg/species/name holds {} twice", printable(species.name)));
   const auto of_parameters = two_sizes(run.parameters.find_number("small_diameter").value_or(0),
                                        run.parameters.find_number("large_diameter").value_or(0));
   if (run.species.front().diameter != of_parameters.front().diameter ||
