@@ -33,8 +33,9 @@ class Difference(Exception):
     pass
 
 
-def compare(what, mine, tools):
-    """Both agree to TOLERANCE of the largest component, or both are NaN."""
+def compare(what, mine, tools, terms=0.0):
+    """Both agree to TOLERANCE of the largest component, or of the largest of the `terms` whose
+    difference they are, or both are NaN."""
     global compared
     mine, tools = np.asarray(mine, dtype=float), np.asarray(tools, dtype=float)
     compared += mine.size
@@ -42,7 +43,7 @@ def compare(what, mine, tools):
         return
     if mine.shape != tools.shape:
         raise Difference(f"{what}: the shapes {mine.shape} and {tools.shape} differ")
-    scale = max(abs(mine).max(), abs(tools).max())
+    scale = max(abs(mine).max(), abs(tools).max(), np.abs(terms).max())
     difference = abs(mine - tools).max()
     if not difference <= TOLERANCE * scale:
         raise Difference(f"{what}: the definition gives\n{mine}\nthe tool gives\n{tools}\n"
@@ -82,7 +83,7 @@ class Window:
             compare(f"{where}: V", run.volume_of_layer(self.h), row["V"])
             for s in range(run.species_count):
                 name = f"{columns.content}_{columns.names[s]}"
-                compare(f"{where}: {name}", content[s][n] + row["V"], row[name] + row["V"])
+                compare(f"{where}: {name}", content[s][n], row[name], row["V"])
             for key in keys(run, assignment):
                 name = columns.sum(key)
                 compare(f"{where}: {name}", sums[key][n], columns.tensor(row, name))
@@ -101,9 +102,10 @@ class Window:
             for n, row in enumerate(rows):
                 of_tool = {key: columns.tensor(row, columns.sum(key)) for key in keys(run, "")}
                 tools = by_definition.partial_stresses(run, of_tool, self.h, rule)
+                terms = np.array(list(of_tool.values())) / run.volume_of_layer(self.h)
                 for s, name in enumerate(columns.names):
-                    compare(f"{self.place(n)}: sigma^{name} by {rule}", mine[s][n], tools[s])
-                compare(f"{self.place(n)}: sigma", sum(mine)[n], sum(tools))
+                    compare(f"{self.place(n)}: sigma^{name} by {rule}", mine[s][n], tools[s], terms)
+                compare(f"{self.place(n)}: sigma", sum(mine)[n], sum(tools), terms)
 
     def check_kinetic(self, rows, mean):
         run, columns = self.run, self.columns
