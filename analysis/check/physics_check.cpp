@@ -23,8 +23,9 @@ constexpr const char* no_energy_defect = "the file holds no /observables/energy_
 
 Layers layers_of(const TrajectoryReader& run, const std::string& layer)
 {
+  const auto& box = run.box();
   return {parse_length(layer, "--layer", {run.small_diameter(), run.large_diameter()}),
-          run.box().length_x};
+          box.length_x, run.dimension() == 3 ? std::optional(box.length_z) : std::nullopt};
 }
 
 /// --begin, or the tilt at t = 0; the first frame of runs that end before.
@@ -101,6 +102,13 @@ bool PhysicsCheck<D>::steady_slope() const
   return gravity_.start.y() < 0 && !gravity_.turns();
 }
 
+/// Whether no walls carry a part of the weight.
+template <int D>
+bool PhysicsCheck<D>::is_periodic() const
+{
+  return run_.box().periodic_x && (D == 2 || run_.box().periodic_z);
+}
+
 /// Whether the energies are so small that their defect is round-off of the forces.
 template <int D>
 bool PhysicsCheck<D>::at_rest(const TotalMotion<D>& total) const
@@ -126,8 +134,7 @@ void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
   if (!energy_defect_.empty())
     energy_.add(at_rest(total) ? 0 : energy_defect_[index], frame.time, 0);
   if (!in_window(index)) return;
-  if constexpr (D == 2)
-    if (weights_) weights_->add_to_mean(grains, frame);
+  if (weights_) weights_->add_to_mean(grains, frame);
   if (windows_[window_].frames.back() == index) end_window();
 }
 
@@ -137,9 +144,8 @@ void PhysicsCheck<D>::begin_window(const Frame<D>& frame)
   const auto& overlap = contacts_.overlap();
   window_starts_.push_back(
       {frame.time, motion_.stray(), overlap.sum, overlap.count, energy_.sum, energy_.count});
-  if (has_layers() && steady_slope() && run_.box().periodic_x) {
-    if constexpr (D == 2) weights_.emplace(layers_, gravity_.start, small_diameter_ / 2);
-  }
+  if (steady_slope() && is_periodic())
+    weights_.emplace(layers_, gravity_.start, small_diameter_ / 2, run_.species().size());
 }
 
 /// Reads the frames of the window again: now that the mean velocity is known, stresses can be taken
@@ -147,16 +153,15 @@ void PhysicsCheck<D>::begin_window(const Frame<D>& frame)
 template <int D>
 void PhysicsCheck<D>::end_window()
 {
-  if constexpr (D == 2)
-    if (weights_) {
-      Frame<D> frame;
-      for (const std::size_t k : windows_[window_].frames) {
-        run_.read(k, frame, {.velocity = true, .contacts = true});
-        weights_->add(run_.grains(), frame);
-      }
-      weight_windows_.push_back(weights_->window());
-      weights_.reset();
+  if (weights_) {
+    Frame<D> frame;
+    for (const std::size_t k : windows_[window_].frames) {
+      run_.read(k, frame, {.velocity = true, .contacts = true});
+      weights_->add(run_.grains(), frame);
     }
+    weight_windows_.push_back(weights_->window());
+    weights_.reset();
+  }
   ++window_;
 }
 
@@ -234,8 +239,7 @@ std::string PhysicsCheck<D>::why_no_layers() const
 {
   if (gravity_.turns()) return "the slope turns, so no window has one";
   if (!(gravity_.start.y() < 0)) return "gravity does not press on the base";
-  if (!has_layers()) return "stresses of layers are those of two species of discs so far";
-  if (!run_.box().periodic_x) return "the cell is not periodic, so that walls carry a part";
+  if (!is_periodic()) return "the cell is not periodic, so that walls carry a part";
   return windows_.size() < least_windows ? few_windows : "";
 }
 

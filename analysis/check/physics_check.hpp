@@ -42,11 +42,10 @@ class PhysicsCheck {
  private:
   bool in_window(std::size_t index) const;
   bool steady_slope() const;
+  bool is_periodic() const;
   bool at_rest(const TotalMotion<D>& total) const;
   void begin_window(const Frame<D>& frame);
   void end_window();
-  /// Whether the stresses of layers are known.
-  bool has_layers() const { return D == 2 && run_.species().size() == 2; }
   std::string why_no_layers() const;
   void add_balances(std::vector<CheckLine>& lines) const;
   void add_contacts(std::vector<CheckLine>& lines) const;
@@ -72,9 +71,9 @@ class PhysicsCheck {
   std::vector<Vector<D>> base_force_;  // N, by frame; empty where the file does not have it
   std::vector<double> energy_defect_;  // by frame; empty where the file does not have it
 
-  std::size_t window_ = 0;             // to which frames are being added
-  std::optional<WeightSums> weights_;  // of this window
-  std::vector<WeightWindow> weight_windows_;
+  std::size_t window_ = 0;                // to which frames are being added
+  std::optional<WeightSums<D>> weights_;  // of this window
+  std::vector<WeightWindow<D>> weight_windows_;
   std::vector<RunningSums> window_starts_;
 };
 

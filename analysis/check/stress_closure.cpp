@@ -56,34 +56,12 @@ std::vector<Tensor<D>> sums_of_ends(const Grains& grains, const Frame<D>& frame,
   return sums;
 }
 
-/// The same of all species, from the branches.
 template <int D>
-Tensor<D> sum_of_branches(const Grains& grains, const ContactList<D>& contacts)
+Tensor<D> sum_of(const std::vector<Tensor<D>>& tensors)
 {
   Tensor<D> sum = Tensor<D>::Zero();
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto j = contacts.j[c];
-    const bool mixed = j >= 0 && is_mobile(grains, static_cast<std::size_t>(j));
-    const double part = mixed ? 1 : share_of_first(grains, contacts, c);
-    sum += part * contacts.force[c] * contacts.branch[c].transpose();
-  }
+  for (const auto& tensor : tensors) sum += tensor;
   return sum;
-}
-
-/// Largest differences of what the tools make of the contacts of small and large discs, N/m.
-double largest_difference(const std::vector<Tensor2>& ends, const PartialContactStress& stress,
-                          double& scale)
-{
-  auto sums = stress.mean(0).sums;
-  sums.volume = 1;
-  const auto by_contact = partial_stress(sums, {PartitionRule::Kind::contact_point});
-  const auto by_size = partial_stress(sums, {PartitionRule::Kind::size});
-  const auto &small = ends[0], &large = ends[1];
-  scale = largest_component<2>(by_contact.total);
-  return std::max({largest_component<2>(small + large - by_contact.total),
-                   largest_component<2>(small - by_contact.small),
-                   largest_component<2>(large - by_contact.large),
-                   largest_component<2>(by_size.small + by_size.large - by_size.total)});
 }
 
 }  // namespace
@@ -91,23 +69,22 @@ double largest_difference(const std::vector<Tensor2>& ends, const PartialContact
 template <int D>
 void StressClosure<D>::add(const Grains& grains, const Frame<D>& frame)
 {
+  // One layer that holds the whole bed.
+  constexpr double higher_than_any_bed = 1e6;  // m
+  PartialContactStress<D> stress(Layers(higher_than_any_bed, 1), Assignment::contact_point, {}, {},
+                                 species_);
+  stress.add(grains, frame);
+  auto sums = stress.mean(0).sums;
+  sums.volume = 1;
+  const auto by_contact = partial_stress(sums, {PartitionRule::Kind::contact_point});
+  const auto by_size = partial_stress(sums, {PartitionRule::Kind::size});
   const auto ends = sums_of_ends(grains, frame, box_, species_);
-  double scale = 0, defect = 0;
-  if constexpr (D == 2)
-    if (species_ == 2) {
-      // One layer that holds the whole bed.
-      constexpr double higher_than_any_bed = 1e6;  // m
-      PartialContactStress stress(Layers(higher_than_any_bed, 1), Assignment::contact_point);
-      stress.add(grains, frame);
-      defect = largest_difference(ends, stress, scale);
-    }
-  if (D == 3 || species_ != 2) {
-    const Tensor<D> all = sum_of_branches(grains, frame.contacts);
-    Tensor<D> sum = Tensor<D>::Zero();
-    for (const auto& end : ends) sum += end;
-    scale = largest_component<D>(all);
-    defect = largest_component<D>(sum - all);
-  }
+
+  const double scale = largest_component<D>(by_contact.total);
+  double defect = std::max(largest_component<D>(sum_of<D>(ends) - by_contact.total),
+                           largest_component<D>(sum_of<D>(by_size.of_species) - by_size.total));
+  for (std::size_t s = 0; s < species_; ++s)
+    defect = std::max(defect, largest_component<D>(ends[s] - by_contact.of_species[s]));
   defect_.add(scale > 0 ? defect / scale : defect, frame.time, 0);
 }
 
