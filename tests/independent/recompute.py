@@ -24,7 +24,8 @@ from raw_run import Run, faults_of
 from tool_tables import Columns, keys, table
 
 TOLERANCE = 1e-10
-SYNTHETIC = ((2, "small,large"),)
+SYNTHETIC = ((2, "small,large"), (2, "fine,middle,coarse"), (3, "small,large"),
+             (3, "fine,middle,coarse"))
 ASSIGNMENTS = ("contact-point", "branch", "grain")
 compared = 0
 
@@ -155,7 +156,8 @@ def check(bin_folder, path, frames, layer, fault=None):
             window.check_stress(rows[number], assignment)
         for mean in ("profile", "layer"):
             window.check_kinetic(rows_of("kinetic", "--mean", mean)[number], mean)
-        window.check_micro(rows_of("micro")[number])
+        if run.dimension == 2 and window.columns.two:
+            window.check_micro(rows_of("micro")[number])
 
 
 def require_that_faults_show(bin_folder, path, frames, layer):
