@@ -26,8 +26,8 @@ struct ImportSettings {
   std::optional<double> slope;         // degrees
   std::string axes = "xy";
   std::string origin = "top";  // or "centre", or a height in the archive
+  std::optional<int> dimension;  // dimension.hpp
   SpeciesSettings species;
-  std::optional<double> small_diameter, large_diameter;  // nominal
 
   std::optional<double> accept_residual;
   bool drop_incomplete = false;

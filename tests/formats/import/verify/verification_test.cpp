@@ -36,7 +36,7 @@ struct Scene {
     frame.contacts.branch = {{0, 2}};
     frame.contacts.gap = {0};
   }
-  Verification verification(double tolerance = 1e-10) const
+  Verification<2> verification(double tolerance = 1e-10) const
   {
     return {grains, box, gravity, OutputAccuracy{tolerance, false, 0, 0.5}};
   }
@@ -128,7 +128,7 @@ TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsTheMissingForc
   Scene scene;
   scene.frame.force[1] = {0, 6};
   scene.frame.contacts.force[0] = {0, 36 - 7 * 3 * 2 * 0.05};
-  Verification verification(scene.grains, scene.box, scene.gravity,
+  Verification<2> verification(scene.grains, scene.box, scene.gravity,
                             OutputAccuracy{1e-10, true, 0.1, 0.5});
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_NEAR(verification.residual()->late->normal, 7, 1e-12);
