@@ -113,7 +113,8 @@ void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
 {
   const auto across = axes.axis_of(2), along = axes.axis_of(0), normal = axes.axis_of(1);
   for (int axis = 0; axis < 3; ++axis) {
-    if (!first.periodic[static_cast<std::size_t>(axis)] || axis == across || axis == along) continue;
+    if (!first.periodic[static_cast<std::size_t>(axis)] || axis == across || axis == along)
+      continue;
     const char letter = "xyz"[axis];
     if (axis == normal)
       throw UsageError(fmt::format(
@@ -137,7 +138,9 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
         fmt::format("--origin '{}' is not top, centre, or a height in the archive", text));
   double sum = 0;
   std::size_t mobile = 0;
-  const auto height = [&](std::size_t g) { return axes.components<2>(first.grains.position[g]).y(); };
+  const auto height = [&](std::size_t g) {
+    return axes.components<2>(first.grains.position[g]).y();
+  };
   const auto& ids = first.grains.id;
   for (std::size_t g = 0; g < ids.size(); ++g)
     if (!is_boundary(static_cast<std::size_t>(rows.find(ids[g])))) {

@@ -33,8 +33,8 @@ struct ImportedBed {
   Box box;
   SpeciesFound species;
   RowsById rows;
-  double origin = 0;           // height in the archive that is y = 0
-  Vec3 shift = Vec3::Zero();   // to be added to components of positions
+  double origin = 0;            // height in the archive that is y = 0
+  Vec3 shift = Vec3::Zero();    // to be added to components of positions
   std::vector<Period> periods;  // of the cell: none, along x, along z, or along both
 
  private:

@@ -67,8 +67,8 @@ po::options_description import_options(ImportSettings& s)
   po::options_description sizes("Species");
   sizes.add_options()("species", po::value(&species.named)->composing()->value_name("NAME=TYPES"),
                       "mobile grains of these types, all for all; once for each species; "
-                      "NAME=TYPES:D gives its nominal diameter")("small", optional(species.small, "TYPES"),
-                      "types of small grains: 1 or 1,4-6")(
+                      "NAME=TYPES:D gives its nominal diameter")(
+      "small", optional(species.small, "TYPES"), "types of small grains: 1 or 1,4-6")(
       "large", optional(species.large, "TYPES"), "types of large grains")(
       "split-diameter", optional(species.split_diameter, "D"),
       "small below, large from here on (default: two sizes far apart)")(

@@ -53,8 +53,8 @@ double diameter_in(const std::string& word, const std::string& text)
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) ||
       !(value > 0))
-    throw UsageError(fmt::format("--species {}: {} is not a diameter", in_quotes(text),
-                                 in_quotes(word)));
+    throw UsageError(
+        fmt::format("--species {}: {} is not a diameter", in_quotes(text), in_quotes(word)));
   return value;
 }
 
@@ -80,8 +80,8 @@ std::vector<Named> parse_all(const std::vector<std::string>& texts)
     all.push_back(parse(text));
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
       if (all[k].name == all.back().name)
-        throw UsageError(fmt::format("--species names {} twice; list all its types in one",
-                                     all.back().name));
+        throw UsageError(
+            fmt::format("--species names {} twice; list all its types in one", all.back().name));
   }
   return all;
 }

@@ -141,12 +141,8 @@ RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
   missing.report();
   if (!(step > 0)) throw UsageError(fmt::format("a time step of {:g} is not positive", step));
   const int dimension = dimension_of(first, settings.axes, discs, settings.dimension);
-  return {step,
-          dimension,
-          orientation_of(settings.axes, *gravity, settings.slope, dimension),
-          discs,
-          density,
-          parse_units(units),
+  return {step,  dimension, orientation_of(settings.axes, *gravity, settings.slope, dimension),
+          discs, density,   parse_units(units),
           units};
 }
 

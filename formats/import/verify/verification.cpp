@@ -41,7 +41,7 @@ Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect,
 
 template <int D>
 Verification<D>::Verification(const Grains& grains, const Box& box, const Vector<D>& gravity,
-                           const OutputAccuracy& accuracy)
+                              const OutputAccuracy& accuracy)
     : grains_(grains), box_(box), gravity_(gravity), accuracy_(accuracy)
 {
 }
@@ -129,7 +129,7 @@ std::optional<Complaint> Verification<D>::pull(const Frame<D>& frame) const
 
 template <int D>
 std::vector<Vector<D>> Verification<D>::sums(const ContactList<D>& contacts,
-                                     const std::vector<Vector<D>>& forces) const
+                                             const std::vector<Vector<D>>& forces) const
 {
   std::vector<Vector<D>> sum(grains_.size(), Vector<D>::Zero());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -141,7 +141,7 @@ std::vector<Vector<D>> Verification<D>::sums(const ContactList<D>& contacts,
 
 template <int D>
 std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
-                                                    const std::vector<Vector<D>>& forces) const
+                                                       const std::vector<Vector<D>>& forces) const
 {
   const bool has_force = !frame.force.empty();
   if (!has_force && !before_) return std::nullopt;
@@ -195,14 +195,18 @@ std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame) const
 template <int D>
 std::string Verification<D>::other_readings(const Frame<D>& frame) const
 {
-  using Reading = std::pair<const char*, std::function<Vector<D>(const Vector<D>& force, const Vector<D>& n)>>;
-  const auto normal = [](const Vector<D>& f, const Vector<D>& n) { return Vector<D>(f.dot(n) * n); };
+  using Reading =
+      std::pair<const char*, std::function<Vector<D>(const Vector<D>& force, const Vector<D>& n)>>;
+  const auto normal = [](const Vector<D>& f, const Vector<D>& n) {
+    return Vector<D>(f.dot(n) * n);
+  };
   const Reading readings[] = {
       {"with the opposite sign, the force being that on j: exchange i and j",
        [](const Vector<D>& f, const Vector<D>&) { return Vector<D>(-f); }},
       {"with half of every force: is each contact in two rows?",
        [](const Vector<D>& f, const Vector<D>&) { return Vector<D>(f / 2); }},
-      {"with the normal part alone", [&](const Vector<D>& f, const Vector<D>& n) { return normal(f, n); }},
+      {"with the normal part alone",
+       [&](const Vector<D>& f, const Vector<D>& n) { return normal(f, n); }},
       {"with the tangential part reversed",
        [&](const Vector<D>& f, const Vector<D>& n) { return Vector<D>(2 * normal(f, n) - f); }},
   };

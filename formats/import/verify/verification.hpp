@@ -58,7 +58,8 @@ class Verification {
   std::optional<Complaint> balance(const Frame<D>& frame) const;
 
   /// Contact forces on every grain if `forces` are those of the frame's contacts.
-  std::vector<Vector<D>> sums(const ContactList<D>& contacts, const std::vector<Vector<D>>& forces) const;
+  std::vector<Vector<D>> sums(const ContactList<D>& contacts,
+                              const std::vector<Vector<D>>& forces) const;
   std::optional<Residual> residual_with(const Frame<D>& frame,
                                         const std::vector<Vector<D>>& forces) const;
   std::string other_readings(const Frame<D>& frame) const;

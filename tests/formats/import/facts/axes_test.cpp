@@ -99,5 +99,32 @@ TEST(Axes, AWrongPlaneOrGravityIsRefused)
   EXPECT_EQ(*parse_gravity("1,-2,0.5").vector, Vec3(1, -2, 0.5));
 }
 
+TEST(Axes, AcrossIsWhatMakesThemRightHanded)
+{
+  EXPECT_EQ(Axes("xy").components<3>({1, 2, 3}), Vec3(1, 2, 3));
+  EXPECT_EQ(Axes("xz").components<3>({1, 2, 3}), Vec3(1, 3, -2));
+  EXPECT_EQ(Axes("yz").components<3>({1, 2, 3}), Vec3(2, 3, 1));
+  EXPECT_EQ(Axes("xz").spin<3>({1, 2, 3}), Vec3(1, 3, -2));
+  EXPECT_EQ(Axes("xz").axis_of(2), 1);
+  EXPECT_FALSE(Axes("xz").is_forward(2));
+}
+
+TEST(Axes, FromBehindAcrossIsTheOtherWayToo)
+{
+  const auto p = orientation_of("xz", parse_gravity("-5,1,-8"), {}, 3);
+  EXPECT_EQ(p.gravity, Vec3(5, -8, 1));
+  EXPECT_EQ(p.axes.components<3>({1, 2, 3}), Vec3(-1, 3, 2));
+  EXPECT_EQ(p.axes.spin<3>({1, 2, 3}), Vec3(-1, 3, 2));
+  EXPECT_TRUE(p.axes.is_forward(2));
+}
+
+TEST(Axes, GravityInSpaceKeepsItsComponentAcross)
+{
+  const auto p = orientation_of("xy", parse_gravity("0,-10,2"), 30, 3);
+  EXPECT_TRUE(p.gravity.isApprox(Vec3(10 * sin_30, -10 * cos_30, 2)));
+  EXPECT_EQ(p.axes.axis_of(2), 2);
+  EXPECT_THROW(orientation_of("xy", parse_gravity("0,-10,2"), 30, 2), UsageError);
+}
+
 }  // namespace
 }  // namespace grseg

@@ -2,7 +2,6 @@
 #include "formats/import/facts/species.hpp"
 
 #include "formats/import/facts/number_list.hpp"
-
 #include "tests/formats/import/lammps_text.hpp"
 
 #include <gtest/gtest.h>
