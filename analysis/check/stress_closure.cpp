@@ -53,7 +53,7 @@ void StressClosure::add(const Grains& grains, const Frame<2>& frame)
 {
   // One layer that holds the whole bed.
   constexpr double higher_than_any_bed = 1e6;  // m
-  PartialContactStress stress(Layers(higher_than_any_bed, 1), Assignment::contact_point);
+  PartialContactStress<2> stress(Layers(higher_than_any_bed, 1), Assignment::contact_point);
   stress.add(grains, frame);
   auto sums = stress.mean(0).sums;
   sums.volume = 1;
@@ -64,8 +64,8 @@ void StressClosure::add(const Grains& grains, const Frame<2>& frame)
   const double scale = largest_component(by_contact.total);
   const double defect = std::max(
       {largest_component(small + large - by_contact.total),
-       largest_component(small - by_contact.small), largest_component(large - by_contact.large),
-       largest_component(by_size.small + by_size.large - by_size.total)});
+       largest_component(small - by_contact.small()), largest_component(large - by_contact.large()),
+       largest_component(by_size.small() + by_size.large() - by_size.total)});
   defect_.add(scale > 0 ? defect / scale : defect, frame.time, 0);
 }
 

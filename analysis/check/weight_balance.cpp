@@ -126,7 +126,7 @@ WeightWindow WeightSums::window() const
   for (std::size_t n = 0; n < count; ++n) {
     const double volume = layers_.volume(n);
     const auto sums = contact_.mean(n).sums;
-    const Tensor2 all = sums.ss + sums.ll + sums.mixed + sums.whole_small + sums.whole_large +
+    const Tensor2 all = sums.of(OwnSum::inside, 0) + sums.of(OwnSum::inside, 1) + sums.of(PairSum::whole, 0) + sums.of(OwnSum::whole_base, 0) + sums.of(OwnSum::whole_base, 1) +
                         kinetic_->mean(n, Species::small).about_mean.kinetic +
                         kinetic_->mean(n, Species::large).about_mean.kinetic;
     window.stress.emplace_back(all.col(1) / volume);

@@ -43,9 +43,9 @@ class WeightSums {
  private:
   Layers layers_;
   Vec2 gravity_;
-  MeanVelocity mean_;
-  std::optional<KineticStress> kinetic_;  // once the mean is known
-  PartialContactStress contact_;
+  MeanVelocity<2> mean_;
+  std::optional<KineticStress<2>> kinetic_;  // once the mean is known
+  PartialContactStress<2> contact_;
   std::size_t frames_ = 0;
   double time_ = 0;                 // s, of the first frame
   std::vector<double> mass_above_;  // kg m, sum m l over frames

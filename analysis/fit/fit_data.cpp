@@ -9,66 +9,63 @@
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gsl/gsl_statistics.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
+#include <numeric>
+#include <utility>
 
 namespace grseg {
 namespace {
 
-/// One row before the filters.
-struct Row {
-  LayerKey key;
-  ContactSums sums;
+using SumsOfRow = std::function<ContactSums<3>(std::size_t)>;
 
-  double solid() const { return (sums.area_small + sums.area_large) / sums.volume; }
-};
-
-using SumsOfRow = std::function<ContactSums(std::size_t)>;
-
-Tensor2 symmetric_part(const Table& table, std::size_t row, std::size_t xx, std::size_t yy)
+/// Kinetic sums as contact sums in which nothing is mixed; "contents" are masses.
+SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
 {
-  Tensor2 value = Tensor2::Zero();
-  value(0, 0) = finite_cell(table, row, xx);
-  value(1, 1) = finite_cell(table, row, yy);
-  return value;
-}
-
-/// Kinetic sums as contact sums in which nothing is mixed; "areas" are masses.
-SumsOfRow kinetic_sums(const Table& table)
-{
-  const auto column = [&table, written = KineticStress::columns()](const char* name) {
-    return find_column(table, with_unit(name, written),
-                       "--quantity kinetic needs a table of grseg-kinetic");
+  const auto column = [&table](const std::string& name) {
+    return find_column(table, name, "--quantity kinetic needs a table of grseg-kinetic");
   };
-  return [&table, mass_small = column("mass_S"), mass_large = column("mass_L"),
-          small_xx = column("K_S_xx"), small_yy = column("K_S_yy"), large_xx = column("K_L_xx"),
-          large_yy = column("K_L_yy")](std::size_t row) {
-    ContactSums sums;
-    sums.area_small = non_negative_cell(table, row, mass_small);
-    sums.area_large = non_negative_cell(table, row, mass_large);
-    sums.ss = symmetric_part(table, row, small_xx, small_yy);
-    sums.ll = symmetric_part(table, row, large_xx, large_yy);
+  struct Columns {
+    std::size_t mass;
+    std::vector<std::size_t> diagonal;
+  };
+  std::vector<Columns> columns;
+  for (const auto& word : column_words(species)) {
+    auto& own = columns.emplace_back(Columns{column(fmt::format("mass_{}[kg]", word)), {}});
+    for (const auto& [suffix, row, col] : tensor_components(dimension_of(table)))
+      if (row == col) own.diagonal.push_back(column(fmt::format("K_{}{}[J]", word, suffix)));
+  }
+  return [&table, columns](std::size_t row) {
+    ContactSums<3> sums(columns.size());
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      sums.content[k] = non_negative_cell(table, row, columns[k].mass);
+      for (std::size_t axis = 0; axis < columns[k].diagonal.size(); ++axis) {
+        const auto place = static_cast<Eigen::Index>(axis);
+        sums.of(OwnSum::inside, k)(place, place) =
+            finite_cell(table, row, columns[k].diagonal[axis]);
+      }
+    }
     return sums;
   };
 }
 
-std::vector<Row> read_rows(const Table& table, Quantity quantity,
-                           const std::vector<PartitionRule>& rules)
+std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Quantity quantity,
+                              const std::vector<PartitionRule>& rules)
 {
   SumsOfRow sums;
   if (quantity == Quantity::kinetic)
-    sums = kinetic_sums(table);
+    sums = kinetic_sums(table, species);
   else
     sums = [reader = ContactSumsReader(table, rules)](std::size_t row) { return reader.read(row); };
 
   const auto keys = read_layer_keys(table, "a table of grseg-stress or grseg-kinetic has it");
   const auto bottom = table.column("y0");
-  std::vector<Row> rows;
+  std::vector<FitRow> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     finite_cell(table, row, bottom);  // these tables have no row for the whole bed
@@ -78,7 +75,7 @@ std::vector<Row> read_rows(const Table& table, Quantity quantity,
   return rows;
 }
 
-double median_solid_fraction(const std::vector<Row>& rows)
+double median_solid_fraction(const std::vector<FitRow>& rows)
 {
   std::vector<double> solid;
   for (const auto& row : rows)
@@ -87,10 +84,10 @@ double median_solid_fraction(const std::vector<Row>& rows)
 }
 
 /// Counts a row under the reason why it is left out, or as used; true if it becomes a point.
-bool passes(const Row& row, const FitFilters& filters, const RowRange& range, double median_solid,
-            FilterCount& count)
+bool passes(const FitRow& row, const SpeciesPair& pair, const FitFilters& filters,
+            const RowRange& range, double median_solid, FilterCount& count)
 {
-  const double small = row.sums.area_small, large = row.sums.area_large;
+  const double small = row.sums.content[pair.smaller], large = row.sums.content[pair.larger];
   const double ratio = small / large;
   const auto goes_to = [](std::size_t& place) {
     ++place;
@@ -108,38 +105,84 @@ bool passes(const Row& row, const FitFilters& filters, const RowRange& range, do
   return true;
 }
 
-void add_run(const Table& table, std::vector<Row> rows, const FitFilters& filters, FitData& data)
+/// Those of one row of a table and one pair of its species.
+LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesList& species,
+                      int dimension)
 {
-  const double small_diameter = table.header_positive("small_diameter");
-  const double large_diameter = table.header_positive("large_diameter");
-  const double median = median_solid_fraction(rows);
-  const RowRange range{filters.begin, filters.end,
-                       parse_heights(filters.heights, {small_diameter, large_diameter})};
-  std::erase_if(rows,
-                [&](const Row& row) { return !passes(row, filters, range, median, data.count); });
+  const double small = row.sums.content[pair.smaller], large = row.sums.content[pair.larger];
+  const double d_small = species[pair.smaller].diameter, d_large = species[pair.larger].diameter;
+  const auto size = [dimension](double d) { return dimension == 3 ? d * d * d : d * d; };
+  const double rarer = std::min(small / size(d_small), large / size(d_large));
+  return {.phi_large = large / (small + large),
+          .weight = row.key.frames * rarer,
+          .size_ratio = d_large / d_small,
+          .pair = pair};
+}
+
+void add_run(const FitTable& run, const FitFilters& filters, const std::vector<SpeciesPair>& pairs,
+             FitData& data)
+{
+  const auto& table = *run.table;
+  const LengthUnits units{table.header_positive("small_diameter"),
+                          table.header_positive("large_diameter")};
+  const RowRange range{filters.begin, filters.end, parse_heights(filters.heights, units)};
+  std::vector<std::pair<const FitRow*, SpeciesPair>> used;
+  for (const auto& row : run.rows)
+    for (const auto& pair : pairs)
+      if (passes(row, pair, filters, range, run.median_solid, data.count))
+        used.emplace_back(&row, pair);
 
   std::map<double, std::size_t> window_at;
-  for (const auto& row : rows) window_at[row.key.begin] = 0;
+  for (const auto& [row, pair] : used) window_at[row->key.begin] = 0;
   std::size_t window = 0;
   for (const auto length : data.runs) window += length;
   for (auto& [time, number] : window_at) number = window++;
   if (!window_at.empty()) data.runs.push_back(window_at.size());
 
   data.tables.push_back(table.name);
-  for (const auto& row : rows) {
-    const double small = row.sums.area_small, large = row.sums.area_large;
-    const double rarer = std::min(small / (small_diameter * small_diameter),
-                                  large / (large_diameter * large_diameter));
-    data.samples.push_back({.window = window_at.at(row.key.begin),
-                            .phi_large = large / (small + large),
-                            .weight = row.key.frames * rarer,
-                            .size_ratio = large_diameter / small_diameter,
-                            .table = data.tables.size() - 1,
-                            .sums = row.sums});
+  const FitRow* last = nullptr;
+  for (const auto& [row, pair] : used) {
+    if (row != last) data.rows.push_back(row->sums);
+    last = row;
+    auto& sample = data.samples.emplace_back(sample_of(*row, pair, run.species, data.dimension));
+    sample.window = window_at.at(row->key.begin);
+    sample.table = data.tables.size() - 1;
+    sample.row = data.rows.size() - 1;
   }
 }
 
+void require_alike(const FitTable& a, const FitTable& b)
+{
+  const auto names = [](const SpeciesList& species) {
+    std::vector<std::string> all;
+    for (const auto& one : species) all.push_back(one.name);
+    return all;
+  };
+  if (names(a.species) != names(b.species) && a.species.size() + b.species.size() > 4)
+    throw FormatError(fmt::format("{} and {} have different species ({} and {}); fit them apart",
+                                  a.table->name, b.table->name, fmt::join(names(a.species), ", "),
+                                  fmt::join(names(b.species), ", ")));
+  if (dimension_of(*a.table) != dimension_of(*b.table))
+    throw FormatError(
+        fmt::format("{} is of a run in {} dimensions and {} of one in {}; fit them "
+                    "apart",
+                    a.table->name, dimension_of(*a.table), b.table->name, dimension_of(*b.table)));
+}
+
 }  // namespace
+
+std::vector<SpeciesPair> all_pairs(std::size_t species)
+{
+  std::vector<SpeciesPair> pairs;
+  for (std::size_t b = 1; b < species; ++b)
+    for (std::size_t a = 0; a < b; ++a) pairs.push_back({a, b});
+  return pairs;
+}
+
+double FitRow::solid() const
+{
+  return std::accumulate(sums.content.begin(), sums.content.end(), 0.0) / sums.volume;
+}
 
 std::string FilterCount::sentence() const
 {
@@ -157,13 +200,29 @@ std::string FilterCount::sentence() const
   return text;
 }
 
-FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
-                      const FitFilters& filters, const std::vector<PartitionRule>& rules)
+std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity quantity,
+                                      const std::vector<PartitionRule>& rules)
+{
+  std::vector<FitTable> all;
+  for (const auto& table : tables) {
+    const auto species = species_of(table);
+    auto rows = read_rows(table, species, quantity, rules);
+    const double median = median_solid_fraction(rows);
+    all.push_back({&table, species, std::move(rows), median});
+    require_alike(all.front(), all.back());
+  }
+  require_distinct_runs(tables);
+  return all;
+}
+
+FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
+                        const FitFilters& filters, const std::vector<SpeciesPair>& pairs)
 {
   FitData data;
   data.quantity = quantity;
-  for (const auto& table : tables) add_run(table, read_rows(table, quantity, rules), filters, data);
-  require_distinct_runs(tables);
+  data.dimension = dimension_of(*tables.front().table);
+  data.species = tables.front().species;
+  for (const auto& table : tables) add_run(table, filters, pairs, data);
   if (data.samples.empty()) {
     const auto& count = data.count;
     const bool one_species = count.without_small + count.without_large > 0 &&
@@ -172,6 +231,12 @@ FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
                                one_species ? "; B needs layers that hold both species" : ""));
   }
   return data;
+}
+
+FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
+                      const FitFilters& filters, const std::vector<PartitionRule>& rules)
+{
+  return select_fit_data(read_fit_tables(tables, quantity, rules), quantity, filters, {{0, 1}});
 }
 
 }  // namespace grseg

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/statistics/dependence.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/species.hpp"
 
 #include <cmath>
 #include <limits>
@@ -17,7 +19,8 @@ namespace grseg {
 enum class Quantity { contact, kinetic };
 inline constexpr Choice<Quantity> quantities[] = {{"contact", Quantity::contact},
                                                   {"kinetic", Quantity::kinetic}};
-/// pressure: P = (lambda_1 + lambda_2)/2 (Staron & Phillips 2015, below eq. 1), half the trace.
+/// pressure: P = (lambda_1 + lambda_2)/2 (Staron & Phillips 2015, below eq. 1), half the trace; in
+/// three dimensions a third of it.
 enum class Component { yy, pressure };
 inline constexpr Choice<Component> components[] = {
     {"yy", Component::yy}, {"pressure", Component::pressure, "half the trace"}};
@@ -33,14 +36,22 @@ struct FitFilters {
   bool all_times() const { return std::isinf(begin) && std::isinf(end); }
 };
 
-/// One layer in one window.
+/// Two of the species of the tables, the smaller first.
+struct SpeciesPair {
+  std::size_t smaller = 0, larger = 1;
+};
+/// All of them: (0, 1), (0, 2), (1, 2), (0, 3) ...
+std::vector<SpeciesPair> all_pairs(std::size_t species);
+
+/// One layer in one window, and two of its species.
 struct LayerSample {
   std::size_t window = 0;  // in the series of all windows, run after run
-  double phi_large = 0;    // local composition: phi_L + phi_S = 1
+  double phi_large = 0;    // the larger species' part of the two: phi_L + phi_S = 1
   double weight = 0;       // frames x grains of the rarer species, up to a constant factor
-  double size_ratio = 0;   // nominal d_L/d_S of its run
+  double size_ratio = 0;   // of the nominal diameters in its run
   std::size_t table = 0;   // among FitData::tables
-  ContactSums sums;        // kinetic: species alone, nothing mixed, so every rule gives the same
+  std::size_t row = 0;     // among FitData::rows
+  SpeciesPair pair = {};
 };
 
 /// How many rows were used, and why the others were not.
@@ -54,17 +65,46 @@ struct FilterCount {
 
 struct FitData {
   Quantity quantity = Quantity::contact;
+  int dimension = 2;
   RunLengths runs;                  // windows with samples, per table
   std::vector<std::string> tables;  // their names
+  SpeciesList species;              // of the first; those of the others have the same names
+  std::vector<ContactSums<3>>
+      rows;  // kinetic: species alone, nothing mixed, so every rule gives the
+             // same
   std::vector<LayerSample> samples;
   FilterCount count;
 };
 
-/// The layers and windows of all tables that pass the filters; each table is one run. phi is made
-/// of areas (contact, table of grseg-stress) or masses (kinetic, table of grseg-kinetic; both
-/// species have one density). RunError, saying what removed them, where nothing is left;
-/// FormatError where a table lacks what is asked of it; UsageError where two tables hold the same
-/// windows of the same run.
+/// A row of a table and the window and layer it belongs to.
+struct FitRow {
+  LayerKey key;
+  ContactSums<3> sums;
+
+  double solid() const;  // solid fraction
+};
+
+/// The rows of one table, its run's median solid fraction and its species.
+struct FitTable {
+  const Table* table;
+  SpeciesList species;
+  std::vector<FitRow> rows;
+  double median_solid = 0;
+};
+
+/// Reads tables of grseg-stress (contact) or grseg-kinetic; the latter's "contents" are masses.
+/// FormatError where a table lacks what is asked of it or has other species than the first;
+/// UsageError where two tables hold the same windows of the same run.
+std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity quantity,
+                                      const std::vector<PartitionRule>& rules);
+
+/// The layers and windows of all tables that pass the filters, with the samples of `pairs`; each
+/// table is one run. phi is made of areas or volumes (contact) or masses (kinetic; all species have
+/// one density). RunError, saying what removed them, where nothing is left.
+FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
+                        const FitFilters& filters, const std::vector<SpeciesPair>& pairs);
+
+/// Both, of the two species that most tables have.
 FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
                       const FitFilters& filters, const std::vector<PartitionRule>& rules);
 

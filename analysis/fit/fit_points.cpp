@@ -10,15 +10,15 @@
 namespace grseg {
 namespace {
 
-double component_of(const Tensor2& stress, Component component)
+double component_of(const Tensor3& stress, const FitData& data, Component component)
 {
-  return component == Component::yy ? stress(1, 1) : stress.trace() / 2;
+  return component == Component::yy ? stress(1, 1) : stress.trace() / data.dimension;
 }
 
-void require_finite(const PartialStress& stress, const std::string& table,
-                    const PartitionRule& rule, Component component)
+void require_finite(const FitPoint& point, const std::string& table, const PartitionRule& rule,
+                    Component component)
 {
-  if (!std::isfinite(component_of(stress.small + stress.large + stress.total, component)))
+  if (!std::isfinite(point.small + point.large + point.total))
     throw FormatError(fmt::format(
         "{}: the stress ({}) by {} is not finite: a sum that it needs was not kept (see "
         "the line '# not kept: ...') or is too large; make the table anew",
@@ -30,18 +30,27 @@ void require_finite(const PartialStress& stress, const std::string& table,
 std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings)
 {
+  std::vector<PartialStress<3>> stresses;
+  stresses.reserve(data.rows.size());
+  for (const auto& sums : data.rows) stresses.push_back(partial_stress(sums, rule, settings.base));
   std::vector<FitPoint> points;
   points.reserve(data.samples.size());
   for (const auto& sample : data.samples) {
-    const auto stress = partial_stress(sample.sums, rule, settings.base);
-    require_finite(stress, data.tables[sample.table], rule, settings.component);
+    const auto& stress = stresses[sample.row];
+    const auto of = [&](const Tensor3& tensor) {
+      return component_of(tensor, data, settings.component);
+    };
+    const auto &smaller = stress.of_species[sample.pair.smaller],
+               &larger = stress.of_species[sample.pair.larger];
+    const bool only_two = stress.of_species.size() == 2;
     points.push_back({.window = sample.window,
                       .phi_large = sample.phi_large,
                       .weight = sample.weight,
                       .size_ratio = sample.size_ratio,
-                      .small = component_of(stress.small, settings.component),
-                      .large = component_of(stress.large, settings.component),
-                      .total = component_of(stress.total, settings.component)});
+                      .small = of(smaller),
+                      .large = of(larger),
+                      .total = only_two ? of(stress.total) : of(smaller) + of(larger)});
+    require_finite(points.back(), data.tables[sample.table], rule, settings.component);
   }
   return points;
 }

@@ -13,12 +13,14 @@ namespace grseg {
 struct BedHeights {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  double large = unknown, small = unknown;  // y_L, y_S: centres of mass of the species
-  double bed = unknown;                     // twice the mean height of the mobile grains' area
+  // y_L, y_S: centres of mass of the species, where there are two.
+  double large = unknown, small = unknown;
+  double bed = unknown;  // twice the mean height of the mobile grains' area or volume
 };
 
 /// Those of one frame; NaN for a species without mobile grains.
-BedHeights bed_heights(const Grains& grains, const Frame<2>& frame);
+template <int D>
+BedHeights bed_heights(const Grains& grains, const Frame<D>& frame);
 
 /// The columns yL, yS and height.
 std::vector<Cell> cells(const BedHeights& heights);

@@ -6,50 +6,48 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
-#include <array>
 #include <cassert>
 #include <optional>
 #include <vector>
 
 namespace grseg {
 
-/// How the area of a grain is given to layers: cut at their edges, whole where its centre is, or
-/// spread about its centre by a coarse-graining kernel (coarse_graining.hpp).
+/// How the area or volume of a grain is given to layers: cut at their edges, whole where its centre
+/// is, or spread about its centre by a coarse-graining kernel (coarse_graining.hpp).
 enum class GrainArea { clipped, centre, kernel };
 inline constexpr Choice<GrainArea> grain_areas[] = {
     {"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}, {"kernel", GrainArea::kernel}};
 
-/// Area of small and of large mobile grains in each layer: phi_L = large/(small + large), and the
-/// solid fraction nu = (small + large)/V. Means per frame.
+/// Area (m^2) or volume (m^3) of the mobile grains of each species in each layer. The local
+/// composition phi is a species' part of their sum, the solid fraction nu their sum over V. Means
+/// per frame.
+template <int D>
 class Composition {
  public:
-  struct Areas {
-    double small = 0, large = 0;  // m^2
-
-    /// NaN where there are no grains.
-    double phi_large() const { return large / (small + large); }
-  };
+  using Contents = std::vector<double>;  // by species, m^2 or m^3
 
   /// `kernel` belongs to GrainArea::kernel.
-  Composition(const Layers& layers, GrainArea rule, std::optional<Kernel> kernel = std::nullopt)
-      : layers_(layers), rule_(rule), kernel_(kernel)
+  Composition(const Layers& layers, GrainArea rule, std::optional<Kernel> kernel = std::nullopt,
+              std::size_t species = 2)
+      : layers_(layers), rule_(rule), kernel_(kernel), species_(species)
   {
     assert(kernel_ || rule_ != GrainArea::kernel);
   }
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   void merge(const Composition& others);
   std::size_t layers() const { return sums_.size(); }
-  Areas mean(std::size_t layer) const;
+  Contents mean(std::size_t layer) const;
   /// All layers together.
-  Areas mean() const;
+  Contents mean() const;
 
  private:
   Layers layers_;
   GrainArea rule_;
   std::optional<Kernel> kernel_;
+  std::size_t species_;
   std::size_t frames_ = 0;
-  std::vector<std::array<double, 2>> sums_;  // by species
+  std::vector<Contents> sums_;
 };
 
 }  // namespace grseg

@@ -4,6 +4,7 @@
 #include "analysis/frames/layer_key.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
 #include "formats/core/text.hpp"
@@ -13,6 +14,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <limits>
 #include <thread>
@@ -47,14 +49,17 @@ Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
 {
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   const double thickness = parse_length(options.layer, "--layer", units);
-  if (!options.annuli()) return {thickness, run.box().length_x};
+  const auto& box = run.box();
+  std::optional<double> width;
+  if (box.dimension == 3) width = box.length_z;
+  if (!options.annuli()) return {thickness, box.length_x, width};
   const Vec2 axis = axis_of(run, options.bins, units);
-  if (run.box().periodic_x)
+  if (box.periodic_x)
     throw UsageError(fmt::format(
         "--bins {}: the cell is periodic along x, so that nothing lies at one distance from an "
         "axis; take layers",
         options.bins));
-  return Layers::annuli(thickness, run.box().length_x, axis);
+  return Layers::annuli(thickness, box.length_x, axis, width);
 }
 
 RunTimes times_of(const TrajectoryReader& run)
@@ -85,6 +90,7 @@ void FrameOptions::add_to(po::options_description& options)
   trust.add_to(options);
   options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
+  grouping.add_to(options);
   output.add_to(options);
 }
 
@@ -103,6 +109,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
       options_(options),
       preset_(preset_of(values)),
       run_(single_input(values, "a table is made of one run"), options.trust.verify()),
+      grouped_(group_grains(run_, options.grouping)),
       layers_(layers_of(run_, options)),
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
@@ -119,7 +126,20 @@ FrameLoop::~FrameLoop()
   if (progress_) fmt::print(stderr, "\r\033[K");
 }
 
-void FrameLoop::read(std::size_t index, Frame<2>& frame, TrajectoryReader::Fields fields)
+void FrameLoop::require_two_species() const
+{
+  const auto& all = species();
+  if (all.size() == 2) return;
+  std::string names;
+  for (const auto& one : all) names += (names.empty() ? "" : ", ") + one.name;
+  throw UsageError(fmt::format(
+      "{}: {} compares two species, and the run has {} ({}): make them two with --group, as in "
+      "--group S=1 --group L=2,3, with --classes 2, or with one --edges",
+      run_.path(), info_.name, all.size(), names));
+}
+
+template <int D>
+void FrameLoop::read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields)
 {
   {
     const std::lock_guard lock(reading_);
@@ -127,6 +147,9 @@ void FrameLoop::read(std::size_t index, Frame<2>& frame, TrajectoryReader::Field
   }
   run_.verify(index, frame, fields);
 }
+
+template void FrameLoop::read(std::size_t, Frame<2>&, TrajectoryReader::Fields);
+template void FrameLoop::read(std::size_t, Frame<3>&, TrajectoryReader::Fields);
 
 void FrameLoop::report_progress(const Window& window)
 {
@@ -147,17 +170,25 @@ Table FrameLoop::make_table(const std::string& command,
 
   const auto& first = windows_.front();
   constexpr double no_one = std::numeric_limits<double>::quiet_NaN();
-  const Vec2 gravity = run_.gravity<2>().turns() ? Vec2(no_one, no_one) : run_.gravity<2>().start;
-  for (const auto& [key, value] : {std::pair{"small_diameter", run_.small_diameter()},
-                                   {"large_diameter", run_.large_diameter()},
-                                   {"gravity_x", gravity.x()},
-                                   {"gravity_y", gravity.y()},
-                                   {"step", run_.step()},
-                                   {"length", layers_.length()},
-                                   {"layer", layers_.thickness()},
-                                   {"window", first.end - first.begin},
-                                   {"stride", static_cast<double>(options_.windows.stride)}})
+  const auto add = [&](const char* key, double value) {
     header.emplace_back(key, format_number(value));
+  };
+  if (dimension() == 3) add("dimension", 3);
+  add("small_diameter", run_.small_diameter());
+  add("large_diameter", run_.large_diameter());
+  if (names_species(species())) header.emplace_back("species", species_text(species()));
+  with_dimension(dimension(), [&](auto d) {
+    const auto gravity = run_.gravity<d>();
+    constexpr std::array keys{"gravity_x", "gravity_y", "gravity_z"};
+    for (int axis = 0; axis < d; ++axis)
+      add(keys[static_cast<std::size_t>(axis)], gravity.turns() ? no_one : gravity.start[axis]);
+  });
+  add("step", run_.step());
+  add("length", layers_.length());
+  if (layers_.width()) add("length_z", *layers_.width());
+  add("layer", layers_.thickness());
+  add("window", first.end - first.begin);
+  add("stride", static_cast<double>(options_.windows.stride));
   if (const auto& axis = layers_.axis())
     header.emplace_back(
         "bins", fmt::format("radius {} {}", format_number(axis->x()), format_number(axis->y())));
@@ -165,7 +196,7 @@ Table FrameLoop::make_table(const std::string& command,
   header.emplace_back("origin", origin.empty() ? "unknown" : printable(origin));
   header.insert(header.end(), settings.begin(), settings.end());
 
-  table.columns = with_key_columns(columns);
+  table.columns = with_key_columns(dimension(), columns);
   return table;
 }
 
@@ -181,7 +212,7 @@ std::vector<double> FrameLoop::bed_row(const Window& window, double height,
                                        const std::vector<double>& values) const
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const double volume = height < 0 ? nan : layers_.length() * height;
+  const double volume = height < 0 ? nan : layers_.volume_of_bed(height);
   return with_key(
       {window.begin, window.end, nan, nan, static_cast<double>(window.frames.size()), volume},
       values);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/grouping.hpp"
 #include "analysis/frames/in_order.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/frames/windows.hpp"
@@ -29,9 +30,10 @@ struct FrameOptions {
   int threads = 1;
   bool json = false, quiet = false;
   TrustOption trust;
+  GroupingOptions grouping;
 
   /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
-  /// --quiet.
+  /// --quiet --group --classes --edges.
   void add_to(po::options_description& options);
   /// Adds --bins, for tools that also know annuli.
   void add_bins_to(po::options_description& options);
@@ -47,6 +49,13 @@ class FrameLoop {
   ~FrameLoop();
 
   const TrajectoryReader& run() const { return run_; }
+  /// 2 or 3: the D of `sum`.
+  int dimension() const { return run_.dimension(); }
+  /// The grains with the species that are told apart (grouping.hpp), and these.
+  const Grains& grains() const { return grouped_.grains; }
+  const SpeciesList& species() const { return grouped_.species; }
+  /// UsageError with the remedy unless these are two.
+  void require_two_species() const;
   const Layers& layers() const { return layers_; }
   const std::vector<Window>& windows() const { return windows_; }
 
@@ -54,13 +63,13 @@ class FrameLoop {
   /// with all frames added:
   ///
   ///   const auto [areas, stress] =
-  ///       loop.sum(window, fields, Composition(...), PartialContactStress(...));
+  ///       loop.sum<D>(window, fields, Composition<D>(...), PartialContactStress<D>(...));
   ///
   /// An accumulator has add(grains, frame) and merge(others), which adds the sums of another one.
   /// Threads sum blocks of frames, and the blocks' sums are merged in order. A block has the same
   /// number of frames whatever the number of threads, so that results are bitwise identical. As
   /// many frames are in memory as there are threads.
-  template <class... Sums>
+  template <int D, class... Sums>
   std::tuple<Sums...> sum(const Window& window, TrajectoryReader::Fields fields,
                           const Sums&... empty);
 
@@ -72,7 +81,7 @@ class FrameLoop {
   /// The key columns t0 t1 y0 y1 frames V of a layer, followed by `values`.
   std::vector<double> row(const Window& window, std::size_t layer,
                           const std::vector<double>& values) const;
-  /// The same for the whole bed of a given height: y0 = y1 = nan, V = Lx times the height,
+  /// The same for the whole bed of a given height: y0 = y1 = nan, V = Lx (Lz) times the height,
   /// nan for a bed whose top lies below y = 0, as in a hopper that runs out.
   std::vector<double> bed_row(const Window& window, double height,
                               const std::vector<double>& values) const;
@@ -80,20 +89,22 @@ class FrameLoop {
   void write(const Table& table) const;
 
  private:
-  void read(std::size_t index, Frame<2>& frame, TrajectoryReader::Fields fields);
+  template <int D>
+  void read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields);
   void report_progress(const Window& window);
 
   ToolInfo info_;
   FrameOptions options_;
   std::string preset_;
   TrajectoryReader run_;
+  GroupedGrains grouped_;
   Layers layers_;
   std::vector<Window> windows_;
   bool progress_;
   std::mutex reading_;  // the HDF5 library knows no threads
 };
 
-template <class... Sums>
+template <int D, class... Sums>
 std::tuple<Sums...> FrameLoop::sum(const Window& window, TrajectoryReader::Fields fields,
                                    const Sums&... empty)
 {
@@ -101,11 +112,11 @@ std::tuple<Sums...> FrameLoop::sum(const Window& window, TrajectoryReader::Field
   const auto& frames = window.frames;
   const auto sums_of_block = [&](std::size_t number) {
     std::tuple<Sums...> sums(empty...);
-    Frame<2> frame;
+    Frame<D> frame;
     const std::size_t end = std::min(frames.size(), (number + 1) * block);
     for (std::size_t k = number * block; k < end; ++k) {
       read(frames[k], frame, fields);
-      std::apply([&](Sums&... each) { (each.add(run_.grains(), frame), ...); }, sums);
+      std::apply([&](Sums&... each) { (each.add(grouped_.grains, frame), ...); }, sums);
     }
     return sums;
   };

@@ -5,7 +5,8 @@
 
 namespace grseg {
 
-void LayerFlowSums::add(double grain_mass, double above_bottom, const Vec2& velocity)
+template <int D>
+void LayerFlowSums::add(double grain_mass, double above_bottom, const Vector<D>& velocity)
 {
   mass += grain_mass;
   my += grain_mass * above_bottom;
@@ -14,6 +15,9 @@ void LayerFlowSums::add(double grain_mass, double above_bottom, const Vec2& velo
   mv += grain_mass * velocity.y();
   muy += grain_mass * velocity.x() * above_bottom;
 }
+
+template void LayerFlowSums::add(double, double, const Vec2&);
+template void LayerFlowSums::add(double, double, const Vec3&);
 
 LayerFlowSums& LayerFlowSums::operator+=(const LayerFlowSums& others)
 {

@@ -17,7 +17,8 @@ struct LayerFlow {
 struct LayerFlowSums {
   double mass = 0, my = 0, myy = 0, mu = 0, mv = 0, muy = 0;
 
-  void add(double grain_mass, double above_bottom, const Vec2& velocity);
+  template <int D>
+  void add(double grain_mass, double above_bottom, const Vector<D>& velocity);
   LayerFlowSums& operator+=(const LayerFlowSums& others);
   /// Heights that differ by less than a millionth of `thickness` (m) are the same.
   LayerFlow mean(double thickness) const;

@@ -5,11 +5,21 @@
 
 namespace grseg {
 
-std::vector<std::string> with_key_columns(const std::vector<std::string>& more)
+std::string KeyColumn::name_with_unit(int dimension) const
+{
+  return std::string(name) + (value == &LayerKey::volume ? unit_of_volume(dimension) : unit);
+}
+
+const char* unit_of_volume(int dimension)
+{
+  return dimension == 3 ? "[m^3]" : "[m^2]";
+}
+
+std::vector<std::string> with_key_columns(int dimension, const std::vector<std::string>& more)
 {
   std::vector<std::string> names;
   names.reserve(key_columns.size() + more.size());
-  for (const auto& column : key_columns) names.push_back(column.name_with_unit());
+  for (const auto& column : key_columns) names.push_back(column.name_with_unit(dimension));
   names.insert(names.end(), more.begin(), more.end());
   return names;
 }

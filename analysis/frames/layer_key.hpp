@@ -15,7 +15,7 @@ struct LayerKey {
   double begin = 0, end = 0;   // s, of the window
   double bottom = 0, top = 0;  // m, of the layer; NaN: the whole bed
   double frames = 0;
-  double volume = 0;  // m^2, voids included
+  double volume = 0;  // m^2 or m^3, voids included
 };
 
 struct KeyColumn {
@@ -23,7 +23,8 @@ struct KeyColumn {
   const char* unit;
   double LayerKey::*value;
 
-  std::string name_with_unit() const { return std::string(name) + unit; }
+  /// In 2 or 3 dimensions.
+  std::string name_with_unit(int dimension) const;
 };
 /// The first columns of every such table.
 inline constexpr std::array<KeyColumn, 6> key_columns{{{"t0", "[s]", &LayerKey::begin},
@@ -31,11 +32,13 @@ inline constexpr std::array<KeyColumn, 6> key_columns{{{"t0", "[s]", &LayerKey::
                                                        {"y0", "[m]", &LayerKey::bottom},
                                                        {"y1", "[m]", &LayerKey::top},
                                                        {"frames", "", &LayerKey::frames},
-                                                       {"V", "[m^2]", &LayerKey::volume}}};
+                                                       {"V", "[m^D]", &LayerKey::volume}}};
 inline constexpr const KeyColumn& volume_column = key_columns.back();
 
+/// "[m^2]" or "[m^3]".
+const char* unit_of_volume(int dimension);
 /// Names with units, followed by `more`.
-std::vector<std::string> with_key_columns(const std::vector<std::string>& more);
+std::vector<std::string> with_key_columns(int dimension, const std::vector<std::string>& more);
 /// A row: the key, followed by `more`.
 std::vector<double> with_key(const LayerKey& key, const std::vector<double>& more);
 

@@ -37,7 +37,9 @@ void require_sense(const Table& table, std::size_t row, const LayerKey& key)
   if (!(key.frames > 0) || key.frames != std::floor(key.frames))
     refuse_row(table, row, fmt::format("{} frames", format_number(key.frames)));
   if (bed ? key.volume < 0 : !(key.volume > 0))
-    refuse_row(table, row, fmt::format("a volume V of {} m^2", format_number(key.volume)));
+    refuse_row(
+        table, row,
+        fmt::format("a volume V of {} m^{}", format_number(key.volume), dimension_of(table)));
 }
 
 /// An interval and the row that it stands in.
@@ -90,11 +92,32 @@ void refuse_overlapping_rows(const Table& table, const std::vector<LayerKey>& ke
 
 }  // namespace
 
+int dimension_of(const Table& table)
+{
+  const auto word = header_or(table, "dimension", "2");
+  if (word == "2") return 2;
+  if (word == "3") return 3;
+  throw FormatError(fmt::format("{}: '# dimension: {}' should be 2 or 3", table.name, word));
+}
+
+SpeciesList species_of(const Table& table)
+{
+  if (!table.has_header("species"))
+    return two_sizes(table.header_positive("small_diameter"),
+                     table.header_positive("large_diameter"));
+  if (const auto list = parse_species(table.header_text("species")); !list.empty()) return list;
+  throw FormatError(fmt::format(
+      "{}: '# species: {}' should list names and diameters in order of size, as in SE 3e-06, AM "
+      "1.2e-05",
+      table.name, table.header_text("species")));
+}
+
 std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& remedy)
 {
+  const int dimension = dimension_of(table);
   std::array<std::size_t, key_columns.size()> columns{};
   for (std::size_t c = 0; c < columns.size(); ++c)
-    columns[c] = find_column(table, key_columns[c].name_with_unit(), remedy);
+    columns[c] = find_column(table, key_columns[c].name_with_unit(dimension), remedy);
   require_positive_header(table);
 
   std::vector<LayerKey> keys(table.rows.size());

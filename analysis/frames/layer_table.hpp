@@ -3,6 +3,7 @@
 
 #include "analysis/frames/layer_key.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/core/species.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -11,6 +12,12 @@
 
 /// Reading tables by layer and window, and refusing those that cannot be true.
 namespace grseg {
+
+/// 2, or the number in the line "dimension". FormatError where that is not 3.
+int dimension_of(const Table& table);
+/// The mobile species that a table is about: those of its line "species", or small and large with
+/// the diameters of the header. FormatError where they are not to be understood.
+SpeciesList species_of(const Table& table);
 
 /// The keys of all rows. FormatError, adding `remedy`, where a column is missing; and, naming the
 /// rows, where a time, number of frames or volume has no meaning (a bed of NaN heights may be

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -37,24 +38,34 @@ double disc_area_within(double radius, double distance, double limit)
          circle * std::atan2(triangle, square + circle - disc) - triangle / 2;
 }
 
-Layers::Layers(double thickness, double length) : thickness_(thickness), length_(length)
+double sphere_volume_below(double radius, double height)
+{
+  const double d = std::clamp(height, -radius, radius);
+  return std::numbers::pi / 3 * (radius + d) * (radius + d) * (2 * radius - d);
+}
+
+Layers::Layers(double thickness, double length, std::optional<double> width)
+    : thickness_(thickness), length_(length), width_(width)
 {
   if (!(thickness > 0) || !std::isfinite(thickness))
     throw UsageError(fmt::format("a layer of {:g} m has no thickness; give e.g. 4dS", thickness));
   if (!(length > 0) || !std::isfinite(length))
     throw UsageError(fmt::format("a cell of {:g} m has no length", length));
+  if (width && (!(*width > 0) || !std::isfinite(*width)))
+    throw UsageError(fmt::format("a cell of {:g} m has no width", *width));
 }
 
-Layers Layers::annuli(double thickness, double length, const Vec2& axis)
+Layers Layers::annuli(double thickness, double length, const Vec2& axis,
+                      std::optional<double> width)
 {
-  Layers layers(thickness, length);
+  Layers layers(thickness, length, width);
   layers.axis_ = axis;
   return layers;
 }
 
 Layers Layers::with_thickness(double thickness) const
 {
-  Layers layers(thickness, length_);
+  Layers layers(thickness, length_, width_);
   layers.axis_ = axis_;
   return layers;
 }
@@ -62,24 +73,34 @@ Layers Layers::with_thickness(double thickness) const
 double Layers::volume(std::size_t layer) const
 {
   const double n = static_cast<double>(layer);
-  return axis_ ? std::numbers::pi * thickness_ * thickness_ * (2 * n + 1) : thickness_ * length_;
+  const double area =
+      axis_ ? std::numbers::pi * thickness_ * thickness_ * (2 * n + 1) : thickness_ * length_;
+  return width_ ? area * *width_ : area;
 }
 
-Vec2 Layers::turned(const Vec2& vector, const Vec2& position) const
+template <int D>
+Vector<D> Layers::turned(const Vector<D>& vector, const Vector<D>& position) const
 {
   if (!axis_) return vector;
-  const Vec2 arm = position - *axis_;
+  const Vec2 arm = position.template head<2>() - *axis_, of = vector.template head<2>();
   const double distance = arm.norm();
   const Vec2 outward = distance > 0 ? Vec2(arm / distance) : Vec2(0, 1);
-  return {outward.y() * vector.x() - outward.x() * vector.y(), outward.dot(vector)};
+  Vector<D> result = vector;
+  result.x() = outward.y() * of.x() - outward.x() * of.y();
+  result.y() = outward.dot(of);
+  return result;
 }
 
-std::size_t Layers::count(const Grains& grains, const Frame<2>& frame) const
+template Vec2 Layers::turned(const Vec2&, const Vec2&) const;
+template Vec3 Layers::turned(const Vec3&, const Vec3&) const;
+
+template <int D>
+std::size_t Layers::count(const Grains& grains, const Frame<D>& frame) const
 {
   double highest = 0;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g))
-      highest = std::max(highest, height(frame.position[g]) + grains.radius[g]);
+      highest = std::max(highest, height<D>(frame.position[g]) + grains.radius[g]);
   if (!(highest < most_layers * thickness_))
     throw RunError(
         fmt::format("at t = {:.6g} s a grain is {:.3g} m {}, more than {:g} layers; is "
@@ -88,5 +109,8 @@ std::size_t Layers::count(const Grains& grains, const Frame<2>& frame) const
   const std::size_t n = at(highest);
   return highest > bottom(n) ? n + 1 : std::max<std::size_t>(n, 1);
 }
+
+template std::size_t Layers::count(const Grains&, const Frame<2>&) const;
+template std::size_t Layers::count(const Grains&, const Frame<3>&) const;
 
 }  // namespace grseg

@@ -17,62 +17,87 @@ double disc_area_below(double radius, double height);
 /// `distance` (m) from the disc's: two circular segments.
 double disc_area_within(double radius, double distance, double limit);
 
-/// Layers parallel to the base: layer n is [n h, (n+1) h), of volume V = Lx h. The first also takes
+/// Volume (m^3) of the part of a sphere that lies below a plane `height` (m) above its centre.
+double sphere_volume_below(double radius, double height);
+
+/// Layers parallel to the base: layer n is [n h, (n+1) h), of volume V = Lx h in two dimensions and
+/// Lx Lz h in three. The first also takes
 /// all that is below y = 0, and the last all that is above it. There are as many as the highest
 /// mobile grain reaches; the last one keeps its full thickness and volume.
 ///
-/// Or annuli about an axis, as a drum asks for: y is then the distance from the axis, outward, and
-/// x goes round it clockwise, so that (x, y) is right-handed as over a base. Annulus n is [n h,
-/// (n+1) h), of volume pi h^2 (2 n + 1).
+/// Or annuli about an axis along z, as a drum asks for: y is then the distance from the axis,
+/// outward, and x goes round it clockwise, so that (x, y) is right-handed as over a base. Annulus n
+/// is [n h, (n+1) h), of volume pi h^2 (2 n + 1), in three dimensions times Lz.
 class Layers {
  public:
-  /// Thickness h and length Lx of the cell, m. UsageError unless both are positive.
-  Layers(double thickness, double length);
-  static Layers annuli(double thickness, double length, const Vec2& axis);
+  /// Thickness h, and length Lx and, in three dimensions, width Lz of the cell, m. UsageError unless
+  /// they are positive.
+  Layers(double thickness, double length, std::optional<double> width = std::nullopt);
+  /// `axis`: its x and y.
+  static Layers annuli(double thickness, double length, const Vec2& axis,
+                       std::optional<double> width = std::nullopt);
   /// The same with another thickness.
   Layers with_thickness(double thickness) const;
 
   const std::optional<Vec2>& axis() const { return axis_; }  // of annuli
   double thickness() const { return thickness_; }
-  double volume(std::size_t layer) const;    // m^2
-  double length() const { return length_; }  // m
+  double volume(std::size_t layer) const;                        // m^2 or m^3
+  double length() const { return length_; }                      // m
+  const std::optional<double>& width() const { return width_; }  // m, in three dimensions
+  /// Volume of the cell over a height, m^2 or m^3.
+  double volume_of_bed(double height) const { return length_ * width_.value_or(1) * height; }
   // Multiplying, not adding up: edges are the same in every tool and stay exact.
   double bottom(std::size_t layer) const { return static_cast<double>(layer) * thickness_; }
   double top(std::size_t layer) const { return bottom(layer + 1); }
 
   /// y of a position, m.
-  double height(const Vec2& position) const
+  template <int D>
+  double height(const Vector<D>& position) const
   {
-    return axis_ ? (position - *axis_).norm() : position.y();
+    return axis_ ? Vec2(position.template head<2>() - *axis_).norm() : position.y();
   }
-  /// Components along and across the layer of a vector at `position`.
-  Vec2 turned(const Vec2& vector, const Vec2& position) const;
+  /// Components along and across the layer of a vector at `position`; that along z stays.
+  template <int D>
+  Vector<D> turned(const Vector<D>& vector, const Vector<D>& position) const;
+  /// The same of a spin: its number in two dimensions, a vector in three.
+  template <int D>
+  Spin<D> turned_spin(const Spin<D>& spin, const Vector<D>& position) const
+  {
+    if constexpr (D == 2)
+      return spin;
+    else
+      return turned<D>(spin, position);
+  }
 
   /// The layer that holds the height y, m.
   std::size_t at(double y) const;
   /// Layers up to the top of the highest mobile grain, at least 1. RunError where that would be
   /// more than a bed can have, which means that a grain is lost.
-  std::size_t count(const Grains& grains, const Frame<2>& frame) const;
+  template <int D>
+  std::size_t count(const Grains& grains, const Frame<D>& frame) const;
 
   /// Calls book(layer, share) with the shares of its length that a straight segment between two
   /// heights has in each of `count` layers; the shares add up to 1. Not of annuli.
   template <class Book>
   void share_segment(double from, double to, std::size_t count, const Book& book) const;
 
-  /// Calls book(layer, area) with the areas (m^2) that a disc at height y has in each of `count`
-  /// layers; they add up to pi r^2.
-  template <class Book>
-  void share_disc(double y, double radius, std::size_t count, const Book& book) const;
+  /// Calls book(layer, part) with the areas (m^2) of a disc or volumes (m^3) of a sphere at height y
+  /// that lie in each of `count` layers; they add up to that of the grain. Spheres not of annuli.
+  template <int D, class Book>
+  void share_grain(double y, double radius, std::size_t count, const Book& book) const;
 
  private:
-  /// Of a disc at height y, the area below the top of a layer.
-  double area_below_top(std::size_t layer, double y, double radius) const
+  /// Of a grain at height y, the part below the top of a layer.
+  template <int D>
+  double part_below_top(std::size_t layer, double y, double radius) const
   {
+    if constexpr (D == 3) return sphere_volume_below(radius, top(layer) - y);
     return axis_ ? disc_area_within(radius, y, top(layer))
                  : disc_area_below(radius, top(layer) - y);
   }
 
   double thickness_, length_;
+  std::optional<double> width_;
   std::optional<Vec2> axis_;
 };
 
@@ -102,15 +127,16 @@ void Layers::share_segment(double from, double to, std::size_t count, const Book
   }
 }
 
-template <class Book>
-void Layers::share_disc(double y, double radius, std::size_t count, const Book& book) const
+template <int D, class Book>
+void Layers::share_grain(double y, double radius, std::size_t count, const Book& book) const
 {
   const std::size_t first = std::min(at(y - radius), count - 1);
   const std::size_t last = std::min(at(y + radius), count - 1);
+  const double whole =
+      D == 2 ? disc_area_below(radius, radius) : sphere_volume_below(radius, radius);
   double below = 0;
   for (std::size_t n = first; n <= last; ++n) {
-    const double up_to_here =
-        n == last ? disc_area_below(radius, radius) : area_below_top(n, y, radius);
+    const double up_to_here = n == last ? whole : part_below_top<D>(n, y, radius);
     book(n, up_to_here - below);
     below = up_to_here;
   }

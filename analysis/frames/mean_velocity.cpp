@@ -9,71 +9,85 @@
 
 namespace grseg {
 
-MeanVelocity::MeanVelocity(const Layers& layers, double bin)
+template <int D>
+MeanVelocity<D>::MeanVelocity(const Layers& layers, double bin, std::size_t species)
     : layers_(layers),
       bins_(layers.with_thickness(layers.thickness() /
-                                  std::max(std::ceil(layers.thickness() / bin - 1e-9), 1.0)))
+                                  std::max(std::ceil(layers.thickness() / bin - 1e-9), 1.0))),
+      species_(species)
 {
 }
 
-void MeanVelocity::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   of_bin_.resize(std::max(of_bin_.size(), bins_.count(grains, frame)));
-  of_layer_.resize(std::max(of_layer_.size(), layers_.count(grains, frame)));
+  of_layer_.resize(std::max(of_layer_.size(), layers_.count(grains, frame)),
+                   std::vector<Sum>(species_));
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, g)) continue;
-    const double y = layers_.height(frame.position[g]), mass = grains.mass[g];
-    const Vec2 velocity = layers_.turned(frame.velocity[g], frame.position[g]);
-    const Sum own{mass, mass * Motion{velocity.x(), velocity.y(), frame.angular_velocity[g]}};
+    const auto& position = frame.position[g];
+    const double y = layers_.height<D>(position), mass = grains.mass[g];
+    const Sum own{mass,
+                  mass * motion_of<D>(layers_.turned<D>(frame.velocity[g], position),
+                                      layers_.turned_spin<D>(frame.angular_velocity[g], position))};
     of_bin_[bins_.at(y)] += {own, mass * y};
     of_layer_[layers_.at(y)][static_cast<std::size_t>(grains.species[g])] += own;
   }
 }
 
-MeanVelocity::Sum& MeanVelocity::Sum::operator+=(const Sum& other)
+template <int D>
+typename MeanVelocity<D>::Sum& MeanVelocity<D>::Sum::operator+=(const Sum& other)
 {
   mass += other.mass;
   momentum += other.momentum;
   return *this;
 }
 
-MeanVelocity::BinSum& MeanVelocity::BinSum::operator+=(const BinSum& other)
+template <int D>
+typename MeanVelocity<D>::BinSum& MeanVelocity<D>::BinSum::operator+=(const BinSum& other)
 {
   motion += other.motion;
   moment += other.moment;
   return *this;
 }
 
-void MeanVelocity::merge(const MeanVelocity& others)
+template <int D>
+void MeanVelocity<D>::merge(const MeanVelocity& others)
 {
   accumulate(of_bin_, others.of_bin_);
   accumulate(of_layer_, others.of_layer_);
 }
 
-void MeanVelocity::finish()
+template <int D>
+void MeanVelocity<D>::finish()
 {
   for (const auto& [sum, moment] : of_bin_)
     if (sum.mass > 0) profile_.push_back({moment / sum.mass, sum.momentum / sum.mass});
 }
 
-Motion MeanVelocity::of_layer(std::size_t layer) const
+template <int D>
+Motion<D> MeanVelocity<D>::of_layer(std::size_t layer) const
 {
-  const auto& [small, large] = of_layer_[layer];
-  return (small.momentum + large.momentum) / (small.mass + large.mass);
+  Sum all;
+  for (const auto& own : of_layer_[layer]) all += own;
+  return all.momentum / all.mass;
 }
 
-Motion MeanVelocity::of_species(std::size_t layer, Species species) const
+template <int D>
+Motion<D> MeanVelocity<D>::of_species(std::size_t layer, Species species) const
 {
   const auto& sum = of_layer_[layer][static_cast<std::size_t>(species)];
   return sum.momentum / sum.mass;
 }
 
-Motion MeanVelocity::on_profile(double y) const
+template <int D>
+Motion<D> MeanVelocity<D>::on_profile(double y) const
 {
   const std::size_t n = profile_.size();
-  if (n == 0) return Motion::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (n == 0) return Motion<D>::Constant(std::numeric_limits<double>::quiet_NaN());
   if (n == 1) return profile_[0].motion;
-  const auto line = [y](const Point& a, const Point& b) -> Motion {
+  const auto line = [y](const Point& a, const Point& b) -> Motion<D> {
     return a.motion + (b.motion - a.motion) * ((y - a.y) / (b.y - a.y));
   };
   const auto above = static_cast<std::size_t>(
@@ -85,5 +99,8 @@ Motion MeanVelocity::on_profile(double y) const
   if (above == n) return line(profile_[n - 1], profile_[n - std::min<std::size_t>(3, n)]);
   return line(profile_[above - 1], profile_[above]);
 }
+
+template class MeanVelocity<2>;
+template class MeanVelocity<3>;
 
 }  // namespace grseg

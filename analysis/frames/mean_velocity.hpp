@@ -5,7 +5,6 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
-#include <array>
 #include <vector>
 
 namespace grseg {
@@ -26,8 +25,16 @@ inline constexpr Choice<MeanFlow> mean_flows[] = {
     {"instant", MeanFlow::instant, "of the layer in each frame"},
     {"species", MeanFlow::species, "of the species in the layer, over the window"}};
 
-/// Down-slope velocity u and velocity v along y, m/s, and spin, rad/s.
-using Motion = Eigen::Vector3d;
+/// Components of a velocity, m/s, then those of a spin, rad/s: 3 or 6.
+template <int D>
+using Motion = Vector<D == 2 ? 3 : 6>;
+template <int D>
+Motion<D> motion_of(const Vector<D>& velocity, const Spin<D>& spin)
+{
+  Motion<D> motion;
+  motion << velocity, spin;
+  return motion;
+}
 
 /// Mass-weighted mean motion of the mobile grains over the frames that were added: as a profile
 /// over height, by layer, and by layer and species.
@@ -37,26 +44,27 @@ using Motion = Eigen::Vector3d;
 /// outer points it goes on with the slope of the outer two bins. Taking the mean height rather than
 /// the middle of the bin, a linear profile comes out as it is, however the grains lie in their
 /// bins.
+template <int D>
 class MeanVelocity {
  public:
   /// Bins no thicker than `bin` (m), a whole number of them per layer.
-  MeanVelocity(const Layers& layers, double bin);
+  MeanVelocity(const Layers& layers, double bin, std::size_t species = 2);
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   void merge(const MeanVelocity& others);
   /// Takes the means; nothing can be added after that.
   void finish();
 
   /// At height y; NaN without grains.
-  Motion on_profile(double y) const;
+  Motion<D> on_profile(double y) const;
   /// Of a layer, and of one species in it; of layers with grains that were added only.
-  Motion of_layer(std::size_t layer) const;
-  Motion of_species(std::size_t layer, Species species) const;
+  Motion<D> of_layer(std::size_t layer) const;
+  Motion<D> of_species(std::size_t layer, Species species) const;
 
  private:
   struct Sum {
     double mass = 0;  // kg
-    Motion momentum = Motion::Zero();
+    Motion<D> momentum = Motion<D>::Zero();
     Sum& operator+=(const Sum& other);
   };
   struct BinSum {
@@ -66,12 +74,13 @@ class MeanVelocity {
   };
   struct Point {
     double y;
-    Motion motion;
+    Motion<D> motion;
   };
 
   Layers layers_, bins_;
   std::vector<BinSum> of_bin_;
-  std::vector<std::array<Sum, 2>> of_layer_;  // by species
+  std::size_t species_;
+  std::vector<std::vector<Sum>> of_layer_;  // by species
   std::vector<Point> profile_;
 };
 

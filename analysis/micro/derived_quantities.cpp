@@ -104,8 +104,8 @@ void add_forces(Derivation& to)
 void add_pressures(Derivation& to)
 {
   const auto stress = to.sums().stress(to.settings.rule);
-  const double p = stress.total.trace() / 2, p_small = stress.small.trace() / 2,
-               p_large = stress.large.trace() / 2;
+  const double p = stress.total.trace() / 2, p_small = stress.small().trace() / 2,
+               p_large = stress.large().trace() / 2;
   const auto estimate = estimate_pressure(to.sums(), to.settings.measure,
                                           to.constants.small_diameter, to.constants.large_diameter);
   const auto compare = [&](const char* name, double pressure, double estimated) {
@@ -132,7 +132,7 @@ void add_pressures(Derivation& to)
   };
   slope_and_b("Pi", to.size_ratio() * z * f);
   slope_and_b("P", partition_slope(p_small, p_large, phi));
-  slope_and_b("yy", partition_slope(stress.small(1, 1), stress.large(1, 1), phi));
+  slope_and_b("yy", partition_slope(stress.small()(1, 1), stress.large()(1, 1), phi));
 }
 
 void add_friction(Derivation& to)

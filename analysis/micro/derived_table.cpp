@@ -27,7 +27,7 @@ PartitionRule rule_of(const DerivedOptions& options)
 {
   const auto rule = parse_rule(options.partition);
   const auto sum = rule.definition().sum;
-  if (sum != nullptr && sum != &ContactSums::mixed_size)  // the others are not in this table
+  if (sum && sum != PairSum::by_size)  // the others are not in this table
     throw UsageError(fmt::format("--partition {}: grseg-micro knows size, half, drop and uniform:P",
                                  rule.name()));
   return rule;

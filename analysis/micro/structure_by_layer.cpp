@@ -151,8 +151,8 @@ StructureSums StructureByLayer::mean(std::size_t layer) const
 {
   StructureSums mean = sums_[layer] / static_cast<double>(frames_);
   const auto areas = composition_.mean(layer);
-  mean.species[0].area = areas.small;
-  mean.species[1].area = areas.large;
+  mean.species[0].area = areas[0];
+  mean.species[1].area = areas[1];
   return mean;
 }
 

@@ -44,7 +44,7 @@ class StructureByLayer {
   void add_ends(const Grains& grains, const Frame<2>& frame, std::size_t contact, PairType type);
 
   Layers layers_;
-  Composition composition_;
+  Composition<2> composition_;
   double friction_;
   std::size_t frames_ = 0;
   std::vector<StructureSums> sums_;  // without areas: those are in composition_

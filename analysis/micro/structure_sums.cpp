@@ -140,17 +140,16 @@ double StructureSums::mixed_share() const
   return ratio(of(PairType::LS).contacts, between_grains().contacts);
 }
 
-PartialStress StructureSums::stress(const PartitionRule& rule) const
+PartialStress<2> StructureSums::stress(const PartitionRule& rule) const
 {
-  ContactSums sums;
-  sums.area_small = species[0].area;
-  sums.area_large = species[1].area;
-  sums.ss = of(PairType::SS).stress;
-  sums.ll = of(PairType::LL).stress;
-  sums.mixed = of(PairType::LS).stress;
-  sums.mixed_size = mixed_size;
-  sums.base_small = of(PairType::Sb).stress;
-  sums.base_large = of(PairType::Lb).stress;
+  ContactSums<2> sums;
+  sums.content = {species[0].area, species[1].area};
+  sums.of(OwnSum::inside, 0) = of(PairType::SS).stress;
+  sums.of(OwnSum::inside, 1) = of(PairType::LL).stress;
+  sums.of(PairSum::whole, 0) = of(PairType::LS).stress;
+  sums.of(PairSum::by_size, 0) = mixed_size;
+  sums.of(OwnSum::base, 0) = of(PairType::Sb).stress;
+  sums.of(OwnSum::base, 1) = of(PairType::Lb).stress;
   return partial_stress(sums, rule, BasePart::contact_point, StressVolume::solid);
 }
 

@@ -74,7 +74,7 @@ struct StructureSums {
   double mixed_share() const;
   /// Contact stresses in the volume of the grains, N/m (eq. 1 of the paper). `rule` is size, half,
   /// drop or uniform.
-  PartialStress stress(const PartitionRule& rule) const;
+  PartialStress<2> stress(const PartitionRule& rule) const;
 
   /// The sums with their columns in the table of grseg-micro, from area_S on.
   std::vector<Cell> cells() const;

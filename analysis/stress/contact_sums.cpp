@@ -4,48 +4,152 @@
 #include <fmt/format.h>
 
 namespace grseg {
+namespace {
 
-ContactSums& ContactSums::operator+=(const ContactSums& others)
+constexpr char letters[] = {'x', 'y', 'z'};
+
+/// The name of a sum's columns for one species.
+std::string own_name(const ContactSumColumns& sum, const std::string& word, bool two)
+{
+  switch (static_cast<OwnSum>(sum.sum)) {
+    case OwnSum::inside:
+      return two ? fmt::format("{}_{}{}", sum.stem, word, word)
+                 : fmt::format("{}_{}", sum.stem, word);
+    case OwnSum::base:
+    case OwnSum::whole_base:
+      return fmt::format("{}_{}{}b", sum.stem, word, two ? "" : "+");
+    case OwnSum::halves:
+      break;
+  }
+  return two ? fmt::format("{}{}{}", sum.stem, word, word) : fmt::format("{}_{}", sum.stem, word);
+}
+
+}  // namespace
+
+template <int D>
+ContactSums<D>& ContactSums<D>::operator+=(const ContactSums& others)
 {
   volume += others.volume;
-  for (const auto& column : area_columns) this->*column.area += others.*column.area;
-  for (const auto& column : contact_sum_columns) this->*column.sum += others.*column.sum;
   at_centres |= others.at_centres;
+  for (std::size_t k = 0; k < own_.size(); ++k) {
+    content[k] += others.content[k];
+    for (std::size_t sum = 0; sum < own_sums; ++sum) own_[k][sum] += others.own_[k][sum];
+  }
+  for (std::size_t k = 0; k < pair_.size(); ++k)
+    for (std::size_t sum = 0; sum < pair_sums; ++sum) pair_[k][sum] += others.pair_[k][sum];
   return *this;
 }
 
-ContactSums ContactSums::operator/(double number) const
+template <int D>
+ContactSums<D> ContactSums<D>::operator/(double number) const
 {
   ContactSums part = *this;
   part.volume /= number;
-  for (const auto& column : area_columns) part.*column.area /= number;
-  for (const auto& column : contact_sum_columns) part.*column.sum /= number;
+  for (auto& content_of_species : part.content) content_of_species /= number;
+  for (auto& sums : part.own_)
+    for (auto& sum : sums) sum /= number;
+  for (auto& sums : part.pair_)
+    for (auto& sum : sums) sum /= number;
   return part;
 }
 
-std::string column_name(const ContactSumColumns& sum, const Component2& component)
+template class ContactSums<2>;
+template class ContactSums<3>;
+
+std::vector<TensorComponent> tensor_components(int dimension)
+{
+  std::vector<TensorComponent> components;
+  for (int row = 0; row < dimension; ++row)
+    for (int column = 0; column < dimension; ++column)
+      components.push_back({fmt::format("_{}{}", letters[row], letters[column]), row, column});
+  return components;
+}
+
+std::vector<std::string> column_words(const SpeciesList& species)
+{
+  if (species.size() == 2) return {"S", "L"};
+  std::vector<std::string> words;
+  words.reserve(species.size());
+  for (const auto& one : species) words.push_back(one.name);
+  return words;
+}
+
+std::vector<NamedSum> named_sums(const SpeciesList& species, InTables in)
+{
+  const auto words = column_words(species);
+  const bool two = species.size() == 2;
+  std::vector<NamedSum> named;
+  for (const auto& sum : contact_sum_columns) {
+    if (sum.in != in) continue;
+    for (std::size_t b = 0; b < words.size(); ++b) {
+      if (!sum.of_pairs) named.push_back({own_name(sum, words[b], two), &sum, b});
+      for (std::size_t a = 0; sum.of_pairs && a < b; ++a)
+        named.push_back({two ? sum.stem : fmt::format("{}_{}+{}", sum.stem, words[a], words[b]),
+                         &sum, pair_index(a, b)});
+    }
+  }
+  return named;
+}
+
+std::vector<NamedSum> named_sums(const SpeciesList& species, const TableKind& kind)
+{
+  std::vector<NamedSum> all;
+  for (const auto in : {InTables::all, InTables::at_centres, InTables::power})
+    if (kind.has(in))
+      for (auto& sum : named_sums(species, in)) all.push_back(std::move(sum));
+  return all;
+}
+
+std::string column_name(const NamedSum& sum, const TensorComponent& component)
 {
   return fmt::format("{}{}[N m]", sum.name, component.suffix);
 }
 
-std::vector<std::string> sum_column_names(const TableKind& kind)
+std::vector<std::string> content_columns(const SpeciesList& species, int dimension)
 {
   std::vector<std::string> names;
-  for (const auto& column : contact_sum_columns)
-    if (kind.has(column.in))
-      for (const auto& component : tensor_components)
-        names.push_back(column_name(column, component));
+  for (const auto& word : column_words(species))
+    names.push_back(dimension == 3 ? fmt::format("volume_{}[m^3]", word)
+                                   : fmt::format("area_{}[m^2]", word));
   return names;
 }
 
-std::vector<double> sum_cells(const ContactSums& sums, const TableKind& kind)
+std::vector<std::string> contact_number_columns(const SpeciesList& species)
+{
+  const auto words = column_words(species);
+  const bool two = words.size() == 2;
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < words.size(); ++b)
+    for (std::size_t a = 0; a <= b; ++a)
+      names.push_back(two      ? fmt::format("n_{}{}", words[b], words[a])
+                      : a == b ? fmt::format("n_{}", words[a])
+                               : fmt::format("n_{}+{}", words[a], words[b]));
+  for (const auto& word : words) names.push_back(fmt::format("n_{}{}b", word, two ? "" : "+"));
+  return names;
+}
+
+std::vector<std::string> sum_column_names(const SpeciesList& species, const TableKind& kind)
+{
+  std::vector<std::string> names;
+  const auto components = tensor_components(kind.dimension);
+  for (const auto& sum : named_sums(species, kind))
+    for (const auto& component : components) names.push_back(column_name(sum, component));
+  return names;
+}
+
+template <int D>
+std::vector<double> sum_cells(const ContactSums<D>& sums, const TableKind& kind)
 {
   std::vector<double> cells;
-  for (const auto& column : contact_sum_columns)
-    if (kind.has(column.in))
-      for (const auto& component : tensor_components)
-        cells.push_back((sums.*column.sum)(component.row, component.column));
+  const auto components = tensor_components(D);
+  const SpeciesList without_names(sums.species());
+  for (const auto& sum : named_sums(without_names, kind))
+    for (const auto& component : components)
+      cells.push_back(sum.in(sums)(component.row, component.column));
   return cells;
 }
+
+template std::vector<double> sum_cells(const ContactSums<2>&, const TableKind&);
+template std::vector<double> sum_cells(const ContactSums<3>&, const TableKind&);
 
 }  // namespace grseg

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
+#include "formats/core/species.hpp"
 
 #include <array>
 #include <cstddef>
@@ -10,31 +11,90 @@
 
 namespace grseg {
 
+/// Sums over the contacts of one species.
+enum class OwnSum {
+  inside,      ///< between its grains
+  base,        ///< with the base, up to the contact point
+  whole_base,  ///< with the base, the whole branch
+  halves,      ///< between its grains, half at either grain (--assign grain)
+};
+constexpr std::size_t own_sums = 4;
+
+/// Sums over the contacts between two species, of which the larger is that of larger nominal
+/// diameter.
+enum class PairSum {
+  whole,          ///< the whole branch
+  by_size,        ///< the larger grain's part by size
+  up_to_contact,  ///< the larger grain's part up to the contact point
+  by_power,       ///< the larger grain's part by power:Q
+  at_larger,      ///< the whole branch at the larger grain (--assign grain)
+  at_smaller,     ///< and once more at the smaller one
+};
+constexpr std::size_t pair_sums = 6;
+
+/// Number of a pair of species a < b: (0, 1), (0, 2), (1, 2), (0, 3) ...
+constexpr std::size_t pair_index(std::size_t a, std::size_t b)
+{
+  return b * (b - 1) / 2 + a;
+}
+constexpr std::size_t number_of_pairs(std::size_t species)
+{
+  return species * (species - 1) / 2;
+}
+
 /// Sums of force (x) branch over the contacts of one layer in one window, N m, compression
 /// positive, means per frame: what grseg-stress writes and every partition rule is made of. Divided
 /// by V they are stresses (Staron & Phillips 2015, eq. 1).
-struct ContactSums {
-  double volume = 0;                        // m^2, voids included
-  double area_small = 0, area_large = 0;    // m^2
-  Tensor2 ss = Tensor2::Zero();             // between small grains
-  Tensor2 ll = Tensor2::Zero();             // between large grains
-  Tensor2 mixed = Tensor2::Zero();          // between a large and a small grain, whole branch
-  Tensor2 mixed_size = Tensor2::Zero();     // of these, the large grain's part by size
-  Tensor2 mixed_contact = Tensor2::Zero();  // the large grain's part up to the contact point
-  Tensor2 mixed_power = Tensor2::Zero();    // the large grain's part by power:Q
-  // Small and large grains with the base: up to the contact point, and the whole branch.
-  Tensor2 base_small = Tensor2::Zero(), base_large = Tensor2::Zero();
-  Tensor2 whole_small = Tensor2::Zero(), whole_large = Tensor2::Zero();
+template <int D>
+class ContactSums {
+ public:
+  explicit ContactSums(std::size_t species = 2)
+      : content(species),
+        own_(species, zeros<own_sums>()),
+        pair_(number_of_pairs(species), zeros<pair_sums>())
+  {
+  }
 
-  /// Each grain's part is counted at that grain's centre (--assign grain). The sums above then hold
-  /// parts cut by size, and those below what a share is taken of that is the same for all contacts.
+  double volume = 0;            // m^2 or m^3, voids included
+  std::vector<double> content;  // of the mobile grains, by species, m^2 or m^3
+  /// Each grain's part is counted at that grain's centre (--assign grain): parts are then cut by
+  /// size, and halves, at_larger and at_smaller hold what a share is taken of that is the same for
+  /// all contacts.
   bool at_centres = false;
-  Tensor2 halves_ss = Tensor2::Zero(), halves_ll = Tensor2::Zero();  // half at either grain
-  // The whole branch at the large grain, and once more at the small one.
-  Tensor2 mixed_at_large = Tensor2::Zero(), mixed_at_small = Tensor2::Zero();
+
+  std::size_t species() const { return own_.size(); }
+  Tensor<D>& of(OwnSum sum, std::size_t species)
+  {
+    return own_[species][static_cast<std::size_t>(sum)];
+  }
+  const Tensor<D>& of(OwnSum sum, std::size_t species) const
+  {
+    return own_[species][static_cast<std::size_t>(sum)];
+  }
+  /// Of the pair `pair_index(a, b)`.
+  Tensor<D>& of(PairSum sum, std::size_t pair)
+  {
+    return pair_[pair][static_cast<std::size_t>(sum)];
+  }
+  const Tensor<D>& of(PairSum sum, std::size_t pair) const
+  {
+    return pair_[pair][static_cast<std::size_t>(sum)];
+  }
 
   ContactSums& operator+=(const ContactSums& others);
   ContactSums operator/(double number) const;
+
+ private:
+  template <std::size_t N>
+  static std::array<Tensor<D>, N> zeros()
+  {
+    std::array<Tensor<D>, N> all;
+    all.fill(Tensor<D>::Zero());
+    return all;
+  }
+
+  std::vector<std::array<Tensor<D>, own_sums>> own_;
+  std::vector<std::array<Tensor<D>, pair_sums>> pair_;
 };
 
 /// Which tables of grseg-stress have a column.
@@ -44,50 +104,32 @@ enum class InTables {
   power,       ///< those made with --partition power:Q
 };
 
-/// Columns NAME_xx NAME_xy NAME_yx NAME_yy, N m, and where their numbers are.
+/// A sum whose components stand in columns, one group of columns for each species or pair.
 struct ContactSumColumns {
-  const char* name;
-  Tensor2 ContactSums::*sum;
+  const char* stem;
+  bool of_pairs;
+  std::size_t sum;  // an OwnSum, or a PairSum where it is of pairs
   InTables in;
 };
 
-/// The one list of all sums, in the order of the table. Whatever adds, writes, reads or merges them
-/// goes through it.
-inline constexpr std::array<ContactSumColumns, 14> contact_sum_columns{{
-    {"A_SS", &ContactSums::ss, InTables::all},
-    {"A_LL", &ContactSums::ll, InTables::all},
-    {"M", &ContactSums::mixed, InTables::all},
-    {"Msize", &ContactSums::mixed_size, InTables::all},
-    {"Mcp", &ContactSums::mixed_contact, InTables::all},
-    {"A_Sb", &ContactSums::base_small, InTables::all},
-    {"A_Lb", &ContactSums::base_large, InTables::all},
-    {"F_Sb", &ContactSums::whole_small, InTables::all},
-    {"F_Lb", &ContactSums::whole_large, InTables::all},
-    {"HSS", &ContactSums::halves_ss, InTables::at_centres},
-    {"HLL", &ContactSums::halves_ll, InTables::at_centres},
-    {"ML", &ContactSums::mixed_at_large, InTables::at_centres},
-    {"MS", &ContactSums::mixed_at_small, InTables::at_centres},
-    {"Mpower", &ContactSums::mixed_power, InTables::power},
+/// The one list of all sums, in the order of the table. Whatever writes, reads or merges them goes
+/// through it.
+inline constexpr std::array<ContactSumColumns, own_sums + pair_sums> contact_sum_columns{{
+    {"A", false, static_cast<std::size_t>(OwnSum::inside), InTables::all},
+    {"M", true, static_cast<std::size_t>(PairSum::whole), InTables::all},
+    {"Msize", true, static_cast<std::size_t>(PairSum::by_size), InTables::all},
+    {"Mcp", true, static_cast<std::size_t>(PairSum::up_to_contact), InTables::all},
+    {"A", false, static_cast<std::size_t>(OwnSum::base), InTables::all},
+    {"F", false, static_cast<std::size_t>(OwnSum::whole_base), InTables::all},
+    {"H", false, static_cast<std::size_t>(OwnSum::halves), InTables::at_centres},
+    {"ML", true, static_cast<std::size_t>(PairSum::at_larger), InTables::at_centres},
+    {"MS", true, static_cast<std::size_t>(PairSum::at_smaller), InTables::at_centres},
+    {"Mpower", true, static_cast<std::size_t>(PairSum::by_power), InTables::power},
 }};
-
-/// Columns of areas, with their unit.
-struct AreaColumn {
-  const char* name;
-  double ContactSums::*area;
-};
-inline constexpr std::array<AreaColumn, 2> area_columns{
-    {{"area_S[m^2]", &ContactSums::area_small}, {"area_L[m^2]", &ContactSums::area_large}}};
-
-/// Components of a tensor in the order of the columns.
-struct Component2 {
-  const char* suffix;
-  Eigen::Index row, column;
-};
-inline constexpr std::array<Component2, 4> tensor_components{
-    {{"_xx", 0, 0}, {"_xy", 0, 1}, {"_yx", 1, 0}, {"_yy", 1, 1}}};
 
 /// What a table of grseg-stress was made with, as far as it adds columns.
 struct TableKind {
+  int dimension = 2;
   bool at_centres = false, power = false;
 
   bool has(InTables in) const
@@ -96,10 +138,55 @@ struct TableKind {
   }
 };
 
+/// Components of a tensor in the order of the columns, "_xx" first.
+struct TensorComponent {
+  std::string suffix;
+  Eigen::Index row, column;
+};
+std::vector<TensorComponent> tensor_components(int dimension);
+
+/// What the names of columns call species: S and L where there are two, otherwise their names.
+std::vector<std::string> column_words(const SpeciesList& species);
+
+/// A sum of one species or pair, and the name of its columns without component and unit: "A_SS",
+/// "Msize"; of other than two species "A_AM", "Msize_AM+SE", "A_AM+b".
+struct NamedSum {
+  std::string name;
+  const ContactSumColumns* columns;
+  std::size_t index;  // of the species or pair
+
+  template <class Sums>
+  auto& in(Sums& sums) const
+  {
+    return columns->of_pairs ? sums.of(static_cast<PairSum>(columns->sum), index)
+                             : sums.of(static_cast<OwnSum>(columns->sum), index);
+  }
+};
+/// All sums that a kind of table has, in order.
+std::vector<NamedSum> named_sums(const SpeciesList& species, InTables in);
+std::vector<NamedSum> named_sums(const SpeciesList& species, const TableKind& kind);
+
 /// "A_SS_xx[N m]".
-std::string column_name(const ContactSumColumns& sum, const Component2& component);
+std::string column_name(const NamedSum& sum, const TensorComponent& component);
+/// "area_S[m^2]", "volume_AM[m^3]".
+std::vector<std::string> content_columns(const SpeciesList& species, int dimension);
+/// "n_SS", "n_LS", ... the numbers of contacts of each kind: contact_index.
+std::vector<std::string> contact_number_columns(const SpeciesList& species);
+
+/// The kind of a contact: between species a and b, a <= b, in the order SS, LS, LL; then those of
+/// each species with the base.
+constexpr std::size_t contact_index(std::size_t a, std::size_t b)
+{
+  return b * (b + 1) / 2 + a;
+}
+constexpr std::size_t base_contact_index(std::size_t species, std::size_t number_of_species)
+{
+  return number_of_species * (number_of_species + 1) / 2 + species;
+}
+
 /// Names with units of all sums that a table has, and the numbers under them.
-std::vector<std::string> sum_column_names(const TableKind& kind);
-std::vector<double> sum_cells(const ContactSums& sums, const TableKind& kind);
+std::vector<std::string> sum_column_names(const SpeciesList& species, const TableKind& kind);
+template <int D>
+std::vector<double> sum_cells(const ContactSums<D>& sums, const TableKind& kind);
 
 }  // namespace grseg

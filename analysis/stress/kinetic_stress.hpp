@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/cells.hpp"
 #include "analysis/frames/layer_flow.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/frames/mean_velocity.hpp"
 #include "formats/core/frame.hpp"
+#include "formats/core/species.hpp"
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace grseg {
 
-/// sum m dv (x) dv, without a factor 1/2, and the same of rotation, sum m r^2/2 dw^2 (w: spin); J.
+/// sum m dv (x) dv, without a factor 1/2, and the same of rotation, sum k m r^2 dw^2 (w: spin; k =
+/// 1/2 of discs and 2/5 of spheres); J.
+template <int D>
 struct Fluctuations {
-  Tensor2 kinetic = Tensor2::Zero();
+  Tensor<D> kinetic = Tensor<D>::Zero();
   double rotational = 0;
 
   Fluctuations& operator+=(const Fluctuations& other);
@@ -32,52 +36,55 @@ struct Fluctuations {
 /// thickness of the layer, and nothing elsewhere.
 ///
 /// The frames of a window are read twice: first for the mean flow, then for the fluctuations.
+template <int D>
 class KineticStress {
  public:
+  using Temperatures = Vector<D + 1>;
   /// Of one species in one layer.
   struct Mean {
     double mass = 0;    // kg
     double grains = 0;  // number
-    Fluctuations about_mean;
-    Fluctuations layer_bias;
+    Fluctuations<D> about_mean;
+    Fluctuations<D> layer_bias;
 
-    /// Granular temperatures (dv_x^2, dv_y^2, r^2 dw^2/2), mass-weighted means, m^2/s^2; NaN
-    /// without grains. Energies per grain and degree of freedom are half the grain's mass times
-    /// that.
-    Eigen::Vector3d temperature() const;
+    /// Granular temperatures (dv_x^2, dv_y^2, dv_z^2 in three dimensions, k r^2 dw^2), mass-weighted
+    /// means, m^2/s^2; NaN without grains. Energies per grain and degree of freedom are half the
+    /// grain's mass times that; the spin of a sphere has three.
+    Temperatures temperature() const;
     Mean& operator+=(const Mean& other);
   };
 
   /// About the mean over the frames that `mean` was given, which are those to be added.
-  KineticStress(const Layers& layers, MeanFlow flow, const MeanVelocity& mean);
+  KineticStress(const Layers& layers, MeanFlow flow, const MeanVelocity<D>& mean,
+                std::size_t species = 2);
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   void merge(const KineticStress& others);
 
   std::size_t layers() const { return sums_.size(); }
   Mean mean(std::size_t layer, Species species) const;
   LayerFlow flow(std::size_t layer) const;
-  /// Energy per large grain over energy per small grain in x, y and rotation: 1 for equipartition,
-  /// the mass ratio where all fluctuate as fast. NaN unless both species are there.
-  Eigen::Vector3d equipartition(std::size_t layer) const;
+  /// Of two species: energy per large grain over energy per small grain in x, y, z and rotation: 1
+  /// for equipartition, the mass ratio where all fluctuate as fast. NaN unless both are there.
+  Temperatures equipartition(std::size_t layer) const;
   /// What the mean shear alone would make of the layer bias in xx, J: mass (du/dy h)^2/12.
   double shear_bias(std::size_t layer, Species species) const;
 
-  /// The columns of grseg-kinetic from mass_S on, and a layer's numbers under them.
-  static std::vector<std::string> columns();
-  std::vector<double> row(std::size_t layer) const;
+  /// The columns of grseg-kinetic from mass_S on with a layer's numbers, NaN without a layer.
+  std::vector<Cell> cells(const SpeciesList& species, std::optional<std::size_t> layer) const;
 
  private:
   struct Sums {
-    std::array<Mean, 2> species;
+    std::vector<Mean> species;
     LayerFlowSums flow;
     Sums& operator+=(const Sums& others);
   };
-  Motion mean_at(std::size_t layer, Species species, double y, const MeanVelocity& now) const;
+  Motion<D> mean_at(std::size_t layer, Species species, double y, const MeanVelocity<D>& now) const;
 
   Layers layers_;
   MeanFlow flow_;
-  MeanVelocity mean_velocity_;
+  MeanVelocity<D> mean_velocity_;
+  std::size_t species_;
   std::size_t frames_ = 0;
   std::vector<Sums> sums_;
 };

@@ -55,8 +55,10 @@ void require_stress_table(const Table& table)
         "{}: was made by {}; only tables of grseg-stress can be merged, all of whose columns are "
         "means per frame",
         table.name, program));
+  const int dimension = dimension_of(table);
   for (std::size_t c = 0; c < key_columns.size(); ++c)
-    if (find_column(table, key_columns[c].name_with_unit(), "a table of grseg-stress has it") != c)
+    if (find_column(table, key_columns[c].name_with_unit(dimension),
+                    "a table of grseg-stress has it") != c)
       throw FormatError(fmt::format("{}: column {} is '{}' where a table of grseg-stress has '{}'",
                                     table.name, c + 1, table.columns[c], key_columns[c].name));
 }

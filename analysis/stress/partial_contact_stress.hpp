@@ -6,9 +6,7 @@
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/frame.hpp"
-#include "formats/core/pair_type.hpp"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +22,7 @@ enum class Assignment {
 };
 
 /// Contact stress by layer: sigma = (1/V) sum force (x) branch (Rothenburg & Selvadurai 1981;
-/// Staron & Phillips 2015, eq. 1), kept apart by pair type, so that every rule of partition is
+/// Staron & Phillips 2015, eq. 1), kept apart by species and pair of species, so that every rule of partition is
 /// algebra on these sums (partial_stress.hpp). N m, compression positive, not divided by V, means
 /// per frame.
 ///
@@ -32,44 +30,45 @@ enum class Assignment {
 /// across the layer where the grains touch, and `branch` and `kernel` do not apply.
 ///
 /// `branch` and `kernel` spread what belongs to one grain along its own stretch of the branch: the
-/// large grain's part of a mixed contact (mixed_size, mixed_contact) along that from its centre to
-/// r_L/(r_L + r_S) of the branch or to the contact point, base_* along that from the grain's centre
-/// to the contact point (the boundary rule of Weinhart et al. 2012). mixed_power is a weight times
+/// larger grain's part of a mixed contact (by_size, up_to_contact) along that from its centre to
+/// r_L/(r_L + r_S) of the branch or to the contact point, base along that from the grain's centre
+/// to the contact point (the boundary rule of Weinhart et al. 2012). by_power is a weight times
 /// the whole branch's share of the layer. Under a kernel a row is the integral of the field over
 /// the layer: sum/V is the field's mean there.
 ///
 /// `grain` counts either grain's part of equal grains (cut at the contact point) and of mixed ones
-/// (cut by size, so that `mixed` less `mixed_size` is the small grain's part, at its centre) in the
-/// layer of that grain; mixed_contact and mixed_power in that of the large grain; halves_* and
-/// mixed_at_* are for rules whose share is the same for all contacts.
+/// (cut by size, so that `whole` less `by_size` is the smaller grain's part, at its centre) in the
+/// layer of that grain; up_to_contact and by_power in that of the larger grain; halves,
+/// at_larger and at_smaller are for rules whose share is the same for all contacts.
+template <int D>
 class PartialContactStress {
  public:
   /// Of one layer.
   struct Mean {
-    std::array<double, pair_types> contacts{};  // by PairType, in the layer of the contact point
-    ContactSums sums;  // without volume and areas; at the centres only with Assignment::grain
+    std::vector<double> contacts;  // by contact_index, in the layer of the contact point
+    ContactSums<D> sums;           // without volume and contents; at the centres only with
+                                   // Assignment::grain
   };
 
-  /// `power` is the Q of mixed_power, which is not summed without it. `kernel` belongs to
+  /// `power` is the Q of by_power, which is not summed without it. `kernel` belongs to
   /// Assignment::kernel.
   PartialContactStress(const Layers& layers, Assignment assignment,
                        std::optional<double> power = std::nullopt,
-                       std::optional<Kernel> kernel = std::nullopt);
+                       std::optional<Kernel> kernel = std::nullopt, std::size_t species = 2);
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   void merge(const PartialContactStress& others);
   std::size_t layers() const { return sums_.size(); }
   Mean mean(std::size_t layer) const;
 
-  /// The columns of grseg-stress from n_SS on, and a layer's numbers under them.
-  std::vector<std::string> columns() const;
+  /// The columns of grseg-stress behind the contents, and a layer's numbers under them.
+  std::vector<std::string> columns(const SpeciesList& species) const;
   std::vector<double> row(std::size_t layer) const;
 
  private:
-  using Sum = Tensor2 ContactSums::*;
   struct Sums {
-    std::array<double, pair_types> contacts{};
-    ContactSums sums;
+    std::vector<double> contacts;
+    ContactSums<D> sums;
     Sums& operator+=(const Sums& others);
   };
   /// A rule whose share is summed contact by contact, and the number behind its name.
@@ -84,21 +83,26 @@ class PartialContactStress {
   };
   /// What all stretches of a contact share.
   struct Contact {
-    Tensor2 stress;     // N m, force (x) branch
+    Tensor<D> stress;   // N m, force (x) branch
     std::size_t layer;  // of the contact point
   };
 
   static std::vector<SummedRule> summed_rules(std::optional<double> power);
+  Sums no_contacts() const;
   TableKind table_kind() const;
-  void add_stretch(Sum sum, const Contact& contact, const Stretch& stretch);
-  void add_equal(Species species, const Contact& contact, double y_i, double y_j, double share_i);
-  void add_mixed(const Contact& contact, const MixedContact& pair, double y_large, double y_small);
+  template <class Sum>
+  void add_stretch(Sum sum, std::size_t index, const Contact& contact, const Stretch& stretch);
+  void add_equal(std::size_t species, const Contact& contact, double y_i, double y_j,
+                 double share_i);
+  void add_mixed(std::size_t pair, const Contact& contact, const MixedContact& radii,
+                 double y_large, double y_small);
 
   Layers layers_;
   Assignment assignment_;
   std::optional<double> power_;
   std::vector<SummedRule> rules_;
   std::optional<Kernel> kernel_;
+  std::size_t species_;
   std::size_t frames_ = 0;
   std::size_t count_ = 0;  // layers of the frame that is being added
   std::vector<Sums> sums_;

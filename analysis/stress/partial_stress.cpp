@@ -1,48 +1,106 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/partial_stress.hpp"
 
+#include <numeric>
+
 namespace grseg {
 namespace {
 
 /// What contacts between mobile grains give to the species, N m, and what they give to nobody.
+template <int D>
 struct Shares {
-  Tensor2 small, large, dropped = Tensor2::Zero();
+  std::vector<Tensor<D>> of_species;
+  Tensor<D> dropped = Tensor<D>::Zero();
 };
 
-/// Every mixed contact's share `p` goes to its large grain.
-Shares same_for_all(const ContactSums& sums, double p)
+/// Calls share(a, b, pair) for all pairs of species a < b.
+template <class Share>
+void for_each_pair(std::size_t species, const Share& share)
 {
-  if (!sums.at_centres) return {sums.ss + (sums.mixed - p * sums.mixed), sums.ll + p * sums.mixed};
-  return {sums.halves_ss + (1 - p) * sums.mixed_at_small, sums.halves_ll + p * sums.mixed_at_large};
+  for (std::size_t b = 1; b < species; ++b)
+    for (std::size_t a = 0; a < b; ++a) share(a, b, pair_index(a, b));
 }
 
-Shares shares(const ContactSums& sums, const PartitionRule& rule)
+template <int D>
+Shares<D> without_mixed(const ContactSums<D>& sums, OwnSum own)
+{
+  Shares<D> shares;
+  for (std::size_t k = 0; k < sums.species(); ++k) shares.of_species.push_back(sums.of(own, k));
+  return shares;
+}
+
+/// Every mixed contact's share `p` goes to its larger grain.
+template <int D>
+Shares<D> same_for_all(const ContactSums<D>& sums, double p)
+{
+  auto shares = without_mixed(sums, sums.at_centres ? OwnSum::halves : OwnSum::inside);
+  for_each_pair(sums.species(), [&](std::size_t a, std::size_t b, std::size_t pair) {
+    auto &smaller = shares.of_species[a], &larger = shares.of_species[b];
+    if (sums.at_centres) {
+      smaller += (1 - p) * sums.of(PairSum::at_smaller, pair);
+      larger += p * sums.of(PairSum::at_larger, pair);
+    } else {
+      const auto& whole = sums.of(PairSum::whole, pair);
+      smaller += whole - p * whole;
+      larger += p * whole;
+    }
+  });
+  return shares;
+}
+
+template <int D>
+Shares<D> shares_of(const ContactSums<D>& sums, const PartitionRule& rule)
 {
   const auto& definition = rule.definition();
-  if (definition.share == nullptr) return {sums.ss, sums.ll, sums.mixed};
-  if (definition.sum == nullptr) return same_for_all(sums, definition.share({}, rule.value));
-  const Tensor2& of_large = sums.*definition.sum;
-  return {sums.ss + (sums.mixed - of_large), sums.ll + of_large};
+  if (definition.share != nullptr && !definition.sum)
+    return same_for_all(sums, definition.share({}, rule.value));
+  auto shares = without_mixed(sums, OwnSum::inside);
+  for_each_pair(sums.species(), [&](std::size_t a, std::size_t b, std::size_t pair) {
+    const auto& whole = sums.of(PairSum::whole, pair);
+    if (definition.share == nullptr) {
+      shares.dropped += whole;
+    } else {
+      const auto& of_larger = sums.of(*definition.sum, pair);
+      shares.of_species[a] += whole - of_larger;
+      shares.of_species[b] += of_larger;
+    }
+  });
+  return shares;
+}
+
+template <int D>
+Tensor<D> base_part(const ContactSums<D>& sums, std::size_t species, BasePart base)
+{
+  if (base == BasePart::contact_point) return sums.of(OwnSum::base, species);
+  if (base == BasePart::half) return 0.5 * sums.of(OwnSum::whole_base, species);
+  return Tensor<D>::Zero();
 }
 
 }  // namespace
 
-PartialStress partial_stress(const ContactSums& sums, const PartitionRule& rule, BasePart base,
-                             StressVolume volume)
+template <int D>
+PartialStress<D> partial_stress(const ContactSums<D>& sums, const PartitionRule& rule,
+                                BasePart base, StressVolume volume)
 {
-  Tensor2 base_small = Tensor2::Zero(), base_large = Tensor2::Zero();
-  if (base == BasePart::contact_point) {
-    base_small = sums.base_small;
-    base_large = sums.base_large;
-  } else if (base == BasePart::half) {
-    base_small = 0.5 * sums.whole_small;
-    base_large = 0.5 * sums.whole_large;
+  const auto shares = shares_of(sums, rule);
+  const double v = volume == StressVolume::bulk
+                       ? sums.volume
+                       : std::accumulate(sums.content.begin(), sums.content.end(), 0.0);
+  PartialStress<D> stress{{}, Tensor<D>::Zero()};
+  for (const auto& own : shares.of_species) stress.total += own;
+  stress.total += shares.dropped;
+  for (std::size_t k = 0; k < sums.species(); ++k) {
+    const Tensor<D> at_base = base_part(sums, k, base);
+    stress.of_species.push_back((shares.of_species[k] + at_base) / v);
+    stress.total += at_base;
   }
-  const auto [small, large, dropped] = shares(sums, rule);
-  const double v = volume == StressVolume::bulk ? sums.volume : sums.area_small + sums.area_large;
-  return {.small = (small + base_small) / v,
-          .large = (large + base_large) / v,
-          .total = (small + large + dropped + base_small + base_large) / v};
+  stress.total /= v;
+  return stress;
 }
+
+template PartialStress<2> partial_stress(const ContactSums<2>&, const PartitionRule&, BasePart,
+                                         StressVolume);
+template PartialStress<3> partial_stress(const ContactSums<3>&, const PartitionRule&, BasePart,
+                                         StressVolume);
 
 }  // namespace grseg

@@ -5,6 +5,8 @@
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/cli/words.hpp"
 
+#include <vector>
+
 namespace grseg {
 
 /// What a contact with the base or a wall gives to the species of its mobile grain.
@@ -24,18 +26,26 @@ inline constexpr Choice<StressVolume> stress_volumes[] = {
     {"bulk", StressVolume::bulk, "V"}, {"solid", StressVolume::solid, "area_S + area_L"}};
 
 /// N/m. small + large = total for every rule but `drop`.
+template <int D>
 struct PartialStress {
-  Tensor2 small, large, total;
+  std::vector<Tensor<D>> of_species;
+  Tensor<D> total;
+
+  // Where there are two.
+  const Tensor<D>& small() const { return of_species.front(); }
+  const Tensor<D>& large() const { return of_species.back(); }
 };
 
 /// Staron & Phillips (2015), eq. 1, parted between the species:
 ///   sigma^L = (A_LL + share + base_L)/V,  sigma^S = (A_SS + M - share + base_S)/V,
 /// `share` being the rule's part of the mixed contacts' sum M; by `size` that is the prefactor
-/// d_L/(d_L + d_S) in the text below eq. 1. Of parts counted at the grains' centres half and
+/// d_L/(d_L + d_S) in the text below eq. 1. Of more species each has such shares of its contacts with
+/// every other one. Of parts counted at the grains' centres half and
 /// uniform:P take P ML and (1 - P) MS, and of equal grains half at either; half is then compute
 /// stress/atom, summed by species and layer.
-PartialStress partial_stress(const ContactSums& sums, const PartitionRule& rule,
-                             BasePart base = BasePart::contact_point,
-                             StressVolume volume = StressVolume::bulk);
+template <int D>
+PartialStress<D> partial_stress(const ContactSums<D>& sums, const PartitionRule& rule,
+                                BasePart base = BasePart::contact_point,
+                                StressVolume volume = StressVolume::bulk);
 
 }  // namespace grseg

@@ -45,7 +45,7 @@ constexpr RuleDefinition definitions[] = {
      .word = "size",
      .meaning = "r_L/(r_L + r_S) of the actual radii",
      .share = by_size,
-     .sum = &ContactSums::mixed_size,
+     .sum = PairSum::by_size,
      .along_own_stretch = true,
      .used_by = "grseg, Staron & Phillips 2015",
      .stock = true},
@@ -54,7 +54,7 @@ constexpr RuleDefinition definitions[] = {
      .word = "contact-point",
      .meaning = "the branch is cut where the grains touch",
      .share = up_to_contact,
-     .sum = &ContactSums::mixed_contact,
+     .sum = PairSum::up_to_contact,
      .along_own_stretch = true,
      .used_by = "MercuryDPM coarse graining; YADE, PFC stress per body",
      .stock = true},
@@ -81,7 +81,7 @@ constexpr RuleDefinition definitions[] = {
      .word = "power",
      .meaning = "r_L^Q/(r_L^Q + r_S^Q)",
      .share = by_power,
-     .sum = &ContactSums::mixed_power,
+     .sum = PairSum::by_power,
      .number = "Q"},
 };
 

@@ -4,6 +4,7 @@
 #include "analysis/stress/contact_sums.hpp"
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,12 +44,12 @@ struct RuleDefinition {
   PartitionRule::Kind kind;
   const char* word;     // as typed
   const char* meaning;  // the share, for --help
-  /// The large grain's share of a contact, `number` being what follows the word; null: the stress
+  /// The larger grain's share of a contact, `number` being what follows the word; null: the stress
   /// of mixed contacts belongs to nobody.
   double (*share)(const MixedContact& contact, double number);
   /// Where the share differs from contact to contact: the sum of the large grains' parts. Null: the
   /// share is the same for all contacts, and needs no sum but that of the whole branches.
-  Tensor2 ContactSums::*sum = nullptr;
+  std::optional<PairSum> sum = {};
   /// That sum along layers: over the large grain's own stretch of the branch, beginning at its
   /// centre, or over all of the branch.
   bool along_own_stretch = false;

@@ -43,6 +43,7 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
 {
   const auto shape = choose(s.kernel, "--kernel", kernel_shapes);
   FrameLoop loop(info, values, s.frames);
+  loop.require_two_species();
   const auto& run = loop.run();
   if (!run.has_force())
     throw FormatError(
@@ -57,8 +58,8 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   BalanceSummary summary(loop.layers(), run.large_diameter());
   for (const auto& window : loop.windows()) {
     const auto [balance] =
-        loop.sum(window, {.velocity = true, .contacts = true, .force = true},
-                 MomentumBalance(loop.layers(), kernel, run.gravity<2>(), run.step()));
+        loop.sum<2>(window, {.velocity = true, .contacts = true, .force = true},
+                    MomentumBalance(loop.layers(), kernel, run.gravity<2>(), run.step()));
     for (std::size_t layer = 0; layer < balance.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, balance_row(balance, layer)));
     summary.add(balance);

@@ -3,6 +3,7 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/dimension.hpp"
 
 #include <fmt/format.h>
 
@@ -42,10 +43,12 @@ po::options_description options_into(Settings& s)
 struct LayerBias {
   double profile = 0, measured = 0, of_shear = 0;
 
-  void add(const KineticStress& stress)
+  template <int D>
+  void add(const KineticStress<D>& stress, std::size_t number_of_species)
   {
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
-      for (const auto species : {Species::small, Species::large}) {
+      for (std::size_t k = 0; k < number_of_species; ++k) {
+        const auto species = static_cast<Species>(k);
         const auto mean = stress.mean(layer, species);
         const double of_layer = stress.shear_bias(layer, species);
         if (!std::isfinite(of_layer)) continue;
@@ -64,24 +67,34 @@ struct LayerBias {
   }
 };
 
-void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+template <int D>
+void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, const std::string& command)
 {
-  const auto flow = choose(s.mean, "--mean", mean_flows);
-  FrameLoop loop(info, values, s.frames);
-  auto table = loop.make_table(command, {{"mean", s.mean}}, KineticStress::columns());
+  const auto& species = loop.species();
+  const MeanVelocity<D> no_grains(loop.layers(), loop.run().small_diameter() / 2, species.size());
+  const KineticStress<D> nothing(loop.layers(), flow, no_grains, species.size());
+  auto table = loop.make_table(command, {{"mean", s.mean}},
+                               columns_of(nothing.cells(species, std::nullopt)));
 
   LayerBias bias;
   for (const auto& window : loop.windows()) {
     const TrajectoryReader::Fields fields{.velocity = true, .contacts = false};
-    const auto [mean] =
-        loop.sum(window, fields, MeanVelocity(loop.layers(), loop.run().small_diameter() / 2));
-    const auto [stress] = loop.sum(window, fields, KineticStress(loop.layers(), flow, mean));
+    const auto [mean] = loop.sum<D>(window, fields, no_grains);
+    const auto [stress] =
+        loop.sum<D>(window, fields, KineticStress<D>(loop.layers(), flow, mean, species.size()));
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
-      table.rows.push_back(loop.row(window, layer, stress.row(layer)));
-    bias.add(stress);
+      table.rows.push_back(loop.row(window, layer, values_of(stress.cells(species, layer))));
+    bias.add(stress, species.size());
   }
   loop.write(table);
   if (flow == MeanFlow::layer && !s.frames.quiet) bias.report();
+}
+
+void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+{
+  const auto flow = choose(s.mean, "--mean", mean_flows);
+  FrameLoop loop(info, values, s.frames);
+  with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, flow, command); });
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
       choose<GrainArea>(s.composition, "--composition",
                         {{"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}});
   FrameLoop loop(info, values, s.frames);
+  loop.require_two_species();
   const auto& parameters = loop.run().parameters();
   const double friction = friction_of(s, parameters);
   auto table = loop.make_table(command,
@@ -86,8 +87,8 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
                                StructureByLayer::columns());
 
   for (const auto& window : loop.windows()) {
-    const auto [micro] = loop.sum(window, {.velocity = false, .contacts = true},
-                                  StructureByLayer(loop.layers(), area, friction));
+    const auto [micro] = loop.sum<2>(window, {.velocity = false, .contacts = true},
+                                     StructureByLayer(loop.layers(), area, friction));
     for (std::size_t layer = 0; layer < micro.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, micro.row(layer)));
     table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));
@@ -101,14 +102,15 @@ void distribute(const Settings& s, const po::variables_map& values, const std::s
       choose<ForceUnit>(s.unit, "--unit", {{"layer", ForceUnit::layer}, {"type", ForceUnit::type}});
   if (!(s.bin > 0) || !std::isfinite(s.bin)) throw UsageError("--bin must be positive");
   FrameLoop loop(info, values, s.frames);
+  loop.require_two_species();
   auto table = loop.make_table(command, {{"unit", s.unit}, {"bin", format_number(s.bin)}},
                                ForceDistribution::columns());
   const TrajectoryReader::Fields contacts{.velocity = false, .contacts = true};
 
   for (const auto& window : loop.windows()) {
-    const auto [mean] = loop.sum(window, contacts, MeanNormalForce(loop.layers()));
+    const auto [mean] = loop.sum<2>(window, contacts, MeanNormalForce(loop.layers()));
     const auto [forces] =
-        loop.sum(window, contacts, ForceDistribution(loop.layers(), mean, unit, s.bin));
+        loop.sum<2>(window, contacts, ForceDistribution(loop.layers(), mean, unit, s.bin));
     for (std::size_t layer = 0; layer < forces.layers(); ++layer)
       for (const auto& row : forces.rows(layer)) table.rows.push_back(loop.row(window, layer, row));
     for (const auto& row : forces.bed_rows())

@@ -54,6 +54,7 @@ RateFilter filter_of(const Settings& s, LengthUnits units)
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
 {
   FrameLoop loop(info, values, s.frames);
+  loop.require_two_species();
   const auto& file = loop.run();
   const double small_diameter = file.small_diameter(), large_diameter = file.large_diameter();
   const auto filter = filter_of(s, {small_diameter, large_diameter});
@@ -62,8 +63,8 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
   SegregationRun run(loop.layers(), small_diameter, large_diameter);
   for (const auto& window : loop.windows()) {
     const auto [series, flux] =
-        loop.sum(window, {.velocity = true, .contacts = false}, SegregationSeries(loop.layers()),
-                 SegregationFlux(loop.layers(), window, small_diameter, large_diameter));
+        loop.sum<2>(window, {.velocity = true, .contacts = false}, SegregationSeries(loop.layers()),
+                    SegregationFlux(loop.layers(), window, small_diameter, large_diameter));
     run.add(file.grains(), series, flux);
     for (std::size_t layer = 0; layer < run.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, run.row(layer)));

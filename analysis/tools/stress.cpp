@@ -7,6 +7,7 @@
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -88,12 +89,10 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
   return first;
 }
 
-void tabulate(Settings s, const po::variables_map& values, const std::string& command)
+template <int D>
+void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chosen,
+              const std::optional<double>& power, const std::string& command)
 {
-  const auto chosen = s.assignment.contact_assignment(values);
-  require_layers(s, chosen);
-  const auto power = power_of(s);
-  FrameLoop loop(info, values, s.frames);
   std::vector<std::pair<std::string, std::string>> settings{
       {"assign", s.assignment.assign},
       {"composition", s.assignment.composition},
@@ -104,22 +103,34 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
   const auto kernel =
       s.assignment.kernel(chosen, {loop.run().small_diameter(), loop.run().large_diameter()});
   if (kernel) settings.emplace_back("width", format_number(kernel->width()));
-  const Composition no_grains(loop.layers(), chosen.area, kernel);
-  const PartialContactStress no_contacts(loop.layers(), chosen.assignment, power, kernel);
-  std::vector<std::string> areas;
-  areas.reserve(area_columns.size());
-  for (const auto& column : area_columns) areas.emplace_back(column.name);
-  auto table = loop.make_table(command, settings, joined(areas, no_contacts.columns()));
-
+  const auto& species = loop.species();
+  const Composition<D> no_grains(loop.layers(), chosen.area, kernel, species.size());
+  const PartialContactStress<D> no_contacts(loop.layers(), chosen.assignment, power, kernel,
+                                            species.size());
+  auto table = loop.make_table(command, settings,
+                               joined(content_columns(species, D), no_contacts.columns(species)));
   for (const auto& window : loop.windows()) {
     const auto [composition, stress] =
-        loop.sum(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
-    for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
-      const auto [small, large] = composition.mean(layer);
-      table.rows.push_back(loop.row(window, layer, joined({small, large}, stress.row(layer))));
-    }
+        loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
+    for (std::size_t layer = 0; layer < stress.layers(); ++layer)
+      table.rows.push_back(
+          loop.row(window, layer, joined(composition.mean(layer), stress.row(layer))));
   }
   loop.write(table);
+}
+
+void tabulate(Settings s, const po::variables_map& values, const std::string& command)
+{
+  const auto chosen = s.assignment.contact_assignment(values);
+  require_layers(s, chosen);
+  const auto power = power_of(s);
+  FrameLoop loop(info, values, s.frames);
+  with_dimension(loop.dimension(), [&](auto d) {
+    if (d == 3 && s.frames.annuli() && chosen.area == GrainArea::clipped)
+      throw UsageError(
+          "--bins radius: spheres are not clipped at annuli; take --composition centre");
+    tabulate<d>(loop, s, chosen, power, command);
+  });
 }
 
 void merge(const Settings& s, const po::variables_map& values, const std::string& command)

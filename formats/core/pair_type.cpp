@@ -8,7 +8,7 @@
 namespace grseg {
 
 template <int D>
-PairType pair_type(const Grains& grains, const Frame<D>& frame, std::size_t contact)
+Partners partners(const Grains& grains, const Frame<D>& frame, std::size_t contact)
 {
   const auto i = static_cast<std::size_t>(frame.contacts.i[contact]);
   const auto j = frame.contacts.j[contact];
@@ -17,14 +17,23 @@ PairType pair_type(const Grains& grains, const Frame<D>& frame, std::size_t cont
         fmt::format("contact {} of the frame at t = {:.6g} s names boundary grain {} first; "
                     "the first grain of a contact is a mobile one",
                     contact, frame.time, i));
+  if (j < 0 || !is_mobile(grains, static_cast<std::size_t>(j))) return {i, std::nullopt};
+  return {i, static_cast<std::size_t>(j)};
+}
+
+template <int D>
+PairType pair_type(const Grains& grains, const Frame<D>& frame, std::size_t contact)
+{
+  const auto [i, j] = partners(grains, frame, contact);
   const bool large = grains.species[i] == Species::large;
-  if (j < 0 || !is_mobile(grains, static_cast<std::size_t>(j)))
-    return large ? PairType::Lb : PairType::Sb;
-  const bool other_large = grains.species[static_cast<std::size_t>(j)] == Species::large;
+  if (!j) return large ? PairType::Lb : PairType::Sb;
+  const bool other_large = grains.species[*j] == Species::large;
   if (large != other_large) return PairType::LS;
   return large ? PairType::LL : PairType::SS;
 }
 
+template Partners partners(const Grains&, const Frame<2>&, std::size_t);
+template Partners partners(const Grains&, const Frame<3>&, std::size_t);
 template PairType pair_type(const Grains&, const Frame<2>&, std::size_t);
 template PairType pair_type(const Grains&, const Frame<3>&, std::size_t);
 

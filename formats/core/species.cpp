@@ -1,11 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/species.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
 namespace grseg {
 
 SpeciesList two_sizes(double small_diameter, double large_diameter)
 {
   return {{"small", small_diameter}, {"large", large_diameter}};
+}
+
+bool names_species(const SpeciesList& species)
+{
+  return species.size() != 2 || species[0].name != "small" || species[1].name != "large";
+}
+
+std::string species_text(const SpeciesList& species)
+{
+  std::string text;
+  for (const auto& [name, diameter] : species)
+    text += fmt::format("{}{} {:.17g}", text.empty() ? "" : ", ", name, diameter);
+  return text;
+}
+
+SpeciesList parse_species(const std::string& text)
+{
+  SpeciesList list;
+  std::istringstream entries(text);
+  for (std::string entry; std::getline(entries, entry, ',');) {
+    std::istringstream words(entry);
+    SpeciesEntry one;
+    std::string rest;
+    const bool good = words >> one.name >> one.diameter && !(words >> rest) &&
+                      is_species_name(one.name) && one.diameter > 0 &&
+                      (list.empty() || one.diameter >= list.back().diameter);
+    if (!good) return {};
+    list.push_back(one);
+  }
+  return list;
+}
+
+bool is_species_name(const std::string& name)
+{
+  return !name.empty() && name.size() < longest_species_name && name != name_of_boundary &&
+         name != "b" && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+           return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+         });
 }
 
 std::vector<std::int32_t> species_numbers(const std::vector<Species>& species, std::size_t mobile)

@@ -26,6 +26,17 @@ inline constexpr const char* name_of_boundary = "boundary";
 /// What most runs have: "small" and "large".
 SpeciesList two_sizes(double small_diameter, double large_diameter);
 
+/// Whether tables must name the species: they are other than small and large.
+bool names_species(const SpeciesList& species);
+
+/// "small 0.005, large 0.01", and what such a line stands for; empty where it is no such line.
+std::string species_text(const SpeciesList& species);
+SpeciesList parse_species(const std::string& text);
+
+/// Whether a name can stand in files, command lines and names of columns: 1 to 15 of A-Z a-z 0-9 _ -
+/// ., and neither "boundary" nor "b", which stand for the base.
+bool is_species_name(const std::string& name);
+
 /// Species as files number them: rows of a list in which the boundary grains come last.
 std::vector<std::int32_t> species_numbers(const std::vector<Species>& species, std::size_t mobile);
 

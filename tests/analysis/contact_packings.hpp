@@ -27,11 +27,11 @@ inline constexpr Assignment all_assignments[] = {Assignment::contact_point, Assi
                                                  Assignment::grain, Assignment::kernel};
 inline const Kernel smooth(KernelShape::gauss, 0.3);
 
-inline PartialContactStress stress_of(const Packing& packing, Assignment assignment,
-                                      std::optional<double> power = std::nullopt,
-                                      const Kernel& kernel = smooth)
+inline PartialContactStress<2> stress_of(const Packing& packing, Assignment assignment,
+                                         std::optional<double> power = std::nullopt,
+                                         const Kernel& kernel = smooth)
 {
-  PartialContactStress stress(unit_layers, assignment, power, kernel);
+  PartialContactStress<2> stress(unit_layers, assignment, power, kernel);
   stress.add(packing.grains, packing.frame);
   return stress;
 }
@@ -91,7 +91,7 @@ inline std::vector<Vec2> net_forces(const Packing& packing)
   return net;
 }
 
-inline std::vector<double> total(const PartialContactStress& stress)
+inline std::vector<double> total(const PartialContactStress<2>& stress)
 {
   std::vector<double> sum(stress.row(0).size());
   for (std::size_t n = 0; n < stress.layers(); ++n)

@@ -123,7 +123,7 @@ class ScatteredStress {
     for (const double phi : compositions) {
       std::size_t window = 0;
       for (const double normal : noise.series(runs, run_scatter))
-        data.samples.push_back(sample(window++, phi, normal));
+        add_sample(data, window++, phi, normal);
     }
     return data;
   }
@@ -140,8 +140,7 @@ class ScatteredStress {
     const double deviation = std::sqrt(1 + run_scatter * run_scatter);
     for (std::size_t k = 0; k < nodes; ++k)
       for (const double phi : compositions)
-        data.samples.push_back(
-            sample(k, phi, deviation * gsl_integration_fixed_nodes(rule.get())[k]));
+        add_sample(data, k, phi, deviation * gsl_integration_fixed_nodes(rule.get())[k]);
     const Eigen::Map<const Eigen::RowVectorXd> weights(gsl_integration_fixed_weights(rule.get()),
                                                        nodes);
     return estimators_from_sums(weights * window_sums(fit_points(data, {}, {}), data.runs).sums);
@@ -163,25 +162,30 @@ class ScatteredStress {
         const double phi = 0.3 + (end - 0.3) * progress;
         const double b = neutral_b({PartitionRule::Kind::uniform, 0.8}, 2, phi);
         const double of_rule = (1 - b * phi) / (1 + b * (1 - phi));
-        data.samples.push_back(
-            sample(window, phi, normal[static_cast<Eigen::Index>(window)] / 3, of_rule));
+        add_sample(data, window, phi, normal[static_cast<Eigen::Index>(window)] / 3, of_rule);
       }
     }
     return data;
   }
 
  private:
-  static LayerSample sample(std::size_t window, double phi, double normal, double of_slope = slope)
+  /// Adds a layer of one window.
+  static void add_sample(FitData& data, std::size_t window, double phi, double normal,
+                         double of_slope = slope)
   {
     const double rarer = std::min(phi, 1 - phi);
     const double ratio =
         of_slope * (1 - phi) / phi * std::exp(scatter * std::sqrt(0.5 / rarer) * normal);
-    LayerSample layer{
-        .window = window, .phi_large = phi, .weight = rarer, .size_ratio = 2, .sums = {}};
-    layer.sums.volume = 1;
-    layer.sums.ll(1, 1) = 1 / (1 + ratio);
-    layer.sums.ss(1, 1) = ratio / (1 + ratio);
-    return layer;
+    ContactSums<3> sums;
+    sums.volume = 1;
+    sums.of(OwnSum::inside, 1)(1, 1) = 1 / (1 + ratio);
+    sums.of(OwnSum::inside, 0)(1, 1) = ratio / (1 + ratio);
+    data.samples.push_back({.window = window,
+                            .phi_large = phi,
+                            .weight = rarer,
+                            .size_ratio = 2,
+                            .row = data.rows.size()});
+    data.rows.push_back(sums);
   }
 };
 

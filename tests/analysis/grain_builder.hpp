@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 namespace grseg {
 
@@ -60,6 +61,12 @@ struct Packing {
     frame.contacts.gap.push_back(gap);
   }
 };
+
+/// The large grains' part of what Composition tells.
+inline double phi_large(const std::vector<double>& contents)
+{
+  return contents[1] / (contents[0] + contents[1]);
+}
 
 /// All components alike to round-off.
 inline bool same(const Tensor2& a, const Tensor2& b, double tolerance = 1e-14)

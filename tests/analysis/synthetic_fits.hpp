@@ -43,7 +43,7 @@ inline std::vector<TableRow> neutral_rows(double noise, double r = 2, int window
     for (const double phi : compositions) {
       auto sums = neutral_sums(phi, r);
       const double factor = 1 + noise * scatter(rows.size());
-      sums.ll *= factor;
+      sums.of(OwnSum::inside, 1) *= factor;
       rows.push_back({1.25 * window, 1.25 * (window + 1), 25, sums});
     }
   return rows;

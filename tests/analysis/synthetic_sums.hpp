@@ -25,36 +25,37 @@ inline Tensor2 any_tensor()
 /// The neutral contact model: a share x_L = phi_L/(phi_L + r phi_S) of the contact ends belongs to
 /// large grains (perimeter), ends pair at random, and forces ignore type. A contact then
 /// carries stress in proportion to its branch: 2 r, 1 + r and 2 for LL, LS and SS.
-inline ContactSums neutral_sums(double phi_large, double r, double solid = 0.8, double volume = 2)
+inline ContactSums<2> neutral_sums(double phi_large, double r, double solid = 0.8,
+                                   double volume = 2)
 {
   const double large = phi_large / (phi_large + r * (1 - phi_large)), small = 1 - large;
-  ContactSums sums;
+  ContactSums<2> sums;
   sums.volume = volume;
-  sums.area_large = phi_large * solid * volume;
-  sums.area_small = (1 - phi_large) * solid * volume;
-  sums.ll = large * large * 2 * r * any_tensor();
-  sums.ss = small * small * 2 * any_tensor();
-  sums.mixed = 2 * large * small * (1 + r) * any_tensor();
-  sums.mixed_size = r / (1 + r) * sums.mixed;
-  sums.mixed_contact = sums.mixed_size;
+  sums.content[1] = phi_large * solid * volume;
+  sums.content[0] = (1 - phi_large) * solid * volume;
+  sums.of(OwnSum::inside, 1) = large * large * 2 * r * any_tensor();
+  sums.of(OwnSum::inside, 0) = small * small * 2 * any_tensor();
+  sums.of(PairSum::whole, 0) = 2 * large * small * (1 + r) * any_tensor();
+  sums.of(PairSum::by_size, 0) = r / (1 + r) * sums.of(PairSum::whole, 0);
+  sums.of(PairSum::up_to_contact, 0) = sums.of(PairSum::by_size, 0);
   return sums;
 }
 
 /// Two species whose stresses are what they are, without any mixed contact.
-inline ContactSums separate_sums(double phi_large, const Tensor2& small, const Tensor2& large)
+inline ContactSums<2> separate_sums(double phi_large, const Tensor2& small, const Tensor2& large)
 {
-  ContactSums sums;
+  ContactSums<2> sums;
   sums.volume = 1;
-  sums.area_large = 0.8 * phi_large;
-  sums.area_small = 0.8 * (1 - phi_large);
-  sums.ss = small;
-  sums.ll = large;
+  sums.content[1] = 0.8 * phi_large;
+  sums.content[0] = 0.8 * (1 - phi_large);
+  sums.of(OwnSum::inside, 0) = small;
+  sums.of(OwnSum::inside, 1) = large;
   return sums;
 }
 
 struct TableRow {
   double begin, end, frames;
-  ContactSums sums;
+  ContactSums<2> sums;
   // m; NaN: the next layer of 0.02 m in its window
   double bottom = std::numeric_limits<double>::quiet_NaN(), top = bottom;
 };
@@ -69,16 +70,16 @@ inline Table stress_table(const std::vector<TableRow>& rows, double small_diamet
                   {"small_diameter", format_number(small_diameter)},
                   {"large_diameter", format_number(large_diameter)},
                   {"power", "2"}};
-  const TableKind kind{.at_centres = false, .power = true};
+  const TableKind kind{.dimension = 2, .at_centres = false, .power = true};
   std::vector<std::string> names{"area_S[m^2]", "area_L[m^2]"};
-  for (const auto& name : sum_column_names(kind)) names.push_back(name);
-  table.columns = with_key_columns(names);
+  for (const auto& name : sum_column_names(two_sizes(1, 2), kind)) names.push_back(name);
+  table.columns = with_key_columns(2, names);
   std::map<double, int> layers;  // of each window
   for (const auto& row : rows) {
     const auto& sums = row.sums;
     const double next = 0.02 * layers[row.begin]++;
     const bool given = row.bottom == row.bottom;
-    std::vector<double> cells{sums.area_small, sums.area_large};
+    std::vector<double> cells{sums.content[0], sums.content[1]};
     for (const double cell : sum_cells(sums, kind)) cells.push_back(cell);
     table.rows.push_back(with_key({row.begin, row.end, given ? row.bottom : next,
                                    given ? row.top : next + 0.02, row.frames, sums.volume},

@@ -58,7 +58,7 @@ TEST(FitData, EachFilterCountsWhatItRemoves)
   rows.push_back({2, 3, 9, neutral_sums(0.005, 2)});      // x = 199
   rows.push_back({2, 3, 9, separate_sums(0, any_tensor(), Tensor2::Zero())});
   rows.push_back({2, 3, 9, separate_sums(1, Tensor2::Zero(), any_tensor())});
-  ContactSums nothing;
+  ContactSums<2> nothing;
   nothing.volume = 1;
   rows.push_back({2, 3, 9, nothing});
   const auto data = read({stress_table(rows)}, {.begin = 2, .end = 8});
@@ -219,8 +219,8 @@ TEST(FitData, ATableOfAnotherToolIsRefusedWithTheNameOfTheRightOne)
 TEST(FitData, BaseContactsCountAsFarAsTheChosenBaseSays)
 {
   auto sums = separate_sums(0.5, Tensor2::Identity(), Tensor2::Identity());
-  sums.base_small = 2 * Tensor2::Identity();
-  sums.whole_small = 6 * Tensor2::Identity();
+  sums.of(OwnSum::base, 0) = 2 * Tensor2::Identity();
+  sums.of(OwnSum::whole_base, 0) = 6 * Tensor2::Identity();
   const auto data = read({stress_table({{0, 1, 9, sums}})});
   EXPECT_NEAR(fit(data, "size", {.base = BasePart::contact_point}).value.slope, 3, 1e-14);
   EXPECT_NEAR(fit(data, "size", {.base = BasePart::half}).value.slope, 4, 1e-14);

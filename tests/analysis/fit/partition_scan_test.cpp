@@ -47,9 +47,9 @@ FitData of_two_memories()
   std::vector<synthetic::TableRow> rows;
   for (Eigen::Index window = 0; window < 120; ++window) {
     auto sums = synthetic::neutral_sums(0.5, 2);
-    sums.ll *= 1 + 0.02 * large[window];
-    for (auto* part : {&sums.mixed, &sums.mixed_size, &sums.mixed_contact})
-      *part *= 1 + 0.1 * mixed[window];
+    sums.of(OwnSum::inside, 1) *= 1 + 0.02 * large[window];
+    for (const auto part : {PairSum::whole, PairSum::by_size, PairSum::up_to_contact})
+      sums.of(part, 0) *= 1 + 0.1 * mixed[window];
     const auto begin = static_cast<double>(window);
     rows.push_back({begin, begin + 1, 25, sums});
   }
@@ -127,9 +127,9 @@ FitData scattered_neutral_data(synthetic::Ar1& noise)
     const Eigen::MatrixX3d normal = noise.series({48, 48, 48}, 0).reshaped(48, 3);
     for (Eigen::Index window = 0; window < 48; ++window) {
       auto sums = synthetic::neutral_sums(phi, 2);
-      sums.ll *= 1 + 0.02 * normal(window, 0);
-      sums.ss *= 1 + 0.02 * normal(window, 1);
-      sums.mixed *= 1 + 0.02 * normal(window, 2);
+      sums.of(OwnSum::inside, 1) *= 1 + 0.02 * normal(window, 0);
+      sums.of(OwnSum::inside, 0) *= 1 + 0.02 * normal(window, 1);
+      sums.of(PairSum::whole, 0) *= 1 + 0.02 * normal(window, 2);
       rows.push_back(
           {1. * static_cast<double>(window), 1. + static_cast<double>(window), 25, sums});
     }

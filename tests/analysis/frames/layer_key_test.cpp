@@ -20,7 +20,7 @@ Table one_row(const LayerKey& of)
 {
   Table table;
   table.name = "t.tsv";
-  table.columns = with_key_columns({"n_SS"});
+  table.columns = with_key_columns(2, {"n_SS"});
   table.rows = {with_key(of, {7})};
   return table;
 }

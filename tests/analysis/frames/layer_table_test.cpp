@@ -17,7 +17,7 @@ Table table_of(const std::vector<LayerKey>& keys)
 {
   Table table;
   table.name = "t.tsv";
-  table.columns = with_key_columns({"n_SS"});
+  table.columns = with_key_columns(2, {"n_SS"});
   for (const auto& key : keys) table.rows.push_back(with_key(key, {7}));
   return table;
 }

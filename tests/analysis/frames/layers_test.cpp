@@ -80,7 +80,7 @@ TEST(Layers, ADiscKeepsItsAreaHoweverTheLayersCutIt)
       const Layers layers(thickness, 1);
       const std::size_t count = layers.at(y + 1) + 1;
       double sum = 0;
-      layers.share_disc(y, 1, count, [&](std::size_t n, double area) {
+      layers.share_grain<2>(y, 1, count, [&](std::size_t n, double area) {
         EXPECT_LT(n, count);
         EXPECT_GE(area, 0);
         sum += area;
@@ -92,7 +92,7 @@ TEST(Layers, ADiscKeepsItsAreaHoweverTheLayersCutIt)
 TEST(Layers, ADiscIsCutWhereTheEdgeIs)
 {
   std::vector<double> areas(3);
-  Layers(1, 1).share_disc(1.5, 1, 3, [&](std::size_t n, double area) { areas[n] = area; });
+  Layers(1, 1).share_grain<2>(1.5, 1, 3, [&](std::size_t n, double area) { areas[n] = area; });
   const double cap = pi / 3 - std::sqrt(3) / 4;
   EXPECT_NEAR(areas[0], cap, 1e-14);
   EXPECT_NEAR(areas[1], pi - 2 * cap, 1e-14);
@@ -142,7 +142,7 @@ TEST(Annuli, ADiscAboutTheAxisFillsAnnuliFromTheInside)
 {
   const auto annuli = Layers::annuli(1, 10, {5, 5});
   std::vector<double> areas(3);
-  annuli.share_disc(0, 2.5, 3, [&](std::size_t n, double area) { areas[n] = area; });
+  annuli.share_grain<2>(0, 2.5, 3, [&](std::size_t n, double area) { areas[n] = area; });
   EXPECT_NEAR(areas[0], pi, 1e-14);
   EXPECT_NEAR(areas[1], 3 * pi, 1e-14);
   EXPECT_NEAR(areas[2], 2.25 * pi, 1e-14);
@@ -154,10 +154,11 @@ TEST(Annuli, ADiscKeepsItsAreaHoweverTheAnnuliCutIt)
     for (const double distance : {0.0, 0.4, 1.0, 2.5, 33.3}) {
       const auto annuli = Layers::annuli(thickness, 1, {0, 0});
       double sum = 0;
-      annuli.share_disc(distance, 1, annuli.at(distance + 1) + 1, [&](std::size_t, double area) {
-        EXPECT_GE(area, -1e-12);
-        sum += area;
-      });
+      annuli.share_grain<2>(distance, 1, annuli.at(distance + 1) + 1,
+                            [&](std::size_t, double area) {
+                              EXPECT_GE(area, -1e-12);
+                              sum += area;
+                            });
       EXPECT_NEAR(sum, pi, 1e-11);
     }
 }
@@ -173,11 +174,11 @@ TEST(Annuli, VolumesAddUpToADisc)
 TEST(Annuli, AcrossIsOutwardAndAlongIsClockwise)
 {
   const auto annuli = Layers::annuli(1, 10, {5, 5});
-  EXPECT_EQ(annuli.height({8, 9}), 5);
-  EXPECT_EQ(annuli.turned({2, 3}, {5, 7}), Vec2(2, 3));    // above the axis: as over a base
-  EXPECT_EQ(annuli.turned({2, 3}, {5, 1}), Vec2(-2, -3));  // below it
-  EXPECT_EQ(annuli.turned({2, 3}, {6, 5}), Vec2(-3, 2));   // on its right
-  EXPECT_EQ(Layers(1, 10).turned({2, 3}, {6, 5}), Vec2(2, 3));
+  EXPECT_EQ(annuli.height<2>({8, 9}), 5);
+  EXPECT_EQ(annuli.turned<2>({2, 3}, {5, 7}), Vec2(2, 3));    // above the axis: as over a base
+  EXPECT_EQ(annuli.turned<2>({2, 3}, {5, 1}), Vec2(-2, -3));  // below it
+  EXPECT_EQ(annuli.turned<2>({2, 3}, {6, 5}), Vec2(-3, 2));   // on its right
+  EXPECT_EQ(Layers(1, 10).turned<2>({2, 3}, {6, 5}), Vec2(2, 3));
 }
 
 TEST(Annuli, TheyReachToTheFarthestMobileGrain)

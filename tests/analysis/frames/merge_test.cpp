@@ -40,19 +40,29 @@ std::vector<Packing> frames(int count)
 }
 
 /// All that an accumulator has to tell.
-std::vector<double> numbers(const Composition& areas)
+std::vector<double> numbers(const Composition<2>& areas)
 {
   std::vector<double> all;
   for (std::size_t n = 0; n < areas.layers(); ++n)
-    all.insert(all.end(), {areas.mean(n).small, areas.mean(n).large});
+    all.insert(all.end(), {areas.mean(n)[0], areas.mean(n)[1]});
   return all;
 }
+std::vector<double> row_of(const KineticStress<2>& sums, std::size_t layer)
+{
+  return values_of(sums.cells(two_sizes(1, 2), layer));
+}
+template <class Sums>
+std::vector<double> row_of(const Sums& sums, std::size_t layer)
+{
+  return sums.row(layer);
+}
+
 template <class Sums>
 std::vector<double> numbers(const Sums& sums)
 {
   std::vector<double> all;
   for (std::size_t n = 0; n < sums.layers(); ++n) {
-    const auto row = sums.row(n);
+    const auto row = row_of(sums, n);
     all.insert(all.end(), row.begin(), row.end());
   }
   if constexpr (requires { sums.bed_row(); }) {
@@ -90,13 +100,13 @@ void expect_parts_make_the_whole(const Sums& empty)
 TEST(Merge, PartsOfTheContactStressMakeTheWhole)
 {
   for (const auto assignment : {Assignment::contact_point, Assignment::branch, Assignment::grain})
-    expect_parts_make_the_whole(PartialContactStress(layers, assignment, 2.0));
+    expect_parts_make_the_whole(PartialContactStress<2>(layers, assignment, 2.0));
 }
 
 TEST(Merge, PartsOfTheCompositionMakeTheWhole)
 {
   for (const auto area : {GrainArea::clipped, GrainArea::centre})
-    expect_parts_make_the_whole(Composition(layers, area));
+    expect_parts_make_the_whole(Composition<2>(layers, area));
 }
 
 TEST(Merge, PartsOfTheMicrostructureMakeTheWhole)
@@ -107,15 +117,15 @@ TEST(Merge, PartsOfTheMicrostructureMakeTheWhole)
 TEST(Merge, PartsOfTheKineticStressAndItsMeanMakeTheWhole)
 {
   const auto scenes = frames(7);
-  const MeanVelocity empty(layers, 0.25);
+  const MeanVelocity<2> empty(layers, 0.25);
   const auto whole = sum(empty, scenes, 0, 7);
   auto parts = sum(empty, scenes, 0, 3);
   parts.merge(sum(empty, scenes, 3, 7));
   for (const auto flow :
        {MeanFlow::profile, MeanFlow::layer, MeanFlow::instant, MeanFlow::species}) {
-    expect_parts_make_the_whole(KineticStress(layers, flow, whole));
-    const auto about_whole = numbers(sum(KineticStress(layers, flow, whole), scenes, 0, 7));
-    const auto about_parts = numbers(sum(KineticStress(layers, flow, parts), scenes, 0, 7));
+    expect_parts_make_the_whole(KineticStress<2>(layers, flow, whole));
+    const auto about_whole = numbers(sum(KineticStress<2>(layers, flow, whole), scenes, 0, 7));
+    const auto about_parts = numbers(sum(KineticStress<2>(layers, flow, parts), scenes, 0, 7));
     ASSERT_EQ(about_parts.size(), about_whole.size());
     for (std::size_t k = 0; k < about_whole.size(); ++k)
       EXPECT_NEAR(about_parts[k], about_whole[k], 1e-13) << k;

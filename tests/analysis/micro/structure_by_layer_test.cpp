@@ -200,14 +200,14 @@ TEST(StructureByLayer, StressesAreThoseOfTheContactStressAtTheContactPoint)
 {
   const auto scene = pyramid();
   const auto micro = micro_of(scene, unit_layers);
-  PartialContactStress stress(unit_layers, Assignment::contact_point);
+  PartialContactStress<2> stress(unit_layers, Assignment::contact_point);
   stress.add(scene.grains, scene.frame);
   for (std::size_t layer = 0; layer < micro.layers(); ++layer) {
     const auto sums = micro.mean(layer);
     const auto expected = stress.mean(layer).sums;
-    EXPECT_TRUE(same(sums.of(PairType::LS).stress, expected.mixed));
-    EXPECT_TRUE(same(sums.mixed_size, expected.mixed_size));
-    EXPECT_TRUE(same(sums.of(PairType::Lb).stress, expected.base_large));
+    EXPECT_TRUE(same(sums.of(PairType::LS).stress, expected.of(PairSum::whole, 0)));
+    EXPECT_TRUE(same(sums.mixed_size, expected.of(PairSum::by_size, 0)));
+    EXPECT_TRUE(same(sums.of(PairType::Lb).stress, expected.of(OwnSum::base, 1)));
   }
 }
 

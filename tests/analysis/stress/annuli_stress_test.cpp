@@ -24,14 +24,14 @@ TEST(AnnuliStress, ARadialChainPressesOutward)
     const auto inner = packing.grain(Species::small, 0.5, axis + 2.25 * outward);
     const auto outer = packing.grain(Species::large, 1, axis + 3.75 * outward);
     packing.contact(outer, inner, 4 * outward);
-    PartialContactStress stress(annuli, Assignment::contact_point);
+    PartialContactStress<2> stress(annuli, Assignment::contact_point);
     stress.add(packing.grains, packing.frame);
     ASSERT_EQ(stress.layers(), 5u);
-    EXPECT_TRUE(same(stress.mean(2).sums.mixed, dyad({0, 4}, {0, 1.5})));
-    PartialContactStress by_grain(annuli, Assignment::grain);
+    EXPECT_TRUE(same(stress.mean(2).sums.of(PairSum::whole, 0), dyad({0, 4}, {0, 1.5})));
+    PartialContactStress<2> by_grain(annuli, Assignment::grain);
     by_grain.add(packing.grains, packing.frame);
-    EXPECT_TRUE(same(by_grain.mean(3).sums.mixed_at_large, dyad({0, 4}, {0, 1.5})));
-    EXPECT_TRUE(same(by_grain.mean(2).sums.mixed_at_small, dyad({0, 4}, {0, 1.5})));
+    EXPECT_TRUE(same(by_grain.mean(3).sums.of(PairSum::at_larger, 0), dyad({0, 4}, {0, 1.5})));
+    EXPECT_TRUE(same(by_grain.mean(2).sums.of(PairSum::at_smaller, 0), dyad({0, 4}, {0, 1.5})));
   }
 }
 
@@ -40,12 +40,12 @@ TEST(AnnuliStress, FarFromItsAxisIsThatOfLayers)
 {
   const Packing packing = large_on_small();
   const auto annuli = Layers::annuli(1, 10, {5, -1e4});
-  PartialContactStress round(annuli, Assignment::contact_point);
+  PartialContactStress<2> round(annuli, Assignment::contact_point);
   round.add(packing.grains, packing.frame);
   const auto flat = stress_of(packing, Assignment::contact_point).mean(1);
   const auto far = round.mean(10001);
-  EXPECT_TRUE(same(far.sums.mixed, flat.sums.mixed, 1e-3));
-  EXPECT_TRUE(same(far.sums.mixed_size, flat.sums.mixed_size, 1e-3));
+  EXPECT_TRUE(same(far.sums.of(PairSum::whole, 0), flat.sums.of(PairSum::whole, 0), 1e-3));
+  EXPECT_TRUE(same(far.sums.of(PairSum::by_size, 0), flat.sums.of(PairSum::by_size, 0), 1e-3));
 }
 
 TEST(AnnuliStress, PressureOfAllAnnuliIsThatOfAllLayers)
@@ -58,13 +58,14 @@ TEST(AnnuliStress, PressureOfAllAnnuliIsThatOfAllLayers)
                   {place(random), place(random)});
   for (int g = 0; g + 1 < 40; ++g) packing.contact(g, g + 1, {place(random) - 5, place(random)});
   const auto trace_and_area = [&](const Layers& layers) {
-    PartialContactStress stress(layers, Assignment::contact_point);
-    Composition composition(layers, GrainArea::clipped);
+    PartialContactStress<2> stress(layers, Assignment::contact_point);
+    Composition<2> composition(layers, GrainArea::clipped);
     stress.add(packing.grains, packing.frame);
     composition.add(packing.grains, packing.frame);
     double trace = 0;
-    for (std::size_t n = 0; n < stress.layers(); ++n) trace += stress.mean(n).sums.mixed.trace();
-    return std::array{trace, composition.mean().small, composition.mean().large};
+    for (std::size_t n = 0; n < stress.layers(); ++n)
+      trace += stress.mean(n).sums.of(PairSum::whole, 0).trace();
+    return std::array{trace, composition.mean()[0], composition.mean()[1]};
   };
   const auto flat = trace_and_area(unit_layers),
              round = trace_and_area(Layers::annuli(0.7, 10, {4, 6}));

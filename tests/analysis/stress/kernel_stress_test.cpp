@@ -18,17 +18,17 @@ TEST(KernelStress, AKernelSpreadsTheBranchAndEachGrainsPartOfIt)
   const Kernel box(KernelShape::heaviside, 0.5);
   const auto stress = stress_of(large_on_small(), Assignment::kernel, 0, box);
   const auto at = [&](std::size_t n) { return stress.mean(n).sums; };
-  EXPECT_TRUE(same(at(0).mixed, mixed / 48));
-  EXPECT_TRUE(same(at(1).mixed, mixed * 23 / 48));
-  EXPECT_TRUE(same(at(2).mixed, mixed * 23 / 48));
-  EXPECT_TRUE(same(at(3).mixed, mixed / 48));
-  for (const auto part : {&ContactSums::mixed_size, &ContactSums::mixed_contact}) {
-    EXPECT_TRUE(same(at(0).*part, mixed * 0));
-    EXPECT_TRUE(same(at(1).*part, mixed * 2 / 3 * 9 / 32));
-    EXPECT_TRUE(same(at(2).*part, mixed * 2 / 3 * 22 / 32));
-    EXPECT_TRUE(same(at(3).*part, mixed * 2 / 3 / 32));
+  EXPECT_TRUE(same(at(0).of(PairSum::whole, 0), mixed / 48));
+  EXPECT_TRUE(same(at(1).of(PairSum::whole, 0), mixed * 23 / 48));
+  EXPECT_TRUE(same(at(2).of(PairSum::whole, 0), mixed * 23 / 48));
+  EXPECT_TRUE(same(at(3).of(PairSum::whole, 0), mixed / 48));
+  for (const auto part : {PairSum::by_size, PairSum::up_to_contact}) {
+    EXPECT_TRUE(same(at(0).of(part, 0), mixed * 0));
+    EXPECT_TRUE(same(at(1).of(part, 0), mixed * 2 / 3 * 9 / 32));
+    EXPECT_TRUE(same(at(2).of(part, 0), mixed * 2 / 3 * 22 / 32));
+    EXPECT_TRUE(same(at(3).of(part, 0), mixed * 2 / 3 / 32));
   }
-  EXPECT_TRUE(same(at(0).mixed_power, mixed / 96));
+  EXPECT_TRUE(same(at(0).of(PairSum::by_power, 0), mixed / 96));
   EXPECT_EQ(stress.mean(1).contacts[1], 1);
 }
 
@@ -40,8 +40,10 @@ TEST(KernelStress, UnderAKernelTheBaseBranchEndsAtTheContactPoint)
   for (const std::size_t n : {0, 1}) {
     const double below = smooth.below_along(1, 0.75, 1.25),
                  whole = smooth.below_along(1, -0.25, 1.25);
-    EXPECT_TRUE(same(stress.mean(n).sums.base_small, mixed / 3 * (n == 0 ? below : 1 - below)));
-    EXPECT_TRUE(same(stress.mean(n).sums.whole_small, mixed * (n == 0 ? whole : 1 - whole)));
+    EXPECT_TRUE(
+        same(stress.mean(n).sums.of(OwnSum::base, 0), mixed / 3 * (n == 0 ? below : 1 - below)));
+    EXPECT_TRUE(
+        same(stress.mean(n).sums.of(OwnSum::whole_base, 0), mixed * (n == 0 ? whole : 1 - whole)));
   }
 }
 
@@ -85,7 +87,9 @@ TEST(KernelStress, UnderAKernelTheSumIsTheSpreadForceThroughTheLayer)
       through += net[g] * (1 - smooth.below_along(unit_layers.top(n), y, y + 1));
     }
     const auto s = stress.mean(n).sums;
-    const Tensor2 sum = s.ss + s.ll + s.mixed + s.whole_small + s.whole_large;
+    const Tensor2 sum = s.of(OwnSum::inside, 0) + s.of(OwnSum::inside, 1) +
+                        s.of(PairSum::whole, 0) + s.of(OwnSum::whole_base, 0) +
+                        s.of(OwnSum::whole_base, 1);
     EXPECT_NEAR(sum(0, 1), through.x(), 1e-12);
     EXPECT_NEAR(sum(1, 1), through.y(), 1e-12);
   }

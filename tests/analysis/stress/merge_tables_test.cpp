@@ -15,10 +15,10 @@ namespace {
 
 using synthetic::TableRow;
 
-ContactSums sums(double large)
+ContactSums<2> sums(double large)
 {
   auto some = synthetic::neutral_sums(0.5, 2);
-  some.ll = large * synthetic::any_tensor();
+  some.of(OwnSum::inside, 1) = large * synthetic::any_tensor();
   return some;
 }
 

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frames/grouping.hpp"
+
+#include "formats/core/length.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+constexpr std::size_t no_one = static_cast<std::size_t>(-1);
+
+std::vector<std::string> words_of(const std::string& text)
+{
+  std::vector<std::string> words;
+  std::istringstream list(text);
+  for (std::string word; std::getline(list, word, ',');) words.push_back(word);
+  return words;
+}
+
+/// "1 small, 2 large"
+std::string numbers_and_names(const SpeciesList& species)
+{
+  std::string text;
+  for (std::size_t k = 0; k < species.size(); ++k)
+    text += fmt::format("{}{} {}", k == 0 ? "" : ", ", k + 1, species[k].name);
+  return text;
+}
+
+std::size_t find_species(const SpeciesList& species, const std::string& word,
+                         const std::string& option)
+{
+  for (std::size_t k = 0; k < species.size(); ++k)
+    if (word == species[k].name || word == std::to_string(k + 1)) return k;
+  throw UsageError(fmt::format("--group {}: the run has no species '{}'; it has {}", option, word,
+                               numbers_and_names(species)));
+}
+
+/// The number of a group for every species of the run.
+struct Groups {
+  std::vector<std::string> names;
+  std::vector<std::size_t> of_species;
+};
+
+Groups parse_groups(const SpeciesList& species, const std::vector<std::string>& options)
+{
+  Groups groups{{}, std::vector<std::size_t>(species.size(), no_one)};
+  for (const auto& option : options) {
+    const auto sign = option.find('=');
+    const auto name = option.substr(0, sign);
+    if (sign == std::string::npos || !is_species_name(name))
+      throw UsageError(fmt::format(
+          "--group {}: write NAME=LIST, as in AM=1,2, with a name of at most 15 letters, digits, "
+          "'_', '-' or '.'",
+          option));
+    if (std::find(groups.names.begin(), groups.names.end(), name) != groups.names.end())
+      throw UsageError(fmt::format("--group {} is given twice; name all its species in one", name));
+    for (const auto& word : words_of(option.substr(sign + 1))) {
+      auto& group = groups.of_species[find_species(species, word, option)];
+      if (group != no_one)
+        throw UsageError(fmt::format("--group {}: species {} is in two groups", option, word));
+      group = groups.names.size();
+    }
+    groups.names.push_back(name);
+  }
+  for (std::size_t k = 0; k < species.size(); ++k)
+    if (groups.of_species[k] == no_one)
+      throw UsageError(
+          fmt::format("species {} ({}) is in no --group; name it in one", k + 1, species[k].name));
+  return groups;
+}
+
+/// Which of the classes between `edges` (diameters, increasing) a grain belongs to.
+std::size_t class_of(double diameter, const std::vector<double>& edges)
+{
+  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), diameter) -
+                                  edges.begin());
+}
+
+std::vector<double> parse_edges(const std::string& text, LengthUnits units)
+{
+  std::vector<double> edges;
+  for (const auto& word : words_of(text)) edges.push_back(parse_length(word, "--edges", units));
+  if (edges.empty() || !std::is_sorted(edges.begin(), edges.end(), std::less_equal<>()))
+    throw UsageError(
+        fmt::format("--edges {}: give diameters in increasing order, as in 2mm,3mm", text));
+  return edges;
+}
+
+/// Diameters that divide the mobile grains into classes of equal volume.
+std::vector<double> edges_of_classes(const Grains& grains, int dimension, int classes)
+{
+  std::vector<double> diameters;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (is_mobile(grains, g)) diameters.push_back(2 * grains.radius[g]);
+  std::sort(diameters.begin(), diameters.end());
+  double all = 0;
+  for (const double d : diameters) all += std::pow(d, dimension);
+  std::vector<double> edges;
+  double below = 0;
+  for (std::size_t k = 0; k + 1 < diameters.size(); ++k) {
+    below += std::pow(diameters[k], dimension);
+    // An edge lies between grains of different sizes, at the one nearest to its share.
+    const double next = std::pow(diameters[k + 1], dimension);
+    const double share = all * static_cast<double>(edges.size() + 1) / classes;
+    if (below + next / 2 > share && diameters[k + 1] > diameters[k] &&
+        edges.size() + 1 < static_cast<std::size_t>(classes))
+      edges.push_back(diameters[k + 1]);
+  }
+  if (edges.size() + 1 != static_cast<std::size_t>(classes))
+    throw UsageError(fmt::format(
+        "--classes {}: the mobile grains have too few different diameters; give --edges", classes));
+  return edges;
+}
+
+/// Gives every mobile grain the number that `number_of` says, and makes the list of these species.
+template <class NumberOf>
+GroupedGrains regrouped(const TrajectoryReader& run, const std::vector<std::string>& names,
+                        const NumberOf& number_of)
+{
+  const auto& grains = run.grains();
+  std::vector<double> volume(names.size()), surface(names.size());
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    const double d = 2 * grains.radius[g];
+    volume[number_of(g)] += std::pow(d, run.dimension());
+    surface[number_of(g)] += std::pow(d, run.dimension() - 1);
+  }
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (!(volume[k] > 0)) throw UsageError(fmt::format("no mobile grain belongs to {}", names[k]));
+  std::vector<std::size_t> order(names.size()), rank(names.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return volume[a] / surface[a] < volume[b] / surface[b];
+  });
+  GroupedGrains result{grains, {}};
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    rank[order[k]] = k;
+    result.species.push_back({names[order[k]], volume[order[k]] / surface[order[k]]});
+  }
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (is_mobile(grains, g)) result.grains.species[g] = static_cast<Species>(rank[number_of(g)]);
+  return result;
+}
+
+}  // namespace
+
+void GroupingOptions::add_to(po::options_description& options)
+{
+  options.add_options()("group", po::value(&groups)->composing()->value_name("NAME=LIST"),
+                        "take species together: LIST holds numbers (from 1) or names of the run's "
+                        "species; every one must be in one group");
+  options.add_options()("classes", po::value(&classes)->value_name("N"),
+                        "take N classes of sizes, of equal volumes of grains, as species");
+  options.add_options()("edges", po::value(&edges)->value_name("LENGTH,..."),
+                        "take classes of sizes between these diameters as species");
+}
+
+GroupedGrains group_grains(const TrajectoryReader& run, const GroupingOptions& options)
+{
+  const int given = static_cast<int>(!options.groups.empty()) +
+                    static_cast<int>(options.classes != 0) +
+                    static_cast<int>(!options.edges.empty());
+  if (given > 1) throw UsageError("--group, --classes and --edges exclude each other");
+  const auto& grains = run.grains();
+  if (!options.groups.empty()) {
+    const auto groups = parse_groups(run.species(), options.groups);
+    auto result = regrouped(run, groups.names, [&](std::size_t g) {
+      return groups.of_species[static_cast<std::size_t>(grains.species[g])];
+    });
+    for (auto& [name, diameter] : result.species)
+      for (std::size_t k = 0; k < run.species().size(); ++k)
+        if (groups.names[groups.of_species[k]] == name &&
+            std::count(groups.of_species.begin(), groups.of_species.end(), groups.of_species[k]) ==
+                1)
+          diameter = run.species()[k].diameter;
+    return result;
+  }
+  if (given == 0) return {grains, run.species()};
+  if (options.edges.empty() && (options.classes < 1 || options.classes > 100))
+    throw UsageError(fmt::format("--classes {}: it must be 1 to 100", options.classes));
+  const auto edges = options.edges.empty()
+                         ? edges_of_classes(grains, run.dimension(), options.classes)
+                         : parse_edges(options.edges, {run.small_diameter(), run.large_diameter()});
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k <= edges.size(); ++k) names.push_back(fmt::format("c{}", k + 1));
+  return regrouped(run, names,
+                   [&](std::size_t g) { return class_of(2 * grains.radius[g], edges); });
+}
+
+}  // namespace grseg
