@@ -137,11 +137,12 @@ $(OUT)/sums/%.kinetic.tsv: $(OUT)/runs/%.h5
 $(classes:%=$(OUT)/sums/any-%.tsv): $(OUT)/sums/any-%.tsv: $(OUT)/runs/any-1.h5
 	mkdir -p $(@D)
 	$(BIN)/grseg-stress $< --classes $* $(windows) -o $@
+	$(BIN)/grseg-kinetic $< --classes $* --mean species $(windows) -o $(@:.tsv=.kinetic.tsv)
 
 two_sizes := mix20 long mix70
 tables = $(foreach seed,$(seeds_$(1)),$(2:%=$(OUT)/sums/$(1)-$(seed).%.tsv))
 fit := $(BIN)/grseg-fit --heights 4:20 --quiet --overwrite
-many := --exponent --partition stock,uniform:0.6
+many := --exponent --partition stock,uniform:0.8
 
 fits: $(foreach what,stock scan pressure kinetic fractions,$(two_sizes:%=$(OUT)/fits/%.$(what).tsv)) \
   $(OUT)/fits/three.tsv $(classes:%=$(OUT)/fits/any-%.tsv)
@@ -169,4 +170,5 @@ $(OUT)/fits/three.tsv: $(OUT)/sums/three-1.stress.tsv
 	$(fit) $^ $(many) -o $@
 $(classes:%=$(OUT)/fits/any-%.tsv): $(OUT)/fits/any-%.tsv: $(OUT)/sums/any-%.tsv
 	mkdir -p $(@D)
-	$(fit) $^ $(many) -o $@
+	$(fit) $< $(many) -o $@
+	$(HERE)/stress-fractions $< $(<:.tsv=.kinetic.tsv) --heights 4:20 > $(@:.tsv=.fractions.tsv)
