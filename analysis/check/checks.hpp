@@ -26,11 +26,11 @@ using T = CheckTolerances;
 inline constexpr auto all = std::to_array<Check>({
     {"force_balance", "contact forces + m g - `force` of a grain, over the frame's largest force",
      &T::round_off, "Newton's second law"},
-    {"torque_balance", "torques - (m r^2/2) dw/dt of a grain, over that force and largest radius",
+    {"torque_balance", "torques - I dw/dt of a grain, over that force and largest radius",
      &T::round_off, "Euler's second law"},
     {"total_momentum", "change of the bed's momentum less the impulses of gravity and base",
      &T::round_off, "Newton's second law"},
-    {"sum_of_partials", "sigma^S + sigma^L - sigma of the bed, over sigma",  //
+    {"sum_of_partials", "stresses of all species less sigma of the bed, over sigma",  //
      &T::round_off, "Staron & Phillips 2015, eq. 1"},
     {"energy_defect", "energy that the simulator cannot account for in a step, relative",
      &T::round_off, "Moreau's energy balance"},

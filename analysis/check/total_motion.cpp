@@ -7,9 +7,10 @@
 
 namespace grseg {
 
-TotalMotion total_motion(const Grains& grains, const Frame<2>& frame, const Box& box)
+template <int D>
+TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box)
 {
-  TotalMotion total;
+  TotalMotion<D> total;
   total.step = frame.step;
   total.time = frame.time;
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -23,7 +24,8 @@ TotalMotion total_motion(const Grains& grains, const Frame<2>& frame, const Box&
   return total;
 }
 
-void MotionBalance::add(const TotalMotion& now, const std::optional<Vec2>& base_force)
+template <int D>
+void MotionBalance<D>::add(const TotalMotion<D>& now, const std::optional<Vector<D>>& base_force)
 {
   ++frames_;
   if (!first_) {
@@ -33,7 +35,7 @@ void MotionBalance::add(const TotalMotion& now, const std::optional<Vec2>& base_
   if (base_force) {
     const auto steps = now.step - last_.step;
     const double between = static_cast<double>(steps) * step_;
-    const Vec2 weight = now.mass * gravity_.mean(now.time, steps, step_);
+    const Vector<D> weight = now.mass * gravity_.mean(now.time, steps, step_);
     const double scale = between * std::max(weight.norm(), base_force->norm());
     const double defect = (now.momentum - last_.momentum - between * (weight + *base_force)).norm();
     momentum_.add(scale > 0 ? defect / scale : defect, now.time, 0);
@@ -43,5 +45,10 @@ void MotionBalance::add(const TotalMotion& now, const std::optional<Vec2>& base_
         (now.momentum.x() + last_.momentum.x()) / 2 / now.mass * (now.time - last_.time);
   last_ = now;
 }
+
+template TotalMotion<2> total_motion(const Grains&, const Frame<2>&, const Box&);
+template TotalMotion<3> total_motion(const Grains&, const Frame<3>&, const Box&);
+template class MotionBalance<2>;
+template class MotionBalance<3>;
 
 }  // namespace grseg

@@ -8,8 +8,8 @@ namespace grseg {
 namespace {
 
 /// Sum of of(grain) times l by layer, over the mobile grains.
-template <class What, class Of>
-std::vector<What> moments_above(const Grains& grains, const Frame<2>& frame, const Layers& layers,
+template <int D, class What, class Of>
+std::vector<What> moments_above(const Grains& grains, const Frame<D>& frame, const Layers& layers,
                                 const What& zero, const Of& of)
 {
   const std::size_t count = layers.count(grains, frame);
@@ -52,14 +52,16 @@ double standard_error(std::size_t count, const Deviation& deviation)
   return std::sqrt(squares / (n * (n - 1)));
 }
 
-Series series_of(const std::vector<WeightWindow>& windows, std::size_t layer)
+template <int D>
+Series series_of(const std::vector<WeightWindow<D>>& windows, std::size_t layer)
 {
   Series series;
   for (std::size_t k = 0; k + 1 < windows.size(); ++k) {
     const auto &window = windows[k], &next = windows[k + 1];
-    const Vec2 rate = (next.momentum[layer] - window.momentum[layer]) / (next.time - window.time);
-    series.carried.push_back(window.stress[layer]);
-    series.required.push_back(window.weight[layer] + rate);
+    const Vector<D> rate =
+        (next.momentum[layer] - window.momentum[layer]) / (next.time - window.time);
+    series.carried.push_back(window.stress[layer].template head<2>());
+    series.required.push_back((window.weight[layer] + rate).template head<2>());
   }
   return series;
 }
@@ -88,26 +90,35 @@ LayerBalance balance_of(const Series& series)
 
 }  // namespace
 
-WeightSums::WeightSums(const Layers& layers, const Vec2& gravity, double bin)
-    : layers_(layers), gravity_(gravity), mean_(layers, bin), contact_(layers, Assignment::branch)
+template <int D>
+WeightSums<D>::WeightSums(const Layers& layers, const Vector<D>& gravity, double bin,
+                          std::size_t species)
+    : layers_(layers),
+      gravity_(gravity),
+      species_(species),
+      mean_(layers, bin, species),
+      contact_(layers, Assignment::branch, {}, {}, species)
 {
 }
 
-void WeightSums::add_to_mean(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void WeightSums<D>::add_to_mean(const Grains& grains, const Frame<D>& frame)
 {
   mean_.add(grains, frame);
   if (!momentum_.empty()) return;
   time_ = frame.time;
-  momentum_ = moments_above(grains, frame, layers_, Vec2(0, 0), [&](std::size_t g) -> Vec2 {
+  const auto momentum = [&](std::size_t g) -> Vector<D> {
     return grains.mass[g] * frame.velocity[g];
-  });
+  };
+  momentum_ = moments_above(grains, frame, layers_, Vector<D>(Vector<D>::Zero()), momentum);
 }
 
-void WeightSums::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void WeightSums<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   if (!kinetic_) {
     mean_.finish();
-    kinetic_.emplace(layers_, MeanFlow::profile, mean_);
+    kinetic_.emplace(layers_, MeanFlow::profile, mean_, species_);
   }
   kinetic_->add(grains, frame);
   contact_.add(grains, frame);
@@ -118,25 +129,39 @@ void WeightSums::add(const Grains& grains, const Frame<2>& frame)
   for (std::size_t n = 0; n < mass.size(); ++n) mass_above_[n] += mass[n];
 }
 
-WeightWindow WeightSums::window() const
+/// Of contacts and motion of all species in a layer, times its volume.
+template <int D>
+Tensor<D> WeightSums<D>::whole_stress(std::size_t layer) const
 {
-  WeightWindow window;
+  const auto sums = contact_.mean(layer).sums;
+  Tensor<D> all = Tensor<D>::Zero();
+  for (std::size_t s = 0; s < species_; ++s) all += sums.of(OwnSum::inside, s);
+  for (std::size_t pair = 0; pair < number_of_pairs(species_); ++pair)
+    all += sums.of(PairSum::whole, pair);
+  for (std::size_t s = 0; s < species_; ++s) all += sums.of(OwnSum::whole_base, s);
+  for (std::size_t s = 0; s < species_; ++s)
+    all += kinetic_->mean(layer, static_cast<Species>(s)).about_mean.kinetic;
+  return all;
+}
+
+template <int D>
+WeightWindow<D> WeightSums<D>::window() const
+{
+  WeightWindow<D> window;
   window.time = time_;
   const std::size_t count = mass_above_.size();
   for (std::size_t n = 0; n < count; ++n) {
     const double volume = layers_.volume(n);
-    const auto sums = contact_.mean(n).sums;
-    const Tensor2 all = sums.of(OwnSum::inside, 0) + sums.of(OwnSum::inside, 1) + sums.of(PairSum::whole, 0) + sums.of(OwnSum::whole_base, 0) + sums.of(OwnSum::whole_base, 1) +
-                        kinetic_->mean(n, Species::small).about_mean.kinetic +
-                        kinetic_->mean(n, Species::large).about_mean.kinetic;
-    window.stress.emplace_back(all.col(1) / volume);
+    window.stress.emplace_back(whole_stress(n).col(1) / volume);
     window.weight.emplace_back(-mass_above_[n] / static_cast<double>(frames_) / volume * gravity_);
-    window.momentum.emplace_back(n < momentum_.size() ? Vec2(momentum_[n] / volume) : Vec2(0, 0));
+    window.momentum.emplace_back(Vector<D>::Zero());
+    if (n < momentum_.size()) window.momentum.back() = momentum_[n] / volume;
   }
   return window;
 }
 
-std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& windows,
+template <int D>
+std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow<D>>& windows,
                                          const Layers& layers, double least_load)
 {
   std::vector<LayerBalance> balances;
@@ -156,5 +181,12 @@ std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& window
   }
   return balances;
 }
+
+template class WeightSums<2>;
+template class WeightSums<3>;
+template std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow<2>>&,
+                                                  const Layers&, double);
+template std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow<3>>&,
+                                                  const Layers&, double);
 
 }  // namespace grseg
