@@ -1,8 +1,9 @@
 # Chutes of spheres in LAMMPS, LIGGGHTS and YADE, and what docs/studies/three-dimensions.md says of them.
 #
-#   make -f scripts/archives/chute3d.mk archives     the archives in OUT, hours of one core; continues where it was stopped
+#   make -f scripts/archives/chute3d.mk archives     the archives in OUT; continues where it was stopped
 #   make -f scripts/archives/chute3d.mk stress       the programs' own stress beside that from their contacts
 #   make -f scripts/archives/chute3d.mk fits         B(p), p*, exponents, fractions of the stress, classes of sizes
+#   make -f scripts/archives/chute3d.mk figures      OUT/fits/b-of-p.png and stress-fractions.png
 #
 # Variables: OUT (chute3d), BIN (build/bin).
 
@@ -12,18 +13,15 @@ OUT ?= chute3d
 BIN ?= $(ROOT)/build/bin
 
 # Flows of chute3d.lammps: seeds, parts and words for lmp.
-flows := long mix20 mix70 three any
+flows := long mix70 three any
 seeds_long := 1 2 3
-seeds_mix20 := 1
 seeds_mix70 := 1
 seeds_three := 1
 seeds_any := 1
 parts_long := 1
-parts_mix20 := 1
 parts_mix70 := 1
 parts_three := 3
 parts_any := 3
-words_mix20 := -var large 0.2 -var grains 2870
 words_mix70 := -var large 0.7 -var grains 1350
 words_three := -var mixture three -var frames 60
 words_any := -var mixture any -var along 8 -var across 7 -var frames 60
@@ -40,7 +38,7 @@ late_long := --accept-residual 0.1
 outputs := 0.0088
 import := $(BIN)/grseg-import --quiet --overwrite
 
-.PHONY: archives stress fits help
+.PHONY: archives stress fits figures help
 .DELETE_ON_ERROR:
 .SECONDARY:
 help:
@@ -137,11 +135,12 @@ $(OUT)/sums/%.kinetic.tsv: $(OUT)/runs/%.h5
 $(classes:%=$(OUT)/sums/any-%.tsv): $(OUT)/sums/any-%.tsv: $(OUT)/runs/any-1.h5
 	mkdir -p $(@D)
 	$(BIN)/grseg-stress $< --classes $* $(windows) -o $@
+	$(BIN)/grseg-kinetic $< --classes $* --mean species $(windows) -o $(@:.tsv=.kinetic.tsv)
 
-two_sizes := mix20 long mix70
+two_sizes := long mix70
 tables = $(foreach seed,$(seeds_$(1)),$(2:%=$(OUT)/sums/$(1)-$(seed).%.tsv))
 fit := $(BIN)/grseg-fit --heights 4:20 --quiet --overwrite
-many := --exponent --partition stock,uniform:0.6
+many := --exponent --partition stock,uniform:0.8
 
 fits: $(foreach what,stock scan pressure kinetic fractions,$(two_sizes:%=$(OUT)/fits/%.$(what).tsv)) \
   $(OUT)/fits/three.tsv $(classes:%=$(OUT)/fits/any-%.tsv)
@@ -169,4 +168,12 @@ $(OUT)/fits/three.tsv: $(OUT)/sums/three-1.stress.tsv
 	$(fit) $^ $(many) -o $@
 $(classes:%=$(OUT)/fits/any-%.tsv): $(OUT)/fits/any-%.tsv: $(OUT)/sums/any-%.tsv
 	mkdir -p $(@D)
-	$(fit) $^ $(many) -o $@
+	$(fit) $< $(many) -o $@
+	$(HERE)/stress-fractions $< $(<:.tsv=.kinetic.tsv) --heights 4:20 > $(@:.tsv=.fractions.tsv)
+
+exponent = $$(awk '/^. exponent $(1):/ { print $$4 }' $(OUT)/fits/long.fractions.tsv)
+figures: $(OUT)/fits/long.scan.tsv $(OUT)/fits/long.stock.tsv $(two_sizes:%=$(OUT)/fits/%.fractions.tsv)
+	cp $(OUT)/fits/long.scan.tsv $(OUT)/fits/scan.tsv
+	cp $(OUT)/fits/long.stock.tsv $(OUT)/fits/stock.tsv
+	gnuplot -c $(ROOT)/scripts/figures/b-of-p.gp $(OUT)/fits
+	gnuplot -c $(ROOT)/scripts/figures/stress-fractions.gp $(OUT)/fits $(call exponent,contact) $(call exponent,kinetic)
