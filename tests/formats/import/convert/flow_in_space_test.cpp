@@ -244,7 +244,7 @@ TEST_F(FlowInSpace, OfLammpsItselfBalancesToRoundOff)
 {
   ImportSettings s;
   s.format = "lammps";
-  const std::string at = GRSEG_TEST_INPUTS "/../../data/sample/spheres/";
+  const std::string at = GRSEG_TEST_INPUTS "/lammps3d/";
   s.files.grains = {at + "atoms.dump.gz"};
   s.files.contacts = {at + "contacts.dump.gz"};
   s.units = "1:1:1";
