@@ -97,11 +97,19 @@ TEST_F(CheckedColumn, HasOneLinePerCheckInTheOrderOfTheTable)
 {
   std::vector<std::string> names{"not_closed", "no_frames", "damaged_frames",
                                  "damaged_outside_frames"};
-  std::vector<std::string> found;
-  for (const auto& check : checks::all) names.emplace_back(check.name);
-  for (const auto& line : lines_of(Column()))
-    if (found.empty() || found.back() != line.quantity) found.push_back(line.quantity);
-  EXPECT_EQ(found, names);
+  auto of_spheres = names;
+  for (const auto& check : checks::all) {
+    of_spheres.emplace_back(check.name);
+    if (!check.of_spheres_only) names.emplace_back(check.name);
+  }
+  const auto names_of = [](const std::vector<CheckLine>& lines) {
+    std::vector<std::string> found;
+    for (const auto& line : lines)
+      if (found.empty() || found.back() != line.quantity) found.push_back(line.quantity);
+    return found;
+  };
+  EXPECT_EQ(names_of(lines_of(Column())), names);
+  EXPECT_EQ(names_of(lines_of(ColumnOf<3>())), of_spheres);
 }
 
 // Between the middles of discs n and n+1 the contact carries n_above discs, so that the layer that
@@ -471,6 +479,27 @@ TEST_F(CheckedColumn, OfSpheresFailsTheWeightIfLayersCarryTooLittleAlthoughForce
     for (std::size_t c = 0; c < discs; ++c)
       ColumnOf<3>::push(frame, c, -0.02 * frame.contacts.force[c]);
   EXPECT_EQ(failed(column), Names{"weight"});
+}
+
+TEST_F(CheckedColumn, OfSpheresFailsTheSlopeOfTheAxisAlongWhichTheStressRatioDiffers)
+{
+  for (const int axis : {0, 2}) {
+    ColumnOf<3> column(oblique);
+    for (auto& frame : column.frames)
+      for (std::size_t c = 0; c < discs; ++c)
+        ColumnOf<3>::push(frame, c, -0.1 * frame.contacts.force[c][axis] * Vec3::Unit(axis));
+    EXPECT_EQ(failed(column), Names{axis == 0 ? "slope" : "slope_across"});
+  }
+}
+
+TEST_F(CheckedColumn, OfSpheresFailsTheDriftOfTheAxisAlongWhichGrainsMoveWithoutVelocity)
+{
+  for (const std::size_t axis : {0u, 2u}) {
+    ColumnOf<3> column(oblique);
+    for (std::size_t k = 0; k < column.frames.size(); ++k)
+      column.frames[k].image[1][axis] = static_cast<std::int32_t>(k);
+    EXPECT_EQ(failed(column), Names{axis == 0 ? "x_drift" : "z_drift"});
+  }
 }
 
 // Friction (f_x, 0, f_z) under a sphere, whose contact is at -r along y, turns it by
