@@ -8,8 +8,8 @@
 namespace grseg {
 
 /// Second moments of the directions of contacts and of their forces, sums over contacts. In two
-/// dimensions each is a weight times (cos 2 theta, sin 2 theta), theta the direction of the normal n,
-/// counter-clockwise from x, and the weight of the tangential force is f_t of ForceParts. In three
+/// dimensions each is a weight times (cos 2 theta, sin 2 theta), theta the direction of the normal
+/// n, counter-clockwise from x, and the weight of the tangential force is f_t of ForceParts. In three
 /// they are the tensors n (x) n, f_n n (x) n and f_tangential (x) n. Exchanging the two grains of a
 /// contact changes none of them.
 template <int D>
@@ -48,10 +48,11 @@ struct Anisotropy<2> {
   double stress_ratio() const;
 };
 
-/// In three (Ouadfel & Rothenburg 2001; Guo & Zhao 2013), with deviators c, n and t:
-///   share of contacts   E(n)   = (1 + n.c.n)/(4 pi)
-///   mean normal force   f_n(n) = f_0 (1 + n.n.n)
-///   mean tangential     f_t(n) = f_0 (t.n - (n.t.n) n), a vector
+/// In three (Ouadfel & Rothenburg 2001; Guo & Zhao 2013), with deviators c, n and t, of contacts in
+/// the direction m:
+///   share of contacts   E(m)   = (1 + m.c.m)/(4 pi)
+///   mean normal force   f_n(m) = f_0 (1 + m.n.m)
+///   mean tangential     f_t(m) = f_0 (t.m - (m.t.m) m), a vector
 template <>
 struct Anisotropy<3> {
   Tensor3 c, n, t;
@@ -83,8 +84,8 @@ struct PrincipalStress<2> {
   double p, q;
   double theta;  // degrees from x, in [0, 180), of s1
 };
-/// s1 >= s2 >= s3: p = (s1 + s2 + s3)/3 and q = sqrt(3/2 sigma':sigma'), which is s1 - s3 where two of
-/// them are equal.
+/// s1 >= s2 >= s3: p = (s1 + s2 + s3)/3 and q = sqrt(3/2 sigma':sigma'), which is s1 - s3 where two
+/// of them are equal.
 template <>
 struct PrincipalStress<3> {
   double p, q;

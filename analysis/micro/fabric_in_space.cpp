@@ -35,20 +35,20 @@ double inner(const Tensor3& a, const Tensor3& b)
   return a.cwiseProduct(b).sum();
 }
 
-/// Mean of n n (n.a.n) (n.b.n) over all directions n, of deviators a and b.
+/// Mean of m m (m.a.m) (m.b.m) over all directions m, of deviators a and b.
 Tensor3 mean_of_fourfold(const Tensor3& a, const Tensor3& b)
 {
   const Tensor3 ab = a * b;
   return (2 * ab.trace() * Tensor3::Identity() + 4 * (ab + ab.transpose())) / 105;
 }
 
-/// <f_n n n>/f_0 with scale = 1; linear in scale and n.
+/// <f_n m m>/f_0 with scale = 1; linear in scale and n.
 Tensor3 normal_moment(const Tensor3& c, double scale, const Tensor3& n)
 {
   return scale * (Tensor3::Identity() / 3 + 2.0 / 15 * c) + 2.0 / 15 * n + mean_of_fourfold(c, n);
 }
 
-/// The symmetric part of <f_t n>/f_0; its trace is 0.
+/// The symmetric part of <f_t m>/f_0; its trace is 0.
 Tensor3 tangential_moment(const Tensor3& c, const Tensor3& t)
 {
   return t / 5 + 2.0 / 15 * symmetric(t * c) - mean_of_fourfold(c, t);
@@ -97,7 +97,8 @@ Expansion expansion_of(const Tensor3& measured, const Moment& moment)
 
 }  // namespace
 
-// <n n> = I/3 + 2/15 c, <f_n n n> and <f_t n> as above: linear in f_0, f_0 n and f_0 t once c is known.
+// <m m> = I/3 + 2/15 c, <f_n m m> and <f_t m> as above: linear in f_0, f_0 n and f_0 t once c is
+// known.
 Anisotropy<3> anisotropy(const FabricSums<3>& sums, double contacts, double)
 {
   const Tensor3 unknown = Tensor3::Constant(nan);

@@ -32,7 +32,8 @@ class StructureByLayer {
   StructureSums<D> mean() const;
   BedHeights heights() const;
 
-  /// The columns of grseg-micro from area_S or volume_S on, and the values of a layer and of the whole bed.
+  /// The columns of grseg-micro from area_S or volume_S on, and the values of a layer and of the
+  /// whole bed.
   static std::vector<std::string> columns();
   std::vector<double> row(std::size_t layer) const;
   std::vector<double> bed_row() const;

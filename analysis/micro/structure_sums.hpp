@@ -77,8 +77,8 @@ struct StructureSums {
   /// N_LS/(N_LL + N_LS + N_SS), as in figure 2c of the paper; base contacts do not count. NaN
   /// without contacts.
   double mixed_share() const;
-  /// Contact stresses in the volume of the grains, N/m or Pa (eq. 1 of the paper). `rule` is size, half,
-  /// drop or uniform.
+  /// Contact stresses in the volume of the grains, N/m or Pa (eq. 1 of the paper). `rule` is size,
+  /// half, drop or uniform.
   PartialStress<D> stress(const PartitionRule& rule) const;
 
   /// The sums with their columns in the table of grseg-micro, from area_S or volume_S on.

@@ -33,8 +33,8 @@ struct RunConstants {
   double gravity_z = 0;                   // m/s^2, in three dimensions
 };
 
-/// Diameters of the two species, with --group those of the groups. FormatError where a line is missing or its value is not a number; density and friction may be
-/// "unknown".
+/// Diameters are those of the two species, with --group of the groups. FormatError where a line is
+/// missing or its value is not a number; density and friction may be "unknown".
 RunConstants read_run_constants(const Table& table);
 /// FormatError, naming the place, where a column is missing or a number is not finite that must be.
 template <int D>
