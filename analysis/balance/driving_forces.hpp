@@ -9,8 +9,8 @@ namespace grseg {
 /// momentum balance along y less the share phi_L = rho^L/rho of the mixture's, so that gravity
 /// drops out (phi_L is a share of the mass, and of the area if both species have the same density).
 /// Means over a layer; force densities on the large grains, N/m^2 or N/m^3, upward positive; the
-/// small grains feel the opposite. sigma and K are the yy components of contact stress and momentum flux
-/// of the mixture, psi and psi_K the large grains' shares of them, beta the interaction on large
+/// small grains feel the opposite. sigma and K are the yy components of contact stress and momentum
+/// flux of the mixture, psi and psi_K the large grains' shares of them, beta the interaction on large
 /// grains and ' = d/dy. sigma' and (psi sigma)' leave out the force of the base, since the jump of
 /// stress at the wall is not a pressure gradient. Then, to round-off,
 ///

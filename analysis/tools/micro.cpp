@@ -41,7 +41,8 @@ po::options_description options_into(Settings& s)
   };
   auto add = options.add_options();
   add("composition", word(s.composition),
-      "give layers the area or volume of a grain clipped at their edges, or whole at its centre (centre)");
+      "give layers the area or volume of a grain clipped at their edges, or whole at its centre "
+      "(centre)");
   add("friction", po::value(&s.friction)->value_name("MU"),
       "friction coefficient of the Coulomb limit at which contacts slide (default: the run's)");
   add("distribution", po::bool_switch(&s.distribution),
