@@ -15,6 +15,7 @@ struct Check {
   const char* measured;  // what the number is
   double CheckTolerances::*tolerance;
   const char* law;  // by which the number should vanish
+  bool of_spheres_only = false;
 };
 
 /// All checks, in the order of the output: the table from which the lines of the output with their
@@ -53,12 +54,16 @@ inline constexpr auto all = std::to_array<Check>({
      &T::weight, "momentum balance along y"},
     {"slope", "stress ratio of a layer less what slope and acceleration above require",  //
      &T::slope, "momentum balance along x"},
+    {"slope_across", "the same across the flow, of spheres",  //
+     &T::slope, "momentum balance along z", true},
     {"overlap_drift", "change of the mean overlap over the run, d_S",  //
      &T::overlap_drift, "errors do not accumulate"},
     {"energy_defect_drift", "change of the mean energy defect over the run",  //
      &T::round_off, "errors do not accumulate"},
     {"x_drift", "mean velocity of the bed by positions less that by velocities, sqrt(g d_S)",
      &T::x_drift, "velocity is the rate of position"},
+    {"z_drift", "the same across the flow, of spheres",  //
+     &T::x_drift, "velocity is the rate of position", true},
 });
 
 /// The check of that name. A name that is not in the table does not compile.

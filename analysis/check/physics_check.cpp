@@ -142,8 +142,8 @@ template <int D>
 void PhysicsCheck<D>::begin_window(const Frame<D>& frame)
 {
   const auto& overlap = contacts_.overlap();
-  window_starts_.push_back(
-      {frame.time, motion_.stray(), overlap.sum, overlap.count, energy_.sum, energy_.count});
+  window_starts_.push_back({frame.time, motion_.stray(0), D == 3 ? motion_.stray(D - 1) : 0,
+                            overlap.sum, overlap.count, energy_.sum, energy_.count});
   if (steady_slope() && is_periodic())
     weights_.emplace(layers_, gravity_.start, small_diameter_ / 2, run_.species().size());
 }
@@ -253,8 +253,8 @@ void PhysicsCheck<D>::add_layers(std::vector<CheckLine>& lines) const
     if (layers.empty()) why_skipped = "there is one layer only; choose a thinner --layer";
   }
   if (!why_skipped.empty()) {
-    for (const auto& check : {named("weight"), named("slope")})
-      lines.push_back(Judge::skipped(check, why_skipped));
+    for (const auto& check : {named("weight"), named("slope"), named("slope_across")})
+      if (applies(check)) lines.push_back(Judge::skipped(check, why_skipped));
     return;
   }
   const auto add = [&](const Check& check, const LayerBalance& layer, double deviation,
@@ -266,13 +266,18 @@ void PhysicsCheck<D>::add_layers(std::vector<CheckLine>& lines) const
     line.remark = remark;
     lines.push_back(line);
   };
+  const auto add_ratio = [&](const Check& check, const LayerBalance& layer,
+                             const LayerBalance::StressRatio& found) {
+    add(check, layer, found.ratio - found.slope, found.error,
+        fmt::format("stress ratio {:.5f}, slope less acceleration {:.5f}", found.ratio,
+                    found.slope));
+  };
   for (const auto& layer : layers)
     add(named("weight"), layer, layer.carried - 1, layer.carried_error,
         fmt::format("carries {:.5f} of the weight above", layer.carried));
-  for (const auto& layer : layers)
-    add(named("slope"), layer, layer.ratio - layer.slope, layer.ratio_error,
-        fmt::format("stress ratio {:.5f}, slope less acceleration {:.5f}", layer.ratio,
-                    layer.slope));
+  for (const auto& layer : layers) add_ratio(named("slope"), layer, layer.along);
+  if (applies(named("slope_across")))
+    for (const auto& layer : layers) add_ratio(named("slope_across"), layer, layer.across);
 }
 
 template <int D>
@@ -280,8 +285,8 @@ void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
 {
   if (windows_.size() < least_windows) {
     for (const auto& check :
-         {named("overlap_drift"), named("energy_defect_drift"), named("x_drift")})
-      lines.push_back(Judge::skipped(check, few_windows));
+         {named("overlap_drift"), named("energy_defect_drift"), named("x_drift"), named("z_drift")})
+      if (applies(check)) lines.push_back(Judge::skipped(check, few_windows));
     return;
   }
   const WindowMeans means(window_starts_);
@@ -297,14 +302,21 @@ void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
     add_change(named("energy_defect_drift"), means.energy_defect, 1);
   else
     lines.push_back(Judge::skipped(named("energy_defect_drift"), no_energy_defect));
+  add_strays(named("x_drift"), means.stray_rate, lines);
+  if (applies(named("z_drift"))) add_strays(named("z_drift"), means.stray_rate_across, lines);
+}
+
+template <int D>
+void PhysicsCheck<D>::add_strays(const Check& check, const std::vector<double>& rates,
+                                 std::vector<CheckLine>& lines) const
+{
   if (!(gravity_.norm() > 0)) {
-    lines.push_back(Judge::skipped(named("x_drift"), "without gravity it has no scale"));
+    lines.push_back(Judge::skipped(check, "without gravity it has no scale"));
     return;
   }
   const double speed = std::sqrt(gravity_.norm() * small_diameter_);
-  const auto [rate, error] = mean_of(means.stray_rate);
-  lines.push_back(judge_.statistical(named("x_drift"), rate / speed, error / speed,
-                                     means.stray_rate.size(), 1));
+  const auto [rate, error] = mean_of(rates);
+  lines.push_back(judge_.statistical(check, rate / speed, error / speed, rates.size(), 1));
 }
 
 template class PhysicsCheck<2>;

@@ -43,6 +43,7 @@ class PhysicsCheck {
   bool in_window(std::size_t index) const;
   bool steady_slope() const;
   bool is_periodic() const;
+  static bool applies(const Check& check) { return D == 3 || !check.of_spheres_only; }
   bool at_rest(const TotalMotion<D>& total) const;
   void begin_window(const Frame<D>& frame);
   void end_window();
@@ -51,6 +52,8 @@ class PhysicsCheck {
   void add_contacts(std::vector<CheckLine>& lines) const;
   void add_layers(std::vector<CheckLine>& lines) const;
   void add_drifts(std::vector<CheckLine>& lines) const;
+  void add_strays(const Check& check, const std::vector<double>& rates,
+                  std::vector<CheckLine>& lines) const;
 
   const TrajectoryReader& run_;
   CheckTolerances tolerances_;

@@ -18,9 +18,12 @@ TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const B
     total.mass += grains.mass[g];
     total.momentum += grains.mass[g] * frame.velocity[g];
     total.energy += grains.mass[g] * frame.velocity[g].squaredNorm() / 2;
-    total.x += grains.mass[g] * (frame.position[g].x() + frame.image[g][0] * box.length_x);
+    Vector<D> place = frame.position[g];
+    place.x() += frame.image[g][0] * box.length_x;
+    if constexpr (D == 3) place.z() += frame.image[g][2] * box.length_z;
+    total.centre += grains.mass[g] * place;
   }
-  if (total.mass > 0) total.x /= total.mass;
+  if (total.mass > 0) total.centre /= total.mass;
   return total;
 }
 
@@ -41,8 +44,7 @@ void MotionBalance<D>::add(const TotalMotion<D>& now, const std::optional<Vector
     momentum_.add(scale > 0 ? defect / scale : defect, now.time, 0);
   }
   if (now.mass > 0)
-    by_velocity_ +=
-        (now.momentum.x() + last_.momentum.x()) / 2 / now.mass * (now.time - last_.time);
+    by_velocity_ += (now.momentum + last_.momentum) / 2 / now.mass * (now.time - last_.time);
   last_ = now;
 }
 

@@ -19,7 +19,7 @@ struct TotalMotion {
   double mass = 0;                         // kg
   Vector<D> momentum = Vector<D>::Zero();  // kg m/s
   double energy = 0;                       // J, kinetic, of translation
-  double x = 0;                            // m, of the centre of mass, periods counted
+  Vector<D> centre = Vector<D>::Zero();    // m, of mass, periods counted
 };
 template <int D>
 TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box);
@@ -27,8 +27,8 @@ TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const B
 /// The mobile grains as one body from frame to frame:
 ///   momentum now - momentum before = (time between) (M g + mean force of base and walls),
 /// which holds to round-off where that mean (/observables/base_force_x, _y, and _z of spheres) is over all the steps
-/// between; and the distance that the centre of mass moves along x against the integral of its
-/// velocity over time (trapezium rule).
+/// between; and the distance that the centre of mass moves against the integral of its velocity over
+/// time (trapezium rule).
 template <int D>
 class MotionBalance {
  public:
@@ -42,8 +42,11 @@ class MotionBalance {
   const WorstCase& momentum() const { return momentum_; }
 
   std::size_t frames() const { return frames_; }
-  /// m: the distance moved along x less that by velocity, since the first frame.
-  double stray() const { return first_ ? last_.x - first_->x - by_velocity_ : 0; }
+  /// m: the distance moved along an axis less that by velocity, since the first frame.
+  double stray(int axis) const
+  {
+    return first_ ? last_.centre[axis] - first_->centre[axis] - by_velocity_[axis] : 0;
+  }
 
  private:
   Gravity<D> gravity_;
@@ -51,7 +54,7 @@ class MotionBalance {
   std::size_t frames_ = 0;
   std::optional<TotalMotion<D>> first_;
   TotalMotion<D> last_;
-  double by_velocity_ = 0;  // m
+  Vector<D> by_velocity_ = Vector<D>::Zero();  // m
   WorstCase momentum_;
 };
 

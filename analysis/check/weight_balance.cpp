@@ -29,17 +29,19 @@ std::vector<What> moments_above(const Grains& grains, const Frame<D>& frame, con
   return moment;
 }
 
-Vec2 mean_of(const std::vector<Vec2>& values)
+template <int D>
+Vector<D> mean_of(const std::vector<Vector<D>>& values)
 {
-  Vec2 sum = Vec2::Zero();
+  Vector<D> sum = Vector<D>::Zero();
   for (const auto& value : values) sum += value;
   return sum / static_cast<double>(values.size());
 }
 
-/// One layer window by window: the stress it carries and that which the balance requires, (xy, yy),
-/// N/m.
+/// One layer window by window: the stress it carries and that which the balance requires, (xy, yy,
+/// zy), N/m or Pa.
+template <int D>
 struct Series {
-  std::vector<Vec2> carried, required;
+  std::vector<Vector<D>> carried, required;
 };
 
 /// Standard error of a mean from the deviations of its terms, whose sum is 0.
@@ -53,38 +55,49 @@ double standard_error(std::size_t count, const Deviation& deviation)
 }
 
 template <int D>
-Series series_of(const std::vector<WeightWindow<D>>& windows, std::size_t layer)
+Series<D> series_of(const std::vector<WeightWindow<D>>& windows, std::size_t layer)
 {
-  Series series;
+  Series<D> series;
   for (std::size_t k = 0; k + 1 < windows.size(); ++k) {
     const auto &window = windows[k], &next = windows[k + 1];
     const Vector<D> rate =
         (next.momentum[layer] - window.momentum[layer]) / (next.time - window.time);
-    series.carried.push_back(window.stress[layer].template head<2>());
-    series.required.push_back((window.weight[layer] + rate).template head<2>());
+    series.carried.push_back(window.stress[layer]);
+    series.required.push_back(window.weight[layer] + rate);
   }
   return series;
 }
 
-LayerBalance balance_of(const Series& series)
+/// Along axis 0 (x) or 2 (z).
+template <int D>
+LayerBalance::StressRatio ratio_of(const Series<D>& series, int axis)
 {
-  const Vec2 carried = mean_of(series.carried), required = mean_of(series.required);
-  const std::size_t n = series.carried.size();
+  const Vector<D> carried = mean_of<D>(series.carried), required = mean_of<D>(series.required);
+  LayerBalance::StressRatio result;
+  result.ratio = -carried[axis] / carried.y();
+  result.slope = -required[axis] / required.y();
+  // Change of a quotient with the numbers of one window.
+  const auto change = [&](const Vector<D>& part, double ratio, const Vector<D>& whole) {
+    return (-part[axis] - ratio * part.y()) / whole.y();
+  };
+  result.error = standard_error(series.carried.size(), [&](std::size_t k) {
+    return change(series.carried[k], result.ratio, carried) -
+           change(series.required[k], result.slope, required);
+  });
+  return result;
+}
+
+template <int D>
+LayerBalance balance_of(const Series<D>& series)
+{
+  const Vector<D> carried = mean_of<D>(series.carried), required = mean_of<D>(series.required);
   LayerBalance balance;
   balance.carried = carried.y() / required.y();
-  balance.carried_error = standard_error(n, [&](std::size_t k) {
+  balance.carried_error = standard_error(series.carried.size(), [&](std::size_t k) {
     return (series.carried[k].y() - balance.carried * series.required[k].y()) / required.y();
   });
-  balance.ratio = -carried.x() / carried.y();
-  balance.slope = -required.x() / required.y();
-  // Change of a quotient with the numbers of one window.
-  const auto change = [&](const Vec2& part, double ratio, const Vec2& whole) {
-    return (-part.x() - ratio * part.y()) / whole.y();
-  };
-  balance.ratio_error = standard_error(n, [&](std::size_t k) {
-    return change(series.carried[k], balance.ratio, carried) -
-           change(series.required[k], balance.slope, required);
-  });
+  balance.along = ratio_of(series, 0);
+  if (D == 3) balance.across = ratio_of(series, D - 1);
   return balance;
 }
 
@@ -169,7 +182,7 @@ std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow<D>>& win
   std::size_t count = windows.front().stress.size();
   for (const auto& window : windows) count = std::min(count, window.stress.size());
   if (count == 0) return balances;
-  const auto load = [](const Series& series) { return mean_of(series.required).y(); };
+  const auto load = [](const Series<D>& series) { return mean_of<D>(series.required).y(); };
   const double least = least_load * load(series_of(windows, 0));
   for (std::size_t n = 1; n < count; ++n) {
     const auto series = series_of(windows, n);

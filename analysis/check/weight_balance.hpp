@@ -63,9 +63,12 @@ struct LayerBalance {
   double y0 = 0, y1 = 0;  // m
   double carried = 0;     // (sigma + sigma^kappa)_yy over what the balance requires
   double carried_error = 0;
-  double ratio = 0;  // -(sigma_xy + sigma^kappa_xy)/(sigma_yy + sigma^kappa_yy)
-  double slope = 0;  // what the balance requires: (g_x - a_x)/(a_y - g_y), a of the mass above
-  double ratio_error = 0;  // of ratio - slope
+  /// Along x and, of spheres, along z.
+  struct StressRatio {
+    double ratio = 0;  // -(sigma_xy + sigma^kappa_xy)/(sigma_yy + sigma^kappa_yy)
+    double slope = 0;  // what the balance requires: (g_x - a_x)/(a_y - g_y), a of the mass above
+    double error = 0;  // of ratio - slope
+  } along, across;
 };
 
 /// The layers above the first (which depends on the shape of the base) that carry at least

@@ -14,7 +14,7 @@ struct PackingOf {
   Grains grains;
   Frame<D> frame;
 
-  /// Adds a grain of density 1; its row.
+  /// Adds a grain of density 1 kg/m^2 or kg/m^3; its row.
   std::int32_t grain(Species species, double radius, const Vector<D>& position,
                      const Vector<D>& velocity = Vector<D>::Zero(), const Spin<D>& spin = no_spin())
   {
@@ -79,7 +79,9 @@ inline double phi_large(const std::vector<double>& contents)
 }
 
 /// All components alike to round-off.
-inline bool same(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance = 1e-14)
+template <class Numbers, class Others>
+bool same(const Eigen::MatrixBase<Numbers>& a, const Eigen::MatrixBase<Others>& b,
+          double tolerance = 1e-14)
 {
   return (a - b).cwiseAbs().maxCoeff() <= tolerance;
 }

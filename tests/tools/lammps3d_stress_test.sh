@@ -3,7 +3,7 @@
 # grseg-stress --assign grain, against compute stress/atom in the archive, layer by layer.
 set -euo pipefail
 source=$1 bin=$2
-at=$source/data/sample/spheres
+at=$source/tests/inputs/lammps3d
 cd "$(mktemp -d)"
 trap 'rm -r "$PWD"' EXIT
 

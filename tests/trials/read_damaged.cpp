@@ -108,11 +108,13 @@ Way frames_with(TrajectoryReader::Fields fields, std::size_t stride)
     content.add(run.steps());
     content.add(run.times());
     content.add(fmt::format("{:x}", run.digest()));
-    Frame<2> frame;
-    for (std::size_t n = 0; n < run.size(); n += stride) {
-      run.read(n, frame, fields);
-      content.add(frame);
-    }
+    with_dimension(run.dimension(), [&](auto d) {
+      Frame<d> frame;
+      for (std::size_t n = 0; n < run.size(); n += stride) {
+        run.read(n, frame, fields);
+        content.add(frame);
+      }
+    });
   };
 }
 

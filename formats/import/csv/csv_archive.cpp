@@ -250,7 +250,7 @@ const ArchiveFormat csv_format{
         "    --units si --step 1e-5 --gravity 9.81 --slope 23 -o run.h5\n",
     .notes =
         "  csv: tables whose first line names the columns (grains: time id x y vx vy and\n"
-        "  radius|diameter; optional z vz omega mass type fixed fx fy fz; contacts: time i j\n"
-        "  fx fy; optional fz overlap bx by bz)\n"};
+        "  radius|diameter; optional z vz wx wy omega mass type fixed fx fy fz; contacts:\n"
+        "  time i j fx fy; optional fz overlap bx by bz; in three dimensions all of x y z)\n"};
 
 }  // namespace grseg

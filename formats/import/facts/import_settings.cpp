@@ -65,10 +65,11 @@ po::options_description import_options(ImportSettings& s)
 
   auto& species = s.species;
   po::options_description sizes("Species");
-  sizes.add_options()("species", po::value(&species.named)->composing()->value_name("NAME=TYPES"),
-                      "mobile grains of these types, all for all; once for each species; "
-                      "NAME=TYPES:D gives its nominal diameter")(
-      "small", optional(species.small, "TYPES"), "types of small grains: 1 or 1,4-6")(
+  sizes.add_options()(
+      "species", po::value(&species.named)->composing()->value_name("NAME=TYPES"),
+      "any number of species, this once for each: mobile grains of these types, or of "
+      "all; NAME=TYPES:D gives the nominal diameter")("small", optional(species.small, "TYPES"),
+                                                      "types of small grains: 1 or 1,4-6")(
       "large", optional(species.large, "TYPES"), "types of large grains")(
       "split-diameter", optional(species.split_diameter, "D"),
       "small below, large from here on (default: two sizes far apart)")(

@@ -31,20 +31,8 @@ struct Named {
 
 void require_a_name(const std::string& name, const std::string& text)
 {
-  const auto is_bad = [](char c) {
-    return c <= ' ' || c > '~' || std::string_view("+,=:").find(c) != std::string_view::npos;
-  };
-  if (name.empty() || name.size() >= longest_species_name ||
-      std::any_of(name.begin(), name.end(), is_bad))
-    throw UsageError(
-        fmt::format("--species {}: a name is 1 to {} printable ASCII characters without blanks and "
-                    "without + , = :",
-                    in_quotes(text), longest_species_name - 1));
-  if (name == name_of_boundary || name == "b")
-    throw UsageError(
-        fmt::format("--species {}: '{}' stands for the base in files and tables; choose another "
-                    "name, and give the types of the base with --boundary",
-                    in_quotes(text), name));
+  if (!is_species_name(name))
+    throw UsageError(fmt::format("--species {}: {}", in_quotes(text), rule_of_species_names));
 }
 
 double diameter_in(const std::string& word, const std::string& text)

@@ -75,6 +75,21 @@ TEST_F(Spheres, AreReadBackToTheLastBit)
   }
 }
 
+// Memory for two components must not be given three.
+TEST_F(Spheres, AreRefusedByReadersOfDiscs)
+{
+  spheres::write(path, 1);
+  const TrajectoryReader reader(path);
+  Frame<2> frame;
+  try {
+    reader.read(0, frame);
+    FAIL();
+  } catch (const FormatError& error) {
+    EXPECT_EQ(error.what(),
+              path + ": is a run in three dimensions, which this program does not read");
+  }
+}
+
 TEST_F(Spheres, KeepTheirSpeciesInMemoryAndCountTheBoundaryLastInTheFile)
 {
   spheres::write(path, 1);

@@ -239,12 +239,40 @@ TEST_F(FlowInSpace, UnitsAreConvertedComponentByComponent)
   EXPECT_NEAR(run.parameters().number("density", ""), 2 / 0.125, 1e-12);
 }
 
+// The large sphere alone on the base, where m a = F + m g + c (m a + ...) h/2 as in
+// verification_test.cpp, and a small one that slides there without an acceleration along the normal.
+TEST_F(FlowInSpace, LateDampingRollsSpheresAndNotDiscs)
+{
+  Flow flow;
+  auto& contacts = flow.frame.contacts;
+  const double half_step = 5e-4, c_n = 300, c_t = 200, small_mass = flow.grains.mass[3];
+  const Vec3 aside(-0.6, 0.8, 0);
+  flow.frame.position[3] = flow.frame.position[0] + 1.495 * aside;
+  contacts.i[1] = 3;
+  contacts.j[1] = 0;
+  contacts.branch[1] = 1.495 * aside;
+  contacts.force[1] = small_mass * (-flow.gravity.dot(aside) * aside + Vec3(0, 0, 5));
+  flow.balance();
+  const Vec3 n = contacts.branch[0].normalized(), force = contacts.force[0];
+  const Vec3 total = force + flow.grains.mass[1] * flow.gravity;
+  const Vec3 along_n = total.dot(n) * n, friction = force - force.dot(n) * n;
+  flow.frame.force[1] =
+      along_n / (1 - c_n * half_step) +
+      (total - along_n + c_t * half_step * friction / 0.4) / (1 - c_t * half_step);
+  auto settings = lammps(folder, views()[1], flow);
+  settings.accept_residual = 1e-9;
+  const auto report = import_archive(settings, "");
+  EXPECT_NEAR(report.late.normal, c_n, 1e-7);
+  EXPECT_NEAR(report.late.tangential, c_t, 1e-7);
+  EXPECT_GT(*report.largest_residual, 0.01);
+}
+
 // Debian's lammps on scripts/archives/chute3d.lammps: 12 spheres of base and 48 above, undamped.
 TEST_F(FlowInSpace, OfLammpsItselfBalancesToRoundOff)
 {
   ImportSettings s;
   s.format = "lammps";
-  const std::string at = GRSEG_TEST_INPUTS "/../../data/sample/spheres/";
+  const std::string at = GRSEG_TEST_INPUTS "/lammps3d/";
   s.files.grains = {at + "atoms.dump.gz"};
   s.files.contacts = {at + "contacts.dump.gz"};
   s.units = "1:1:1";
