@@ -15,7 +15,7 @@ BIN ?= $(ROOT)/build/bin
 # Flows of chute3d.lammps: seeds, parts and words for lmp.
 flows := long mix70 three any
 seeds_long := 1 2 3
-seeds_mix70 := 1 2 3
+seeds_mix70 := 1 2
 seeds_three := 1
 seeds_any := 1
 parts_long := 1
