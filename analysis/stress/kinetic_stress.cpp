@@ -131,7 +131,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     const auto motion =
         motion_of<D>(velocity, layers_.turned_spin<D>(frame.angular_velocity[g], position));
     const auto species = grains.species[g];
-    const std::size_t layer = layers_.at(y);
+    const std::size_t layer = layers_.holding<D>(position, y);
     const auto about = [&](const Motion<D>& mean) {
       return fluctuations<D>(mass, radius, motion - mean);
     };
@@ -139,8 +139,9 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     own.mass += mass;
     own.grains += 1;
     own.about_mean += about(mean_at(layer, species, y, now));
-    own.layer_bias += about(mean_velocity_.of_layer(layer)) - about(mean_velocity_.on_profile(y));
-    sums_[layer].flow.template add<D>(mass, y - layers_.bottom(layer), velocity);
+    if (!layers_.map())
+      own.layer_bias += about(mean_velocity_.of_layer(layer)) - about(mean_velocity_.on_profile(y));
+    sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer), velocity);
   }
 }
 
@@ -220,6 +221,7 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
       cells.push_back({fmt::format("equipartition_{}", all_freedoms[f]),
                        quotient[static_cast<Eigen::Index>(f)]});
   }
+  if (layers_.map()) return cells;
   for (std::size_t k = 0; k < words.size(); ++k) {
     for (const auto& [suffix, row, column] : components)
       if (row <= column)
