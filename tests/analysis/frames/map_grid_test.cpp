@@ -101,7 +101,7 @@ TEST(MapGrid, ThePeriodIsMappedWhereverGrainsAre)
 {
   Packing packing;
   packing.grain(Species::small, 0.5, {9.75, 2});
-  const auto& x = grid_of(packing, periodic, 2).axes()[0];
+  const auto x = grid_of(packing, periodic, 2).axes()[0];
   EXPECT_EQ(x.edge(0), 0);
   EXPECT_EQ(x.edge(x.cells), 10);
 }

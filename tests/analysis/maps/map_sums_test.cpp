@@ -30,10 +30,11 @@ Packing disorder()
 {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(0, 10);
+  std::uniform_real_distribution<double> height(0, 9.5);  // so that no grain reaches over 10
   Packing packing;
   for (int g = 0; g < 60; ++g)
     packing.grain(g % 2 == 0 ? Species::small : Species::large, g % 2 == 0 ? 0.2 : 0.4,
-                  {place(random), place(random)}, {place(random), place(random)}, place(random));
+                  {place(random), height(random)}, {place(random), place(random)}, place(random));
   for (int g = 0; g + 1 < 60; ++g) packing.contact(g, g + 1, {place(random) - 5, place(random)});
   packing.grain(Species::boundary, 1, {5, 0.5});
   packing.contact(3, 60, {1, 2});
