@@ -81,7 +81,9 @@ class Layers {
   template <int D>
   std::size_t holding(const Vector<D>& position, double y) const
   {
-    return map_ ? map_->at<D>(position) : at(y);
+    if (map_) [[unlikely]]
+      return map_->at<D>(position);
+    return at(y);
   }
   /// Height over the bottom of a layer or cell, m.
   double above_bottom(double y, std::size_t layer) const

@@ -120,6 +120,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
   ++frames_;
   sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)),
                {std::vector<Mean>(species_), {}});
+  const bool has_profile = !layers_.map();
   MeanVelocity<D> now(layers_, layers_.thickness(), species_);
   if (flow_ == MeanFlow::instant) now.add(grains, frame);
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -139,7 +140,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     own.mass += mass;
     own.grains += 1;
     own.about_mean += about(mean_at(layer, species, y, now));
-    if (!layers_.map())
+    if (has_profile)
       own.layer_bias += about(mean_velocity_.of_layer(layer)) - about(mean_velocity_.on_profile(y));
     sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer), velocity);
   }
