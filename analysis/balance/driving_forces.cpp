@@ -12,8 +12,8 @@ constexpr double least_part = 1e-9;
 
 /// A stress that both species share and its derivative along y.
 struct Shared {
-  double small, large;              // N/m
-  double slope_small, slope_large;  // N/m^2
+  double small, large;              // N/m or Pa
+  double slope_small, slope_large;  // N/m^2 or N/m^3
 
   double part() const { return small + large > 0 ? large / (small + large) : nan; }
   /// 0 where there is no stress to share.
@@ -30,7 +30,8 @@ struct Shared {
 
 }  // namespace
 
-DrivingForces driving_forces(const MomentumBalance& balance, std::size_t layer)
+template <int D>
+DrivingForces driving_forces(const MomentumBalance<D>& balance, std::size_t layer)
 {
   const auto small = balance.mean(layer, Species::small);
   const auto large = balance.mean(layer, Species::large);
@@ -50,7 +51,7 @@ DrivingForces driving_forces(const MomentumBalance& balance, std::size_t layer)
   of.spread = contact.spread(of.phi);
   of.spread_kinetic = kinetic.spread(of.phi);
 
-  const auto beyond_mixture = [&](const Vec2& of_large, const Vec2& of_small) {
+  const auto beyond_mixture = [&](const Vector<D>& of_large, const Vector<D>& of_small) {
     return of_large.y() - of.phi * (of_large + of_small).y();
   };
   const double change =
@@ -60,5 +61,8 @@ DrivingForces driving_forces(const MomentumBalance& balance, std::size_t layer)
   of.drift = beyond_mixture(large.momentum, small.momentum);
   return of;
 }
+
+template DrivingForces driving_forces(const MomentumBalance<2>&, std::size_t);
+template DrivingForces driving_forces(const MomentumBalance<3>&, std::size_t);
 
 }  // namespace grseg

@@ -8,9 +8,9 @@ namespace grseg {
 /// The forces that drive segregation, i.e. which mechanism pushes the large grains which way: their
 /// momentum balance along y less the share phi_L = rho^L/rho of the mixture's, so that gravity
 /// drops out (phi_L is a share of the mass, and of the area if both species have the same density).
-/// Means over a layer; force densities on the large grains, N/m^2, upward positive; the small
-/// grains feel the opposite. sigma and K are the yy components of contact stress and momentum flux
-/// of the mixture, psi and psi_K the large grains' shares of them, beta the interaction on large
+/// Means over a layer; force densities on the large grains, N/m^2 or N/m^3, upward positive; the
+/// small grains feel the opposite. sigma and K are the yy components of contact stress and momentum
+/// flux of the mixture, psi and psi_K the large grains' shares of them, beta the interaction on large
 /// grains and ' = d/dy. sigma' and (psi sigma)' leave out the force of the base, since the jump of
 /// stress at the wall is not a pressure gradient. Then, to round-off,
 ///
@@ -37,12 +37,14 @@ struct DrivingForces {
   double phi, psi, psi_kinetic;
   double b, b_kinetic;
   double push, push_kinetic, spread, spread_kinetic, drag, scatter;
-  double drift;  // kg/(m^2 s), rho^L (v^L - v) along y
+  double drift;  // kg/(m s) or kg/(m^2 s), rho^L (v^L - v) along y
 
   /// 1/s, c of drag = -c rho^L (v^L - v) (Gray & Thornton 2005); noise where nothing drifts.
   double drag_rate() const { return -drag / drift; }
 };
 
-DrivingForces driving_forces(const MomentumBalance& balance, std::size_t layer);
+/// Of two species.
+template <int D>
+DrivingForces driving_forces(const MomentumBalance<D>& balance, std::size_t layer);
 
 }  // namespace grseg

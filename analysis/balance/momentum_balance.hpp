@@ -6,30 +6,30 @@
 #include "formats/core/frame.hpp"
 #include "formats/core/gravity.hpp"
 
-#include <array>
 #include <optional>
 #include <vector>
 
 namespace grseg {
 
 /// Coarse-grained fields of one species in one layer: means over the layer and over frames. The
-/// force densities, N/m^2, change its momentum density.
+/// force densities, N/m^2 or N/m^3, change its momentum density.
+template <int D>
 struct SpeciesMomentum {
-  double density = 0;                        // kg/m^2
-  Vec2 momentum = Vec2::Zero();              // kg/(m s)
-  Tensor2 contact_stress = Tensor2::Zero();  // N/m, compression positive
-  Tensor2 momentum_flux = Tensor2::Zero();   // N/m, m v (x) v
+  double density = 0;                            // kg/m^2 or kg/m^3
+  Vector<D> momentum = Vector<D>::Zero();        // kg/(m s) or kg/(m^2 s)
+  Tensor<D> contact_stress = Tensor<D>::Zero();  // N/m or Pa, compression positive
+  Tensor<D> momentum_flux = Tensor<D>::Zero();   // N/m or Pa, m v (x) v
 
-  Vec2 rate = Vec2::Zero();         // change of the momentum density in one step, over h
-  Vec2 gravity = Vec2::Zero();      // its weight
-  Vec2 contact = Vec2::Zero();      // -d/dy of its contact stress
-  Vec2 kinetic = Vec2::Zero();      // -d/dy of the momentum that its moving grains carry
-  Vec2 interaction = Vec2::Zero();  // from the other species
-  Vec2 base = Vec2::Zero();         // from boundary grains and walls
-  Vec2 force = Vec2::Zero();        // the stored forces of its grains; rate - kinetic
+  Vector<D> rate = Vector<D>::Zero();         // change of the momentum density in one step, over h
+  Vector<D> gravity = Vector<D>::Zero();      // its weight
+  Vector<D> contact = Vector<D>::Zero();      // -d/dy of its contact stress
+  Vector<D> kinetic = Vector<D>::Zero();      // -d/dy of the momentum that its moving grains carry
+  Vector<D> interaction = Vector<D>::Zero();  // from the other species
+  Vector<D> base = Vector<D>::Zero();         // from boundary grains and walls
+  Vector<D> force = Vector<D>::Zero();        // the stored forces of its grains; rate - kinetic
 
   /// What the terms leave of the rate: round-off.
-  Vec2 residual() const { return rate - (gravity + contact + kinetic + interaction + base); }
+  Vector<D> residual() const { return rate - (gravity + contact + kinetic + interaction + base); }
 
   SpeciesMomentum& operator+=(const SpeciesMomentum& other);
   SpeciesMomentum& operator*=(double factor);
@@ -61,46 +61,49 @@ struct SpeciesMomentum {
 ///
 /// Over frames of consecutive steps the rates add up to the change of momentum; over frames further
 /// apart they are a sample of it, whose expectation is `change`.
+template <int D>
 class MomentumBalance {
  public:
   /// Gravity in m/s^2, step h in s.
-  MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity<2>& gravity,
-                  double step);
+  MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity<D>& gravity,
+                  double step, std::size_t species = 2);
 
   /// Frames come in order of time, with velocities, forces and contacts.
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   /// Adds the frames of `later`, which come after those here.
   void merge(const MomentumBalance& later);
 
   std::size_t layers() const { return sums_.size(); }
-  SpeciesMomentum mean(std::size_t layer, Species species) const;
+  std::size_t species() const { return species_; }
+  SpeciesMomentum<D> mean(std::size_t layer, Species species) const;
   /// Change of the momentum density from the first frame to the last over the time between them,
-  /// N/m^2; NaN of a single frame.
-  Vec2 change(std::size_t layer, Species species) const;
+  /// N/m^2 or N/m^3; NaN of a single frame.
+  Vector<D> change(std::size_t layer, Species species) const;
 
  private:
   /// Momentum just before the impulses of one frame, kg m/s, by layer and species.
   struct Instant {
     double time;  // s
-    std::vector<std::array<Vec2, 2>> momentum;
-    Vec2 at(std::size_t layer, Species species) const;
+    std::vector<std::vector<Vector<D>>> momentum;
+    Vector<D> at(std::size_t layer, Species species) const;
   };
 
-  void add_contact(const Grains& grains, const Frame<2>& frame, std::size_t contact,
+  void add_contact(const Grains& grains, const Frame<D>& frame, std::size_t contact,
                    std::size_t count);
-  void add_stress(Species species, const Tensor2& force_by_arm, double from, double to,
+  void add_stress(Species species, const Tensor<D>& force_by_arm, double from, double to,
                   std::size_t count);
-  void add_grain(const Grains& grains, const Frame<2>& frame, std::size_t grain,
-                 const Vec2& gravity, Instant& before);
+  void add_grain(const Grains& grains, const Frame<D>& frame, std::size_t grain,
+                 const Vector<D>& gravity, Instant& before);
 
   Layers layers_;
   Kernel kernel_;
-  Gravity<2> gravity_;
+  Gravity<D> gravity_;
   double step_;
+  std::size_t species_;
   std::size_t frames_ = 0;
-  std::vector<std::array<SpeciesMomentum, 2>> sums_;  // by layer and species, times V
+  std::vector<std::vector<SpeciesMomentum<D>>> sums_;  // by layer and species, times V
   std::optional<Instant> first_, last_;
-  std::vector<Vec2> pull_;  // N, sum of all contact forces on each grain of this frame
+  std::vector<Vector<D>> pull_;  // N, sum of all contact forces on each grain of this frame
 };
 
 }  // namespace grseg

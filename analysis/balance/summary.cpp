@@ -23,24 +23,28 @@ std::string direction(const std::vector<double>& push)
 
 }  // namespace
 
-BalanceSummary::BalanceSummary(const Layers& layers, double large_diameter)
+template <int D>
+BalanceSummary<D>::BalanceSummary(const Layers& layers, double large_diameter)
     : layers_(layers), margin_(2 * large_diameter)
 {
 }
 
-double BalanceSummary::surface(const MomentumBalance& window) const
+template <int D>
+double BalanceSummary<D>::surface(const MomentumBalance<D>& window) const
 {
   double mass = 0, moment = 0;
   for (std::size_t n = 0; n < window.layers(); ++n) {
-    const double here =
-        window.mean(n, Species::small).density + window.mean(n, Species::large).density;
+    double here = 0;
+    for (std::size_t k = 0; k < window.species(); ++k)
+      here += window.mean(n, static_cast<Species>(k)).density;
     mass += here;
     moment += here * (layers_.bottom(n) + layers_.top(n)) / 2;
   }
   return 2 * moment / mass;
 }
 
-void BalanceSummary::add_residual(const SpeciesMomentum& own)
+template <int D>
+void BalanceSummary<D>::add_residual(const SpeciesMomentum<D>& own)
 {
   double largest = 0;
   for (const auto& term :
@@ -49,21 +53,22 @@ void BalanceSummary::add_residual(const SpeciesMomentum& own)
   if (largest > 0) residual_ = std::max(residual_, own.residual().cwiseAbs().maxCoeff() / largest);
 }
 
-void BalanceSummary::add(const MomentumBalance& window)
+template <int D>
+void BalanceSummary<D>::add(const MomentumBalance<D>& window)
 {
   const double rounding = 1e-9 * margin_, highest = surface(window) - margin_;
   double push = 0, push_kinetic = 0, drag = 0, weight = 0;
   for (std::size_t n = 0; n < window.layers(); ++n) {
-    const auto large = window.mean(n, Species::large);
-    add_residual(window.mean(n, Species::small));
-    add_residual(large);
+    for (std::size_t k = 0; k < window.species(); ++k)
+      add_residual(window.mean(n, static_cast<Species>(k)));
+    if (window.species() != 2) continue;
     if (layers_.bottom(n) < margin_ - rounding || layers_.top(n) > highest + rounding) continue;
     const auto forces = driving_forces(window, n);
     if (std::isnan(forces.drag)) continue;
     push += forces.push;
     push_kinetic += forces.push_kinetic;
     drag += forces.drag;
-    weight += std::abs(large.gravity.y());
+    weight += std::abs(window.mean(n, Species::large).gravity.y());
   }
   if (!(weight > 0)) return;
   push_.push_back(push / weight);
@@ -71,7 +76,8 @@ void BalanceSummary::add(const MomentumBalance& window)
   drag_.push_back(drag / weight);
 }
 
-std::string BalanceSummary::sentence() const
+template <int D>
+std::string BalanceSummary<D>::sentence() const
 {
   auto closed = fmt::format("the balances close to {:.1e} of the largest term of each", residual_);
   if (push_.size() < 2) return closed;
@@ -81,5 +87,8 @@ std::string BalanceSummary::sentence() const
       "over {} windows); {}",
       direction(push_), direction(push_kinetic_), direction(drag_), push_.size(), closed);
 }
+
+template class BalanceSummary<2>;
+template class BalanceSummary<3>;
 
 }  // namespace grseg

@@ -3,46 +3,68 @@
 
 #include "analysis/balance/driving_forces.hpp"
 #include "analysis/frames/cells.hpp"
+#include "analysis/stress/contact_sums.hpp"
 
 #include <fmt/format.h>
+
+#include <array>
+#include <utility>
 
 namespace grseg {
 namespace {
 
+struct Units {
+  const char *density, *momentum, *stress, *force;
+};
+template <int D>
+constexpr Units units = D == 2 ? Units{"[kg/m^2]", "[kg/(m s)]", "[N/m]", "[N/m^2]"}
+                               : Units{"[kg/m^3]", "[kg/(m^2 s)]", "[Pa]", "[N/m^3]"};
+constexpr std::array<char, 3> axes{'x', 'y', 'z'};
+
 /// One species in one layer.
+template <int D>
 struct SpeciesPart {
-  const char* name;  // S or L
-  SpeciesMomentum momentum;
-  Vec2 change = Vec2::Zero();                // N/m^2
-  Tensor2 kinetic_stress = Tensor2::Zero();  // N/m
+  std::string name;  // S, L, or a species' own
+  SpeciesMomentum<D> momentum;
+  Vector<D> change = Vector<D>::Zero();          // N/m^2 or N/m^3
+  Tensor<D> kinetic_stress = Tensor<D>::Zero();  // N/m or Pa
 };
 
 /// About a mean velocity, m/s.
-Tensor2 kinetic_stress(const SpeciesMomentum& of, const Vec2& mean)
+template <int D>
+Tensor<D> kinetic_stress(const SpeciesMomentum<D>& of, const Vector<D>& mean)
 {
-  const Tensor2 carried = of.momentum * mean.transpose();
+  const Tensor<D> carried = of.momentum * mean.transpose();
   return of.momentum_flux - carried - carried.transpose() + of.density * mean * mean.transpose();
 }
 
-void add_species(std::vector<Cell>& cells, const SpeciesPart& part)
+template <int D>
+void add_species(std::vector<Cell>& cells, const SpeciesPart<D>& part)
 {
   const auto& of = part.momentum;
-  const auto add = [&](const char* name, double value) {
-    cells.push_back({fmt::format(fmt::runtime(name), part.name), value});
+  const auto& [density, momentum, stress, force] = units<D>;
+  const auto& name = part.name;
+  const auto component = [](const auto& row, const auto& column) {
+    return fmt::format("{}{}", axes[static_cast<std::size_t>(row)],
+                       axes[static_cast<std::size_t>(column)]);
   };
-  add("rho_{}[kg/m^2]", of.density);
-  add("jx_{}[kg/(m s)]", of.momentum.x());
-  add("jy_{}[kg/(m s)]", of.momentum.y());
-  add("Sc_{}_xx[N/m]", of.contact_stress(0, 0));
-  add("Sc_{}_xy[N/m]", of.contact_stress(0, 1));
-  add("Sc_{}_yx[N/m]", of.contact_stress(1, 0));
-  add("Sc_{}_yy[N/m]", of.contact_stress(1, 1));
-  add("Sk_{}_xx[N/m]", part.kinetic_stress(0, 0));
-  add("Sk_{}_xy[N/m]", part.kinetic_stress(0, 1));
-  add("Sk_{}_yy[N/m]", part.kinetic_stress(1, 1));
-  const auto add_force = [&](const char* name, const Vec2& density) {
-    cells.push_back({fmt::format("{}_{}_x[N/m^2]", name, part.name), density.x()});
-    cells.push_back({fmt::format("{}_{}_y[N/m^2]", name, part.name), density.y()});
+  cells.push_back({fmt::format("rho_{}{}", name, density), of.density});
+  for (Eigen::Index a = 0; a < D; ++a)
+    cells.push_back({fmt::format("j{}_{}{}", axes[static_cast<std::size_t>(a)], name, momentum),
+                     of.momentum[a]});
+  for (Eigen::Index a = 0; a < D; ++a)
+    for (Eigen::Index b = 0; b < D; ++b)
+      cells.push_back(
+          {fmt::format("Sc_{}_{}{}", name, component(a, b), stress), of.contact_stress(a, b)});
+  for (Eigen::Index a = 0; a < D; ++a)
+    for (Eigen::Index b = a; b < D; ++b)
+      cells.push_back(
+          {fmt::format("Sk_{}_{}{}", name, component(a, b), stress), part.kinetic_stress(a, b)});
+  const auto add_force = [&](const char* term, const Vector<D>& value) {
+    for (Eigen::Index a = 0; a < D; ++a)
+      cells.push_back(
+          {fmt::format("{}_{}_{}{}", term, name, axes[static_cast<std::size_t>(a)], force),
+           value[a]});
   };
   add_force("rate", of.rate);
   add_force("gravity", of.gravity);
@@ -55,46 +77,63 @@ void add_species(std::vector<Cell>& cells, const SpeciesPart& part)
   add_force("change", part.change);
 }
 
-std::vector<Cell> cells_of(const SpeciesPart& small, const SpeciesPart& large,
-                           const DrivingForces& forces)
+void add_forces(std::vector<Cell>& cells, const DrivingForces& forces, const std::string& unit)
 {
-  std::vector<Cell> cells;
-  add_species(cells, small);
-  add_species(cells, large);
   cells.insert(cells.end(), {{"phi_L", forces.phi},
                              {"psi_L", forces.psi},
                              {"psik_L", forces.psi_kinetic},
                              {"B", forces.b},
                              {"B_kappa", forces.b_kinetic},
-                             {"push[N/m^2]", forces.push},
-                             {"push_kinetic[N/m^2]", forces.push_kinetic},
-                             {"spread[N/m^2]", forces.spread},
-                             {"spread_kinetic[N/m^2]", forces.spread_kinetic},
-                             {"drag[N/m^2]", forces.drag},
-                             {"scatter[N/m^2]", forces.scatter},
+                             {"push" + unit, forces.push},
+                             {"push_kinetic" + unit, forces.push_kinetic},
+                             {"spread" + unit, forces.spread},
+                             {"spread_kinetic" + unit, forces.spread_kinetic},
+                             {"drag" + unit, forces.drag},
+                             {"scatter" + unit, forces.scatter},
                              {"drift[kg/(m^2 s)]", forces.drift},
                              {"drag_rate[1/s]", forces.drag_rate()}});
+}
+
+template <int D>
+std::vector<Cell> cells_of(const std::vector<SpeciesPart<D>>& parts, const DrivingForces& forces)
+{
+  std::vector<Cell> cells;
+  for (const auto& part : parts) add_species(cells, part);
+  if (parts.size() == 2) add_forces(cells, forces, units<D>.force);
   return cells;
 }
 
 }  // namespace
 
-std::vector<std::string> balance_columns()
+template <int D>
+std::vector<std::string> balance_columns(const SpeciesList& species)
 {
-  return columns_of(cells_of({"S", {}}, {"L", {}}, {}));
+  std::vector<SpeciesPart<D>> parts;
+  for (auto& word : column_words(species)) parts.push_back({std::move(word), {}});
+  return columns_of(cells_of(parts, {}));
 }
 
-std::vector<double> balance_row(const MomentumBalance& balance, std::size_t layer)
+template <int D>
+std::vector<double> balance_row(const MomentumBalance<D>& balance, std::size_t layer)
 {
-  SpeciesPart small{"S", balance.mean(layer, Species::small),
-                    balance.change(layer, Species::small)};
-  SpeciesPart large{"L", balance.mean(layer, Species::large),
-                    balance.change(layer, Species::large)};
-  const Vec2 mean = (small.momentum.momentum + large.momentum.momentum) /
-                    (small.momentum.density + large.momentum.density);
-  for (SpeciesPart* part : {&small, &large})
-    part->kinetic_stress = kinetic_stress(part->momentum, mean);
-  return values_of(cells_of(small, large, driving_forces(balance, layer)));
+  std::vector<SpeciesPart<D>> parts;
+  Vector<D> momentum = Vector<D>::Zero();
+  double density = 0;
+  for (std::size_t k = 0; k < balance.species(); ++k) {
+    const auto species = static_cast<Species>(k);
+    parts.push_back({"", balance.mean(layer, species), balance.change(layer, species)});
+    momentum += parts.back().momentum.momentum;
+    density += parts.back().momentum.density;
+  }
+  const Vector<D> mean = momentum / density;
+  for (auto& part : parts) part.kinetic_stress = kinetic_stress<D>(part.momentum, mean);
+  const bool two = parts.size() == 2;
+  return values_of(cells_of(parts, two ? driving_forces(balance, layer) : DrivingForces{}));
 }
+
+template std::vector<std::string> balance_columns<2>(const SpeciesList&);
+template std::vector<std::string> balance_columns<3>(const SpeciesList&);
+template std::vector<double> balance_row(const MomentumBalance<2>&, std::size_t);
+template std::vector<double> balance_row(const MomentumBalance<3>&, std::size_t);
 
 }  // namespace grseg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/contact_rules.hpp"
 
+#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/reader.hpp"
 
@@ -10,6 +11,14 @@
 #include <cmath>
 
 namespace grseg {
+namespace {
+
+double size_of_gravity(const TrajectoryReader& run)
+{
+  return with_dimension(run.dimension(), [&](auto d) { return run.gravity<d>().norm(); });
+}
+
+}  // namespace
 
 ContactRules read_contact_rules(const TrajectoryReader& run)
 {
@@ -31,7 +40,7 @@ ContactRules read_contact_rules(const TrajectoryReader& run)
     rules.look_ahead = rules.horizon = parameters.number("horizon", run.path());
     // For files without /parameters/contact_margin.
     const double by_gravity =
-        rules.horizon * rules.step * std::sqrt(run.gravity<2>().norm() * run.small_diameter());
+        rules.horizon * rules.step * std::sqrt(size_of_gravity(run) * run.small_diameter());
     rules.margin =
         std::max(rules.margin, parameters.find_number("contact_margin").value_or(by_gravity));
   } else {

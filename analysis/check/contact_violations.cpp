@@ -10,15 +10,18 @@ namespace grseg {
 namespace {
 
 /// Relative velocities of i against j, m/s, after the step and before it.
+template <int D>
 struct Approach {
-  Vec2 after, before;
+  Vector<D> after, before;
 };
 
-Approach approach_of(const Grains& grains, const Frame<2>& frame, std::size_t contact, double step)
+template <int D>
+Approach<D> approach_of(const Grains& grains, const Frame<D>& frame, std::size_t contact,
+                        double step)
 {
-  Approach relative{Vec2::Zero(), Vec2::Zero()};
+  Approach<D> relative{Vector<D>::Zero(), Vector<D>::Zero()};
   const auto add = [&](std::size_t g, double sign) {
-    const Vec2 change = step * frame.force[g] / grains.mass[g];
+    const Vector<D> change = step * frame.force[g] / grains.mass[g];
     relative.after += sign * frame.velocity[g];
     relative.before += sign * (frame.velocity[g] - change);
   };
@@ -30,7 +33,8 @@ Approach approach_of(const Grains& grains, const Frame<2>& frame, std::size_t co
 
 }  // namespace
 
-void ContactViolations::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void ContactViolations::add(const Grains& grains, const Frame<D>& frame)
 {
   const auto& contacts = frame.contacts;
   double scale = 0;
@@ -42,7 +46,8 @@ void ContactViolations::add(const Grains& grains, const Frame<2>& frame)
   }
 }
 
-void ContactViolations::add_forces(const Frame<2>& frame, std::size_t contact, double scale)
+template <int D>
+void ContactViolations::add_forces(const Frame<D>& frame, std::size_t contact, double scale)
 {
   const auto [n, f_n, f_t] = force_parts(frame.contacts, contact);
   tension_.add(std::max(0.0, -f_n) / scale, frame.time, contact);
@@ -51,16 +56,17 @@ void ContactViolations::add_forces(const Frame<2>& frame, std::size_t contact, d
                  frame.time, contact);
 }
 
-void ContactViolations::add_motion(const Grains& grains, const Frame<2>& frame, std::size_t contact)
+template <int D>
+void ContactViolations::add_motion(const Grains& grains, const Frame<D>& frame, std::size_t contact)
 {
   const auto& contacts = frame.contacts;
   const double gap = contacts.gap[contact], reach = contacts.branch[contact].norm() - gap;
-  const Vec2& branch = contacts.branch[contact];
-  const Vec2 n = branch.normalized();
+  const Vector<D>& branch = contacts.branch[contact];
+  const Vector<D> n = branch.normalized();
   const bool bears = bears_force(contacts, contact);
   const auto relative = approach_of(grains, frame, contact, rules_.step);
   if (bears) {
-    const Vec2 flight = rules_.look_ahead * rules_.step * relative.before;
+    const Vector<D> flight = rules_.look_ahead * rules_.step * relative.before;
     // The distance from a straight wall is along its normal.
     const double distance =
         contacts.j[contact] < 0 ? branch.norm() + flight.dot(n) : (branch + flight).norm();
@@ -73,5 +79,8 @@ void ContactViolations::add_motion(const Grains& grains, const Frame<2>& frame, 
   if (gap > 0) least = rules_.horizon > 0 ? -gap / (rules_.horizon * rules_.step) : 0;
   approach_.add(std::max(0.0, least - relative.after.dot(n)) * rules_.step, frame.time, contact);
 }
+
+template void ContactViolations::add(const Grains&, const Frame<2>&);
+template void ContactViolations::add(const Grains&, const Frame<3>&);
 
 }  // namespace grseg

@@ -23,7 +23,8 @@ class ContactViolations {
  public:
   explicit ContactViolations(const ContactRules& rules) : rules_(rules) {}
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  template <int D>
+  void add(const Grains& grains, const Frame<D>& frame);
 
   // By contact; forces over the largest contact force of the frame.
   const WorstCase& coulomb() const { return coulomb_; }    // (|f_t| - mu f_n)/f_max
@@ -33,8 +34,10 @@ class ContactViolations {
   const WorstCase& overlap() const { return overlap_; }    // m
 
  private:
-  void add_forces(const Frame<2>& frame, std::size_t contact, double scale);
-  void add_motion(const Grains& grains, const Frame<2>& frame, std::size_t contact);
+  template <int D>
+  void add_forces(const Frame<D>& frame, std::size_t contact, double scale);
+  template <int D>
+  void add_motion(const Grains& grains, const Frame<D>& frame, std::size_t contact);
 
   ContactRules rules_;
   WorstCase coulomb_, tension_, open_gap_, approach_, overlap_;

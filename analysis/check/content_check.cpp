@@ -5,11 +5,15 @@
 
 namespace grseg {
 
-void ContentCheck::add(std::size_t index, const Frame<2>& frame)
+template <int D>
+void ContentCheck::add(std::size_t index, const Frame<D>& frame)
 {
   ++frames_;
   if (!run_.is_intact(index, frame) && damaged_++ == 0) first_damaged_ = index;
 }
+
+template void ContentCheck::add(std::size_t, const Frame<2>&);
+template void ContentCheck::add(std::size_t, const Frame<3>&);
 
 std::vector<CheckLine> ContentCheck::lines() const
 {

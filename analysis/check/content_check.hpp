@@ -17,7 +17,8 @@ class ContentCheck {
   explicit ContentCheck(const TrajectoryReader& run) : run_(run) {}
 
   /// Any frame, whole (all of TrajectoryReader::Fields).
-  void add(std::size_t index, const Frame<2>& frame);
+  template <int D>
+  void add(std::size_t index, const Frame<D>& frame);
   std::vector<CheckLine> lines() const;
 
  private:

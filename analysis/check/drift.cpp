@@ -37,6 +37,7 @@ WindowMeans::WindowMeans(const std::vector<RunningSums>& windows)
     overlap.push_back(mean(b.overlap - a.overlap, b.overlaps - a.overlaps));
     energy_defect.push_back(mean(b.energy_defect - a.energy_defect, b.frames - a.frames));
     stray_rate.push_back((b.stray - a.stray) / (b.time - a.time));
+    stray_rate_across.push_back((b.stray_across - a.stray_across) / (b.time - a.time));
   }
 }
 

@@ -17,9 +17,9 @@ Drift mean_of(const std::vector<double>& values);
 
 /// Sums over the frames before the first one of a window.
 struct RunningSums {
-  double time = 0;                   // s
-  double stray = 0;                  // m, MotionBalance::stray
-  double overlap = 0, overlaps = 0;  // m, and the number of pairs
+  double time = 0;                     // s
+  double stray = 0, stray_across = 0;  // m, MotionBalance::stray along x and z
+  double overlap = 0, overlaps = 0;    // m, and the number of pairs
   double energy_defect = 0, frames = 0;
 };
 
@@ -29,7 +29,7 @@ struct WindowMeans {
   std::vector<double> time;     // s, middle
   std::vector<double> overlap;  // m
   std::vector<double> energy_defect;
-  std::vector<double> stray_rate;  // m/s
+  std::vector<double> stray_rate, stray_rate_across;  // m/s
 
   explicit WindowMeans(const std::vector<RunningSums>& windows);
 };

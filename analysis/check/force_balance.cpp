@@ -3,6 +3,7 @@
 
 #include "analysis/frames/contact_force.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +11,8 @@ namespace grseg {
 namespace {
 
 /// N: the largest of the frame's contact forces and of the mobile grains' weights.
-double largest_force(const Grains& grains, const Frame<2>& frame, const Gravity<2>& gravity)
+template <int D>
+double largest_force(const Grains& grains, const Frame<D>& frame, const Gravity<D>& gravity)
 {
   double largest = 0;
   for (const auto& force : frame.contacts.force) largest = std::max(largest, force.norm());
@@ -19,51 +21,82 @@ double largest_force(const Grains& grains, const Frame<2>& frame, const Gravity<
   return largest;
 }
 
-/// Torques of the contacts on all grains, N m, counter-clockwise.
-std::vector<double> torques_of(const Grains& grains, const ContactList<2>& contacts)
+template <int D>
+Spin<D> no_spin()
 {
-  std::vector<double> torque(grains.size());
+  if constexpr (D == 2)
+    return 0;
+  else
+    return Vec3::Zero();
+}
+
+double size_of(double spin)
+{
+  return std::abs(spin);
+}
+double size_of(const Vec3& spin)
+{
+  return spin.norm();
+}
+
+/// n x f, N, about z in two dimensions.
+template <int D>
+Spin<D> moment(const Vector<D>& n, const Vector<D>& f)
+{
+  if constexpr (D == 2)
+    return f.y() * n.x() - f.x() * n.y();
+  else
+    return n.cross(f);
+}
+
+/// Torques of the contacts on all grains, N m.
+template <int D>
+std::vector<Spin<D>> torques_of(const Grains& grains, const ContactList<D>& contacts)
+{
+  std::vector<Spin<D>> torque(grains.size(), no_spin<D>());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.i[c]);
-    const double tangential = force_parts(contacts, c).f_t;
+    const Spin<D> turning = moment<D>(contacts.branch[c].normalized(), contacts.force[c]);
     if (contacts.j[c] < 0) {
-      torque[i] -= grains.radius[i] * tangential;
+      torque[i] -= grains.radius[i] * turning;
       continue;
     }
     const auto j = static_cast<std::size_t>(contacts.j[c]);
     const double r_i = grains.radius[i], r_j = grains.radius[j];
     const double kappa = contacts.branch[c].norm() / (r_i + r_j);
-    torque[i] -= kappa * r_i * tangential;
-    torque[j] -= kappa * r_j * tangential;
+    torque[i] -= kappa * r_i * turning;
+    torque[j] -= kappa * r_j * turning;
   }
   return torque;
 }
 
 }  // namespace
 
-void ForceBalance::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void ForceBalance<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   const double scale = largest_force(grains, frame, gravity_);
   if (!frame.force.empty()) add_forces(grains, frame, scale);
 
-  Spin now{frame.step, frame.time,
-           scale * *std::max_element(grains.radius.begin(), grains.radius.end()),
-           std::vector<double>(grains.size()), torques_of(grains, frame.contacts)};
+  Turning now{
+      frame.step, frame.time, scale * *std::max_element(grains.radius.begin(), grains.radius.end()),
+      std::vector<Spin<D>>(grains.size(), no_spin<D>()), torques_of(grains, frame.contacts)};
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (is_mobile(grains, g))
-      now.inertia_times_spin[g] =
-          grains.mass[g] * grains.radius[g] * grains.radius[g] / 2 * frame.angular_velocity[g];
+      now.inertia_times_spin[g] = grains.mass[g] * grains.radius[g] * grains.radius[g] *
+                                  inertia_factor<D> * frame.angular_velocity[g];
     else
-      now.torque[g] = 0;
+      now.torque[g] = no_spin<D>();
   }
   if (!last_.inertia_times_spin.empty()) add_torques(last_, now);
   last_ = std::move(now);
 }
 
-void ForceBalance::add_forces(const Grains& grains, const Frame<2>& frame, double scale)
+template <int D>
+void ForceBalance<D>::add_forces(const Grains& grains, const Frame<D>& frame, double scale)
 {
-  const Vec2 gravity = gravity_.at(frame.time);
-  std::vector<Vec2> defect(grains.size());
+  const Vector<D> gravity = gravity_.at(frame.time);
+  std::vector<Vector<D>> defect(grains.size());
   for (std::size_t g = 0; g < grains.size(); ++g)
     defect[g] = grains.mass[g] * gravity - frame.force[g];
   const auto& contacts = frame.contacts;
@@ -76,14 +109,18 @@ void ForceBalance::add_forces(const Grains& grains, const Frame<2>& frame, doubl
       forces_.add(scale > 0 ? defect[g].norm() / scale : defect[g].norm(), frame.time, g);
 }
 
-void ForceBalance::add_torques(const Spin& before, const Spin& after)
+template <int D>
+void ForceBalance<D>::add_torques(const Turning& before, const Turning& after)
 {
   if (after.step != before.step + 1) return;
   for (std::size_t g = 0; g < after.torque.size(); ++g) {
-    const double change = (after.inertia_times_spin[g] - before.inertia_times_spin[g]) / step_;
-    const double defect = std::abs(after.torque[g] - change);
+    const Spin<D> change = (after.inertia_times_spin[g] - before.inertia_times_spin[g]) / step_;
+    const double defect = size_of(Spin<D>(after.torque[g] - change));
     torques_.add(after.scale > 0 ? defect / after.scale : defect, after.time, g);
   }
 }
+
+template class ForceBalance<2>;
+template class ForceBalance<3>;
 
 }  // namespace grseg

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,8 +23,9 @@ constexpr const char* no_energy_defect = "the file holds no /observables/energy_
 
 Layers layers_of(const TrajectoryReader& run, const std::string& layer)
 {
+  const auto& box = run.box();
   return {parse_length(layer, "--layer", {run.small_diameter(), run.large_diameter()}),
-          run.box().length_x};
+          box.length_x, run.dimension() == 3 ? std::optional(box.length_z) : std::nullopt};
 }
 
 /// --begin, or the tilt at t = 0; the first frame of runs that end before.
@@ -40,22 +42,30 @@ std::vector<double> observable_of(const TrajectoryReader& run, const std::string
   return run.has_observable(name) ? run.observable(name) : std::vector<double>{};
 }
 
-/// By frame; empty where the file does not have it.
-std::vector<Vec2> base_force_of(const TrajectoryReader& run)
+/// By frame; empty where the file does not have all its components.
+template <int D>
+std::vector<Vector<D>> base_force_of(const TrajectoryReader& run)
 {
-  const auto x = observable_of(run, "base_force_x"), y = observable_of(run, "base_force_y");
-  std::vector<Vec2> force;
-  for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k) force.emplace_back(x[k], y[k]);
+  std::array<std::vector<double>, D> components;
+  for (std::size_t axis = 0; axis < D; ++axis)
+    components[axis] = observable_of(run, fmt::format("base_force_{}", "xyz"[axis]));
+  const auto shorter = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+  std::vector<Vector<D>> force(
+      std::min_element(components.begin(), components.end(), shorter)->size());
+  for (std::size_t k = 0; k < force.size(); ++k)
+    for (std::size_t axis = 0; axis < D; ++axis)
+      force[k][static_cast<Eigen::Index>(axis)] = components[axis][k];
   return force;
 }
 
 }  // namespace
 
-PhysicsCheck::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& settings)
+template <int D>
+PhysicsCheck<D>::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& settings)
     : run_(run),
       tolerances_(settings.tolerances),
       judge_(settings.tolerances, run.stores_float32()),
-      gravity_(run.gravity<2>()),
+      gravity_(run.gravity<D>()),
       small_diameter_(run.small_diameter()),
       rules_(read_contact_rules(run)),
       rotation_(run.parameters().find_number("rotation").value_or(1) != 0),
@@ -64,9 +74,9 @@ PhysicsCheck::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& s
       end_(settings.windows.end.value_or(std::numeric_limits<double>::infinity())),
       forces_(gravity_, run.step()),
       motion_(gravity_, run.step()),
-      partials_(run.box()),
+      partials_(run.box(), run.species().size()),
       contacts_(rules_),
-      base_force_(base_force_of(run)),
+      base_force_(base_force_of<D>(run)),
       energy_defect_(observable_of(run, "energy_defect"))
 {
   tolerances_.require_valid();
@@ -79,29 +89,40 @@ PhysicsCheck::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& s
   }
 }
 
-bool PhysicsCheck::in_window(std::size_t index) const
+template <int D>
+bool PhysicsCheck<D>::in_window(std::size_t index) const
 {
   return window_ < windows_.size() && index >= windows_[window_].frames.front();
 }
 
 /// Whether gravity presses the bed on the base, in a direction that does not change.
-bool PhysicsCheck::steady_slope() const
+template <int D>
+bool PhysicsCheck<D>::steady_slope() const
 {
   return gravity_.start.y() < 0 && !gravity_.turns();
 }
 
+/// Whether no walls carry a part of the weight.
+template <int D>
+bool PhysicsCheck<D>::is_periodic() const
+{
+  return run_.box().periodic_x && (D == 2 || run_.box().periodic_z);
+}
+
 /// Whether the energies are so small that their defect is round-off of the forces.
-bool PhysicsCheck::at_rest(const TotalMotion& total) const
+template <int D>
+bool PhysicsCheck<D>::at_rest(const TotalMotion<D>& total) const
 {
   constexpr double least = 1e-12;
   return total.energy < least * total.mass * gravity_.norm() * small_diameter_;
 }
 
-void PhysicsCheck::add(std::size_t index, const Frame<2>& frame)
+template <int D>
+void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
 {
   if (frame.time < begin_ || frame.time >= end_) return;
   const auto& grains = run_.grains();
-  std::optional<Vec2> base;
+  std::optional<Vector<D>> base;
   if (!base_force_.empty()) base = base_force_[index];
   const auto total = total_motion(grains, frame, run_.box());
   motion_.add(total, base);
@@ -117,21 +138,23 @@ void PhysicsCheck::add(std::size_t index, const Frame<2>& frame)
   if (windows_[window_].frames.back() == index) end_window();
 }
 
-void PhysicsCheck::begin_window(const Frame<2>& frame)
+template <int D>
+void PhysicsCheck<D>::begin_window(const Frame<D>& frame)
 {
   const auto& overlap = contacts_.overlap();
-  window_starts_.push_back(
-      {frame.time, motion_.stray(), overlap.sum, overlap.count, energy_.sum, energy_.count});
-  if (steady_slope() && run_.box().periodic_x)
-    weights_.emplace(layers_, gravity_.start, small_diameter_ / 2);
+  window_starts_.push_back({frame.time, motion_.stray(0), D == 3 ? motion_.stray(D - 1) : 0,
+                            overlap.sum, overlap.count, energy_.sum, energy_.count});
+  if (steady_slope() && is_periodic())
+    weights_.emplace(layers_, gravity_.start, small_diameter_ / 2, run_.species().size());
 }
 
 /// Reads the frames of the window again: now that the mean velocity is known, stresses can be taken
 /// about it.
-void PhysicsCheck::end_window()
+template <int D>
+void PhysicsCheck<D>::end_window()
 {
   if (weights_) {
-    Frame<2> frame;
+    Frame<D> frame;
     for (const std::size_t k : windows_[window_].frames) {
       run_.read(k, frame, {.velocity = true, .contacts = true});
       weights_->add(run_.grains(), frame);
@@ -142,7 +165,8 @@ void PhysicsCheck::end_window()
   ++window_;
 }
 
-std::vector<CheckLine> PhysicsCheck::lines() const
+template <int D>
+std::vector<CheckLine> PhysicsCheck<D>::lines() const
 {
   std::vector<CheckLine> lines;
   if (motion_.frames() == 0) {
@@ -158,7 +182,8 @@ std::vector<CheckLine> PhysicsCheck::lines() const
   return lines;
 }
 
-void PhysicsCheck::add_balances(std::vector<CheckLine>& lines) const
+template <int D>
+void PhysicsCheck<D>::add_balances(std::vector<CheckLine>& lines) const
 {
   const auto add = [&](const Check& check, const WorstCase& worst, const char* what,
                        const char* why_skipped) {
@@ -174,13 +199,15 @@ void PhysicsCheck::add_balances(std::vector<CheckLine>& lines) const
                            : nullptr);
   add(named("total_momentum"), momentum, "",
       momentum.count > 0    ? nullptr
-      : base_force_.empty() ? "the file holds no /observables/base_force_x, _y"
+      : base_force_.empty() ? D == 2 ? "the file holds no /observables/base_force_x, _y"
+                                     : "the file holds no /observables/base_force_x, _y, _z"
                             : "there is one frame only");
   add(named("sum_of_partials"), partials_.defect(), "", nullptr);
   add(named("energy_defect"), energy_, "", energy_.count > 0 ? nullptr : no_energy_defect);
 }
 
-void PhysicsCheck::add_contacts(std::vector<CheckLine>& lines) const
+template <int D>
+void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
 {
   const auto add = [&](const Check& largest, const Check& mean, const WorstCase& worst, double unit,
                        const char* why_skipped = nullptr) {
@@ -207,15 +234,17 @@ void PhysicsCheck::add_contacts(std::vector<CheckLine>& lines) const
 }
 
 /// Why no layer can be held against the weight above it, or "".
-std::string PhysicsCheck::why_no_layers() const
+template <int D>
+std::string PhysicsCheck<D>::why_no_layers() const
 {
   if (gravity_.turns()) return "the slope turns, so no window has one";
   if (!(gravity_.start.y() < 0)) return "gravity does not press on the base";
-  if (!run_.box().periodic_x) return "the cell is not periodic, so that walls carry a part";
+  if (!is_periodic()) return "the cell is not periodic, so that walls carry a part";
   return windows_.size() < least_windows ? few_windows : "";
 }
 
-void PhysicsCheck::add_layers(std::vector<CheckLine>& lines) const
+template <int D>
+void PhysicsCheck<D>::add_layers(std::vector<CheckLine>& lines) const
 {
   std::string why_skipped = why_no_layers();
   std::vector<LayerBalance> layers;
@@ -224,8 +253,8 @@ void PhysicsCheck::add_layers(std::vector<CheckLine>& lines) const
     if (layers.empty()) why_skipped = "there is one layer only; choose a thinner --layer";
   }
   if (!why_skipped.empty()) {
-    for (const auto& check : {named("weight"), named("slope")})
-      lines.push_back(Judge::skipped(check, why_skipped));
+    for (const auto& check : {named("weight"), named("slope"), named("slope_across")})
+      if (applies(check)) lines.push_back(Judge::skipped(check, why_skipped));
     return;
   }
   const auto add = [&](const Check& check, const LayerBalance& layer, double deviation,
@@ -237,21 +266,27 @@ void PhysicsCheck::add_layers(std::vector<CheckLine>& lines) const
     line.remark = remark;
     lines.push_back(line);
   };
+  const auto add_ratio = [&](const Check& check, const LayerBalance& layer,
+                             const LayerBalance::StressRatio& found) {
+    add(check, layer, found.ratio - found.slope, found.error,
+        fmt::format("stress ratio {:.5f}, slope less acceleration {:.5f}", found.ratio,
+                    found.slope));
+  };
   for (const auto& layer : layers)
     add(named("weight"), layer, layer.carried - 1, layer.carried_error,
         fmt::format("carries {:.5f} of the weight above", layer.carried));
-  for (const auto& layer : layers)
-    add(named("slope"), layer, layer.ratio - layer.slope, layer.ratio_error,
-        fmt::format("stress ratio {:.5f}, slope less acceleration {:.5f}", layer.ratio,
-                    layer.slope));
+  for (const auto& layer : layers) add_ratio(named("slope"), layer, layer.along);
+  if (applies(named("slope_across")))
+    for (const auto& layer : layers) add_ratio(named("slope_across"), layer, layer.across);
 }
 
-void PhysicsCheck::add_drifts(std::vector<CheckLine>& lines) const
+template <int D>
+void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
 {
   if (windows_.size() < least_windows) {
     for (const auto& check :
-         {named("overlap_drift"), named("energy_defect_drift"), named("x_drift")})
-      lines.push_back(Judge::skipped(check, few_windows));
+         {named("overlap_drift"), named("energy_defect_drift"), named("x_drift"), named("z_drift")})
+      if (applies(check)) lines.push_back(Judge::skipped(check, few_windows));
     return;
   }
   const WindowMeans means(window_starts_);
@@ -267,14 +302,24 @@ void PhysicsCheck::add_drifts(std::vector<CheckLine>& lines) const
     add_change(named("energy_defect_drift"), means.energy_defect, 1);
   else
     lines.push_back(Judge::skipped(named("energy_defect_drift"), no_energy_defect));
+  add_strays(named("x_drift"), means.stray_rate, lines);
+  if (applies(named("z_drift"))) add_strays(named("z_drift"), means.stray_rate_across, lines);
+}
+
+template <int D>
+void PhysicsCheck<D>::add_strays(const Check& check, const std::vector<double>& rates,
+                                 std::vector<CheckLine>& lines) const
+{
   if (!(gravity_.norm() > 0)) {
-    lines.push_back(Judge::skipped(named("x_drift"), "without gravity it has no scale"));
+    lines.push_back(Judge::skipped(check, "without gravity it has no scale"));
     return;
   }
   const double speed = std::sqrt(gravity_.norm() * small_diameter_);
-  const auto [rate, error] = mean_of(means.stray_rate);
-  lines.push_back(judge_.statistical(named("x_drift"), rate / speed, error / speed,
-                                     means.stray_rate.size(), 1));
+  const auto [rate, error] = mean_of(rates);
+  lines.push_back(judge_.statistical(check, rate / speed, error / speed, rates.size(), 1));
 }
+
+template class PhysicsCheck<2>;
+template class PhysicsCheck<3>;
 
 }  // namespace grseg

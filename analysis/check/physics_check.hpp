@@ -29,31 +29,36 @@ struct PhysicsSettings {
 
 /// Holds a run against the laws that it should obey, the table of checks.hpp. Frames are added one
 /// by one and forgotten; checks that need data missing from the file are skipped, with the reason.
+template <int D>
 class PhysicsCheck {
  public:
   PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& settings);
 
   /// Frames in order, whole (all of TrajectoryReader::Fields); those before --begin (t = 0) and
   /// from --end on are not used.
-  void add(std::size_t index, const Frame<2>& frame);
+  void add(std::size_t index, const Frame<D>& frame);
   std::vector<CheckLine> lines() const;
 
  private:
   bool in_window(std::size_t index) const;
   bool steady_slope() const;
-  bool at_rest(const TotalMotion& total) const;
-  void begin_window(const Frame<2>& frame);
+  bool is_periodic() const;
+  static bool applies(const Check& check) { return D == 3 || !check.of_spheres_only; }
+  bool at_rest(const TotalMotion<D>& total) const;
+  void begin_window(const Frame<D>& frame);
   void end_window();
   std::string why_no_layers() const;
   void add_balances(std::vector<CheckLine>& lines) const;
   void add_contacts(std::vector<CheckLine>& lines) const;
   void add_layers(std::vector<CheckLine>& lines) const;
   void add_drifts(std::vector<CheckLine>& lines) const;
+  void add_strays(const Check& check, const std::vector<double>& rates,
+                  std::vector<CheckLine>& lines) const;
 
   const TrajectoryReader& run_;
   CheckTolerances tolerances_;
   Judge judge_;
-  Gravity<2> gravity_;
+  Gravity<D> gravity_;
   double small_diameter_;
   ContactRules rules_;
   bool rotation_, has_force_ = true;
@@ -61,17 +66,17 @@ class PhysicsCheck {
   double begin_, end_;  // s
   std::vector<Window> windows_;
 
-  ForceBalance forces_;
-  MotionBalance motion_;
-  StressClosure partials_;
+  ForceBalance<D> forces_;
+  MotionBalance<D> motion_;
+  StressClosure<D> partials_;
   ContactViolations contacts_;
   WorstCase energy_;
-  std::vector<Vec2> base_force_;       // N, by frame; empty where the file does not have it
+  std::vector<Vector<D>> base_force_;  // N, by frame; empty where the file does not have it
   std::vector<double> energy_defect_;  // by frame; empty where the file does not have it
 
-  std::size_t window_ = 0;             // to which frames are being added
-  std::optional<WeightSums> weights_;  // of this window
-  std::vector<WeightWindow> weight_windows_;
+  std::size_t window_ = 0;                // to which frames are being added
+  std::optional<WeightSums<D>> weights_;  // of this window
+  std::vector<WeightWindow<D>> weight_windows_;
   std::vector<RunningSums> window_starts_;
 };
 

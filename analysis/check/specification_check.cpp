@@ -52,8 +52,10 @@ void SpecificationCheck::check_parameters()
       depart(fmt::format("/parameters/{}", name), "should be a positive number");
   }
   const auto gravity = numbers.find("gravity");
-  if (gravity == numbers.end() || gravity->second.size() != 2)
-    depart("/parameters/gravity", "should be two numbers");
+  if (gravity == numbers.end() ||
+      gravity->second.size() != static_cast<std::size_t>(run_.dimension()))
+    depart("/parameters/gravity",
+           fmt::format("should be {} numbers", run_.dimension() == 2 ? "two" : "three"));
 }
 
 void SpecificationCheck::check_observables()
@@ -67,19 +69,29 @@ void SpecificationCheck::check_observables()
   }
 }
 
-void SpecificationCheck::add(std::size_t index, const Frame<2>& frame)
+/// Positions along x (axis 0) or z (axis 2) lie in the cell.
+template <int D>
+void SpecificationCheck::check_wrapped(std::size_t index, const Frame<D>& frame, int axis,
+                                       double length)
 {
-  const double length = run_.box().length_x;
   // Single precision may round a position just below the length up to it.
   const bool rounded = run_.stores_float32();
   const auto wrapped = [&](double x) {
     return x >= 0 && (rounded ? x <= static_cast<float>(length) : x < length);
   };
-  for (std::size_t g = 0; g < frame.position.size() && run_.box().periodic_x; ++g)
-    if (const double x = frame.position[g].x(); !wrapped(x))
+  for (std::size_t g = 0; g < frame.position.size(); ++g)
+    if (const double x = frame.position[g][axis]; !wrapped(x))
       depart("/particles/grains/position/value",
-             fmt::format("has x = {} for grain {} in frame {}, which is not in [0, {})", x, g,
-                         index, length));
+             fmt::format("has {} = {} for grain {} in frame {}, which is not in [0, {})",
+                         "xyz"[axis], x, g, index, length));
+}
+
+template <int D>
+void SpecificationCheck::add(std::size_t index, const Frame<D>& frame)
+{
+  const auto& box = run_.box();
+  if (box.periodic_x) check_wrapped(index, frame, 0, box.length_x);
+  if (D == 3 && box.periodic_z) check_wrapped(index, frame, 2, box.length_z);
   const auto& grains = run_.grains();
   const auto& i = frame.contacts.i;
   for (std::size_t k = 0; k < i.size(); ++k)
@@ -88,6 +100,9 @@ void SpecificationCheck::add(std::size_t index, const Frame<2>& frame)
           "/grseg/contacts/i",
           fmt::format("is {} for contact {} of frame {}, a grain that is fixed", i[k], k, index));
 }
+
+template void SpecificationCheck::add(std::size_t, const Frame<2>&);
+template void SpecificationCheck::add(std::size_t, const Frame<3>&);
 
 std::vector<CheckLine> SpecificationCheck::lines() const
 {

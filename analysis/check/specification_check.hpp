@@ -13,8 +13,8 @@
 namespace grseg {
 
 /// Whether a file is as formats/README.md specifies, beyond what TrajectoryReader requires (numbers
-/// finite, indices in range, offsets and times increasing, radii and masses positive, species 0 to
-/// 2): its layout (formats/trajectory/layout_check.hpp), which datasets it must have, and in which
+/// finite, indices in range, offsets and times increasing, radii and masses positive, species in
+/// the list): its layout (formats/trajectory/layout_check.hpp), which datasets it must have, and in which
 /// range their values lie.
 class SpecificationCheck {
  public:
@@ -22,7 +22,8 @@ class SpecificationCheck {
   explicit SpecificationCheck(const TrajectoryReader& run);
 
   /// Any frame, with contacts.
-  void add(std::size_t index, const Frame<2>& frame);
+  template <int D>
+  void add(std::size_t index, const Frame<D>& frame);
 
   /// `specification`, the number of paths that depart from it; then a line for each of these paths,
   /// with the number of departures.
@@ -32,6 +33,8 @@ class SpecificationCheck {
   void check_grains();
   void check_parameters();
   void check_observables();
+  template <int D>
+  void check_wrapped(std::size_t index, const Frame<D>& frame, int axis, double length);
   void depart(const std::string& path, const std::string& what);
 
   const TrajectoryReader& run_;

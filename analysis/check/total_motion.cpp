@@ -7,9 +7,10 @@
 
 namespace grseg {
 
-TotalMotion total_motion(const Grains& grains, const Frame<2>& frame, const Box& box)
+template <int D>
+TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box)
 {
-  TotalMotion total;
+  TotalMotion<D> total;
   total.step = frame.step;
   total.time = frame.time;
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -17,13 +18,17 @@ TotalMotion total_motion(const Grains& grains, const Frame<2>& frame, const Box&
     total.mass += grains.mass[g];
     total.momentum += grains.mass[g] * frame.velocity[g];
     total.energy += grains.mass[g] * frame.velocity[g].squaredNorm() / 2;
-    total.x += grains.mass[g] * (frame.position[g].x() + frame.image[g][0] * box.length_x);
+    Vector<D> place = frame.position[g];
+    place.x() += frame.image[g][0] * box.length_x;
+    if constexpr (D == 3) place.z() += frame.image[g][2] * box.length_z;
+    total.centre += grains.mass[g] * place;
   }
-  if (total.mass > 0) total.x /= total.mass;
+  if (total.mass > 0) total.centre /= total.mass;
   return total;
 }
 
-void MotionBalance::add(const TotalMotion& now, const std::optional<Vec2>& base_force)
+template <int D>
+void MotionBalance<D>::add(const TotalMotion<D>& now, const std::optional<Vector<D>>& base_force)
 {
   ++frames_;
   if (!first_) {
@@ -33,15 +38,19 @@ void MotionBalance::add(const TotalMotion& now, const std::optional<Vec2>& base_
   if (base_force) {
     const auto steps = now.step - last_.step;
     const double between = static_cast<double>(steps) * step_;
-    const Vec2 weight = now.mass * gravity_.mean(now.time, steps, step_);
+    const Vector<D> weight = now.mass * gravity_.mean(now.time, steps, step_);
     const double scale = between * std::max(weight.norm(), base_force->norm());
     const double defect = (now.momentum - last_.momentum - between * (weight + *base_force)).norm();
     momentum_.add(scale > 0 ? defect / scale : defect, now.time, 0);
   }
   if (now.mass > 0)
-    by_velocity_ +=
-        (now.momentum.x() + last_.momentum.x()) / 2 / now.mass * (now.time - last_.time);
+    by_velocity_ += (now.momentum + last_.momentum) / 2 / now.mass * (now.time - last_.time);
   last_ = now;
 }
+
+template TotalMotion<2> total_motion(const Grains&, const Frame<2>&, const Box&);
+template TotalMotion<3> total_motion(const Grains&, const Frame<3>&, const Box&);
+template class MotionBalance<2>;
+template class MotionBalance<3>;
 
 }  // namespace grseg

@@ -8,8 +8,8 @@ namespace grseg {
 namespace {
 
 /// Sum of of(grain) times l by layer, over the mobile grains.
-template <class What, class Of>
-std::vector<What> moments_above(const Grains& grains, const Frame<2>& frame, const Layers& layers,
+template <int D, class What, class Of>
+std::vector<What> moments_above(const Grains& grains, const Frame<D>& frame, const Layers& layers,
                                 const What& zero, const Of& of)
 {
   const std::size_t count = layers.count(grains, frame);
@@ -29,17 +29,19 @@ std::vector<What> moments_above(const Grains& grains, const Frame<2>& frame, con
   return moment;
 }
 
-Vec2 mean_of(const std::vector<Vec2>& values)
+template <int D>
+Vector<D> mean_of(const std::vector<Vector<D>>& values)
 {
-  Vec2 sum = Vec2::Zero();
+  Vector<D> sum = Vector<D>::Zero();
   for (const auto& value : values) sum += value;
   return sum / static_cast<double>(values.size());
 }
 
-/// One layer window by window: the stress it carries and that which the balance requires, (xy, yy),
-/// N/m.
+/// One layer window by window: the stress it carries and that which the balance requires, (xy, yy,
+/// zy), N/m or Pa.
+template <int D>
 struct Series {
-  std::vector<Vec2> carried, required;
+  std::vector<Vector<D>> carried, required;
 };
 
 /// Standard error of a mean from the deviations of its terms, whose sum is 0.
@@ -52,62 +54,84 @@ double standard_error(std::size_t count, const Deviation& deviation)
   return std::sqrt(squares / (n * (n - 1)));
 }
 
-Series series_of(const std::vector<WeightWindow>& windows, std::size_t layer)
+template <int D>
+Series<D> series_of(const std::vector<WeightWindow<D>>& windows, std::size_t layer)
 {
-  Series series;
+  Series<D> series;
   for (std::size_t k = 0; k + 1 < windows.size(); ++k) {
     const auto &window = windows[k], &next = windows[k + 1];
-    const Vec2 rate = (next.momentum[layer] - window.momentum[layer]) / (next.time - window.time);
+    const Vector<D> rate =
+        (next.momentum[layer] - window.momentum[layer]) / (next.time - window.time);
     series.carried.push_back(window.stress[layer]);
     series.required.push_back(window.weight[layer] + rate);
   }
   return series;
 }
 
-LayerBalance balance_of(const Series& series)
+/// Along axis 0 (x) or 2 (z).
+template <int D>
+LayerBalance::StressRatio ratio_of(const Series<D>& series, int axis)
 {
-  const Vec2 carried = mean_of(series.carried), required = mean_of(series.required);
-  const std::size_t n = series.carried.size();
+  const Vector<D> carried = mean_of<D>(series.carried), required = mean_of<D>(series.required);
+  LayerBalance::StressRatio result;
+  result.ratio = -carried[axis] / carried.y();
+  result.slope = -required[axis] / required.y();
+  // Change of a quotient with the numbers of one window.
+  const auto change = [&](const Vector<D>& part, double ratio, const Vector<D>& whole) {
+    return (-part[axis] - ratio * part.y()) / whole.y();
+  };
+  result.error = standard_error(series.carried.size(), [&](std::size_t k) {
+    return change(series.carried[k], result.ratio, carried) -
+           change(series.required[k], result.slope, required);
+  });
+  return result;
+}
+
+template <int D>
+LayerBalance balance_of(const Series<D>& series)
+{
+  const Vector<D> carried = mean_of<D>(series.carried), required = mean_of<D>(series.required);
   LayerBalance balance;
   balance.carried = carried.y() / required.y();
-  balance.carried_error = standard_error(n, [&](std::size_t k) {
+  balance.carried_error = standard_error(series.carried.size(), [&](std::size_t k) {
     return (series.carried[k].y() - balance.carried * series.required[k].y()) / required.y();
   });
-  balance.ratio = -carried.x() / carried.y();
-  balance.slope = -required.x() / required.y();
-  // Change of a quotient with the numbers of one window.
-  const auto change = [&](const Vec2& part, double ratio, const Vec2& whole) {
-    return (-part.x() - ratio * part.y()) / whole.y();
-  };
-  balance.ratio_error = standard_error(n, [&](std::size_t k) {
-    return change(series.carried[k], balance.ratio, carried) -
-           change(series.required[k], balance.slope, required);
-  });
+  balance.along = ratio_of(series, 0);
+  if (D == 3) balance.across = ratio_of(series, D - 1);
   return balance;
 }
 
 }  // namespace
 
-WeightSums::WeightSums(const Layers& layers, const Vec2& gravity, double bin)
-    : layers_(layers), gravity_(gravity), mean_(layers, bin), contact_(layers, Assignment::branch)
+template <int D>
+WeightSums<D>::WeightSums(const Layers& layers, const Vector<D>& gravity, double bin,
+                          std::size_t species)
+    : layers_(layers),
+      gravity_(gravity),
+      species_(species),
+      mean_(layers, bin, species),
+      contact_(layers, Assignment::branch, {}, {}, species)
 {
 }
 
-void WeightSums::add_to_mean(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void WeightSums<D>::add_to_mean(const Grains& grains, const Frame<D>& frame)
 {
   mean_.add(grains, frame);
   if (!momentum_.empty()) return;
   time_ = frame.time;
-  momentum_ = moments_above(grains, frame, layers_, Vec2(0, 0), [&](std::size_t g) -> Vec2 {
+  const auto momentum = [&](std::size_t g) -> Vector<D> {
     return grains.mass[g] * frame.velocity[g];
-  });
+  };
+  momentum_ = moments_above(grains, frame, layers_, Vector<D>(Vector<D>::Zero()), momentum);
 }
 
-void WeightSums::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void WeightSums<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   if (!kinetic_) {
     mean_.finish();
-    kinetic_.emplace(layers_, MeanFlow::profile, mean_);
+    kinetic_.emplace(layers_, MeanFlow::profile, mean_, species_);
   }
   kinetic_->add(grains, frame);
   contact_.add(grains, frame);
@@ -118,25 +142,39 @@ void WeightSums::add(const Grains& grains, const Frame<2>& frame)
   for (std::size_t n = 0; n < mass.size(); ++n) mass_above_[n] += mass[n];
 }
 
-WeightWindow WeightSums::window() const
+/// Of contacts and motion of all species in a layer, times its volume.
+template <int D>
+Tensor<D> WeightSums<D>::whole_stress(std::size_t layer) const
 {
-  WeightWindow window;
+  const auto sums = contact_.mean(layer).sums;
+  Tensor<D> all = Tensor<D>::Zero();
+  for (std::size_t s = 0; s < species_; ++s) all += sums.of(OwnSum::inside, s);
+  for (std::size_t pair = 0; pair < number_of_pairs(species_); ++pair)
+    all += sums.of(PairSum::whole, pair);
+  for (std::size_t s = 0; s < species_; ++s) all += sums.of(OwnSum::whole_base, s);
+  for (std::size_t s = 0; s < species_; ++s)
+    all += kinetic_->mean(layer, static_cast<Species>(s)).about_mean.kinetic;
+  return all;
+}
+
+template <int D>
+WeightWindow<D> WeightSums<D>::window() const
+{
+  WeightWindow<D> window;
   window.time = time_;
   const std::size_t count = mass_above_.size();
   for (std::size_t n = 0; n < count; ++n) {
     const double volume = layers_.volume(n);
-    const auto sums = contact_.mean(n).sums;
-    const Tensor2 all = sums.of(OwnSum::inside, 0) + sums.of(OwnSum::inside, 1) + sums.of(PairSum::whole, 0) + sums.of(OwnSum::whole_base, 0) + sums.of(OwnSum::whole_base, 1) +
-                        kinetic_->mean(n, Species::small).about_mean.kinetic +
-                        kinetic_->mean(n, Species::large).about_mean.kinetic;
-    window.stress.emplace_back(all.col(1) / volume);
+    window.stress.emplace_back(whole_stress(n).col(1) / volume);
     window.weight.emplace_back(-mass_above_[n] / static_cast<double>(frames_) / volume * gravity_);
-    window.momentum.emplace_back(n < momentum_.size() ? Vec2(momentum_[n] / volume) : Vec2(0, 0));
+    window.momentum.emplace_back(Vector<D>::Zero());
+    if (n < momentum_.size()) window.momentum.back() = momentum_[n] / volume;
   }
   return window;
 }
 
-std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& windows,
+template <int D>
+std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow<D>>& windows,
                                          const Layers& layers, double least_load)
 {
   std::vector<LayerBalance> balances;
@@ -144,7 +182,7 @@ std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& window
   std::size_t count = windows.front().stress.size();
   for (const auto& window : windows) count = std::min(count, window.stress.size());
   if (count == 0) return balances;
-  const auto load = [](const Series& series) { return mean_of(series.required).y(); };
+  const auto load = [](const Series<D>& series) { return mean_of<D>(series.required).y(); };
   const double least = least_load * load(series_of(windows, 0));
   for (std::size_t n = 1; n < count; ++n) {
     const auto series = series_of(windows, n);
@@ -156,5 +194,12 @@ std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow>& window
   }
   return balances;
 }
+
+template class WeightSums<2>;
+template class WeightSums<3>;
+template std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow<2>>&,
+                                                  const Layers&, double);
+template std::vector<LayerBalance> balance_layers(const std::vector<WeightWindow<3>>&,
+                                                  const Layers&, double);
 
 }  // namespace grseg

@@ -46,20 +46,34 @@ Header header_of(const FitReport& report)
 
 std::string rule_table(const FitReport& report)
 {
-  std::vector<std::string> columns{"rule", "points"};
+  std::vector<std::string> columns{"rule"};
+  if (report.names_pairs()) columns.insert(columns.end(), {"smaller", "larger"});
+  columns.emplace_back("points");
   for (const auto& [name, place] : estimator_columns)
     for (const char* suffix : {"", "_low", "_high"}) columns.push_back(name + std::string(suffix));
   for (const auto& column : rule_columns) columns.emplace_back(column.name);
+  const bool has_exponent = report.has_exponent();
+  if (has_exponent)
+    columns.insert(columns.end(), {"size_exponent", "size_exponent_low", "size_exponent_high"});
   columns.emplace_back("used_by");
 
   std::vector<std::vector<std::string>> rows;
   for (const auto& fit : report.rules) {
     auto& row = rows.emplace_back();
-    row = {rule_name(report, fit), format_number(static_cast<double>(fit.points))};
+    row = {rule_name(report, fit)};
+    if (report.names_pairs())
+      row.insert(row.end(),
+                 {report.species[fit.pair.smaller].name, report.species[fit.pair.larger].name});
+    row.push_back(format_number(static_cast<double>(fit.points)));
     for (const auto& [name, place] : estimator_columns)
       for (const auto* numbers : {&fit.value, &fit.low, &fit.high})
         row.push_back(format_number(numbers->*place));
     for (const auto& column : rule_columns) row.push_back(format_number(column.of(fit)));
+    if (has_exponent) {
+      const auto exponent = fit.size_exponent.value_or(Estimate{Estimators::nan});
+      for (const double number : {exponent.value, exponent.low, exponent.high})
+        row.push_back(format_number(number));
+    }
     row.push_back(used_by(report, fit));
   }
   return table_text(header_of(report), columns, rows);
@@ -97,28 +111,35 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
   for (const auto& [name, place] : estimator_columns)
     estimators[name] = {{"value", fit.value.*place},
                         {"interval", {fit.low.*place, fit.high.*place}}};
-  return {{"rule", rule_name(report, fit)},
-          {"used_by", used_by(report, fit)},
-          {"component", word_of(report.component, components)},
-          {"quantity", word_of(report.quantity, quantities)},
-          {"slope", fit.value.slope},
-          {"slope_interval", {fit.low.slope, fit.high.slope}},
-          {"exponent", fit.value.exponent},
-          {"B_half", fit.value.B_half},
-          {"B_mean", fit.value.B_mean},
-          {"B_direct", fit.value.B_direct},
-          {"B_interval", {fit.low.B_half, fit.high.B_half}},
-          {"B_windows_interval", pair(fit.B_half_windows)},
-          {"share", fit.share},
-          {"neutral", fit.neutral},
-          {"minus_size", fit.minus_size},
-          {"minus_size_interval", pair(fit.minus_size_interval)},
-          {"points", fit.points},
-          {"not_positive", fit.not_positive},
-          {"autocorrelation_time", fit.dependence.time},
-          {"block_length", fit.dependence.block},
-          {"effective_windows", fit.dependence.effective_windows},
-          {"estimators", estimators}};
+  Json object{{"rule", rule_name(report, fit)},
+              {"used_by", used_by(report, fit)},
+              {"component", word_of(report.component, components)},
+              {"quantity", word_of(report.quantity, quantities)},
+              {"slope", fit.value.slope},
+              {"slope_interval", {fit.low.slope, fit.high.slope}},
+              {"exponent", fit.value.exponent},
+              {"B_half", fit.value.B_half},
+              {"B_mean", fit.value.B_mean},
+              {"B_direct", fit.value.B_direct},
+              {"B_interval", {fit.low.B_half, fit.high.B_half}},
+              {"B_windows_interval", pair(fit.B_half_windows)},
+              {"share", fit.share},
+              {"neutral", fit.neutral},
+              {"minus_size", fit.minus_size},
+              {"minus_size_interval", pair(fit.minus_size_interval)},
+              {"points", fit.points},
+              {"not_positive", fit.not_positive},
+              {"autocorrelation_time", fit.dependence.time},
+              {"block_length", fit.dependence.block},
+              {"effective_windows", fit.dependence.effective_windows},
+              {"estimators", estimators}};
+  if (report.names_pairs())
+    object["species"] = {report.species[fit.pair.smaller].name,
+                         report.species[fit.pair.larger].name};
+  if (fit.size_exponent)
+    object["size_exponent"] = {{"value", fit.size_exponent->value},
+                               {"interval", {fit.size_exponent->low, fit.size_exponent->high}}};
+  return object;
 }
 
 }  // namespace
@@ -126,6 +147,13 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
 std::string rule_name(const FitReport& report, const RuleFit& fit)
 {
   return report.quantity == Quantity::kinetic ? "kinetic" : fit.rule.name();
+}
+
+std::string row_name(const FitReport& report, const RuleFit& fit)
+{
+  if (!report.names_pairs()) return rule_name(report, fit);
+  return fmt::format("{} {}+{}", rule_name(report, fit), report.species[fit.pair.smaller].name,
+                     report.species[fit.pair.larger].name);
 }
 
 std::string used_by(const FitReport& report, const RuleFit& fit)
@@ -138,7 +166,7 @@ std::vector<std::string> doubts(const FitReport& report)
 {
   std::vector<std::string> all;
   for (const auto& fit : report.rules)
-    if (!fit.doubt.empty()) all.push_back(fmt::format("{}: {}", rule_name(report, fit), fit.doubt));
+    if (!fit.doubt.empty()) all.push_back(fmt::format("{}: {}", row_name(report, fit), fit.doubt));
   if (report.scan && !report.scan->fits.front().doubt.empty())
     all.push_back("scan: " + report.scan->fits.front().doubt);
   return all;

@@ -5,6 +5,7 @@
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/rule_fit.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -13,22 +14,32 @@
 
 namespace grseg {
 
-/// What grseg-fit prints.
+/// What grseg-fit prints. Rows name their pair of species where there are more than two, and the
+/// exponent of sizes where it was fitted.
 struct FitReport {
   std::vector<std::pair<std::string, std::string>> header;  // settings, as "# key: value"
   std::vector<std::string> inputs, history;
   std::vector<std::pair<std::string, std::string>> trust;  // what of the inputs was verified
   Quantity quantity = Quantity::contact;
   Component component = Component::yy;
+  SpeciesList species;  // of the tables
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
   // For the short table only: how much data there is, and p* of contact stress.
+  bool names_pairs() const { return species.size() > 2; }
+  bool has_exponent() const
+  {
+    return std::any_of(rules.begin(), rules.end(),
+                       [](const RuleFit& fit) { return fit.size_exponent.has_value(); });
+  }
   std::size_t number_of_runs = 0, number_of_windows = 0;
   std::optional<ZeroOfB> zero;
 };
 
 /// The rule as typed; "kinetic" for kinetic stress, which no rule concerns.
 std::string rule_name(const FitReport& report, const RuleFit& fit);
+/// The same, with the pair of species where there are more than two.
+std::string row_name(const FitReport& report, const RuleFit& fit);
 /// The codes that share mixed contacts so; "-" where none is known.
 std::string used_by(const FitReport& report, const RuleFit& fit);
 

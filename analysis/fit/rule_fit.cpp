@@ -94,6 +94,7 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   const auto windows = window_sums(points, data.runs);
   RuleFit fit;
   fit.rule = rule;
+  fit.pair = data.samples.front().pair;
   fit.points = static_cast<std::size_t>(
       std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_logarithm(); }));
   fit.not_positive = points.size() - fit.points;
@@ -108,8 +109,10 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   if (!rule.adds_up()) {
     remove_b(fit);
   } else if (data.quantity == Quantity::contact) {
-    fit.share = share_of_large(data, points, settings);
-    fit.neutral = neutral_mean(points, rule);
+    if (data.species.size() <= 2) {
+      fit.share = share_of_large(data, points, settings);
+      fit.neutral = neutral_mean(points, rule);
+    }
     add_minus_size(fit, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
   }
   return fit;

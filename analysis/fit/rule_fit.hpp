@@ -3,13 +3,15 @@
 
 #include "analysis/fit/estimators.hpp"
 #include "analysis/statistics/bootstrap.hpp"
+#include "analysis/statistics/confidence.hpp"
 
 #include <optional>
 #include <string>
 
 namespace grseg {
 
-/// What one partition rule makes of the data.
+/// What one partition rule makes of the data of two species. `share` and `neutral` are known only
+/// where there is no third one.
 struct RuleFit {
   PartitionRule rule;
   std::size_t points = 0;          // with both stresses positive
@@ -23,6 +25,8 @@ struct RuleFit {
   Interval minus_size_interval{Estimators::nan, Estimators::nan};
   Dependence dependence;
   std::string doubt;  // a sentence on the intervals, mostly empty
+  SpeciesPair pair = {};
+  std::optional<Estimate> size_exponent = {};  // of all pairs together (size_exponent.hpp)
 };
 
 /// How far the windows are from independent under this rule.

@@ -51,10 +51,48 @@ std::string rules_text(const FitReport& report)
 {
   std::vector<Line> lines{{"rule", "B", "95 % interval", "share", "points", "used by"}};
   for (const auto& fit : report.rules)
-    lines.push_back({rule_name(report, fit), rounded(fit.value.B_half),
+    lines.push_back({row_name(report, fit), rounded(fit.value.B_half),
                      interval_text(fit.low.B_half, fit.high.B_half), rounded(fit.share),
                      fmt::format("{}", fit.points), used_by(report, fit)});
   return aligned(lines);
+}
+
+/// B of every pair under a rule, the larger species along the lines.
+std::string matrix_text(const FitReport& report, const std::string& rule)
+{
+  const auto& species = report.species;
+  std::size_t width = 8;
+  for (const auto& one : species) width = std::max(width, one.name.size() + 2);
+  std::string text =
+      fmt::format("\nB by {}, larger species down, smaller across\n{:{}}", rule, "", width);
+  for (std::size_t k = 0; k + 1 < species.size(); ++k)
+    text += fmt::format("{:>{}}", species[k].name, width);
+  for (std::size_t b = 1; b < species.size(); ++b) {
+    text += fmt::format("\n{:<{}}", species[b].name, width);
+    for (const auto& fit : report.rules)
+      if (rule_name(report, fit) == rule && fit.pair.larger == b)
+        text += fmt::format("{:>{}}", rounded(fit.value.B_half), width);
+  }
+  return text + '\n';
+}
+
+/// What is known of all pairs together, each rule once.
+std::string pairs_text(const FitReport& report)
+{
+  std::string text, last;
+  for (const auto& fit : report.rules) {
+    const auto rule = rule_name(report, fit);
+    if (rule == last) continue;
+    last = rule;
+    const auto pairs =
+        std::count_if(report.rules.begin(), report.rules.end(),
+                      [&](const auto& other) { return rule_name(report, other) == rule; });
+    if (pairs > 1) text += matrix_text(report, rule);
+    if (const auto& a = fit.size_exponent)
+      text += fmt::format("{}: a = {}: sigma^nu/sigma = phi^nu s^a/sum(phi s^a)\n", rule,
+                          with_interval(a->value, {a->low, a->high}));
+  }
+  return text;
 }
 
 std::string scan_text(const PartitionScan& scan)
@@ -86,7 +124,7 @@ std::string doubts_text(const FitReport& report)
     else
       known->second += ", " + name;
   };
-  for (const auto& fit : report.rules) add(rule_name(report, fit), fit.doubt);
+  for (const auto& fit : report.rules) add(row_name(report, fit), fit.doubt);
   if (report.scan) add("scan", report.scan->fits.front().doubt);
   std::string text = names_of.empty() ? "" : "\n";
   for (const auto& [doubt, names] : names_of) text += fmt::format("doubt: {}: {}\n", names, doubt);
@@ -105,6 +143,7 @@ std::string short_table(const FitReport& report)
                   word_of(report.quantity, quantities), word_of(report.component, components),
                   plural(report.number_of_windows, "window"), plural(report.number_of_runs, "run"));
   text += rules_text(report);
+  text += pairs_text(report);
   if (report.scan || report.zero) text += '\n';
   if (report.scan) text += scan_text(*report.scan);
   if (report.scan)

@@ -3,6 +3,7 @@
 
 #include "formats/core/frame.hpp"
 
+#include <Eigen/Geometry>
 #include <cstddef>
 
 namespace grseg {

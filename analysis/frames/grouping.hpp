@@ -13,9 +13,9 @@ namespace grseg {
 /// Into which species the mobile grains of a run are divided, as given on the command line; by
 /// default into those of its file.
 struct GroupingOptions {
-  std::vector<std::string> groups;  // "AM=1,2"
+  std::vector<std::string> groups{};  // "AM=1,2"
   int classes = 0;
-  std::string edges;
+  std::string edges{};
 
   /// Adds --group --classes --edges.
   void add_to(po::options_description& options);

@@ -18,13 +18,14 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double pi = std::numbers::pi;
 
 /// A row of derived quantities in the making and what it is derived from.
+template <int D>
 struct Derivation {
-  const SumsRow& row;
+  const SumsRow<D>& row;
   const RunConstants& constants;
   const DerivedSettings& settings;
   std::vector<Cell> cells;
 
-  const StructureSums& sums() const { return row.sums; }
+  const StructureSums<D>& sums() const { return row.sums; }
   /// H, m.
   double depth(double height_of_bed) const
   {
@@ -35,10 +36,11 @@ struct Derivation {
   void add(std::string column, double value) { cells.push_back({std::move(column), value}); }
 };
 
-void add_composition(Derivation& to)
+template <int D>
+void add_composition(Derivation<D>& to)
 {
   const auto& s = to.sums().species;
-  to.add("nu", ratio(s[0].area + s[1].area, to.row.volume));
+  to.add("nu", ratio(s[0].content + s[1].content, to.row.volume));
   to.add("phi_L", to.sums().phi_large());
   for (auto& cell : cells(to.row.heights)) to.cells.push_back(std::move(cell));
   to.add("yL/H", to.row.heights.large / to.depth(to.row.heights.bed));
@@ -46,7 +48,8 @@ void add_composition(Derivation& to)
   to.add("neutral_share", neutral_mixed_share(to.sums().phi_large(), to.size_ratio()));
 }
 
-void add_coordination(Derivation& to)
+template <int D>
+void add_coordination(Derivation<D>& to)
 {
   to.add("z_S", to.sums().coordination(Species::small));
   to.add("z_L", to.sums().coordination(Species::large));
@@ -63,29 +66,47 @@ void add_coordination(Derivation& to)
 
 /// Height at which the pressure on a species is taken: the layer's middle, or of the whole bed the
 /// species' centre of mass.
-double height_of(const Derivation& of, Species species)
+template <int D>
+double height_of(const Derivation<D>& of, Species species)
 {
   if (!of.row.is_bed()) return (of.row.bottom + of.row.top) / 2;
   return species == Species::small ? of.row.heights.small : of.row.heights.large;
 }
 
+/// The perimeter of a disc over pi, the surface of a sphere over pi: d or d^2.
+template <int D>
+double perimeter(double d)
+{
+  return D == 2 ? d : d * d;
+}
+
+template <int D>
+double gravity_of(const RunConstants& run)
+{
+  const double in_plane = std::hypot(run.gravity_x, run.gravity_y);
+  return D == 2 ? in_plane : std::hypot(in_plane, run.gravity_z);
+}
+
 // The paper's mean forces over m_S g and over the pressure at their height, here rho g cos(theta)
-// (H - y) d_S (the paper leaves out cos(theta) and d_S). In the neutral model forces ignore grain
-// size and that is the pressure in the grains, so that Pi = z f/(pi d) gives f = pi d rho g
-// cos(theta) (H - y)/z.
-void add_forces(Derivation& to)
+// (H - y) d_S (the paper leaves out cos(theta) and d_S); d_S^2 in three dimensions. In the neutral
+// model forces ignore grain size and that is the pressure in the grains, so that Pi = z f/(pi d)
+// gives f = pi d rho g cos(theta) (H - y)/z, and Pi = z f/(pi d^2) the same with d^2.
+template <int D>
+void add_forces(Derivation<D>& to)
 {
   const auto& run = to.constants;
   const double depth = to.depth(to.row.bed_height);
-  const double weight = run.density * pi / 4 * run.small_diameter * run.small_diameter *
-                        std::hypot(run.gravity_x, run.gravity_y);
+  const double d = run.small_diameter;
+  const double mass = D == 2 ? run.density * pi / 4 * d * d : run.density * pi / 6 * d * d * d;
+  const double weight = mass * gravity_of<D>(run);
   for (const auto species : {Species::small, Species::large}) {
     const bool small = species == Species::small;
     const double f = to.sums().mean_force(species, to.settings.measure);
     const double below = depth - height_of(to, species);
     const double pressure =
-        below > 0 ? -run.density * run.gravity_y * below * run.small_diameter : nan;
-    const double neutral = pi * (small ? 1 : to.size_ratio()) / to.sums().coordination(species);
+        below > 0 ? -run.density * run.gravity_y * below * perimeter<D>(d) : nan;
+    const double neutral =
+        pi * perimeter<D>(small ? 1 : to.size_ratio()) / to.sums().coordination(species);
     const char* name = small ? "S" : "L";
     to.add(fmt::format("f_{}[N]", name), f);
     to.add(fmt::format("f_weight_{}", name), f / weight);
@@ -101,19 +122,22 @@ void add_forces(Derivation& to)
   }
 }
 
-void add_pressures(Derivation& to)
+template <int D>
+void add_pressures(Derivation<D>& to)
 {
   const auto stress = to.sums().stress(to.settings.rule);
-  const double p = stress.total.trace() / 2, p_small = stress.small().trace() / 2,
-               p_large = stress.large().trace() / 2;
+  const double p = stress.total.trace() / D, p_small = stress.small().trace() / D,
+               p_large = stress.large().trace() / D;
   const auto estimate = estimate_pressure(to.sums(), to.settings.measure,
                                           to.constants.small_diameter, to.constants.large_diameter);
+  constexpr bool printed = D == 2;  // the paper has no spheres
+  const char* unit = D == 2 ? "[N/m]" : "[Pa]";
   const auto compare = [&](const char* name, double pressure, double estimated) {
-    to.add(fmt::format("P{}[N/m]", name), pressure);
-    to.add(fmt::format("Pi{}[N/m]", name), estimated);
-    to.add(fmt::format("Pi{}_printed[N/m]", name), 2 * estimated);
+    to.add(fmt::format("P{}{}", name, unit), pressure);
+    to.add(fmt::format("Pi{}{}", name, unit), estimated);
+    if (printed) to.add(fmt::format("Pi{}_printed{}", name, unit), 2 * estimated);
     to.add(fmt::format("error{}", name), ratio(estimated, pressure) - 1);
-    to.add(fmt::format("error{}_printed", name), ratio(2 * estimated, pressure) - 1);
+    if (printed) to.add(fmt::format("error{}_printed", name), ratio(2 * estimated, pressure) - 1);
   };
   compare("", p, estimate.total());
   compare("_S", p_small, estimate.small);
@@ -130,15 +154,16 @@ void add_pressures(Derivation& to)
     to.add(fmt::format("s_{}", of), slope);
     to.add(fmt::format("B_{}", of), local_b(slope, phi));
   };
-  slope_and_b("Pi", to.size_ratio() * z * f);
+  slope_and_b("Pi", perimeter<D>(to.size_ratio()) * z * f);
   slope_and_b("P", partition_slope(p_small, p_large, phi));
   slope_and_b("yy", partition_slope(stress.small()(1, 1), stress.large()(1, 1), phi));
 }
 
-void add_friction(Derivation& to)
+template <int D>
+void add_friction(Derivation<D>& to)
 {
   const auto all = to.sums().between_grains();
-  const auto add = [&](const char* name, const PairSums& pair) {
+  const auto add = [&](const char* name, const PairSums<D>& pair) {
     to.add(fmt::format("mobilised_{}", name),
            ratio(pair.mobilised, to.constants.friction * pair.contacts));
     to.add(fmt::format("sliding_{}", name), ratio(pair.sliding, pair.contacts));
@@ -157,19 +182,62 @@ void add_friction(Derivation& to)
   to.add("strong_all", ratio(all.strong, all.contacts));
 }
 
-void add_fabric(Derivation& to)
+/// Without contacts: p = q = 0, without a direction.
+template <int D>
+PrincipalStress<D> no_stress()
 {
-  const auto add = [&](const char* name, const PairSums& pair) {
+  if constexpr (D == 2)
+    return {0, 0, nan};
+  else
+    return {0, 0, nan, Vec3::Constant(nan)};
+}
+
+/// How large a pair type's anisotropies are and where they point.
+void add_anisotropy(std::vector<Cell>& cells, const char* name, const Anisotropy<2>& a,
+                    const PrincipalStress<2>& stress)
+{
+  const auto add = [&](const char* column, double value) {
+    cells.push_back({fmt::format(fmt::runtime(column), name), value});
+  };
+  add("a_c_{}", a.a_c);
+  add("a_n_{}", a.a_n);
+  add("a_t_{}", a.a_t);
+  add("theta_c_{}[deg]", a.theta_c);
+  add("theta_n_{}[deg]", a.theta_n);
+  add("theta_t_{}[deg]", a.theta_t);
+  add("q/p_{}", ratio(stress.q, stress.p));
+  add("theta_{}[deg]", stress.theta);
+}
+
+void add_anisotropy(std::vector<Cell>& cells, const char* name, const Anisotropy<3>& a,
+                    const PrincipalStress<3>& stress)
+{
+  const auto add = [&](const std::string& column, const char* unit, double value) {
+    cells.push_back({fmt::format("{}_{}{}", column, name, unit), value});
+  };
+  const auto add_axis = [&](const char* of, const Vec3& axis) {
+    const auto [theta, tilt] = axis_angles(axis);
+    add(fmt::format("theta{}", of), "[deg]", theta);
+    add(fmt::format("tilt{}", of), "[deg]", tilt);
+  };
+  add("a_c", "", a.a_c);
+  add("a_n", "", a.a_n);
+  add("a_t", "", a.a_t);
+  add_axis("_c", major_axis(a.c));
+  add_axis("_n", major_axis(a.n));
+  add_axis("_t", major_axis(a.t));
+  add("q/p", "", ratio(stress.q, stress.p));
+  add("b", "", stress.b);
+  add_axis("", stress.major);
+}
+
+template <int D>
+void add_fabric(Derivation<D>& to)
+{
+  const auto none = no_stress<D>();
+  const auto add = [&](const char* name, const PairSums<D>& pair) {
     const auto a = anisotropy(pair.fabric, pair.contacts, pair.normal);
-    const auto stress = principal_stress(pair.stress);
-    to.add(fmt::format("a_c_{}", name), a.a_c);
-    to.add(fmt::format("a_n_{}", name), a.a_n);
-    to.add(fmt::format("a_t_{}", name), a.a_t);
-    to.add(fmt::format("theta_c_{}[deg]", name), a.theta_c);
-    to.add(fmt::format("theta_n_{}[deg]", name), a.theta_n);
-    to.add(fmt::format("theta_t_{}[deg]", name), a.theta_t);
-    to.add(fmt::format("q/p_{}", name), ratio(stress.q, stress.p));
-    to.add(fmt::format("theta_{}[deg]", name), pair.contacts > 0 ? stress.theta : nan);
+    add_anisotropy(to.cells, name, a, pair.contacts > 0 ? principal_stress(pair.stress) : none);
     to.add(fmt::format("rothenburg_{}", name), a.rothenburg());
     to.add(fmt::format("rothenburg_full_{}", name), std::isnan(a.a_n) ? nan : a.stress_ratio());
   };
@@ -180,10 +248,11 @@ void add_fabric(Derivation& to)
 
 }  // namespace
 
-std::vector<Cell> derived_quantities(const SumsRow& row, const RunConstants& constants,
+template <int D>
+std::vector<Cell> derived_quantities(const SumsRow<D>& row, const RunConstants& constants,
                                      const DerivedSettings& settings)
 {
-  Derivation to{row, constants, settings, {}};
+  Derivation<D> to{row, constants, settings, {}};
   add_composition(to);
   add_coordination(to);
   add_forces(to);
@@ -192,5 +261,10 @@ std::vector<Cell> derived_quantities(const SumsRow& row, const RunConstants& con
   add_fabric(to);
   return std::move(to.cells);
 }
+
+template std::vector<Cell> derived_quantities(const SumsRow<2>&, const RunConstants&,
+                                              const DerivedSettings&);
+template std::vector<Cell> derived_quantities(const SumsRow<3>&, const RunConstants&,
+                                              const DerivedSettings&);
 
 }  // namespace grseg

@@ -12,7 +12,7 @@ namespace grseg {
 struct DerivedSettings {
   ForceMeasure measure;
   PartitionRule rule;  // of P_S and P_L: size, half, drop or uniform
-  double depth = 0;    // m, H in f/(rho g cos(theta) (H - y) d_S); 0: the bed's height
+  double depth = 0;    // m, H in f/(rho g cos(theta) (H - y) d_S^(D-1)); 0: the bed's height
 };
 
 /// Everything that follows from one row of sums, in the order of the table;
@@ -21,7 +21,8 @@ struct DerivedSettings {
 /// estimates Pi of the pressures beside the pressures themselves (eqs. 8 and 9, figure 5), and B of
 /// pressures (eqs. 10 and 11) and of the micro-structure (eq. 12). NaN where a species, a pair type
 /// or a constant of the run is missing.
-std::vector<Cell> derived_quantities(const SumsRow& row, const RunConstants& constants,
+template <int D>
+std::vector<Cell> derived_quantities(const SumsRow<D>& row, const RunConstants& constants,
                                      const DerivedSettings& settings);
 
 }  // namespace grseg

@@ -2,11 +2,13 @@
 #include "analysis/micro/derived_table.hpp"
 
 #include "analysis/frames/distinct_runs.hpp"
+#include "analysis/frames/layer_table.hpp"
 #include "analysis/micro/pooling.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>
@@ -42,13 +44,25 @@ RowFilter filter_of(const DerivedOptions& options, const FrameOptions& frames, L
   return filter;
 }
 
+[[noreturn]] void refuse_difference(const Table& first, const Table& other, const char* key)
+{
+  throw UsageError(fmt::format("{} and {} differ in '{}'; derive from each of them separately",
+                               first.name, other.name, key));
+}
+
+void require_same_dimension(const Table& first, const Table& other)
+{
+  if (dimension_of(first) != dimension_of(other)) refuse_difference(first, other, "dimension");
+}
+
 void require_same_constants(const Table& first, const Table& other)
 {
   for (const char* key : {"small_diameter", "large_diameter", "gravity_x", "gravity_y", "density",
                           "friction", "layer", "composition"})
-    if (first.header_text(key) != other.header_text(key))
-      throw UsageError(fmt::format("{} and {} differ in '{}'; derive from each of them separately",
-                                   first.name, other.name, key));
+    if (first.header_text(key) != other.header_text(key)) refuse_difference(first, other, key);
+  for (const char* key : {"gravity_z", "species"})  // not in all tables
+    if (header_or(first, key, "") != header_or(other, key, ""))
+      refuse_difference(first, other, key);
 }
 
 /// The header of the first table, with the inputs and histories of all.
@@ -77,13 +91,25 @@ Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
   return result;
 }
 
-void add_row(Table& table, const SumsRow& row, const std::vector<Cell>& derived)
+template <int D>
+void add_row(Table& table, const SumsRow<D>& row, const std::vector<Cell>& derived)
 {
-  std::vector<Cell> cells{{"t0[s]", row.begin}, {"t1[s]", row.end},     {"y0[m]", row.bottom},
-                          {"y1[m]", row.top},   {"frames", row.frames}, {"V[m^2]", row.volume}};
-  cells.insert(cells.end(), derived.begin(), derived.end());
-  if (table.columns.empty()) table.columns = columns_of(cells);
-  table.rows.push_back(values_of(cells));
+  if (table.columns.empty()) table.columns = with_key_columns(D, columns_of(derived));
+  table.rows.push_back(with_key({row.begin, row.end, row.bottom, row.top, row.frames, row.volume},
+                                values_of(derived)));
+}
+
+template <int D>
+std::vector<SumsRow<D>> read_rows(const std::vector<Table>& tables)
+{
+  std::vector<SumsRow<D>> rows;
+  for (const auto& table : tables) {
+    require_same_dimension(tables[0], table);
+    const auto more = read_sums_rows<D>(table);
+    require_same_constants(tables[0], table);
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  return rows;
 }
 
 }  // namespace
@@ -136,20 +162,18 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
   const auto tables = read_tables(info, values, frames.quiet);
   if (tables.empty())
     throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
-  std::vector<SumsRow> rows;
-  for (const auto& table : tables) {
-    const auto more = read_sums_rows(table);
-    require_same_constants(tables[0], table);
-    rows.insert(rows.end(), more.begin(), more.end());
-  }
-  require_distinct_runs(tables);
-  const auto constants = read_run_constants(tables[0]);
-  const LengthUnits units{constants.small_diameter, constants.large_diameter};
-  if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
-
-  auto table = empty_table(info, tables, options, preset_of(values), command);
-  for (const auto& row : pooled(filtered(std::move(rows), filter_of(options, frames, units)), pool))
-    add_row(table, row, derived_quantities(row, constants, settings));
+  Table table;
+  with_dimension(dimension_of(tables[0]), [&](auto d) {
+    auto rows = read_rows<d>(tables);
+    require_distinct_runs(tables);
+    const auto constants = read_run_constants(tables[0]);
+    const LengthUnits units{constants.small_diameter, constants.large_diameter};
+    if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
+    table = empty_table(info, tables, options, preset_of(values), command);
+    const auto filter = filter_of(options, frames, units);
+    for (const auto& row : pooled(filtered(std::move(rows), filter), pool))
+      add_row(table, row, derived_quantities(row, constants, settings));
+  });
   if (table.rows.empty())
     throw RunError("no row is left; choose another --begin, --end or --heights");
   write_whole(frames.output, frames.json ? table.to_json() : table.to_text());

@@ -34,7 +34,8 @@ double axis(double theta)
 
 }  // namespace
 
-void FabricSums::add(const Vec2& n, double f_n, double f_t)
+template <>
+void FabricSums<2>::add(const Vec2& n, double f_n, const double& f_t)
 {
   const Vec2 twice{n.x() * n.x() - n.y() * n.y(), 2 * n.x() * n.y()};
   normal += twice;
@@ -42,7 +43,17 @@ void FabricSums::add(const Vec2& n, double f_n, double f_t)
   tangential_force += f_t * twice;
 }
 
-FabricSums& FabricSums::operator+=(const FabricSums& others)
+template <>
+void FabricSums<3>::add(const Vec3& n, double f_n, const Vec3& f_t)
+{
+  const Tensor3 square = n * n.transpose();
+  normal += square;
+  normal_force += f_n * square;
+  tangential_force += f_t * n.transpose();
+}
+
+template <int D>
+FabricSums<D>& FabricSums<D>::operator+=(const FabricSums& others)
 {
   normal += others.normal;
   normal_force += others.normal_force;
@@ -50,13 +61,16 @@ FabricSums& FabricSums::operator+=(const FabricSums& others)
   return *this;
 }
 
+template struct FabricSums<2>;
+template struct FabricSums<3>;
+
 // With A = a exp(2 i theta_0) for each of the three, the moments of the expansions are
 //   <exp 2i theta>     = A_c/2
 //   <f_n>              = f_0 (1 + Re(conj(A_c) A_n)/2)
 //   <f_n exp 2i theta> = f_0 (A_c + A_n)/2
 //   <f_t exp 2i theta> = -i f_0 A_t/2
 // which is linear in 1/f_0, A_n and A_t once A_c is known.
-Anisotropy anisotropy(const FabricSums& sums, double contacts, double force)
+Anisotropy<2> anisotropy(const FabricSums<2>& sums, double contacts, double force)
 {
   if (!(contacts > 0)) return {nan, nan, nan, nan, nan, nan};
   const Complex c = 2.0 * moment(sums.normal, contacts);
@@ -71,13 +85,13 @@ Anisotropy anisotropy(const FabricSums& sums, double contacts, double force)
   return {a_c, std::abs(n), std::abs(t), theta_c, axis(std::arg(n) / 2), axis(std::arg(t) / 2)};
 }
 
-double Anisotropy::stress_ratio() const
+double Anisotropy<2>::stress_ratio() const
 {
   const Complex c = twofold(a_c, theta_c), n = twofold(a_n, theta_n), t = twofold(a_t, theta_t);
   return std::abs(c + n + t) / (2 + std::real(std::conj(c) * n));
 }
 
-PrincipalStress principal_stress(const Tensor2& stress)
+PrincipalStress<2> principal_stress(const Tensor2& stress)
 {
   Eigen::SelfAdjointEigenSolver<Tensor2> solver;
   solver.computeDirect((stress + stress.transpose()) / 2);

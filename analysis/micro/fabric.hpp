@@ -3,27 +3,40 @@
 
 #include "formats/core/frame.hpp"
 
+#include <type_traits>
+
 namespace grseg {
 
-/// Second Fourier moments of the directions of contacts and of their forces: each member is a sum
-/// over contacts of weight (cos 2 theta, sin 2 theta), theta the direction of the normal n,
-/// counter-clockwise from x. n, f_n and f_t are those of ForceParts; exchanging the two grains of a
-/// contact changes neither f_n nor f_t nor 2 theta.
+/// Second moments of the directions of contacts and of their forces, sums over contacts. In two
+/// dimensions each is a weight times (cos 2 theta, sin 2 theta), theta the direction of the normal
+/// n, counter-clockwise from x, and the weight of the tangential force is f_t of ForceParts. In three
+/// they are the tensors n (x) n, f_n n (x) n and f_tangential (x) n. Exchanging the two grains of a
+/// contact changes none of them.
+template <int D>
 struct FabricSums {
-  Vec2 normal = Vec2::Zero();            // weight 1
-  Vec2 normal_force = Vec2::Zero();      // N, weight f_n
-  Vec2 tangential_force = Vec2::Zero();  // N, weight f_t
+  static constexpr int dimension = D;
+  using Moment = std::conditional_t<D == 2, Vec2, Tensor3>;
+  using Tangential = std::conditional_t<D == 2, double, Vec3>;
 
-  void add(const Vec2& n, double f_n, double f_t);
+  Moment normal = Moment::Zero();
+  Moment normal_force = Moment::Zero();      // N
+  Moment tangential_force = Moment::Zero();  // N
+
+  void add(const Vector<D>& n, double f_n, const Tangential& f_t);
   FabricSums& operator+=(const FabricSums& others);
 };
 
-/// Anisotropies of the second harmonic in two dimensions (Rothenburg & Bathurst 1989):
+/// Second-order anisotropies of contacts and forces.
+template <int D>
+struct Anisotropy;
+
+/// In two dimensions (Rothenburg & Bathurst 1989):
 ///   share of contacts   E(theta)   = (1 + a_c cos 2(theta - theta_c))/(2 pi)
 ///   mean normal force   f_n(theta) = f_0 (1 + a_n cos 2(theta - theta_n))
 ///   mean tangential     f_t(theta) = -f_0 a_t sin 2(theta - theta_t)
 /// f_0 is the mean of f_n(theta) over all directions, not over contacts.
-struct Anisotropy {
+template <>
+struct Anisotropy<2> {
   double a_c, a_n, a_t;
   double theta_c, theta_n, theta_t;  // degrees from x, in [0, 180); of the largest value
 
@@ -35,18 +48,60 @@ struct Anisotropy {
   double stress_ratio() const;
 };
 
-/// The anisotropies with the given moments, exactly: if E, f_n and f_t have the form above, they
-/// are recovered, however large. `contacts` is the number of contacts, `force` the sum of their
-/// f_n, N. All NaN without contacts; a_n and a_t NaN where a_c >= 1, since E is then negative
-/// somewhere. A sample of N contacts in random directions has a_c of about sqrt(pi/N).
-Anisotropy anisotropy(const FabricSums& sums, double contacts, double force);
+/// In three (Ouadfel & Rothenburg 2001; Guo & Zhao 2013), with deviators c, n and t, of contacts in
+/// the direction m:
+///   share of contacts   E(m)   = (1 + m.c.m)/(4 pi)
+///   mean normal force   f_n(m) = f_0 (1 + m.n.m)
+///   mean tangential     f_t(m) = f_0 (t.m - (m.t.m) m), a vector
+template <>
+struct Anisotropy<3> {
+  Tensor3 c, n, t;
+  /// sqrt(3/2 a:a) of each, the sign that of a:sigma' with the stress of branches of one length.
+  double a_c, a_n, a_t;
 
-/// Principal stresses s1 >= s2 of the symmetric part of a stress: p = (s1 + s2)/2, the pressure of
-/// Staron & Phillips (2015), and q = (s1 - s2)/2.
-struct PrincipalStress {
+  /// q/p for small anisotropies with the principal axes of the stress and branches of one length:
+  /// 2/5 (a_c + a_n + 3/2 a_t) (Guo & Zhao 2013).
+  double rothenburg() const { return 0.4 * (a_c + a_n + 1.5 * a_t); }
+  /// q/p for anisotropies of any size and direction and branches of one length.
+  double stress_ratio() const;
+};
+
+/// The anisotropies with the given moments, exactly: if E, f_n and f_t have the forms above, they
+/// are recovered, however large. `contacts` is the number of contacts, `force` the sum of their
+/// f_n, N. All NaN without contacts; those of the forces NaN where E is negative somewhere, in two
+/// dimensions where a_c >= 1. A sample of N contacts in random directions has an a_c of about
+/// sqrt(pi/N) in two dimensions and 7.5/sqrt(N) in three.
+Anisotropy<2> anisotropy(const FabricSums<2>& sums, double contacts, double force);
+Anisotropy<3> anisotropy(const FabricSums<3>& sums, double contacts, double force);
+
+/// Principal stresses of the symmetric part of a stress.
+template <int D>
+struct PrincipalStress;
+
+/// s1 >= s2: p = (s1 + s2)/2, the pressure of Staron & Phillips (2015), and q = (s1 - s2)/2.
+template <>
+struct PrincipalStress<2> {
   double p, q;
   double theta;  // degrees from x, in [0, 180), of s1
 };
-PrincipalStress principal_stress(const Tensor2& stress);
+/// s1 >= s2 >= s3: p = (s1 + s2 + s3)/3 and q = sqrt(3/2 sigma':sigma'), which is s1 - s3 where two
+/// of them are equal.
+template <>
+struct PrincipalStress<3> {
+  double p, q;
+  double b;  // (s2 - s3)/(s1 - s3): 0 in axial compression, 1 in extension; NaN where all are equal
+  Vec3 major;  // direction of s1
+};
+PrincipalStress<2> principal_stress(const Tensor2& stress);
+PrincipalStress<3> principal_stress(const Tensor3& stress);
+
+/// The direction of an axis in space in degrees: `theta` from x towards y, in [0, 180), of its
+/// projection onto the plane of x and y, and `tilt` out of that plane towards z, -90 to 90.
+struct AxisAngles {
+  double theta, tilt;
+};
+AxisAngles axis_angles(const Vec3& axis);
+/// The axis along which a symmetric tensor is largest.
+Vec3 major_axis(const Tensor3& tensor);
 
 }  // namespace grseg

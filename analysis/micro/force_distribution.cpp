@@ -14,8 +14,8 @@ namespace grseg {
 namespace {
 
 /// Calls use(layer, type, f_n) for every contact that bears a force.
-template <class Use>
-void for_each_loaded_contact(const Grains& grains, const Frame<2>& frame, const Layers& layers,
+template <int D, class Use>
+void for_each_loaded_contact(const Grains& grains, const Frame<D>& frame, const Layers& layers,
                              std::size_t count, const Use& use)
 {
   const auto& list = frame.contacts;
@@ -50,14 +50,16 @@ std::vector<Cell> cells(const Bin& bin)
 
 }  // namespace
 
-MeanNormalForce::Sum& MeanNormalForce::Sum::operator+=(const Sum& other)
+template <int D>
+typename MeanNormalForce<D>::Sum& MeanNormalForce<D>::Sum::operator+=(const Sum& other)
 {
   contacts += other.contacts;
   force += other.force;
   return *this;
 }
 
-void MeanNormalForce::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void MeanNormalForce<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));
   for_each_loaded_contact(grains, frame, layers_, sums_.size(),
@@ -66,18 +68,21 @@ void MeanNormalForce::add(const Grains& grains, const Frame<2>& frame)
                           });
 }
 
-void MeanNormalForce::merge(const MeanNormalForce& others)
+template <int D>
+void MeanNormalForce<D>::merge(const MeanNormalForce& others)
 {
   accumulate(sums_, others.sums_);
 }
 
-double MeanNormalForce::of(std::size_t layer, PairType type) const
+template <int D>
+double MeanNormalForce<D>::of(std::size_t layer, PairType type) const
 {
   const auto& sum = sums_[layer][static_cast<std::size_t>(type)];
   return ratio(sum.force, sum.contacts);
 }
 
-double MeanNormalForce::between_grains(std::size_t layer) const
+template <int D>
+double MeanNormalForce<D>::between_grains(std::size_t layer) const
 {
   Sum all;
   for (const auto type : {PairType::SS, PairType::LS, PairType::LL})
@@ -85,18 +90,21 @@ double MeanNormalForce::between_grains(std::size_t layer) const
   return ratio(all.force, all.contacts);
 }
 
-ForceDistribution::ForceDistribution(const Layers& layers, const MeanNormalForce& mean,
-                                     ForceUnit unit, double width)
+template <int D>
+ForceDistribution<D>::ForceDistribution(const Layers& layers, const MeanNormalForce<D>& mean,
+                                        ForceUnit unit, double width)
     : layers_(layers), mean_(mean), unit_(unit), width_(width)
 {
 }
 
-double ForceDistribution::edge(std::size_t bin) const
+template <int D>
+double ForceDistribution<D>::edge(std::size_t bin) const
 {
   return bin == bins ? std::numeric_limits<double>::infinity() : static_cast<double>(bin) * width_;
 }
 
-std::size_t ForceDistribution::bin_of(double x) const
+template <int D>
+std::size_t ForceDistribution<D>::bin_of(double x) const
 {
   if (!(x > 0)) return 0;
   if (x >= edge(bins - 1)) return bins - 1;
@@ -107,7 +115,8 @@ std::size_t ForceDistribution::bin_of(double x) const
   return bin;
 }
 
-void ForceDistribution::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void ForceDistribution<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   ++frames_;
   counts_.resize(std::max(counts_.size(), layers_.count(grains, frame)));
@@ -119,18 +128,21 @@ void ForceDistribution::add(const Grains& grains, const Frame<2>& frame)
       });
 }
 
-void ForceDistribution::merge(const ForceDistribution& others)
+template <int D>
+void ForceDistribution<D>::merge(const ForceDistribution& others)
 {
   frames_ += others.frames_;
   accumulate(counts_, others.counts_);
 }
 
-std::vector<std::string> ForceDistribution::columns()
+template <int D>
+std::vector<std::string> ForceDistribution<D>::columns()
 {
   return columns_of(cells(Bin{}));
 }
 
-std::vector<std::vector<double>> ForceDistribution::rows(const Counts& counts) const
+template <int D>
+std::vector<std::vector<double>> ForceDistribution<D>::rows(const Counts& counts) const
 {
   std::array<double, pair_types> total{}, below{};
   for (const auto& bin : counts) accumulate(total, bin);
@@ -148,16 +160,23 @@ std::vector<std::vector<double>> ForceDistribution::rows(const Counts& counts) c
   return rows;
 }
 
-std::vector<std::vector<double>> ForceDistribution::rows(std::size_t layer) const
+template <int D>
+std::vector<std::vector<double>> ForceDistribution<D>::rows(std::size_t layer) const
 {
   return rows(counts_[layer]);
 }
 
-std::vector<std::vector<double>> ForceDistribution::bed_rows() const
+template <int D>
+std::vector<std::vector<double>> ForceDistribution<D>::bed_rows() const
 {
   Counts all{};
   for (const auto& counts : counts_) accumulate(all, counts);
   return rows(all);
 }
+
+template class MeanNormalForce<2>;
+template class MeanNormalForce<3>;
+template class ForceDistribution<2>;
+template class ForceDistribution<3>;
 
 }  // namespace grseg

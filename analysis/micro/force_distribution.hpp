@@ -13,11 +13,12 @@ namespace grseg {
 
 /// Mean normal force of the contacts of a layer, of each pair type and of all contacts between
 /// mobile grains. Only contacts that bear a force count, in the layer of the contact point.
+template <int D>
 class MeanNormalForce {
  public:
   explicit MeanNormalForce(const Layers& layers) : layers_(layers) {}
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   void merge(const MeanNormalForce& others);
   /// N; NaN without contacts.
   double of(std::size_t layer, PairType type) const;
@@ -42,15 +43,16 @@ enum class ForceUnit {
 /// bin open above. The frames of a window are read twice, first for the mean, then for the counts.
 /// Where 1 is a multiple of the bins' width, a bin begins exactly at 1: from there on lie the
 /// strong contacts (Radjai et al. 1998).
+template <int D>
 class ForceDistribution {
  public:
   static constexpr std::size_t bins = 101;
 
   /// `width` of the bins in units of x, i.e. of the mean force.
-  ForceDistribution(const Layers& layers, const MeanNormalForce& mean, ForceUnit unit,
+  ForceDistribution(const Layers& layers, const MeanNormalForce<D>& mean, ForceUnit unit,
                     double width);
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   void merge(const ForceDistribution& others);
   std::size_t layers() const { return counts_.size(); }
 
@@ -70,7 +72,7 @@ class ForceDistribution {
   std::vector<std::vector<double>> rows(const Counts& counts) const;
 
   Layers layers_;
-  MeanNormalForce mean_;
+  MeanNormalForce<D> mean_;
   ForceUnit unit_;
   double width_;
   std::size_t frames_ = 0;

@@ -11,9 +11,10 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The sums behind a mean weighted by frames.
+template <int D>
 class MergedRow {
  public:
-  void add(const SumsRow& row)
+  void add(const SumsRow<D>& row)
   {
     const double w = row.frames;
     all_.frames += w;
@@ -31,9 +32,9 @@ class MergedRow {
     ++rows_;
   }
 
-  SumsRow mean() const
+  SumsRow<D> mean() const
   {
-    SumsRow row = all_;
+    SumsRow<D> row = all_;
     const double frames = all_.frames;
     row.volume /= frames;
     row.sums = all_.sums / frames;
@@ -45,19 +46,20 @@ class MergedRow {
 
  private:
   std::size_t rows_ = 0;
-  SumsRow all_{.begin = std::numeric_limits<double>::infinity(),
-               .end = -std::numeric_limits<double>::infinity(),
-               .bottom = nan,
-               .top = nan,
-               .frames = 0,
-               .volume = 0,
-               .sums = {},
-               .heights = {0, 0, 0},
-               .bed_height = 0};
+  SumsRow<D> all_{.begin = std::numeric_limits<double>::infinity(),
+                  .end = -std::numeric_limits<double>::infinity(),
+                  .bottom = nan,
+                  .top = nan,
+                  .frames = 0,
+                  .volume = 0,
+                  .sums = {},
+                  .heights = {0, 0, 0},
+                  .bed_height = 0};
 };
 
 /// Rows with the same key are merged; the whole bed has its own, after all layers.
-double pool_key(const SumsRow& row, Pool pool)
+template <int D>
+double pool_key(const SumsRow<D>& row, Pool pool)
 {
   if (pool == Pool::composition) return std::min(std::floor(10 * row.sums.phi_large()), 9.0);
   return row.is_bed() ? std::numeric_limits<double>::infinity() : row.bottom;
@@ -65,9 +67,10 @@ double pool_key(const SumsRow& row, Pool pool)
 
 }  // namespace
 
-std::vector<SumsRow> filtered(std::vector<SumsRow> rows, const RowFilter& filter)
+template <int D>
+std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter)
 {
-  std::erase_if(rows, [&](const SumsRow& row) {
+  std::erase_if(rows, [&](const SumsRow<D>& row) {
     const double time_slack = 1e-9 * (1 + std::abs(row.begin) + std::abs(row.end));
     return row.begin < filter.begin - time_slack || row.end > filter.end + time_slack ||
            !filter.heights.holds(row.bottom, row.top);
@@ -75,18 +78,24 @@ std::vector<SumsRow> filtered(std::vector<SumsRow> rows, const RowFilter& filter
   return rows;
 }
 
-std::vector<SumsRow> pooled(const std::vector<SumsRow>& rows, Pool pool)
+template <int D>
+std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool)
 {
   if (pool == Pool::none) return rows;
-  std::map<double, MergedRow> merged;
+  std::map<double, MergedRow<D>> merged;
   for (const auto& row : rows) {
     if (pool == Pool::composition && (row.is_bed() || std::isnan(row.sums.phi_large()))) continue;
     merged[pool_key(row, pool)].add(row);
   }
-  std::vector<SumsRow> result;
+  std::vector<SumsRow<D>> result;
   result.reserve(merged.size());
   for (const auto& [key, row] : merged) result.push_back(row.mean());
   return result;
 }
+
+template std::vector<SumsRow<2>> filtered(std::vector<SumsRow<2>>, const RowFilter&);
+template std::vector<SumsRow<3>> filtered(std::vector<SumsRow<3>>, const RowFilter&);
+template std::vector<SumsRow<2>> pooled(const std::vector<SumsRow<2>>&, Pool);
+template std::vector<SumsRow<3>> pooled(const std::vector<SumsRow<3>>&, Pool);
 
 }  // namespace grseg

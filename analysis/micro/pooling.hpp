@@ -16,7 +16,8 @@ struct RowFilter {
   double end = std::numeric_limits<double>::infinity();
   HeightRange heights = {};
 };
-std::vector<SumsRow> filtered(std::vector<SumsRow> rows, const RowFilter& filter);
+template <int D>
+std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter);
 
 /// Which rows are merged.
 enum class Pool {
@@ -25,6 +26,7 @@ enum class Pool {
   composition,  ///< layers of all windows and tables by phi_L, in ten bins of equal width
 };
 /// Means weighted by frames. With `composition` the whole bed's rows and empty layers are left out.
-std::vector<SumsRow> pooled(const std::vector<SumsRow>& rows, Pool pool);
+template <int D>
+std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool);
 
 }  // namespace grseg

@@ -6,18 +6,24 @@
 
 namespace grseg {
 
-PressureEstimate estimate_pressure(const StructureSums& sums, const ForceMeasure& measure,
+template <int D>
+PressureEstimate estimate_pressure(const StructureSums<D>& sums, const ForceMeasure& measure,
                                    double small_diameter, double large_diameter)
 {
   const double phi_large = sums.phi_large();
   const auto partial = [&](Species species, double phi, double diameter) {
     if (phi == 0) return 0.0;
     return phi * sums.coordination(species) * sums.mean_force(species, measure) /
-           (std::numbers::pi * diameter);
+           (std::numbers::pi * (D == 2 ? diameter : diameter * diameter));
   };
   return {partial(Species::small, 1 - phi_large, small_diameter),
           partial(Species::large, phi_large, large_diameter)};
 }
+
+template PressureEstimate estimate_pressure(const StructureSums<2>&, const ForceMeasure&, double,
+                                            double);
+template PressureEstimate estimate_pressure(const StructureSums<3>&, const ForceMeasure&, double,
+                                            double);
 
 double partition_slope(double stress_small, double stress_large, double phi_large)
 {

@@ -23,7 +23,8 @@ bool is_base(PairType type)
 }
 
 /// The large grain's share of a mixed contact by size, r_L/(r_L + r_S).
-double share_by_size(const Grains& grains, const ContactList<2>& list, std::size_t contact)
+template <int D>
+double share_by_size(const Grains& grains, const ContactList<D>& list, std::size_t contact)
 {
   const auto i = static_cast<std::size_t>(list.i[contact]);
   const auto j = static_cast<std::size_t>(list.j[contact]);
@@ -36,11 +37,23 @@ struct LayerForce {
   double contacts = 0, normal = 0;
 };
 
-std::vector<Cell> cells(const StructureSums& sums, const BedHeights& heights)
+template <int D>
+std::vector<Cell> cells(const StructureSums<D>& sums, const BedHeights& heights)
 {
   auto cells = sums.cells();
   for (auto& cell : grseg::cells(heights)) cells.push_back(std::move(cell));
   return cells;
+}
+
+/// What FabricSums adds.
+template <int D>
+typename FabricSums<D>::Tangential tangential_part(const Vector<D>& force,
+                                                   const ForceParts<D>& parts)
+{
+  if constexpr (D == 2)
+    return parts.f_t;
+  else
+    return force - parts.f_n * parts.n;
 }
 
 /// A contact between mobile grains and the layer it belongs to.
@@ -52,12 +65,14 @@ struct Located {
 
 }  // namespace
 
-StructureByLayer::StructureByLayer(const Layers& layers, GrainArea area, double friction)
+template <int D>
+StructureByLayer<D>::StructureByLayer(const Layers& layers, GrainArea area, double friction)
     : layers_(layers), composition_(layers, area), friction_(friction)
 {
 }
 
-void StructureByLayer::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void StructureByLayer<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   ++frames_;
   composition_.add(grains, frame);
@@ -66,7 +81,8 @@ void StructureByLayer::add(const Grains& grains, const Frame<2>& frame)
   add_contacts(grains, frame);
 }
 
-void StructureByLayer::merge(const StructureByLayer& others)
+template <int D>
+void StructureByLayer<D>::merge(const StructureByLayer& others)
 {
   frames_ += others.frames_;
   composition_.merge(others.composition_);
@@ -76,7 +92,8 @@ void StructureByLayer::merge(const StructureByLayer& others)
   heights_.bed += others.heights_.bed;
 }
 
-void StructureByLayer::add_grains(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void StructureByLayer<D>::add_grains(const Grains& grains, const Frame<D>& frame)
 {
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g))
@@ -89,8 +106,9 @@ void StructureByLayer::add_grains(const Grains& grains, const Frame<2>& frame)
   heights_.bed += now.bed;
 }
 
-void StructureByLayer::add_ends(const Grains& grains, const Frame<2>& frame, std::size_t contact,
-                                PairType type)
+template <int D>
+void StructureByLayer<D>::add_ends(const Grains& grains, const Frame<D>& frame, std::size_t contact,
+                                   PairType type)
 {
   const auto add_end = [&](std::int32_t grain) {
     const auto g = static_cast<std::size_t>(grain);
@@ -104,13 +122,15 @@ void StructureByLayer::add_ends(const Grains& grains, const Frame<2>& frame, std
   if (!is_base(type)) add_end(frame.contacts.j[contact]);
 }
 
-double StructureByLayer::slides(double f_n, double f_t) const
+template <int D>
+double StructureByLayer<D>::slides(double f_n, double f_t) const
 {
   if (std::isnan(friction_)) return nan;
   return f_n > 0 && std::abs(f_t) >= (1 - sliding_tolerance) * friction_ * f_n ? 1 : 0;
 }
 
-void StructureByLayer::add_contacts(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void StructureByLayer<D>::add_contacts(const Grains& grains, const Frame<D>& frame)
 {
   const auto& list = frame.contacts;
   std::vector<LayerForce> forces(sums_.size());
@@ -118,12 +138,12 @@ void StructureByLayer::add_contacts(const Grains& grains, const Frame<2>& frame)
   between_grains.reserve(list.size());
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (!bears_force(list, k)) continue;
-    const Vec2& force = list.force[k];
+    const Vector<D>& force = list.force[k];
     const auto type = pair_type(grains, frame, k);
     const double y = contact_point(grains, frame, k).y();
     const std::size_t layer = std::min(layers_.at(y), sums_.size() - 1);
     const auto [n, f_n, f_t] = force_parts(list, k);
-    const Tensor2 stress = force * list.branch[k].transpose();
+    const Tensor<D> stress = force * list.branch[k].transpose();
 
     auto& pair = sums_[layer].pair[at(type)];
     ++pair.contacts;
@@ -131,7 +151,7 @@ void StructureByLayer::add_contacts(const Grains& grains, const Frame<2>& frame)
     pair.normal += f_n;
     if (f_n > 0) pair.mobilised += std::abs(f_t) / f_n;
     pair.sliding += slides(f_n, f_t);
-    pair.fabric.add(n, f_n, f_t);
+    pair.fabric.add(n, f_n, tangential_part<D>(force, {n, f_n, f_t}));
     pair.stress += (is_base(type) ? share_of_first(grains, list, k) : 1) * stress;
     if (is_base(type)) {
       sums_[layer].base_force += force;
@@ -147,41 +167,50 @@ void StructureByLayer::add_contacts(const Grains& grains, const Frame<2>& frame)
     if (f_n * forces[layer].contacts > forces[layer].normal) ++sums_[layer].pair[at(type)].strong;
 }
 
-StructureSums StructureByLayer::mean(std::size_t layer) const
+template <int D>
+StructureSums<D> StructureByLayer<D>::mean(std::size_t layer) const
 {
-  StructureSums mean = sums_[layer] / static_cast<double>(frames_);
-  const auto areas = composition_.mean(layer);
-  mean.species[0].area = areas[0];
-  mean.species[1].area = areas[1];
+  StructureSums<D> mean = sums_[layer] / static_cast<double>(frames_);
+  const auto contents = composition_.mean(layer);
+  mean.species[0].content = contents[0];
+  mean.species[1].content = contents[1];
   return mean;
 }
 
-StructureSums StructureByLayer::mean() const
+template <int D>
+StructureSums<D> StructureByLayer<D>::mean() const
 {
-  StructureSums all;
+  StructureSums<D> all;
   for (std::size_t layer = 0; layer < layers(); ++layer) all += mean(layer);
   return all;
 }
 
-BedHeights StructureByLayer::heights() const
+template <int D>
+BedHeights StructureByLayer<D>::heights() const
 {
   const auto frames = static_cast<double>(frames_);
   return {heights_.large / frames, heights_.small / frames, heights_.bed / frames};
 }
 
-std::vector<std::string> StructureByLayer::columns()
+template <int D>
+std::vector<std::string> StructureByLayer<D>::columns()
 {
-  return columns_of(cells({}, {}));
+  return columns_of(cells(StructureSums<D>{}, {}));
 }
 
-std::vector<double> StructureByLayer::row(std::size_t layer) const
+template <int D>
+std::vector<double> StructureByLayer<D>::row(std::size_t layer) const
 {
   return values_of(cells(mean(layer), {}));
 }
 
-std::vector<double> StructureByLayer::bed_row() const
+template <int D>
+std::vector<double> StructureByLayer<D>::bed_row() const
 {
   return values_of(cells(mean(), heights()));
 }
+
+template class StructureByLayer<2>;
+template class StructureByLayer<3>;
 
 }  // namespace grseg

@@ -18,37 +18,39 @@ namespace grseg {
 constexpr double sliding_tolerance = 1e-6;
 
 /// Numbers of grains and contacts and the forces of the contacts, by layer and of the whole bed.
+template <int D>
 class StructureByLayer {
  public:
   /// `friction` is the mu of the Coulomb limit; NaN where it is unknown.
   StructureByLayer(const Layers& layers, GrainArea area,
                    double friction = std::numeric_limits<double>::quiet_NaN());
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   void merge(const StructureByLayer& others);
   std::size_t layers() const { return sums_.size(); }
-  StructureSums mean(std::size_t layer) const;
-  StructureSums mean() const;
+  StructureSums<D> mean(std::size_t layer) const;
+  StructureSums<D> mean() const;
   BedHeights heights() const;
 
-  /// The columns of grseg-micro from area_S on, and the values of a layer and of the whole bed.
+  /// The columns of grseg-micro from area_S or volume_S on, and the values of a layer and of the
+  /// whole bed.
   static std::vector<std::string> columns();
   std::vector<double> row(std::size_t layer) const;
   std::vector<double> bed_row() const;
 
  private:
-  void add_grains(const Grains& grains, const Frame<2>& frame);
-  void add_contacts(const Grains& grains, const Frame<2>& frame);
+  void add_grains(const Grains& grains, const Frame<D>& frame);
+  void add_contacts(const Grains& grains, const Frame<D>& frame);
   /// Whether a contact slides, as 1 or 0; NaN where friction is unknown.
   double slides(double f_n, double f_t) const;
-  void add_ends(const Grains& grains, const Frame<2>& frame, std::size_t contact, PairType type);
+  void add_ends(const Grains& grains, const Frame<D>& frame, std::size_t contact, PairType type);
 
   Layers layers_;
-  Composition<2> composition_;
+  Composition<D> composition_;
   double friction_;
   std::size_t frames_ = 0;
-  std::vector<StructureSums> sums_;  // without areas: those are in composition_
-  BedHeights heights_{0, 0, 0};      // sums over frames
+  std::vector<StructureSums<D>> sums_;  // without contents: those are in composition_
+  BedHeights heights_{0, 0, 0};         // sums over frames
 };
 
 }  // namespace grseg

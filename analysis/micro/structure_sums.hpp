@@ -25,21 +25,23 @@ struct ForceMeasure {
 };
 
 /// Contacts of one pair type. Only contacts that bear a force count.
+template <int D>
 struct PairSums {
   double contacts = 0;
   double force = 0, normal = 0;  // N, sums of |f| and of f_n, repulsion positive
   double mobilised = 0;          // sum of |f_t|/f_n where f_n > 0
   double sliding = 0;            // contacts at the Coulomb limit; NaN where friction is unknown
   double strong = 0;             // contacts with more than the mean f_n of their layer and frame
-  FabricSums fabric;
-  Tensor2 stress = Tensor2::Zero();  // N m, force (x) branch, at the base cut at the contact point
+  FabricSums<D> fabric;
+  Tensor<D> stress =
+      Tensor<D>::Zero();  // N m, force (x) branch, at the base cut at the contact point
 
   PairSums& operator+=(const PairSums& others);
 };
 
 /// Grains of one species and the contact ends on them, in the layer of the grain's centre.
 struct SpeciesSums {
-  double area = 0;        // m^2
+  double content = 0;     // m^2 or m^3
   double grains = 0;      // with their centre in the layer
   double ends = 0;        // all of them, those of base contacts included
   double mixed_ends = 0;  // of contacts with a grain of the other species
@@ -48,22 +50,25 @@ struct SpeciesSums {
 
 /// Grains, contacts and forces in a layer or in the whole bed: sums, as means per frame. Sums of
 /// several layers add up; several windows or runs are merged as means weighted by their frames.
+template <int D>
 struct StructureSums {
-  std::array<SpeciesSums, 2> species{};     // S, L
-  std::array<PairSums, pair_types> pair{};  // by PairType, in the layer of the contact point
-  Tensor2 mixed_size = Tensor2::Zero();     // N m, of LS, the large grain's part by size
-  Vec2 base_force = Vec2::Zero();           // N, of the base on the mobile grains
+  static constexpr std::size_t dimension = D;
+
+  std::array<SpeciesSums, 2> species{};        // S, L
+  std::array<PairSums<D>, pair_types> pair{};  // by PairType, in the layer of the contact point
+  Tensor<D> mixed_size = Tensor<D>::Zero();    // N m, of LS, the large grain's part by size
+  Vector<D> base_force = Vector<D>::Zero();    // N, of the base on the mobile grains
 
   StructureSums& operator+=(const StructureSums& others);
   StructureSums operator*(double factor) const;
   StructureSums operator/(double divisor) const;
 
   const SpeciesSums& of(Species s) const { return species[static_cast<std::size_t>(s)]; }
-  const PairSums& of(PairType type) const { return pair[static_cast<std::size_t>(type)]; }
+  const PairSums<D>& of(PairType type) const { return pair[static_cast<std::size_t>(type)]; }
   /// Contacts between mobile grains: SS, LS and LL together.
-  PairSums between_grains() const;
+  PairSums<D> between_grains() const;
 
-  /// phi_L by area; NaN without grains.
+  /// phi_L by area or volume; NaN without grains.
   double phi_large() const;
   /// z_S, z_L: contact ends per grain; NaN without grains.
   double coordination(Species s) const;
@@ -72,11 +77,11 @@ struct StructureSums {
   /// N_LS/(N_LL + N_LS + N_SS), as in figure 2c of the paper; base contacts do not count. NaN
   /// without contacts.
   double mixed_share() const;
-  /// Contact stresses in the volume of the grains, N/m (eq. 1 of the paper). `rule` is size, half,
-  /// drop or uniform.
-  PartialStress<2> stress(const PartitionRule& rule) const;
+  /// Contact stresses in the volume of the grains, N/m or Pa (eq. 1 of the paper). `rule` is size,
+  /// half, drop or uniform.
+  PartialStress<D> stress(const PartitionRule& rule) const;
 
-  /// The sums with their columns in the table of grseg-micro, from area_S on.
+  /// The sums with their columns in the table of grseg-micro, from area_S or volume_S on.
   std::vector<Cell> cells() const;
   /// The sums whose cells have these values.
   static StructureSums from_values(const std::vector<double>& values);

@@ -2,6 +2,9 @@
 #include "analysis/micro/sums_table.hpp"
 
 #include "analysis/frames/layer_table.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
 
 #include <limits>
 #include <map>
@@ -19,7 +22,8 @@ double number_or_unknown(const Table& table, const std::string& key)
 }
 
 /// Windows of one run differ in their beginning.
-void set_bed_heights(std::vector<SumsRow>& rows)
+template <int D>
+void set_bed_heights(std::vector<SumsRow<D>>& rows)
 {
   std::map<double, double> height_at;
   for (const auto& row : rows)
@@ -41,7 +45,7 @@ SumKind kind_of(const std::string& name)
 {
   const auto begins = [&](const char* word) { return name.starts_with(word); };
   if (begins("n_slide")) return SumKind::may_be_nan;  // without friction
-  if (begins("area_") || begins("grains_") || begins("ends_") || begins("n_"))
+  if (begins("area_") || begins("volume_") || begins("grains_") || begins("ends_") || begins("n_"))
     return SumKind::not_negative;
   return SumKind::any;
 }
@@ -50,7 +54,7 @@ double value_of(const Table& table, std::size_t row, const SumColumn& sum)
 {
   if (!sum.column) return nan;
   if (sum.kind == SumKind::may_be_nan) return table.rows[row][*sum.column];
-  constexpr double round_off = 1e-15;  // m^2, of areas
+  constexpr double round_off = 1e-15;  // m^2 or m^3, of areas and volumes
   return sum.kind == SumKind::any ? finite_cell(table, row, *sum.column)
                                   : non_negative_cell(table, row, *sum.column, round_off);
 }
@@ -59,26 +63,32 @@ double value_of(const Table& table, std::size_t row, const SumColumn& sum)
 
 RunConstants read_run_constants(const Table& table)
 {
-  return {.small_diameter = table.header_positive("small_diameter"),
-          .large_diameter = table.header_positive("large_diameter"),
+  const auto species = species_of(table);
+  if (species.size() != 2)
+    throw FormatError(fmt::format("{}: --derived compares two species, and the table has {}",
+                                  table.name, species.size()));
+  return {.small_diameter = species[0].diameter,
+          .large_diameter = species[1].diameter,
           .gravity_x = table.header_number("gravity_x"),
           .gravity_y = table.header_number("gravity_y"),
           .density = number_or_unknown(table, "density"),
-          .friction = number_or_unknown(table, "friction")};
+          .friction = number_or_unknown(table, "friction"),
+          .gravity_z = dimension_of(table) == 3 ? table.header_number("gravity_z") : 0};
 }
 
-std::vector<SumsRow> read_sums_rows(const Table& table)
+template <int D>
+std::vector<SumsRow<D>> read_sums_rows(const Table& table)
 {
   const char* remedy = "--derived needs a table of grseg-micro";
   std::vector<SumColumn> sums;
-  for (const auto& name : columns_of(StructureSums{}.cells()))
+  for (const auto& name : columns_of(StructureSums<D>{}.cells()))
     sums.push_back({find_kept_column(table, name, remedy), kind_of(name)});
   const auto keys = read_layer_keys(table, remedy);
   std::vector<std::size_t> of_heights;
   for (const auto& name : columns_of(cells(BedHeights{})))
     of_heights.push_back(find_column(table, name, remedy));
 
-  std::vector<SumsRow> rows;
+  std::vector<SumsRow<D>> rows;
   rows.reserve(table.rows.size());
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& numbers = table.rows[r];
@@ -93,12 +103,15 @@ std::vector<SumsRow> read_sums_rows(const Table& table)
          .top = key.top,
          .frames = key.frames,
          .volume = key.volume,
-         .sums = StructureSums::from_values(values),
+         .sums = StructureSums<D>::from_values(values),
          .heights = {numbers[of_heights[0]], numbers[of_heights[1]], numbers[of_heights[2]]},
          .bed_height = nan});
   }
   set_bed_heights(rows);
   return rows;
 }
+
+template std::vector<SumsRow<2>> read_sums_rows(const Table&);
+template std::vector<SumsRow<3>> read_sums_rows(const Table&);
 
 }  // namespace grseg

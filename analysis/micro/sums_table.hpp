@@ -12,12 +12,13 @@ namespace grseg {
 
 /// A row of the table, or several merged; y0 = y1 = NaN for the whole bed and where different
 /// layers were merged.
+template <int D>
 struct SumsRow {
   double begin, end;   // s
   double bottom, top;  // m
   double frames;
-  double volume;  // m^2
-  StructureSums sums;
+  double volume;  // m^2 or m^3
+  StructureSums<D> sums;
   BedHeights heights;  // means per frame; NaN in layers
   double bed_height;   // m, of the whole bed in the same window
 
@@ -28,13 +29,15 @@ struct SumsRow {
 struct RunConstants {
   double small_diameter, large_diameter;  // m, nominal
   double gravity_x, gravity_y;            // m/s^2
-  double density, friction;               // kg/m^2 and 1; NaN where unknown
+  double density, friction;               // kg/m^2 or kg/m^3, and 1; NaN where unknown
+  double gravity_z = 0;                   // m/s^2, in three dimensions
 };
 
-/// FormatError where a line is missing or its value is not a number; density and friction may be
-/// "unknown".
+/// Diameters are those of the two species, with --group of the groups. FormatError where a line is
+/// missing or its value is not a number; density and friction may be "unknown".
 RunConstants read_run_constants(const Table& table);
 /// FormatError, naming the place, where a column is missing or a number is not finite that must be.
-std::vector<SumsRow> read_sums_rows(const Table& table);
+template <int D>
+std::vector<SumsRow<D>> read_sums_rows(const Table& table);
 
 }  // namespace grseg

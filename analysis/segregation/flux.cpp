@@ -3,13 +3,13 @@
 
 #include "analysis/frames/accumulate.hpp"
 #include "analysis/frames/ratio.hpp"
+#include "analysis/stress/contact_sums.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace grseg {
@@ -54,9 +54,10 @@ LayerSegregation jackknife(const std::vector<LayerSegregation>& left_out)
 
 }  // namespace
 
-SegregationFlux::Sums& SegregationFlux::Sums::operator+=(const Sums& others)
+template <int D>
+typename SegregationFlux<D>::Sums& SegregationFlux<D>::Sums::operator+=(const Sums& others)
 {
-  accumulate(area, others.area);
+  accumulate(content, others.content);
   accumulate(mass, others.mass);
   excess += others.excess;
   flow += others.flow;
@@ -65,8 +66,9 @@ SegregationFlux::Sums& SegregationFlux::Sums::operator+=(const Sums& others)
   return *this;
 }
 
-SegregationFlux::SegregationFlux(const Layers& layers, const Window& window, double small_diameter,
-                                 double large_diameter)
+template <int D>
+SegregationFlux<D>::SegregationFlux(const Layers& layers, const Window& window,
+                                    double small_diameter, double large_diameter)
     : layers_(layers),
       begin_(window.begin),
       length_(window.end - window.begin),
@@ -74,7 +76,8 @@ SegregationFlux::SegregationFlux(const Layers& layers, const Window& window, dou
 {
 }
 
-void SegregationFlux::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void SegregationFlux<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   ++frames_;
   const double passed = (frame.time - begin_) / length_ * static_cast<double>(parts);
@@ -86,7 +89,7 @@ void SegregationFlux::add(const Grains& grains, const Frame<2>& frame)
     const auto species = static_cast<std::size_t>(grains.species[g]);
     const double y = frame.position[g].y(), radius = grains.radius[g], mass = grains.mass[g];
     const std::size_t layer = layers_.at(y);
-    now[layer].area[species] += std::numbers::pi * radius * radius;
+    now[layer].content[species] += grain_volume<D>(radius);
     now[layer].mass[species] += mass;
     now[layer].flow.add(mass, y - layers_.bottom(layer), frame.velocity[g]);
     if (grains.species[g] == Species::large) large_momentum[layer] += mass * frame.velocity[g].y();
@@ -103,7 +106,8 @@ void SegregationFlux::add(const Grains& grains, const Frame<2>& frame)
   for (const auto& position : frame.position) heights.push_back(position.y());
 }
 
-void SegregationFlux::merge(const SegregationFlux& others)
+template <int D>
+void SegregationFlux<D>::merge(const SegregationFlux& others)
 {
   frames_ += others.frames_;
   for (std::size_t part = 0; part < parts; ++part) {
@@ -113,8 +117,9 @@ void SegregationFlux::merge(const SegregationFlux& others)
   }
 }
 
-void SegregationFlux::add_displacements(const Grains& grains, std::size_t part, std::size_t lag,
-                                        Profile& profile) const
+template <int D>
+void SegregationFlux<D>::add_displacements(const Grains& grains, std::size_t part, std::size_t lag,
+                                           Profile& profile) const
 {
   if (part + lag >= parts) return;
   const auto &from = snapshot_[part], &to = snapshot_[part + lag];
@@ -143,13 +148,13 @@ void SegregationFlux::add_displacements(const Grains& grains, std::size_t part, 
       profile[n].number[lag - 1][species] += std::max(drift[n][species].number - 1, 0.0);
 }
 
-double SegregationFlux::gradient(const Profile& profile, std::size_t layer) const
+template <int D>
+double SegregationFlux<D>::gradient(const Profile& profile, std::size_t layer) const
 {
-  // A neighbour with less than half of the grains' area, such as the spray above the bed, is left
-  // out.
-  const auto area = [&](std::size_t n) { return profile[n].area[0] + profile[n].area[1]; };
+  // A neighbour with less than half of the grains, such as the spray above the bed, is left out.
+  const auto content = [&](std::size_t n) { return profile[n].content[0] + profile[n].content[1]; };
   const auto usable = [&](std::size_t n) {
-    return n < profile.size() && area(n) > 0 && area(n) >= area(layer) / 2;
+    return n < profile.size() && content(n) > 0 && content(n) >= content(layer) / 2;
   };
   const auto height = [&](std::size_t n) {
     return layers_.bottom(n) + profile[n].flow.my / profile[n].flow.mass;
@@ -161,15 +166,16 @@ double SegregationFlux::gradient(const Profile& profile, std::size_t layer) cons
          (height(above) - height(below));
 }
 
-LayerSegregation SegregationFlux::evaluate(const Profile& profile, std::size_t layer,
-                                           double bed) const
+template <int D>
+LayerSegregation SegregationFlux<D>::evaluate(const Profile& profile, std::size_t layer,
+                                              double bed) const
 {
   const auto& sums = profile[layer];
   const auto diffusivity = [&](std::size_t lag, std::size_t species) {
     return ratio(sums.squares[lag][species], sums.number[lag][species]);
   };
   LayerSegregation r{};
-  r.phi_large = ratio(sums.area[1], sums.area[0] + sums.area[1]);
+  r.phi_large = ratio(sums.content[1], sums.content[0] + sums.content[1]);
   const double phi_small = 1 - r.phi_large;
   r.w_small = ratio(-sums.excess, sums.mass[0]);
   r.w_large = ratio(sums.excess, sums.mass[1]);
@@ -193,8 +199,8 @@ LayerSegregation SegregationFlux::evaluate(const Profile& profile, std::size_t l
   return r;
 }
 
-std::vector<SegregationFlux::Result> SegregationFlux::results(const Grains& grains,
-                                                              double bed) const
+template <int D>
+std::vector<SegregationResult> SegregationFlux<D>::results(const Grains& grains, double bed) const
 {
   auto profile = profile_;
   std::size_t layers = 0;
@@ -214,34 +220,38 @@ std::vector<SegregationFlux::Result> SegregationFlux::results(const Grains& grai
   for (std::size_t part = 0; part < parts; ++part)
     if (!snapshot_[part].y.empty()) left_out.push_back(without(part));
 
-  std::vector<Result> results;
+  std::vector<SegregationResult> results;
   for (std::size_t n = 0; n < layers; ++n) {
     std::vector<LayerSegregation> values;
     values.reserve(left_out.size());
     for (const auto& others : left_out) values.push_back(evaluate(others, n, bed));
     const auto frames = static_cast<double>(frames_);
     const auto& sums = all[n];
-    results.push_back({sums.area[0] / frames, sums.area[1] / frames, sums.flow.mass / frames,
+    results.push_back({sums.content[0] / frames, sums.content[1] / frames, sums.flow.mass / frames,
                        sums.flow.mean(layers_.thickness()), sums.number[0], evaluate(all, n, bed),
                        jackknife(values)});
   }
   return results;
 }
 
-std::vector<Cell> SegregationFlux::cells(const Result& result)
+std::vector<Cell> SegregationResult::cells(int dimension) const
 {
-  std::vector<Cell> cells{{"area_S[m^2]", result.area_small},
-                          {"area_L[m^2]", result.area_large},
-                          {"u[m/s]", result.flow.u},
-                          {"v[m/s]", result.flow.v},
-                          {"du_dy[1/s]", result.flow.du_dy},
-                          {"displacements_S", result.displacements[0]},
-                          {"displacements_L", result.displacements[1]}};
+  const auto contents = content_columns(two_sizes(0, 0), dimension);
+  std::vector<Cell> cells{{contents[0], content_small},
+                          {contents[1], content_large},
+                          {"u[m/s]", flow.u},
+                          {"v[m/s]", flow.v},
+                          {"du_dy[1/s]", flow.du_dy},
+                          {"displacements_S", displacements[0]},
+                          {"displacements_L", displacements[1]}};
   for (const auto& [name, unit, place] : quantities) {
-    cells.push_back({fmt::format("{}{}", name, unit), result.value.*place});
-    cells.push_back({fmt::format("{}_error{}", name, unit), result.error.*place});
+    cells.push_back({fmt::format("{}{}", name, unit), value.*place});
+    cells.push_back({fmt::format("{}_error{}", name, unit), error.*place});
   }
   return cells;
 }
+
+template class SegregationFlux<2>;
+template class SegregationFlux<3>;
 
 }  // namespace grseg

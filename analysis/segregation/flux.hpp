@@ -19,7 +19,7 @@ namespace grseg {
 /// w_L - w = <sum_L m (v_y - w)>/<sum_L m>, <> the mean over frames. q_S = -q_L for grains of one
 /// density; q_L > 0 means that large grains rise.
 struct LayerSegregation {
-  double phi_large;           // by area of the grains with their centre in the layer
+  double phi_large;           // by area or volume of the grains with their centre in the layer
   double w_small, w_large;    // w_S - w and w_L - w, m/s; NaN without such grains
   double q_small, q_large;    // flux q = phi (w_species - w), m/s
   double D_small, D_large;    // diffusivity, m^2/s, from displacements over an eighth of a window
@@ -29,6 +29,17 @@ struct LayerSegregation {
   double gradient;                // d phi_L/dy between the neighbouring layers, 1/m
   double S;  // segregation velocity, m/s: q_L = S phi_L phi_S - D d phi_L/dy (Gray & Chugunov 2006)
   double peclet;  // S H/D, H the height of the bed
+};
+
+/// What one window has to tell of one layer.
+struct SegregationResult {
+  double content_small, content_large, mass;  // m^2 or m^3, kg, per frame; of grains by centre
+  LayerFlow flow;
+  std::array<double, 2> displacements;  // behind D_S and D_L, less one per drift
+  LayerSegregation value, error;
+
+  /// The columns from area_S or volume_S to Pe_error, in 2 or 3 dimensions.
+  std::vector<Cell> cells(int dimension) const;
 };
 
 /// Segregation flux, diffusivity and Peclet number by layer, of one window.
@@ -42,6 +53,7 @@ struct LayerSegregation {
 ///
 /// Standard errors are jackknifed over the parts (Tukey 1958). The displacements of D2 overlap,
 /// which makes its error too small, by at most a factor sqrt(2).
+template <int D>
 class SegregationFlux {
  public:
   static constexpr std::size_t parts = 8;
@@ -50,33 +62,23 @@ class SegregationFlux {
   SegregationFlux(const Layers& layers, const Window& window, double small_diameter,
                   double large_diameter);
 
-  void add(const Grains& grains, const Frame<2>& frame);
+  void add(const Grains& grains, const Frame<D>& frame);
   void merge(const SegregationFlux& others);
 
-  /// One layer.
-  struct Result {
-    double area_small, area_large, mass;  // m^2, kg, per frame; of grains by centre
-    LayerFlow flow;
-    std::array<double, 2> displacements;  // behind D_S and D_L, less one per drift
-    LayerSegregation value, error;
-  };
   /// By layer, of the same grains; `bed` is the height H for the Peclet number, m.
-  std::vector<Result> results(const Grains& grains, double bed) const;
-
-  /// The columns from area_S to Pe_error with the numbers of a layer.
-  static std::vector<Cell> cells(const Result& result);
+  std::vector<SegregationResult> results(const Grains& grains, double bed) const;
 
  private:
   /// One layer over the frames of one part.
   struct Sums {
-    std::array<double, 2> area{}, mass{};
+    std::array<double, 2> content{}, mass{};
     double excess = 0;  // kg m/s, sum of m (v_y - w) over large grains
     LayerFlowSums flow;
     // By lag and species: sums of squares over twice the lag, and their number less one per drift.
     std::array<std::array<double, 2>, 2> squares{}, number{};
 
     Sums& operator+=(const Sums& others);
-    double phi_large() const { return area[1] / (area[0] + area[1]); }
+    double phi_large() const { return content[1] / (content[0] + content[1]); }
   };
   using Profile = std::vector<Sums>;  // by layer
   struct Snapshot {

@@ -8,15 +8,16 @@
 
 namespace grseg {
 
-double mixing_index(const Layers& layers, const Grains& grains, const Frame<2>& frame)
+template <int D>
+double mixing_index(const Layers& layers, const Grains& grains, const Frame<D>& frame)
 {
-  Composition<2> composition(layers, GrainArea::centre);
+  Composition<D> composition(layers, GrainArea::centre);
   composition.add(grains, frame);
   std::array<double, 2> number{};
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g)) ++number[static_cast<std::size_t>(grains.species[g])];
   const auto all = composition.mean();
-  const double area = all[0] + all[1], phi = all[1] / area;
+  const double volume = all[0] + all[1], phi = all[1] / volume;
   if (!(phi > 0 && phi < 1)) return std::numeric_limits<double>::quiet_NaN();
 
   double variance = 0, occupied = 0;
@@ -25,13 +26,16 @@ double mixing_index(const Layers& layers, const Grains& grains, const Frame<2>& 
     const double own = here[0] + here[1];
     if (!(own > 0)) continue;
     const double excess = here[1] / own - phi;
-    variance += own * excess * excess / area;
+    variance += own * excess * excess / volume;
     ++occupied;
   }
   const double apart = phi * (1 - phi);
   const double of_one = (1 - phi) * all[1] / number[1] + phi * all[0] / number[0];
-  const double random = occupied * apart * of_one / area;
+  const double random = occupied * apart * of_one / volume;
   return (apart - variance) / (apart - random);
 }
+
+template double mixing_index(const Layers&, const Grains&, const Frame<2>&);
+template double mixing_index(const Layers&, const Grains&, const Frame<3>&);
 
 }  // namespace grseg

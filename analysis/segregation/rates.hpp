@@ -13,10 +13,10 @@ namespace grseg {
 struct RatePoint {
   std::size_t window;
   double bottom, top;  // of the layer, m
-  double solid;        // area of grains over V
+  double solid;        // area or volume of grains over V
   double diameter;     // phi_S d_S + phi_L d_L, nominal, m
   double bed;          // height of the bed, m
-  SegregationFlux::Result layer;
+  SegregationResult layer;
 };
 
 /// Which layers take part.

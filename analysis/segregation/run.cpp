@@ -9,7 +9,7 @@
 namespace grseg {
 namespace {
 
-using Moment = SegregationSeries::Moment;
+using Moment = SegregationMoment;
 
 struct BedColumn {
   const char* column;
@@ -54,7 +54,9 @@ std::vector<Cell> together(std::vector<Cell> first, const std::vector<Cell>& the
 
 }  // namespace
 
-SegregationRun::SegregationRun(const Layers& layers, double small_diameter, double large_diameter)
+template <int D>
+SegregationRun<D>::SegregationRun(const Layers& layers, double small_diameter,
+                                  double large_diameter)
     : layers_(layers),
       small_diameter_(small_diameter),
       large_diameter_(large_diameter),
@@ -62,8 +64,9 @@ SegregationRun::SegregationRun(const Layers& layers, double small_diameter, doub
 {
 }
 
-void SegregationRun::add(const Grains& grains, const SegregationSeries& series,
-                         const SegregationFlux& flux)
+template <int D>
+void SegregationRun<D>::add(const Grains& grains, const SegregationSeries<D>& series,
+                            const SegregationFlux<D>& flux)
 {
   series_.merge(series);
   const auto count = series.moments().size();
@@ -73,32 +76,39 @@ void SegregationRun::add(const Grains& grains, const SegregationSeries& series,
     const auto& result = results_[n];
     const double phi = result.value.phi_large;
     points_.push_back({windows_.size(), layers_.bottom(n), layers_.top(n),
-                       (result.area_small + result.area_large) / layers_.volume(n),
+                       (result.content_small + result.content_large) / layers_.volume(n),
                        (1 - phi) * small_diameter_ + phi * large_diameter_, bed_.bed, result});
   }
   windows_.push_back(count);
 }
 
-std::vector<std::string> SegregationRun::columns()
+template <int D>
+std::vector<std::string> SegregationRun<D>::columns()
 {
-  return columns_of(together(SegregationFlux::cells({}), cells(Moment{})));
+  return columns_of(together(SegregationResult{}.cells(D), cells(Moment{})));
 }
 
-std::vector<double> SegregationRun::row(std::size_t layer) const
+template <int D>
+std::vector<double> SegregationRun<D>::row(std::size_t layer) const
 {
-  return values_of(together(SegregationFlux::cells(results_[layer]), without_values(cells(bed_))));
+  return values_of(together(results_[layer].cells(D), without_values(cells(bed_))));
 }
 
-std::vector<double> SegregationRun::bed_row() const
+template <int D>
+std::vector<double> SegregationRun<D>::bed_row() const
 {
-  return values_of(together(without_values(SegregationFlux::cells({})), cells(bed_)));
+  return values_of(together(without_values(SegregationResult{}.cells(D)), cells(bed_)));
 }
 
-SegregationSummary SegregationRun::summary(const RateFilter& filter) const
+template <int D>
+SegregationSummary SegregationRun<D>::summary(const RateFilter& filter) const
 {
   auto summary = segregation_times(series_.moments(), windows_);
   summary.append(segregation_rates(filtered(points_, filter)));
   return summary;
 }
+
+template class SegregationRun<2>;
+template class SegregationRun<3>;
 
 }  // namespace grseg

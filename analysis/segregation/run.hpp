@@ -13,16 +13,18 @@ namespace grseg {
 
 /// The windows of a run one after the other, and what follows from all of them. Keeps a few numbers
 /// per frame and per layer and window.
+template <int D>
 class SegregationRun {
  public:
   /// Nominal diameters, m.
   SegregationRun(const Layers& layers, double small_diameter, double large_diameter);
 
   /// The next window.
-  void add(const Grains& grains, const SegregationSeries& series, const SegregationFlux& flux);
+  void add(const Grains& grains, const SegregationSeries<D>& series,
+           const SegregationFlux<D>& flux);
 
-  /// The columns of grseg-segregation from area_S on, and the values of the last window: of a
-  /// layer, and of the whole bed, which are means over the frames of the window.
+  /// The columns of grseg-segregation from area_S or volume_S on, and the values of the last window: of
+  /// a layer, and of the whole bed, which are means over the frames of the window.
   static std::vector<std::string> columns();
   std::size_t layers() const { return results_.size(); }
   std::vector<double> row(std::size_t layer) const;
@@ -34,11 +36,11 @@ class SegregationRun {
  private:
   Layers layers_;
   double small_diameter_, large_diameter_;
-  SegregationSeries series_;
+  SegregationSeries<D> series_;
   std::vector<std::size_t> windows_;  // number of moments in each
   std::vector<RatePoint> points_;
-  std::vector<SegregationFlux::Result> results_;  // of the last window
-  SegregationSeries::Moment bed_;                 // of the last window
+  std::vector<SegregationResult> results_;  // of the last window
+  SegregationMoment bed_;                   // of the last window
 };
 
 }  // namespace grseg

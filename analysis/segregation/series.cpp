@@ -9,7 +9,8 @@ namespace grseg {
 namespace {
 
 /// From 10 to 90 % of the height of the bed.
-double shear_rate(const Grains& grains, const Frame<2>& frame, double bed)
+template <int D>
+double shear_rate(const Grains& grains, const Frame<D>& frame, double bed)
 {
   LayerFlowSums sums;
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -22,10 +23,11 @@ double shear_rate(const Grains& grains, const Frame<2>& frame, double bed)
 
 }  // namespace
 
-void SegregationSeries::add(const Grains& grains, const Frame<2>& frame)
+template <int D>
+void SegregationSeries<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   const auto heights = bed_heights(grains, frame);
-  Moment now;
+  SegregationMoment now;
   now.time = frame.time;
   now.large = heights.large;
   now.small = heights.small;
@@ -39,7 +41,8 @@ void SegregationSeries::add(const Grains& grains, const Frame<2>& frame)
   moments_.push_back(now);
 }
 
-void SegregationSeries::merge(const SegregationSeries& later)
+template <int D>
+void SegregationSeries<D>::merge(const SegregationSeries& later)
 {
   if (later.moments_.empty()) return;
   double offset = 0;
@@ -52,5 +55,8 @@ void SegregationSeries::merge(const SegregationSeries& later)
     moments_.push_back(moment);
   }
 }
+
+template class SegregationSeries<2>;
+template class SegregationSeries<3>;
 
 }  // namespace grseg

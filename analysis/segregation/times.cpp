@@ -11,7 +11,7 @@
 namespace grseg {
 namespace {
 
-using Moment = SegregationSeries::Moment;
+using Moment = SegregationMoment;
 
 Eigen::VectorXd series(const std::vector<Moment>& moments, double Moment::*place)
 {

@@ -17,7 +17,7 @@ namespace grseg {
 ///   t_mixing      middle of the window that is mixed most; the interval reaches from the first to
 ///                 the last window whose index does not differ significantly
 /// `windows` lists the number of moments in each window.
-SegregationSummary segregation_times(const std::vector<SegregationSeries::Moment>& moments,
+SegregationSummary segregation_times(const std::vector<SegregationMoment>& moments,
                                      const std::vector<std::size_t>& windows);
 
 }  // namespace grseg

@@ -4,6 +4,7 @@
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>
@@ -39,33 +40,42 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+template <int D>
+void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::string& command)
 {
-  const auto shape = choose(s.kernel, "--kernel", kernel_shapes);
-  FrameLoop loop(info, values, s.frames);
-  loop.require_two_species();
   const auto& run = loop.run();
-  if (!run.has_force())
-    throw FormatError(
-        fmt::format("{}: /particles/grains/force, the rate at which momentum changes, is missing; "
-                    "take a run of grseg-sim, or import one with the forces on its grains",
-                    run.path()));
+  const auto& species = loop.species();
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   const Kernel kernel(shape, parse_length(s.width, "--width", units));
-  auto table = loop.make_table(
-      command, {{"kernel", s.kernel}, {"width", format_number(kernel.width())}}, balance_columns());
+  auto table =
+      loop.make_table(command, {{"kernel", s.kernel}, {"width", format_number(kernel.width())}},
+                      balance_columns<D>(species));
 
-  BalanceSummary summary(loop.layers(), run.large_diameter());
+  BalanceSummary<D> summary(loop.layers(), run.large_diameter());
+  const MomentumBalance<D> empty(loop.layers(), kernel, run.gravity<D>(), run.step(),
+                                 species.size());
   for (const auto& window : loop.windows()) {
     const auto [balance] =
-        loop.sum<2>(window, {.velocity = true, .contacts = true, .force = true},
-                    MomentumBalance(loop.layers(), kernel, run.gravity<2>(), run.step()));
+        loop.sum<D>(window, {.velocity = true, .contacts = true, .force = true}, empty);
     for (std::size_t layer = 0; layer < balance.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, balance_row(balance, layer)));
     summary.add(balance);
   }
   loop.write(table);
   if (!s.frames.quiet) fmt::print(stderr, "{}: {}\n", info.name, summary.sentence());
+}
+
+void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+{
+  const auto shape = choose(s.kernel, "--kernel", kernel_shapes);
+  FrameLoop loop(info, values, s.frames);
+  const auto& run = loop.run();
+  if (!run.has_force())
+    throw FormatError(
+        fmt::format("{}: /particles/grains/force, the rate at which momentum changes, is missing; "
+                    "take a run of grseg-sim, or import one with the forces on its grains",
+                    run.path()));
+  with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, shape, command); });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/reader.hpp"
 
@@ -89,15 +90,16 @@ Header header_of(const TrajectoryReader& run, const Settings& s, const std::stri
   return header;
 }
 
+template <int D>
 CheckReport check(const TrajectoryReader& run, const Settings& s, const std::string& command)
 {
   ContentCheck content(run);
   std::optional<SpecificationCheck> specification;
   if (s.deep) specification.emplace(run);
-  std::optional<PhysicsCheck> physics;
+  std::optional<PhysicsCheck<D>> physics;
   if (s.with_physics) physics.emplace(run, s.physics);
   const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
-  Frame<2> frame;
+  Frame<D> frame;
   for (std::size_t k = 0; k < run.size(); ++k) {
     run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
     content.add(k, frame);
@@ -126,7 +128,8 @@ int main(int argc, char** argv)
   return run_tool(argc, argv, info(), options, [&](const po::variables_map& values) {
     settings.output.check(values);
     const TrajectoryReader run(single_input(values, "check one at a time"), Verify::no);
-    const auto report = check(run, settings, command_line(argc, argv));
+    const auto report = with_dimension(
+        run.dimension(), [&](auto d) { return check<d>(run, settings, command_line(argc, argv)); });
     write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));
     std::cout.flush();
     if (const auto failures = report.failures(); !failures.empty())

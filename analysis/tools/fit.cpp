@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/fit_report.hpp"
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/rule_fit.hpp"
@@ -44,11 +45,11 @@ constexpr ToolInfo info{
 
 struct Settings {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range;
+  std::string component, quantity, base, scan, ratio_range, pair;
   OutputOptions output;
   int bootstrap = 0;
   long seed = 0;
-  bool json = false, quiet = false, short_form = false;
+  bool json = false, quiet = false, short_form = false, exponent = false;
   FitFilters filters;
 };
 
@@ -83,6 +84,10 @@ po::options_description options_into(Settings& s)
       ("part of contacts with base and walls: " + list_of(base_parts) +
        " (default: as in the table)")
           .c_str());
+  add("pair", text(s.pair, "A,B"), "two of the species, by name or number (default: all pairs)");
+  add("exponent", po::bool_switch(&s.exponent),
+      "also a of sigma^nu/sigma = phi^nu s^a/sum(phi s^a), s the diameters; of more than two "
+      "species always");
   add("scan", text(s.scan, "p0:p1:dp"), "print B over the share p instead of the rules");
   add("bootstrap", number(s.bootstrap, "N")->default_value(1000),
       "samples for the 95 % intervals; 0: no intervals");
@@ -183,6 +188,19 @@ void add_for_short_table(FitReport& report, const FitData& data, const FitSettin
     report.zero = find_zero_of_b(data, {0, 1, 0.05}, settings, bootstrap);
 }
 
+/// UsageError where the species of the tables do not make a pair, or too many for a scan.
+std::vector<SpeciesPair> pairs_of(const Settings& s, const SpeciesList& species)
+{
+  if (species.size() < 2)
+    throw UsageError(
+        "the tables have one species, and B compares two; make them with --classes or --edges");
+  if (!s.scan.empty() && species.size() > 2)
+    throw UsageError(
+        "--scan: p* is that of two species; merge the others with grseg-stress --group");
+  if (!s.pair.empty()) return {parse_pair(s.pair, species)};
+  return all_pairs(species.size());
+}
+
 FitReport make_report(const Settings& s, const std::string& preset,
                       const std::vector<Table>& tables)
 {
@@ -194,12 +212,18 @@ FitReport make_report(const Settings& s, const std::string& preset,
   const auto rules = rules_of(s, tables[0]);
   auto read = rules;
   if (!s.scan.empty()) read.push_back({PartitionRule::Kind::uniform});
-  const auto data = read_fit_data(tables, report.quantity, s.filters, read);
-  const Bootstrap bootstrap(data.runs, static_cast<std::size_t>(s.bootstrap),
-                            static_cast<unsigned long>(s.seed));
-  for (const auto& rule : rules) report.rules.push_back(fit_rule(data, rule, settings, bootstrap));
+  const auto all = read_fit_tables(tables, report.quantity, read);
+  report.species = all.front().species;
+  const auto pairs = pairs_of(s, report.species);
+  const auto data = select_fit_data(all, report.quantity, s.filters, pairs);
+  const Resampling resampling{static_cast<std::size_t>(s.bootstrap),
+                              static_cast<unsigned long>(s.seed)};
+  const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
+  report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings, resampling,
+                           s.exponent || report.names_pairs());
   if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
-  if (prints_short(s)) add_for_short_table(report, data, settings, bootstrap);
+  if (prints_short(s) && !report.names_pairs())
+    add_for_short_table(report, data, settings, bootstrap);
 
   report.header = {
       program_line(info),
@@ -218,6 +242,8 @@ FitReport make_report(const Settings& s, const std::string& preset,
       {"seed", fmt::format("{}", s.seed)},
       {"interval", "95 %"}};
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
+  if (names_species(report.species))
+    report.header.emplace_back("species", species_text(report.species));
   report.inputs = header_values(tables, "input");
   report.trust = trust_of(tables);
   report.history = header_values(tables, "history");

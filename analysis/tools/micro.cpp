@@ -5,6 +5,7 @@
 #include "analysis/micro/force_distribution.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/dimension.hpp"
 
 #include <cmath>
 #include <optional>
@@ -40,7 +41,8 @@ po::options_description options_into(Settings& s)
   };
   auto add = options.add_options();
   add("composition", word(s.composition),
-      "give layers the area of a grain clipped at their edges, or whole at its centre (centre)");
+      "give layers the area or volume of a grain clipped at their edges, or whole at its centre "
+      "(centre)");
   add("friction", po::value(&s.friction)->value_name("MU"),
       "friction coefficient of the Coulomb limit at which contacts slide (default: the run's)");
   add("distribution", po::bool_switch(&s.distribution),
@@ -70,13 +72,9 @@ std::string number_or_unknown(std::optional<double> number)
   return !number || std::isnan(*number) ? "unknown" : format_number(*number);
 }
 
-void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+template <int D>
+void tabulate(FrameLoop& loop, const Settings& s, GrainArea area, const std::string& command)
 {
-  const auto area =
-      choose<GrainArea>(s.composition, "--composition",
-                        {{"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}});
-  FrameLoop loop(info, values, s.frames);
-  loop.require_two_species();
   const auto& parameters = loop.run().parameters();
   const double friction = friction_of(s, parameters);
   auto table = loop.make_table(command,
@@ -84,14 +82,43 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
                                 {"density", number_or_unknown(parameters.find_number("density"))},
                                 {"friction", number_or_unknown(friction)},
                                 {"sliding_tolerance", format_number(sliding_tolerance)}},
-                               StructureByLayer::columns());
+                               StructureByLayer<D>::columns());
 
   for (const auto& window : loop.windows()) {
-    const auto [micro] = loop.sum<2>(window, {.velocity = false, .contacts = true},
-                                     StructureByLayer(loop.layers(), area, friction));
+    const auto [micro] = loop.sum<D>(window, {.velocity = false, .contacts = true},
+                                     StructureByLayer<D>(loop.layers(), area, friction));
     for (std::size_t layer = 0; layer < micro.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, micro.row(layer)));
     table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));
+  }
+  loop.write(table);
+}
+
+void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+{
+  const auto area =
+      choose<GrainArea>(s.composition, "--composition",
+                        {{"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}});
+  FrameLoop loop(info, values, s.frames);
+  loop.require_two_species();
+  with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, area, command); });
+}
+
+template <int D>
+void distribute(FrameLoop& loop, const Settings& s, ForceUnit unit, const std::string& command)
+{
+  auto table = loop.make_table(command, {{"unit", s.unit}, {"bin", format_number(s.bin)}},
+                               ForceDistribution<D>::columns());
+  const TrajectoryReader::Fields contacts{.velocity = false, .contacts = true};
+
+  for (const auto& window : loop.windows()) {
+    const auto [mean] = loop.sum<D>(window, contacts, MeanNormalForce<D>(loop.layers()));
+    const auto [forces] =
+        loop.sum<D>(window, contacts, ForceDistribution<D>(loop.layers(), mean, unit, s.bin));
+    for (std::size_t layer = 0; layer < forces.layers(); ++layer)
+      for (const auto& row : forces.rows(layer)) table.rows.push_back(loop.row(window, layer, row));
+    for (const auto& row : forces.bed_rows())
+      table.rows.push_back(loop.bed_row(window, std::numeric_limits<double>::quiet_NaN(), row));
   }
   loop.write(table);
 }
@@ -103,20 +130,7 @@ void distribute(const Settings& s, const po::variables_map& values, const std::s
   if (!(s.bin > 0) || !std::isfinite(s.bin)) throw UsageError("--bin must be positive");
   FrameLoop loop(info, values, s.frames);
   loop.require_two_species();
-  auto table = loop.make_table(command, {{"unit", s.unit}, {"bin", format_number(s.bin)}},
-                               ForceDistribution::columns());
-  const TrajectoryReader::Fields contacts{.velocity = false, .contacts = true};
-
-  for (const auto& window : loop.windows()) {
-    const auto [mean] = loop.sum<2>(window, contacts, MeanNormalForce(loop.layers()));
-    const auto [forces] =
-        loop.sum<2>(window, contacts, ForceDistribution(loop.layers(), mean, unit, s.bin));
-    for (std::size_t layer = 0; layer < forces.layers(); ++layer)
-      for (const auto& row : forces.rows(layer)) table.rows.push_back(loop.row(window, layer, row));
-    for (const auto& row : forces.bed_rows())
-      table.rows.push_back(loop.bed_row(window, std::numeric_limits<double>::quiet_NaN(), row));
-  }
-  loop.write(table);
+  with_dimension(loop.dimension(), [&](auto d) { distribute<d>(loop, s, unit, command); });
 }
 
 }  // namespace

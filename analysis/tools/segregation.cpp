@@ -3,6 +3,7 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/segregation/run.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>
@@ -51,35 +52,43 @@ RateFilter filter_of(const Settings& s, LengthUnits units)
   return {parse_heights(s.heights, units), s.min_solid};
 }
 
-void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+void write_summary(const Settings& s, const SegregationSummary& summary, Header header)
 {
-  FrameLoop loop(info, values, s.frames);
-  loop.require_two_species();
-  const auto& file = loop.run();
-  const double small_diameter = file.small_diameter(), large_diameter = file.large_diameter();
-  const auto filter = filter_of(s, {small_diameter, large_diameter});
-  auto table = loop.make_table(command, {{"composition", "centre"}}, SegregationRun::columns());
+  header.emplace_back("heights", s.heights.empty() ? "all" : s.heights);
+  header.emplace_back("min_solid", format_number(s.min_solid));
+  header.emplace_back("interval", "95 %");
+  if (!s.frames.quiet)
+    for (const auto& remark : summary.remarks) fmt::print(stderr, "{}: {}\n", info.name, remark);
+  write_whole(s.frames.output, s.frames.json ? to_json(summary, header) : to_tsv(summary, header));
+}
 
-  SegregationRun run(loop.layers(), small_diameter, large_diameter);
+template <int D>
+void tabulate(FrameLoop& loop, const Settings& s, const RateFilter& filter,
+              const std::string& command)
+{
+  const double small_diameter = loop.species()[0].diameter;
+  const double large_diameter = loop.species()[1].diameter;
+  auto table = loop.make_table(command, {{"composition", "centre"}}, SegregationRun<D>::columns());
+  SegregationRun<D> run(loop.layers(), small_diameter, large_diameter);
   for (const auto& window : loop.windows()) {
-    const auto [series, flux] =
-        loop.sum<2>(window, {.velocity = true, .contacts = false}, SegregationSeries(loop.layers()),
-                    SegregationFlux(loop.layers(), window, small_diameter, large_diameter));
-    run.add(file.grains(), series, flux);
+    const auto [series, flux] = loop.sum<D>(
+        window, {.velocity = true, .contacts = false}, SegregationSeries<D>(loop.layers()),
+        SegregationFlux<D>(loop.layers(), window, small_diameter, large_diameter));
+    run.add(loop.grains(), series, flux);
     for (std::size_t layer = 0; layer < run.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, run.row(layer)));
     table.rows.push_back(loop.bed_row(window, run.bed(), run.bed_row()));
   }
-  if (!s.summary) return loop.write(table);
+  if (s.summary) return write_summary(s, run.summary(filter), table.header);
+  loop.write(table);
+}
 
-  const auto summary = run.summary(filter);
-  table.header.emplace_back("heights", s.heights.empty() ? "all" : s.heights);
-  table.header.emplace_back("min_solid", format_number(s.min_solid));
-  table.header.emplace_back("interval", "95 %");
-  if (!s.frames.quiet)
-    for (const auto& remark : summary.remarks) fmt::print(stderr, "{}: {}\n", info.name, remark);
-  write_whole(s.frames.output,
-              s.frames.json ? to_json(summary, table.header) : to_tsv(summary, table.header));
+void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+{
+  FrameLoop loop(info, values, s.frames);
+  loop.require_two_species();
+  const auto filter = filter_of(s, {loop.run().small_diameter(), loop.run().large_diameter()});
+  with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, filter, command); });
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::string species_text(const SpeciesList& species)
 {
   std::string text;
   for (const auto& [name, diameter] : species)
-    text += fmt::format("{}{} {:.17g}", text.empty() ? "" : ", ", name, diameter);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, diameter);
   return text;
 }
 

@@ -36,6 +36,8 @@ SpeciesList parse_species(const std::string& text);
 /// Whether a name can stand in files, command lines and names of columns: 1 to 15 of A-Z a-z 0-9 _ -
 /// ., and neither "boundary" nor "b", which stand for the base.
 bool is_species_name(const std::string& name);
+inline constexpr const char* rule_of_species_names =
+    "names have 1 to 15 of the characters A-Z a-z 0-9 _ - . and are neither boundary nor b";
 
 /// Species as files number them: rows of a list in which the boundary grains come last.
 std::vector<std::int32_t> species_numbers(const std::vector<Species>& species, std::size_t mobile);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/export/extxyz_writer.hpp"
 
+#include "formats/export/in_space.hpp"
+
 #include <fmt/format.h>
 
 #include <iterator>
@@ -10,10 +12,11 @@ namespace {
 
 std::string keys_of(const ViewCell& cell, bool has_force)
 {
-  return fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Origin="{} {} {}" pbc="{} F F" )"
+  return fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Origin="{} {} {}" pbc="{} F {}" )"
                      "Properties=id:I:1:type:I:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:omega:R:3{}",
                      cell.length(0), cell.length(1), cell.length(2), cell.low[0], cell.low[1],
-                     cell.low[2], cell.periodic_x ? 'T' : 'F', has_force ? ":force:R:3" : "");
+                     cell.low[2], cell.periodic_x ? 'T' : 'F', cell.periodic_z ? 'T' : 'F',
+                     has_force ? ":force:R:3" : "");
 }
 
 }  // namespace
@@ -28,20 +31,28 @@ ExtxyzWriter::ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell,
 {
 }
 
-void ExtxyzWriter::add(const Frame<2>& frame)
+template <int D>
+void ExtxyzWriter::add(const Frame<D>& frame)
 {
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);
   fmt::format_to(end, "{}\n{} Time={}\n", grains_.size(), keys_, frame.time);
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    const auto &x = frame.position[g], &v = frame.velocity[g];
-    fmt::format_to(end, "{} {} {} {} 0 {} {} 0 {} {} 0 0 {}", grains_.id[g], species_[g] + 1, x.x(),
-                   x.y(), v.x(), v.y(), grains_.radius[g], grains_.mass[g],
-                   frame.angular_velocity[g]);
-    if (has_force_) fmt::format_to(end, " {} {} 0", frame.force[g].x(), frame.force[g].y());
+    const Vec3 x = in_space<D>(frame.position[g]), v = in_space<D>(frame.velocity[g]);
+    const Vec3 spin = spin_in_space(frame.angular_velocity[g]);
+    fmt::format_to(end, "{} {} {} {} {} {} {} {} {} {} {} {} {}", grains_.id[g], species_[g] + 1,
+                   x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), grains_.radius[g], grains_.mass[g],
+                   spin.x(), spin.y(), spin.z());
+    if (has_force_) {
+      const Vec3 force = in_space<D>(frame.force[g]);
+      fmt::format_to(end, " {} {} {}", force.x(), force.y(), force.z());
+    }
     text.push_back('\n');
   }
   file_.write({text.data(), text.size()});
 }
+
+template void ExtxyzWriter::add(const Frame<2>&);
+template void ExtxyzWriter::add(const Frame<3>&);
 
 }  // namespace grseg

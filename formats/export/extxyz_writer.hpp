@@ -10,16 +10,18 @@
 namespace grseg {
 
 /// Extended XYZ as OVITO and ASE read it: per frame the number of grains, a line of keys, a row per
-/// grain. Types are numbers (1 small, 2 large, 3 boundary), since ASE refuses species that are not
-/// chemical symbols. Reals have the fewest digits that read back exactly; z = 0; contacts cannot be
-/// stored.
+/// grain. Types are numbers (1 the smallest species, the
+/// last one the boundary), since ASE refuses species that are not
+/// chemical symbols. Reals have the fewest digits that read back exactly; discs have z = 0;
+/// contacts cannot be stored.
 class ExtxyzWriter {
  public:
   ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell, const std::string& path,
                bool overwrite);
 
   /// Needs velocities, and forces where the run has them.
-  void add(const Frame<2>& frame);
+  template <int D>
+  void add(const Frame<D>& frame);
   void publish() { file_.publish(); }
 
  private:

@@ -2,6 +2,7 @@
 #include "formats/export/h5md3d_writer.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/export/in_space.hpp"
 #include "formats/trajectory/h5md.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
 #include "formats/trajectory/hdf5_failure.hpp"
@@ -21,13 +22,12 @@ const std::string position = group + "position";
 constexpr hsize_t scalar_chunk = 1024;
 constexpr int compression = 1;  // removes the zeros along z
 
-template <class Vector>
-auto padded(const std::vector<Vector>& vectors)
+template <std::size_t D>
+auto padded(const std::vector<std::array<std::int32_t, D>>& images)
 {
-  using Number = std::decay_t<decltype(vectors[0][0])>;
-  std::vector<std::array<Number, 3>> out;
-  out.reserve(vectors.size());
-  for (const auto& v : vectors) out.push_back({v[0], v[1], Number{0}});
+  std::vector<std::array<std::int32_t, 3>> out(images.size());
+  for (std::size_t g = 0; g < images.size(); ++g)
+    std::copy(images[g].begin(), images[g].end(), out[g].begin());
   return out;
 }
 
@@ -63,7 +63,8 @@ H5md3dWriter::Impl::Impl(const TrajectoryReader& its_run, const ViewCell& cell,
   file = File(H5Fcreate(output.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   if (!file.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   h5md::write_root(file);
-  h5md::write_box(file, "trajectory", {cell.periodic_x ? "periodic" : "none", "none", "none"});
+  const auto word = [](bool periodic) { return periodic ? "periodic" : "none"; };
+  h5md::write_box(file, "trajectory", {word(cell.periodic_x), "none", word(cell.periodic_z)});
 
   const hsize_t n = run.grains().size();
   create_position();
@@ -71,7 +72,9 @@ H5md3dWriter::Impl::Impl(const TrajectoryReader& its_run, const ViewCell& cell,
   velocities = create_element(group + "velocity", "", H5T_IEEE_F64LE, {n, 3});
   if (run.has_force()) forces = create_element(group + "force", "", H5T_IEEE_F64LE, {n, 3});
   images = create_element(group + "image", "", H5T_STD_I32LE, {n, 3});
-  spins = create_element(group + "angular_velocity", "", H5T_IEEE_F64LE, {n});
+  const std::vector<hsize_t> spin_shape =
+      run.dimension() == 2 ? std::vector{n} : std::vector{n, hsize_t{3}};
+  spins = create_element(group + "angular_velocity", "", H5T_IEEE_F64LE, spin_shape);
   for (const auto& [name, unit] : run.observables())
     observables.emplace_back(
         run.observable(name),
@@ -117,18 +120,19 @@ H5md3dWriter::H5md3dWriter(const TrajectoryReader& run, const ViewCell& cell,
 H5md3dWriter::~H5md3dWriter() = default;
 H5md3dWriter::H5md3dWriter(H5md3dWriter&&) noexcept = default;
 
-void H5md3dWriter::add(const Frame<2>& frame)
+template <int D>
+void H5md3dWriter::add(const Frame<D>& frame)
 {
   const auto& my = *impl_;
   const auto append = [&](const Dataset& dataset, hid_t type, const void* data) {
     append_rows(dataset, type, 1, data, my.path);
   };
-  append(my.positions, H5T_NATIVE_DOUBLE, padded(frame.position).data());
+  append(my.positions, H5T_NATIVE_DOUBLE, all_in_space<D>(frame.position).data());
   append(my.steps, H5T_NATIVE_INT64, &frame.step);
   append(my.times, H5T_NATIVE_DOUBLE, &frame.time);
   append(my.box, H5T_NATIVE_DOUBLE, my.edges.data());
-  append(my.velocities, H5T_NATIVE_DOUBLE, padded(frame.velocity).data());
-  if (my.forces.valid()) append(my.forces, H5T_NATIVE_DOUBLE, padded(frame.force).data());
+  append(my.velocities, H5T_NATIVE_DOUBLE, all_in_space<D>(frame.velocity).data());
+  if (my.forces.valid()) append(my.forces, H5T_NATIVE_DOUBLE, all_in_space<D>(frame.force).data());
   append(my.images, H5T_NATIVE_INT32, padded(frame.image).data());
   append(my.spins, H5T_NATIVE_DOUBLE, frame.angular_velocity.data());
   const auto& all = my.run.steps();
@@ -149,5 +153,8 @@ void H5md3dWriter::publish()
     throw RunError(fmt::format("cannot write {}: {}", my.path, reason_of_failure()));
   my.output.publish();
 }
+
+template void H5md3dWriter::add(const Frame<2>&);
+template void H5md3dWriter::add(const Frame<3>&);
 
 }  // namespace grseg

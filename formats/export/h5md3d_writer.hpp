@@ -11,12 +11,12 @@
 
 namespace grseg {
 
-/// H5MD 1.1 for MDAnalysis' H5MDReader, which refuses two dimensions: vectors padded by
+/// H5MD 1.1 for MDAnalysis' H5MDReader, which refuses two dimensions: vectors of discs padded by
 /// z = 0, the group /particles/trajectory, box/edges with one matrix per frame. The elements of
 /// particles have no `unit`, as the reader does not know metres and refuses unknown units (and all
 /// strings of fixed length, which H5MD demands); the file must be opened with convert_units=False,
 /// and numbers are SI as stated by /h5md/modules/units. position, velocity, force (where the run
-/// has it), image, angular_velocity (about z, [F][N]), and per grain id, species, radius, mass;
+/// has it), image, angular_velocity (of discs about z, [F][N]), and per grain id, species, radius, mass;
 /// /observables are those of the run. Contacts cannot be stored.
 class H5md3dWriter {
  public:
@@ -26,7 +26,8 @@ class H5md3dWriter {
   H5md3dWriter(H5md3dWriter&&) noexcept;
 
   /// Needs velocities, images, and forces where the run has them.
-  void add(const Frame<2>& frame);
+  template <int D>
+  void add(const Frame<D>& frame);
   void publish();
 
  private:

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/export/lammps_writer.hpp"
 
+#include "formats/core/dimension.hpp"
 #include "formats/export/contact_parts.hpp"
+#include "formats/export/in_space.hpp"
 
 #include <fmt/format.h>
 
@@ -22,9 +24,12 @@ std::string contacts_beside(const std::string& path)
   return plain.replace_extension(".contacts" + ending).string() + packed;
 }
 
-std::string bounds_of(const ViewCell& cell)
+/// As LAMMPS itself, which simulates discs in a cell that is periodic along z.
+std::string bounds_of(const ViewCell& cell, int dimension)
 {
-  std::string text = fmt::format("ITEM: BOX BOUNDS {} ff pp\n", cell.periodic_x ? "pp" : "ff");
+  const auto word = [](bool periodic) { return periodic ? "pp" : "ff"; };
+  std::string text = fmt::format("ITEM: BOX BOUNDS {} ff {}\n", word(cell.periodic_x),
+                                 word(cell.periodic_z || dimension == 2));
   for (std::size_t axis = 0; axis < 3; ++axis)
     text += fmt::format("{} {}\n", cell.low[axis], cell.high[axis]);
   return text;
@@ -37,21 +42,41 @@ int type_of(Species species, std::size_t mobile)
                                       : static_cast<int>(species) + 1;
 }
 
-/// Options of grseg-import for what dumps cannot hold.
-std::string import_options_for(const TrajectoryReader& run)
+/// Options that tell grseg-import the species by type.
+std::string species_options_for(const TrajectoryReader& run)
 {
+  const auto& list = run.species();
   const auto& species = run.grains().species;
   const auto type = [&](Species kind) -> std::string {
     const bool there = std::find(species.begin(), species.end(), kind) != species.end();
-    return there ? std::to_string(type_of(kind, run.species().size())) : "none";
+    return there ? std::to_string(type_of(kind, list.size())) : "none";
   };
-  const Vec2 gravity = run.gravity<2>().start;
-  return fmt::format(
-      "--units si --step {} --gravity {},{},0 --grains-are discs --origin 0 --small {} --large {} "
-      "--boundary {} --small-diameter {} --large-diameter {}{}",
-      run.step(), gravity.x(), gravity.y(), type(Species::small), type(Species::large),
-      type(Species::boundary), run.small_diameter(), run.large_diameter(),
-      run.stores_float32() ? " --float32" : "");
+  if (list.size() == 2 && list[0].name == "small" && list[1].name == "large")
+    return fmt::format(
+        "--small {} --large {} --boundary {} --small-diameter {} --large-diameter {}",
+        type(Species::small), type(Species::large), type(Species::boundary), run.small_diameter(),
+        run.large_diameter());
+  std::string options;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    options += fmt::format("--species {}={}:{} ", list[k].name, k + 1, list[k].diameter);
+  return options + fmt::format("--boundary {}", type(Species::boundary));
+}
+
+/// Options of grseg-import for what dumps cannot hold.
+std::string import_options_for(const TrajectoryReader& run)
+{
+  const Vec3 gravity =
+      with_dimension(run.dimension(), [&](auto d) { return in_space<d>(run.gravity<d>().start); });
+  return fmt::format("--units si --step {} --gravity {},{},{} --grains-are {} --origin 0 {}{}",
+                     run.step(), gravity.x(), gravity.y(), gravity.z(),
+                     run.dimension() == 2 ? "discs" : "spheres --dimension 3",
+                     species_options_for(run), run.stores_float32() ? " --float32" : "");
+}
+
+template <int D>
+void add_vector(fmt::memory_buffer& text, const Eigen::Matrix<double, D, 1>& v)
+{
+  for (const double component : v) fmt::format_to(std::back_inserter(text), " {}", component);
 }
 
 }  // namespace
@@ -59,7 +84,7 @@ std::string import_options_for(const TrajectoryReader& run)
 LammpsWriter::LammpsWriter(const TrajectoryReader& run, const ViewCell& cell,
                            const std::string& path, bool overwrite)
     : run_(run),
-      bounds_(bounds_of(cell)),
+      bounds_(bounds_of(cell, run.dimension())),
       import_options_(import_options_for(run)),
       grains_path_(path),
       contacts_path_(contacts_beside(path)),
@@ -70,59 +95,74 @@ LammpsWriter::LammpsWriter(const TrajectoryReader& run, const ViewCell& cell,
   contacts_file_.write("ITEM: UNITS\nsi\n");
 }
 
-std::string LammpsWriter::head(const Frame<2>& frame, const char* label, std::size_t rows) const
+template <int D>
+std::string LammpsWriter::head(const Frame<D>& frame, const char* label, std::size_t rows) const
 {
   return fmt::format("ITEM: TIME\n{}\nITEM: TIMESTEP\n{}\nITEM: NUMBER OF {}\n{}\n{}ITEM: {} ",
                      frame.time, frame.step, label, rows, bounds_, label);
 }
 
-void LammpsWriter::add(const Frame<2>& frame)
+template <int D>
+void LammpsWriter::add(const Frame<D>& frame)
 {
   add_grains(frame);
   add_contacts(frame);
 }
 
-void LammpsWriter::add_grains(const Frame<2>& frame)
+template <int D>
+void LammpsWriter::add_grains(const Frame<D>& frame)
 {
   const auto& grains = run_.grains();
   const bool has_force = run_.has_force();
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);
-  fmt::format_to(end, "{}id type mass radius x y z ix iy iz vx vy vz omegaz{}\n",
-                 head(frame, "ATOMS", grains.size()), has_force ? " fx fy fz" : "");
+  fmt::format_to(end, "{}id type mass radius x y z ix iy iz vx vy vz {}omegaz{}\n",
+                 head(frame, "ATOMS", grains.size()), D == 3 ? "omegax omegay " : "",
+                 has_force ? " fx fy fz" : "");
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    const auto &x = frame.position[g], &v = frame.velocity[g];
-    fmt::format_to(end, "{} {} {} {} {} {} 0 {} {} 0 {} {} 0 {}", grains.id[g],
+    const auto& image = frame.image[g];
+    fmt::format_to(end, "{} {} {} {}", grains.id[g],
                    type_of(grains.species[g], run_.species().size()), grains.mass[g],
-                   grains.radius[g], x.x(), x.y(), frame.image[g][0], frame.image[g][1], v.x(),
-                   v.y(), frame.angular_velocity[g]);
-    if (has_force) fmt::format_to(end, " {} {} 0", frame.force[g].x(), frame.force[g].y());
+                   grains.radius[g]);
+    add_vector(text, in_space<D>(frame.position[g]));
+    fmt::format_to(end, " {} {} {}", image[0], image[1], D == 3 ? image[D - 1] : 0);
+    add_vector(text, in_space<D>(frame.velocity[g]));
+    if constexpr (D == 2)
+      fmt::format_to(end, " {}", frame.angular_velocity[g]);
+    else
+      add_vector(text, frame.angular_velocity[g]);
+    if (has_force) add_vector(text, in_space<D>(frame.force[g]));
     text.push_back('\n');
   }
   grains_file_.write({text.data(), text.size()});
 }
 
-void LammpsWriter::add_contacts(const Frame<2>& frame)
+template <int D>
+void LammpsWriter::add_contacts(const Frame<D>& frame)
 {
   const auto& contacts = frame.contacts;
   const auto& id = run_.grains().id;
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);
   fmt::format_to(end,
-                 "{}index batom1 batom2 dist fx fy fz p1 p2 p3 forcex forcey branchx branchy "
+                 "{}index batom1 batom2 dist fx fy fz p1 p2 p3 forcex forcey {}branchx branchy {}"
                  "overlap wall\n",
-                 head(frame, "ENTRIES", contacts.size()));
+                 head(frame, "ENTRIES", contacts.size()), D == 3 ? "forcez " : "",
+                 D == 3 ? "branchz " : "");
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.i[c]);
     const auto j = contacts.j[c];
     has_walls_ = has_walls_ || j < 0;
     const auto parts = contact_parts(contacts, c);
     const auto &force = contacts.force[c], &branch = contacts.branch[c];
-    const Vec2 normal = parts.normal * parts.n, tangential = force - normal;
-    fmt::format_to(end, "{} {} {} {} {} {} 0 {} {} 0 {} {} {} {} {} {}\n", c + 1, id[i],
-                   j < 0 ? id[i] : id[static_cast<std::size_t>(j)], branch.norm(), normal.x(),
-                   normal.y(), tangential.x(), tangential.y(), force.x(), force.y(), branch.x(),
-                   branch.y(), -contacts.gap[c], j < 0 ? -j - 1 : -1);
+    const Vector<D> normal = parts.normal * parts.n, tangential = force - normal;
+    fmt::format_to(end, "{} {} {} {}", c + 1, id[i],
+                   j < 0 ? id[i] : id[static_cast<std::size_t>(j)], branch.norm());
+    add_vector(text, in_space<D>(normal));
+    add_vector(text, in_space<D>(tangential));
+    add_vector(text, force);
+    add_vector(text, branch);
+    fmt::format_to(end, " {} {}\n", -contacts.gap[c], j < 0 ? -j - 1 : -1);
   }
   contacts_file_.write({text.data(), text.size()});
 }
@@ -139,9 +179,13 @@ std::string LammpsWriter::import_command() const
 {
   return fmt::format(
       "grseg-import --format lammps --grains {} --contacts {} --columns "
-      "i=batom1,j=batom2,fx=forcex,fy=forcey,bx=branchx,by=branchy,overlap=overlap{} {} -o "
+      "i=batom1,j=batom2,fx=forcex,fy=forcey{},bx=branchx,by=branchy{},overlap=overlap{} {} -o "
       "again.h5",
-      grains_path_, contacts_path_, has_walls_ ? ",wall=wall" : "", import_options_);
+      grains_path_, contacts_path_, run_.dimension() == 3 ? ",fz=forcez" : "",
+      run_.dimension() == 3 ? ",bz=branchz" : "", has_walls_ ? ",wall=wall" : "", import_options_);
 }
+
+template void LammpsWriter::add(const Frame<2>&);
+template void LammpsWriter::add(const Frame<3>&);
 
 }  // namespace grseg

@@ -3,6 +3,7 @@
 
 #include "formats/core/pair_type.hpp"
 #include "formats/export/contact_parts.hpp"
+#include "formats/export/in_space.hpp"
 #include "formats/export/poly_data.hpp"
 
 #include <fmt/format.h>
@@ -20,17 +21,23 @@ std::vector<float> single(const std::vector<double>& values)
   return out;
 }
 
-void append(std::vector<float>& out, const Vec2& v)
+void append(std::vector<float>& out, const Vec3& v)
 {
-  out.insert(out.end(), {static_cast<float>(v.x()), static_cast<float>(v.y()), 0.0F});
+  for (const double component : v) out.push_back(static_cast<float>(component));
 }
 
-std::vector<float> padded(const std::vector<Vec2>& vectors)
+std::vector<float> single(const std::vector<Vec3>& vectors)
 {
   std::vector<float> out;
   out.reserve(3 * vectors.size());
   for (const auto& v : vectors) append(out, v);
   return out;
+}
+
+template <int D>
+std::vector<float> padded(const std::vector<Vector<D>>& vectors)
+{
+  return single(all_in_space<D>(vectors));
 }
 
 /// A .pvd: times and files.
@@ -54,56 +61,72 @@ VtpWriter::VtpWriter(const TrajectoryReader& run, const std::string& folder, boo
   folder_.add_folder("contacts");
 }
 
-std::string VtpWriter::grains_text(const Frame<2>& frame) const
+template <int D>
+std::string VtpWriter::grains_text(const Frame<D>& frame) const
 {
   const auto& grains = run_.grains();
   auto diameter = grains.radius;
   for (auto& value : diameter) value *= 2;
 
-  PolyData data(PolyData::Cells::vertices, padded(frame.position), frame.time);
+  PolyData data(PolyData::Cells::vertices, padded<D>(frame.position), frame.time);
   data.point_array("diameter", single(diameter));
   data.point_array("radius", single(grains.radius));
   data.point_array("mass", single(grains.mass));
   data.point_array("species", species_numbers(grains.species, run_.species().size()));
   data.point_array("id", grains.id);
-  data.point_array("velocity", padded(frame.velocity), 3);
-  data.point_array("angular_velocity", single(frame.angular_velocity));
-  if (run_.has_force()) data.point_array("force", padded(frame.force), 3);
+  data.point_array("velocity", padded<D>(frame.velocity), 3);
+  data.point_array("angular_velocity", single(frame.angular_velocity), D == 2 ? 1 : 3);
+  if (run_.has_force()) data.point_array("force", padded<D>(frame.force), 3);
   return data.text();
 }
 
-std::string VtpWriter::contacts_text(const Frame<2>& frame) const
+template <int D>
+std::string VtpWriter::contacts_text(const Frame<D>& frame) const
 {
   const auto& grains = run_.grains();
   const auto& contacts = frame.contacts;
   std::vector<float> points, normal_at_points, normal, tangential;
-  std::vector<std::int32_t> id_i, id_j, type;
+  std::vector<std::int32_t> id_i, id_j, type, species_i, species_j;
+  const auto mobile = run_.species().size();
+  const auto species = species_numbers(grains.species, mobile);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.i[c]);
     const auto j = contacts.j[c];
-    append(points, frame.position[i]);
-    append(points, frame.position[i] - contacts.branch[c]);
+    append(points, in_space<D>(frame.position[i]));
+    append(points, in_space<D>(frame.position[i] - contacts.branch[c]));
     const auto parts = contact_parts(contacts, c);
     normal.push_back(static_cast<float>(parts.normal));
     normal_at_points.insert(normal_at_points.end(), 2, normal.back());
     tangential.push_back(static_cast<float>(parts.tangential));
     id_i.push_back(grains.id[i]);
     id_j.push_back(j < 0 ? j : grains.id[static_cast<std::size_t>(j)]);
-    type.push_back(static_cast<std::int32_t>(pair_type(grains, frame, c)));
+    if (mobile == 2) {
+      type.push_back(static_cast<std::int32_t>(pair_type(grains, frame, c)));
+      continue;
+    }
+    species_i.push_back(species[i]);
+    species_j.push_back(j < 0 ? static_cast<std::int32_t>(mobile)
+                              : species[static_cast<std::size_t>(j)]);
   }
   PolyData data(PolyData::Cells::lines, points, frame.time);
   data.point_array("normal_force", normal_at_points);
   data.cell_array("normal_force", normal);
   data.cell_array("tangential_force", tangential);
-  data.cell_array("force", padded(contacts.force), 3);
+  data.cell_array("force", padded<D>(contacts.force), 3);
   data.cell_array("gap", single(contacts.gap));
-  data.cell_array("pair_type", type);
+  if (mobile == 2) {
+    data.cell_array("pair_type", type);
+  } else {
+    data.cell_array("species_i", species_i);
+    data.cell_array("species_j", species_j);
+  }
   data.cell_array("i", id_i);
   data.cell_array("j", id_j);
   return data.text();
 }
 
-void VtpWriter::add(const Frame<2>& frame)
+template <int D>
+void VtpWriter::add(const Frame<D>& frame)
 {
   const auto add = [&](const char* what, const std::string& text, std::string& list) {
     const auto name = fmt::format("{}/{:06}.vtp", what, frames_);
@@ -122,5 +145,8 @@ void VtpWriter::publish()
   folder_.add_file("grains.pvd", collection(grains_list_));
   folder_.publish();
 }
+
+template void VtpWriter::add(const Frame<2>&);
+template void VtpWriter::add(const Frame<3>&);
 
 }  // namespace grseg

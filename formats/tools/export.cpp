@@ -5,6 +5,7 @@
 #include "formats/cli/tool.hpp"
 #include "formats/cli/verification.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/export/extxyz_writer.hpp"
 #include "formats/export/h5md3d_writer.hpp"
 #include "formats/export/lammps_writer.hpp"
@@ -40,7 +41,7 @@ po::options_description options_into(Settings& s)
   auto add = options.add_options();
   add("to", po::value(&s.format)->value_name("WORD"),
       "vtp: PolyData with times, grains as points and contacts as lines; extxyz: extended XYZ; "
-      "lammps: dump custom and dump local; h5md3d: H5MD padded to three dimensions");
+      "lammps: dump custom and dump local; h5md3d: H5MD in three dimensions");
   s.range.add_to(options);
   s.trust.add_to(options);
   add("output,o", po::value(&s.output)->value_name("NAME"),
@@ -51,12 +52,12 @@ po::options_description options_into(Settings& s)
 }
 
 /// All frames, or nothing: what `writer` has begun goes with it when a frame cannot be read.
-template <class Writer>
+template <int D, class Writer>
 void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
                   const Settings& s, Writer& writer)
 {
   const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
-  Frame<2> frame;
+  Frame<D> frame;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     stop_if_interrupted();
     run.read(frames[k], frame, {.velocity = true, .contacts = true, .force = true});
@@ -68,6 +69,11 @@ void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& f
   writer.publish();
 }
 
+bool slope_turns(const TrajectoryReader& run)
+{
+  return with_dimension(run.dimension(), [&](auto d) { return run.gravity<d>().turns(); });
+}
+
 void export_run(const Settings& s, const po::variables_map& values)
 {
   const TrajectoryReader run(single_input(values, "export one at a time"), s.trust.verify());
@@ -75,7 +81,9 @@ void export_run(const Settings& s, const po::variables_map& values)
   const auto frames = s.range.frames_of(run);
   const auto cell = view_cell(run, frames.front());
   listen_to_signals();
-  const auto write = [&](auto&& writer) { write_frames(run, frames, s, writer); };
+  const auto write = [&](auto&& writer) {
+    with_dimension(run.dimension(), [&](auto d) { write_frames<d>(run, frames, s, writer); });
+  };
   if (s.format == "vtp") {
     write(VtpWriter(run, s.output, s.overwrite));
   } else if (s.format == "extxyz") {
@@ -84,7 +92,7 @@ void export_run(const Settings& s, const po::variables_map& values)
     LammpsWriter writer(run, cell, s.output, s.overwrite);
     write(writer);
     if (s.quiet) return;
-    if (run.gravity<2>().turns())
+    if (slope_turns(run))
       fmt::print(
           stderr,
           "{}: the slope changes with time, which an archive cannot pass on to grseg-import\n",

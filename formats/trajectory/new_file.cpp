@@ -107,7 +107,10 @@ void NewFile::write_species()
   std::string names;
   std::vector<double> diameters;
   for (const auto& [name, diameter] : list) {
-    names += name.substr(0, longest_species_name);
+    if (name != name_of_boundary && !is_species_name(name))
+      throw UsageError(
+          fmt::format("a species cannot be called '{}': {}", name, rule_of_species_names));
+    names += name;
     diameters.push_back(diameter);
     names.resize(longest_species_name * diameters.size(), '\0');
   }

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <initializer_list>
 #include <numbers>
 #include <optional>
@@ -158,7 +157,9 @@ std::string TrajectoryReader::Impl::damage_of_observables() const
 template <int D>
 void TrajectoryReader::Impl::read(std::size_t index, Frame<D>& frame, Fields fields) const
 {
-  assert(D == dimension());
+  if (D != dimension())
+    fail(fmt::format("is a run in {} dimensions, which this program does not read",
+                     dimension() == 2 ? "two" : "three"));
   frame.step = steps.at(index);
   frame.time = times[index];
   read_row(position, index, frame.position);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace grseg {
 
@@ -224,13 +225,21 @@ void StoredRun::read_species()
               text.substr((count - 1) * length).c_str() == std::string(name_of_boundary);
   for (std::size_t k = 0; good && k + 1 < count; ++k) {
     run.species.push_back({text.substr(k * length, length).c_str(), diameter[k]});
-    good = moves[k] == 1 && !run.species[k].name.empty() && std::isfinite(diameter[k]) &&
+    good = moves[k] == 1 && std::isfinite(diameter[k]) &&
            diameter[k] >= (k == 0 ? 0 : diameter[k - 1]);
   }
   if (!good)
     fail(
         "/grseg/species should list mobile species in order of their diameters, and last the "
         "boundary");
+  std::set<std::string> different;
+  for (const auto& [name, size] : run.species) {
+    if (!is_species_name(name))
+      fail(fmt::format("/grseg/species/name holds '{}': {}", printable(name),
+                       rule_of_species_names));
+    if (!different.insert(name).second)
+      fail(fmt::format("/grseg/species/name holds {} twice", printable(name)));
+  }
   const auto of_parameters = two_sizes(run.parameters.find_number("small_diameter").value_or(0),
                                        run.parameters.find_number("large_diameter").value_or(0));
   if (run.species.front().diameter != of_parameters.front().diameter ||

@@ -4,25 +4,25 @@
 #include "formats/core/frame.hpp"
 
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 namespace grseg {
 
 /// Grains and one frame, written by hand.
-struct Packing {
+template <int D>
+struct PackingOf {
   Grains grains;
-  Frame<2> frame;
+  Frame<D> frame;
 
-  /// Adds a grain of density 1 kg/m^2; its row.
-  std::int32_t grain(Species species, double radius, const Vec2& position,
-                     const Vec2& velocity = {0, 0}, double spin = 0)
+  /// Adds a grain of density 1 kg/m^2 or kg/m^3; its row.
+  std::int32_t grain(Species species, double radius, const Vector<D>& position,
+                     const Vector<D>& velocity = Vector<D>::Zero(), const Spin<D>& spin = no_spin())
   {
     const auto row = static_cast<std::int32_t>(grains.size());
     grains.id.push_back(row);
     grains.species.push_back(species);
     grains.radius.push_back(radius);
-    grains.mass.push_back(std::numbers::pi * radius * radius);
+    grains.mass.push_back(grain_volume<D>(radius));
     grains.fixed.push_back(species == Species::boundary ? 1 : 0);
     frame.position.push_back(position);
     frame.velocity.push_back(velocity);
@@ -31,28 +31,37 @@ struct Packing {
   }
 
   /// Adds a contact between two grains that touch, with the force on i from j.
-  void contact(std::int32_t i, std::int32_t j, const Vec2& force)
+  void contact(std::int32_t i, std::int32_t j, const Vector<D>& force)
   {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-    const Vec2 branch = frame.position[a] - frame.position[b];
+    const Vector<D> branch = frame.position[a] - frame.position[b];
     add(i, j, force, branch, branch.norm() - grains.radius[a] - grains.radius[b]);
   }
 
   /// Adds a contact through the periodic boundary: `branch` from the image of j to i.
-  void image_contact(std::int32_t i, std::int32_t j, const Vec2& force, const Vec2& branch)
+  void image_contact(std::int32_t i, std::int32_t j, const Vector<D>& force,
+                     const Vector<D>& branch)
   {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     add(i, j, force, branch, branch.norm() - grains.radius[a] - grains.radius[b]);
   }
 
   /// Adds a contact with straight wall number `wall`.
-  void wall_contact(std::int32_t i, int wall, const Vec2& force, const Vec2& branch)
+  void wall_contact(std::int32_t i, int wall, const Vector<D>& force, const Vector<D>& branch)
   {
     add(i, -wall - 1, force, branch, branch.norm() - grains.radius[static_cast<std::size_t>(i)]);
   }
 
  private:
-  void add(std::int32_t i, std::int32_t j, const Vec2& force, const Vec2& branch, double gap)
+  static Spin<D> no_spin()
+  {
+    if constexpr (D == 2)
+      return 0;
+    else
+      return Vec3::Zero();
+  }
+  void add(std::int32_t i, std::int32_t j, const Vector<D>& force, const Vector<D>& branch,
+           double gap)
   {
     frame.contacts.i.push_back(i);
     frame.contacts.j.push_back(j);
@@ -61,6 +70,7 @@ struct Packing {
     frame.contacts.gap.push_back(gap);
   }
 };
+using Packing = PackingOf<2>;
 
 /// The large grains' part of what Composition tells.
 inline double phi_large(const std::vector<double>& contents)
@@ -69,7 +79,9 @@ inline double phi_large(const std::vector<double>& contents)
 }
 
 /// All components alike to round-off.
-inline bool same(const Tensor2& a, const Tensor2& b, double tolerance = 1e-14)
+template <class Numbers, class Others>
+bool same(const Eigen::MatrixBase<Numbers>& a, const Eigen::MatrixBase<Others>& b,
+          double tolerance = 1e-14)
 {
   return (a - b).cwiseAbs().maxCoeff() <= tolerance;
 }

@@ -3,21 +3,20 @@
 
 #include "analysis/micro/structure_sums.hpp"
 
-#include <numbers>
-
 namespace grseg {
 
 /// Sums of the neutral contact model: small grains of diameter 1, large ones of diameter r, contact
-/// ends in proportion to perimeter, paired at random, 4 per small grain; all contacts touch and
-/// bear the normal force 1 in all directions alike.
-inline StructureSums neutral_contacts(double phi_large, double r)
+/// ends in proportion to perimeter, or in three dimensions to surface, paired at random, 4 per small
+/// grain; all contacts touch and bear the normal force 1 in all directions alike.
+template <int D = 2>
+StructureSums<D> neutral_contacts(double phi_large, double r)
 {
-  StructureSums sums;
+  StructureSums<D> sums;
   const auto set_species = [&](Species s, double phi, double diameter) {
     auto& species = sums.species[static_cast<std::size_t>(s)];
-    species.area = 100 * phi;
-    species.grains = species.area / (std::numbers::pi / 4 * diameter * diameter);
-    species.ends = 4 * diameter * species.grains;
+    species.content = 100 * phi;
+    species.grains = species.content / grain_volume<D>(diameter / 2);
+    species.ends = 4 * (D == 2 ? diameter : diameter * diameter) * species.grains;
   };
   set_species(Species::small, 1 - phi_large, 1);
   set_species(Species::large, phi_large, r);
@@ -26,7 +25,7 @@ inline StructureSums neutral_contacts(double phi_large, double r)
   const auto set_pair = [&](PairType type, double contacts, double branch) {
     auto& pair = sums.pair[static_cast<std::size_t>(type)];
     pair.contacts = pair.force = pair.normal = contacts;
-    pair.stress = contacts * branch / 2 * Tensor2::Identity();
+    pair.stress = contacts * branch / D * Tensor<D>::Identity();
   };
   set_pair(PairType::SS, small * small / all / 2, 1);
   set_pair(PairType::LS, mixed, (1 + r) / 2);

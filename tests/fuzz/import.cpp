@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An archive of another program, moment by moment, up to what would be written. The parts of an
 // input: words of the command line, grains, contacts, restart file.
+#include "formats/core/dimension.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -25,7 +26,8 @@ ImportSettings settings_of(std::string_view words)
   return settings;
 }
 
-void require_a_whole_frame(const Frame<2>& frame, const Grains& grains)
+template <int D>
+void require_a_whole_frame(const Frame<D>& frame, const Grains& grains)
 {
   const auto n = grains.size(), contacts = frame.contacts.size();
   fuzz::require(frame.position.size() == n && frame.velocity.size() == n, "a row for each grain");
@@ -61,9 +63,12 @@ void import(const std::vector<std::string_view>& parts)
   settings.files.grains = {grains.path()};
   if (parts.size() > 2) settings.files.contacts = {contacts.path()};
   if (parts.size() > 3) settings.files.restart = restart.path();
-  VerifiedFrames frames(settings, settings.files.columns);
-  for (Frame<2> frame; frames.next(frame);)
-    if (!frames.complaint()) require_a_whole_frame(frame, frames.builder().bed().grains);
+  OpenedArchive opened(settings, settings.files.columns);
+  with_dimension(opened.facts.dimension, [&](auto d) {
+    VerifiedFrames<d> frames(std::move(opened), settings);
+    for (Frame<d> frame; frames.next(frame);)
+      if (!frames.complaint()) require_a_whole_frame(frame, frames.builder().bed().grains);
+  });
 }
 
 }  // namespace

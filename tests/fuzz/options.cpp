@@ -6,7 +6,8 @@
 #include "formats/core/length.hpp"
 #include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/facts/axes.hpp"
-#include "formats/import/facts/species.hpp"
+#include "formats/import/facts/named_species.hpp"
+#include "formats/import/facts/number_list.hpp"
 #include "formats/import/facts/units.hpp"
 #include "formats/import/liggghts/liggghts_columns.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -42,10 +43,10 @@ void read(char kind, const std::string& text)
       parse_units(text);
       break;
     case 'g':
-      plane_of("xz", parse_gravity(text), 23);
+      orientation_of("xz", parse_gravity(text), 23, 3);
       break;
     case 'a':
-      plane_of(text, parse_gravity("3.8,0,-9"), {});
+      orientation_of(text, parse_gravity("3.8,0,-9"), {}, 2);
       break;
     case 'c':
       ContactColumns(text).look_up({"i", "j", "fx", "fy", "fz", "dist"}, "dump");

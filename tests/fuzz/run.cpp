@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A trajectory file: opened and read whole, as grseg-check --deep does. Half of the inputs are read
 // without comparing digests, which no mutation survives.
+#include "formats/core/dimension.hpp"
 #include "formats/trajectory/layout_check.hpp"
 #include "formats/trajectory/reader.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -11,12 +12,13 @@ namespace {
 
 using namespace grseg;
 
+template <int D>
 void read(const TrajectoryReader& run)
 {
   const auto grains = run.grains().size();
   fuzz::require(run.steps().size() == run.size() && run.times().size() == run.size(),
                 "every frame has its step and its time");
-  Frame<2> frame;
+  Frame<D> frame;
   for (std::size_t n = 0; n < run.size(); ++n)
     fuzz::try_to([&] {
       run.read(n, frame, {true, true, true});
@@ -28,7 +30,7 @@ void read(const TrajectoryReader& run)
                           frame.contacts.j[c] < static_cast<std::int32_t>(grains),
                       "i and j are rows of grains");
     });
-  fuzz::try_to([&] { run.gravity<2>(); });
+  fuzz::try_to([&] { run.gravity<D>(); });
   for (const auto& observable : run.observables())
     fuzz::try_to([&] { run.observable(observable.name); });
   fuzz::try_to([&] { check_layout(run); });
@@ -42,6 +44,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bytes = fuzz::text_of(data, size);
   file.write(bytes);
   const auto verify = std::hash<std::string_view>()(bytes) % 2 == 0 ? Verify::yes : Verify::no;
-  fuzz::try_to([&] { read(TrajectoryReader(file.path(), verify)); });
+  fuzz::try_to([&] {
+    const TrajectoryReader run(file.path(), verify);
+    with_dimension(run.dimension(), [&](auto d) { read<d>(run); });
+  });
   return 0;
 }

@@ -29,11 +29,11 @@ void read(const std::vector<Table>& tables)
   fuzz::try_to([&] { read_fit_data(tables, Quantity::kinetic, {.heights = "1dS:"}, {}); });
   constexpr ToolInfo tool{"grseg-stress", "", "", ""};
   fuzz::try_to([&] { merge_tables(tables, tables.size() % 2 == 0, tool, "fuzz"); });
-  for (const auto& table : tables)
-    fuzz::try_to([&] {
-      read_run_constants(table);
-      read_sums_rows(table);
-    });
+  for (const auto& table : tables) {
+    fuzz::try_to([&] { read_run_constants(table); });
+    fuzz::try_to([&] { read_sums_rows<2>(table); });
+    fuzz::try_to([&] { read_sums_rows<3>(table); });
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A run exported to LAMMPS dumps and imported by the command that grseg-export prints is the same run,
-number by number, and by its content digest. Usage: export_import_test.py GRSEG-EXPORT GRSEG-IMPORT RUN.h5
+number by number, and by its content digest: discs, and spheres and discs of three species.
+Usage: export_import_test.py GRSEG-EXPORT GRSEG-IMPORT SYNTHETIC_RUN RUN.h5
 """
 import os
 import shlex
@@ -11,22 +12,34 @@ import tempfile
 import h5py
 import numpy as np
 
-exporter, importer, path = sys.argv[1:]
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
-    said = subprocess.run([exporter, path, "--to", "lammps", "-o", "run.dump.gz"], check=True,
-                          capture_output=True, text=True).stderr
+exporter, importer, synthetic, path = sys.argv[1:]
+
+
+def require_that_it_comes_back(path):
+    said = subprocess.run([exporter, path, "--to", "lammps", "-o", "run.dump.gz", "--overwrite"],
+                          check=True, capture_output=True, text=True).stderr
     words = shlex.split(said.split("back into a run: ")[1])
     assert words[0] == "grseg-import" and words[-2:] == ["-o", "again.h5"], said
-    subprocess.run([importer] + words[1:], check=True)
+    subprocess.run([importer, *words[1:], "--overwrite"], check=True)
 
     with h5py.File(path) as run, h5py.File("again.h5") as again:
         for group, names in (
                 ("particles/grains", "id species radius mass fixed position/value position/step "
                  "position/time image/value velocity/value angular_velocity/value force/value"),
                 ("grseg/contacts", "offset i j force branch gap"),
+                ("grseg/species", "name diameter mobile"),
                 ("parameters", "step gravity small_diameter large_diameter")):
             for name in names.split():
                 assert np.array_equal(run[group][name], again[group][name]), f"{name} differs"
-        assert run["particles/grains/box/edges"][0] == again["particles/grains/box/edges"][0]
+        box, box_again = (f["particles/grains/box"] for f in (run, again))
+        assert np.array_equal(box.attrs["boundary"], box_again.attrs["boundary"])
+        assert np.array_equal(box["edges"][::2], box_again["edges"][::2])  # along x and z
         assert run["grseg/digest"][-1] == again["grseg/digest"][-1], "only the sign of a zero differs"
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    require_that_it_comes_back(path)
+    for dimension, species in ((3, "small,large"), (3, "fine,middle,coarse"), (2, "fine,middle,coarse")):
+        subprocess.run([synthetic, "synthetic.h5", str(dimension), species], check=True)
+        require_that_it_comes_back("synthetic.h5")

@@ -63,6 +63,18 @@ TEST_F(ImportedFile, OfSiconosIsAsSpecified)
   expect_as_specified(run + "--slope 10 --grains siconos/discs.hdf5");
 }
 
+TEST_F(ImportedFile, OfSpheresInSpaceIsAsSpecifiedWhateverTheSpecies)
+{
+  const std::string run =
+      "--format lammps --grains lammps3d/atoms.dump.gz --contacts lammps3d/contacts.dump.gz --step "
+      "8.8e-4 --gravity 0.5299192642332049,0,-0.848048096156426 --axes xz --boundary 1";
+  for (const char* more : {"", " --species AM=2 --species SE=3:1.9 --species X=4:0.1",
+                           " --species grains=all", " --float32"})
+    expect_as_specified(run, more);
+  expect_as_specified(
+      "--format siconos --grains siconos/spheres3d.hdf5 --gravity 1.7034886,0,-9.6609641 --axes xz");
+}
+
 TEST_F(ImportedFile, OfMercuryDpmIsAsSpecified)
 {
   const TrajectoryReader sample(inputs + "/../../data/sample/chute.h5");

@@ -7,6 +7,7 @@
 //   same | other | refused CODE SENTENCE | thrown WORDS
 // separated by tabs; where opening it is refused already, only that; or "crash SIGNAL", "hang", "report" (of a sanitizer) for all of them.
 #include "formats/cli/table.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 #include "formats/import/facts/import_settings.hpp"
@@ -58,7 +59,9 @@ class Content {
   }
   void add(const Box& box)
   {
-    for (const double value : {box.length_x, box.length_y, box.periodic_x ? 1.0 : 0.0}) add(value);
+    for (const double value : {box.length_x, box.length_y, box.periodic_x ? 1.0 : 0.0, box.length_z,
+                               box.periodic_z ? 1.0 : 0.0})
+      add(value);
   }
   void add(const Parameters& parameters)
   {
@@ -71,7 +74,8 @@ class Content {
       add(text);
     }
   }
-  void add(const Frame<2>& frame)
+  template <int D>
+  void add(const Frame<D>& frame)
   {
     add(static_cast<double>(frame.step));
     add(frame.time);
@@ -104,11 +108,13 @@ Way frames_with(TrajectoryReader::Fields fields, std::size_t stride)
     content.add(run.steps());
     content.add(run.times());
     content.add(fmt::format("{:x}", run.digest()));
-    Frame<2> frame;
-    for (std::size_t n = 0; n < run.size(); n += stride) {
-      run.read(n, frame, fields);
-      content.add(frame);
-    }
+    with_dimension(run.dimension(), [&](auto d) {
+      Frame<d> frame;
+      for (std::size_t n = 0; n < run.size(); n += stride) {
+        run.read(n, frame, fields);
+        content.add(frame);
+      }
+    });
   };
 }
 
@@ -165,13 +171,16 @@ void archive(const std::vector<std::string>& words, const std::string& original,
     for (auto& file : *list)
       if (file == original) file = path;
   if (settings.files.restart == original) settings.files.restart = path;
-  VerifiedFrames frames(settings, settings.files.columns);
-  content.add(frames.builder().bed().grains);
-  content.add(frames.builder().bed().box);
-  for (Frame<2> frame; frames.next(frame);) {
-    if (frames.complaint()) throw CheckError(frames.complaint()->sentence);
-    content.add(frame);
-  }
+  OpenedArchive opened(settings, settings.files.columns);
+  with_dimension(opened.facts.dimension, [&](auto d) {
+    VerifiedFrames<d> frames(std::move(opened), settings);
+    content.add(frames.builder().bed().grains);
+    content.add(frames.builder().bed().box);
+    for (Frame<d> frame; frames.next(frame);) {
+      if (frames.complaint()) throw CheckError(frames.complaint()->sentence);
+      content.add(frame);
+    }
+  });
 }
 
 std::vector<Way> ways_to_read(const std::string& kind, const std::string& original,

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -17,8 +17,6 @@
 /// of its reader.
 namespace grseg {
 
-using Vec3 = Eigen::Vector3d;
-
 /// The grains of one moment, in any order; entry g of each array is grain g. Arrays that the
 /// archive does not fill stay empty, `id` and `position` are never empty.
 struct ArchiveGrains {
@@ -31,9 +29,21 @@ struct ArchiveGrains {
   std::vector<Vec3> angular_velocity;  // rad/s, right-handed about the archive's axes
   std::vector<Vec3> force;             // total force on the grain, gravity included
   std::vector<std::uint8_t> fixed;     // 1: the archive marks it as held in place
+  std::vector<std::string> missing;    // components of vectors above that the archive lacks, by the
+                                       // names of its columns; they are 0 here
 
   std::size_t size() const { return id.size(); }
 };
+
+/// Adds to `missing` the names of the components that an archive lacks of a vector of which it has
+/// another.
+inline void add_missing(const std::array<bool, 3>& has, const std::array<const char*, 3>& names,
+                        std::vector<std::string>& missing)
+{
+  if (!has[0] && !has[1] && !has[2]) return;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!has[k]) missing.emplace_back(names[k]);
+}
 
 /// The contacts of one moment, each once, in any order.
 struct ArchiveContacts {
@@ -45,6 +55,7 @@ struct ArchiveContacts {
   std::vector<double> distance;    // of the centres; where both are empty it is that of positions
   std::vector<Vec3> branch;  // x_i - x_j, at a wall x_i - contact point; empty: from positions,
                              // which needs contacts with grains alone
+  std::vector<std::string> missing;  // components, as of grains
 
   std::size_t size() const { return i.size(); }
 };

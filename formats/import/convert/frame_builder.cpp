@@ -1,11 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/convert/frame_builder.hpp"
 
+#include "formats/import/common/minimum_image.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
 namespace grseg {
+namespace {
+
+template <int D>
+Spin<D> no_spin()
+{
+  if constexpr (D == 2)
+    return 0;
+  else
+    return Spin<D>::Zero();
+}
+
+bool is_finite(double spin)
+{
+  return std::isfinite(spin);
+}
+bool is_finite(const Vec3& spin)
+{
+  return spin.allFinite();
+}
+
+}  // namespace
 
 FrameBuilder::FrameBuilder(const ArchiveMoment& first, const RunFacts& facts,
                            const ImportSettings& settings)
@@ -22,7 +46,8 @@ std::size_t FrameBuilder::row_of(std::int64_t id, const ArchiveMoment& moment) c
       moment.place, id));
 }
 
-void FrameBuilder::build(const ArchiveMoment& moment, Frame<2>& frame) const
+template <int D>
+void FrameBuilder::build(const ArchiveMoment& moment, Frame<D>& frame) const
 {
   if (moment.step)
     frame.step = *moment.step;
@@ -30,20 +55,22 @@ void FrameBuilder::build(const ArchiveMoment& moment, Frame<2>& frame) const
     frame.step = std::llround(*moment.time / step_);
   frame.time = moment.time.value_or(static_cast<double>(frame.step) * step_);
   require_same_cell(moment);
+  if (D == 3) require_all_components(moment);
   place_grains(moment, frame);
   add_contacts(moment, frame.contacts, frame);
   require_numbers(moment, frame);
 }
 
 /// Readers of some formats do not check this.
-void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame<2>& frame) const
+template <int D>
+void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame<D>& frame) const
 {
   const auto fail = [&](const std::string& what) {
     throw FormatError(fmt::format("{}: {} has a number that is not finite", moment.place, what));
   };
   for (std::size_t g = 0; g < bed_.grains.size(); ++g)
     if (!frame.position[g].allFinite() || !frame.velocity[g].allFinite() ||
-        !std::isfinite(frame.angular_velocity[g]) ||
+        !is_finite(frame.angular_velocity[g]) ||
         (!frame.force.empty() && !frame.force[g].allFinite()))
       fail(fmt::format("grain {}", bed_.grains.id[g]));
   const auto& contacts = frame.contacts;
@@ -56,17 +83,30 @@ void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame<2>& 
 
 void FrameBuilder::require_same_cell(const ArchiveMoment& moment) const
 {
-  if (!bed_.box.periodic_x) return;
-  const auto axis = *bed_.axes.axis_of_x();
-  const double length = moment.high[axis] - moment.low[axis];
-  if (std::abs(length - bed_.box.length_x) > 1e-9 * bed_.box.length_x)
-    throw FormatError(
-        fmt::format("{}: the periodic length is {:.10g}, but {:.10g} in the first moment; a cell "
-                    "that changes is not imported",
-                    moment.place, length, bed_.box.length_x));
+  for (const auto& period : bed_.periods) {
+    const double length = moment.high[period.axis] - moment.low[period.axis];
+    if (std::abs(length - period.length) > 1e-9 * period.length)
+      throw FormatError(
+          fmt::format("{}: the periodic length is {:.10g}, but {:.10g} in the first moment; a cell "
+                      "that changes is not imported",
+                      moment.place, length, period.length));
+  }
 }
 
-void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame<2>& frame) const
+/// A component that an archive of a flow in space lacks would be taken for 0.
+void FrameBuilder::require_all_components(const ArchiveMoment& moment) const
+{
+  auto missing = moment.grains.missing;
+  missing.insert(missing.end(), moment.contacts.missing.begin(), moment.contacts.missing.end());
+  if (missing.empty()) return;
+  throw FormatError(fmt::format(
+      "{}: a flow in three dimensions needs all components, but there is no {}; write the "
+      "columns, too, or leave out those that go with them",
+      moment.place, fmt::join(missing, ", nor ")));
+}
+
+template <int D>
+void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame<D>& frame) const
 {
   const auto& from = moment.grains;
   const auto n = bed_.grains.size();
@@ -77,11 +117,11 @@ void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame<2>& frame) co
   if (from.velocity.empty())
     throw FormatError(fmt::format("{}: the grains have no velocities", moment.place));
   // A row that is still NaN below has not been filled yet.
-  frame.position.assign(n, Vec2::Constant(NAN));
-  frame.image.assign(n, {0, 0});
+  frame.position.assign(n, Vector<D>::Constant(NAN));
+  frame.image.assign(n, {});
   frame.velocity.resize(n);
-  frame.angular_velocity.assign(n, 0);
-  frame.force.assign(from.force.empty() ? 0 : n, Vec2::Zero());
+  frame.angular_velocity.assign(n, no_spin<D>());
+  frame.force.assign(from.force.empty() ? 0 : n, Vector<D>::Zero());
   for (std::size_t g = 0; g < n; ++g) {
     const auto row = row_of(from.id[g], moment);
     if (!std::isnan(frame.position[row].x()))
@@ -95,45 +135,47 @@ void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame<2>& frame) co
   }
 }
 
+template <int D>
 void FrameBuilder::place(const ArchiveMoment& moment, std::size_t g, std::size_t row,
-                         Frame<2>& frame) const
+                         Frame<D>& frame) const
 {
   const auto& from = moment.grains;
-  Vec2 x = bed_.axes.in_plane(from.position[g]);
-  x.x() += bed_.shift_x;
-  x.y() -= bed_.origin;
-  if (bed_.box.periodic_x) {
-    double periods = std::floor(x.x() / bed_.box.length_x);
-    if (periods != 0) x.x() -= periods * bed_.box.length_x;
-    if (x.x() >= bed_.box.length_x) {  // by rounding
-      x.x() = 0;
+  Vector<D> x = bed_.axes.components<D>(from.position[g]) + bed_.shift.head<D>();
+  for (const auto& [direction, length, axis, forward] : bed_.periods) {
+    if (direction >= D) continue;
+    double periods = std::floor(x[direction] / length);
+    if (periods != 0) x[direction] -= periods * length;
+    if (x[direction] >= length) {  // by rounding
+      x[direction] = 0;
       ++periods;
     }
     if (!from.image.empty()) {
-      const auto image = from.image[g][static_cast<std::size_t>(*bed_.axes.axis_of_x())];
-      periods += bed_.axes.x_is_forward() ? image : -image;
+      const auto image = from.image[g][static_cast<std::size_t>(axis)];
+      periods += forward ? image : -image;
     }
-    frame.image[row][0] = static_cast<std::int32_t>(periods);
+    frame.image[row][static_cast<std::size_t>(direction)] = static_cast<std::int32_t>(periods);
   }
   frame.position[row] = x;
-  frame.velocity[row] = bed_.axes.in_plane(from.velocity[g]);
+  frame.velocity[row] = bed_.axes.components<D>(from.velocity[g]);
   if (!from.angular_velocity.empty())
-    frame.angular_velocity[row] = bed_.axes.counter_clockwise(from.angular_velocity[g]);
+    frame.angular_velocity[row] = bed_.axes.spin<D>(from.angular_velocity[g]);
   // What programs write as the force on held grains depends on the order of their computations.
   if (!from.force.empty() && !bed_.is_boundary(row))
-    frame.force[row] = bed_.axes.in_plane(from.force[g]);
+    frame.force[row] = bed_.axes.components<D>(from.force[g]);
 }
 
-void FrameBuilder::add_contacts(const ArchiveMoment& moment, ContactList<2>& contacts,
-                                const Frame<2>& frame) const
+template <int D>
+void FrameBuilder::add_contacts(const ArchiveMoment& moment, ContactList<D>& contacts,
+                                const Frame<D>& frame) const
 {
   contacts.clear();
   contacts.reserve(moment.contacts.size());
   for (std::size_t c = 0; c < moment.contacts.size(); ++c) add_contact(moment, c, frame, contacts);
 }
 
-void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const Frame<2>& frame,
-                               ContactList<2>& contacts) const
+template <int D>
+void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const Frame<D>& frame,
+                               ContactList<D>& contacts) const
 {
   const auto& from = moment.contacts;
   const bool wall = !from.wall.empty() && from.wall[c] >= 0;
@@ -144,15 +186,10 @@ void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const
                                   moment.place, from.i[c]));
   if (bed_.is_boundary(i) && (wall || bed_.is_boundary(j))) return;
 
-  Vec2 force = bed_.axes.in_plane(from.force[c]);
-  Vec2 branch;
-  if (!from.branch.empty()) {
-    branch = bed_.axes.in_plane(from.branch[c]);
-  } else {
-    branch = frame.position[i] - frame.position[j];
-    if (bed_.box.periodic_x)
-      branch.x() -= bed_.box.length_x * std::round(branch.x() / bed_.box.length_x);
-  }
+  Vector<D> force = bed_.axes.components<D>(from.force[c]);
+  Vector<D> branch = from.branch.empty()
+                         ? minimum_image<D>(bed_.box, frame.position[i] - frame.position[j])
+                         : bed_.axes.components<D>(from.branch[c]);
   const double radii = bed_.grains.radius[i] + (wall ? 0 : bed_.grains.radius[j]);
   double gap = branch.norm() - radii;
   if (!from.overlap.empty())
@@ -170,5 +207,8 @@ void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const
   contacts.branch.push_back(branch);
   contacts.gap.push_back(gap);
 }
+
+template void FrameBuilder::build<2>(const ArchiveMoment&, Frame<2>&) const;
+template void FrameBuilder::build<3>(const ArchiveMoment&, Frame<3>&) const;
 
 }  // namespace grseg

@@ -19,18 +19,26 @@ class FrameBuilder {
 
   const ImportedBed& bed() const { return bed_; }
 
-  /// FormatError naming the moment where grains or contacts are impossible.
-  void build(const ArchiveMoment& moment, Frame<2>& frame) const;
+  /// D is the dimension of the bed's box. FormatError naming the moment where grains or contacts are
+  /// impossible, or lack components in three dimensions.
+  template <int D>
+  void build(const ArchiveMoment& moment, Frame<D>& frame) const;
 
  private:
-  void require_numbers(const ArchiveMoment& moment, const Frame<2>& frame) const;
+  template <int D>
+  void require_numbers(const ArchiveMoment& moment, const Frame<D>& frame) const;
   void require_same_cell(const ArchiveMoment& moment) const;
-  void place_grains(const ArchiveMoment& moment, Frame<2>& frame) const;
-  void place(const ArchiveMoment& moment, std::size_t g, std::size_t row, Frame<2>& frame) const;
-  void add_contacts(const ArchiveMoment& moment, ContactList<2>& contacts,
-                    const Frame<2>& frame) const;
-  void add_contact(const ArchiveMoment& moment, std::size_t c, const Frame<2>& frame,
-                   ContactList<2>& contacts) const;
+  void require_all_components(const ArchiveMoment& moment) const;
+  template <int D>
+  void place_grains(const ArchiveMoment& moment, Frame<D>& frame) const;
+  template <int D>
+  void place(const ArchiveMoment& moment, std::size_t g, std::size_t row, Frame<D>& frame) const;
+  template <int D>
+  void add_contacts(const ArchiveMoment& moment, ContactList<D>& contacts,
+                    const Frame<D>& frame) const;
+  template <int D>
+  void add_contact(const ArchiveMoment& moment, std::size_t c, const Frame<D>& frame,
+                   ContactList<D>& contacts) const;
   std::size_t row_of(std::int64_t id, const ArchiveMoment& moment) const;
 
   ImportedBed bed_;

@@ -19,12 +19,15 @@ constexpr auto most_ids = std::numeric_limits<std::int32_t>::max();
 
 ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
                          const ImportSettings& settings)
-    : axes(facts.plane.axes)
+    : axes(facts.orientation.axes)
 {
+  box.dimension = facts.dimension;
+  box.periodic_x = false;
   make_grains(first, facts, settings.species);
-  require_a_plane(first);
+  require_no_other_period(first);
   make_box(first);
   find_origin(first, settings.origin);
+  shift.y() = -origin;
 }
 
 void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
@@ -62,47 +65,67 @@ void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
   rows = RowsById(ids);
 }
 
-void ImportedBed::require_a_plane(const ArchiveMoment& first) const
-{
-  double low = infinity, high = -infinity;
-  for (const auto& x : first.grains.position) {
-    low = std::min(low, axes.out_of_plane(x));
-    high = std::max(high, axes.out_of_plane(x));
-  }
-  const double radius = *std::max_element(grains.radius.begin(), grains.radius.end());
-  if (high - low > radius / 10)
-    throw UsageError(fmt::format(
-        "{}: grains lie up to {:g} apart across the plane of the flow; name the plane with --axes "
-        "(xy, xz); runs in three dimensions are not imported",
-        first.place, high - low));
-}
-
 void ImportedBed::make_box(const ArchiveMoment& first)
 {
-  const auto axis = axes.axis_of_x();
-  const bool any_periodic = first.periodic[0] || first.periodic[1] || first.periodic[2];
-  if (!axis && any_periodic)
+  double bottom = infinity, top = -infinity;
+  for (const auto& position : first.grains.position) {
+    const double y = axes.components<2>(position).y();
+    bottom = std::min(bottom, y);
+    top = std::max(top, y);
+  }
+  box.length_x = make_length(first, 0);
+  box.length_y = top - bottom + 2 * *std::max_element(grains.radius.begin(), grains.radius.end());
+  if (!(box.length_x > 0))
+    throw FormatError(fmt::format("{}: the cell has no length along the base", first.place));
+  if (box.dimension == 3) {
+    box.length_z = make_length(first, 2);
+    if (!(box.length_z > 0))
+      throw FormatError(fmt::format("{}: the cell has no length across the flow", first.place));
+  }
+  for (const auto& period : periods)
+    (period.direction == 0 ? box.periodic_x : box.periodic_z) = true;
+}
+
+/// Of the cell along x or z, or, where this is none of the archive's axes, of the grains.
+double ImportedBed::make_length(const ArchiveMoment& first, int direction)
+{
+  const auto axis = axes.axis_of(direction);
+  double low = infinity, high = -infinity;
+  if (axis) {
+    const bool forward = axes.is_forward(direction);
+    low = forward ? first.low[*axis] : -first.high[*axis];
+    high = forward ? first.high[*axis] : -first.low[*axis];
+    if (first.periodic[static_cast<std::size_t>(*axis)])
+      periods.push_back({direction, high - low, *axis, forward});
+  } else {
+    for (const auto& position : first.grains.position) {
+      const double x = axes.components<3>(position)[direction];
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  }
+  shift[direction] = -low;
+  return high - low;
+}
+
+/// Periods along x and across the flow are all that there may be.
+void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
+{
+  const auto across = axes.axis_of(2), along = axes.axis_of(0), normal = axes.axis_of(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!first.periodic[static_cast<std::size_t>(axis)] || axis == across || axis == along)
+      continue;
+    const char letter = "xyz"[axis];
+    if (axis == normal)
+      throw UsageError(fmt::format(
+          "{}: the cell is periodic along {}, the normal of the base, where layers end at the base "
+          "and at the surface; name the axes with --axes (along the base, away from it), or write "
+          "the archive with an open boundary there",
+          first.place, letter));
     throw UsageError(
         "the cell is periodic but the base does not lie along one of the archive's axes; check "
         "--gravity and --slope");
-  double low = infinity, high = -infinity, bottom = infinity, top = -infinity;
-  for (const auto& position : first.grains.position) {
-    const Vec2 x = axes.in_plane(position);
-    low = std::min(low, x.x());
-    high = std::max(high, x.x());
-    bottom = std::min(bottom, x.y());
-    top = std::max(top, x.y());
   }
-  if (axis) {
-    low = axes.x_is_forward() ? first.low[*axis] : -first.high[*axis];
-    high = axes.x_is_forward() ? first.high[*axis] : -first.low[*axis];
-  }
-  box.periodic_x = axis && first.periodic[static_cast<std::size_t>(*axis)];
-  box.length_x = high - low;
-  box.length_y = top - bottom + 2 * *std::max_element(grains.radius.begin(), grains.radius.end());
-  shift_x = -low;
-  if (!(box.length_x > 0))
-    throw FormatError(fmt::format("{}: the cell has no length along the base", first.place));
 }
 
 /// The highest of the boundary grains below the middle of the others.
@@ -115,7 +138,9 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
         fmt::format("--origin '{}' is not top, centre, or a height in the archive", text));
   double sum = 0;
   std::size_t mobile = 0;
-  const auto height = [&](std::size_t g) { return axes.in_plane(first.grains.position[g]).y(); };
+  const auto height = [&](std::size_t g) {
+    return axes.components<2>(first.grains.position[g]).y();
+  };
   const auto& ids = first.grains.id;
   for (std::size_t g = 0; g < ids.size(); ++g)
     if (!is_boundary(static_cast<std::size_t>(rows.find(ids[g])))) {

@@ -6,11 +6,21 @@
 #include "formats/import/facts/run_facts.hpp"
 
 #include <string>
+#include <vector>
 
 namespace grseg {
 
+/// Along x or z the cell is periodic.
+struct Period {
+  int direction = 0;    // 0: x, 2: z
+  double length = 0;    // in the archive's units
+  int axis = 0;         // of the archive
+  bool forward = true;  // along it; otherwise against it
+};
+
 /// What all frames of an imported run share: its grains, cell and axes, found from the first moment
-/// of the archive, in the archive's units. Rows are grains by increasing id.
+/// of the archive, in the archive's units and the axes of the flow. Rows are grains by increasing
+/// id.
 struct ImportedBed {
   /// UsageError where the command line does not fit the grains, FormatError where the grains are
   /// impossible.
@@ -23,15 +33,17 @@ struct ImportedBed {
   Box box;
   SpeciesFound species;
   RowsById rows;
-  double shift_x = 0;  // to be added to x in the plane of the flow
-  double origin = 0;   // height in the archive that is y = 0
+  double origin = 0;            // height in the archive that is y = 0
+  Vec3 shift = Vec3::Zero();    // to be added to components of positions
+  std::vector<Period> periods;  // of the cell: none, along x, along z, or along both
 
  private:
   void make_grains(const ArchiveMoment& first, const RunFacts& facts,
                    const SpeciesSettings& settings);
+  void require_no_other_period(const ArchiveMoment& first) const;
   void make_box(const ArchiveMoment& first);
+  double make_length(const ArchiveMoment& first, int direction);
   void find_origin(const ArchiveMoment& first, const std::string& text);
-  void require_a_plane(const ArchiveMoment& first) const;
 };
 
 }  // namespace grseg

@@ -4,6 +4,7 @@
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/core/dimension.hpp"
 #include "formats/core/version.hpp"
 #include "formats/import/common/file_list.hpp"
 #include "formats/import/convert/verified_frames.hpp"
@@ -19,7 +20,7 @@ namespace grseg {
 namespace {
 
 /// Mean of the smallest and the largest diameter of a species; 0 where it has no grains.
-double nominal_diameter(const Grains& grains, Species species)
+double mid_range(const Grains& grains, Species species)
 {
   double low = INFINITY, high = 0;
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -30,33 +31,35 @@ double nominal_diameter(const Grains& grains, Species species)
   return high > 0 ? (low + high) / 2 : 0;
 }
 
-/// Mass over area of the mobile grains, kg/m^2.
-double areal_density(const Grains& grains)
+/// Mass over area or volume of the mobile grains, kg/m^2 or kg/m^3.
+template <int D>
+double density(const Grains& grains)
 {
-  double mass = 0, area = 0;
+  double mass = 0, content = 0;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (grains.species[g] == Species::boundary) continue;
     mass += grains.mass[g];
-    area += std::numbers::pi * grains.radius[g] * grains.radius[g];
+    content += grain_volume<D>(grains.radius[g]);
   }
-  return area > 0 ? mass / area : 0;
+  return content > 0 ? mass / content : 0;
 }
 
-/// Nominal diameters; a species without grains gets that of the other.
-void add_diameters(const Grains& grains, const ImportSettings& settings, const Units& units,
-                   Parameters& parameters)
+/// The species with nominal diameters in m. Of small and large, one without grains gets the
+/// diameter of the other.
+SpeciesList with_diameters(SpeciesList list, const Grains& grains, const Units& units)
 {
-  const auto nominal = [&](const std::optional<double>& given, Species species) {
-    return given ? *given * units.length : nominal_diameter(grains, species);
-  };
-  const double small = nominal(settings.small_diameter, Species::small);
-  const double large = nominal(settings.large_diameter, Species::large);
-  parameters.numbers["small_diameter"] = {small > 0 ? small : large};
-  parameters.numbers["large_diameter"] = {large > 0 ? large : small};
+  for (std::size_t k = 0; k < list.size(); ++k)
+    list[k].diameter = list[k].diameter > 0 ? list[k].diameter * units.length
+                                            : mid_range(grains, static_cast<Species>(k));
+  if (list.size() == 2)
+    for (std::size_t k = 0; k < 2; ++k)
+      if (!(list[k].diameter > 0)) list[k].diameter = list[1 - k].diameter;
+  return list;
 }
 
 /// The description of the run, in SI.
-RunDescription describe(const VerifiedFrames& frames, const ImportSettings& settings,
+template <int D>
+RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& settings,
                         const std::string& command_line)
 {
   const auto& facts = frames.facts();
@@ -67,16 +70,19 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   run.box = frames.builder().bed().box;
   run.box.length_x *= units.length;
   run.box.length_y *= units.length;
+  run.box.length_z *= units.length;
   run.has_force = frames.has_force();
   run.observables = {{"momentum_defect", ""}};
 
   auto& numbers = run.parameters.numbers;
-  const Vec2 gravity = facts.plane.gravity * units.acceleration();
-  numbers["gravity"] = {gravity.x(), gravity.y()};
+  const Vector<D> gravity = facts.orientation.gravity.template head<D>() * units.acceleration();
+  numbers["gravity"] = {gravity.begin(), gravity.end()};
   numbers["slope"] = {std::atan2(gravity.x(), -gravity.y()) * 180 / std::numbers::pi};
   numbers["step"] = {facts.step * units.time};
-  numbers["density"] = {areal_density(run.grains)};
-  add_diameters(run.grains, settings, units, run.parameters);
+  numbers["density"] = {density<D>(run.grains)};
+  run.species = with_diameters(frames.builder().bed().species.list, run.grains, units);
+  numbers["small_diameter"] = {run.species.front().diameter};
+  numbers["large_diameter"] = {run.species.back().diameter};
   numbers["import_tolerance"] = {frames.tolerance()};
   numbers["import_origin"] = {frames.builder().bed().origin};
   numbers["import_units"] = {units.length, units.time, units.mass};
@@ -108,7 +114,8 @@ std::vector<std::string> inputs_of(const ArchiveFiles& files)
   return files_meant(names);
 }
 
-[[noreturn]] void refuse(const VerifiedFrames& frames, const ImportSettings& settings,
+template <int D>
+[[noreturn]] void refuse(const VerifiedFrames<D>& frames, const ImportSettings& settings,
                          const Complaint& complaint, std::size_t moments)
 {
   const auto fitting =
@@ -154,7 +161,8 @@ class Residuals {
 };
 
 /// What is known only at the end.
-void finish(TrajectoryWriter& writer, const VerifiedFrames& frames, ImportReport& report)
+template <int D>
+void finish(TrajectoryWriter& writer, const VerifiedFrames<D>& frames, ImportReport& report)
 {
   report.remarks = frames.archive().remarks();
   if (!frames.has_force())
@@ -178,25 +186,23 @@ void finish(TrajectoryWriter& writer, const VerifiedFrames& frames, ImportReport
   writer.add_parameters(last);
 }
 
-}  // namespace
-
-ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
+/// Verifies and writes all frames to the file `path`.
+template <int D>
+ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settings,
+                          const std::string& command_line, const std::string& path)
 {
-  if (settings.output.empty())
-    throw UsageError("name the trajectory to write with -o, e.g. -o run.h5");
-  Output output(settings.output, settings.overwrite, inputs_of(settings.files));
-  VerifiedFrames frames(settings, settings.files.columns);
   const auto run = describe(frames, settings, command_line);
   ImportReport report;
+  report.dimension = D;
   report.grains = run.grains.size();
   report.tolerance = frames.tolerance();
   report.tolerance_reason = frames.archive().facts().tolerance_reason;
   report.columns = frames.archive().columns();
   report.base = frames.builder().bed().species.base;
   report.sizes = frames.builder().bed().species.sizes;
-  TrajectoryWriter writer(output.temporary(), run, settings.storage);
+  TrajectoryWriter writer(path, run, settings.storage);
   Residuals residuals;
-  for (Frame<2> frame; frames.next(frame);) {
+  for (Frame<D> frame; frames.next(frame);) {
     stop_if_interrupted();
     if (frames.complaint()) refuse(frames, settings, *frames.complaint(), report.frames + 1);
     const double defect = frames.residual() ? frames.residual()->largest : 0;
@@ -211,6 +217,21 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
   residuals.add_to(report, frames.facts().units);
   finish(writer, frames, report);
   writer.close();
+  return report;
+}
+
+}  // namespace
+
+ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
+{
+  if (settings.output.empty())
+    throw UsageError("name the trajectory to write with -o, e.g. -o run.h5");
+  Output output(settings.output, settings.overwrite, inputs_of(settings.files));
+  OpenedArchive opened(settings, settings.files.columns);
+  auto report = with_dimension(opened.facts.dimension, [&](auto d) {
+    return write_frames(VerifiedFrames<d>(std::move(opened), settings), settings, command_line,
+                        output.temporary());
+  });
   output.publish();
   return report;
 }
@@ -218,8 +239,9 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
 std::string to_text(const ImportReport& report)
 {
   std::string text =
-      fmt::format("{} frames from {:g} to {:g} s, {} grains, {} contacts\n", report.frames,
-                  report.first_time, report.last_time, report.grains, report.contacts);
+      fmt::format("{} frames from {:g} to {:g} s, {} grains, {} contacts{}\n", report.frames,
+                  report.first_time, report.last_time, report.grains, report.contacts,
+                  report.dimension == 3 ? ", in three dimensions" : "");
   if (!report.columns.empty()) text += fmt::format("columns: {}\n", report.columns);
   text += fmt::format("base: {}; {}\n", report.base, report.sizes);
   if (report.largest_residual)

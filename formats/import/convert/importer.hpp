@@ -13,6 +13,7 @@ namespace grseg {
 
 /// How an import went.
 struct ImportReport {
+  int dimension = 2;
   std::size_t frames = 0, grains = 0, contacts = 0;
   double first_time = 0, last_time = 0;  // s
   /// Residuals of grains' balances (verification.hpp): the largest, and the median over the moments

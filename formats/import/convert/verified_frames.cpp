@@ -2,75 +2,73 @@
 #include "formats/import/convert/verified_frames.hpp"
 
 #include "formats/cli/interruption.hpp"
-#include "formats/import/open_archive.hpp"
+#include "formats/core/dimension.hpp"
 
 #include <fmt/format.h>
 
 namespace grseg {
 
-VerifiedFrames::VerifiedFrames(const ImportSettings& settings, const std::string& columns)
-    : settings_(settings)
+template <int D>
+VerifiedFrames<D>::VerifiedFrames(OpenedArchive opened, const ImportSettings& settings)
+    : opened_(std::move(opened)),
+      tolerance_(settings.accept_residual.value_or(archive().facts().tolerance)),
+      builder_(std::make_unique<FrameBuilder>(opened_.moment, facts(), settings)),
+      verification_(builder_->bed().grains, builder_->bed().box,
+                    facts().orientation.gravity.template head<D>(),
+                    {tolerance_, archive().facts().forces_are_late, facts().step,
+                     facts().discs ? inertia_factor<2> : inertia_factor<3>}),
+      has_force_(!opened_.moment.grains.force.empty()),
+      has_angular_velocity_(!opened_.moment.grains.angular_velocity.empty())
 {
-  auto files = settings.files;
-  files.columns = columns;
-  archive_ = open_archive(settings.format, files);
-  if (!read_moment()) throw FormatError("the archive holds no moment with grains and contacts");
-  const auto& facts = archive_->facts();
-  facts_ = collect_facts(facts, moment_.grains, settings);
-  tolerance_ = settings.accept_residual.value_or(facts.tolerance);
-  builder_ = std::make_unique<FrameBuilder>(moment_, facts_, settings);
-  verification_ = std::make_unique<Verification>(
-      builder_->bed().grains, builder_->bed().box, facts_.plane.gravity,
-      OutputAccuracy{tolerance_, facts.forces_are_late, facts_.step, facts_.discs ? 0.5 : 0.4});
-  has_force_ = !moment_.grains.force.empty();
-  has_angular_velocity_ = !moment_.grains.angular_velocity.empty();
 }
 
-/// With --drop-incomplete an incomplete moment is the end.
-bool VerifiedFrames::read_moment()
+template <int D>
+bool VerifiedFrames<D>::next(Frame<D>& frame)
 {
-  try {
-    return archive_->next(moment_);
-  } catch (const TruncatedArchive&) {
-    if (!settings_.drop_incomplete) throw;
-    return false;
-  }
-}
-
-bool VerifiedFrames::next(Frame<2>& frame)
-{
-  if (!std::exchange(first_, false) && !read_moment()) return false;
-  if (moment_.grains.force.empty() == has_force_)
+  if (!std::exchange(first_, false) && !opened_.next()) return false;
+  const auto& moment = opened_.moment;
+  if (moment.grains.force.empty() == has_force_)
     throw FormatError(fmt::format(
         "{}: some moments have forces on grains and some do not; import them separately",
-        moment_.place));
-  builder_->build(moment_, frame);
+        moment.place));
+  builder_->build(moment, frame);
   if (last_ && (frame.step <= last_->first || frame.time <= last_->second))
     throw FormatError(
         fmt::format("{}: step {} at {:.10g} comes after step {} at {:.10g}: time must increase by "
                     "at least one step; is --step too long?",
-                    moment_.place, frame.step, frame.time, last_->first, last_->second));
+                    moment.place, frame.step, frame.time, last_->first, last_->second));
   last_ = {frame.step, frame.time};
-  complaint_ = verification_->check(frame);
+  complaint_ = verification_.check(frame);
   return true;
 }
 
+template class VerifiedFrames<2>;
+template class VerifiedFrames<3>;
+
 namespace {
 
-/// The largest residual of the first moments if all of them verify with these columns.
+/// The largest residual of the first moments if all of them verify.
+template <int D>
+std::optional<double> largest_residual(VerifiedFrames<D> frames, std::size_t moments)
+{
+  Frame<D> frame;
+  std::optional<double> largest;
+  for (std::size_t k = 0; k < moments && frames.next(frame); ++k) {
+    if (frames.complaint()) return std::nullopt;
+    if (frames.residual()) largest = std::max(largest.value_or(0), frames.residual()->unexplained);
+  }
+  return largest;
+}
+
+/// The same with these columns; nothing where the archive is refused with them.
 std::optional<double> residual_with(const ImportSettings& settings, const std::string& columns,
                                     std::size_t moments)
 {
   try {
-    VerifiedFrames frames(settings, columns);
-    Frame<2> frame;
-    std::optional<double> largest;
-    for (std::size_t k = 0; k < moments && frames.next(frame); ++k) {
-      if (frames.complaint()) return std::nullopt;
-      if (frames.residual())
-        largest = std::max(largest.value_or(0), frames.residual()->unexplained);
-    }
-    return largest;
+    OpenedArchive opened(settings, columns);
+    return with_dimension(opened.facts.dimension, [&](auto d) {
+      return largest_residual(VerifiedFrames<d>(std::move(opened), settings), moments);
+    });
   } catch (const Interruption&) {
     throw;
   } catch (const ToolError&) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/import/convert/frame_builder.hpp"
+#include "formats/import/convert/opened_archive.hpp"
 #include "formats/import/verify/verification.hpp"
 
 #include <cstdint>
@@ -12,38 +13,33 @@
 
 namespace grseg {
 
-/// The moments of an archive as frames, each verified, in the archive's units.
+/// The moments of an archive as frames, each verified, in the archive's units. D is the dimension
+/// of its facts.
+template <int D>
 class VerifiedFrames {
  public:
-  /// Opens the archive and reads its first moment. Throws what readers and facts throw;
-  /// FormatError where the archive holds no moment.
-  VerifiedFrames(const ImportSettings& settings, const std::string& columns);
+  VerifiedFrames(OpenedArchive opened, const ImportSettings& settings);
 
   /// False at the end. `complaint` then says what is wrong with the frame, if anything.
-  bool next(Frame<2>& frame);
+  bool next(Frame<D>& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }
-  const std::optional<Residual>& residual() const { return verification_->residual(); }
-  const std::string& place() const { return moment_.place; }
+  const std::optional<Residual>& residual() const { return verification_.residual(); }
+  const std::string& place() const { return opened_.moment.place; }
 
-  const Archive& archive() const { return *archive_; }
-  const RunFacts& facts() const { return facts_; }
+  const Archive& archive() const { return *opened_.archive; }
+  const RunFacts& facts() const { return opened_.facts; }
   const FrameBuilder& builder() const { return *builder_; }
   double tolerance() const { return tolerance_; }
   bool has_force() const { return has_force_; }
   bool has_angular_velocity() const { return has_angular_velocity_; }
 
  private:
-  bool read_moment();
-
-  ImportSettings settings_;
-  std::unique_ptr<Archive> archive_;
-  ArchiveMoment moment_;
-  RunFacts facts_;
-  std::unique_ptr<FrameBuilder> builder_;
-  std::unique_ptr<Verification> verification_;
+  OpenedArchive opened_;
+  double tolerance_;
+  std::unique_ptr<FrameBuilder> builder_;  // where the verification refers to it
+  Verification<D> verification_;
   std::optional<Complaint> complaint_;
   std::optional<std::pair<std::int64_t, double>> last_;  // step and time of the frame before
-  double tolerance_ = 0;
   bool first_ = true, has_force_ = false, has_angular_velocity_ = false;
 };
 

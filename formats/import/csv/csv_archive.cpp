@@ -75,6 +75,18 @@ Vec3 vector_at(const CsvTable& table, std::size_t row, std::size_t x)
   return {table.value(row, x), table.value(row, x + 1), table.value(row, x + 2)};
 }
 
+/// Whether there is a column of one of the three components.
+bool has_any(const CsvTable& table, std::size_t x)
+{
+  return table.has(x) || table.has(x + 1) || table.has(x + 2);
+}
+
+void add_missing(const CsvTable& table, std::size_t x, const std::array<const char*, 3>& names,
+                 std::vector<std::string>& missing)
+{
+  grseg::add_missing({table.has(x), table.has(x + 1), table.has(x + 2)}, names, missing);
+}
+
 [[noreturn]] void fail_at(const CsvTable& table, std::size_t row, const std::string& why)
 {
   throw FormatError(fmt::format("{}, row {} of that time: {}", table.begin(), row + 1, why));
@@ -178,13 +190,17 @@ void CsvArchive::fill(ArchiveGrains& grains) const
     if (table.has(radius) || table.has(diameter))
       grains.radius.push_back(table.has(radius) ? table.value(k, radius)
                                                 : table.value(k, diameter) / 2);
-    if (table.has(wz)) grains.angular_velocity.push_back(vector_at(table, k, wx));
+    if (has_any(table, wx)) grains.angular_velocity.push_back(vector_at(table, k, wx));
     if (table.has(mass)) grains.mass.push_back(table.value(k, mass));
     if (table.has(type))
       grains.type.push_back(static_cast<std::int32_t>(whole_number_at(table, k, type, "a type")));
     if (table.has(fixed)) grains.fixed.push_back(table.value(k, fixed) != 0);
-    if (table.has(fx)) grains.force.push_back(vector_at(table, k, fx));
+    if (has_any(table, fx)) grains.force.push_back(vector_at(table, k, fx));
   }
+  add_missing(table, x, {"x", "y", "z"}, grains.missing);
+  add_missing(table, vx, {"vx", "vy", "vz"}, grains.missing);
+  add_missing(table, wx, {"wx", "wy", "wz"}, grains.missing);
+  add_missing(table, fx, {"fx", "fy", "fz"}, grains.missing);
 }
 
 void CsvArchive::fill(ArchiveContacts& contacts) const
@@ -193,15 +209,17 @@ void CsvArchive::fill(ArchiveContacts& contacts) const
   const auto& table = contacts_;
   for (std::size_t k = 0; k < table.rows(); ++k) {
     const auto second = whole_number_at(table, k, j, "an id");
-    if (second < 0 && !table.has(bx) && !table.has(by))
-      fail_at(table, k, "a contact with a wall needs its branch, columns bx and by");
+    if (second < 0 && !has_any(table, bx))
+      fail_at(table, k, "a contact with a wall needs its branch, columns bx and by (and bz)");
     contacts.i.push_back(whole_number_at(table, k, i, "an id"));
     contacts.j.push_back(second);
     contacts.wall.push_back(second < 0 ? static_cast<std::int32_t>(-second - 1) : -1);
     contacts.force.push_back(vector_at(table, k, fx));
     if (table.has(overlap)) contacts.overlap.push_back(table.value(k, overlap));
-    if (table.has(bx) || table.has(by)) contacts.branch.push_back(vector_at(table, k, bx));
+    if (has_any(table, bx)) contacts.branch.push_back(vector_at(table, k, bx));
   }
+  add_missing(table, fx, {"fx", "fy", "fz"}, contacts.missing);
+  add_missing(table, bx, {"bx", "by", "bz"}, contacts.missing);
 }
 
 std::vector<std::string> CsvArchive::remarks() const
@@ -232,7 +250,7 @@ const ArchiveFormat csv_format{
         "    --units si --step 1e-5 --gravity 9.81 --slope 23 -o run.h5\n",
     .notes =
         "  csv: tables whose first line names the columns (grains: time id x y vx vy and\n"
-        "  radius|diameter; optional z vz omega mass type fixed fx fy fz; contacts: time i j\n"
-        "  fx fy; optional fz overlap bx by bz)\n"};
+        "  radius|diameter; optional z vz wx wy omega mass type fixed fx fy fz; contacts:\n"
+        "  time i j fx fy; optional fz overlap bx by bz; in three dimensions all of x y z)\n"};
 
 }  // namespace grseg

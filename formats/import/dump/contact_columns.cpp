@@ -133,6 +133,10 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   add(tx, contacts.force);
   contacts.branch.assign(has(bx) || has(by) || has(bz) ? contacts.size() : 0, Vec3::Constant(-0.0));
   add(bx, contacts.branch);
+  contacts.missing.clear();
+  for (const auto x : {fx, tx, bx})
+    add_missing({has(x), has(static_cast<Meaning>(x + 1)), has(static_cast<Meaning>(x + 2))},
+                {words[x], words[x + 1], words[x + 2]}, contacts.missing);
   contacts.overlap = of(overlap, values);
   contacts.distance = of(dist, values);
   contacts.wall.clear();

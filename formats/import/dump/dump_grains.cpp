@@ -40,7 +40,9 @@ int DumpGrains::want(const DumpHeader& header, std::string_view name)
 
 Triple DumpGrains::want(const DumpHeader& header, const std::array<const char*, 3>& names)
 {
-  return {want(header, names[0]), want(header, names[1]), want(header, names[2])};
+  const Triple columns{want(header, names[0]), want(header, names[1]), want(header, names[2])};
+  add_missing({columns[0] >= 0, columns[1] >= 0, columns[2] >= 0}, names, missing_);
+  return columns;
 }
 
 /// Where a dump has several, the plain ones are taken.
@@ -52,7 +54,7 @@ void DumpGrains::want_positions(const DumpHeader& header)
     const bool plain = header.find("x").has_value();
     positions_ = plain ? Positions::plain : Positions::scaled;
     position_ = plain ? want(header, {"x", "y", "z"}) : want(header, {"xs", "ys", "zs"});
-    image_ = want(header, {"ix", "iy", "iz"});
+    want_images(header);
   } else if (header.find("xu")) {
     position_ = want(header, {"xu", "yu", "zu"});
   } else if (header.find("xsu")) {
@@ -65,10 +67,25 @@ void DumpGrains::want_positions(const DumpHeader& header)
   }
 }
 
+/// Needed along periods alone.
+void DumpGrains::want_images(const DumpHeader& header)
+{
+  const std::array<const char*, 3> names{"ix", "iy", "iz"};
+  std::array<bool, 3> has{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    image_[k] = want(header, names[k]);
+    has[k] = image_[k] >= 0;
+  }
+  if (any(image_))
+    for (std::size_t k = 0; k < 3; ++k) has[k] = has[k] || !header.periodic[k];
+  add_missing(has, names, missing_);
+}
+
 void DumpGrains::look_up(const DumpHeader& header)
 {
   if (header.columns == names_) return;
   wanted_.clear();
+  missing_.clear();
   id_ = want(header, "id");
   if (id_ < 0)
     throw FormatError(
@@ -128,6 +145,7 @@ void DumpGrains::read(DumpReader& dump, ArchiveGrains& grains)
   take(velocity_, grains.velocity);
   take(spin_, grains.angular_velocity);
   take(force_, grains.force);
+  grains.missing = missing_;
 }
 
 }  // namespace grseg

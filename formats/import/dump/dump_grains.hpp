@@ -11,7 +11,7 @@ namespace grseg {
 /// Reads blocks of `dump custom` by the names of their columns, which are those of LAMMPS and
 /// LIGGGHTS: id, type, mass, radius or diameter; x y z, or unwrapped xu yu zu, or xs ys zs in parts
 /// of the cell; ix iy iz; vx vy vz; omegax omegay omegaz; fx fy fz. id and positions are required,
-/// a missing component is 0, other columns are ignored.
+/// a missing component is 0 and said to be missing, other columns are ignored.
 class DumpGrains {
  public:
   /// Reads the rows of the current block of `dump`.
@@ -24,6 +24,7 @@ class DumpGrains {
   int want(const DumpHeader& header, std::string_view name);
   Triple want(const DumpHeader& header, const std::array<const char*, 3>& names);
   void want_positions(const DumpHeader& header);
+  void want_images(const DumpHeader& header);
   void take(const Triple& columns, std::vector<Vec3>& out) const;
 
   std::vector<std::string> names_;  // of the columns that the rest refers to
@@ -31,6 +32,7 @@ class DumpGrains {
   int id_ = -1, type_ = -1, mass_ = -1, radius_ = -1, diameter_ = -1;
   Triple position_{}, image_{}, velocity_{}, spin_{}, force_{};
   Positions positions_ = Positions::plain;
+  std::vector<std::string> missing_;  // components
   std::vector<std::vector<double>> values_;
 };
 

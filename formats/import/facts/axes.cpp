@@ -23,10 +23,10 @@ double component(const Vec3& vector, const Vec3& direction)
 /// A gravity vector is written with a few digits: what differs by less is meant to be the same.
 constexpr double smallest_turn = 1e-3;
 
-Vec2 down_a_slope(double gravity, double slope)
+Vec3 down_a_slope(double gravity, double slope)
 {
   const double angle = slope * std::numbers::pi / 180;
-  return {gravity * std::sin(angle), -gravity * std::cos(angle)};
+  return {gravity * std::sin(angle), -gravity * std::cos(angle), 0};
 }
 
 }  // namespace
@@ -41,46 +41,61 @@ Axes::Axes(const std::string& letters)
           letters));
     return Vec3(Vec3::Unit(static_cast<Eigen::Index>(number)));
   };
-  x_ = axis(letters.empty() ? ' ' : letters[0]);
-  y_ = axis(letters.back());
+  const Vec3 x = axis(letters.empty() ? ' ' : letters[0]), y = axis(letters.back());
+  direction_ = {x, y, x.cross(y)};
 }
 
 void Axes::turn_to_slope(const Vec3& gravity, double slope)
 {
-  const Vec2 now = in_plane(gravity), wanted = down_a_slope(1, slope);
+  const Vec2 now = components<2>(gravity), wanted = down_a_slope(1, slope).head<2>();
   // The angle from what gravity should be in the axes to what it is.
   const double turn = std::atan2(wanted.x() * now.y() - wanted.y() * now.x(), wanted.dot(now));
   if (std::abs(turn) < smallest_turn) return;
-  const Vec3 x = x_;
-  x_ = std::cos(turn) * x + std::sin(turn) * y_;
-  y_ = std::cos(turn) * y_ - std::sin(turn) * x;
+  auto& [x, y, z] = direction_;
+  const Vec3 before = x;
+  x = std::cos(turn) * before + std::sin(turn) * y;
+  y = std::cos(turn) * y - std::sin(turn) * before;
 }
 
 void Axes::look_from_behind()
 {
-  x_ = -x_;
+  direction_[0] = -direction_[0];
+  direction_[2] = -direction_[2];
 }
 
-Vec2 Axes::in_plane(const Vec3& vector) const
+template <int D>
+Vector<D> Axes::components(const Vec3& vector) const
 {
-  return {component(vector, x_), component(vector, y_)};
+  Vector<D> in_axes;
+  for (int k = 0; k < D; ++k)
+    in_axes[k] = component(vector, direction_[static_cast<std::size_t>(k)]);
+  return in_axes;
 }
 
-double Axes::out_of_plane(const Vec3& vector) const
+template <int D>
+Spin<D> Axes::spin(const Vec3& angular_velocity) const
 {
-  return component(vector, x_.cross(y_));
+  if constexpr (D == 2)
+    return component(angular_velocity, direction_[0].cross(direction_[1]));
+  else
+    return components<3>(angular_velocity);
 }
 
-double Axes::counter_clockwise(const Vec3& angular_velocity) const
-{
-  return out_of_plane(angular_velocity);
-}
+template Vector<2> Axes::components<2>(const Vec3&) const;
+template Vector<3> Axes::components<3>(const Vec3&) const;
+template Spin<2> Axes::spin<2>(const Vec3&) const;
+template Spin<3> Axes::spin<3>(const Vec3&) const;
 
-std::optional<int> Axes::axis_of_x() const
+std::optional<int> Axes::axis_of(int direction) const
 {
   for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(x_[axis]) == 1) return axis;
+    if (std::abs(direction_[static_cast<std::size_t>(direction)][axis]) == 1) return axis;
   return std::nullopt;
+}
+
+bool Axes::is_forward(int direction) const
+{
+  return direction_[static_cast<std::size_t>(direction)].sum() > 0;
 }
 
 GravityText parse_gravity(const std::string& text)
@@ -101,7 +116,8 @@ GravityText parse_gravity(const std::string& text)
       text));
 }
 
-Plane plane_of(const std::string& letters, const GravityText& gravity, std::optional<double> slope)
+Orientation orientation_of(const std::string& letters, const GravityText& gravity,
+                           std::optional<double> slope, int dimension)
 {
   Axes axes(letters);
   if (gravity.magnitude) {
@@ -112,13 +128,13 @@ Plane plane_of(const std::string& letters, const GravityText& gravity, std::opti
     return {axes, down_a_slope(*gravity.magnitude, *slope)};
   }
   const Vec3 g = *gravity.vector;
-  if (std::abs(axes.out_of_plane(g)) > 1e-6 * g.norm())
+  if (dimension == 2 && std::abs(axes.components<3>(g).z()) > 1e-6 * g.norm())
     throw UsageError(fmt::format(
         "gravity ({:g}, {:g}, {:g}) is not in the plane of --axes {}; name the plane of the flow",
         g.x(), g.y(), g.z(), letters));
-  if (axes.in_plane(g).x() < 0 && slope.value_or(1) > 0) axes.look_from_behind();
+  if (axes.components<2>(g).x() < 0 && slope.value_or(1) > 0) axes.look_from_behind();
   if (slope) axes.turn_to_slope(g, *slope);
-  return {axes, axes.in_plane(g)};
+  return {axes, axes.components<3>(g)};
 }
 
 }  // namespace grseg

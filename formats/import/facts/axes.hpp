@@ -4,35 +4,40 @@
 #include "formats/core/frame.hpp"
 #include "formats/import/common/archive.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
 
 namespace grseg {
 
-/// The plane of a two-dimensional flow within the three axes of an archive: which way is down the
-/// slope (x) and which way is normal to the base, upward (y).
+/// The axes of a flow within those of an archive: down the slope (x), normal to the base, upward
+/// (y), and across (z = x cross y). They are always right-handed and only ever turned, never
+/// mirrored, so that spins and the sense of every oblique contact stay what they are.
 class Axes {
  public:
   /// Two of the letters x, y, z, e.g. "xz": along the base and away from it. UsageError otherwise.
   explicit Axes(const std::string& letters = "xy");
 
-  /// Turned such that gravity, which lies in the plane, is |g| (sin slope, -cos slope); in degrees.
+  /// Turned about z such that gravity, as far as it lies across z, has the direction
+  /// (sin slope, -cos slope); in degrees.
   void turn_to_slope(const Vec3& gravity, double slope);
-  /// Looked at from behind: x the other way, y as it was.
+  /// Turned half about y: x and z the other way, y as it was.
   void look_from_behind();
 
-  Vec2 in_plane(const Vec3& vector) const;
-  /// Counter-clockwise rate as it is seen with x to the right and y up. In x-z that is -omega_y,
-  /// for right-handed axes x, z, -y.
-  double counter_clockwise(const Vec3& angular_velocity) const;
-  double out_of_plane(const Vec3& vector) const;
+  /// The components of a vector of the archive; in two dimensions those in the plane of x and y.
+  template <int D>
+  Vector<D> components(const Vec3& vector) const;
+  /// In two dimensions counter-clockwise as it is seen with x to the right and y up: in x-z that is
+  /// -omega_y, for right-handed axes x, z, -y.
+  template <int D>
+  Spin<D> spin(const Vec3& angular_velocity) const;
 
-  /// The archive's axis that x lies along, if any: 0, 1, 2; and whether in its direction.
-  std::optional<int> axis_of_x() const;
-  bool x_is_forward() const { return x_.sum() > 0; }
+  /// The archive's axis that x, y or z (0, 1, 2) lies along, if any; and whether in its direction.
+  std::optional<int> axis_of(int direction) const;
+  bool is_forward(int direction) const;
 
  private:
-  Vec3 x_, y_;
+  std::array<Vec3, 3> direction_;
 };
 
 /// "9.8" or "3.8,-9.0,0". UsageError otherwise.
@@ -42,13 +47,15 @@ struct GravityText {
 };
 GravityText parse_gravity(const std::string& text);
 
-/// Axes adjusted to gravity, and gravity in them. If x points uphill, the plane is looked at from
+/// Axes adjusted to gravity, and gravity in them. If x points uphill, the flow is looked at from
 /// behind; with a slope the axes are turned until gravity has this slope; a magnitude needs a slope
-/// and turns nothing. UsageError where the slope is missing or gravity is not in the plane.
-struct Plane {
+/// and turns nothing. UsageError where the slope is missing, or where gravity is not in the plane
+/// of a flow in two dimensions; in three it may have a component across.
+struct Orientation {
   Axes axes;
-  Vec2 gravity = Vec2::Zero();
+  Vec3 gravity = Vec3::Zero();
 };
-Plane plane_of(const std::string& letters, const GravityText& gravity, std::optional<double> slope);
+Orientation orientation_of(const std::string& letters, const GravityText& gravity,
+                           std::optional<double> slope, int dimension);
 
 }  // namespace grseg

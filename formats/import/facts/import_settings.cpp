@@ -57,23 +57,28 @@ po::options_description import_options(ImportSettings& s)
       "grains-are", optional(s.grains, "WHAT"), "discs or spheres")(
       "density", optional(s.density, "RHO"), "of discs per area, of spheres per volume")(
       "axes", po::value(&s.axes)->default_value(s.axes)->value_name("XY"),
-      "the plane of the flow: along the base, away from it")(
+      "axes of the flow: along the base, away from it")(
+      "dimension", optional(s.dimension, "D"),
+      "2 or 3 (default: 3 for spheres that do not lie in one plane)")(
       "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),
       "y = 0: top or centre of the base grains, or a height in the archive");
 
   auto& species = s.species;
   po::options_description sizes("Species");
-  sizes.add_options()("small", optional(species.small, "TYPES"),
-                      "types of small grains: 1 or 1,4-6")(
+  sizes.add_options()(
+      "species", po::value(&species.named)->composing()->value_name("NAME=TYPES"),
+      "any number of species, this once for each: mobile grains of these types, or of "
+      "all; NAME=TYPES:D gives the nominal diameter")("small", optional(species.small, "TYPES"),
+                                                      "types of small grains: 1 or 1,4-6")(
       "large", optional(species.large, "TYPES"), "types of large grains")(
       "split-diameter", optional(species.split_diameter, "D"),
       "small below, large from here on (default: two sizes far apart)")(
       "boundary", optional(species.boundary, "TYPES"),
       "types of base grains; none: there is no base")(
       "boundary-ids", optional(species.boundary_ids, "IDS"), "base grains by id: 1-35,70")(
-      "small-diameter", optional(s.small_diameter, "D"),
+      "small-diameter", optional(species.small_diameter, "D"),
       "nominal, the unit of length in analyses (default: mid-range)")(
-      "large-diameter", optional(s.large_diameter, "D"), "likewise");
+      "large-diameter", optional(species.large_diameter, "D"), "likewise");
 
   po::options_description output("The trajectory");
   output.add_options()("output,o", po::value(&s.output)->value_name("FILE"), "the file to write")(

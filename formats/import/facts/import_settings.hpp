@@ -25,9 +25,9 @@ struct ImportSettings {
   std::optional<std::string> gravity;  // axes.hpp
   std::optional<double> slope;         // degrees
   std::string axes = "xy";
-  std::string origin = "top";  // or "centre", or a height in the archive
+  std::string origin = "top";    // or "centre", or a height in the archive
+  std::optional<int> dimension;  // dimension.hpp
   SpeciesSettings species;
-  std::optional<double> small_diameter, large_diameter;  // nominal
 
   std::optional<double> accept_residual;
   bool drop_incomplete = false;

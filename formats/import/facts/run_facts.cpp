@@ -2,6 +2,7 @@
 #include "formats/import/facts/run_facts.hpp"
 
 #include "formats/cli/words.hpp"
+#include "formats/import/facts/dimension.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -113,9 +114,10 @@ std::optional<std::string> units_of(const ArchiveFacts& archive, const ImportSet
 
 }  // namespace
 
-RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveGrains& grains,
+RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
                        const ImportSettings& settings)
 {
+  const auto& grains = first.grains;
   if (grains.radius.empty())
     throw FormatError(
         "the grains of the archive have no radius or diameter, so they cannot be imported");
@@ -138,9 +140,10 @@ RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveGrains& grains,
         "which grains are the base (--boundary TYPES, --boundary-ids IDS, or --boundary none)");
   missing.report();
   if (!(step > 0)) throw UsageError(fmt::format("a time step of {:g} is not positive", step));
-  return {
-      step, plane_of(settings.axes, *gravity, settings.slope), discs, density, parse_units(units),
-      units};
+  const int dimension = dimension_of(first, settings.axes, discs, settings.dimension);
+  return {step,  dimension, orientation_of(settings.axes, *gravity, settings.slope, dimension),
+          discs, density,   parse_units(units),
+          units};
 }
 
 std::vector<double> masses_of(const ArchiveGrains& grains, const RunFacts& facts)

@@ -13,7 +13,8 @@ namespace grseg {
 /// What holds for the whole of an imported run, in the archive's units, and is never guessed.
 struct RunFacts {
   double step = 0;
-  Plane plane;
+  int dimension = 2;
+  Orientation orientation;
   bool discs = true;              // false: spheres
   std::optional<double> density;  // needed where grains have no mass
   Units units;
@@ -23,7 +24,7 @@ struct RunFacts {
 /// Takes each fact from the archive or the command line; discs and spheres are distinguished by the
 /// masses of grains of different radii. UsageError, one sentence with the options for all that is
 /// missing, or where archive and command line contradict each other.
-RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveGrains& grains,
+RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
                        const ImportSettings& settings);
 
 /// Mass of every grain: the archive's own, or density times area or volume. FormatError where a

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/species.hpp"
 
+#include "formats/import/facts/named_species.hpp"
+#include "formats/import/facts/number_list.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,14 +15,6 @@ namespace grseg {
 namespace {
 
 constexpr double far_apart = 1.2;
-
-std::optional<std::int64_t> whole(std::string_view text)
-{
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
-  return number;
-}
 
 void require_types(const ArchiveGrains& grains, const char* option)
 {
@@ -83,46 +78,49 @@ Species by_type(const ArchiveGrains& grains, std::size_t g, const NumberList& sm
   return large.contains(type) ? Species::large : Species::small;
 }
 
+/// --species says all that the options of two sizes would say.
+void require_alone(const SpeciesSettings& settings)
+{
+  const std::pair<const char*, bool> of_two[] = {
+      {"--small", settings.small.has_value()},
+      {"--large", settings.large.has_value()},
+      {"--split-diameter", settings.split_diameter.has_value()},
+      {"--small-diameter", settings.small_diameter.has_value()},
+      {"--large-diameter", settings.large_diameter.has_value()}};
+  for (const auto& [option, given] : of_two)
+    if (given)
+      throw UsageError(
+          fmt::format("{} does not go with --species; give types and nominal diameters as in "
+                      "--species small=1:0.005 --species large=2:0.01",
+                      option));
+}
+
 double diameter_that_splits(const std::vector<double>& diameter, const SpeciesSettings& settings)
 {
   if (settings.split_diameter) return *settings.split_diameter;
   if (const auto gap = gap_between_sizes(diameter)) return *gap;
   throw UsageError(fmt::format(
       "diameters do not fall into two sizes far apart ({}); separate the species with --small and "
-      "--large TYPES or with --split-diameter",
+      "--large TYPES, with --split-diameter, or any number with --species NAME=TYPES; or take all as "
+      "one with --species NAME=all",
       histogram(diameter)));
 }
 
 }  // namespace
 
-NumberList::NumberList(const std::string& text, const std::string& option)
-{
-  if (text == "none") return;
-  bool good = !text.empty() && text.back() != ',';
-  std::istringstream parts(text);
-  for (std::string part; good && std::getline(parts, part, ',');) {
-    const auto dash = part.find('-');
-    const auto first = whole(std::string_view(part).substr(0, dash));
-    const auto last = dash == std::string::npos ? first : whole(part.substr(dash + 1));
-    good = first && last && *first <= *last;
-    if (good) ranges_.emplace_back(*first, *last);
-  }
-  if (!good)
-    throw UsageError(
-        fmt::format("{} '{}' is not a list of numbers, such as 3 or 1,4-9, or none", option, text));
-}
-
-bool NumberList::contains(std::int64_t number) const
-{
-  return std::any_of(ranges_.begin(), ranges_.end(), [&](const auto& range) {
-    return range.first <= number && number <= range.second;
-  });
-}
-
 SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& settings)
 {
   SpeciesFound found;
   const auto boundary = boundary_grains(grains, settings, found.base);
+  if (!settings.named.empty()) {
+    require_alone(settings);
+    auto named = assign_named_species(grains, boundary, settings.named);
+    found.species = std::move(named.species);
+    found.list = std::move(named.list);
+    found.sizes = std::move(named.sizes);
+    return found;
+  }
+  found.list = two_sizes(settings.small_diameter.value_or(0), settings.large_diameter.value_or(0));
   if (settings.small || settings.large) {
     require_types(grains, settings.small ? "--small" : "--large");
     const auto small = settings.small.value_or("none"), large = settings.large.value_or("none");

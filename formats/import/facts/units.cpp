@@ -21,7 +21,8 @@ void multiply(Values& values, double factor)
 
 }  // namespace
 
-void Units::convert(Frame<2>& frame) const
+template <int D>
+void Units::convert(Frame<D>& frame) const
 {
   frame.time *= time;
   multiply(frame.position, length);
@@ -32,6 +33,9 @@ void Units::convert(Frame<2>& frame) const
   multiply(frame.contacts.branch, length);
   multiply(frame.contacts.gap, length);
 }
+
+template void Units::convert<2>(Frame<2>&) const;
+template void Units::convert<3>(Frame<3>&) const;
 
 void Units::convert(Grains& grains) const
 {

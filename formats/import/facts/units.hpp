@@ -16,7 +16,8 @@ struct Units {
   double force() const { return mass * acceleration(); }
 
   /// Converts from the archive's units to SI.
-  void convert(Frame<2>& frame) const;
+  template <int D>
+  void convert(Frame<D>& frame) const;
   void convert(Grains& grains) const;
 };
 

@@ -60,6 +60,9 @@ const ArchiveFormat lammps_format{
         "    --gravity 9.8 --slope 23 --boundary 3 -o run.h5\n"
         "  grseg-import --format lammps --grains 'atoms.*.gz' --contacts 'contacts.*.gz' \\\n"
         "    --units si --step 1e-5 --gravity 3.83,-9.02,0 --small 1 --large 2 --boundary 3 \\\n"
-        "    -o run.h5\n"};
+        "    -o run.h5\n"
+        "  grseg-import --format lammps --grains spheres.dump --contacts contacts.dump \\\n"
+        "    --units si --step 1e-6 --gravity 3.83,0,-9.02 --axes xz --boundary 1 \\\n"
+        "    --species fine=2 --species AM=3,4 --species SE=5 -o run.h5\n"};
 
 }  // namespace grseg

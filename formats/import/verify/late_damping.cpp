@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/late_damping.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -13,27 +14,69 @@ std::size_t row(std::int32_t index)
   return static_cast<std::size_t>(index);
 }
 
-/// The force of a contact along its normal and along the tangent, a quarter turn to the left.
-struct Split {
-  Vec2 n, t;
-  double normal, tangential;
-};
-Split split(const ContactList<2>& contacts, std::size_t c)
+/// n x v: in two dimensions the component of v along the tangent, a quarter turn to the left of n.
+template <int D>
+Spin<D> turn(const Vector<D>& n, const Vector<D>& v)
 {
-  const Vec2 n = contacts.branch[c].normalized(), t(-n.y(), n.x());
-  return {n, t, contacts.force[c].dot(n), contacts.force[c].dot(t)};
+  if constexpr (D == 2)
+    return v.dot(Vec2(-n.y(), n.x()));
+  else
+    return n.cross(v);
 }
 
-std::vector<double> angular_accelerations(const Grains& grains, const ContactList<2>& contacts,
-                                          double inertia)
+/// s x n: the vector along the tangents whose `turn` is s.
+template <int D>
+Vector<D> along_tangent(const Spin<D>& s, const Vector<D>& n)
 {
-  std::vector<double> acceleration(grains.size());
-  const auto add = [&](std::size_t g, double tangential) {
+  if constexpr (D == 2)
+    return s * Vec2(-n.y(), n.x());
+  else
+    return s.cross(n);
+}
+
+double size(double spin)
+{
+  return std::abs(spin);
+}
+double size(const Vec3& spin)
+{
+  return spin.norm();
+}
+
+template <int D>
+std::vector<Spin<D>> zero_spins(const Grains& grains)
+{
+  if constexpr (D == 2)
+    return std::vector<double>(grains.size());
+  else
+    return std::vector<Vec3>(grains.size(), Vec3::Zero());
+}
+
+/// The force of a contact along its normal, and its `turn`.
+template <int D>
+struct Split {
+  Vector<D> n;
+  double normal;
+  Spin<D> tangential;
+};
+template <int D>
+Split<D> split(const ContactList<D>& contacts, std::size_t c)
+{
+  const Vector<D> n = contacts.branch[c].normalized();
+  return {n, contacts.force[c].dot(n), turn<D>(n, contacts.force[c])};
+}
+
+template <int D>
+std::vector<Spin<D>> angular_accelerations(const Grains& grains, const ContactList<D>& contacts,
+                                           double inertia)
+{
+  auto acceleration = zero_spins<D>(grains);
+  const auto add = [&](std::size_t g, const Spin<D>& tangential) {
     if (is_mobile(grains, g))
       acceleration[g] -= tangential / (inertia * grains.mass[g] * grains.radius[g]);
   };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const double tangential = split(contacts, c).tangential;
+    const Spin<D> tangential = split(contacts, c).tangential;
     add(row(contacts.i[c]), tangential);
     if (contacts.j[c] >= 0) add(row(contacts.j[c]), tangential);
   }
@@ -41,26 +84,28 @@ std::vector<double> angular_accelerations(const Grains& grains, const ContactLis
 }
 
 /// Largest ratio of friction to normal force: where it is reached, contacts slide.
-double friction_of(const ContactList<2>& contacts)
+template <int D>
+double friction_of(const ContactList<D>& contacts)
 {
   double largest = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto force = split(contacts, c);
-    if (force.normal > 0) largest = std::max(largest, std::abs(force.tangential) / force.normal);
+    if (force.normal > 0) largest = std::max(largest, size(force.tangential) / force.normal);
   }
   return largest;
 }
 
 }  // namespace
 
-LateDamping subtract_late_damping(const Grains& grains, const Frame<2>& frame, double step,
-                                  double inertia, std::vector<Vec2>& defect)
+template <int D>
+LateDamping subtract_late_damping(const Grains& grains, const Frame<D>& frame, double step,
+                                  double inertia, std::vector<Vector<D>>& defect)
 {
   const auto& contacts = frame.contacts;
   const auto spin_up = angular_accelerations(grains, contacts, inertia);
   const double friction = friction_of(contacts);
   // The force that is missing on every grain per unit of c_n and of c_t.
-  std::vector<Vec2> per_normal(grains.size(), Vec2::Zero()), per_tangential = per_normal;
+  std::vector<Vector<D>> per_normal(grains.size(), Vector<D>::Zero()), per_tangential = per_normal;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = row(contacts.i[c]);
     const bool wall = contacts.j[c] < 0;
@@ -69,16 +114,17 @@ LateDamping subtract_late_damping(const Grains& grains, const Frame<2>& frame, d
     const double m = grains.mass[i];
     const double mass = pair ? m * grains.mass[j] / (m + grains.mass[j]) : m;
     const auto force = split(contacts, c);
-    Vec2 a = frame.force[i] / m;
-    double rims = grains.radius[i] * spin_up[i];
+    Vector<D> a = frame.force[i] / m;
+    Spin<D> rims = grains.radius[i] * spin_up[i];
     if (pair) {
       a -= frame.force[j] / grains.mass[j];
       rims += grains.radius[j] * spin_up[j];
     }
-    const bool slides = std::abs(force.tangential) > 0.99 * friction * std::abs(force.normal);
-    const Vec2 along_n = -mass * step / 2 * a.dot(force.n) * force.n;
-    const Vec2 along_t =
-        slides ? Vec2::Zero() : Vec2(-mass * step / 2 * (a.dot(force.t) - rims) * force.t);
+    const bool slides = size(force.tangential) > 0.99 * friction * std::abs(force.normal);
+    const Vector<D> along_n = -mass * step / 2 * a.dot(force.n) * force.n;
+    Vector<D> along_t = Vector<D>::Zero();
+    if (!slides)
+      along_t = along_tangent<D>(-mass * step / 2 * (turn<D>(force.n, a) - rims), force.n);
     per_normal[i] += along_n;
     per_tangential[i] += along_t;
     if (!pair) continue;
@@ -89,7 +135,7 @@ LateDamping subtract_late_damping(const Grains& grains, const Frame<2>& frame, d
   Vec2 projections = Vec2::Zero();
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, g)) continue;
-    Eigen::Matrix2d columns;
+    Eigen::Matrix<double, D, 2> columns;
     columns << per_normal[g], per_tangential[g];
     products += columns.transpose() * columns;
     projections += columns.transpose() * defect[g];
@@ -102,5 +148,10 @@ LateDamping subtract_late_damping(const Grains& grains, const Frame<2>& frame, d
     defect[g] -= c.x() * per_normal[g] + c.y() * per_tangential[g];
   return {c.x(), c.y()};
 }
+
+template LateDamping subtract_late_damping<2>(const Grains&, const Frame<2>&, double, double,
+                                              std::vector<Vec2>&);
+template LateDamping subtract_late_damping<3>(const Grains&, const Frame<3>&, double, double,
+                                              std::vector<Vec3>&);
 
 }  // namespace grseg

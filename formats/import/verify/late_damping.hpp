@@ -23,7 +23,8 @@ struct LateDamping {
 /// the coefficients, not negative, that minimise the rest. `inertia` is I/(m r^2); `frame.force` is
 /// required. A contact counts as sliding where friction over normal force is within 1 % of its
 /// largest value.
-LateDamping subtract_late_damping(const Grains& grains, const Frame<2>& frame, double step,
-                                  double inertia, std::vector<Vec2>& defect);
+template <int D>
+LateDamping subtract_late_damping(const Grains& grains, const Frame<D>& frame, double step,
+                                  double inertia, std::vector<Vector<D>>& defect);
 
 }  // namespace grseg

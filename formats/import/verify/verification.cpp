@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/verification.hpp"
 
+#include "formats/import/common/minimum_image.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +24,8 @@ std::size_t row(std::int32_t index)
   return static_cast<std::size_t>(index);
 }
 
-Residual residual_of(const Grains& grains, const std::vector<Vec2>& defect, double scale)
+template <int D>
+Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect, double scale)
 {
   std::vector<std::pair<double, std::size_t>> sizes;
   for (std::size_t g = 0; g < grains.size(); ++g)
@@ -36,13 +39,15 @@ Residual residual_of(const Grains& grains, const std::vector<Vec2>& defect, doub
 
 }  // namespace
 
-Verification::Verification(const Grains& grains, const Box& box, const Vec2& gravity,
-                           const OutputAccuracy& accuracy)
+template <int D>
+Verification<D>::Verification(const Grains& grains, const Box& box, const Vector<D>& gravity,
+                              const OutputAccuracy& accuracy)
     : grains_(grains), box_(box), gravity_(gravity), accuracy_(accuracy)
 {
 }
 
-std::optional<Complaint> Verification::check(const Frame<2>& frame)
+template <int D>
+std::optional<Complaint> Verification<D>::check(const Frame<D>& frame)
 {
   residual_ = residual_with(frame, frame.contacts.force);
   auto complaint = geometry(frame);
@@ -54,7 +59,8 @@ std::optional<Complaint> Verification::check(const Frame<2>& frame)
   return complaint;
 }
 
-std::string Verification::pair_of(const ContactList<2>& contacts, std::size_t c) const
+template <int D>
+std::string Verification<D>::pair_of(const ContactList<D>& contacts, std::size_t c) const
 {
   const auto i = grains_.id[row(contacts.i[c])];
   if (contacts.j[c] < 0) return fmt::format("grain {} and wall {}", i, -contacts.j[c] - 1);
@@ -62,7 +68,8 @@ std::string Verification::pair_of(const ContactList<2>& contacts, std::size_t c)
 }
 
 /// Contacts that carry force must join grains that touch. Wall contacts are not checked.
-std::optional<Complaint> Verification::geometry(const Frame<2>& frame) const
+template <int D>
+std::optional<Complaint> Verification<D>::geometry(const Frame<D>& frame) const
 {
   const auto& contacts = frame.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -70,8 +77,7 @@ std::optional<Complaint> Verification::geometry(const Frame<2>& frame) const
     const auto i = row(contacts.i[c]), j = row(contacts.j[c]);
     const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
     const double radii = grains_.radius[i] + grains_.radius[j];
-    Vec2 between = frame.position[i] - frame.position[j];
-    if (box_.periodic_x) between.x() -= box_.length_x * std::round(between.x() / box_.length_x);
+    const auto between = minimum_image<D>(box_, frame.position[i] - frame.position[j]);
     const double stated = radii + contacts.gap[c], distance = between.norm();
     const bool as_stated = std::abs(distance - stated) <= distance_tolerance * smaller &&
                            (contacts.branch[c] - between).norm() <= distance_tolerance * smaller;
@@ -89,7 +95,8 @@ std::optional<Complaint> Verification::geometry(const Frame<2>& frame) const
   return std::nullopt;
 }
 
-std::optional<Complaint> Verification::double_rows(const Frame<2>& frame) const
+template <int D>
+std::optional<Complaint> Verification<D>::double_rows(const Frame<D>& frame) const
 {
   const auto& contacts = frame.contacts;
   std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, std::size_t>> pairs;
@@ -105,7 +112,8 @@ std::optional<Complaint> Verification::double_rows(const Frame<2>& frame) const
   return std::nullopt;
 }
 
-std::optional<Complaint> Verification::pull(const Frame<2>& frame) const
+template <int D>
+std::optional<Complaint> Verification<D>::pull(const Frame<D>& frame) const
 {
   const auto& contacts = frame.contacts;
   double pushing = 0, pulling = 0;
@@ -119,10 +127,11 @@ std::optional<Complaint> Verification::pull(const Frame<2>& frame) const
                    true};
 }
 
-std::vector<Vec2> Verification::sums(const ContactList<2>& contacts,
-                                     const std::vector<Vec2>& forces) const
+template <int D>
+std::vector<Vector<D>> Verification<D>::sums(const ContactList<D>& contacts,
+                                             const std::vector<Vector<D>>& forces) const
 {
-  std::vector<Vec2> sum(grains_.size(), Vec2::Zero());
+  std::vector<Vector<D>> sum(grains_.size(), Vector<D>::Zero());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     sum[row(contacts.i[c])] += forces[c];
     if (contacts.j[c] >= 0) sum[row(contacts.j[c])] -= forces[c];
@@ -130,18 +139,19 @@ std::vector<Vec2> Verification::sums(const ContactList<2>& contacts,
   return sum;
 }
 
-std::optional<Residual> Verification::residual_with(const Frame<2>& frame,
-                                                    const std::vector<Vec2>& forces) const
+template <int D>
+std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
+                                                       const std::vector<Vector<D>>& forces) const
 {
   const bool has_force = !frame.force.empty();
   if (!has_force && !before_) return std::nullopt;
   const auto sum = sums(frame.contacts, forces);
   double scale = 0;
   for (const auto& force : forces) scale = std::max(scale, force.norm());
-  std::vector<Vec2> defect(grains_.size(), Vec2::Zero());
+  std::vector<Vector<D>> defect(grains_.size(), Vector<D>::Zero());
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, g)) continue;
-    const Vec2 weight = grains_.mass[g] * gravity_;
+    const Vector<D> weight = grains_.mass[g] * gravity_;
     scale = std::max(scale, weight.norm());
     if (has_force)
       defect[g] = sum[g] + weight - frame.force[g];
@@ -160,7 +170,8 @@ std::optional<Residual> Verification::residual_with(const Frame<2>& frame,
   return residual;
 }
 
-std::optional<Complaint> Verification::balance(const Frame<2>& frame) const
+template <int D>
+std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame) const
 {
   if (!residual_ || residual_->unexplained <= accuracy_.tolerance) return std::nullopt;
   return Complaint{
@@ -181,21 +192,26 @@ std::optional<Complaint> Verification::balance(const Frame<2>& frame) const
 }
 
 /// Another meaning of the rows with which the grains balance, if there is one.
-std::string Verification::other_readings(const Frame<2>& frame) const
+template <int D>
+std::string Verification<D>::other_readings(const Frame<D>& frame) const
 {
-  using Reading = std::pair<const char*, std::function<Vec2(const Vec2& force, const Vec2& n)>>;
-  const auto normal = [](const Vec2& f, const Vec2& n) { return Vec2(f.dot(n) * n); };
+  using Reading =
+      std::pair<const char*, std::function<Vector<D>(const Vector<D>& force, const Vector<D>& n)>>;
+  const auto normal = [](const Vector<D>& f, const Vector<D>& n) {
+    return Vector<D>(f.dot(n) * n);
+  };
   const Reading readings[] = {
       {"with the opposite sign, the force being that on j: exchange i and j",
-       [](const Vec2& f, const Vec2&) { return Vec2(-f); }},
+       [](const Vector<D>& f, const Vector<D>&) { return Vector<D>(-f); }},
       {"with half of every force: is each contact in two rows?",
-       [](const Vec2& f, const Vec2&) { return Vec2(f / 2); }},
-      {"with the normal part alone", [&](const Vec2& f, const Vec2& n) { return normal(f, n); }},
+       [](const Vector<D>& f, const Vector<D>&) { return Vector<D>(f / 2); }},
+      {"with the normal part alone",
+       [&](const Vector<D>& f, const Vector<D>& n) { return normal(f, n); }},
       {"with the tangential part reversed",
-       [&](const Vec2& f, const Vec2& n) { return Vec2(2 * normal(f, n) - f); }},
+       [&](const Vector<D>& f, const Vector<D>& n) { return Vector<D>(2 * normal(f, n) - f); }},
   };
   const auto& contacts = frame.contacts;
-  std::vector<Vec2> forces(contacts.size());
+  std::vector<Vector<D>> forces(contacts.size());
   for (const auto& [what, reading] : readings) {
     for (std::size_t c = 0; c < contacts.size(); ++c)
       forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
@@ -205,5 +221,8 @@ std::string Verification::other_readings(const Frame<2>& frame) const
   }
   return "";
 }
+
+template class Verification<2>;
+template class Verification<3>;
 
 }  // namespace grseg

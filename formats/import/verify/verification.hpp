@@ -38,40 +38,42 @@ struct OutputAccuracy {
 /// meant: contacts join grains that touch, each is listed once, they push rather than pull, and add
 /// up to the force on each grain. Where the archive has no forces on grains, m times the difference
 /// of velocities from the frame before is used, with the mean contact forces of the two frames.
+template <int D>
 class Verification {
  public:
   /// In any consistent units.
-  Verification(const Grains& grains, const Box& box, const Vec2& gravity,
+  Verification(const Grains& grains, const Box& box, const Vector<D>& gravity,
                const OutputAccuracy& accuracy);
 
   /// To be called for the frames in order; what is wrong with this one, if anything.
-  std::optional<Complaint> check(const Frame<2>& frame);
+  std::optional<Complaint> check(const Frame<D>& frame);
 
   /// Of the last frame; empty where there is nothing to compare with.
   const std::optional<Residual>& residual() const { return residual_; }
 
  private:
-  std::optional<Complaint> geometry(const Frame<2>& frame) const;
-  std::optional<Complaint> double_rows(const Frame<2>& frame) const;
-  std::optional<Complaint> pull(const Frame<2>& frame) const;
-  std::optional<Complaint> balance(const Frame<2>& frame) const;
+  std::optional<Complaint> geometry(const Frame<D>& frame) const;
+  std::optional<Complaint> double_rows(const Frame<D>& frame) const;
+  std::optional<Complaint> pull(const Frame<D>& frame) const;
+  std::optional<Complaint> balance(const Frame<D>& frame) const;
 
   /// Contact forces on every grain if `forces` are those of the frame's contacts.
-  std::vector<Vec2> sums(const ContactList<2>& contacts, const std::vector<Vec2>& forces) const;
-  std::optional<Residual> residual_with(const Frame<2>& frame,
-                                        const std::vector<Vec2>& forces) const;
-  std::string other_readings(const Frame<2>& frame) const;
-  std::string pair_of(const ContactList<2>& contacts, std::size_t c) const;
+  std::vector<Vector<D>> sums(const ContactList<D>& contacts,
+                              const std::vector<Vector<D>>& forces) const;
+  std::optional<Residual> residual_with(const Frame<D>& frame,
+                                        const std::vector<Vector<D>>& forces) const;
+  std::string other_readings(const Frame<D>& frame) const;
+  std::string pair_of(const ContactList<D>& contacts, std::size_t c) const;
 
   const Grains& grains_;
   Box box_;
-  Vec2 gravity_;
+  Vector<D> gravity_;
   OutputAccuracy accuracy_;
   std::optional<Residual> residual_;
 
   struct Before {
     double time = 0;
-    std::vector<Vec2> velocity, sums;
+    std::vector<Vector<D>> velocity, sums;
   };
   std::optional<Before> before_;
 };

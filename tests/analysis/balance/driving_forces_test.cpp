@@ -48,24 +48,24 @@ void push_apart(Packing& scene, std::int32_t i, std::int32_t j, const Vec2& forc
   scene.frame.force[static_cast<std::size_t>(j)] -= force;
 }
 
-MomentumBalance balance_of(const std::vector<Packing>& frames, const Kernel& kernel = narrow)
+MomentumBalance<2> balance_of(const std::vector<Packing>& frames, const Kernel& kernel = narrow)
 {
-  MomentumBalance balance(unit_layers, kernel, gravity, step);
+  MomentumBalance<2> balance(unit_layers, kernel, gravity, step);
   for (const auto& scene : frames) balance.add(scene.grains, scene.frame);
   return balance;
 }
 
 /// Two frames of the same, a second apart.
-MomentumBalance balance_of(const Packing& scene)
+MomentumBalance<2> balance_of(const Packing& scene)
 {
   Packing later = scene;
   later.frame.time = 1;
   return balance_of(std::vector{scene, later});
 }
 
-double cell(const MomentumBalance& balance, std::size_t layer, const std::string& column)
+double cell(const MomentumBalance<2>& balance, std::size_t layer, const std::string& column)
 {
-  const auto columns = balance_columns();
+  const auto columns = balance_columns<2>(two_sizes(1, 2));
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (columns[c].substr(0, columns[c].find('[')) == column) return balance_row(balance, layer)[c];
   ADD_FAILURE() << "no column " << column;
@@ -110,7 +110,7 @@ TEST(DrivingForces, ASpeciesThatFluctuatesLessIsPushedTowardsTheHotSide)
 {
   constexpr double w = 0.2, speed = 0.5;
   const Kernel box(KernelShape::heaviside, w);
-  MomentumBalance balance(unit_layers, box, {}, step);
+  MomentumBalance<2> balance(unit_layers, box, {}, step);
   Packing scene;
   scene.grain(Species::large, 0.1, {2, 1.5});
   for (const double sign : {-1, 1}) scene.grain(Species::small, 0.1, {4, 1.05}, {0, sign * speed});
@@ -166,7 +166,7 @@ TEST(DrivingForces, ALayerOfOneSpeciesHasNoDrivingForces)
 TEST(BalanceTable, ColumnsAndNumbersAgree)
 {
   const auto balance = balance_of(columns(10, 3));
-  EXPECT_EQ(balance_columns().size(), balance_row(balance, 0).size());
+  EXPECT_EQ(balance_columns<2>(two_sizes(1, 2)).size(), balance_row(balance, 0).size());
   const auto large = balance.mean(2, Species::large);
   EXPECT_EQ(cell(balance, 2, "rho_L"), large.density);
   EXPECT_EQ(cell(balance, 2, "Sc_L_yy"), large.contact_stress(1, 1));
@@ -195,7 +195,7 @@ TEST(BalanceTable, KineticStressCountsFromTheMeanOfBothSpecies)
 // Layers 2 to 7 are two diameters away from base and surface.
 TEST(BalanceSummary, SaysWhichWayLargeGrainsArePushedInUnitsOfTheirWeight)
 {
-  BalanceSummary summary(unit_layers, 1);
+  BalanceSummary<2> summary(unit_layers, 1);
   EXPECT_EQ(summary.sentence(), "the balances close to 0.0e+00 of the largest term of each");
   double sum = 0, squares = 0;
   for (const double load : {2, 3, 4}) {
@@ -215,7 +215,7 @@ TEST(BalanceSummary, SaysWhichWayLargeGrainsArePushedInUnitsOfTheirWeight)
 
 TEST(BalanceSummary, APushWithinTwoStandardErrorsIsNeitherWay)
 {
-  BalanceSummary summary(unit_layers, 1);
+  BalanceSummary<2> summary(unit_layers, 1);
   summary.add(balance_of(columns(10, 3)));
   summary.add(balance_of(columns(10, -3)));
   EXPECT_NE(summary.sentence().find("pushed neither way ("), std::string::npos)
@@ -227,7 +227,7 @@ TEST(BalanceSummary, ReportsTheLargestResidualOverItsLargestTerm)
   auto scene = columns(10, 0);
   push_apart(scene, 4, 15, {-9 * pi / 8, 0});
   scene.frame.force[4].y() += 9 * pi / 4 * 0.01;  // at the middle of layer 3, where 1 is its weight
-  BalanceSummary summary(unit_layers, 1);
+  BalanceSummary<2> summary(unit_layers, 1);
   summary.add(balance_of(scene));
   EXPECT_EQ(summary.sentence(), "the balances close to 1.0e-02 of the largest term of each");
 }

@@ -53,15 +53,15 @@ Packing random_bed(unsigned seed)
   return moved_by(scene, gravity);
 }
 
-MomentumBalance balance_of(const std::vector<Packing>& frames, const Vec2& g = gravity,
-                           const Kernel& kernel = gauss, const Layers& layers = unit_layers)
+MomentumBalance<2> balance_of(const std::vector<Packing>& frames, const Vec2& g = gravity,
+                              const Kernel& kernel = gauss, const Layers& layers = unit_layers)
 {
-  MomentumBalance balance(layers, kernel, g, step);
+  MomentumBalance<2> balance(layers, kernel, g, step);
   for (const auto& scene : frames) balance.add(scene.grains, scene.frame);
   return balance;
 }
 
-double largest_residual(const MomentumBalance& balance)
+double largest_residual(const MomentumBalance<2>& balance)
 {
   double most = 0;
   for (std::size_t n = 0; n < balance.layers(); ++n)
@@ -245,7 +245,7 @@ TEST(MomentumBalance, OfTheWholeBedOnlyWeightAndBaseRemain)
   for (std::size_t k = 0; k < list.size(); ++k)
     if (list.j[k] < 5) base += list.force[k];
   for (std::size_t g = 5; g < scene.grains.size(); ++g) weight += scene.grains.mass[g] * gravity;
-  SpeciesMomentum small, large;
+  SpeciesMomentum<2> small, large;
   for (std::size_t n = 0; n < balance.layers(); ++n) {
     small += balance.mean(n, Species::small);
     large += balance.mean(n, Species::large);

@@ -1,77 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What grseg-check measures on a column of discs at rest is known. Then one thing is damaged at a
 // time.
-#include "analysis/check/physics_check.hpp"
-
-#include "analysis/check/content_check.hpp"
 #include "formats/core/errors.hpp"
-#include "tests/column.hpp"
+#include "tests/analysis/check/checked_column.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
 namespace grseg {
 namespace {
-
-namespace fs = std::filesystem;
-using namespace column;
-using Names = std::set<std::string>;
-
-class CheckedColumn : public testing::Test {
- protected:
-  std::string path =
-      (fs::temp_directory_path() / fmt::format("grseg_physics_check_{}.h5", getpid())).string();
-  void TearDown() override { fs::remove(path); }
-
-  std::vector<CheckLine> lines_of_file() const
-  {
-    const TrajectoryReader run(path, Verify::no);
-    PhysicsSettings settings;
-    settings.layer = "10mm";
-    settings.windows.length = run.parameters().number("frame_interval", path) * 4;
-    ContentCheck content(run);
-    PhysicsCheck physics(run, settings);
-    Frame<2> frame;
-    for (std::size_t k = 0; k < run.size(); ++k) {
-      run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
-      content.add(k, frame);
-      physics.add(k, frame);
-    }
-    auto lines = content.lines();
-    for (const auto& line : physics.lines()) lines.push_back(line);
-    return lines;
-  }
-  std::vector<CheckLine> lines_of(const Column& column) const
-  {
-    column.write(path);
-    return lines_of_file();
-  }
-  static Names with(Verdict verdict, const std::vector<CheckLine>& lines)
-  {
-    Names names;
-    for (const auto& line : lines)
-      if (line.verdict == verdict) names.insert(line.quantity);
-    return names;
-  }
-  Names failed(const Column& column) const { return with(Verdict::failed, lines_of(column)); }
-
-  template <class Damage>
-  void tamper(const Damage& damage) const
-  {
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-    ASSERT_GE(file, 0);
-    damage(file);
-    H5Fclose(file);
-  }
-};
 
 TEST_F(CheckedColumn, AtRestPassesEveryCheckThatItsFileAllows)
 {
@@ -89,11 +31,19 @@ TEST_F(CheckedColumn, HasOneLinePerCheckInTheOrderOfTheTable)
 {
   std::vector<std::string> names{"not_closed", "no_frames", "damaged_frames",
                                  "damaged_outside_frames"};
-  std::vector<std::string> found;
-  for (const auto& check : checks::all) names.emplace_back(check.name);
-  for (const auto& line : lines_of(Column()))
-    if (found.empty() || found.back() != line.quantity) found.push_back(line.quantity);
-  EXPECT_EQ(found, names);
+  auto of_spheres = names;
+  for (const auto& check : checks::all) {
+    of_spheres.emplace_back(check.name);
+    if (!check.of_spheres_only) names.emplace_back(check.name);
+  }
+  const auto names_of = [](const std::vector<CheckLine>& lines) {
+    std::vector<std::string> found;
+    for (const auto& line : lines)
+      if (found.empty() || found.back() != line.quantity) found.push_back(line.quantity);
+    return found;
+  };
+  EXPECT_EQ(names_of(lines_of(Column())), names);
+  EXPECT_EQ(names_of(lines_of(ColumnOf<3>())), of_spheres);
 }
 
 // Between the middles of discs n and n+1 the contact carries n_above discs, so that the layer that
@@ -102,7 +52,7 @@ TEST_F(CheckedColumn, CarriesInEachLayerTheDiscsAboveAndHalfOfItsOwn)
 {
   const Column column({3, -weight});
   const Layers layers(2 * radius, length);
-  WeightSums sums(layers, {3, -weight}, small / 2);
+  WeightSums<2> sums(layers, {3, -weight}, small / 2);
   const auto& grains = column.description.grains;
   for (const auto& frame : column.frames) sums.add_to_mean(grains, frame);
   for (const auto& frame : column.frames) sums.add(grains, frame);

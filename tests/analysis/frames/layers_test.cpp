@@ -89,6 +89,45 @@ TEST(Layers, ADiscKeepsItsAreaHoweverTheLayersCutIt)
     }
 }
 
+TEST(Layers, ASphereKeepsItsVolumeHoweverTheLayersCutIt)
+{
+  for (const double thickness : {0.07, 0.3, 1.0, 2.5, 40.0})
+    for (const double y : {-0.4, 0.0, 0.35, 2.5, 3.3}) {
+      const Layers layers(thickness, 1, 1);
+      double sum = 0;
+      layers.share_grain<3>(y, 1, layers.at(y + 1) + 1, [&](std::size_t, double volume) {
+        EXPECT_GE(volume, 0);
+        sum += volume;
+      });
+      EXPECT_NEAR(sum, 4 * pi / 3, 1e-13);
+    }
+}
+
+// A cap of height h of a sphere of radius r has the volume pi h^2 (3 r - h)/3 (Archimedes).
+TEST(Layers, ASphereIsCutWhereTheEdgeIs)
+{
+  std::vector<double> volumes(3);
+  Layers(1, 2, 3).share_grain<3>(1.5, 1, 3,
+                                 [&](std::size_t n, double volume) { volumes[n] = volume; });
+  const double cap = pi * 0.25 * 2.5 / 3;
+  EXPECT_NEAR(volumes[0], cap, 1e-14);
+  EXPECT_NEAR(volumes[1], 4 * pi / 3 - 2 * cap, 1e-14);
+  EXPECT_NEAR(volumes[2], cap, 1e-14);
+}
+
+TEST(Layers, InSpaceHaveTheirAreaTimesTheirThickness)
+{
+  EXPECT_DOUBLE_EQ(Layers(0.5, 3, 7).volume(4), 10.5);
+  EXPECT_DOUBLE_EQ(Layers(0.5, 3, 7).volume_of_bed(2), 42);
+  EXPECT_DOUBLE_EQ(Layers::annuli(0.5, 3, {1, 1}, 7).volume(2), 7 * pi * 0.25 * 5);
+  EXPECT_THROW(Layers(0.5, 3, 0.0), UsageError);
+  const auto round = Layers::annuli(0.5, 3, {1, 1}, 7);
+  EXPECT_DOUBLE_EQ(round.height<3>({4, 5, 99}), 5);
+  // Outward is (0.6, 0.8, 0); round is clockwise, and z stays.
+  const Vec3 turned = round.turned<3>({0.6, 0.8, 0.5}, {4, 5, 99});
+  EXPECT_NEAR((turned - Vec3(0, 1, 0.5)).norm(), 0, 1e-15);
+}
+
 TEST(Layers, ADiscIsCutWhereTheEdgeIs)
 {
   std::vector<double> areas(3);

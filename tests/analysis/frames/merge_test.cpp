@@ -111,7 +111,7 @@ TEST(Merge, PartsOfTheCompositionMakeTheWhole)
 
 TEST(Merge, PartsOfTheMicrostructureMakeTheWhole)
 {
-  expect_parts_make_the_whole(StructureByLayer(layers, GrainArea::clipped, 0.5));
+  expect_parts_make_the_whole(StructureByLayer<2>(layers, GrainArea::clipped, 0.5));
 }
 
 TEST(Merge, PartsOfTheKineticStressAndItsMeanMakeTheWhole)

@@ -19,7 +19,7 @@ Vec2 direction(double degrees)
 
 /// Contacts whose branches have length 1, by direction.
 struct Contacts {
-  FabricSums fabric;
+  FabricSums<2> fabric;
   double number = 0, force = 0;
   Tensor2 stress = Tensor2::Zero();
 
@@ -27,7 +27,7 @@ struct Contacts {
   void add(double degrees, double f_n, double f_t = 0, double weight = 1)
   {
     const Vec2 n = direction(degrees), t{-n.y(), n.x()};
-    FabricSums one;
+    FabricSums<2> one;
     one.add(n, f_n, f_t);
     fabric.normal += weight * one.normal;
     fabric.normal_force += weight * one.normal_force;
@@ -36,7 +36,7 @@ struct Contacts {
     force += weight * f_n;
     stress += weight * (f_n * n + f_t * t) * n.transpose();
   }
-  Anisotropy anisotropy() const { return grseg::anisotropy(fabric, number, force); }
+  Anisotropy<2> anisotropy() const { return grseg::anisotropy(fabric, number, force); }
   double stress_ratio() const
   {
     const auto principal = principal_stress(stress);
@@ -88,7 +88,7 @@ TEST(Fabric, WithoutContactsThereIsNoAnisotropy)
 }
 
 /// The second-harmonic distribution of Rothenburg & Bathurst in 360 directions.
-Contacts second_harmonic(const Anisotropy& a, double f_0)
+Contacts second_harmonic(const Anisotropy<2>& a, double f_0)
 {
   Contacts contacts;
   for (int k = 0; k < 360; ++k) {
@@ -102,9 +102,9 @@ Contacts second_harmonic(const Anisotropy& a, double f_0)
 
 TEST(Fabric, AKnownDistributionIsRecoveredWhateverItsSizeAndDirections)
 {
-  for (const Anisotropy known :
-       {Anisotropy{0.4, 0.3, 0.1, 135, 130, 140}, Anisotropy{0.9, 0.8, 0.5, 20, 75, 160},
-        Anisotropy{0.05, 0.9, 0.3, 0.5, 179, 90}}) {
+  for (const Anisotropy<2> known :
+       {Anisotropy<2>{0.4, 0.3, 0.1, 135, 130, 140}, Anisotropy<2>{0.9, 0.8, 0.5, 20, 75, 160},
+        Anisotropy<2>{0.05, 0.9, 0.3, 0.5, 179, 90}}) {
     const auto a = second_harmonic(known, 7).anisotropy();
     EXPECT_NEAR(a.a_c, known.a_c, 1e-12);
     EXPECT_NEAR(a.a_n, known.a_n, 1e-12);
@@ -117,7 +117,7 @@ TEST(Fabric, AKnownDistributionIsRecoveredWhateverItsSizeAndDirections)
 
 TEST(Fabric, AnisotropiesMakeUpTheStressOfEquallyLongBranches)
 {
-  const Anisotropy known{0.9, 0.8, 0.5, 20, 75, 160};
+  const Anisotropy<2> known{0.9, 0.8, 0.5, 20, 75, 160};
   const auto contacts = second_harmonic(known, 7);
   EXPECT_NEAR(contacts.stress_ratio(), contacts.anisotropy().stress_ratio(), 1e-12);
 }

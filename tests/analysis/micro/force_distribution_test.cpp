@@ -24,18 +24,18 @@ void chain(Packing& scene, double height, Species species, const std::vector<dou
   }
 }
 
-ForceDistribution distribution(const Packing& scene, ForceUnit unit, double width = 0.1)
+ForceDistribution<2> distribution(const Packing& scene, ForceUnit unit, double width = 0.1)
 {
-  MeanNormalForce mean(layers);
+  MeanNormalForce<2> mean(layers);
   mean.add(scene.grains, scene.frame);
-  ForceDistribution forces(layers, mean, unit, width);
+  ForceDistribution<2> forces(layers, mean, unit, width);
   forces.add(scene.grains, scene.frame);
   return forces;
 }
 
 double cell(const std::vector<double>& row, const std::string& name)
 {
-  const auto names = ForceDistribution::columns();
+  const auto names = ForceDistribution<2>::columns();
   return row.at(
       static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()));
 }
@@ -53,7 +53,7 @@ TEST(ForceDistribution, EqualForcesLieInTheBinThatBeginsAtTheMean)
   Packing scene;
   chain(scene, 1, Species::small, {7, 7, 7});
   const auto rows = distribution(scene, ForceUnit::layer).rows(0);
-  ASSERT_EQ(rows.size(), ForceDistribution::bins);
+  ASSERT_EQ(rows.size(), ForceDistribution<2>::bins);
   EXPECT_EQ(cell(bin(rows, 1), "x0"), 1);
   EXPECT_EQ(cell(bin(rows, 1), "n_SS"), 3);
   EXPECT_NEAR(cell(bin(rows, 1), "P_SS"), 10, 1e-13);
@@ -115,13 +115,13 @@ TEST(ForceDistribution, CountsArePerFrameHoweverTheFramesAreMerged)
   Packing strong, weak;
   chain(strong, 1, Species::small, {3});
   chain(weak, 1, Species::small, {1});
-  MeanNormalForce mean(layers), more(layers);
+  MeanNormalForce<2> mean(layers), more(layers);
   mean.add(strong.grains, strong.frame);
   more.add(weak.grains, weak.frame);
   mean.merge(more);
   EXPECT_EQ(mean.of(0, PairType::SS), 2);
   EXPECT_EQ(mean.between_grains(0), 2);
-  ForceDistribution first(layers, mean, ForceUnit::layer, 0.1), second = first;
+  ForceDistribution<2> first(layers, mean, ForceUnit::layer, 0.1), second = first;
   first.add(strong.grains, strong.frame);
   second.add(weak.grains, weak.frame);
   first.merge(second);

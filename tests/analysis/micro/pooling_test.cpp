@@ -15,7 +15,7 @@ TEST(Pooling, WindowsArePooledAsMeansWeightedByTheirFrames)
   later.end = 2;
   later.frames = 30;
   later.sums = layer(0.5).sums * 3;
-  const auto rows = pooled({layer(0.5), later, bed_of_height(20, 0)}, Pool::windows);
+  const auto rows = pooled<2>({layer(0.5), later, bed_of_height(20, 0)}, Pool::windows);
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].frames, 40);
   EXPECT_EQ(rows[0].begin, 0);
@@ -32,7 +32,7 @@ TEST(Pooling, LayersOfLikeCompositionArePooledAndTheBedLeftOut)
 {
   auto empty = layer(0.5);
   empty.sums = {};
-  const auto rows = pooled(
+  const auto rows = pooled<2>(
       {layer(0.51), layer(0.35), layer(0.59), layer(1), layer(0.95), empty, bed_of_height(20, 0)},
       Pool::composition);
   ASSERT_EQ(rows.size(), 3u);
@@ -49,7 +49,7 @@ TEST(Pooling, RowsAreChosenByWindowAndHeightButTheBedByWindowAlone)
   auto higher = layer(0.5);
   higher.bottom = 6;
   higher.top = 8;
-  const std::vector<SumsRow> rows{layer(0.5), later, higher, bed_of_height(20, 0)};
+  const std::vector<SumsRow<2>> rows{layer(0.5), later, higher, bed_of_height(20, 0)};
   EXPECT_EQ(filtered(rows, {.end = 1}).size(), 3u);
   EXPECT_EQ(filtered(rows, {.heights = {4, 6}}).size(), 3u);
   EXPECT_EQ(filtered(rows, {.begin = 1, .heights = {.highest = 6}}).size(), 1u);

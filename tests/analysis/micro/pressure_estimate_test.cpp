@@ -20,7 +20,7 @@ const ForceMeasure exact{ContactForce::normal, ForceAverage::ends};
 
 /// A chain of touching grains, each species of one size, with forces of all sizes and directions
 /// along it, that ends on the base.
-StructureSums chain(double tangential)
+StructureSums<2> chain(double tangential)
 {
   Packing scene;
   Vec2 place{3, 1};
@@ -37,7 +37,7 @@ StructureSums chain(double tangential)
     before = grain;
     radius_before = radius;
   }
-  StructureByLayer micro(one_layer, GrainArea::clipped);
+  StructureByLayer<2> micro(one_layer, GrainArea::clipped);
   micro.add(scene.grains, scene.frame);
   return micro.mean();
 }
@@ -88,7 +88,7 @@ TEST(PressureEstimate, AnAbsentSpeciesBearsNothing)
   scene.grain(Species::small, 0.5, {1, 1});
   scene.grain(Species::small, 0.5, {2, 1});
   scene.contact(0, 1, {-3, 0});
-  StructureByLayer micro(one_layer, GrainArea::clipped);
+  StructureByLayer<2> micro(one_layer, GrainArea::clipped);
   micro.add(scene.grains, scene.frame);
   const auto pi = estimate_pressure(micro.mean(), paper, 1, 2);
   EXPECT_EQ(pi.large, 0);

@@ -17,9 +17,9 @@ namespace {
 const Layers unit_layers(1, 10);
 const Layers one_layer(10, 10);
 
-StructureByLayer micro_of(const Packing& scene, const Layers& layers, double friction = 0.5)
+StructureByLayer<2> micro_of(const Packing& scene, const Layers& layers, double friction = 0.5)
 {
-  StructureByLayer micro(layers, GrainArea::clipped, friction);
+  StructureByLayer<2> micro(layers, GrainArea::clipped, friction);
   micro.add(scene.grains, scene.frame);
   return micro;
 }
@@ -157,7 +157,7 @@ TEST(StructureByLayer, TheOrderOfTheGrainsInAContactDoesNotMatter)
 }
 
 /// Two grains side by side, the force on the right one from the left.
-StructureSums pressed(const Vec2& force, double friction)
+StructureSums<2> pressed(const Vec2& force, double friction)
 {
   Packing scene;
   scene.grain(Species::small, 1, {1, 1});
@@ -245,7 +245,7 @@ TEST(StructureByLayer, MergedSumsAreThoseOfAllFrames)
 TEST(StructureByLayer, EveryNumberStandsUnderItsColumn)
 {
   const auto micro = micro_of(pyramid(), unit_layers);
-  const auto columns = StructureByLayer::columns();
+  const auto columns = StructureByLayer<2>::columns();
   const auto layer = micro.row(1), bed = micro.bed_row();
   ASSERT_EQ(layer.size(), columns.size());
   ASSERT_EQ(bed.size(), columns.size());

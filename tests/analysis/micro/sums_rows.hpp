@@ -9,7 +9,8 @@
 namespace grseg {
 
 /// A layer of neutral contacts, from 4 to 6 in a bed of height 20.
-inline SumsRow layer(double phi_large)
+template <int D = 2>
+SumsRow<D> layer(double phi_large)
 {
   return {.begin = 0,
           .end = 1,
@@ -17,12 +18,12 @@ inline SumsRow layer(double phi_large)
           .top = 6,
           .frames = 10,
           .volume = 125,
-          .sums = neutral_contacts(phi_large, 2),
+          .sums = neutral_contacts<D>(phi_large, 2),
           .heights = {},
           .bed_height = 20};
 }
 
-inline SumsRow bed_of_height(double height, double begin)
+inline SumsRow<2> bed_of_height(double height, double begin)
 {
   auto bed = layer(0.5);
   bed.begin = begin;

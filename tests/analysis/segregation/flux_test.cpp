@@ -34,14 +34,14 @@ std::vector<Packing> film(Packing scene, int frames, const Move& move)
   return all;
 }
 
-SegregationFlux seen(const std::vector<Packing>& frames)
+SegregationFlux<2> seen(const std::vector<Packing>& frames)
 {
-  SegregationFlux flux(layers, window, small_diameter, large_diameter);
+  SegregationFlux<2> flux(layers, window, small_diameter, large_diameter);
   for (const auto& scene : frames) flux.add(scene.grains, scene.frame);
   return flux;
 }
 
-SegregationFlux seen(const Packing& scene, int frames, const Move& move)
+SegregationFlux<2> seen(const Packing& scene, int frames, const Move& move)
 {
   return seen(film(scene, frames, move));
 }
@@ -73,7 +73,7 @@ TEST(SegregationFlux, AKnownFluxIsFound)
   EXPECT_NEAR(layer.value.q_small, -0.2 / 3, 1e-14);
   EXPECT_NEAR(layer.error.q_large, 0, 1e-14);
   EXPECT_NEAR(layer.flow.v, 0.3, 1e-14);
-  EXPECT_NEAR(layer.area_large, std::numbers::pi * 4e-4, 1e-15);
+  EXPECT_NEAR(layer.content_large, std::numbers::pi * 4e-4, 1e-15);
   const auto pure = flux.results(scene.grains, 2)[0];
   EXPECT_EQ(pure.value.phi_large, 0);
   EXPECT_EQ(pure.value.w_small, 0);
@@ -252,7 +252,7 @@ TEST(SegregationFlux, DiffusivitiesAreMeasuredInShearAndMeanDiameter)
 TEST(SegregationFlux, FramesMayBeAddedInParts)
 {
   const auto frames = walk(3);
-  SegregationFlux sum(layers, window, small_diameter, large_diameter);
+  SegregationFlux<2> sum(layers, window, small_diameter, large_diameter);
   for (std::size_t k = 0; k < frames.size(); k += 3)
     sum.merge(seen({frames.begin() + static_cast<std::ptrdiff_t>(k),
                     frames.begin() + static_cast<std::ptrdiff_t>(std::min(k + 3, frames.size()))}));
@@ -263,7 +263,7 @@ TEST(SegregationFlux, FramesMayBeAddedInParts)
     EXPECT_EQ(parts[n].value.D_small, once[n].value.D_small);
     EXPECT_EQ(parts[n].error.D2_large, once[n].error.D2_large);
     EXPECT_NEAR(parts[n].value.phi_large, once[n].value.phi_large, 1e-14);
-    EXPECT_NEAR(parts[n].area_small, once[n].area_small, 1e-14);
+    EXPECT_NEAR(parts[n].content_small, once[n].content_small, 1e-14);
   }
 }
 
@@ -283,7 +283,7 @@ TEST(SegregationFlux, EveryNumberStandsUnderItsColumn)
   });
   const auto result = flux.results(scene.grains, 2)[1];
   std::map<std::string, double> cells;
-  for (const auto& cell : SegregationFlux::cells(result)) cells[cell.column] = cell.value;
+  for (const auto& cell : result.cells(2)) cells[cell.column] = cell.value;
   EXPECT_EQ(cells.size(), 7 + 2 * 15u);
   EXPECT_NEAR(cells.at("area_L[m^2]"), std::numbers::pi * 4e-4, 1e-15);
   EXPECT_NEAR(cells.at("v[m/s]"), 0.3, 1e-14);

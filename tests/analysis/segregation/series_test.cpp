@@ -29,7 +29,7 @@ Packing shear(double rate, double kink)
 
 TEST(SegregationSeries, HeightsAndShearRateAreThoseOfTheBed)
 {
-  SegregationSeries series(layers);
+  SegregationSeries<2> series(layers);
   const auto scene = shear(3, 50);
   series.add(scene.grains, scene.frame);
   const auto& now = series.moments()[0];
@@ -42,7 +42,7 @@ TEST(SegregationSeries, HeightsAndShearRateAreThoseOfTheBed)
 // A rate that grows linearly in time from 1 to 5 over 2 s makes a strain of 6.
 TEST(SegregationSeries, StrainIsTheIntegralOfTheShearRate)
 {
-  SegregationSeries whole(layers), first(layers), second(layers);
+  SegregationSeries<2> whole(layers), first(layers), second(layers);
   for (int k = 0; k <= 20; ++k) {
     auto scene = shear(1 + 0.2 * k, 0);
     scene.frame.time = 5 + 0.1 * k;
@@ -58,13 +58,13 @@ TEST(SegregationSeries, StrainIsTheIntegralOfTheShearRate)
 
 /// y_L rises exponentially in strain; the shear rate falls from 20 to 10 over the run; the mixing
 /// index is a parabola with its top at 16.3 s.
-std::vector<SegregationSeries::Moment> history(int count, double scatter)
+std::vector<SegregationMoment> history(int count, double scatter)
 {
   std::mt19937 random(4);
   std::normal_distribution<double> kick(0, scatter);
-  std::vector<SegregationSeries::Moment> moments;
+  std::vector<SegregationMoment> moments;
   for (int k = 0; k < count; ++k) {
-    SegregationSeries::Moment now;
+    SegregationMoment now;
     now.time = 2 + 0.05 * k;
     const double t = 0.05 * k;
     now.strain = 20 * t - t * t / 10;

@@ -348,6 +348,36 @@ TEST(KineticStress, EquipartitionIsAQuestionOfEnergyPerGrain)
   EXPECT_TRUE(kinetic({small_alone}, MeanFlow::profile).equipartition(0).array().isNaN().all());
 }
 
+// A cloud of spheres that moves as a whole: what is left are its own fluctuations, of which those of
+// rotation are 2/5 m r^2 dw^2 about each axis.
+TEST(KineticStress, OfSpheresHasThreeComponentsAndThreeSpins)
+{
+  PackingOf<3> packing;
+  const Vec3 drift{3, -1, 2}, turning{5, 7, -4};
+  const Vec3 kicks[] = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {0.5, 0.5, 0.5}};
+  const Vec3 spins[] = {{0.1, 0, 0}, {0, 0.2, 0}, {0, 0, 0.3}, {0.2, 0.2, 0.2}};
+  Tensor3 expected = Tensor3::Zero();
+  double rotational = 0;
+  const double radius = 0.1, mass = 4 * std::numbers::pi / 3 * 0.001;
+  for (int k = 0; k < 4; ++k)
+    for (const double sign : {1.0, -1.0}) {
+      packing.grain(Species::large, radius, {0.3 * k, 0.5, 0.1}, drift + sign * kicks[k],
+                    turning + sign * spins[k]);
+      expected += mass * kicks[k] * kicks[k].transpose();
+      rotational += 0.4 * mass * radius * radius * spins[k].squaredNorm();
+    }
+  const Layers layers(1, 2, 3);
+  MeanVelocity<3> mean(layers, bin);
+  mean.add(packing.grains, packing.frame);
+  KineticStress<3> stress(layers, MeanFlow::layer, mean);
+  stress.add(packing.grains, packing.frame);
+  const auto own = stress.mean(0, Species::large);
+  EXPECT_TRUE(same(own.about_mean.kinetic, expected, 1e-15));
+  EXPECT_NEAR(own.about_mean.rotational, rotational, 1e-17);
+  EXPECT_NEAR(own.temperature()[2], expected(2, 2) / (8 * mass), 1e-13);
+  EXPECT_NEAR(stress.flow(0).u, 3, 1e-14);
+}
+
 TEST(KineticStress, ColumnsAndNumbersAgreeInCount)
 {
   const auto stress = kinetic({column([](double) { return Vec2{1, 0}; })}, MeanFlow::layer);

@@ -6,49 +6,19 @@
 #include "formats/export/lammps_writer.hpp"
 #include "formats/export/poly_data.hpp"
 #include "formats/export/vtp_writer.hpp"
+#include "tests/formats/export/exported.hpp"
 #include "tests/three_grains.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <sstream>
 
 namespace grseg {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string content(const fs::path& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::vector<std::string> lines_of(const std::string& text)
-{
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
-/// The array `name` of a .vtp, found by its offset behind the underscore.
-template <class Number>
-std::vector<Number> array_in(const std::string& vtp, const std::string& name)
-{
-  const auto at = vtp.find("offset=\"", vtp.find("Name=\"" + name + "\"")) + 8;
-  const auto begin = vtp.find("\n_") + 2 + std::stoul(vtp.substr(at));
-  std::uint64_t bytes = 0;
-  std::memcpy(&bytes, vtp.data() + begin, sizeof bytes);
-  std::vector<Number> values(bytes / sizeof(Number));
-  std::memcpy(values.data(), vtp.data() + begin + sizeof bytes, bytes);
-  return values;
-}
 
 /// Three grains, of which the large one (row 0, id 7) also touches straight wall 1 on its left, and
 /// the small one (row 1) a periodic image of the large one: the one at x = 0.001, the other at

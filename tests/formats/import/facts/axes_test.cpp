@@ -10,15 +10,15 @@ namespace {
 
 const double sin_30 = 0.5, cos_30 = std::sqrt(3) / 2;
 
-Plane plane(const std::string& letters, const Vec3& gravity, std::optional<double> slope = {})
+Orientation plane(const std::string& letters, const Vec3& gravity, std::optional<double> slope = {})
 {
-  return plane_of(letters, GravityText{std::nullopt, gravity}, slope);
+  return orientation_of(letters, GravityText{std::nullopt, gravity}, slope, 2);
 }
 
 /// Velocity of the point of a disc that touches a base below it, in the plane of the flow.
 double slip(const Axes& axes, const Vec3& velocity, const Vec3& angular_velocity, double radius)
 {
-  return axes.in_plane(velocity).x() + axes.counter_clockwise(angular_velocity) * radius;
+  return axes.components<2>(velocity).x() + axes.spin<2>(angular_velocity) * radius;
 }
 
 // Without slip v + omega x (r_contact - x) = 0, a product that is right-handed in whatever axes.
@@ -38,55 +38,55 @@ TEST(Axes, ARollingDiscRollsInEveryPlane)
       EXPECT_DOUBLE_EQ(slip(axes, velocity, spin, radius), 0) << letters;
     }
   }
-  EXPECT_EQ(Axes("xz").counter_clockwise({0, 2, 0}), -2);
-  EXPECT_EQ(Axes("xy").counter_clockwise({0, 0, 2}), 2);
+  EXPECT_EQ(Axes("xz").spin<2>({0, 2, 0}), -2);
+  EXPECT_EQ(Axes("xy").spin<2>({0, 0, 2}), 2);
 }
 
 TEST(Axes, GravityAloneTurnsNothing)
 {
   const auto p = plane("xz", {5, 0, -8});
-  EXPECT_EQ(p.gravity, Vec2(5, -8));
-  EXPECT_EQ(p.axes.in_plane({1, 2, 3}), Vec2(1, 3));
-  EXPECT_EQ(p.axes.axis_of_x(), 0);
+  EXPECT_EQ(p.gravity, Vec3(5, -8, 0));
+  EXPECT_EQ(p.axes.components<2>({1, 2, 3}), Vec2(1, 3));
+  EXPECT_EQ(p.axes.axis_of(0), 0);
 }
 
 TEST(Axes, FlowToTheLeftIsLookedAtFromBehind)
 {
   const auto p = plane("xy", {-5, -8, 0});
-  EXPECT_EQ(p.gravity, Vec2(5, -8));
-  EXPECT_EQ(p.axes.in_plane({1, 2, 0}), Vec2(-1, 2));
-  EXPECT_EQ(p.axes.counter_clockwise({0, 0, 3}), -3);
-  EXPECT_FALSE(p.axes.x_is_forward());
+  EXPECT_EQ(p.gravity, Vec3(5, -8, 0));
+  EXPECT_EQ(p.axes.components<2>({1, 2, 0}), Vec2(-1, 2));
+  EXPECT_EQ(p.axes.spin<2>({0, 0, 3}), -3);
+  EXPECT_FALSE(p.axes.is_forward(0));
 }
 
 TEST(Axes, VerticalGravityIsTurnedToTheSlopeOfTheBase)
 {
   const auto p = plane("xy", {0, -10, 0}, 30);
-  EXPECT_TRUE(p.gravity.isApprox(Vec2(10 * sin_30, -10 * cos_30)));
+  EXPECT_TRUE(p.gravity.isApprox(Vec3(10 * sin_30, -10 * cos_30, 0)));
   // Down the slope of a base that falls to the right.
-  EXPECT_TRUE(p.axes.in_plane({cos_30, -sin_30, 0}).isApprox(Vec2(1, 0)));
-  EXPECT_TRUE(p.axes.in_plane({sin_30, cos_30, 0}).isApprox(Vec2(0, 1)));
-  EXPECT_NEAR(p.axes.counter_clockwise({0, 0, 3}), 3, 1e-15);
-  EXPECT_FALSE(p.axes.axis_of_x());
+  EXPECT_TRUE(p.axes.components<2>({cos_30, -sin_30, 0}).isApprox(Vec2(1, 0)));
+  EXPECT_TRUE(p.axes.components<2>({sin_30, cos_30, 0}).isApprox(Vec2(0, 1)));
+  EXPECT_NEAR(p.axes.spin<2>({0, 0, 3}), 3, 1e-15);
+  EXPECT_FALSE(p.axes.axis_of(0));
 }
 
 TEST(Axes, AVectorOfFewDigitsThatHasTheSlopeTurnsNothing)
 {
   const auto p = plane("xy", {3.83, -9.02, 0}, 23);
-  EXPECT_EQ(p.axes.axis_of_x(), 0);
-  EXPECT_EQ(p.gravity, Vec2(3.83, -9.02));
+  EXPECT_EQ(p.axes.axis_of(0), 0);
+  EXPECT_EQ(p.gravity, Vec3(3.83, -9.02, 0));
 }
 
 TEST(Axes, AMagnitudeNeedsASlope)
 {
-  const auto p = plane_of("xy", parse_gravity("10"), 30);
-  EXPECT_TRUE(p.gravity.isApprox(Vec2(5, -10 * cos_30)));
-  EXPECT_THROW(plane_of("xy", parse_gravity("10"), std::nullopt), UsageError);
+  const auto p = orientation_of("xy", parse_gravity("10"), 30, 2);
+  EXPECT_TRUE(p.gravity.isApprox(Vec3(5, -10 * cos_30, 0)));
+  EXPECT_THROW(orientation_of("xy", parse_gravity("10"), std::nullopt, 2), UsageError);
 }
 
 TEST(Axes, SignsOfZerosSurvive)
 {
-  EXPECT_TRUE(std::signbit(Axes("xy").in_plane({-0.0, 1, 2}).x()));
+  EXPECT_TRUE(std::signbit(Axes("xy").components<2>({-0.0, 1, 2}).x()));
 }
 
 TEST(Axes, AWrongPlaneOrGravityIsRefused)
@@ -97,6 +97,33 @@ TEST(Axes, AWrongPlaneOrGravityIsRefused)
   for (const char* text : {"", "down", "1,2", "1,2,3,4", "1,,2", "-9.8", "nan", "1,2,x"})
     EXPECT_THROW(parse_gravity(text), UsageError) << text;
   EXPECT_EQ(*parse_gravity("1,-2,0.5").vector, Vec3(1, -2, 0.5));
+}
+
+TEST(Axes, AcrossIsWhatMakesThemRightHanded)
+{
+  EXPECT_EQ(Axes("xy").components<3>({1, 2, 3}), Vec3(1, 2, 3));
+  EXPECT_EQ(Axes("xz").components<3>({1, 2, 3}), Vec3(1, 3, -2));
+  EXPECT_EQ(Axes("yz").components<3>({1, 2, 3}), Vec3(2, 3, 1));
+  EXPECT_EQ(Axes("xz").spin<3>({1, 2, 3}), Vec3(1, 3, -2));
+  EXPECT_EQ(Axes("xz").axis_of(2), 1);
+  EXPECT_FALSE(Axes("xz").is_forward(2));
+}
+
+TEST(Axes, FromBehindAcrossIsTheOtherWayToo)
+{
+  const auto p = orientation_of("xz", parse_gravity("-5,1,-8"), {}, 3);
+  EXPECT_EQ(p.gravity, Vec3(5, -8, 1));
+  EXPECT_EQ(p.axes.components<3>({1, 2, 3}), Vec3(-1, 3, 2));
+  EXPECT_EQ(p.axes.spin<3>({1, 2, 3}), Vec3(-1, 3, 2));
+  EXPECT_TRUE(p.axes.is_forward(2));
+}
+
+TEST(Axes, GravityInSpaceKeepsItsComponentAcross)
+{
+  const auto p = orientation_of("xy", parse_gravity("0,-10,2"), 30, 3);
+  EXPECT_TRUE(p.gravity.isApprox(Vec3(10 * sin_30, -10 * cos_30, 2)));
+  EXPECT_EQ(p.axes.axis_of(2), 2);
+  EXPECT_THROW(orientation_of("xy", parse_gravity("0,-10,2"), 30, 2), UsageError);
 }
 
 }  // namespace

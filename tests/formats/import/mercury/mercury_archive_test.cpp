@@ -2,6 +2,7 @@
 #include "formats/import/mercury/mercury_archive.hpp"
 
 #include "tests/formats/import/archive_balance.hpp"
+#include "tests/formats/import/flow_in_space.hpp"
 #include "tests/formats/import/mercury_files.hpp"
 
 #include <gtest/gtest.h>
@@ -273,6 +274,86 @@ TEST_F(Mercury, FilesOfDifferentRunsAndDamageAreNamedByLine)
   fewer.radius.pop_back();
   other.restart = file("fewer.restart", mercury_files::restart(fewer, run));
   EXPECT_NE(complaint(other).find("the number of grains must not change"), std::string::npos);
+}
+
+/// A flow in space in the files that MercuryDPM would write of it, rows being grains by id.
+class MercuryInSpace : public testing::Test {
+ protected:
+  lammps_text::Folder folder;
+
+  ImportSettings settings_of(const flow_in_space::Flow& flow, const flow_in_space::View& view,
+                             const Style& style) const
+  {
+    const flow_in_space::Cell cell(flow, view);
+    std::vector<mercury_files::Period> periods;
+    for (int axis = 0; axis < 3; ++axis)
+      if (cell.periodic[static_cast<std::size_t>(axis)])
+        periods.push_back({Vec3::Unit(axis), cell.low[axis], cell.high[axis]});
+    Frame<3> seen = flow.frame;
+    for (std::size_t g = 0; g < flow.grains.size(); ++g) {
+      seen.position[g] = cell.place(flow.frame.position[g]);
+      seen.velocity[g] = view.turn * flow.frame.velocity[g];
+      seen.angular_velocity[g] = view.turn * flow.frame.angular_velocity[g];
+    }
+    for (std::size_t c = 0; c < seen.contacts.size(); ++c) {
+      seen.contacts.force[c] = view.turn * flow.frame.contacts.force[c];
+      seen.contacts.branch[c] = view.turn * flow.frame.contacts.branch[c];
+    }
+    ImportSettings s;
+    s.format = "mercury";
+    s.files.grains = {
+        folder.write("run.data", mercury_files::data(flow.grains, flow.box, seen, style))};
+    s.files.contacts = {folder.write("run.fstat", mercury_files::fstat(flow.grains, seen, style))};
+    s.files.restart = folder.write(
+        "run.restart",
+        mercury_files::restart(flow.grains, 1e-3, view.turn * flow.gravity, 3, periods));
+    s.units = "si";
+    s.axes = view.axes;
+    s.output = folder / "run.h5";
+    s.overwrite = true;
+    return s;
+  }
+};
+
+TEST_F(MercuryInSpace, IsTheSameInWhateverAxesAndFormat)
+{
+  flow_in_space::Flow flow;
+  // A wall's contact point is where it cuts its normal through the grain.
+  flow.add_contact(3, -2, {0.5, 3, -0.75}, 0.48 * Vec3(0.36, 0.8, 0.48), -0.02);
+  for (const auto& view : flow_in_space::views())
+    for (const int format : {14, 15, 7}) {
+      const auto s = settings_of(flow, view, {.format = format});
+      import_archive(s, "");
+      const TrajectoryReader run(s.output);
+      Frame<3> frame;
+      run.read(0, frame);
+      EXPECT_NEAR(run.box().length_x, 7, 1e-13);
+      EXPECT_NEAR(run.box().length_z, 5, 1e-13);
+      EXPECT_LT((run.gravity<3>().start - flow.gravity).norm(), 1e-13);
+      for (std::size_t g = 0; g < 4; ++g) {
+        EXPECT_LT((frame.position[g] - flow.frame.position[g]).norm(), 1e-13) << view.axes;
+        EXPECT_LT((frame.velocity[g] - flow.frame.velocity[g]).norm(), 1e-9) << view.axes;
+        const Vec3 spin = format == 7 ? Vec3(0, 0, 0) : flow.frame.angular_velocity[g];
+        EXPECT_LT((frame.angular_velocity[g] - spin).norm(), 1e-9) << view.axes;
+      }
+      const auto &contacts = frame.contacts, &meant = flow.frame.contacts;
+      EXPECT_EQ(contacts.i, meant.i);
+      EXPECT_EQ(contacts.j, meant.j);
+      for (std::size_t c = 0; c < meant.size(); ++c) {
+        EXPECT_LT((contacts.force[c] - meant.force[c]).norm(), 1e-7) << view.axes;
+        EXPECT_LT((contacts.branch[c] - meant.branch[c]).norm(), 1e-8) << view.axes;
+      }
+    }
+}
+
+TEST_F(MercuryInSpace, APeriodBesideTheAxesIsRefused)
+{
+  auto s = settings_of({}, flow_in_space::views()[0], {.format = 14});
+  auto restart = lammps_text::read(s.files.restart);
+  restart.replace(restart.find("normal 0 0 1"), 12, "normal 0 0.6 0.8");
+  s.files.restart = folder.write("run.restart", restart);
+  EXPECT_TRUE(lammps_text::mentions(lammps_text::refusal(s).sentence,
+                                    "is periodic along none of the axes, which is not imported"));
 }
 
 }  // namespace

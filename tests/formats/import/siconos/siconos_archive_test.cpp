@@ -21,6 +21,7 @@ using namespace archive_balance;
 
 const std::string inputs = GRSEG_TEST_INPUTS "/siconos/";
 const std::string discs = inputs + "discs.hdf5", spheres = inputs + "spheres.hdf5";
+const std::string spheres_in_space = inputs + "spheres3d.hdf5";
 constexpr double pi = std::numbers::pi;
 const Vec3 slope{9.81 * std::sin(10 * pi / 180), -9.81 * std::cos(10 * pi / 180), 0};
 
@@ -116,37 +117,67 @@ TEST(SiconosArchive, GrainsBalanceInSinglePrecision)
   EXPECT_NE(archive->remarks()[0].find("4 rows of /data/cf"), std::string::npos);
 }
 
-TEST(SiconosArchive, TorquesOfTheForcesTurnTheGrains)
-{
-  const auto archive = open(discs);
-  const auto moments = all_of(*archive);
+/// How many grains of an archive turn as the torques of their contact forces say, and how many do
+/// not.
+struct Turning {
   int close = 0, apart = 0;
+};
+Turning turning_in(const std::string& path, double inertia)
+{
+  const auto archive = open(path);
+  const auto moments = all_of(*archive);
+  Turning counts;
   for (std::size_t k = 1; k < moments.size(); ++k) {
     const auto& grains = moments[k].grains;
     const auto& before = moments[k - 1].grains;
     const auto& contacts = moments[k].contacts;
     const auto entry = entries(grains);
-    std::vector<double> torque(grains.size(), 0);
+    std::vector<Vec3> torque(grains.size(), Vec3::Zero());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const Vec3 n = contacts.branch[c].normalized();
       const auto turn = [&](std::int64_t id) {
-        torque[entry.at(id)] -= grains.radius[entry.at(id)] * n.cross(contacts.force[c]).z();
+        torque[entry.at(id)] -= grains.radius[entry.at(id)] * n.cross(contacts.force[c]);
       };
       turn(contacts.i[c]);
       if (!at_wall(contacts, c)) turn(contacts.j[c]);
     }
     for (std::size_t g = 0; g < grains.size(); ++g) {
       if (grains.fixed[g]) continue;
-      const double inertia = 0.5 * grains.mass[g] * grains.radius[g] * grains.radius[g];
-      const double change = grains.angular_velocity[g].z() - before.angular_velocity[g].z();
-      const double turned = inertia * change / *archive->facts().step;
+      const double moment = inertia * grains.mass[g] * grains.radius[g] * grains.radius[g];
+      const Vec3 change = grains.angular_velocity[g] - before.angular_velocity[g];
+      const Vec3 turned = moment * change / *archive->facts().step;
       const double arm = 0.02 * largest_force(contacts) * grains.radius[g] + 1e-6;
-      ++(std::abs(torque[g] - turned) < arm ? close : apart);
+      ++((torque[g] - turned).norm() < arm ? counts.close : counts.apart);
     }
   }
-  // Its collision library (Bullet) gives some overlapping discs a normal beside the line of
-  // centres.
-  EXPECT_GT(close, 9 * apart);
+  return counts;
+}
+
+// Its collision library (Bullet) gives some overlapping discs a normal beside the line of centres.
+TEST(SiconosArchive, TorquesOfTheForcesTurnTheGrains)
+{
+  const auto plane = turning_in(discs, 0.5), space = turning_in(spheres_in_space, 0.4);
+  EXPECT_GT(plane.close, 9 * plane.apart);
+  EXPECT_GT(space.close, 9 * space.apart);
+}
+
+TEST(SiconosArchive, SpheresThatFallObliquelyBalanceInAllComponents)
+{
+  const auto archive = open(spheres_in_space);
+  const auto moments = all_of(*archive);
+  const Vec3 pull{slope.x(), 0, slope.y()};
+  Vec3 largest = Vec3::Zero();
+  std::size_t with_plate = 0;
+  for (const auto& moment : moments) {
+    EXPECT_LT(residual(moment, pull), 1e-5);
+    for (std::size_t c = 0; c < moment.contacts.size(); ++c) {
+      largest = largest.cwiseMax(moment.contacts.force[c].cwiseAbs());
+      with_plate += at_wall(moment.contacts, c);
+    }
+  }
+  EXPECT_EQ(moments.size(), 50u);
+  EXPECT_GT(largest.minCoeff(), 0.5) << "N";
+  EXPECT_EQ(with_plate, 85u);
 }
 
 TEST(SiconosArchive, StaticPartnersAreFoundByTheirSurface)

@@ -36,7 +36,7 @@ struct Scene {
     frame.contacts.branch = {{0, 2}};
     frame.contacts.gap = {0};
   }
-  Verification verification(double tolerance = 1e-10) const
+  Verification<2> verification(double tolerance = 1e-10) const
   {
     return {grains, box, gravity, OutputAccuracy{tolerance, false, 0, 0.5}};
   }
@@ -128,8 +128,8 @@ TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsTheMissingForc
   Scene scene;
   scene.frame.force[1] = {0, 6};
   scene.frame.contacts.force[0] = {0, 36 - 7 * 3 * 2 * 0.05};
-  Verification verification(scene.grains, scene.box, scene.gravity,
-                            OutputAccuracy{1e-10, true, 0.1, 0.5});
+  Verification<2> verification(scene.grains, scene.box, scene.gravity,
+                               OutputAccuracy{1e-10, true, 0.1, 0.5});
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_NEAR(verification.residual()->late->normal, 7, 1e-12);
   EXPECT_EQ(verification.residual()->late->tangential, 0);
@@ -156,6 +156,95 @@ TEST(Verification, WithoutForcesVelocitiesOfTwoMomentsAreUsed)
   const auto complaint = verification.check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(mentions(complaint->sentence, "difference of velocities between two moments"));
+}
+
+/// The same with spheres: one that falls, and one on a base sphere in an oblique direction, across
+/// both periods.
+struct SceneInSpace {
+  Grains grains = Scene().grains;
+  Box box{10, 10, true, 3, 8, true};
+  Vec3 gravity{3, -10, 1};
+  Vec3 n{0.48, 0.6, 0.64};
+  Frame<3> frame;
+
+  SceneInSpace()
+  {
+    frame.position = {{5, 5, 4}, {0.46, 1.2, 0.28}, {9.5, 0, 7}};
+    frame.velocity.assign(3, Vec3::Zero());
+    frame.force = {2 * gravity, {0, 0, 0}, {0, 0, 0}};
+    frame.contacts.i = {1};
+    frame.contacts.j = {2};
+    frame.contacts.force = {-3 * gravity};
+    frame.contacts.branch = {2 * n};
+    frame.contacts.gap = {0};
+  }
+  std::string complaint(double tolerance = 1e-10) const
+  {
+    const auto found =
+        Verification<3>(grains, box, gravity, OutputAccuracy{tolerance, false, 0, 0.4})
+            .check(frame);
+    return found ? found->sentence : "no complaint";
+  }
+};
+
+TEST(VerificationInSpace, FindsWhatIsWrongInEachComponent)
+{
+  EXPECT_EQ(SceneInSpace().complaint(), "no complaint");
+  for (int k = 0; k < 3; ++k) {
+    SceneInSpace scene;
+    scene.frame.contacts.force[0][k] += 0.01;
+    EXPECT_TRUE(mentions(scene.complaint(), "the forces on grain 2 do not add up")) << k;
+    scene = {};
+    scene.frame.contacts.branch[0][k] += 0.05;
+    EXPECT_TRUE(mentions(scene.complaint(), "grains 2 and 3 are listed as touching")) << k;
+    scene = {};
+    scene.frame.position[1][k] += 0.05;
+    EXPECT_TRUE(mentions(scene.complaint(), "grains 2 and 3 are listed as touching")) << k;
+  }
+  SceneInSpace scene;
+  scene.box.periodic_z = false;
+  EXPECT_TRUE(mentions(scene.complaint(), "is the cell periodic as the archive says?"));
+}
+
+TEST(VerificationInSpace, SaysWhichOtherReadingFits)
+{
+  SceneInSpace scene;
+  const Vec3 right = scene.frame.contacts.force[0], n = scene.n;
+  scene.frame.contacts.force[0] = 2 * right.dot(n) * n - right;
+  EXPECT_TRUE(mentions(scene.complaint(), "with the tangential part reversed"));
+  scene.frame.contacts.force[0] = 2 * right;
+  EXPECT_TRUE(mentions(scene.complaint(), "with half of every force"));
+}
+
+// A force f of the contact at mid-step is F - c_n m a_n h/2 along n and, with the rim's acceleration
+// a_t - r alpha x n = a_t + F_t/(0.4 m), likewise along the tangents; then m a = F at mid-step + m g.
+TEST(VerificationInSpace, LateDampingOfARollingSphereIsFoundInEveryDirection)
+{
+  SceneInSpace scene;
+  const double m = 3, half_step = 0.05, c_n = 3, c_t = 2;
+  const Vec3 n = scene.n, weight = m * scene.gravity, force(9, 30, -4);
+  const auto normal = [&](const Vec3& v) { return Vec3(v.dot(n) * n); };
+  const Vec3 along_n = normal(force + weight), friction = force - normal(force);
+  const Vec3 along_t = force + weight - along_n;
+  scene.frame.contacts.force[0] = force;
+  scene.frame.force[1] = along_n / (1 - c_n * half_step) +
+                         (along_t + c_t * half_step * friction / 0.4) / (1 - c_t * half_step);
+  // The falling sphere slides along a wall without an acceleration away from it.
+  auto& contacts = scene.frame.contacts;
+  contacts.i.push_back(0);
+  contacts.j.push_back(-1);
+  contacts.branch.emplace_back(0, 0.5, 0);
+  contacts.gap.push_back(0);
+  contacts.force.emplace_back(40, 20, -30);
+  scene.frame.force[0] = 2 * scene.gravity + contacts.force[1];
+  Verification<3> verification(scene.grains, scene.box, scene.gravity,
+                               OutputAccuracy{1e-10, true, 2 * half_step, 0.4});
+  const auto complaint = verification.check(scene.frame);
+  EXPECT_FALSE(complaint) << complaint->sentence;
+  EXPECT_NEAR(verification.residual()->late->normal, c_n, 1e-12);
+  EXPECT_NEAR(verification.residual()->late->tangential, c_t, 1e-12);
+  EXPECT_GT(verification.residual()->largest, 0.05);
+  EXPECT_LT(verification.residual()->unexplained, 1e-14);
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/fit_pairs.hpp"
+
+#include "analysis/fit/size_exponent.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grseg {
+namespace {
+
+std::size_t find_species(const std::string& word, const SpeciesList& species,
+                         const std::string& text)
+{
+  std::string names;
+  for (std::size_t k = 0; k < species.size(); ++k) {
+    if (word == species[k].name || word == std::to_string(k + 1)) return k;
+    names += fmt::format("{}{}", k == 0 ? "" : ", ", species[k].name);
+  }
+  throw UsageError(fmt::format("--pair {}: write two species of the table, as in {},{}; it has {}",
+                               text, species.front().name, species.back().name, names));
+}
+
+}  // namespace
+
+SpeciesPair parse_pair(const std::string& text, const SpeciesList& species)
+{
+  const auto comma = text.find(',');
+  const auto a = find_species(text.substr(0, comma), species, text);
+  const auto b =
+      find_species(comma == std::string::npos ? "" : text.substr(comma + 1), species, text);
+  if (a == b) throw UsageError(fmt::format("--pair {}: both are the same species", text));
+  return {std::min(a, b), std::max(a, b)};
+}
+
+std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity quantity,
+                               const FitFilters& filters, const std::vector<SpeciesPair>& pairs,
+                               const std::vector<PartitionRule>& rules, const FitSettings& settings,
+                               const Resampling& resampling, bool with_exponent)
+{
+  const auto data = select_fit_data(tables, quantity, filters, pairs);
+  const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
+  std::vector<RuleFit> fits;
+  for (const auto& rule : rules) {
+    const auto first = fits.size();
+    for (const auto& pair : pairs) {
+      if (pairs.size() == 1) {
+        fits.push_back(fit_rule(data, rule, settings, bootstrap));
+        continue;
+      }
+      const auto of_pair = select_fit_data(tables, quantity, filters, {pair});
+      fits.push_back(fit_rule(of_pair, rule, settings,
+                              Bootstrap(of_pair.runs, resampling.samples, resampling.seed)));
+    }
+    if (!with_exponent || !rule.adds_up()) continue;
+    const auto exponent = size_exponent(data, rule, settings, bootstrap);
+    for (auto fit = first; fit < fits.size(); ++fit) fits[fit].size_exponent = exponent;
+  }
+  return fits;
+}
+
+}  // namespace grseg

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/size_exponent.hpp"
+
+#include "analysis/fit/estimators.hpp"
+#include "analysis/fit/rule_fit.hpp"
+#include "analysis/fit/window_sums.hpp"
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+/// Points of which B_mean, minus the weighted mean of ln(y/x), is a: the logarithms over ln r, and
+/// weights that give the least-squares slope.
+std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
+{
+  std::vector<FitPoint> scaled;
+  for (auto point : points) {
+    const double size = std::log(point.size_ratio);
+    if (!point.has_logarithm() || !(size > 0)) continue;
+    const double slope = std::pow(point.small / point.large / point.ratio(), 1 / size);
+    point.weight *= size * size;
+    point.large = 1;
+    point.small = slope * point.ratio();
+    point.total = point.small + point.large;
+    scaled.push_back(point);
+  }
+  return scaled;
+}
+
+}  // namespace
+
+Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
+                       const Bootstrap& bootstrap)
+{
+  const auto points = points_per_size(fit_points(data, rule, settings));
+  Estimate a{estimators_of(points).B_mean};
+  if (points.empty() || bootstrap.count() == 0) return a;
+  const auto windows = window_sums(points, data.runs);
+  const Dependence how_dependent = dependence(data, rule, settings);
+  const Eigen::MatrixXd totals = windows.totals(bootstrap.samples(how_dependent));
+  Eigen::VectorXd samples(totals.rows());
+  for (Eigen::Index k = 0; k < samples.size(); ++k)
+    samples[k] = estimators_from_sums(totals.row(k)).B_mean;
+  const auto interval = bootstrap.interval(a.value, samples, how_dependent);
+  return {a.value, interval.low, interval.high};
+}
+
+}  // namespace grseg

@@ -1,0 +1,215 @@
+"""What the tools compute, by its definition: one loop over contacts, one over grains, slow and plain
+on purpose. All results are means per frame, by layer.
+
+Species a and b of a mixed contact are numbered by size, so that a < b and b is the larger one.
+"""
+import collections
+import math
+
+import numpy as np
+
+POWER = 2.0  # Q of power:Q
+
+
+def layer_of(y, h):
+    """Layer n is [n h, (n+1) h); the first also takes all below."""
+    return max(0, math.floor(y / h))
+
+
+def layers_of(run, frames, h):
+    """As many layers as the highest grain reaches."""
+    top = max((f["position"][:, 1] + run.radius)[run.mobile].max() for f in frames)
+    return math.ceil(top / h)
+
+
+def by_layer(layers, *shape):
+    return collections.defaultdict(lambda: np.zeros((layers, *shape)))
+
+
+def shares_of_layers(low, high, h, layers):
+    """Of a stretch between two heights: which part of it lies in which layer."""
+    low, high = min(low, high), max(low, high)
+    first, last = (min(layer_of(y, h), layers - 1) for y in (low, high))
+    if first == last:
+        return {first: 1.0}
+    edges = [low] + [n * h for n in range(first + 1, last + 1)] + [high]
+    return {first + k: (edges[k + 1] - edges[k]) / (high - low) for k in range(last - first + 1)}
+
+
+def contacts_of(run, frame):
+    """Contacts that bear a force, with what the definitions need of them."""
+    for force, branch, gap, i, j in zip(*(frame[name] for name in ("force", "branch", "gap", "i", "j"))):
+        if not force.any():
+            continue
+        r_i, r_j = run.radius[i], run.radius[j] if j >= 0 else 0.0
+        part_i = 1.0 if j < 0 else (r_i + gap / 2) / (r_i + r_j + gap)  # up to the contact point
+        y_i = frame["position"][i][1]
+        yield {"i": i, "j": j, "force": force, "whole": np.outer(force, branch), "part_i": part_i,
+               "y_i": y_i, "y_j": y_i - branch[1], "y_contact": y_i - part_i * branch[1]}
+
+
+def pieces(run, c, assignment):
+    """(sum, from, to, weight): what of a contact's force (x) branch goes to which sum, along the
+    branch from the height of the grain to which it belongs."""
+    i, j, y_i, y_j = c["i"], c["j"], c["y_i"], c["y_j"]
+    a = run.species[i]
+    if not run.is_mobile(j):
+        yield ("A_b", a), y_i, c["y_contact"], c["part_i"]
+        yield ("F_b", a), y_i, y_j, 1.0
+        return
+    b = run.species[j]
+    part_i = c["part_i"]
+    if a == b:
+        if assignment != "grain":
+            yield ("A", a), y_i, y_j, 1.0
+            return
+        yield ("A", a), y_i, y_j, part_i
+        yield ("A", a), y_j, y_i, 1 - part_i
+        yield ("H", a), y_i, y_j, 0.5
+        yield ("H", a), y_j, y_i, 0.5
+        return
+    r_large, r_small = run.radius[i], run.radius[j]
+    y_large, y_small, part = y_i, y_j, part_i
+    if a < b:
+        r_large, r_small, y_large, y_small, part = r_small, r_large, y_small, y_large, 1 - part_i
+    pair = (min(a, b), max(a, b))
+    by_size = r_large / (r_large + r_small)
+    for name, share in (("Msize", by_size), ("Mcp", part)):
+        yield (name, *pair), y_large, y_large + share * (y_small - y_large), share
+    yield ("Mpower", *pair), y_large, y_small, r_large**POWER / (r_large**POWER + r_small**POWER)
+    if assignment != "grain":
+        yield ("M", *pair), y_large, y_small, 1.0
+        return
+    yield ("M", *pair), y_large, y_small, by_size
+    yield ("M", *pair), y_small, y_large, 1 - by_size
+    yield ("ML", *pair), y_large, y_small, 1.0
+    yield ("MS", *pair), y_small, y_large, 1.0
+
+
+def contact_sums(run, frames, h, layers, assignment):
+    """Sums of force (x) branch, N m, and numbers of contacts at their contact points."""
+    sums, numbers = by_layer(layers, run.dimension, run.dimension), by_layer(layers)
+    for f in frames:
+        for c in contacts_of(run, f):
+            here = min(layer_of(c["y_contact"], h), layers - 1)
+            ends = sorted(run.species[g] for g in (c["i"], c["j"]) if run.is_mobile(g))
+            numbers[tuple(ends)][here] += 1 / len(frames)
+            for key, start, end, weight in pieces(run, c, assignment):
+                shares = {here: 1.0}
+                if assignment == "branch":
+                    shares = shares_of_layers(start, end, h, layers)
+                elif assignment == "grain":
+                    shares = {min(layer_of(start, h), layers - 1): 1.0}
+                for n, share in shares.items():
+                    sums[key][n] += weight * share * c["whole"] / len(frames)
+    return sums, numbers
+
+
+def partial_stresses(run, sums, h, share_of_larger):
+    """sigma^nu = (A + its shares of mixed contacts + A_b)/V, by species; `share_of_larger` names the
+    sum of what goes to the larger species of a pair."""
+    stresses = []
+    for s in range(run.species_count):
+        total = sums[("A", s)] + sums[("A_b", s)]
+        for other in range(run.species_count):
+            if other == s:
+                continue
+            pair = (min(s, other), max(s, other))
+            larger = sums[(share_of_larger, *pair)]
+            total = total + (larger if s > other else sums[("M", *pair)] - larger)
+        stresses.append(total / run.volume_of_layer(h))
+    return stresses
+
+
+def volumes(run, frames, h, layers):
+    """Of the mobile grains of each species, clipped at the layers' edges."""
+    content = np.zeros((run.species_count, layers))
+    for f in frames:
+        for g in np.flatnonzero(run.mobile):
+            y = f["position"][g][1]
+            below = 0.0
+            for n in range(layers):
+                here = run.volume_of_grain(g) if n == layers - 1 else run.volume_below(g, (n + 1) * h - y)
+                content[run.species[g], n] += (here - below) / len(frames)
+                below = here
+    return content
+
+
+def mobile_grains(run, frames):
+    """Number, height, and velocity and spin in one."""
+    for f in frames:
+        for g in np.flatnonzero(run.mobile):
+            yield g, f["position"][g][1], np.append(f["velocity"][g], f["spin"][g])
+
+
+def mean_in_bins(run, frames, bin_height):
+    """By bin: mass, mean height, mean motion; of the bins that hold grains, from below."""
+    sums = {}
+    for g, y, motion in mobile_grains(run, frames):
+        one = run.mass[g] * np.concatenate(([1.0, y], motion))
+        n = layer_of(y, bin_height)
+        sums[n] = sums.get(n, 0) + one
+    return {n: s / s[0] for n, s in sorted(sums.items())}
+
+
+def profile(run, frames, h):
+    """Straight lines through one point per bin of at most half a d_S; beyond the outer points the
+    slope over the outer two bins."""
+    bin_height = h / math.ceil(h / (run.small_diameter / 2) - 1e-9)
+    points = np.array([m[1:] for m in mean_in_bins(run, frames, bin_height).values()])
+    heights = points[:, 0]
+
+    def line(a, b, y):
+        return a[1:] + (b[1:] - a[1:]) * (y - a[0]) / (b[0] - a[0])
+
+    def at(y):
+        n = np.searchsorted(heights, y, side="right")
+        if n == 0:
+            return line(points[0], points[2], y)
+        if n == len(points):
+            return line(points[-1], points[-3], y)
+        return line(points[n - 1], points[n], y)
+
+    return at
+
+
+def layer_mean(run, frames, h):
+    means = mean_in_bins(run, frames, h)
+    return lambda y: means[layer_of(y, h)][2:]
+
+
+def fluctuations(run, frames, h, layers, mean_at):
+    """sum m dv (x) dv and sum I dw^2, J; grains where their centres are."""
+    d = run.dimension
+    kinetic, rotational = by_layer(layers, d, d), by_layer(layers)
+    for g, y, motion in mobile_grains(run, frames):
+        difference = motion - mean_at(y)
+        dv, dw = difference[:d], difference[d:]
+        n = layer_of(y, h)
+        kinetic[run.species[g]][n] += run.mass[g] * np.outer(dv, dv) / len(frames)
+        rotational[run.species[g]][n] += run.inertia(g) * dw @ dw / len(frames)
+    return kinetic, rotational
+
+
+def coordination_and_force(run, frames, h, layers):
+    """z: contact ends per grain, both where the grain's centre is. f: mean modulus of the contacts
+    with at least one grain of the species, where they touch. The last entry is the whole bed."""
+    shape = (run.species_count, layers)
+    grains, ends, contacts, forces = (np.zeros(shape) for _ in range(4))
+    for f in frames:
+        for g, y, _ in mobile_grains(run, [f]):
+            grains[run.species[g], layer_of(y, h)] += 1
+        for c in contacts_of(run, f):
+            on = [g for g in (c["i"], c["j"]) if run.is_mobile(g)]
+            for g in on:
+                ends[run.species[g], layer_of(f["position"][g][1], h)] += 1
+            here = min(layer_of(c["y_contact"], h), layers - 1)
+            for species in {run.species[g] for g in on}:
+                contacts[species, here] += 1
+                forces[species, here] += np.linalg.norm(c["force"])
+
+    def with_bed(a):
+        return np.append(a, a.sum(axis=1)[:, None], axis=1)
+
+    with np.errstate(invalid="ignore"):
+        return with_bed(ends) / with_bed(grains), with_bed(forces) / with_bed(contacts)
