@@ -20,7 +20,7 @@ void Composition<D>::add(const Grains& grains, const Frame<D>& frame)
     const double whole = grain_volume<D>(radius);
     const auto book = [&](std::size_t n, double part) { sums_[n][species] += part; };
     if (rule_ == GrainArea::centre)
-      book(layers_.at(y), whole);
+      book(layers_.holding<D>(frame.position[g], y), whole);
     else if (rule_ == GrainArea::clipped)
       layers_.share_grain<D>(y, radius, count, book);
     else

@@ -8,6 +8,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
 #include "formats/core/text.hpp"
+#include "formats/export/map_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,31 +19,35 @@
 #include <cstdio>
 #include <limits>
 #include <thread>
+#include <utility>
 
 namespace grseg {
 namespace {
 
-/// The axis that --bins names.
-Vec2 axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits units)
+/// The axis that --bins names, where it names one.
+std::optional<Vec2> axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits units)
 {
+  if (bins == "layers" || bins == "xy" || bins == "xz") return {};
   const std::string word = bins.substr(0, bins.find(':'));
-  if (word != "radius")
-    throw UsageError(unknown_word("--bins", bins, {"layers", "radius", "radius:X,Y"}));
+  if (word != "radius" && word != "rz")
+    throw UsageError(unknown_word("--bins", bins,
+                                  {"layers", "radius", "radius:X,Y", "xy", "xz", "rz", "rz:X,Y"}));
   if (bins == word) {
     const auto& numbers = run.parameters().numbers;
     const auto centre = numbers.find("drum_centre");
     if (centre == numbers.end() || centre->second.size() != 2)
-      throw UsageError(
-          "--bins radius: the run has no drum; give the axis, as in --bins radius:0.1,0.2");
-    return {centre->second[0], centre->second[1]};
+      throw UsageError(fmt::format(
+          "--bins {0}: the run has no drum; give the axis, as in --bins {0}:0.1,0.2", word));
+    return Vec2(centre->second[0], centre->second[1]);
   }
   const std::string place = bins.substr(word.size() + 1);
   const auto comma = place.find(',');
   if (comma == std::string::npos)
     throw UsageError(
-        fmt::format("--bins {}: an axis has two coordinates, as in radius:0.1,0.2", bins));
-  return {parse_length(place.substr(0, comma), "--bins radius:", units),
-          parse_length(place.substr(comma + 1), "--bins radius:", units)};
+        fmt::format("--bins {}: an axis has two coordinates, as in {}:0.1,0.2", bins, word));
+  const auto option = "--bins " + word + ":";
+  return Vec2(parse_length(place.substr(0, comma), option.c_str(), units),
+              parse_length(place.substr(comma + 1), option.c_str(), units));
 }
 
 Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
@@ -52,14 +57,18 @@ Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
   const auto& box = run.box();
   std::optional<double> width;
   if (box.dimension == 3) width = box.length_z;
-  if (!options.annuli()) return {thickness, box.length_x, width};
-  const Vec2 axis = axis_of(run, options.bins, units);
+  const auto axis = axis_of(run, options.bins, units);
+  const auto plane = options.map();
+  if (plane && plane != MapPlane::xy && box.dimension == 2)
+    throw UsageError(
+        fmt::format("--bins {}: the run has two dimensions; take --bins xy", options.bins));
+  if (!axis) return {thickness, box.length_x, width};
   if (box.periodic_x)
     throw UsageError(fmt::format(
         "--bins {}: the cell is periodic along x, so that nothing lies at one distance from an "
-        "axis; take layers",
-        options.bins));
-  return Layers::annuli(thickness, box.length_x, axis, width);
+        "axis; take {}",
+        options.bins, plane ? "xy" : "layers"));
+  return Layers::annuli(thickness, box.length_x, *axis, width);
 }
 
 RunTimes times_of(const TrajectoryReader& run)
@@ -100,7 +109,13 @@ void FrameOptions::add_bins_to(po::options_description& options)
       "bins", po::value(&bins)->default_value(bins)->value_name("WORD"),
       "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
       "this axis), of thickness --layer; in annuli y is the distance from the axis, and x runs "
-      "round it clockwise");
+      "round it clockwise. Or a map of cells of side --layer: xy, in three dimensions also xz and "
+      "rz or rz:X,Y (distance from an axis along z); maps may go to .h5, .vti and .pvd files");
+}
+
+std::optional<MapPlane> FrameOptions::map() const
+{
+  return find_choice(bins.substr(0, bins.find(':')), map_planes);
 }
 
 FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
@@ -119,6 +134,29 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
     throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", options.threads));
   if (options.threads == 0)
     options_.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const auto plane = options.map();
+  if (is_map_file(options.output.path)) {
+    if (!plane)
+      throw UsageError(
+          fmt::format("-o {}: only maps become such files; take --bins xy, or a name "
+                      "that ends in .tsv",
+                      options.output.path));
+    if (options.json)
+      throw UsageError("--json prints text; give it without -o, or a name in .json");
+    check_map_file(options.output, {run_.path()});
+  }
+  if (plane) with_dimension(dimension(), [&](auto d) { layers_ = map_of<d>(*plane); });
+}
+
+template <int D>
+Layers FrameLoop::map_of(MapPlane plane)
+{
+  const GrainExtent<D> none(layers_.axis());
+  auto extent = none;
+  for (const auto& window : windows_)
+    extent.merge(std::get<0>(sum<D>(window, {.velocity = false, .contacts = false}, none)));
+  return Layers::map(map_grid<D>(plane, layers_.thickness(), run_.box(), extent, layers_.axis()),
+                     layers_.length(), layers_.width());
 }
 
 FrameLoop::~FrameLoop()
@@ -159,6 +197,28 @@ void FrameLoop::report_progress(const Window& window)
   std::fflush(stderr);
 }
 
+namespace {
+
+/// What the header says of annuli and maps.
+Header bins_lines(const Layers& layers)
+{
+  const auto& axis = layers.axis();
+  const auto& map = layers.map();
+  std::string bins = map ? word_of(map->plane(), map_planes) : axis ? "radius" : "";
+  if (axis) bins += fmt::format(" {} {}", format_number(axis->x()), format_number(axis->y()));
+  Header lines;
+  if (!bins.empty()) lines.emplace_back("bins", bins);
+  if (!map) return lines;
+  const auto& [first, second] = map->axes();
+  lines.emplace_back("cells", fmt::format("{} {}", first.cells, second.cells));
+  lines.emplace_back("cell",
+                     fmt::format("{} {}", format_number(first.side), format_number(second.side)));
+  if (map->plane() == MapPlane::xz) lines.emplace_back("height", format_number(map->depth()));
+  return lines;
+}
+
+}  // namespace
+
 Table FrameLoop::make_table(const std::string& command,
                             const std::vector<std::pair<std::string, std::string>>& settings,
                             const std::vector<std::string>& columns) const
@@ -186,23 +246,42 @@ Table FrameLoop::make_table(const std::string& command,
   add("step", run_.step());
   add("length", layers_.length());
   if (layers_.width()) add("length_z", *layers_.width());
-  add("layer", layers_.thickness());
+  if (!layers_.map()) add("layer", layers_.thickness());
   add("window", first.end - first.begin);
   add("stride", static_cast<double>(options_.windows.stride));
-  if (const auto& axis = layers_.axis())
-    header.emplace_back(
-        "bins", fmt::format("radius {} {}", format_number(axis->x()), format_number(axis->y())));
+  for (auto& line : bins_lines(layers_)) header.push_back(std::move(line));
   const auto origin = run_.parameters().text("origin");
   header.emplace_back("origin", origin.empty() ? "unknown" : printable(origin));
   header.insert(header.end(), settings.begin(), settings.end());
 
-  table.columns = with_key_columns(dimension(), columns);
+  if (const auto& map = layers_.map()) {
+    const auto& axes = map->axes();
+    table.columns =
+        map_key_columns({std::string(1, axes[0].name), std::string(1, axes[1].name)}, dimension());
+    table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+  } else {
+    table.columns = with_key_columns(dimension(), columns);
+  }
   return table;
 }
 
 std::vector<double> FrameLoop::row(const Window& window, std::size_t layer,
                                    const std::vector<double>& values) const
 {
+  if (const auto& map = layers_.map()) {
+    const auto& [first, second] = map->axes();
+    const std::size_t i = map->column(layer), j = map->row(layer);
+    std::vector<double> row{window.begin,
+                            window.end,
+                            first.edge(i),
+                            first.edge(i + 1),
+                            second.edge(j),
+                            second.edge(j + 1),
+                            static_cast<double>(window.frames.size()),
+                            map->volume(layer)};
+    row.insert(row.end(), values.begin(), values.end());
+    return row;
+  }
   return with_key({window.begin, window.end, layers_.bottom(layer), layers_.top(layer),
                    static_cast<double>(window.frames.size()), layers_.volume(layer)},
                   values);
@@ -220,6 +299,8 @@ std::vector<double> FrameLoop::bed_row(const Window& window, double height,
 
 void FrameLoop::write(const Table& table) const
 {
+  if (is_map_file(options_.output.path))
+    return write_map_file(table, options_.output, {run_.path()});
   write_whole(options_.output, options_.json ? table.to_json() : table.to_text());
 }
 

@@ -35,13 +35,16 @@ struct FrameOptions {
   /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
   /// --quiet --group --classes --edges.
   void add_to(po::options_description& options);
-  /// Adds --bins, for tools that also know annuli.
+  /// Adds --bins, for tools that also know annuli and maps.
   void add_bins_to(po::options_description& options);
-  bool annuli() const { return bins != "layers"; }
+  bool annuli() const { return bins.starts_with("radius"); }
+  /// The plane of a map, where --bins names one.
+  std::optional<MapPlane> map() const;
 };
 
-/// A run cut into layers and windows. All tools use this class, so that their rows join on
-/// (t0, t1, y0, y1).
+/// A run cut into layers, or the cells of a map, and windows. All tools use this class, so that
+/// their rows join on (t0, t1, y0, y1), those of maps on (t0, t1, x0, x1, y0, y1) or what their axes
+/// are.
 class FrameLoop {
  public:
   /// Opens the one run that the command line names. UsageError where it names none or several.
@@ -78,20 +81,24 @@ class FrameLoop {
   Table make_table(const std::string& command,
                    const std::vector<std::pair<std::string, std::string>>& settings,
                    const std::vector<std::string>& columns) const;
-  /// The key columns t0 t1 y0 y1 frames V of a layer, followed by `values`.
+  /// The key columns t0 t1 y0 y1 frames V of a layer, or those of a cell, followed by `values`.
   std::vector<double> row(const Window& window, std::size_t layer,
                           const std::vector<double>& values) const;
   /// The same for the whole bed of a given height: y0 = y1 = nan, V = Lx (Lz) times the height,
   /// nan for a bed whose top lies below y = 0, as in a hopper that runs out.
   std::vector<double> bed_row(const Window& window, double height,
                               const std::vector<double>& values) const;
-  /// To the file of --output, or to standard output.
+  /// To the file of --output, or to standard output. A map may become a file for other programs
+  /// (formats/export/map_file.hpp).
   void write(const Table& table) const;
 
  private:
   template <int D>
   void read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields);
   void report_progress(const Window& window);
+  /// The cells that hold the grains of all windows, whose frames are read for that.
+  template <int D>
+  Layers map_of(MapPlane plane);
 
   ToolInfo info_;
   FrameOptions options_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_table.hpp"
 
+#include "analysis/frames/map_grid.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -112,8 +114,18 @@ SpeciesList species_of(const Table& table)
       table.name, table.header_text("species")));
 }
 
+void refuse_map(const Table& table)
+{
+  const auto bins = header_or(table, "bins", "");
+  if (find_choice(bins.substr(0, bins.find(' ')), map_planes))
+    throw FormatError(fmt::format(
+        "{}: a map (bins: {}), whose rows are cells, not layers; make the table without --bins",
+        table.name, bins));
+}
+
 std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& remedy)
 {
+  refuse_map(table);
   const int dimension = dimension_of(table);
   std::array<std::size_t, key_columns.size()> columns{};
   for (std::size_t c = 0; c < columns.size(); ++c)

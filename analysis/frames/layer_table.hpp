@@ -19,7 +19,10 @@ int dimension_of(const Table& table);
 /// the diameters of the header. FormatError where they are not to be understood.
 SpeciesList species_of(const Table& table);
 
-/// The keys of all rows. FormatError, adding `remedy`, where a column is missing; and, naming the
+/// FormatError where a table is a map, whose rows are not of layers.
+void refuse_map(const Table& table);
+
+/// The keys of all rows. FormatError for a map, and, adding `remedy`, where a column is missing; and, naming the
 /// rows, where a time, number of frames or volume has no meaning (a bed of NaN heights may be
 /// empty), where two rows are of the same layer in the same window, and where windows or the layers
 /// of a window overlap; also where a length or time in the header is not positive.

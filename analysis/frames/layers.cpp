@@ -63,6 +63,14 @@ Layers Layers::annuli(double thickness, double length, const Vec2& axis,
   return layers;
 }
 
+Layers Layers::map(const MapGrid& cells, double length, std::optional<double> width)
+{
+  Layers layers(cells.thickness(), length, width);
+  layers.axis_ = cells.axis();
+  layers.map_ = cells;
+  return layers;
+}
+
 Layers Layers::with_thickness(double thickness) const
 {
   Layers layers(thickness, length_, width_);
@@ -72,6 +80,7 @@ Layers Layers::with_thickness(double thickness) const
 
 double Layers::volume(std::size_t layer) const
 {
+  if (map_) return map_->volume(layer);
   const double n = static_cast<double>(layer);
   const double area =
       axis_ ? std::numbers::pi * thickness_ * thickness_ * (2 * n + 1) : thickness_ * length_;
@@ -97,6 +106,7 @@ template Vec3 Layers::turned(const Vec3&, const Vec3&) const;
 template <int D>
 std::size_t Layers::count(const Grains& grains, const Frame<D>& frame) const
 {
+  if (map_) return map_->cells();
   double highest = 0;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/map_grid.hpp"
 #include "formats/core/frame.hpp"
 
 #include <algorithm>
@@ -28,6 +29,9 @@ double sphere_volume_below(double radius, double height);
 /// Or annuli about an axis along z, as a drum asks for: y is then the distance from the axis,
 /// outward, and x goes round it clockwise, so that (x, y) is right-handed as over a base. Annulus n
 /// is [n h, (n+1) h), of volume pi h^2 (2 n + 1), in three dimensions times Lz.
+///
+/// Or the cells of a map (map_grid.hpp), for what counts at one place, whole: a layer is then a
+/// cell, and y is what is across it. Nothing is shared between cells.
 class Layers {
  public:
   /// Thickness h, and length Lx and, in three dimensions, width Lz of the cell, m. UsageError unless
@@ -36,10 +40,12 @@ class Layers {
   /// `axis`: its x and y.
   static Layers annuli(double thickness, double length, const Vec2& axis,
                        std::optional<double> width = std::nullopt);
-  /// The same with another thickness.
+  static Layers map(const MapGrid& cells, double length, std::optional<double> width);
+  /// The same with another thickness; not of a map.
   Layers with_thickness(double thickness) const;
 
-  const std::optional<Vec2>& axis() const { return axis_; }  // of annuli
+  const std::optional<Vec2>& axis() const { return axis_; }  // of annuli and of rz
+  const std::optional<MapGrid>& map() const { return map_; }
   double thickness() const { return thickness_; }
   double volume(std::size_t layer) const;                        // m^2 or m^3
   double length() const { return length_; }                      // m
@@ -69,20 +75,34 @@ class Layers {
       return turned<D>(spin, position);
   }
 
-  /// The layer that holds the height y, m.
+  /// The layer that holds the height y, m; not of a map.
   std::size_t at(double y) const;
+  /// The layer or cell that holds a position at height y.
+  template <int D>
+  std::size_t holding(const Vector<D>& position, double y) const
+  {
+    if (map_) [[unlikely]]
+      return map_->at<D>(position);
+    return at(y);
+  }
+  /// Height over the bottom of a layer or cell, m.
+  double above_bottom(double y, std::size_t layer) const
+  {
+    return y - (map_ ? map_->bottom(layer) : bottom(layer));
+  }
   /// Layers up to the top of the highest mobile grain, at least 1. RunError where that would be
-  /// more than a bed can have, which means that a grain is lost.
+  /// more than a bed can have, which means that a grain is lost. Of a map all cells.
   template <int D>
   std::size_t count(const Grains& grains, const Frame<D>& frame) const;
 
   /// Calls book(layer, share) with the shares of its length that a straight segment between two
-  /// heights has in each of `count` layers; the shares add up to 1. Not of annuli.
+  /// heights has in each of `count` layers; the shares add up to 1. Not of annuli or maps.
   template <class Book>
   void share_segment(double from, double to, std::size_t count, const Book& book) const;
 
   /// Calls book(layer, part) with the areas (m^2) of a disc or volumes (m^3) of a sphere at height y
-  /// that lie in each of `count` layers; they add up to that of the grain. Spheres not of annuli.
+  /// that lie in each of `count` layers; they add up to that of the grain. Spheres not of
+  /// annuli, none of maps.
   template <int D, class Book>
   void share_grain(double y, double radius, std::size_t count, const Book& book) const;
 
@@ -99,6 +119,7 @@ class Layers {
   double thickness_, length_;
   std::optional<double> width_;
   std::optional<Vec2> axis_;
+  std::optional<MapGrid> map_;
 };
 
 inline std::size_t Layers::at(double y) const

@@ -21,7 +21,8 @@ MeanVelocity<D>::MeanVelocity(const Layers& layers, double bin, std::size_t spec
 template <int D>
 void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
 {
-  of_bin_.resize(std::max(of_bin_.size(), bins_.count(grains, frame)));
+  const bool profile = !layers_.map();
+  if (profile) of_bin_.resize(std::max(of_bin_.size(), bins_.count(grains, frame)));
   of_layer_.resize(std::max(of_layer_.size(), layers_.count(grains, frame)),
                    std::vector<Sum>(species_));
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -31,8 +32,8 @@ void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
     const Sum own{mass,
                   mass * motion_of<D>(layers_.turned<D>(frame.velocity[g], position),
                                       layers_.turned_spin<D>(frame.angular_velocity[g], position))};
-    of_bin_[bins_.at(y)] += {own, mass * y};
-    of_layer_[layers_.at(y)][static_cast<std::size_t>(grains.species[g])] += own;
+    if (profile) of_bin_[bins_.at(y)] += {own, mass * y};
+    of_layer_[layers_.holding<D>(position, y)][static_cast<std::size_t>(grains.species[g])] += own;
   }
 }
 

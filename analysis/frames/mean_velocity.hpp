@@ -37,7 +37,7 @@ Motion<D> motion_of(const Vector<D>& velocity, const Spin<D>& spin)
 }
 
 /// Mass-weighted mean motion of the mobile grains over the frames that were added: as a profile
-/// over height, by layer, and by layer and species.
+/// over height (not of a map), by layer, and by layer and species.
 ///
 /// The profile joins, by straight lines, one point per bin of height: mean height and mean motion
 /// of the grains in it. Empty bins have no point, so that the line passes over them; beyond the

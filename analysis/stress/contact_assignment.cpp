@@ -41,14 +41,15 @@ void ContactAssignmentOptions::add_to(po::options_description& options)
   options.add_options()("composition", po::value(&composition)->value_name("WORD"),
                         "a grain's area is clipped at the layers' edges (default), counted whole "
                         "at its centre, or spread from there by the kernel (default where there "
-                        "is one): clipped, centre or kernel");
+                        "is one): clipped, centre or kernel. In maps centre");
 }
 
-ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values)
+ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values,
+                                                               const std::string& otherwise)
 {
   const auto [assignment, shape] = choose(assign, "--assign", assignments);
   ContactAssignment chosen{assignment, shape, {}};
-  if (composition.empty()) composition = chosen.shape ? "kernel" : "clipped";
+  if (composition.empty()) composition = chosen.shape ? "kernel" : otherwise;
   chosen.area = choose(composition, "--composition", grain_areas);
   for (const auto& [given, option] :
        {std::pair{chosen.area == GrainArea::kernel, "--composition kernel"},

@@ -120,6 +120,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
   ++frames_;
   sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)),
                {std::vector<Mean>(species_), {}});
+  const bool has_profile = !layers_.map();
   MeanVelocity<D> now(layers_, layers_.thickness(), species_);
   if (flow_ == MeanFlow::instant) now.add(grains, frame);
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -131,7 +132,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     const auto motion =
         motion_of<D>(velocity, layers_.turned_spin<D>(frame.angular_velocity[g], position));
     const auto species = grains.species[g];
-    const std::size_t layer = layers_.at(y);
+    const std::size_t layer = layers_.holding<D>(position, y);
     const auto about = [&](const Motion<D>& mean) {
       return fluctuations<D>(mass, radius, motion - mean);
     };
@@ -139,8 +140,9 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     own.mass += mass;
     own.grains += 1;
     own.about_mean += about(mean_at(layer, species, y, now));
-    own.layer_bias += about(mean_velocity_.of_layer(layer)) - about(mean_velocity_.on_profile(y));
-    sums_[layer].flow.template add<D>(mass, y - layers_.bottom(layer), velocity);
+    if (has_profile)
+      own.layer_bias += about(mean_velocity_.of_layer(layer)) - about(mean_velocity_.on_profile(y));
+    sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer), velocity);
   }
 }
 
@@ -220,6 +222,7 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
       cells.push_back({fmt::format("equipartition_{}", all_freedoms[f]),
                        quotient[static_cast<Eigen::Index>(f)]});
   }
+  if (layers_.map()) return cells;
   for (std::size_t k = 0; k < words.size(); ++k) {
     for (const auto& [suffix, row, column] : components)
       if (row <= column)

@@ -33,7 +33,7 @@ struct Fluctuations {
 /// What the mean velocity of a layer adds to the sums about the profile is kept beside them,
 /// whatever the mean: layer bias = sum about the layer's mean - sum about the
 /// profile, by definition and exactly. Of a linear shear it is mass (du/dy h)^2/12 in xx, h the
-/// thickness of the layer, and nothing elsewhere.
+/// thickness of the layer, and nothing elsewhere. A map has neither profile nor bias.
 ///
 /// The frames of a window are read twice: first for the mean flow, then for the fluctuations.
 template <int D>
@@ -63,6 +63,11 @@ class KineticStress {
 
   std::size_t layers() const { return sums_.size(); }
   Mean mean(std::size_t layer, Species species) const;
+  /// Mass-weighted mean velocity of a layer, m/s; NaN without grains.
+  Vector<D> velocity(std::size_t layer) const
+  {
+    return mean_velocity_.of_layer(layer).template head<D>();
+  }
   LayerFlow flow(std::size_t layer) const;
   /// Of two species: energy per large grain over energy per small grain in x, y, z and rotation: 1
   /// for equipartition, the mass ratio where all fluctuate as fast. NaN unless both are there.

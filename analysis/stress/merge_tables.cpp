@@ -55,6 +55,7 @@ void require_stress_table(const Table& table)
         "{}: was made by {}; only tables of grseg-stress can be merged, all of whose columns are "
         "means per frame",
         table.name, program));
+  refuse_map(table);
   const int dimension = dimension_of(table);
   for (std::size_t c = 0; c < key_columns.size(); ++c)
     if (find_column(table, key_columns[c].name_with_unit(dimension),

@@ -58,38 +58,47 @@ void PartialContactStress<D>::add_stretch(Sum sum, std::size_t index, const Cont
     case Assignment::kernel:
       return share_kernel(layers_, *kernel_, stretch.from, stretch.to, count_, share);
     case Assignment::grain:
-      return share(std::min(layers_.at(stretch.from), count_ - 1), 1);
+      return share(stretch.layer, 1);
   }
 }
 
 template <int D>
-void PartialContactStress<D>::add_equal(std::size_t species, const Contact& contact, double y_i,
-                                        double y_j, double share_i)
+typename PartialContactStress<D>::End PartialContactStress<D>::end(const Vector<D>& position) const
+{
+  const double y = layers_.height<D>(position);
+  if (assignment_ != Assignment::grain) return {y, 0};
+  return {y, std::min(layers_.holding<D>(position, y), count_ - 1)};
+}
+
+template <int D>
+void PartialContactStress<D>::add_equal(std::size_t species, const Contact& contact, const End& i,
+                                        const End& j, double share_i)
 {
   if (assignment_ != Assignment::grain)
-    return add_stretch(OwnSum::inside, species, contact, {y_i, y_j, 1});
-  add_stretch(OwnSum::inside, species, contact, {y_i, y_j, share_i});
-  add_stretch(OwnSum::inside, species, contact, {y_j, y_i, 1 - share_i});
-  add_stretch(OwnSum::halves, species, contact, {y_i, y_j, 0.5});
-  add_stretch(OwnSum::halves, species, contact, {y_j, y_i, 0.5});
+    return add_stretch(OwnSum::inside, species, contact, {i.y, j.y, 1, i.layer});
+  add_stretch(OwnSum::inside, species, contact, {i.y, j.y, share_i, i.layer});
+  add_stretch(OwnSum::inside, species, contact, {j.y, i.y, 1 - share_i, j.layer});
+  add_stretch(OwnSum::halves, species, contact, {i.y, j.y, 0.5, i.layer});
+  add_stretch(OwnSum::halves, species, contact, {j.y, i.y, 0.5, j.layer});
 }
 
 template <int D>
 void PartialContactStress<D>::add_mixed(std::size_t pair, const Contact& contact,
-                                        const MixedContact& radii, double y_large, double y_small)
+                                        const MixedContact& radii, const End& large,
+                                        const End& small)
 {
   for (const auto& [rule, number] : rules_) {
     const double share = rule->share(radii, number);
-    const double end = rule->along_own_stretch ? y_large + share * (y_small - y_large) : y_small;
-    add_stretch(*rule->sum, pair, contact, {y_large, end, share});
+    const double end = rule->along_own_stretch ? large.y + share * (small.y - large.y) : small.y;
+    add_stretch(*rule->sum, pair, contact, {large.y, end, share, large.layer});
   }
   if (assignment_ != Assignment::grain)
-    return add_stretch(PairSum::whole, pair, contact, {y_large, y_small, 1});
+    return add_stretch(PairSum::whole, pair, contact, {large.y, small.y, 1, large.layer});
   const double by_size = radii.r_large / (radii.r_large + radii.r_small);
-  add_stretch(PairSum::whole, pair, contact, {y_large, y_small, by_size});
-  add_stretch(PairSum::whole, pair, contact, {y_small, y_large, 1 - by_size});
-  add_stretch(PairSum::at_larger, pair, contact, {y_large, y_small, 1});
-  add_stretch(PairSum::at_smaller, pair, contact, {y_small, y_large, 1});
+  add_stretch(PairSum::whole, pair, contact, {large.y, small.y, by_size, large.layer});
+  add_stretch(PairSum::whole, pair, contact, {small.y, large.y, 1 - by_size, small.layer});
+  add_stretch(PairSum::at_larger, pair, contact, {large.y, small.y, 1, large.layer});
+  add_stretch(PairSum::at_smaller, pair, contact, {small.y, large.y, 1, small.layer});
 }
 
 template <int D>
@@ -105,32 +114,31 @@ void PartialContactStress<D>::add(const Grains& grains, const Frame<D>& frame)
     const double share_i = share_of_first(grains, list, k);
     const Vector<D>&position = frame.position[i], &branch = list.branch[k];
     const Vector<D> touch = position - share_i * branch;
-    const double y_i = layers_.height<D>(position);
-    const double y_j = layers_.height<D>(position - branch);
+    const End end_i = end(position), end_j = end(position - branch);
     const double y_contact = layers_.height<D>(touch);
     const Contact contact{
         layers_.turned<D>(list.force[k], touch) * layers_.turned<D>(branch, touch).transpose(),
-        std::min(layers_.at(y_contact), count_ - 1)};
+        std::min(layers_.holding<D>(touch, y_contact), count_ - 1)};
     auto& contacts = sums_[contact.layer].contacts;
     const auto a = static_cast<std::size_t>(grains.species[i]);
 
     if (!j) {
       contacts[base_contact_index(a, species_)] += 1;
-      add_stretch(OwnSum::base, a, contact, {y_i, y_contact, share_i});
-      add_stretch(OwnSum::whole_base, a, contact, {y_i, y_j, 1});
+      add_stretch(OwnSum::base, a, contact, {end_i.y, y_contact, share_i, end_i.layer});
+      add_stretch(OwnSum::whole_base, a, contact, {end_i.y, end_j.y, 1, end_i.layer});
       continue;
     }
     const auto b = static_cast<std::size_t>(grains.species[*j]);
     contacts[contact_index(std::min(a, b), std::max(a, b))] += 1;
     if (a == b) {
-      add_equal(a, contact, y_i, y_j, share_i);
+      add_equal(a, contact, end_i, end_j, share_i);
     } else {
       const bool i_large = a > b;
       const double r_i = grains.radius[i], r_j = grains.radius[*j];
       const MixedContact radii{i_large ? r_i : r_j, i_large ? r_j : r_i,
                                i_large ? share_i : 1 - share_i};
-      add_mixed(pair_index(std::min(a, b), std::max(a, b)), contact, radii, i_large ? y_i : y_j,
-                i_large ? y_j : y_i);
+      add_mixed(pair_index(std::min(a, b), std::max(a, b)), contact, radii, i_large ? end_i : end_j,
+                i_large ? end_j : end_i);
     }
   }
 }

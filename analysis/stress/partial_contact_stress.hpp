@@ -27,7 +27,8 @@ enum class Assignment {
 /// per frame.
 ///
 /// Only contacts that carry a force count, in n_* too. In annuli components are those along and
-/// across the layer where the grains touch, and `branch` and `kernel` do not apply.
+/// across the layer where the grains touch, and `branch` and `kernel` do not apply; nor do they to
+/// maps.
 ///
 /// `branch` and `kernel` spread what belongs to one grain along its own stretch of the branch: the
 /// larger grain's part of a mixed contact (by_size, up_to_contact) along that from its centre to
@@ -80,6 +81,12 @@ class PartialContactStress {
   /// belongs to. Heights, m.
   struct Stretch {
     double from, to, weight;
+    std::size_t layer;  // of its grain, with Assignment::grain
+  };
+  /// A grain of a contact.
+  struct End {
+    double y;           // m
+    std::size_t layer;  // with Assignment::grain
   };
   /// What all stretches of a contact share.
   struct Contact {
@@ -92,10 +99,11 @@ class PartialContactStress {
   TableKind table_kind() const;
   template <class Sum>
   void add_stretch(Sum sum, std::size_t index, const Contact& contact, const Stretch& stretch);
-  void add_equal(std::size_t species, const Contact& contact, double y_i, double y_j,
+  End end(const Vector<D>& position) const;
+  void add_equal(std::size_t species, const Contact& contact, const End& i, const End& j,
                  double share_i);
   void add_mixed(std::size_t pair, const Contact& contact, const MixedContact& radii,
-                 double y_large, double y_small);
+                 const End& large, const End& small);
 
   Layers layers_;
   Assignment assignment_;

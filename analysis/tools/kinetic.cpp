@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
+#include "analysis/maps/fields.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace grseg;
 
@@ -20,6 +22,7 @@ constexpr ToolInfo info{
     "  grseg-kinetic run.h5 -o kinetic.tsv              about a fine profile of mean velocity\n"
     "  grseg-kinetic run.h5 --mean layer                about the mean of each layer\n"
     "  grseg-kinetic run.h5 --mean instant              about the layer's mean in each frame\n"
+    "  grseg-kinetic drum.h5 --bins xy --layer 2dS -o flow.pvd        a map, for ParaView\n"
     "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n",
     presets::kinetic};
 
@@ -67,14 +70,32 @@ struct LayerBias {
   }
 };
 
+/// Of a layer or cell, or their names without one.
+template <int D>
+std::vector<Cell> cells(const FrameLoop& loop, const KineticStress<D>& stress,
+                        std::optional<std::size_t> layer)
+{
+  auto cells = stress.cells(loop.species(), layer);
+  if (!loop.layers().map()) return cells;
+  typename KineticStress<D>::Mean all;
+  Vector<D> velocity = Vector<D>::Zero();
+  if (layer) {
+    velocity = stress.velocity(*layer);
+    for (std::size_t k = 0; k < loop.species().size(); ++k)
+      all += stress.mean(*layer, static_cast<Species>(k));
+  }
+  for (auto& field : flow_fields<D>(velocity, all)) cells.push_back(std::move(field));
+  return cells;
+}
+
 template <int D>
 void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, const std::string& command)
 {
   const auto& species = loop.species();
   const MeanVelocity<D> no_grains(loop.layers(), loop.run().small_diameter() / 2, species.size());
   const KineticStress<D> nothing(loop.layers(), flow, no_grains, species.size());
-  auto table = loop.make_table(command, {{"mean", s.mean}},
-                               columns_of(nothing.cells(species, std::nullopt)));
+  auto table =
+      loop.make_table(command, {{"mean", s.mean}}, columns_of(cells(loop, nothing, std::nullopt)));
 
   LayerBias bias;
   for (const auto& window : loop.windows()) {
@@ -83,15 +104,27 @@ void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, const std::stri
     const auto [stress] =
         loop.sum<D>(window, fields, KineticStress<D>(loop.layers(), flow, mean, species.size()));
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
-      table.rows.push_back(loop.row(window, layer, values_of(stress.cells(species, layer))));
+      table.rows.push_back(loop.row(window, layer, values_of(cells(loop, stress, layer))));
     bias.add(stress, species.size());
   }
   loop.write(table);
-  if (flow == MeanFlow::layer && !s.frames.quiet) bias.report();
+  if (flow == MeanFlow::layer && !loop.layers().map() && !s.frames.quiet) bias.report();
 }
 
-void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+/// Maps have no profile: unless it was asked for, the mean is that of the cell.
+void choose_mean_of_map(Settings& s, const po::variables_map& values)
 {
+  if (!s.frames.map() || s.mean != "profile") return;
+  if (!values["mean"].defaulted())
+    throw UsageError(
+        "--mean profile is a profile over height, which a map has not; take layer or instant, the "
+        "mean of the cell");
+  s.mean = word_of(MeanFlow::layer, mean_flows);
+}
+
+void tabulate(Settings s, const po::variables_map& values, const std::string& command)
+{
+  choose_mean_of_map(s, values);
   const auto flow = choose(s.mean, "--mean", mean_flows);
   FrameLoop loop(info, values, s.frames);
   with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, flow, command); });

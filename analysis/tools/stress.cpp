@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
+#include "analysis/maps/fields.hpp"
 #include "analysis/stress/contact_assignment.hpp"
 #include "analysis/stress/merge_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
@@ -26,6 +27,7 @@ constexpr ToolInfo info{
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
     "  grseg-stress run.h5 --assign gauss --width 1dS   coarse grained by a Gaussian\n"
     "  grseg-stress drum.h5 --bins radius --layer 2dS   annuli about the axis of a drum\n"
+    "  grseg-stress drum.h5 --bins xy --layer 2dS -o map.h5           a map, for h5py or xarray\n"
     "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n"
     "  grseg-stress --merge seed1.tsv seed2.tsv         the sums of two runs as one table\n",
     presets::stress};
@@ -59,14 +61,20 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-/// The exponent of Mpower_*, where --partition asks for these columns. Everything else about
-/// partition is only passed on to grseg-fit.
-std::optional<double> power_of(Settings& s)
+/// What --partition, --base and --volume say: how maps make stress of sums. Of layers it is only
+/// passed on to grseg-fit, except for the exponent of Mpower_*.
+MapStress stress_of(Settings& s)
 {
-  choose(s.volume, "--volume", stress_volumes);
-  choose(s.base, "--base", base_parts);
+  const auto volume = choose(s.volume, "--volume", stress_volumes);
+  const auto base = choose(s.base, "--base", base_parts);
   const auto rule = parse_rule(s.partition);
   s.partition = rule.name();
+  return {rule, base, volume};
+}
+
+/// The exponent of Mpower_*, where the rule asks for these columns.
+std::optional<double> power_of(const PartitionRule& rule)
+{
   if (rule.kind != PartitionRule::Kind::power) return {};
   return rule.value;
 }
@@ -75,11 +83,16 @@ void require_layers(const Settings& s, const ContactAssignment& chosen)
 {
   const bool whole =
       chosen.assignment == Assignment::contact_point || chosen.assignment == Assignment::grain;
-  if (s.frames.annuli() && !whole)
+  const bool map = s.frames.map().has_value();
+  if ((s.frames.annuli() || map) && !whole)
+    throw UsageError(
+        fmt::format("--assign {} spreads contacts over layers, not over {}; with --bins {} take "
+                    "contact-point or grain",
+                    s.assignment.assign, map ? "the cells of a map" : "annuli", s.frames.bins));
+  if (map && chosen.area != GrainArea::centre)
     throw UsageError(fmt::format(
-        "--assign {} spreads contacts over layers, not over annuli; with --bins {} take "
-        "contact-point or grain",
-        s.assignment.assign, s.frames.bins));
+        "--composition {}: in a map a grain counts to the cell of its centre; take centre",
+        s.assignment.composition));
 }
 
 template <class T>
@@ -90,9 +103,21 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
 }
 
 template <int D>
-void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chosen,
-              const std::optional<double>& power, const std::string& command)
+std::vector<Cell> map_fields(const FrameLoop& loop, const MapStress& how,
+                             const std::vector<double>& contents, ContactSums<D> sums,
+                             std::size_t cell)
 {
+  sums.content = contents;
+  sums.volume = loop.layers().volume(cell);
+  return stress_fields(sums, loop.species(), how);
+}
+
+template <int D>
+void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chosen,
+              const MapStress& how, const std::string& command)
+{
+  const auto power = power_of(how.rule);
+  const bool map = loop.layers().map().has_value();
   std::vector<std::pair<std::string, std::string>> settings{
       {"assign", s.assignment.assign},
       {"composition", s.assignment.composition},
@@ -107,29 +132,38 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
   const Composition<D> no_grains(loop.layers(), chosen.area, kernel, species.size());
   const PartialContactStress<D> no_contacts(loop.layers(), chosen.assignment, power, kernel,
                                             species.size());
-  auto table = loop.make_table(command, settings,
-                               joined(content_columns(species, D), no_contacts.columns(species)));
+  auto columns = joined(content_columns(species, D), no_contacts.columns(species));
+  if (map)
+    columns =
+        joined(columns, columns_of(stress_fields(ContactSums<D>(species.size()), species, how)));
+  auto table = loop.make_table(command, settings, columns);
   for (const auto& window : loop.windows()) {
     const auto [composition, stress] =
         loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
-    for (std::size_t layer = 0; layer < stress.layers(); ++layer)
-      table.rows.push_back(
-          loop.row(window, layer, joined(composition.mean(layer), stress.row(layer))));
+    for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
+      const auto contents = composition.mean(layer);
+      auto row = joined(contents, stress.row(layer));
+      if (map)
+        row = joined(row,
+                     values_of(map_fields<D>(loop, how, contents, stress.mean(layer).sums, layer)));
+      table.rows.push_back(loop.row(window, layer, row));
+    }
   }
   loop.write(table);
 }
 
 void tabulate(Settings s, const po::variables_map& values, const std::string& command)
 {
-  const auto chosen = s.assignment.contact_assignment(values);
+  const auto chosen =
+      s.assignment.contact_assignment(values, s.frames.map() ? "centre" : "clipped");
   require_layers(s, chosen);
-  const auto power = power_of(s);
+  const auto how = stress_of(s);
   FrameLoop loop(info, values, s.frames);
   with_dimension(loop.dimension(), [&](auto d) {
     if (d == 3 && s.frames.annuli() && chosen.area == GrainArea::clipped)
       throw UsageError(
           "--bins radius: spheres are not clipped at annuli; take --composition centre");
-    tabulate<d>(loop, s, chosen, power, command);
+    tabulate<d>(loop, s, chosen, how, command);
   });
 }
 

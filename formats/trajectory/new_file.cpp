@@ -18,6 +18,14 @@ namespace {
 
 using namespace hdf5;
 
+/// A kill can cut a write at the end of a page of memory (4096 bytes). A header of an object that
+/// crosses one would then be half old and half new: each begins at a multiple of 512 and is shorter.
+void keep_headers_in_pages(hid_t access)
+{
+  H5Pset_meta_block_size(access, 0);
+  H5Pset_alignment(access, 1, 512);
+}
+
 class NewFile {
  public:
   NewFile(const std::string& path, const RunDescription& run, const StorageSettings& storage)
@@ -28,7 +36,9 @@ class NewFile {
     // Space that the library frees during a run is not reused: a kill may come before the index on
     // disk is updated.
     if (storage.live) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
-    file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, newest_format()));
+    const Properties access = newest_format();
+    if (storage.live) keep_headers_in_pages(access);
+    file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, access));
     if (!file_.valid())
       throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   }

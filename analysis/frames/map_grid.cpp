@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frames/map_grid.hpp"
+
+#include "analysis/frames/bed_heights.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+constexpr double most_cells = 1e6;
+
+/// Number of the cell of this side that holds a place, counted from 0.
+double cell_of(double place, double side)
+{
+  double cell = std::floor(place / side);
+  // The quotient may be rounded to the wrong side of an edge.
+  if (place < cell * side) --cell;
+  if (place >= (cell + 1) * side) ++cell;
+  return cell;
+}
+
+std::size_t whole(double number)
+{
+  return static_cast<std::size_t>(std::clamp(number, 1.0, 2 * most_cells));
+}
+
+}  // namespace
+
+std::size_t MapAxis::at(double place) const
+{
+  const double cell = cell_of(place, side) - first, count = static_cast<double>(cells);
+  const double within =
+      periodic ? cell - count * std::floor(cell / count) : std::clamp(cell, 0.0, count - 1);
+  return static_cast<std::size_t>(within);
+}
+
+MapAxis periodic_axis(char name, double side, double period)
+{
+  const std::size_t cells = whole(std::ceil(period / side - 1e-9));
+  return {name, period / static_cast<double>(cells), 0, cells, true};
+}
+
+MapAxis open_axis(char name, double side, double low, double high)
+{
+  const double first = cell_of(low, side), last = cell_of(high, side);
+  // A grain that ends at an edge does not reach into the cell behind it.
+  const double cells = last - first + (high > last * side ? 1 : 0);
+  return {name, side, first, whole(cells), false};
+}
+
+template <int D>
+void GrainExtent<D>::add(const Grains& grains, const Frame<D>& frame)
+{
+  ++frames_;
+  heights_ += bed_heights(grains, frame).bed;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    const auto& position = frame.position[g];
+    const double radius = grains.radius[g];
+    low_ = low_.cwiseMin((position.array() - radius).matrix());
+    high_ = high_.cwiseMax((position.array() + radius).matrix());
+    if (axis_)
+      distance_ = std::max(distance_, Vec2(position.template head<2>() - *axis_).norm() + radius);
+  }
+}
+
+template <int D>
+void GrainExtent<D>::merge(const GrainExtent& others)
+{
+  frames_ += others.frames_;
+  heights_ += others.heights_;
+  low_ = low_.cwiseMin(others.low_);
+  high_ = high_.cwiseMax(others.high_);
+  distance_ = std::max(distance_, others.distance_);
+}
+
+template class GrainExtent<2>;
+template class GrainExtent<3>;
+
+double MapGrid::volume(std::size_t cell) const
+{
+  const auto& [first, second] = axes_;
+  if (plane_ != MapPlane::rz) return first.side * second.side * depth_;
+  const double rings = 2 * (first.first + static_cast<double>(column(cell))) + 1;
+  return std::numbers::pi * first.side * first.side * rings * second.side;
+}
+
+template <int D>
+std::size_t MapGrid::at(const Vector<D>& position) const
+{
+  const double place =
+      plane_ == MapPlane::rz ? Vec2(position.template head<2>() - *axis_).norm() : position.x();
+  const double other = plane_ == MapPlane::xy ? position.y() : position[D - 1];
+  return axes_[1].at(other) * axes_[0].cells + axes_[0].at(place);
+}
+
+template std::size_t MapGrid::at(const Vec2&) const;
+template std::size_t MapGrid::at(const Vec3&) const;
+
+double MapGrid::thickness() const
+{
+  if (plane_ == MapPlane::xz) return depth_;
+  return axes_[plane_ == MapPlane::xy ? 1 : 0].side;
+}
+
+double MapGrid::bottom(std::size_t cell) const
+{
+  if (plane_ == MapPlane::xz) return 0;
+  return plane_ == MapPlane::xy ? axes_[1].edge(row(cell)) : axes_[0].edge(column(cell));
+}
+
+template <int D>
+MapGrid map_grid(MapPlane plane, double side, const Box& box, const GrainExtent<D>& grains,
+                 const std::optional<Vec2>& axis)
+{
+  if (grains.empty()) throw RunError("the run has no mobile grains, so there is nothing to map");
+  const auto along = [&](char name, int k, bool periodic, double period) {
+    return periodic ? periodic_axis(name, side, period)
+                    : open_axis(name, side, grains.low()[k], grains.high()[k]);
+  };
+  const MapAxis first = plane == MapPlane::rz ? open_axis('r', side, 0, grains.distance())
+                                              : along('x', 0, box.periodic_x, box.length_x);
+  const MapAxis second = plane == MapPlane::xy ? along('y', 1, false, 0)
+                                               : along('z', D - 1, box.periodic_z, box.length_z);
+  const double cells = static_cast<double>(first.cells) * static_cast<double>(second.cells);
+  if (!(cells <= most_cells))
+    throw RunError(
+        fmt::format("grains reach over {} by {} cells of {:.3g} m, more than {:g} in all; is one "
+                    "lost, or are the cells too small? Their side is --layer",
+                    first.cells, second.cells, side, most_cells));
+  double depth = D == 3 && plane == MapPlane::xy ? box.length_z : 1;
+  if (plane == MapPlane::xz) depth = grains.bed_height();
+  if (!(depth > 0))
+    throw RunError(
+        "--bins xz sums over the height of the bed, but the grains' mean height lies below y = 0; "
+        "take xy or rz");
+  return {plane, {first, second}, depth, axis};
+}
+
+template MapGrid map_grid(MapPlane, double, const Box&, const GrainExtent<2>&,
+                          const std::optional<Vec2>&);
+template MapGrid map_grid(MapPlane, double, const Box&, const GrainExtent<3>&,
+                          const std::optional<Vec2>&);
+
+}  // namespace grseg

@@ -1,0 +1,170 @@
+#!/usr/bin/python3
+"""Maps as files hold the numbers of the table: HDF5 read by h5py, with coordinates, and VTK image
+data by an XML parser. Names and settings that cannot be are refused.
+Usage: map_files_test.py GRSEG-STRESS GRSEG-KINETIC GRSEG-FIT RUN.h5
+"""
+import os
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+import h5py
+import numpy as np
+
+stress, kinetic, fit, run = sys.argv[1:]
+folder = tempfile.TemporaryDirectory()  # gone with the script
+os.chdir(folder.name)
+MAP = ["--bins", "xy", "--layer", "6dS", "--window", "4", "--quiet"]
+
+
+def call(*words):
+    return subprocess.run(words, capture_output=True, text=True)
+
+
+def table_of(tool):
+    """Header, columns by name and the line of names."""
+    text = subprocess.run([tool, run, *MAP], check=True, capture_output=True, text=True).stdout
+    lines = text.splitlines()
+    header = {}
+    for line in lines:
+        if line.startswith("# "):
+            key, _, value = line[2:].partition(": ")
+            header.setdefault(key, []).append(value)
+    rows = [line.split("\t") for line in lines if not line.startswith("#")]
+    return header, dict(zip(rows[0], np.array(rows[1:], float).T)), rows[0]
+
+
+def written(tool, name):
+    done = call(tool, run, *MAP, "-o", name)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    return name
+
+
+def same(a, b, what):
+    assert np.array_equal(np.asarray(a), np.asarray(b), equal_nan=True), what
+
+
+def check_hdf5(tool, name):
+    header, columns, names = table_of(tool)
+    nx, ny = map(int, header["cells"][0].split())
+    windows = len(set(columns["t0[s]"]))
+    assert windows > 1 and nx > 1 and ny > 1
+    shape = windows, ny, nx
+    assert names[:8] == ["t0[s]", "t1[s]", "x0[m]", "x1[m]", "y0[m]", "y1[m]", "frames", "V[m^2]"]
+    with h5py.File(written(tool, name)) as file:
+        assert set(file) == ({n.partition("[")[0] for n in names[8:]} |
+                             {"time", "t0", "t1", "frames", "V", "x", "y", "x_edges", "y_edges"})
+        for column in names[8:]:
+            plain, _, unit = column.partition("[")
+            field = file[plain]
+            same(field, columns[column].reshape(shape), column)
+            assert field.attrs.get("units", b"").decode() == unit.rstrip("]"), column
+            assert [field.dims[k][0].name for k in range(3)] == ["/time", "/y", "/x"], column
+        first = columns["x0[m]"].reshape(shape)[0, 0], columns["x1[m]"].reshape(shape)[0, 0]
+        same(file["x"], (first[0] + first[1]) / 2, "x")
+        same(file["x_edges"], [*first[0], first[1][-1]], "x_edges")
+        second = columns["y0[m]"].reshape(shape)[0, :, 0], columns["y1[m]"].reshape(shape)[0, :, 0]
+        same(file["y"], (second[0] + second[1]) / 2, "y")
+        same(file["y_edges"], [*second[0], second[1][-1]], "y_edges")
+        for key in "t0", "t1":
+            same(file[key], columns[f"{key}[s]"].reshape(shape)[:, 0, 0], key)
+        same(file["time"], (file["t0"][:] + file["t1"][:]) / 2, "time")
+        same(file["frames"], columns["frames"].reshape(shape)[:, 0, 0], "frames")
+        same(file["V"], columns["V[m^2]"].reshape(shape)[0], "V")
+        for key in "program", "input", "verified", "bins", "window":
+            assert file.attrs[key].decode() == "\n".join(header[key]), key
+        assert file.attrs["history"].decode().splitlines()[:-1] == header["history"][:-1]
+    bytes_once = open(name, "rb").read()
+    assert call(tool, run, *MAP, "--threads", "2", "-o", "again.h5").returncode == 0
+    with h5py.File("again.h5") as a, h5py.File(name) as b:
+        for key in b:
+            same(a[key], b[key], key)
+    refused = call(tool, run, *MAP, "-o", name)
+    assert refused.returncode == 2 and "already exists" in refused.stderr, refused.stderr
+    assert open(name, "rb").read() == bytes_once
+    assert call(tool, run, *MAP, "--overwrite", "-o", name).returncode == 0
+    os.remove("again.h5")
+
+
+def image(name):
+    """Cell arrays of a .vti by name, and the attributes of its grid."""
+    head, _, data = open(name, "rb").read().partition(b"\n_")
+    tree = xml.etree.ElementTree.fromstring(head + b"</AppendedData></VTKFile>")
+    assert tree.attrib == {"type": "ImageData", "version": "1.0", "byte_order": "LittleEndian",
+                           "header_type": "UInt64"}
+    grid = tree.find("ImageData")
+    assert grid.find("Piece").get("Extent") == grid.get("WholeExtent")
+    arrays = {}
+    for entry in grid.find("Piece/CellData"):
+        assert entry.get("type") == "Float64"
+        begin = int(entry.get("offset"))
+        size = int(np.frombuffer(data, "<u8", 1, begin)[0])
+        arrays[entry.get("Name")] = np.frombuffer(data[begin + 8:begin + 8 + size], "<f8")
+    texts = {entry.get("Name"): "".join(map(chr, map(int, entry.text.split()[:-1])))
+             for entry in grid.findall("FieldData/Array")}
+    numbers = {entry.get("Name"): float(entry.text)
+               for entry in grid.findall("FieldData/DataArray")}
+    return grid.attrib, arrays, texts, numbers
+
+
+def check_vtk(tool):
+    header, columns, names = table_of(tool)
+    nx, ny = map(int, header["cells"][0].split())
+    begins = sorted(set(columns["t0[s]"]))
+    listed = xml.etree.ElementTree.parse(written(tool, "map.pvd")).findall("Collection/DataSet")
+    assert len(listed) == len(begins)
+    for k, entry in enumerate(listed):
+        grid, arrays, texts, numbers = image(entry.get("file"))
+        rows = columns["t0[s]"] == begins[k]
+        assert grid["WholeExtent"] == f"0 {nx} 0 {ny} 0 0"
+        assert np.array_equal(list(map(float, grid["Origin"].split())),
+                              [columns["x0[m]"].min(), columns["y0[m]"].min(), 0])
+        sides = list(map(float, header["cell"][0].split()))
+        assert np.allclose(list(map(float, grid["Spacing"].split()))[:2], sides, rtol=1e-14)
+        assert float(entry.get("timestep")) == numbers["TimeValue"] == (numbers["t0"] + numbers["t1"]) / 2
+        assert numbers["t0"] == begins[k] and numbers["frames"] == columns["frames"][rows][0]
+        for column in names[7:]:
+            same(arrays[column.replace("[", " (").replace("]", ")")], columns[column][rows], column)
+        assert texts["program"] == header["program"][0] and texts["bins"] == "xy"
+    refused = call(tool, run, *MAP, "-o", "map.pvd")
+    assert refused.returncode == 2 and "already exists" in refused.stderr
+    assert call(tool, run, *MAP, "--overwrite", "-o", "map.pvd").returncode == 0
+    several = call(tool, run, *MAP, "-o", "one.vti")
+    assert several.returncode == 2 and "take -o one.pvd" in several.stderr, several.stderr
+    one = [*MAP, "--begin", str(begins[-1])]
+    assert call(tool, run, *one, "-o", "one.vti").returncode == 0
+    same(image("one.vti")[1]["V (m^2)"], arrays["V (m^2)"], "V")
+
+
+def check_refusals():
+    def refused(words, code, sentence):
+        done = call(*words)
+        assert done.returncode == code and sentence in done.stderr, (words, done)
+
+    refused([stress, run, "-o", "sums.h5"], 2, "only maps become such files; take --bins xy")
+    for bins in "xz", "rz:0.1,0.1":
+        refused([stress, run, "--bins", bins], 2, "the run has two dimensions; take --bins xy")
+    refused([stress, run, "--bins", "yx"], 2, "unknown --bins 'yx'")
+    refused([stress, run, "--bins", "xy:1,2"], 2, "unknown --bins 'xy:1,2'")
+    for assign in "branch", "gauss":
+        refused([stress, run, "--bins", "xy", "--assign", assign], 2,
+                "spreads contacts over layers, not over the cells of a map")
+    refused([stress, run, "--bins", "xy", "--composition", "clipped"], 2, "take centre")
+    refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "take layer or instant")
+    refused([stress, run, "--bins", "xy", "--layer", "1e-6"], 1, "are the cells too small?")
+    refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json prints text")
+    assert call(stress, run, *MAP, "-o", "map.tsv").returncode == 0
+    refused([fit, "map.tsv"], 3, "map.tsv: a map (bins: xy), whose rows are cells, not layers")
+    refused([stress, "--merge", "map.tsv"], 3, "map.tsv: a map (bins: xy)")
+    os.mkdir("mine")
+    refused([stress, run, *MAP, "-o", "mine.pvd"], 2, "already exists")
+    refused([stress, run, *MAP, "-o", "mine.pvd", "--overwrite"], 2, "holds no 000000.vti")
+    assert sorted(os.listdir()) == ["flow.h5", "map", "map.pvd", "map.tsv", "mine", "one.vti",
+                                    "stress.h5"], os.listdir()
+
+
+check_hdf5(stress, "stress.h5")
+check_hdf5(kinetic, "flow.h5")
+check_vtk(stress)
+check_refusals()
