@@ -66,11 +66,13 @@ TEST(MapGrid, WhatLeavesThroughThePeriodComesInAtTheOtherEnd)
 
 TEST(MapGrid, ACellHoldsItsLowerEdgeAndNotItsUpper)
 {
-  const auto axis = open_axis('x', 0.1, 0, 1);
-  ASSERT_EQ(axis.cells, 10u);
-  for (std::size_t n = 0; n < 10; ++n) {
-    EXPECT_EQ(axis.at(axis.edge(n)), n);
-    EXPECT_EQ(axis.at(std::nextafter(axis.edge(n + 1), 0)), n);
+  EXPECT_EQ(open_axis('x', 0.1, 0, 1).cells, 10u);
+  for (const double side : {0.1, 0.07, 0.3, 0.005, 0.013, 0.0007, 0.0049}) {
+    const MapAxis axis{'x', side, 0, 5000, false};
+    for (std::size_t n = 0; n < axis.cells; ++n) {
+      ASSERT_EQ(axis.at(axis.edge(n)), n) << side;
+      ASSERT_EQ(axis.at(std::nextafter(axis.edge(n + 1), 0)), n) << side;
+    }
   }
 }
 
