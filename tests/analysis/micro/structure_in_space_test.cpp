@@ -174,14 +174,14 @@ TEST(StructureInSpace, StressesAreThoseOfTheContactStressAtTheContactPoint)
 }
 
 // A large sphere at the origin of a branch (-2/3, 1/3, 2/3) 1.5 to a small one: n = (-2, 1, 2)/3.
-// The force on the small one is 3 n and (1, 2, 0) across it.
+// The force on the small one is 3 n and (2, 2, 1) across it.
 TEST(StructureInSpace, EveryNumberStandsUnderItsColumn)
 {
   Spheres scene;
   const auto base = scene.grain(Species::boundary, 1, {4, -1, 3});
   const auto large = scene.grain(Species::large, 1, {4, 1, 3});
   const auto small = scene.grain(Species::small, 0.5, {3, 1.5, 4});
-  scene.contact(small, large, {-2 + 1, 1 + 2, 2});
+  scene.contact(small, large, {-2 + 2, 1 + 2, 2 + 1});
   scene.contact(large, base, {0.5, 6, -0.25});
   const auto micro = structure_of(scene, one_slab);
   const auto columns = StructureByLayer<3>::columns();
@@ -192,17 +192,17 @@ TEST(StructureInSpace, EveryNumberStandsUnderItsColumn)
   EXPECT_NEAR(cells.at("volume_S[m^3]"), pi / 6, 1e-14);
   EXPECT_NEAR(cells.at("volume_L[m^3]"), 4 * pi / 3, 1e-13);
   EXPECT_EQ(cells.at("n_LS"), 1);
-  EXPECT_NEAR(cells.at("sum_f_LS[N]"), std::sqrt(14), 1e-14);
+  EXPECT_NEAR(cells.at("sum_f_LS[N]"), std::sqrt(18), 1e-14);
   EXPECT_NEAR(cells.at("sum_fn_LS[N]"), 3, 1e-14);
-  EXPECT_NEAR(cells.at("sum_ft/fn_LS"), std::sqrt(5) / 3, 1e-14);
+  EXPECT_NEAR(cells.at("sum_ft/fn_LS"), 1, 1e-14);
   EXPECT_NEAR(cells.at("nn_LS_xz"), -4.0 / 9, 1e-15);
   EXPECT_NEAR(cells.at("nn_LS_zy"), 2.0 / 9, 1e-15);
   EXPECT_NEAR(cells.at("fn_nn_LS_zz[N]"), 4.0 / 3, 1e-14);
   EXPECT_NEAR(cells.at("ft_n_LS_yz[N]"), 4.0 / 3, 1e-14);
-  EXPECT_NEAR(cells.at("ft_n_LS_zy[N]"), 0, 1e-14);
+  EXPECT_NEAR(cells.at("ft_n_LS_zy[N]"), 1.0 / 3, 1e-14);
   EXPECT_NEAR(cells.at("M_yz[N m]"), 3 * 1, 1e-14);
-  EXPECT_NEAR(cells.at("M_zy[N m]"), 2 * 0.5, 1e-14);
-  EXPECT_NEAR(cells.at("Msize_zx[N m]"), 2.0 / 3 * 2 * -1, 1e-14);
+  EXPECT_NEAR(cells.at("M_zy[N m]"), 3 * 0.5, 1e-14);
+  EXPECT_NEAR(cells.at("Msize_zx[N m]"), 2.0 / 3 * 3 * -1, 1e-14);
   EXPECT_EQ(cells.at("base_fx[N]"), 0.5);
   EXPECT_EQ(cells.at("base_fy[N]"), 6);
   EXPECT_EQ(cells.at("base_fz[N]"), -0.25);

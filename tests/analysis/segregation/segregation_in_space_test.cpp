@@ -27,9 +27,9 @@ const Window eight_seconds{2, 10, {}};  // parts of 1 s
 Spheres mixture_of_spheres()
 {
   Spheres scene;
-  for (const double y : {1.2, 1.4, 1.6, 1.8}) scene.grain(Species::small, 0.01, {1, y, 2});
-  scene.grain(Species::large, 0.02, {3, 1.5, 2});
-  for (const double y : {0.2, 0.5, 0.8}) scene.grain(Species::small, 0.01, {4, y, 6});
+  for (const double y : {1.2, 1.4, 1.6, 1.8}) scene.grain(Species::small, 0.01, {1, y, 1.5});
+  scene.grain(Species::large, 0.02, {3, 1.5, 1.5});
+  for (const double y : {0.2, 0.5, 0.8}) scene.grain(Species::small, 0.01, {4, y, 0.5});
   return scene;
 }
 
@@ -76,7 +76,7 @@ TEST(SegregationInSpace, DiffusionIsAlongTheNormal)
   const auto flux = watched(scene, [&](Spheres& s, double t) {
     for (std::size_t g = 0; g < 4; ++g) {
       const double sign = g % 2 == 0 ? 1 : -1;
-      s.frame.position[g] = scene.frame.position[g] + Vec3(0.3, sign * c, sign * 0.2) * t;
+      s.frame.position[g] = scene.frame.position[g] + Vec3(0.3, sign * c, sign * 0.05) * t;
     }
   });
   const auto value = flux.results(scene.grains, 2)[1].value;
