@@ -184,7 +184,7 @@ void add_for_short_table(FitReport& report, const FitData& data, const FitSettin
 {
   report.number_of_runs = data.runs.size();
   report.number_of_windows = bootstrap.windows();
-  if (report.quantity == Quantity::contact && !report.scan)
+  if (report.quantity == Quantity::contact && !report.scan && !report.names_pairs())
     report.zero = find_zero_of_b(data, {0, 1, 0.05}, settings, bootstrap);
 }
 
@@ -222,8 +222,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
   report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings, resampling,
                            s.exponent || report.names_pairs());
   if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
-  if (prints_short(s) && !report.names_pairs())
-    add_for_short_table(report, data, settings, bootstrap);
+  if (prints_short(s)) add_for_short_table(report, data, settings, bootstrap);
 
   report.header = {
       program_line(info),
