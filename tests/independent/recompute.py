@@ -156,7 +156,7 @@ def check(bin_folder, path, frames, layer, fault=None):
             window.check_stress(rows[number], assignment)
         for mean in ("profile", "layer"):
             window.check_kinetic(rows_of("kinetic", "--mean", mean)[number], mean)
-        if run.dimension == 2 and window.columns.two:
+        if window.columns.two:
             window.check_micro(rows_of("micro")[number])
 
 
