@@ -121,8 +121,11 @@ TEST(SegregationInSpace, RowsOfARunHaveTheirColumns)
   for (int k = 0; k < 16; ++k) {
     auto now = scene;
     now.frame.time = 2 + 0.5 * k;
-    for (auto& velocity : now.frame.velocity) velocity = {1, 0, 9};
-    for (std::size_t g = 0; g < 8; ++g) now.frame.velocity[g].x() = 3 * now.frame.position[g].y();
+    for (std::size_t g = 0; g < 8; ++g) {
+      auto& position = now.frame.position[g];
+      position.z() = 1 + 0.1 * static_cast<double>(g % 5);
+      now.frame.velocity[g] = {3 * position.y(), 0, 9};
+    }
     series.add(now.grains, now.frame);
     flux.add(now.grains, now.frame);
   }
