@@ -97,7 +97,7 @@ void StructureByLayer<D>::add_grains(const Grains& grains, const Frame<D>& frame
 {
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g))
-      ++sums_[layers_.at(frame.position[g].y())]
+      ++sums_[holding(frame.position[g])]
             .species[static_cast<std::size_t>(grains.species[g])]
             .grains;
   const auto now = bed_heights(grains, frame);
@@ -112,8 +112,8 @@ void StructureByLayer<D>::add_ends(const Grains& grains, const Frame<D>& frame, 
 {
   const auto add_end = [&](std::int32_t grain) {
     const auto g = static_cast<std::size_t>(grain);
-    auto& sums = sums_[layers_.at(frame.position[g].y())]
-                     .species[static_cast<std::size_t>(grains.species[g])];
+    auto& sums =
+        sums_[holding(frame.position[g])].species[static_cast<std::size_t>(grains.species[g])];
     ++sums.ends;
     if (type == PairType::LS) ++sums.mixed_ends;
     if (is_base(type)) ++sums.base_ends;
@@ -140,8 +140,7 @@ void StructureByLayer<D>::add_contacts(const Grains& grains, const Frame<D>& fra
     if (!bears_force(list, k)) continue;
     const Vector<D>& force = list.force[k];
     const auto type = pair_type(grains, frame, k);
-    const double y = contact_point(grains, frame, k).y();
-    const std::size_t layer = std::min(layers_.at(y), sums_.size() - 1);
+    const std::size_t layer = std::min(holding(contact_point(grains, frame, k)), sums_.size() - 1);
     const auto [n, f_n, f_t] = force_parts(list, k);
     const Tensor<D> stress = force * list.branch[k].transpose();
 

@@ -39,6 +39,10 @@ class StructureByLayer {
   std::vector<double> bed_row() const;
 
  private:
+  std::size_t holding(const Vector<D>& position) const
+  {
+    return layers_.template holding<D>(position, position.y());
+  }
   void add_grains(const Grains& grains, const Frame<D>& frame);
   void add_contacts(const Grains& grains, const Frame<D>& frame);
   /// Whether a contact slides, as 1 or 0; NaN where friction is unknown.

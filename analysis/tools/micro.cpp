@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
+#include "analysis/frames/ratio.hpp"
 #include "analysis/micro/derived_table.hpp"
 #include "analysis/micro/force_distribution.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
@@ -55,6 +56,7 @@ po::options_description options_into(Settings& s)
   add("derived", po::bool_switch(&s.derived),
       "read tables of this tool and print the quantities that follow from their sums");
   s.derivation.add_to(options);
+  s.frames.add_bins_to(options);
   s.frames.add_to(options);
   return options;
 }
@@ -72,33 +74,69 @@ std::string number_or_unknown(std::optional<double> number)
   return !number || std::isnan(*number) ? "unknown" : format_number(*number);
 }
 
+/// Components are those along x, y and z, so that annuli are left out.
+GrainArea area_of(Settings& s, const po::variables_map& values)
+{
+  const auto map = s.frames.map();
+  if (s.frames.annuli() || map == MapPlane::rz)
+    throw UsageError(fmt::format("--bins {}: grseg-micro knows layers, xy and xz", s.frames.bins));
+  if (map && values["composition"].defaulted()) s.composition = "centre";
+  const auto area =
+      choose<GrainArea>(s.composition, "--composition",
+                        {{"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}});
+  if (map && area != GrainArea::centre)
+    throw UsageError(
+        "--composition clipped: in a map a grain counts to the cell of its centre; take centre");
+  return area;
+}
+
+/// The sums of a cell of a map, and what is looked at: contacts per grain, mean normal force, and
+/// the parts of contacts that slide and that are mixed.
+template <int D>
+std::vector<Cell> map_cells(const StructureSums<D>& sums)
+{
+  auto cells = sums.cells();
+  const auto between = sums.between_grains();
+  const auto &small = sums.of(Species::small), &large = sums.of(Species::large);
+  for (const auto& cell :
+       std::vector<Cell>{{"z", ratio(small.ends + large.ends, small.grains + large.grains)},
+                         {"z_S", sums.coordination(Species::small)},
+                         {"z_L", sums.coordination(Species::large)},
+                         {"f_n[N]", ratio(between.normal, between.contacts)},
+                         {"sliding", ratio(between.sliding, between.contacts)},
+                         {"mixed_share", sums.mixed_share()}})
+    cells.push_back(cell);
+  return cells;
+}
+
 template <int D>
 void tabulate(FrameLoop& loop, const Settings& s, GrainArea area, const std::string& command)
 {
   const auto& parameters = loop.run().parameters();
   const double friction = friction_of(s, parameters);
-  auto table = loop.make_table(command,
-                               {{"composition", s.composition},
-                                {"density", number_or_unknown(parameters.find_number("density"))},
-                                {"friction", number_or_unknown(friction)},
-                                {"sliding_tolerance", format_number(sliding_tolerance)}},
-                               StructureByLayer<D>::columns());
+  const bool map = loop.layers().map().has_value();
+  auto table = loop.make_table(
+      command,
+      {{"composition", s.composition},
+       {"density", number_or_unknown(parameters.find_number("density"))},
+       {"friction", number_or_unknown(friction)},
+       {"sliding_tolerance", format_number(sliding_tolerance)}},
+      map ? columns_of(map_cells(StructureSums<D>{})) : StructureByLayer<D>::columns());
 
   for (const auto& window : loop.windows()) {
     const auto [micro] = loop.sum<D>(window, {.velocity = false, .contacts = true},
                                      StructureByLayer<D>(loop.layers(), area, friction));
     for (std::size_t layer = 0; layer < micro.layers(); ++layer)
-      table.rows.push_back(loop.row(window, layer, micro.row(layer)));
-    table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));
+      table.rows.push_back(loop.row(
+          window, layer, map ? values_of(map_cells(micro.mean(layer))) : micro.row(layer)));
+    if (!map) table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));
   }
   loop.write(table);
 }
 
-void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)
+void tabulate(Settings s, const po::variables_map& values, const std::string& command)
 {
-  const auto area =
-      choose<GrainArea>(s.composition, "--composition",
-                        {{"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}});
+  const auto area = area_of(s, values);
   FrameLoop loop(info, values, s.frames);
   loop.require_two_species();
   with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, area, command); });
@@ -146,7 +184,7 @@ int main(int argc, char** argv)
     refuse_options(values, {"force", "average", "partition", "pool", "depth", "heights"},
                    "needs --derived and a table of sums");
     if (settings.distribution) {
-      refuse_options(values, {"composition", "friction"},
+      refuse_options(values, {"composition", "friction", "bins"},
                      "has no effect on --distribution; leave it out");
       return distribute(settings, values, command);
     }

@@ -86,6 +86,14 @@ std::vector<double> of_windows(const MapTable& map, const Member& member)
   return numbers;
 }
 
+/// Of a column in a file, where / would begin a group: "sum_ft/fn_SS" is "sum_ft_per_fn_SS".
+std::string dataset_name(const std::string& column)
+{
+  const auto slash = column.find('/');
+  return slash == std::string::npos ? column
+                                    : column.substr(0, slash) + "_per_" + column.substr(slash + 1);
+}
+
 }  // namespace
 
 void write_map_hdf5(const MapTable& map, const std::string& path, const std::string& name)
@@ -105,7 +113,7 @@ void write_map_hdf5(const MapTable& map, const std::string& path, const std::str
   const auto &first = map.axes[0].name, &second = map.axes[1].name;
   file.field("V", map.volume.unit, {second, first}, map.volume.values);
   for (const auto& field : map.fields)
-    file.field(field.name, field.unit, {"time", second, first}, field.values);
+    file.field(dataset_name(field.name), field.unit, {"time", second, first}, field.values);
   file.close();
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Maps as files hold the numbers of the table: HDF5 read by h5py, with coordinates, and VTK image
 data by an XML parser. Names and settings that cannot be are refused.
-Usage: map_files_test.py GRSEG-STRESS GRSEG-KINETIC GRSEG-FIT RUN.h5
+Usage: map_files_test.py GRSEG-STRESS GRSEG-KINETIC GRSEG-MICRO GRSEG-FIT RUN.h5
 """
 import os
 import subprocess
@@ -12,7 +12,7 @@ import xml.etree.ElementTree
 import h5py
 import numpy as np
 
-stress, kinetic, fit, run = sys.argv[1:]
+stress, kinetic, micro, fit, run = sys.argv[1:]
 folder = tempfile.TemporaryDirectory()  # gone with the script
 os.chdir(folder.name)
 MAP = ["--bins", "xy", "--layer", "6dS", "--window", "4", "--quiet"]
@@ -45,6 +45,11 @@ def same(a, b, what):
     assert np.array_equal(np.asarray(a), np.asarray(b), equal_nan=True), what
 
 
+def stored(column):
+    """In HDF5 a / would begin a group."""
+    return column.replace("/", "_per_")
+
+
 def check_hdf5(tool, name):
     header, columns, names = table_of(tool)
     nx, ny = map(int, header["cells"][0].split())
@@ -53,11 +58,11 @@ def check_hdf5(tool, name):
     shape = windows, ny, nx
     assert names[:8] == ["t0[s]", "t1[s]", "x0[m]", "x1[m]", "y0[m]", "y1[m]", "frames", "V[m^2]"]
     with h5py.File(written(tool, name)) as file:
-        assert set(file) == ({n.partition("[")[0] for n in names[8:]} |
+        assert set(file) == ({stored(n.partition("[")[0]) for n in names[8:]} |
                              {"time", "t0", "t1", "frames", "V", "x", "y", "x_edges", "y_edges"})
         for column in names[8:]:
             plain, _, unit = column.partition("[")
-            field = file[plain]
+            field = file[stored(plain)]
             same(field, columns[column].reshape(shape), column)
             assert field.attrs.get("units", b"").decode() == unit.rstrip("]"), column
             assert [field.dims[k][0].name for k in range(3)] == ["/time", "/y", "/x"], column
@@ -151,6 +156,9 @@ def check_refusals():
         refused([stress, run, "--bins", "xy", "--assign", assign], 2,
                 "spreads contacts over layers, not over the cells of a map")
     refused([stress, run, "--bins", "xy", "--composition", "clipped"], 2, "take centre")
+    refused([micro, run, "--bins", "xy", "--composition", "clipped"], 2, "take centre")
+    refused([micro, run, "--bins", "radius:0,0"], 2, "grseg-micro knows layers, xy and xz")
+    refused([micro, run, "--bins", "xy", "--distribution"], 2, "has no effect on --distribution")
     refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "take layer or instant")
     refused([stress, run, "--bins", "xy", "--layer", "1e-6"], 1, "are the cells too small?")
     refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json prints text")
@@ -160,11 +168,28 @@ def check_refusals():
     os.mkdir("mine")
     refused([stress, run, *MAP, "-o", "mine.pvd"], 2, "already exists")
     refused([stress, run, *MAP, "-o", "mine.pvd", "--overwrite"], 2, "holds no 000000.vti")
-    assert sorted(os.listdir()) == ["flow.h5", "map", "map.pvd", "map.tsv", "mine", "one.vti",
+    assert sorted(os.listdir()) == ["flow.h5", "map", "map.pvd", "map.tsv", "micro.h5", "mine", "one.vti",
                                     "stress.h5"], os.listdir()
+
+
+def check_sums():
+    """A map of contacts adds up to its layers."""
+    _, columns, names = table_of(micro)
+    text = subprocess.run([micro, run, *MAP[2:], "--composition", "centre"], check=True,
+                          capture_output=True, text=True).stdout
+    rows = [line.split("\t") for line in text.splitlines() if not line.startswith("#")]
+    layers = dict(zip(rows[0], np.array(rows[1:], float).T))
+    inside = ~np.isnan(layers["y0[m]"])
+    summed = [name for name in names[8:] if name in layers and not name.startswith("n_strong")]
+    assert len(summed) > 50
+    for name in summed:
+        a, b = columns[name].sum(), layers[name][inside].sum()
+        assert abs(a - b) <= 1e-11 * np.abs(layers[name][inside]).sum(), (name, a, b)
 
 
 check_hdf5(stress, "stress.h5")
 check_hdf5(kinetic, "flow.h5")
+check_hdf5(micro, "micro.h5")
 check_vtk(stress)
 check_refusals()
+check_sums()
