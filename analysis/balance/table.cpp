@@ -42,28 +42,29 @@ template <int D>
 void add_species(std::vector<Cell>& cells, const SpeciesPart<D>& part)
 {
   const auto& of = part.momentum;
-  const auto& [density, momentum, stress, force] = units<D>;
+  constexpr Units unit = units<D>;
   const auto& name = part.name;
   const auto component = [](const auto& row, const auto& column) {
     return fmt::format("{}{}", axes[static_cast<std::size_t>(row)],
                        axes[static_cast<std::size_t>(column)]);
   };
-  cells.push_back({fmt::format("rho_{}{}", name, density), of.density});
+  cells.push_back({fmt::format("rho_{}{}", name, unit.density), of.density});
   for (Eigen::Index a = 0; a < D; ++a)
-    cells.push_back({fmt::format("j{}_{}{}", axes[static_cast<std::size_t>(a)], name, momentum),
-                     of.momentum[a]});
+    cells.push_back(
+        {fmt::format("j{}_{}{}", axes[static_cast<std::size_t>(a)], name, unit.momentum),
+         of.momentum[a]});
   for (Eigen::Index a = 0; a < D; ++a)
     for (Eigen::Index b = 0; b < D; ++b)
       cells.push_back(
-          {fmt::format("Sc_{}_{}{}", name, component(a, b), stress), of.contact_stress(a, b)});
+          {fmt::format("Sc_{}_{}{}", name, component(a, b), unit.stress), of.contact_stress(a, b)});
   for (Eigen::Index a = 0; a < D; ++a)
     for (Eigen::Index b = a; b < D; ++b)
-      cells.push_back(
-          {fmt::format("Sk_{}_{}{}", name, component(a, b), stress), part.kinetic_stress(a, b)});
+      cells.push_back({fmt::format("Sk_{}_{}{}", name, component(a, b), unit.stress),
+                       part.kinetic_stress(a, b)});
   const auto add_force = [&](const char* term, const Vector<D>& value) {
     for (Eigen::Index a = 0; a < D; ++a)
       cells.push_back(
-          {fmt::format("{}_{}_{}{}", term, name, axes[static_cast<std::size_t>(a)], force),
+          {fmt::format("{}_{}_{}{}", term, name, axes[static_cast<std::size_t>(a)], unit.force),
            value[a]});
   };
   add_force("rate", of.rate);

@@ -46,8 +46,8 @@ std::optional<Vec2> axis_of(const TrajectoryReader& run, const std::string& bins
     throw UsageError(
         fmt::format("--bins {}: an axis has two coordinates, as in {}:0.1,0.2", bins, word));
   const auto option = "--bins " + word + ":";
-  return Vec2(parse_length(place.substr(0, comma), option.c_str(), units),
-              parse_length(place.substr(comma + 1), option.c_str(), units));
+  return Vec2(parse_length(place.substr(0, comma), option, units),
+              parse_length(place.substr(comma + 1), option, units));
 }
 
 Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)

@@ -107,7 +107,7 @@ SpeciesList species_of(const Table& table)
   if (!table.has_header("species"))
     return two_sizes(table.header_positive("small_diameter"),
                      table.header_positive("large_diameter"));
-  if (const auto list = parse_species(table.header_text("species")); !list.empty()) return list;
+  if (auto list = parse_species(table.header_text("species")); !list.empty()) return list;
   throw FormatError(fmt::format(
       "{}: '# species: {}' should list names and diameters in order of size, as in SE 3e-06, AM "
       "1.2e-05",

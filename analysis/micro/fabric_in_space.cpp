@@ -133,7 +133,7 @@ PrincipalStress<3> principal_stress(const Tensor3& stress)
 {
   const Tensor3 even = symmetric(stress);
   const Eigen::SelfAdjointEigenSolver<Tensor3> solver(even);
-  const Vec3 s = solver.eigenvalues();  // increasing
+  const Vec3& s = solver.eigenvalues();  // increasing
   return {s.sum() / 3, size(deviator(even)), ratio(s[1] - s[0], s[2] - s[0]),
           solver.eigenvectors().col(2)};
 }

@@ -23,7 +23,7 @@ std::string unit_of(const std::string& column)
 std::string axis_of(const Table& table, Key low)
 {
   const auto &first = table.columns[low], &second = table.columns[low + 1];
-  const std::string name = first.substr(0, 1);
+  std::string name = first.substr(0, 1);
   if (first != name + "0[m]" || second != name + "1[m]")
     throw FormatError(
         fmt::format("{}: no table of a map: columns {} and {} should be the edges of "

@@ -39,6 +39,14 @@ Properties small_index_cache()
   return access;
 }
 
+/// A text of fixed length, which is padded with zeros.
+std::string padded(const std::string& all, std::size_t begin, std::size_t length)
+{
+  std::string text = all.substr(begin, length);
+  text.erase(std::min(text.find('\0'), text.size()));
+  return text;
+}
+
 /// "0 small, 1 large, 2 boundary"
 std::string numbers_and_names(const SpeciesList& list)
 {
@@ -222,9 +230,9 @@ void StoredRun::read_species()
   diameters.read_all(H5T_NATIVE_DOUBLE, diameter.data());
   mobile.read_all(H5T_NATIVE_UINT8, moves.data());
   bool good = moves.back() == 0 && diameter.back() == 0 &&
-              text.substr((count - 1) * length).c_str() == std::string(name_of_boundary);
+              padded(text, (count - 1) * length, length) == name_of_boundary;
   for (std::size_t k = 0; good && k + 1 < count; ++k) {
-    run.species.push_back({text.substr(k * length, length).c_str(), diameter[k]});
+    run.species.push_back({padded(text, k * length, length), diameter[k]});
     good = moves[k] == 1 && std::isfinite(diameter[k]) &&
            diameter[k] >= (k == 0 ? 0 : diameter[k - 1]);
   }
