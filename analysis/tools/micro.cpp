@@ -8,6 +8,8 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 
