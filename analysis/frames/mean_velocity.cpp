@@ -65,14 +65,21 @@ void MeanVelocity<D>::finish()
 {
   for (const auto& [sum, moment] : of_bin_)
     if (sum.mass > 0) profile_.push_back({moment / sum.mass, sum.momentum / sum.mass});
+  for (const auto& layer : of_layer_) mean_of_layer_.push_back(mean(layer));
+}
+
+template <int D>
+Motion<D> MeanVelocity<D>::mean(const std::vector<Sum>& of_species)
+{
+  Sum all;
+  for (const auto& own : of_species) all += own;
+  return all.momentum / all.mass;
 }
 
 template <int D>
 Motion<D> MeanVelocity<D>::of_layer(std::size_t layer) const
 {
-  Sum all;
-  for (const auto& own : of_layer_[layer]) all += own;
-  return all.momentum / all.mass;
+  return mean_of_layer_.empty() ? mean(of_layer_[layer]) : mean_of_layer_[layer];
 }
 
 template <int D>

@@ -31,6 +31,7 @@ using Motion = Vector<D == 2 ? 3 : 6>;
 template <int D>
 Motion<D> motion_of(const Vector<D>& velocity, const Spin<D>& spin)
 {
+  if constexpr (D == 2) return {velocity.x(), velocity.y(), spin};
   Motion<D> motion;
   motion << velocity, spin;
   return motion;
@@ -67,6 +68,7 @@ class MeanVelocity {
     Motion<D> momentum = Motion<D>::Zero();
     Sum& operator+=(const Sum& other);
   };
+  static Motion<D> mean(const std::vector<Sum>& of_species);
   struct BinSum {
     Sum motion;
     double moment = 0;  // kg m
@@ -81,7 +83,9 @@ class MeanVelocity {
   std::vector<BinSum> of_bin_;
   std::size_t species_;
   std::vector<std::vector<Sum>> of_layer_;  // by species
+  // Once they are taken.
   std::vector<Point> profile_;
+  std::vector<Motion<D>> mean_of_layer_;
 };
 
 }  // namespace grseg

@@ -21,8 +21,8 @@ Fluctuations<D> fluctuations(double mass, double radius, const Motion<D>& excess
   const Vector<D> velocity = excess.template head<D>();
   const double moment =
       D == 2 ? mass * radius * radius / 2 : inertia_factor<D> * mass * radius * radius;
-  double rotational = 0;
-  for (Eigen::Index axis = D; axis < excess.size(); ++axis)
+  double rotational = moment * excess[D] * excess[D];
+  for (Eigen::Index axis = D + 1; axis < excess.size(); ++axis)
     rotational += moment * excess[axis] * excess[axis];
   return {mass * velocity * velocity.transpose(), rotational};
 }
@@ -98,12 +98,12 @@ KineticStress<D>::KineticStress(const Layers& layers, MeanFlow flow, const MeanV
 }
 
 template <int D>
-Motion<D> KineticStress<D>::mean_at(std::size_t layer, Species species, double y,
+Motion<D> KineticStress<D>::mean_in(std::size_t layer, Species species,
                                     const MeanVelocity<D>& now) const
 {
   switch (flow_) {
     case MeanFlow::profile:
-      return mean_velocity_.on_profile(y);
+      break;  // has no mean by layer
     case MeanFlow::layer:
       return mean_velocity_.of_layer(layer);
     case MeanFlow::instant:
@@ -139,9 +139,14 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     auto& own = sums_[layer].species[static_cast<std::size_t>(species)];
     own.mass += mass;
     own.grains += 1;
-    own.about_mean += about(mean_at(layer, species, y, now));
-    if (has_profile)
-      own.layer_bias += about(mean_velocity_.of_layer(layer)) - about(mean_velocity_.on_profile(y));
+    if (!has_profile) {
+      own.about_mean += about(mean_in(layer, species, now));
+    } else {
+      const auto about_profile = about(mean_velocity_.on_profile(y));
+      own.about_mean +=
+          flow_ == MeanFlow::profile ? about_profile : about(mean_in(layer, species, now));
+      own.layer_bias += about(mean_velocity_.of_layer(layer)) - about_profile;
+    }
     sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer), velocity);
   }
 }

@@ -84,7 +84,7 @@ class KineticStress {
     LayerFlowSums flow;
     Sums& operator+=(const Sums& others);
   };
-  Motion<D> mean_at(std::size_t layer, Species species, double y, const MeanVelocity<D>& now) const;
+  Motion<D> mean_in(std::size_t layer, Species species, const MeanVelocity<D>& now) const;
 
   Layers layers_;
   MeanFlow flow_;

@@ -36,9 +36,11 @@ std::vector<typename PartialContactStress<D>::SummedRule> PartialContactStress<D
 }
 
 template <int D>
-typename PartialContactStress<D>::Sums PartialContactStress<D>::no_contacts() const
+void PartialContactStress<D>::grow_to(std::size_t layers)
 {
-  return {std::vector<double>(base_contact_index(species_, species_)), ContactSums<D>(species_)};
+  if (layers <= this->layers()) return;
+  sums_.resize(layers * sums_of_layer(), Tensor<D>::Zero());
+  contacts_.resize(layers * contacts_of_layer());
 }
 
 template <int D>
@@ -47,8 +49,9 @@ void PartialContactStress<D>::add_stretch(Sum sum, std::size_t index, const Cont
                                           const Stretch& stretch)
 {
   const Tensor<D> stress = stretch.weight * contact.stress;
+  Tensor<D>* const first = &sums_[place(sum, index)];
   const auto share = [&](std::size_t layer, double of_it) {
-    sums_[layer].sums.of(sum, index) += of_it * stress;
+    first[layer * sums_of_layer()] += of_it * stress;
   };
   switch (assignment_) {
     case Assignment::contact_point:
@@ -106,7 +109,7 @@ void PartialContactStress<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   ++frames_;
   count_ = layers_.count(grains, frame);
-  sums_.resize(std::max(sums_.size(), count_), no_contacts());
+  grow_to(count_);
   const auto& list = frame.contacts;
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (!bears_force(list, k)) continue;
@@ -119,7 +122,7 @@ void PartialContactStress<D>::add(const Grains& grains, const Frame<D>& frame)
     const Contact contact{
         layers_.turned<D>(list.force[k], touch) * layers_.turned<D>(branch, touch).transpose(),
         std::min(layers_.holding<D>(touch, y_contact), count_ - 1)};
-    auto& contacts = sums_[contact.layer].contacts;
+    double* const contacts = &contacts_[contact.layer * contacts_of_layer()];
     const auto a = static_cast<std::size_t>(grains.species[i]);
 
     if (!j) {
@@ -144,28 +147,29 @@ void PartialContactStress<D>::add(const Grains& grains, const Frame<D>& frame)
 }
 
 template <int D>
-typename PartialContactStress<D>::Sums& PartialContactStress<D>::Sums::operator+=(
-    const Sums& others)
-{
-  accumulate(contacts, others.contacts);
-  sums += others.sums;
-  return *this;
-}
-
-template <int D>
 void PartialContactStress<D>::merge(const PartialContactStress& others)
 {
   frames_ += others.frames_;
-  sums_.resize(std::max(sums_.size(), others.sums_.size()), no_contacts());
+  grow_to(others.layers());
   accumulate(sums_, others.sums_);
+  accumulate(contacts_, others.contacts_);
 }
 
 template <int D>
 typename PartialContactStress<D>::Mean PartialContactStress<D>::mean(std::size_t layer) const
 {
   const auto frames = static_cast<double>(frames_);
-  Mean mean{sums_[layer].contacts, sums_[layer].sums / frames};
-  for (auto& number : mean.contacts) number /= frames;
+  Mean mean{std::vector<double>(contacts_of_layer()), ContactSums<D>(species_)};
+  for (std::size_t k = 0; k < mean.contacts.size(); ++k)
+    mean.contacts[k] = contacts_[layer * contacts_of_layer() + k] / frames;
+  const Tensor<D>* const own = &sums_[layer * sums_of_layer()];
+  for (std::size_t k = 0; k < species_; ++k)
+    for (std::size_t sum = 0; sum < own_sums; ++sum)
+      mean.sums.of(static_cast<OwnSum>(sum), k) = own[place(static_cast<OwnSum>(sum), k)] / frames;
+  for (std::size_t k = 0; k < number_of_pairs(species_); ++k)
+    for (std::size_t sum = 0; sum < pair_sums; ++sum)
+      mean.sums.of(static_cast<PairSum>(sum), k) =
+          own[place(static_cast<PairSum>(sum), k)] / frames;
   mean.sums.at_centres = assignment_ == Assignment::grain;
   return mean;
 }

@@ -59,7 +59,7 @@ class PartialContactStress {
 
   void add(const Grains& grains, const Frame<D>& frame);
   void merge(const PartialContactStress& others);
-  std::size_t layers() const { return sums_.size(); }
+  std::size_t layers() const { return sums_.size() / sums_of_layer(); }
   Mean mean(std::size_t layer) const;
 
   /// The columns of grseg-stress behind the contents, and a layer's numbers under them.
@@ -67,11 +67,6 @@ class PartialContactStress {
   std::vector<double> row(std::size_t layer) const;
 
  private:
-  struct Sums {
-    std::vector<double> contacts;
-    ContactSums<D> sums;
-    Sums& operator+=(const Sums& others);
-  };
   /// A rule whose share is summed contact by contact, and the number behind its name.
   struct SummedRule {
     const RuleDefinition* definition;
@@ -95,7 +90,21 @@ class PartialContactStress {
   };
 
   static std::vector<SummedRule> summed_rules(std::optional<double> power);
-  Sums no_contacts() const;
+  // Where the numbers of a layer stand, one behind the other.
+  std::size_t sums_of_layer() const
+  {
+    return species_ * own_sums + number_of_pairs(species_) * pair_sums;
+  }
+  std::size_t contacts_of_layer() const { return base_contact_index(species_, species_); }
+  std::size_t place(OwnSum sum, std::size_t species) const
+  {
+    return species * own_sums + static_cast<std::size_t>(sum);
+  }
+  std::size_t place(PairSum sum, std::size_t pair) const
+  {
+    return species_ * own_sums + pair * pair_sums + static_cast<std::size_t>(sum);
+  }
+  void grow_to(std::size_t layers);
   TableKind table_kind() const;
   template <class Sum>
   void add_stretch(Sum sum, std::size_t index, const Contact& contact, const Stretch& stretch);
@@ -112,8 +121,9 @@ class PartialContactStress {
   std::optional<Kernel> kernel_;
   std::size_t species_;
   std::size_t frames_ = 0;
-  std::size_t count_ = 0;  // layers of the frame that is being added
-  std::vector<Sums> sums_;
+  std::size_t count_ = 0;         // layers of the frame that is being added
+  std::vector<Tensor<D>> sums_;   // by layer and place
+  std::vector<double> contacts_;  // by layer and contact_index
 };
 
 }  // namespace grseg
