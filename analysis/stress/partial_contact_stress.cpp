@@ -50,8 +50,9 @@ void PartialContactStress<D>::add_stretch(Sum sum, std::size_t index, const Cont
 {
   const Tensor<D> stress = stretch.weight * contact.stress;
   Tensor<D>* const first = &sums_[place(sum, index)];
-  const auto share = [&](std::size_t layer, double of_it) {
-    first[layer * sums_of_layer()] += of_it * stress;
+  const std::size_t stride = sums_of_layer();
+  const auto share = [first, stride, &stress](std::size_t layer, double of_it) {
+    first[layer * stride] += of_it * stress;
   };
   switch (assignment_) {
     case Assignment::contact_point:
