@@ -59,7 +59,7 @@ int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs
         apart));
   if (asked == 2)
     throw UsageError(fmt::format(
-        "{}, so this is no flow in two dimensions; leave --dimension 2 out, or name the plane",
+        "{}, so this is not a flow in two dimensions; leave --dimension 2 out, or name the plane",
         apart));
   return 3;
 }

@@ -66,7 +66,7 @@ TEST(Dimension, DiscsInSpaceAndAPlaneThatIsNoneAreRefused)
   EXPECT_TRUE(mentions(complaint(in_space, "xy", true), "but discs move in a plane: name it with"));
   EXPECT_TRUE(
       mentions(complaint(in_x_y, "xy", true, 3), "--dimension 3, but the grains are discs"));
-  EXPECT_TRUE(mentions(complaint(in_space, "xz", false, 2), "no flow in two dimensions; leave"));
+  EXPECT_TRUE(mentions(complaint(in_space, "xz", false, 2), "not a flow in two dimensions; leave"));
   EXPECT_TRUE(mentions(complaint(in_x_y, "xy", false, 1), "--dimension 1 is neither 2 nor 3"));
 }
 
