@@ -234,6 +234,21 @@ std::vector<std::string> CsvArchive::remarks() const
   return remarks;
 }
 
+/// Contacts name two grains in the line of names.
+FileRole role_of(const FileStart& start)
+{
+  for (const auto& line : start.lines) {
+    if (line.empty() || line.starts_with('#')) continue;
+    const auto names = names_in_header(line);
+    const auto has = [&](const char* name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (has("j") || has("id2")) return FileRole::contacts;
+    return has("x") && has("y") ? FileRole::grains : FileRole::none;
+  }
+  return FileRole::none;
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
@@ -244,6 +259,7 @@ std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
 const ArchiveFormat csv_format{
     .name = "csv",
     .open = open_csv,
+    .role = role_of,
     .takes_columns = false,
     .examples =
         "  grseg-import --format csv --grains grains.csv --contacts contacts.csv \\\n"

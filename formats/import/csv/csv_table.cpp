@@ -46,6 +46,14 @@ char separator_of(std::string_view line)
 
 }  // namespace
 
+std::vector<std::string> names_in_header(std::string_view line)
+{
+  std::vector<std::string> names;
+  for (const auto& part : split(line, separator_of(line))) names.push_back(plain_name(part));
+  if (!names.empty() && names.back().empty()) names.pop_back();
+  return names;
+}
+
 CsvTable::CsvTable(std::vector<std::string> files, std::span<const Column> columns)
     : source_(std::move(files))
 {
@@ -64,9 +72,7 @@ void CsvTable::read_names(std::span<const Column> columns)
     if (source_.line().starts_with('#')) comments_.emplace_back(source_.line());
   } while (source_.line().empty() || source_.line().starts_with('#'));
   separator_ = separator_of(source_.line());
-  std::vector<std::string> names;
-  for (const auto& part : split(source_.line(), separator_)) names.push_back(plain_name(part));
-  if (!names.empty() && names.back().empty()) names.pop_back();
+  const auto names = names_in_header(source_.line());
   width_ = names.size();
   for (const auto& column : columns) {
     place_.push_back(-1);

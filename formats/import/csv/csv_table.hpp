@@ -10,6 +10,9 @@
 
 namespace grseg {
 
+/// The names of columns in a table's first line: in lower case, without quotation marks and units.
+std::vector<std::string> names_in_header(std::string_view line);
+
 /// A plain table: one line of column names, then rows, separated by commas, semicolons, tabs or
 /// blanks, whichever of these, in this order, the line of names contains. Empty lines and lines
 /// that begin with # are skipped; those above the names are kept. Rows are read in blocks of equal
