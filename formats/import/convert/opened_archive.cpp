@@ -4,7 +4,8 @@
 #include "formats/import/convert/imported_bed.hpp"
 #include "formats/import/convert/proposed_files.hpp"
 #include "formats/import/facts/proposals.hpp"
-#include "formats/import/open_archive.hpp"
+
+#include <fmt/format.h>
 
 namespace grseg {
 namespace {
@@ -23,32 +24,28 @@ void propose_base(const Question& question, SpeciesSettings& settings)
       question.option.substr(blank + 1);
 }
 
-ArchiveFiles with_columns(ArchiveFiles files, const std::string& columns)
-{
-  files.columns = columns;
-  return files;
-}
-
 }  // namespace
 
-OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& columns)
-    : drop_incomplete_(settings.drop_incomplete)
+OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& columns,
+                             std::shared_ptr<const Roster> roster, Questions questions)
+    : moments_(settings, columns), roster_(std::move(roster))
 {
-  Questions questions;
-  const auto proposed = with_proposed_files(settings, questions);
-  archive = open_archive(proposed.format, with_columns(proposed.files, columns));
   if (!next()) throw FormatError("the archive holds no moment with grains and contacts");
+  if (!roster_ && moment.grains.size() == 0)
+    throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
   for (const auto& question : moment.questions) questions.ask(question);
-  const auto resting = resting_at_first(settings.species);
-  facts = collect_facts(archive->facts(), moment, resting, proposed, questions);
-  ask_for_the_bed(proposed, resting, questions);
+  const auto resting = resting_grains_of(settings);
+  facts = collect_facts(archive().facts(), {all_grains(), moment, resting}, settings, questions);
+  ask_for_the_bed(settings, resting, questions);
   questions.report();
 }
 
-/// Where the base is asked for, looks at the next moment, too: the import will not go on.
-std::vector<bool> OpenedArchive::resting_at_first(const SpeciesSettings& settings)
+/// Where the base is asked for. Without a roster the next moment tells, too: the import will not go
+/// on.
+std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& settings)
 {
-  if (!asks_for_base(moment.grains, settings)) return {};
+  if (!asks_for_base(all_grains().grains, settings.species)) return {};
+  if (roster_) return resting_grains(roster_->all.grains, nullptr);
   const auto first = std::move(moment);
   moment = {};
   const bool more = next();
@@ -63,28 +60,40 @@ void OpenedArchive::ask_for_the_bed(const ImportSettings& settings,
                                     const std::vector<bool>& resting, Questions& questions) const
 {
   auto trial = settings;
-  auto& species = trial.species;
-  if (asks_for_base(moment.grains, species)) {
-    species.boundary = "none";
-    trial.origin = "0";
-    if (!resting.empty()) propose_base(question_of_base(moment.grains, resting), species);
-    if (!resting.empty()) trial.origin = settings.origin;
+  const auto& grains = all_grains().grains;
+  if (asks_for_base(grains, trial.species)) {
+    trial.species.boundary = "none";
+    if (resting.empty())
+      trial.origin = "0";
+    else
+      propose_base(question_of_base(grains, resting), trial.species);
   }
   try {
-    questions.collect([&] { ImportedBed(moment, facts, trial); });
+    questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
   } catch (const ToolError&) {
     if (!questions.any()) throw;
   }
 }
 
-bool OpenedArchive::next()
+OpenedArchive open_with_roster(const ImportSettings& settings)
 {
+  Questions questions;
+  const auto proposed = with_proposed_files(settings, questions);
+  return {proposed, proposed.files.columns, std::make_shared<const Roster>(read_roster(proposed)),
+          questions};
+}
+
+OpenedArchive open_with_grains(const ImportSettings& settings)
+{
+  Questions questions;
+  const auto proposed = with_proposed_files(settings, questions);
   try {
-    return archive->next(moment);
-  } catch (const TruncatedArchive&) {
-    if (!drop_incomplete_) throw;
-    return false;
+    return {proposed, proposed.files.columns, nullptr, questions};
+  } catch (const OtherGrains&) {
+  } catch (const UsageError&) {
+    if (!grains_change_early(proposed)) throw;
   }
+  return open_with_roster(settings);
 }
 
 }  // namespace grseg

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/import/common/questions.hpp"
+#include "formats/import/convert/moments.hpp"
+#include "formats/import/convert/roster.hpp"
 #include "formats/import/facts/run_facts.hpp"
 
 #include <memory>
@@ -8,25 +11,42 @@
 
 namespace grseg {
 
-/// An archive at one of its moments, from the first on, and the facts of its run.
-struct OpenedArchive {
-  /// Reads the first moment. Throws what readers and facts throw; OpenQuestions with all that is
-  /// missing; FormatError where the archive holds no moment.
-  OpenedArchive(const ImportSettings& settings, const std::string& columns);
+/// An archive at one of its moments, from the first on, and the facts of its run. Where grains come
+/// and go there is a roster of them, and facts are found from it.
+class OpenedArchive {
+ public:
+  /// Reads the first moment. Throws what readers and facts throw; OpenQuestions with `questions` and
+  /// all that is missing; FormatError where the archive holds no moment, OtherGrains where it begins
+  /// without grains and there is no roster.
+  OpenedArchive(const ImportSettings& settings, const std::string& columns,
+                std::shared_ptr<const Roster> roster = nullptr, Questions questions = {});
 
-  /// Reads the next moment; false at the end, which with --drop-incomplete an incomplete one is.
-  bool next();
+  /// Reads the next moment; false at the end.
+  bool next() { return moments_.next(moment); }
 
-  std::unique_ptr<Archive> archive;
+  const Archive& archive() const { return moments_.archive(); }
+  const MomentRange& range() const { return moments_.range(); }
+  /// Of all moments; null where they all have the grains of the first one.
+  const std::shared_ptr<const Roster>& roster() const { return roster_; }
+  /// A moment with all grains of the run: the roster's, or as long as it has not been left the first.
+  const ArchiveMoment& all_grains() const { return roster_ ? roster_->all : moment; }
+
   ArchiveMoment moment;
   RunFacts facts;
 
  private:
-  std::vector<bool> resting_at_first(const SpeciesSettings& settings);
+  std::vector<bool> resting_grains_of(const ImportSettings& settings);
   void ask_for_the_bed(const ImportSettings& settings, const std::vector<bool>& resting,
                        Questions& questions) const;
 
-  bool drop_incomplete_;
+  Moments moments_;
+  std::shared_ptr<const Roster> roster_;
 };
+
+/// Opens an archive, of which the command line may name files only. Where its facts cannot be found from the grains of the first moment, and other
+/// moments have others, with a roster.
+OpenedArchive open_with_grains(const ImportSettings& settings);
+/// Opens an archive with a roster.
+OpenedArchive open_with_roster(const ImportSettings& settings);
 
 }  // namespace grseg

@@ -13,7 +13,7 @@
 namespace grseg {
 
 /// Gravity along the archive's axes: of each component the median over the moving grains of (force -
-/// contact forces)/mass. None where forces, contacts or masses are missing. `mass` is that of each
+/// contact forces)/mass. None where forces or masses are missing or contacts are not understood. `mass` is that of each
 /// grain; `resting` may be empty.
 std::optional<Vec3> suggested_gravity(const ArchiveMoment& moment, const std::vector<double>& mass,
                                       const std::vector<bool>& resting);

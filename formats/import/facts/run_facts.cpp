@@ -98,13 +98,9 @@ double widest(const ArchiveGrains& grains)
 /// Facts by one, with questions for what is missing.
 class FactFinder {
  public:
-  FactFinder(const ArchiveFacts& archive, const ArchiveMoment& first,
-             const std::vector<bool>& resting, const ImportSettings& settings, Questions& questions)
-      : archive_(archive),
-        first_(first),
-        resting_(resting),
-        settings_(settings),
-        questions_(questions)
+  FactFinder(const ArchiveFacts& archive, const FirstLook& look, const ImportSettings& settings,
+             Questions& questions)
+      : archive_(archive), look_(look), settings_(settings), questions_(questions)
   {
   }
   RunFacts find();
@@ -119,8 +115,7 @@ class FactFinder {
   void find_orientation(const std::optional<GravityText>& gravity);
 
   const ArchiveFacts& archive_;
-  const ArchiveMoment& first_;
-  const std::vector<bool>& resting_;
+  const FirstLook& look_;
   const ImportSettings& settings_;
   Questions& questions_;
   RunFacts facts_;
@@ -136,7 +131,7 @@ void FactFinder::find_units()
     questions_.ask({"its units", "--units UNITS",
                     fmt::format("si, cgs, or LENGTH:TIME:MASS in m, s, kg; grains are up to {:.4g} "
                                 "wide",
-                                widest(first_.grains))});
+                                widest(look_.all.grains))});
   facts_.units_as_given = units.value_or("si");
   facts_.units = parse_units(facts_.units_as_given);
 }
@@ -152,7 +147,7 @@ void FactFinder::find_step()
 
 void FactFinder::find_grains()
 {
-  const auto& grains = first_.grains;
+  const auto& grains = look_.all.grains;
   auto discs = discs_or_spheres(archive_, grains, settings_);
   if (!discs && plane_of(grains).empty()) discs = false;
   if (!discs)
@@ -168,9 +163,10 @@ void FactFinder::find_grains()
 
 void FactFinder::find_base() const
 {
-  if (settings_.species.boundary || settings_.species.boundary_ids || !first_.grains.fixed.empty())
+  if (settings_.species.boundary || settings_.species.boundary_ids ||
+      !look_.all.grains.fixed.empty())
     return;
-  questions_.ask(question_of_base(first_.grains, resting_));
+  questions_.ask(question_of_base(look_.all.grains, look_.resting));
 }
 
 /// Where it is missing, what is proposed.
@@ -178,9 +174,11 @@ std::optional<GravityText> FactFinder::gravity()
 {
   if (settings_.gravity) return parse_gravity(*settings_.gravity);
   if (archive_.gravity) return GravityText{std::nullopt, archive_.gravity};
-  const bool has_mass = !first_.grains.mass.empty() || facts_.density;
-  const auto suggested = suggested_gravity(
-      first_, has_mass ? masses_of(first_.grains, facts_) : std::vector<double>(), resting_);
+  const auto& grains = look_.moment.grains;
+  const bool has_mass = !grains.mass.empty() || facts_.density;
+  const auto suggested =
+      suggested_gravity(look_.moment, has_mass ? masses_of(grains, facts_) : std::vector<double>(),
+                        resting_grains(grains, nullptr));
   if (suggested)
     questions_.ask({"gravity", "--gravity " + gravity_option(*suggested),
                     "what the forces on the grains suggest; or its magnitude and --slope"});
@@ -196,7 +194,7 @@ void FactFinder::find_axes(const std::optional<GravityText>& gravity)
     facts_.axes = *settings_.axes;
     return;
   }
-  const auto axes = question_of_axes(first_.grains, settings_.dimension == 3,
+  const auto axes = question_of_axes(look_.all.grains, settings_.dimension == 3,
                                      gravity ? gravity->vector : std::nullopt);
   if (!axes) return;
   questions_.ask(*axes);
@@ -223,21 +221,20 @@ RunFacts FactFinder::find()
   const auto direction = gravity();
   find_axes(direction);
   find_base();
-  facts_.dimension = dimension_of(first_, facts_.axes, facts_.discs, settings_.dimension);
+  facts_.dimension = dimension_of(look_.all, facts_.axes, facts_.discs, settings_.dimension);
   find_orientation(direction);
   return facts_;
 }
 
 }  // namespace
 
-RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
-                       const std::vector<bool>& resting, const ImportSettings& settings,
-                       Questions& questions)
+RunFacts collect_facts(const ArchiveFacts& archive, const FirstLook& look,
+                       const ImportSettings& settings, Questions& questions)
 {
-  if (first.grains.radius.empty())
+  if (look.all.grains.radius.empty())
     throw FormatError(
         "the grains of the archive have no radius or diameter, so they cannot be imported");
-  return FactFinder(archive, first, resting, settings, questions).find();
+  return FactFinder(archive, look, settings, questions).find();
 }
 
 std::vector<double> masses_of(const ArchiveGrains& grains, const RunFacts& facts)

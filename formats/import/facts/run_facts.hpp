@@ -23,14 +23,19 @@ struct RunFacts {
   std::string units_as_given;
 };
 
+/// What facts are found from.
+struct FirstLook {
+  const ArchiveMoment& all;          // a moment with all grains, perhaps without contacts
+  const ArchiveMoment& moment;       // the first one
+  const std::vector<bool>& resting;  // grains of `all` that seem to be the base (proposals.hpp)
+};
+
 /// Takes each fact from the archive or the command line; discs and spheres are distinguished by the
 /// masses of grains of different radii, or by grains that lie in no plane. What is missing is added
 /// to `questions`, and the fact is then the one that is proposed, or of no meaning. UsageError where
-/// archive and command line contradict each other. `resting` marks grains that seem to be the base
-/// (proposals.hpp).
-RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
-                       const std::vector<bool>& resting, const ImportSettings& settings,
-                       Questions& questions);
+/// archive and command line contradict each other.
+RunFacts collect_facts(const ArchiveFacts& archive, const FirstLook& look,
+                       const ImportSettings& settings, Questions& questions);
 
 /// Mass of every grain: the archive's own, or density times area or volume. FormatError where a
 /// grain has neither.

@@ -42,7 +42,7 @@ TEST(Proposals, GravityIsWhatContactsDoNotExplainOfTheForcesOnMovingGrains)
   }
 }
 
-TEST(Proposals, GravityIsNotKnownWithoutForcesOnGrainsMassesOrContacts)
+TEST(Proposals, GravityIsNotKnownWithoutForcesOnGrainsMassesOrTheMeaningOfColumns)
 {
   auto moment = column({0, 0, 0});
   EXPECT_FALSE(suggested_gravity(moment, {}, {}));
@@ -50,6 +50,7 @@ TEST(Proposals, GravityIsNotKnownWithoutForcesOnGrainsMassesOrContacts)
   EXPECT_FALSE(suggested_gravity(moment, masses, {}));
   moment = column({0, 0, 0});
   moment.contacts = {};
+  moment.questions.push_back({"what the 5 columns mean", "--columns MAP", ""});
   EXPECT_FALSE(suggested_gravity(moment, masses, {}));
 }
 
