@@ -128,6 +128,7 @@ struct ArchiveFiles {
   std::string restart;                        // with what the other files lack
   std::string columns;                        // contact_columns.hpp
   std::vector<std::string> unnamed;           // named without an option: proposed_files.hpp
+  std::vector<std::string> map;               // other names of columns; csv_map.hpp
 };
 
 /// All that is known of a format outside its own folder; open_archive.cpp lists the formats.
@@ -137,7 +138,7 @@ struct ArchiveFormat {
   /// What a file holds that begins like this, if it looks like one of this format.
   FileRole (*role)(const FileStart&);
   /// Which of these options apply to it; the others are refused.
-  bool takes_contacts = true, takes_columns = true, takes_restart = false;
+  bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_map = false;
   const char* examples;    // for --help: whole command lines, indented
   const char* notes = "";  // for --help: what its files and its --columns are, indented; may be ""
 };
