@@ -78,8 +78,9 @@ class DumpArchive : public Archive {
 
   Question question_of_columns(const DumpHeader& header) const
   {
+    const auto others = dialect_.others(header);
     return {fmt::format("what the {} columns of {} mean", header.columns.size(), header.place),
-            "--columns MAP",
+            "--columns " + (others.size() == 1 ? others.front() : "MAP"),
             fmt::format("they are {}; as in {}", fmt::join(header.columns, " "), dialect_.example)};
   }
 
