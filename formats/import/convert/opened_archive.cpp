@@ -63,15 +63,20 @@ std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& setting
   return resting;
 }
 
-/// One of the first moments that has half of the grains, or as many as there are.
+/// One of the first moments that has half of the grains, or as many as there are; with the questions
+/// of all before it.
 ArchiveMoment OpenedArchive::full_moment(const ImportSettings& settings,
                                          const std::string& columns) const
 {
   constexpr int furthest = 100;
   Moments ahead(settings, columns);
   ArchiveMoment full, next;
-  for (int k = 0; k < furthest && 2 * full.grains.size() < roster_->most && ahead.next(next); ++k)
+  std::vector<Question> questions;
+  for (int k = 0; k < furthest && 2 * full.grains.size() < roster_->most && ahead.next(next); ++k) {
+    questions.insert(questions.end(), next.questions.begin(), next.questions.end());
     if (k == 0 || next.grains.size() > full.grains.size()) full = next;
+  }
+  full.questions = questions;
   return full;
 }
 
