@@ -178,6 +178,7 @@ void TrajectoryReader::Impl::read(std::size_t index, Frame<D>& frame, Fields fie
     image.read_rows(H5T_NATIVE_INT32, index, 1, frame.image.data());
   }
   if (fields.contacts) read_contacts(index, frame.contacts);
+  if (run.grains_come_and_go) check_presence(index, frame);
 }
 
 /// The first of the fields that were read which is not as it was written.

@@ -63,6 +63,7 @@ StoredRun::StoredRun(const std::string& its_path)
 {
   require_version("/h5md");
   minor_version = require_version("/h5md/modules/grseg")[1];
+  run.grains_come_and_go = minor_version >= 2;
   read_offset();
   read_box();
   read_parameters();
@@ -349,7 +350,56 @@ void StoredRun::read_row(const CheckedDataset& dataset, hsize_t row, std::vector
   out.resize(run.grains.size());
   auto* const values = reinterpret_cast<double*>(out.data());
   dataset.read_rows(H5T_NATIVE_DOUBLE, row, 1, values);
-  check_finite(values, out.size() * sizeof(T) / sizeof(double), dataset.path(), row);
+  if (!run.grains_come_and_go)
+    check_finite(values, out.size() * sizeof(T) / sizeof(double), dataset.path(), row);
+}
+
+namespace {
+
+bool is_finite(double value)
+{
+  return std::isfinite(value);
+}
+template <int D>
+bool is_finite(const Vector<D>& value)
+{
+  return value.allFinite();
+}
+
+bool is_nan(double value)
+{
+  return std::isnan(value);
+}
+template <int D>
+bool is_nan(const Vector<D>& value)
+{
+  return value.array().isNaN().all();
+}
+
+}  // namespace
+
+template <int D>
+void StoredRun::check_presence(std::size_t index, const Frame<D>& frame) const
+{
+  const auto check = [&](const auto& values, const CheckedDataset& dataset) {
+    for (std::size_t g = 0; g < values.size(); ++g)
+      if (is_present(frame, g) ? !is_finite(values[g]) : !is_nan(values[g]))
+        fail(fmt::format("{} of grain {} in frame {} is {}; the frame is damaged", dataset.path(),
+                         g, index,
+                         is_present(frame, g)
+                             ? "not finite"
+                             : "not NaN throughout, though its position says that it is absent"));
+  };
+  check(frame.position, position);
+  check(frame.velocity, velocity);
+  check(frame.angular_velocity, angular_velocity);
+  check(frame.force, force);
+  const auto& contacts = frame.contacts;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    for (const auto g : {contacts.i[k], contacts.j[k]})
+      if (g >= 0 && !is_present(frame, static_cast<std::size_t>(g)))
+        fail(fmt::format("contact {} of frame {} names grain {}, which is absent there", k, index,
+                         g));
 }
 
 template <int D>
@@ -385,6 +435,8 @@ void StoredRun::read_contacts(std::size_t index, ContactList<D>& contacts) const
 template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<double>&) const;
 template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<Vec2>&) const;
 template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<Vec3>&) const;
+template void StoredRun::check_presence(std::size_t, const Frame<2>&) const;
+template void StoredRun::check_presence(std::size_t, const Frame<3>&) const;
 template void StoredRun::read_contacts(std::size_t, ContactList<2>&) const;
 template void StoredRun::read_contacts(std::size_t, ContactList<3>&) const;
 

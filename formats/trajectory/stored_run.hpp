@@ -48,11 +48,15 @@ struct StoredRun {
   void check_finite(const double* values, std::size_t count, const std::string& what,
                     std::size_t frame) const;
   int dimension() const { return run.box.dimension; }
-  /// A row of a dataset with one vector, or one number, per grain.
+  /// A row of a dataset with one vector, or one number, per grain; finite, unless grains come and go.
   template <class T>
   void read_row(const hdf5::CheckedDataset& dataset, hsize_t row, std::vector<T>& out) const;
   template <int D>
   void read_contacts(std::size_t frame, ContactList<D>& contacts) const;
+  /// For a run in which grains come and go, of what has been read: FormatError unless the numbers of
+  /// a grain that is present are finite, those of one that is absent NaN, and no contact names it.
+  template <int D>
+  void check_presence(std::size_t index, const Frame<D>& frame) const;
   /// The values of an observable in all committed frames.
   std::vector<double> read_observable(const std::string& name) const;
 
