@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace grseg {
 
@@ -29,7 +30,8 @@ struct ImportSettings {
   std::optional<int> dimension;  // dimension.hpp
   SpeciesSettings species;
 
-  std::optional<double> accept_residual;
+  std::vector<std::string> accept_residual;  // finding.hpp
+  bool strict = false;                       // refuse what is undecided
   bool drop_incomplete = false;
   std::string output;
   StorageSettings storage;

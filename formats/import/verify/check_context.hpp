@@ -23,19 +23,19 @@ struct SpeciesSizes {
 struct CheckContext {
   int dimension = 2;
   bool has_force = true;
-  Vec3 gravity = Vec3::Zero();           // as given, m/s^2, in the axes of the flow
-  std::array<Vec3, 3> axes;              // of the flow, in those of the archive
-  Units units;                           // of the archive
-  double step = 0;                       // s
-  bool gravity_is_given = true;          // on the command line, and not by the archive
-  bool masses_are_given = false;         // likewise, as a density
-  bool step_is_given = true;             // likewise
-  bool times_are_own = false;            // times are the archive's, not steps times their length
-  bool steps_are_own = true;             // numbers of steps are the archive's
-  double tolerance = 0;                  // of the balance, of the program
-  std::string reason;                    // of this tolerance
-  std::vector<SpeciesSizes> species;     // that have grains, in the order of the file
-  double size_ratio = 1;                 // of the larger to the smaller grains: mean radii
+  Vec3 gravity = Vec3::Zero();        // as given, m/s^2, in the axes of the flow
+  std::array<Vec3, 3> axes;           // of the flow, in those of the archive
+  Units units;                        // of the archive
+  double step = 0;                    // s
+  bool gravity_is_given = true;       // on the command line, and not by the archive
+  bool masses_are_given = false;      // likewise, as a density
+  bool step_is_given = true;          // likewise
+  bool times_are_own = false;         // times are the archive's, not steps times their length
+  bool steps_are_own = true;          // numbers of steps are the archive's
+  double tolerance = 0;               // of the balance, of the program
+  std::string reason;                 // of this tolerance
+  std::vector<SpeciesSizes> species;  // that have grains, in the order of the file
+  double size_ratio = 1;              // of the larger to the smaller grains: mean radii
   Waivers waivers;
 };
 

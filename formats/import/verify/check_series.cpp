@@ -92,8 +92,7 @@ std::vector<double> check_values(const CheckMoment& moment)
 void set_check_values(CheckMoment& moment, const std::vector<double>& values)
 {
   auto value = values.begin();
-  visit_numbers(moment,
-                [&](const std::string&, const char*, double& place) { place = *value++; });
+  visit_numbers(moment, [&](const std::string&, const char*, double& place) { place = *value++; });
 }
 
 }  // namespace grseg

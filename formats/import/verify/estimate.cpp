@@ -38,9 +38,8 @@ double squared_error(const std::vector<Weighted>& values, const Vec3& mean, std:
   };
   double variance = 0;
   for (std::size_t apart = 0; apart <= lag; ++apart) {
-    const double fade = apart == 0 ? 1
-                                   : 2 * (1 - static_cast<double>(apart) /
-                                                  static_cast<double>(lag + 1));
+    const double fade =
+        apart == 0 ? 1 : 2 * (1 - static_cast<double>(apart) / static_cast<double>(lag + 1));
     for (std::size_t k = apart; k < values.size(); ++k) variance += fade * product(k, k - apart);
   }
   const auto n = static_cast<double>(values.size());

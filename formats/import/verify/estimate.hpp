@@ -24,7 +24,8 @@ inline constexpr std::size_t fewest_pairs = 8;
 /// mean, weighted by grains, with the larger of the standard errors within moments and between them.
 /// Otherwise from sums over all grains: their mean over time, with a standard error that allows for
 /// moments that resemble their neighbours; nothing below `fewest_pairs`.
-std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate CheckMoment::*which);
+std::optional<Estimate> gravity_from(const CheckSeries& series,
+                                     GravityEstimate CheckMoment::*which);
 
 /// k of y = k x, its standard error, and by how much noise in x may have lowered it: the part of the
 /// squares of y that the line leaves over.
@@ -34,6 +35,10 @@ struct Slope {
   /// By how much it may be off: five standard errors and the doubt.
   double uncertainty() const { return 5 * error + doubt * value; }
 };
+/// By how much a slope may differ from 1, beside its uncertainty, and how uncertain one may be that
+/// passes: one that is off by half is then refused.
+inline constexpr double slope_tolerance = 0.1, sharp_slope = 0.5 - slope_tolerance;
+
 /// Nothing where too little moves or where more than a tenth of the squares is left over.
 std::optional<Slope> slope_of(const SlopeSums& sums);
 

@@ -17,10 +17,14 @@ namespace grseg {
 std::string to_text(Verdict verdict)
 {
   switch (verdict) {
-    case Verdict::passed: return "passed";
-    case Verdict::failed: return "failed";
-    case Verdict::undecided: return "undecided";
-    case Verdict::waived: return "waived";
+    case Verdict::passed:
+      return "passed";
+    case Verdict::failed:
+      return "failed";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::waived:
+      return "waived";
   }
   return "";
 }
@@ -35,13 +39,11 @@ Waivers::Waivers(const std::vector<std::string>& texts)
       throw UsageError(fmt::format("--accept-residual '{}': '{}' is not a check; they are {}",
                                    excerpt(text), excerpt(name), fmt::join(check_names, ", ")));
     double value = 0;
-    const auto [end, error] =
-        std::from_chars(number.data(), number.data() + number.size(), value);
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(value) ||
         !(value > 0))
-      throw UsageError(
-          fmt::format("--accept-residual '{}' needs a positive number, as in balance=0.1",
-                      excerpt(text)));
+      throw UsageError(fmt::format(
+          "--accept-residual '{}' needs a positive number, as in balance=0.1", excerpt(text)));
     if (!largest_.emplace(name, value).second)
       throw UsageError(fmt::format("--accept-residual names {} twice", name));
   }

@@ -47,7 +47,7 @@ std::vector<Side> open_sides(const Grains& grains, const Box& box, const Frame<D
     for (const bool upper : {false, true}) {
       Side side{axis, upper, -INFINITY};
       for (std::size_t g = 0; g < grains.size(); ++g)
-        if (is_mobile(grains, g) && !std::isnan(frame.position[g].y()))
+        if (is_mobile(grains, frame, g))
           side.position = std::max(side.position, reach<D>(grains, frame, g, side));
       sides.push_back(side);
     }
@@ -60,8 +60,8 @@ std::string text_of(const Side& side, const AxisInArchive& axis)
   const double x = side.upper ? side.position : -side.position;
   if (axis.letter == 0)
     return fmt::format("{} end {}", side.upper ? "upper" : "lower",
-                       std::array{"down the slope", "normal to the base", "across"}[
-                           static_cast<std::size_t>(side.axis)]);
+                       std::array{"down the slope", "normal to the base",
+                                  "across"}[static_cast<std::size_t>(side.axis)]);
   const bool high = side.upper == axis.forward;
   return fmt::format("{} {}, at about {} = {:.4g}", high ? "highest" : "lowest", axis.letter,
                      axis.letter, axis.forward ? x - axis.shift : axis.shift - x);

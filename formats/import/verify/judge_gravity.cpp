@@ -61,8 +61,8 @@ std::string remedy(const CheckContext& context, const Vec3& found, bool medians)
 {
   const Vec3 vector = in_the_archive(context, found);
   const Vec3& given = context.gravity;
-  const auto option = fmt::format("--gravity {:.4g},{:.4g},{:.4g}", vector.x(), vector.y(),
-                                  vector.z());
+  const auto option =
+      fmt::format("--gravity {:.4g},{:.4g},{:.4g}", vector.x(), vector.y(), vector.z());
   std::vector<std::string> ways{
       context.gravity_is_given
           ? fmt::format("gravity is another ({})", option)
@@ -70,9 +70,9 @@ std::string remedy(const CheckContext& context, const Vec3& found, bool medians)
   const double ratio = found.norm() / given.norm();
   const bool same_way = found.dot(given) > std::cos(0.02) * found.norm() * given.norm();
   if (same_way && std::isfinite(ratio))
-    ways.push_back(fmt::format("masses are {:.3g} times {}", ratio,
-                               context.masses_are_given ? "what --density makes them"
-                                                        : "those that the archive states"));
+    ways.push_back(fmt::format(
+        "masses are {:.3g} times {}", ratio,
+        context.masses_are_given ? "what --density makes them" : "those that the archive states"));
   if (!medians) ways.emplace_back("contacts with the base or a wall are missing");
   std::string text = ways.size() > 1 ? "either " : "";
   for (std::size_t k = 0; k < ways.size(); ++k) text += (k > 0 ? ", or " : "") + ways[k];
@@ -81,10 +81,10 @@ std::string remedy(const CheckContext& context, const Vec3& found, bool medians)
 
 std::string source(const Estimate& found)
 {
-  return fmt::format("from {} {:.0f} grains at {} {}",
-                     found.medians ? "the median over" : "the sum over", found.grains, found.moments,
-                     found.medians ? (found.moments == 1 ? "moment" : "moments")
-                                   : "pairs of moments");
+  return fmt::format(
+      "from {} {:.0f} grains at {} {}", found.medians ? "the median over" : "the sum over",
+      found.grains, found.moments,
+      found.medians ? (found.moments == 1 ? "moment" : "moments") : "pairs of moments");
 }
 
 Finding undecided(const CheckContext& context, const std::string& why)
@@ -104,9 +104,10 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
         context, fmt::format("without forces on grains it takes {} pairs of moments, or moments "
                              "close together, to tell gravity from the grains",
                              fewest_pairs));
-  const double scale = std::max({context.gravity.norm(), found->value.norm(),
-                                 negligible * median_acceleration(series)});
-  if (!(scale > 0)) return {"gravity", Verdict::passed, "there is none, and the grains feel none", 0};
+  const double scale = std::max(
+      {context.gravity.norm(), found->value.norm(), negligible * median_acceleration(series)});
+  if (!(scale > 0))
+    return {"gravity", Verdict::passed, "there is none, and the grains feel none", 0};
   const double measure = (found->value - context.gravity).norm() / scale;
   const double error = found->error / scale;
   const auto suggestion =

@@ -31,10 +31,10 @@ Part by_size(const CheckSeries& series, const CheckContext& context)
   const double ratio = light / heavy;
   const double error = std::hypot(smaller->error / light, larger->error / heavy);
   const double wrong = std::log(context.size_ratio), off = std::abs(std::log(ratio));
-  const auto sentence =
-      fmt::format("the weight over the mass of smaller grains is {:.4g} times that of larger ones, "
-                  "with a standard error of {:.2g}",
-                  ratio, error);
+  const auto sentence = fmt::format(
+      "the weight over the mass of smaller grains is {:.4g} times that of larger ones, "
+      "with a standard error of {:.2g}",
+      ratio, error);
   if (!std::isfinite(off) || !std::isfinite(error))
     return {Verdict::undecided, "the weights of small and large grains are not known apart", 0};
   if (off > wrong / 2 && off > 5 * error)
@@ -64,7 +64,7 @@ Part by_inertia(const CheckSeries& series, const CheckContext& context)
   const auto sentence = fmt::format(
       "force over acceleration is {:.4g} times the mass, with a standard error of {:.2g}",
       slope->value, slope->error);
-  if (off > 0.1 + unsure)
+  if (off > slope_tolerance + unsure)
     return {Verdict::failed,
             fmt::format("{}: either masses are {:.3g} times {}, or the time step is {:.3g} times "
                         "as long",
@@ -73,7 +73,7 @@ Part by_inertia(const CheckSeries& series, const CheckContext& context)
                                                  : "those that the archive states",
                         1 / slope->value),
             off};
-  if (off <= 0.1 && unsure <= 0.2) return {Verdict::passed, sentence, off};
+  if (off <= slope_tolerance && unsure <= sharp_slope) return {Verdict::passed, sentence, off};
   return {Verdict::undecided, sentence + ", which is too much to tell", off};
 }
 

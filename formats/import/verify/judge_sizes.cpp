@@ -33,8 +33,8 @@ Finding judge_sizes(const CheckContext& context)
   const auto& all = context.species;
   const double length = context.units.length;
   for (const auto& species : all) {
-    const double factor = std::max(species.smallest / species.nominal,
-                                   species.nominal / species.largest);
+    const double factor =
+        std::max(species.smallest / species.nominal, species.nominal / species.largest);
     if (species.nominal > 0 && factor > largest_factor)
       return failed(
           fmt::format("the nominal diameter of {}, {:.4g}, is far from those of its grains, {:.4g} "

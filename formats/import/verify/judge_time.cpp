@@ -23,10 +23,11 @@ std::optional<Finding> by_own_times(const CheckSeries& series, const CheckContex
   const auto steps = static_cast<double>(series.back().step - series.front().step);
   const double step = (series.back().time - series.front().time) / steps;
   if (!(steps > 0) || std::abs(step / context.step - 1) < 0.01) return std::nullopt;
-  return Finding{"time", Verdict::failed,
-                 fmt::format("the archive's own times suggest a step of {:.4g}; as given it is {:.4g}",
-                             step / context.units.time, context.step / context.units.time),
-                 std::abs(step / context.step - 1)};
+  return Finding{
+      "time", Verdict::failed,
+      fmt::format("the archive's own times suggest a step of {:.4g}; as given it is {:.4g}",
+                  step / context.units.time, context.step / context.units.time),
+      std::abs(step / context.step - 1)};
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
   const auto sentence = fmt::format(
       "displacements are {:.4g} times velocity times time, with a standard error of {:.2g}",
       slope->value, slope->error);
-  if (off > 0.1 + unsure)
+  if (off > slope_tolerance + unsure)
     return {"time", Verdict::failed,
             context.times_are_own
                 ? sentence + ": the times of the archive are not in the units of its velocities"
@@ -56,7 +57,7 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
                               sentence, slope->value * context.step / context.units.time,
                               context.step / context.units.time),
             off};
-  if (off > 0.1 || unsure > 0.2) {
+  if (off > slope_tolerance || unsure > sharp_slope) {
     auto finding = undecided(context, sentence + ", which is too much to tell");
     finding.measure = off;
     return finding;

@@ -13,6 +13,9 @@ namespace {
 /// What changes by less than this fraction between two moments is taken for steady: then its mean of
 /// the two is that over the time between them to half of it.
 constexpr double steady = 0.2;
+/// By how much the change of velocity in free flight may deviate from the force's direction, as a
+/// sine.
+constexpr double along = 0.05;
 /// Of a period, how far a grain may move where images of positions are missing.
 constexpr double share_of_period = 0.25;
 /// From the median absolute deviation to the standard deviation of a normal distribution, and from
@@ -51,6 +54,12 @@ bool is_steady(const Vector<D>& before, const Vector<D>& now)
 {
   const double mean = (before + now).norm() / 2;
   return mean > 0 && (now - before).norm() <= steady * mean;
+}
+
+template <int D>
+bool is_along(const Vector<D>& change, const Vector<D>& force)
+{
+  return change.dot(force) > std::sqrt(1 - along * along) * change.norm() * force.norm();
 }
 
 /// Sum of the sizes of the contact forces on each grain.
@@ -123,7 +132,7 @@ auto MomentStatistics<D>::weights(const Frame<D>& frame, const Vectors& sums,
   const bool has_force = !frame.force.empty();
   Vectors weights(grains_.size(), Vector<D>::Constant(NAN));
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, g) || !is_there<D>(frame.position, g)) continue;
+    if (!is_mobile(grains_, frame, g)) continue;
     if (has_force)
       weights[g] = (frame.force[g] - sums[g]) / grains_.mass[g];
     else if (before && is_there<D>(before->position, g))
@@ -152,8 +161,7 @@ GravityEstimate MomentStatistics<D>::median(Group group, const Vectors& weights)
     for (auto& value : values) value = std::abs(value - middle);
     squares += std::pow(median_of(values), 2);
   }
-  estimate.error =
-      error_of_median * deviation_of_normal * std::sqrt(squares / estimate.grains);
+  estimate.error = error_of_median * deviation_of_normal * std::sqrt(squares / estimate.grains);
   return estimate;
 }
 
@@ -180,30 +188,44 @@ double MomentStatistics<D>::acceleration(const Frame<D>& frame) const
   const auto sizes = sizes_of_forces(grains_.size(), frame.contacts);
   std::vector<double> values;
   for (std::size_t g = 0; g < sizes.size(); ++g)
-    if (is_mobile(grains_, g) && is_there<D>(frame.position, g))
-      values.push_back(sizes[g] / grains_.mass[g]);
+    if (is_mobile(grains_, frame, g)) values.push_back(sizes[g] / grains_.mass[g]);
   return median_of(values);
 }
 
-/// Displacements and velocities of the grains whose velocity is steady.
+/// Grains that bore no contact force at either moment.
+template <int D>
+std::vector<bool> free_grains(const Frame<D>& frame, const std::vector<Vector<D>>& sums,
+                              const MomentBefore<D>& before)
+{
+  std::vector<bool> is_free(sums.size());
+  for (std::size_t g = 0; g < sums.size(); ++g)
+    is_free[g] = is_present(frame, g) && is_there<D>(before.position, g) && sums[g].isZero(0) &&
+                 before.sums[g].isZero(0);
+  return is_free;
+}
+
+/// Displacements and velocities of grains whose velocity is steady or has changed along the force of
+/// a free flight, for which the mean velocity of the two moments is that over the time between them.
 template <int D>
 void MomentStatistics<D>::add_motion(SlopeSums& sums, const Frame<D>& frame,
-                                     const MomentBefore<D>& before, bool has_images) const
+                                     const MomentBefore<D>& before,
+                                     const std::vector<bool>& is_free, bool has_images) const
 {
   const double time = frame.time - before.time;
   const double lengths[] = {box_.length_x, 0, box_.length_z};
   const bool periodic[] = {box_.periodic_x, false, box_.periodic_z};
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, g) || !is_there<D>(frame.position, g) ||
-        !is_there<D>(before.position, g) || !is_steady<D>(before.velocity[g], frame.velocity[g]))
-      continue;
+    if (!is_mobile(grains_, frame, g) || !is_there<D>(before.position, g)) continue;
+    const bool falls = is_free[g] && !frame.force.empty() &&
+                       is_along<D>(frame.velocity[g] - before.velocity[g], frame.force[g]);
+    if (!falls && !is_steady<D>(before.velocity[g], frame.velocity[g])) continue;
     const Vector<D> expected = (before.velocity[g] + frame.velocity[g]) / 2 * time;
     Vector<D> moved = frame.position[g] - before.position[g];
     bool known = true;
     for (int k = 0; k < D; ++k) {
       if (!periodic[k]) continue;
       const auto axis = static_cast<std::size_t>(k);
-      moved[k] += lengths[k] * (frame.image[g][axis] - before.image[g][axis]);
+      if (has_images) moved[k] += lengths[k] * (frame.image[g][axis] - before.image[g][axis]);
       known = known && (has_images || std::abs(expected[k]) <= share_of_period * lengths[k]);
     }
     if (!has_images) moved = minimum_image<D>(box_, moved);
@@ -211,15 +233,18 @@ void MomentStatistics<D>::add_motion(SlopeSums& sums, const Frame<D>& frame,
   }
 }
 
-/// Forces and accelerations of the grains whose force is steady.
+/// Forces and accelerations of grains whose force is steady and which are free or seen at every step:
+/// over a collision the mean of two forces is less than the force between.
 template <int D>
 void MomentStatistics<D>::add_inertia(SlopeSums& sums, const Frame<D>& frame,
-                                      const MomentBefore<D>& before) const
+                                      const MomentBefore<D>& before,
+                                      const std::vector<bool>& is_free) const
 {
   if (frame.force.empty()) return;
+  const bool each_step = frame.step == before.step + 1;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, g) || !is_there<D>(frame.position, g) ||
-        !is_there<D>(before.position, g) || !is_steady<D>(before.force[g], frame.force[g]))
+    if (!is_mobile(grains_, frame, g) || !is_there<D>(before.position, g) ||
+        !(each_step || is_free[g]) || !is_steady<D>(before.force[g], frame.force[g]))
       continue;
     sums.add<D>((frame.velocity[g] - before.velocity[g]) / (frame.time - before.time),
                 (before.force[g] + frame.force[g]) / (2 * grains_.mass[g]));
@@ -245,8 +270,9 @@ void MomentStatistics<D>::add_to(CheckMoment& moment, const Frame<D>& frame, con
   moment.smaller = estimate(Group::smaller);
   moment.larger = estimate(Group::larger);
   if (!before) return;
-  add_motion(moment.motion, frame, *before, has_images);
-  add_inertia(moment.force, frame, *before);
+  const auto is_free = free_grains<D>(frame, sums, *before);
+  add_motion(moment.motion, frame, *before, is_free, has_images);
+  add_inertia(moment.force, frame, *before, is_free);
 }
 
 template std::vector<Vec2> contact_sums<2>(std::size_t, const ContactList<2>&,

@@ -53,8 +53,9 @@ class MomentStatistics {
   GravityEstimate mean(Group group, const Vectors& weights) const;
   double acceleration(const Frame<D>& frame) const;
   void add_motion(SlopeSums& sums, const Frame<D>& frame, const MomentBefore<D>& before,
-                  bool has_images) const;
-  void add_inertia(SlopeSums& sums, const Frame<D>& frame, const MomentBefore<D>& before) const;
+                  const std::vector<bool>& is_free, bool has_images) const;
+  void add_inertia(SlopeSums& sums, const Frame<D>& frame, const MomentBefore<D>& before,
+                   const std::vector<bool>& is_free) const;
 
   const Grains& grains_;
   Box box_;

@@ -64,7 +64,7 @@ std::optional<Complaint> Verification<D>::check(const Frame<D>& frame, bool has_
   if (before_ && distance != Distance::step)
     moment_.change = change_of_sums(grains_, frame, before_->sums, sums);
   const bool close = distance == Distance::step || distance == Distance::close;
-  statistics_.add_to(moment_, frame, sums, before_, close, has_images);
+  statistics_.add_to(moment_, frame, sums, before_, close, has_images && !frame.image.empty());
   before_ = {frame.step,  frame.time,  frame.position, frame.velocity,
              frame.force, frame.image, std::move(sums)};
   return complaint;
@@ -119,11 +119,12 @@ std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::s
   if (-gap > waivers_.limit("overlap", deepest_overlap))
     return Complaint{
         "overlap",
-        fmt::format("{} overlap by {:.2g} of the smaller radius: their centres are {:.6g} apart and "
-                    "the radii add up to {:.6g}: are radii and ids read as they are meant? Where "
-                    "grains are that soft, or a bed is being filled, --accept-residual overlap={:.1g} "
-                    "imports it",
-                    pair_of(contacts, c), -gap, apart, radii, std::ceil(-gap * 10) / 10),
+        fmt::format(
+            "{} overlap by {:.2g} of the smaller radius: their centres are {:.6g} apart and "
+            "the radii add up to {:.6g}: are radii and ids read as they are meant? Where "
+            "grains are that soft, or a bed is being filled, --accept-residual overlap={:.1g} "
+            "imports it",
+            pair_of(contacts, c), -gap, apart, radii, std::ceil(-gap * 10) / 10),
         true};
   return std::nullopt;
 }
@@ -182,7 +183,7 @@ auto Verification<D>::defect_of(const Frame<D>& frame, const Forces& forces) con
   for (const auto& force : forces) scale = std::max(scale, force.norm());
   Forces defect(grains_.size(), Vector<D>::Zero());
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, g) || std::isnan(frame.position[g].y())) continue;
+    if (!is_mobile(grains_, frame, g)) continue;
     const Vector<D> weight = grains_.mass[g] * gravity_;
     scale = std::max(scale, weight.norm());
     if (has_force)
@@ -252,7 +253,7 @@ std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame)
   if (!residual_) return std::nullopt;
   moment_.balance = residual_->unexplained;
   for (std::size_t g = 0; g < grains_.size(); ++g)
-    moment_.balance_grains += is_mobile(grains_, g) && !std::isnan(frame.position[g].y());
+    moment_.balance_grains += is_mobile(grains_, frame, g);
   if (residual_->unexplained <= tolerance()) return std::nullopt;
   auto remedy = other_readings(frame);
   if (remedy.empty()) remedy = cause(frame);
