@@ -24,7 +24,8 @@ Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect,
 {
   std::vector<std::pair<double, std::size_t>> sizes;
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g)) sizes.emplace_back(defect[g].norm() / scale, g);
+    if (is_mobile(grains, g) && !std::isnan(defect[g].y()))
+      sizes.emplace_back(defect[g].norm() / scale, g);
   if (sizes.empty()) return {};
   const auto largest = *std::max_element(sizes.begin(), sizes.end());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
@@ -181,7 +182,7 @@ auto Verification<D>::defect_of(const Frame<D>& frame, const Forces& forces) con
   const auto sum = contact_sums(grains_.size(), frame.contacts, forces);
   double scale = 0;
   for (const auto& force : forces) scale = std::max(scale, force.norm());
-  Forces defect(grains_.size(), Vector<D>::Zero());
+  Forces defect(grains_.size(), Vector<D>::Constant(NAN));  // also of what is absent, now or before
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, frame, g)) continue;
     const Vector<D> weight = grains_.mass[g] * gravity_;
@@ -230,7 +231,7 @@ void Verification<D>::judge_by_velocities(const Frame<D>& frame, const Forces& s
   const bool each = frame.step == before_->step + 1;
   std::vector<double> sizes;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, g)) continue;
+    if (!is_mobile(grains_, g) || std::isnan(defect[g].y())) continue;
     const double size = defect[g].norm(), change = (sums[g] - before_->sums[g]).norm();
     if (each)
       sizes.push_back(std::max(0.0, size - change / 2) / scale);
