@@ -6,8 +6,8 @@
 namespace grseg {
 namespace {
 
-/// By how much a nominal diameter may lie outside those of the grains: less than sizes far apart.
-constexpr double largest_factor = 1.2;
+/// By how much a nominal diameter may lie outside those of the grains.
+constexpr double largest_factor = 1.5;
 
 std::string named(const SpeciesSizes& species)
 {
@@ -49,6 +49,13 @@ Finding judge_sizes(const CheckContext& context)
                                 named(all[k]), all[k].mean / length, named(all[k + 1]),
                                 all[k + 1].mean / length, exchange(all[k], all[k + 1])),
                     all[k].mean / all[k + 1].mean - 1);
+  for (std::size_t k = 0; k + 1 < all.size(); ++k)
+    if (all[k].nominal > all[k + 1].nominal)
+      return failed(fmt::format("the nominal diameter of {} is {:.4g}, and that of {} is {:.4g}: "
+                                "exchange the two diameters",
+                                named(all[k]), all[k].nominal / length, named(all[k + 1]),
+                                all[k + 1].nominal / length),
+                    all[k].nominal / all[k + 1].nominal - 1);
   std::string sentence = "mean diameters are";
   for (const auto& species : all)
     sentence += fmt::format("{} {:.4g} ({})", &species == &all.front() ? "" : ",",
