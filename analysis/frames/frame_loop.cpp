@@ -179,11 +179,12 @@ void FrameLoop::require_two_species() const
 template <int D>
 void FrameLoop::read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields)
 {
+  TrajectoryReader::Packed packed;
   {
     const std::lock_guard lock(reading_);
-    run_.load(index, frame, fields);
+    packed = run_.load(index, frame, fields);
   }
-  run_.verify(index, frame, fields);
+  run_.unpack(packed, frame);
 }
 
 template void FrameLoop::read(std::size_t, Frame<2>&, TrajectoryReader::Fields);
