@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <type_traits>
@@ -94,6 +95,9 @@ struct ContactList {
 /// step, at which contacts are detected; `velocity` and `angular_velocity` are those after the
 /// solve; `force` is m (v_after - v_before)/h, so that for every mobile grain
 /// sum of its contact forces + m g - force = 0 to round-off.
+///
+/// In a run in which grains come and go (RunDescription::grains_come_and_go) a grain that is absent
+/// has NaN in position, velocity, spin and force; no contact names it.
 template <int D>
 struct Frame {
   std::int64_t step = 0;                           // time = (step + 1/2) h
@@ -105,6 +109,33 @@ struct Frame {
   std::vector<Vector<D>> force;                    // N; empty where an import had none
   ContactList<D> contacts;
 };
+
+/// Whether grain g is there in this frame.
+template <int D>
+bool is_present(const Frame<D>& frame, std::size_t g)
+{
+  return !std::isnan(frame.position[g].y());
+}
+
+/// How many grains are there in this frame.
+template <int D>
+std::size_t number_present(const Frame<D>& frame);
+
+/// Whether grain g belongs to the flow and is there in this frame.
+template <int D>
+bool is_mobile(const Grains& grains, const Frame<D>& frame, std::size_t g)
+{
+  return is_mobile(grains, g) && is_present(frame, g);
+}
+
+/// A number that tells which grains are absent in this frame: 0 where all are there, and the same
+/// for the same grains.
+template <int D>
+std::uint64_t which_are_absent(const Frame<D>& frame);
+
+/// Marks grain g as absent in a frame whose arrays have their sizes.
+template <int D>
+void make_absent(Frame<D>& frame, std::size_t g);
 
 /// Where two grains touch: x_i - branch (r_i + gap/2)/(r_i + r_j + gap); at a wall the contact
 /// point is x_i - branch.

@@ -59,6 +59,7 @@ std::uint64_t static_digest(const RunDescription& run)
   for (const auto& [name, diameter] : species) add_species(name, diameter, true);
   add_species(name_of_boundary, 0, false);
   digester.add(run.has_force);
+  if (run.grains_come_and_go) digester.add(run.grains_come_and_go);
   auto observables = run.observables;
   std::sort(observables.begin(), observables.end(),
             [](const Observable& a, const Observable& b) { return a.name < b.name; });

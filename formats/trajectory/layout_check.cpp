@@ -154,7 +154,7 @@ void LayoutCheck::check_attributes()
   };
   numbers("/h5md", "version", {1, 1});
   numbers("/h5md/modules/units", "version", {1, 0});
-  numbers("/h5md/modules/grseg", "version", {1, std::min(run_.minor_version(), 1)});
+  numbers("/h5md/modules/grseg", "version", {1, std::min(run_.minor_version(), 2)});
   numbers("/particles/grains/box", "dimension", {run_.dimension()});
 }
 

@@ -82,7 +82,8 @@ class NewFile {
 void NewFile::write_metadata()
 {
   h5md::write_root(file_);
-  write_attribute(make_group(file_, "/h5md/modules/grseg"), "version", std::vector<int>{1, 1});
+  write_attribute(make_group(file_, "/h5md/modules/grseg"), "version",
+                  std::vector<int>{1, run_.grains_come_and_go ? 2 : 1});
   const auto& box = run_.box;
   const auto word = [](bool periodic) { return periodic ? "periodic" : "none"; };
   std::vector<std::string> boundary{word(box.periodic_x), word(false)};

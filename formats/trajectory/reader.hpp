@@ -18,7 +18,7 @@ namespace grseg {
 enum class Verify { yes, no };
 
 /// Reads a trajectory file (formats/README.md). Every size, type and filter is checked before
-/// anything is read, frame contents (indices in range, all numbers finite) while it is read, and
+/// anything is read, frame contents (indices in range, all numbers of grains that are present finite) while it is read, and
 /// everything that is read is compared with the digests that its writer has left: in files of
 /// version 1.0 there are such of whole frames only. Throws UsageError where the file is missing,
 /// FormatError naming file, path in the file and frame where its content is wrong. Only committed
@@ -53,7 +53,9 @@ class TrajectoryReader {
   /// Its mobile species, at least one.
   const SpeciesList& species() const;
   const Parameters& parameters() const;
-  bool has_force() const;     ///< false for some imports; `force` of their frames is empty
+  bool has_force() const;  ///< false for some imports; `force` of their frames is empty
+  /// Whether a grain may be absent in a frame: is_present() of core/frame.hpp.
+  bool grains_come_and_go() const { return minor_version() >= 2; }
   int minor_version() const;  ///< of the module grseg in the file: 1 means 1.1
   bool closed() const;        ///< whether its writer came to the end and closed it
 

@@ -14,9 +14,10 @@ TrajectoryWriter copy_frames(const TrajectoryReader& run, std::size_t frames, co
   series.reserve(observables.size());
   for (const auto& observable : observables) series.push_back(run.observable(observable.name));
 
-  TrajectoryWriter writer(
-      to, {run.grains(), run.box(), parameters, observables, run.has_force(), run.species()},
-      storage);
+  TrajectoryWriter writer(to,
+                          {run.grains(), run.box(), parameters, observables, run.has_force(),
+                           run.species(), run.grains_come_and_go()},
+                          storage);
   std::vector<double> values(observables.size());
   with_dimension(run.dimension(), [&](auto d) {
     Frame<d> frame;

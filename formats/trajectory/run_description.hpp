@@ -15,8 +15,9 @@ struct RunDescription {
   Box box;
   Parameters parameters;
   std::vector<Observable> observables;
-  bool has_force = true;     // false: no frame has forces on grains, as in some imports
-  SpeciesList species = {};  // of mobile grains; none: small and large
+  bool has_force = true;            // false: no frame has forces on grains, as in some imports
+  SpeciesList species = {};         // of mobile grains; none: small and large
+  bool grains_come_and_go = false;  // true: a grain may be absent in a frame (core/frame.hpp)
 };
 
 /// The mobile species of a run, of which there is at least one: where the description lists none,

@@ -64,6 +64,7 @@ StoredRun::StoredRun(const std::string& its_path)
 {
   require_version("/h5md");
   minor_version = require_version("/h5md/modules/grseg")[1];
+  run.grains_come_and_go = minor_version >= 2;
   read_offset();
   read_box();
   read_parameters();
@@ -352,6 +353,54 @@ void StoredRun::load_row(const RowReader& rows, hsize_t row, std::vector<T>& out
   rows.load(row, 1, out.data(), packed);
 }
 
+namespace {
+
+bool is_finite(double value)
+{
+  return std::isfinite(value);
+}
+template <int D>
+bool is_finite(const Vector<D>& value)
+{
+  return value.allFinite();
+}
+
+bool is_nan(double value)
+{
+  return std::isnan(value);
+}
+template <int D>
+bool is_nan(const Vector<D>& value)
+{
+  return value.array().isNaN().all();
+}
+
+}  // namespace
+
+template <int D>
+void StoredRun::check_presence(std::size_t index, const Frame<D>& frame) const
+{
+  const auto check_of = [&](const auto& values, const RowReader& rows) {
+    for (std::size_t g = 0; g < values.size(); ++g)
+      if (is_present(frame, g) ? !is_finite(values[g]) : !is_nan(values[g]))
+        fail(fmt::format("{} of grain {} in frame {} is {}; the frame is damaged", rows.path(), g,
+                         index,
+                         is_present(frame, g)
+                             ? "not finite"
+                             : "not NaN throughout, though its position says that it is absent"));
+  };
+  check_of(frame.position, position);
+  check_of(frame.velocity, velocity);
+  check_of(frame.angular_velocity, angular_velocity);
+  check_of(frame.force, force);
+  const auto& contacts = frame.contacts;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    for (const auto g : {contacts.i[k], contacts.j[k]})
+      if (g >= 0 && !is_present(frame, static_cast<std::size_t>(g)))
+        fail(fmt::format("contact {} of frame {} names grain {}, which is absent there", k, index,
+                         g));
+}
+
 template <int D>
 void StoredRun::load_contacts(std::size_t index, ContactList<D>& contacts,
                               std::vector<PackedRows>& packed) const
@@ -378,14 +427,17 @@ void StoredRun::check(std::size_t index, const Frame<D>& frame) const
     check_finite(reinterpret_cast<const double*>(values.data()),
                  values.size() * sizeof(T) / sizeof(double), rows.path(), index);
   };
-  finite(frame.position, position);
-  finite(frame.velocity, velocity);
-  finite(frame.angular_velocity, angular_velocity);
-  finite(frame.force, force);
+  if (!run.grains_come_and_go) {
+    finite(frame.position, position);
+    finite(frame.velocity, velocity);
+    finite(frame.angular_velocity, angular_velocity);
+    finite(frame.force, force);
+  }
   finite(frame.contacts.force, contact_force);
   finite(frame.contacts.branch, contact_branch);
   finite(frame.contacts.gap, contact_gap);
   check_contacts(index, frame.contacts);
+  if (run.grains_come_and_go) check_presence(index, frame);
 }
 
 template <int D>

@@ -54,8 +54,8 @@ struct StoredRun {
   template <int D>
   void load_contacts(std::size_t frame, ContactList<D>& contacts,
                      std::vector<PackedRows>& packed) const;
-  /// FormatError where the numbers of a frame that has been read are not finite, or its contacts join
-  /// no grains.
+  /// FormatError where the numbers of a frame that has been read are not finite (of an absent grain:
+  /// not NaN throughout), or its contacts join no grains or absent ones.
   template <int D>
   void check(std::size_t index, const Frame<D>& frame) const;
   /// The values of an observable in all committed frames.
@@ -65,6 +65,8 @@ struct StoredRun {
   /// FormatError naming `what` and `frame` where one of the values is not finite.
   void check_finite(const double* values, std::size_t count, const std::string& what,
                     std::size_t frame) const;
+  template <int D>
+  void check_presence(std::size_t index, const Frame<D>& frame) const;
   template <int D>
   void check_contacts(std::size_t index, const ContactList<D>& contacts) const;
   std::vector<int> require_version(const std::string& module) const;

@@ -71,6 +71,8 @@ struct TrajectoryWriter::Impl {
   Series series(const std::string& at, hid_t memory_type) const;
   void open_series();
   template <int D>
+  void require_presence(const Frame<D>& frame) const;
+  template <int D>
   void append_contacts(const ContactList<D>& contacts);
   template <int D>
   void append_digests(const Frame<D>& frame, std::span<const double> values);
@@ -121,6 +123,17 @@ void TrajectoryWriter::Impl::open_series()
   offset = series(contacts + "offset", H5T_NATIVE_UINT64);
   digest = series("/grseg/digest", H5T_NATIVE_UINT64);
   field_digests = series("/grseg/field_digest", H5T_NATIVE_UINT64);
+}
+
+template <int D>
+void TrajectoryWriter::Impl::require_presence(const Frame<D>& frame) const
+{
+  if (run.grains_come_and_go) return;
+  for (std::size_t g = 0; g < frame.position.size(); ++g)
+    if (!is_present(frame, g))
+      throw RunError(fmt::format(
+          "{}: grain {} has no position in frame {}, in a run whose grains are always there", path,
+          run.grains.id[g], frames_so_far));
 }
 
 template <int D>
@@ -196,6 +209,7 @@ void TrajectoryWriter::append(const Frame<D>& frame, std::span<const double> obs
   assert(frame.position.size() == my.run.grains.size());
   assert(frame.force.size() == (my.run.has_force ? my.run.grains.size() : 0));
   assert(observables.size() == my.observables.size());
+  my.require_presence(frame);
   my.is_writing = true;
   my.append_contacts(frame.contacts);
   my.position.append(1, first(frame.position));

@@ -29,6 +29,7 @@ struct ImportSettings {
   std::optional<int> dimension;  // dimension.hpp
   SpeciesSettings species;
 
+  std::optional<std::string> from, to;  // moment_range.hpp
   std::optional<double> accept_residual;
   bool drop_incomplete = false;
   std::string output;
