@@ -123,6 +123,7 @@ struct ArchiveFiles {
   std::vector<std::string> grains, contacts;  // may hold `*`; file_list.hpp
   std::string restart;                        // with what the other files lack
   std::string columns;                        // contact_columns.hpp
+  std::vector<std::string> map;               // other names of columns; csv_map.hpp
 };
 
 /// All that is known of a format outside its own folder; open_archive.cpp lists the formats.
@@ -130,7 +131,7 @@ struct ArchiveFormat {
   const char* name;  // as --format gives it
   std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
   /// Which of these options apply to it; the others are refused.
-  bool takes_contacts = true, takes_columns = true, takes_restart = false;
+  bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_map = false;
   const char* examples;    // for --help: whole command lines, indented
   const char* notes = "";  // for --help: what its files and its --columns are, indented; may be ""
 };

@@ -47,6 +47,8 @@ po::options_description import_options(ImportSettings& s)
       "from", optional(s.from, "T"),
       "leave out what comes before this time, in the archive's units, or before step:N")(
       "to", optional(s.to, "T"), "leave out what comes after, likewise")(
+      "map", po::value(&s.files.map)->composing()->value_name("NAME=COLUMN"),
+      "csv only: what other names of columns mean, e.g. particle1=i,Fx=fx; NAME= leaves one out")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
       "import a text archive that ends inside a moment up to that moment");
 
