@@ -61,8 +61,8 @@ po::options_description import_options(ImportSettings& s)
       "of the base; with a vector the axes are turned to it")(
       "grains-are", optional(s.grains, "WHAT"), "discs or spheres")(
       "density", optional(s.density, "RHO"), "of discs per area, of spheres per volume")(
-      "axes", po::value(&s.axes)->default_value(s.axes)->value_name("XY"),
-      "axes of the flow: along the base, away from it")(
+      "axes", optional(s.axes, "XY"),
+      "axes of the flow: along the base, away from it (default: xy)")(
       "dimension", optional(s.dimension, "D"),
       "2 or 3 (default: 3 for spheres that do not lie in one plane)")(
       "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),
