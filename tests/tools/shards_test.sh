@@ -21,12 +21,12 @@ in_parts() {
   for part in $(seq "$count" -1 1); do "$@" --quiet --overwrite -o sums.tsv --part "$part/$count"; done
   "$@" --quiet --overwrite -o sums.tsv --join "$count"
   cmp whole.tsv sums.tsv || fail "$* in $count parts"
-  rm sums.part-*
+  rm sums.tsv sums.part-*
 }
 for tool in stress kinetic micro; do
   in_parts 3 $bin/grseg-$tool chute.h5 --window 2
   in_parts 12 $bin/grseg-$tool chute.h5 --window 2 --threads 2 # more parts than windows
-  in_parts 4 $bin/grseg-$tool spheres.h5 --window 3
+  in_parts 4 $bin/grseg-$tool spheres.h5 --window 8
 done
 in_parts 2 $bin/grseg-stress chute.h5 --bins xy --layer 4dS
 in_parts 2 $bin/grseg-micro chute.h5 --distribution --window 5
