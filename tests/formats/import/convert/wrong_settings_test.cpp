@@ -188,7 +188,9 @@ const WrongSetting wrong_settings[] = {
        std::swap(s.species.small, s.species.large);
        return s.species.small.has_value();
      }},
-    {"a step ten times too long", {"time"}, [](auto& s, const auto&) { return times(s.step, 10); }},
+    {"a step ten times too long",
+     {"time", "masses"},
+     [](auto& s, const auto&) { return times(s.step, 10); }},
 };
 
 struct Outcome {

@@ -94,7 +94,7 @@ TEST(JudgeGravity, FromSumsNeedsEightPairsOfMoments)
     auto moment = moment_with({0, k % 2 == 0 ? -9.9 : -10.1, 0}, 0);
     moment.medians = 0;
     moment.time = k;
-    if (k == 8) EXPECT_EQ(judge_gravity(series, context_of(false)).verdict, Verdict::undecided);
+    EXPECT_TRUE(k < 8 || judge_gravity(series, context_of(false)).verdict == Verdict::undecided);
     series.push_back(moment);
   }
   EXPECT_EQ(judge_gravity(series, context_of(false)).verdict, Verdict::passed);
