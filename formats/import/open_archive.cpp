@@ -43,6 +43,11 @@ std::span<const ArchiveFormat* const> archive_formats()
   return formats;
 }
 
+void require_format(const std::string& name)
+{
+  format_of(name);
+}
+
 std::unique_ptr<Archive> open_archive(const std::string& name, const ArchiveFiles& files)
 {
   const auto& format = format_of(name);

@@ -3,6 +3,8 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
+#include "formats/import/common/file_start.hpp"
+#include "formats/import/common/questions.hpp"
 
 #include <array>
 #include <cstdint>
@@ -69,7 +71,9 @@ struct ArchiveMoment {
   std::array<bool, 3> periodic{};
   ArchiveGrains grains;
   ArchiveContacts contacts;
-  std::string place;  // "atoms.dump, line 12": for sentences about this moment
+  std::string place;                // "atoms.dump, line 12": for sentences about this moment
+  std::vector<Question> questions;  // what the reader has to be told; what it could not read for
+                                    // lack of an answer is empty
 };
 
 /// What an archive states once about its run. What it does not state stays empty and must come from
@@ -123,6 +127,7 @@ struct ArchiveFiles {
   std::vector<std::string> grains, contacts;  // may hold `*`; file_list.hpp
   std::string restart;                        // with what the other files lack
   std::string columns;                        // contact_columns.hpp
+  std::vector<std::string> unnamed;           // named without an option: proposed_files.hpp
   std::vector<std::string> map;               // other names of columns; csv_map.hpp
 };
 
@@ -130,6 +135,8 @@ struct ArchiveFiles {
 struct ArchiveFormat {
   const char* name;  // as --format gives it
   std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
+  /// What a file holds that begins like this, if it looks like one of this format.
+  FileRole (*role)(const FileStart&);
   /// Which of these options apply to it; the others are refused.
   bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_map = false;
   const char* examples;    // for --help: whole command lines, indented

@@ -135,6 +135,17 @@ void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
   }
 }
 
+/// The lowest point of the grains is proposed.
+template <class Height>
+Question question_of_origin(const ArchiveGrains& grains, const Height& height)
+{
+  double lowest = infinity;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    lowest = std::min(lowest, height(g) - grains.radius[g]);
+  return {"the height in the archive that is y = 0", fmt::format("--origin {:.6g}", lowest),
+          "no base grains lie below the others; this is the lowest point of the grains"};
+}
+
 /// The highest of the boundary grains below the middle of the others.
 void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& text)
 {
@@ -159,10 +170,7 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
     if (is_boundary(static_cast<std::size_t>(rows.find(ids[g]))) &&
         height(g) * static_cast<double>(mobile) <= sum)
       origin = std::max(origin, height(g) + (text == "top" ? first.grains.radius[g] : 0));
-  if (!std::isfinite(origin))
-    throw UsageError(
-        "no boundary grains lie below the others: give the height in the archive that is "
-        "y = 0");
+  if (!std::isfinite(origin)) throw OpenQuestions(question_of_origin(first.grains, height));
 }
 
 }  // namespace grseg

@@ -4,6 +4,7 @@
 #include "formats/import/common/enclosing_cell.hpp"
 #include "formats/import/csv/csv_comments.hpp"
 #include "formats/import/csv/csv_files.hpp"
+#include "formats/import/csv/csv_line.hpp"
 #include "formats/import/csv/csv_map.hpp"
 #include "formats/import/csv/csv_table.hpp"
 
@@ -252,6 +253,23 @@ std::vector<std::string> CsvArchive::remarks() const
   return remarks;
 }
 
+/// Contacts name two grains in the line of names.
+FileRole role_of(const FileStart& start)
+{
+  for (const auto& line : start.lines) {
+    if (line.empty() || line.starts_with('#')) continue;
+    std::vector<std::string_view> names;
+    split_csv(line, csv_separator(line), names);
+    const auto has = [&](const char* name) {
+      return std::any_of(names.begin(), names.end(),
+                         [&](std::string_view known) { return plain_name(known) == name; });
+    };
+    if (has("j") || has("id2")) return FileRole::contacts;
+    return has("x") && has("y") ? FileRole::grains : FileRole::none;
+  }
+  return FileRole::none;
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
@@ -262,6 +280,7 @@ std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
 const ArchiveFormat csv_format{
     .name = "csv",
     .open = open_csv,
+    .role = role_of,
     .takes_columns = false,
     .takes_map = true,
     .examples =

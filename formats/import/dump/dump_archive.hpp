@@ -27,6 +27,11 @@ struct DumpDialect {
 /// than those that moved the grains.
 ArchiveFacts facts_of_late_forces(const std::string& program);
 
+/// Grains where a dump holds ATOMS, contacts where it holds other rows, which are those of the
+/// program if `columns` says so of their names.
+FileRole role_of_dump(const FileStart& start,
+                      bool (*is_of_program)(const std::vector<std::string>& columns));
+
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect);
 
 }  // namespace grseg

@@ -61,8 +61,8 @@ po::options_description import_options(ImportSettings& s)
       "of the base; with a vector the axes are turned to it")(
       "grains-are", optional(s.grains, "WHAT"), "discs or spheres")(
       "density", optional(s.density, "RHO"), "of discs per area, of spheres per volume")(
-      "axes", po::value(&s.axes)->default_value(s.axes)->value_name("XY"),
-      "axes of the flow: along the base, away from it")(
+      "axes", optional(s.axes, "XY"),
+      "axes of the flow: along the base, away from it (default: xy)")(
       "dimension", optional(s.dimension, "D"),
       "2 or 3 (default: 3 for spheres that do not lie in one plane)")(
       "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),
@@ -87,12 +87,14 @@ po::options_description import_options(ImportSettings& s)
 
   po::options_description output("The trajectory");
   output.add_options()("output,o", po::value(&s.output)->value_name("FILE"), "the file to write")(
-      "accept-residual", optional(s.accept_residual, "R"),
-      "accept grains that balance to R of the largest force (default: what faithful output of the "
-      "program reaches)")("compression",
-                          po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
-                          "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
-                                                   "single precision, half the size")(
+      "accept-residual", po::value(&s.accept_residual)->composing()->value_name("NAME=R"),
+      "waive one check up to R, as in balance=0.1 (of the largest force) or overlap=0.6 (of a "
+      "radius); its name is printed with it")(
+      "strict", po::bool_switch(&s.strict),
+      "refuse, with exit code 4, also what a check cannot tell from this archive")(
+      "compression", po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
+      "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
+                               "single precision, half the size")(
       "quiet", po::bool_switch(&s.quiet), "print no summary on standard error");
 
   add_overwrite_to(output, s.overwrite);

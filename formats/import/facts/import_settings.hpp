@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace grseg {
 
@@ -24,13 +25,14 @@ struct ImportSettings {
   std::optional<std::string> grains;   // "discs", "spheres"
   std::optional<std::string> gravity;  // axes.hpp
   std::optional<double> slope;         // degrees
-  std::string axes = "xy";
-  std::string origin = "top";    // or "centre", or a height in the archive
-  std::optional<int> dimension;  // dimension.hpp
+  std::optional<std::string> axes;     // "xy" where not given
+  std::string origin = "top";          // or "centre", or a height in the archive
+  std::optional<int> dimension;        // dimension.hpp
   SpeciesSettings species;
 
   std::optional<std::string> from, to;  // moment_range.hpp
-  std::optional<double> accept_residual;
+  std::vector<std::string> accept_residual;  // finding.hpp
+  bool strict = false;                       // refuse what is undecided
   bool drop_incomplete = false;
   std::string output;
   StorageSettings storage;

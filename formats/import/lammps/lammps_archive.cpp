@@ -2,6 +2,7 @@
 #include "formats/import/lammps/lammps_archive.hpp"
 
 #include "formats/import/dump/dump_archive.hpp"
+#include "formats/import/liggghts/liggghts_columns.hpp"
 
 #include <fmt/format.h>
 
@@ -41,6 +42,12 @@ std::vector<std::string> other_columns(const DumpHeader& header)
   return others;
 }
 
+FileRole role_of(const FileStart& start)
+{
+  return role_of_dump(
+      start, [](const std::vector<std::string>& columns) { return !are_of_one_compute(columns); });
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
@@ -54,6 +61,7 @@ std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
 const ArchiveFormat lammps_format{
     .name = "lammps",
     .open = open_lammps,
+    .role = role_of,
     .examples =
         "  grseg-import --format lammps --grains atoms.dump --contacts contacts.dump \\\n"
         "    --columns i=2,j=3,dist=4,force=5,tangential=8 --units si --step 1e-5 \\\n"

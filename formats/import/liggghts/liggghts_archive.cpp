@@ -14,6 +14,11 @@ std::string assumed_columns(const DumpHeader& contacts, const ArchiveGrains&)
   return "";
 }
 
+FileRole role_of(const FileStart& start)
+{
+  return role_of_dump(start, are_of_one_compute);
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
@@ -26,6 +31,7 @@ std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
 const ArchiveFormat liggghts_format{
     .name = "liggghts",
     .open = open_liggghts,
+    .role = role_of,
     .examples =
         "  grseg-import --format liggghts --grains 'atoms_*' --contacts 'contacts_*' \\\n"
         "    --units si --columns pos,id,force,delta --step 5e-6 --gravity 9.81 --slope 23 \\\n"

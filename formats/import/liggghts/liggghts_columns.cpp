@@ -184,6 +184,14 @@ std::string liggghts_mapping(const std::string& columns, const DumpHeader& conta
   return mapping;
 }
 
+bool are_of_one_compute(const std::vector<std::string>& columns)
+{
+  const auto compute = columns.front().substr(0, columns.front().find('['));
+  return std::all_of(columns.begin(), columns.end(), [&](const std::string& name) {
+    return number_in(name) > 0 && name.substr(0, name.find('[')) == compute;
+  });
+}
+
 std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts)
 {
   std::vector<std::string> fitting;

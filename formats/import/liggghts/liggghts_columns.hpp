@@ -21,6 +21,9 @@ namespace grseg {
 /// or force missing or not dumped, another number of columns.
 std::string liggghts_mapping(const std::string& columns, const DumpHeader& contacts);
 
+/// Whether all columns are of one compute, c_cp[1] c_cp[2] ...: LAMMPS takes two, for ids and forces.
+bool are_of_one_compute(const std::vector<std::string>& columns);
+
 /// Presets and lists of keywords that have as many columns as the header.
 std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts);
 
