@@ -30,7 +30,7 @@ struct ImportSettings {
   std::optional<int> dimension;        // dimension.hpp
   SpeciesSettings species;
 
-  std::optional<std::string> from, to;  // moment_range.hpp
+  std::optional<std::string> from, to;       // moment_range.hpp
   std::vector<std::string> accept_residual;  // finding.hpp
   bool strict = false;                       // refuse what is undecided
   bool drop_incomplete = false;
