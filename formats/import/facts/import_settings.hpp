@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/cli/part.hpp"
 #include "formats/import/common/archive.hpp"
 #include "formats/import/facts/species.hpp"
 #include "formats/trajectory/writer.hpp"
@@ -35,6 +36,7 @@ struct ImportSettings {
   bool strict = false;                       // refuse what is undecided
   bool drop_incomplete = false;
   std::string output;
+  PartOptions parts;
   StorageSettings storage;
   bool overwrite = false, quiet = false;
 };
