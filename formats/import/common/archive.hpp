@@ -79,6 +79,7 @@ struct ArchiveFacts {
   std::optional<double> density;  // of the grains' matter, per area (discs) or volume (spheres)
   std::optional<Vec3> gravity;
   std::optional<bool> discs;         // false: spheres
+  bool walls = false;                // it has contacts with straight walls
   std::optional<std::string> units;  // the program's name for them: "si", "cgs", "lj"
   /// The contact forces in the archive were evaluated with velocities half a step later than those
   /// that moved the grains (late_damping.hpp).
@@ -121,6 +122,8 @@ struct ArchiveFiles {
   std::vector<std::string> grains, contacts;  // may hold `*`; file_list.hpp
   std::string restart;                        // with what the other files lack
   std::string columns;                        // contact_columns.hpp
+  std::vector<std::string> wall_contacts;     // files, likewise
+  std::string wall_columns;                   // of the contacts with walls
 };
 
 /// All that is known of a format outside its own folder; open_archive.cpp lists the formats.
@@ -128,7 +131,8 @@ struct ArchiveFormat {
   const char* name;  // as --format gives it
   std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
   /// Which of these options apply to it; the others are refused.
-  bool takes_contacts = true, takes_columns = true, takes_restart = false;
+  bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_wall_contacts = false,
+       takes_wall_columns = false;
   const char* examples;    // for --help: whole command lines, indented
   const char* notes = "";  // for --help: what its files and its --columns are, indented; may be ""
 };

@@ -24,6 +24,7 @@ ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
   box.dimension = facts.dimension;
   box.periodic_x = false;
   make_grains(first, facts, settings.species);
+  walls = parse_walls(settings.walls);
   require_no_other_period(first);
   make_box(first);
   find_origin(first, settings.origin);

@@ -61,7 +61,9 @@ po::options_description import_options(ImportSettings& s)
       "dimension", optional(s.dimension, "D"),
       "2 or 3 (default: 3 for spheres that do not lie in one plane)")(
       "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),
-      "y = 0: top or centre of the base grains, or a height in the archive");
+      "y = 0: top or centre of the base grains, or a height in the archive")(
+      "wall", po::value(&s.walls)->composing()->value_name("NAME=AXIS:POSITION"),
+      "a plane wall of which the archive has no contacts, once for each: floor=z:0");
 
   auto& species = s.species;
   po::options_description sizes("Species");

@@ -28,6 +28,7 @@ struct ImportSettings {
   std::string origin = "top";    // or "centre", or a height in the archive
   std::optional<int> dimension;  // dimension.hpp
   SpeciesSettings species;
+  std::vector<std::string> walls;  // wall_planes.hpp
 
   std::optional<double> accept_residual;
   bool drop_incomplete = false;
