@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 namespace grseg {
 namespace {
@@ -66,10 +67,11 @@ void MomentumBalance<D>::add(const Grains& grains, const Frame<D>& frame)
   for (std::size_t k = 0; k < frame.contacts.size(); ++k) add_contact(grains, frame, k, count);
   const Vector<D> gravity = gravity_.at(frame.time);
   const std::vector<Vector<D>> nothing(species_, Vector<D>::Zero());
-  Instant before{frame.time, {count, nothing}};
+  Instant before{frame.time, which_are_absent(frame), {count, nothing}};
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g)) add_grain(grains, frame, g, gravity, before);
+    if (is_mobile(grains, frame, g)) add_grain(grains, frame, g, gravity, before);
   if (!first_) first_ = before;
+  same_grains_ = same_grains_ && first_->grains == before.grains;
   last_ = std::move(before);
 }
 
@@ -156,6 +158,8 @@ void MomentumBalance<D>::merge(const MomentumBalance& later)
     for (std::size_t species = 0; species < species_; ++species)
       sums_[n][species] += later.sums_[n][species];
   if (!first_) first_ = later.first_;
+  same_grains_ = same_grains_ && later.same_grains_ &&
+                 (!later.first_ || first_->grains == later.first_->grains);
   if (later.last_) last_ = later.last_;
 }
 
@@ -170,6 +174,7 @@ SpeciesMomentum<D> MomentumBalance<D>::mean(std::size_t layer, Species species) 
 template <int D>
 Vector<D> MomentumBalance<D>::change(std::size_t layer, Species species) const
 {
+  if (!same_grains_) return Vector<D>::Constant(std::numeric_limits<double>::quiet_NaN());
   const Vector<D> gained = last_->at(layer, species) - first_->at(layer, species);
   return gained / ((last_->time - first_->time) * layers_.volume(layer));
 }

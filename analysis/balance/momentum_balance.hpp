@@ -77,13 +77,15 @@ class MomentumBalance {
   std::size_t species() const { return species_; }
   SpeciesMomentum<D> mean(std::size_t layer, Species species) const;
   /// Change of the momentum density from the first frame to the last over the time between them,
-  /// N/m^2 or N/m^3; NaN of a single frame.
+  /// N/m^2 or N/m^3; NaN of a single frame, and where grains came or went in between, since they
+  /// bring momentum or take it.
   Vector<D> change(std::size_t layer, Species species) const;
 
  private:
   /// Momentum just before the impulses of one frame, kg m/s, by layer and species.
   struct Instant {
-    double time;  // s
+    double time;           // s
+    std::uint64_t grains;  // which_are_absent()
     std::vector<std::vector<Vector<D>>> momentum;
     Vector<D> at(std::size_t layer, Species species) const;
   };
@@ -103,6 +105,7 @@ class MomentumBalance {
   std::size_t frames_ = 0;
   std::vector<std::vector<SpeciesMomentum<D>>> sums_;  // by layer and species, times V
   std::optional<Instant> first_, last_;
+  bool same_grains_ = true;      // in all frames
   std::vector<Vector<D>> pull_;  // N, sum of all contact forces on each grain of this frame
 };
 

@@ -17,7 +17,7 @@ double largest_force(const Grains& grains, const Frame<D>& frame, const Gravity<
   double largest = 0;
   for (const auto& force : frame.contacts.force) largest = std::max(largest, force.norm());
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g)) largest = std::max(largest, grains.mass[g] * gravity.norm());
+    if (is_mobile(grains, frame, g)) largest = std::max(largest, grains.mass[g] * gravity.norm());
   return largest;
 }
 
@@ -105,7 +105,7 @@ void ForceBalance<D>::add_forces(const Grains& grains, const Frame<D>& frame, do
     if (contacts.j[c] >= 0) defect[static_cast<std::size_t>(contacts.j[c])] -= contacts.force[c];
   }
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g))
+    if (is_mobile(grains, frame, g))
       forces_.add(scale > 0 ? defect[g].norm() / scale : defect[g].norm(), frame.time, g);
 }
 
@@ -116,6 +116,7 @@ void ForceBalance<D>::add_torques(const Turning& before, const Turning& after)
   for (std::size_t g = 0; g < after.torque.size(); ++g) {
     const Spin<D> change = (after.inertia_times_spin[g] - before.inertia_times_spin[g]) / step_;
     const double defect = size_of(Spin<D>(after.torque[g] - change));
+    if (std::isnan(defect)) continue;  // a grain that is absent before or after
     torques_.add(after.scale > 0 ? defect / after.scale : defect, after.time, g);
   }
 }

@@ -240,6 +240,8 @@ std::string PhysicsCheck<D>::why_no_layers() const
   if (gravity_.turns()) return "the slope turns, so no window has one";
   if (!(gravity_.start.y() < 0)) return "gravity does not press on the base";
   if (!is_periodic()) return "the cell is not periodic, so that walls carry a part";
+  if (!motion_.same_grains())
+    return "grains come and go, which changes the weight and the momentum";
   return windows_.size() < least_windows ? few_windows : "";
 }
 

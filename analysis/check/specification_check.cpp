@@ -80,7 +80,7 @@ void SpecificationCheck::check_wrapped(std::size_t index, const Frame<D>& frame,
     return x >= 0 && (rounded ? x <= static_cast<float>(length) : x < length);
   };
   for (std::size_t g = 0; g < frame.position.size(); ++g)
-    if (const double x = frame.position[g][axis]; !wrapped(x))
+    if (const double x = frame.position[g][axis]; is_present(frame, g) && !wrapped(x))
       depart("/particles/grains/position/value",
              fmt::format("has {} = {} for grain {} in frame {}, which is not in [0, {})",
                          "xyz"[axis], x, g, index, length));
@@ -92,6 +92,10 @@ void SpecificationCheck::add(std::size_t index, const Frame<D>& frame)
   const auto& box = run_.box();
   if (box.periodic_x) check_wrapped(index, frame, 0, box.length_x);
   if (D == 3 && box.periodic_z) check_wrapped(index, frame, 2, box.length_z);
+  for (std::size_t g = 0; g < frame.image.size(); ++g)
+    if (!is_present(frame, g) && frame.image[g] != std::array<std::int32_t, D>{})
+      depart("/particles/grains/image/value",
+             fmt::format("is not 0 for grain {} in frame {}, which is absent there", g, index));
   const auto& grains = run_.grains();
   const auto& i = frame.contacts.i;
   for (std::size_t k = 0; k < i.size(); ++k)

@@ -13,8 +13,9 @@ TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const B
   TotalMotion<D> total;
   total.step = frame.step;
   total.time = frame.time;
+  total.grains = which_are_absent(frame);
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
+    if (!is_mobile(grains, frame, g)) continue;
     total.mass += grains.mass[g];
     total.momentum += grains.mass[g] * frame.velocity[g];
     total.energy += grains.mass[g] * frame.velocity[g].squaredNorm() / 2;
@@ -33,6 +34,12 @@ void MotionBalance<D>::add(const TotalMotion<D>& now, const std::optional<Vector
   ++frames_;
   if (!first_) {
     first_ = last_ = now;
+    return;
+  }
+  if (now.grains != last_.grains) {
+    same_grains_ = false;
+    by_velocity_ += now.centre - last_.centre;
+    last_ = now;
     return;
   }
   if (base_force) {

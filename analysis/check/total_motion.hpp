@@ -20,6 +20,7 @@ struct TotalMotion {
   Vector<D> momentum = Vector<D>::Zero();  // kg m/s
   double energy = 0;                       // J, kinetic, of translation
   Vector<D> centre = Vector<D>::Zero();    // m, of mass, periods counted
+  std::uint64_t grains = 0;                // which_are_absent()
 };
 template <int D>
 TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box);
@@ -28,7 +29,7 @@ TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const B
 ///   momentum now - momentum before = (time between) (M g + mean force of base and walls),
 /// which holds to round-off where that mean (/observables/base_force_x, _y, and _z of spheres) is over all the steps
 /// between; and the distance that the centre of mass moves against the integral of its velocity over
-/// time (trapezium rule).
+/// time (trapezium rule). Between frames of different grains neither is defined, and nothing counts.
 template <int D>
 class MotionBalance {
  public:
@@ -42,6 +43,8 @@ class MotionBalance {
   const WorstCase& momentum() const { return momentum_; }
 
   std::size_t frames() const { return frames_; }
+  /// Whether all frames had the same grains.
+  bool same_grains() const { return same_grains_; }
   /// m: the distance moved along an axis less that by velocity, since the first frame.
   double stray(int axis) const
   {
@@ -52,6 +55,7 @@ class MotionBalance {
   Gravity<D> gravity_;
   double step_;
   std::size_t frames_ = 0;
+  bool same_grains_ = true;
   std::optional<TotalMotion<D>> first_;
   TotalMotion<D> last_;
   Vector<D> by_velocity_ = Vector<D>::Zero();  // m

@@ -15,7 +15,7 @@ std::vector<What> moments_above(const Grains& grains, const Frame<D>& frame, con
   const std::size_t count = layers.count(grains, frame);
   std::vector<What> whole(count, zero), moment(count, zero);
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
+    if (!is_mobile(grains, frame, g)) continue;
     const double y = frame.position[g].y();
     const std::size_t layer = layers.at(y);
     whole[layer] += of(g);

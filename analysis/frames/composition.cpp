@@ -14,7 +14,7 @@ void Composition<D>::add(const Grains& grains, const Frame<D>& frame)
   const std::size_t count = layers_.count(grains, frame);
   sums_.resize(std::max(sums_.size(), count), Contents(species_));
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
+    if (!is_mobile(grains, frame, g)) continue;
     const auto species = static_cast<std::size_t>(grains.species[g]);
     const double y = layers_.height<D>(frame.position[g]), radius = grains.radius[g];
     const double whole = grain_volume<D>(radius);

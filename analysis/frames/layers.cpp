@@ -109,7 +109,7 @@ std::size_t Layers::count(const Grains& grains, const Frame<D>& frame) const
   if (map_) return map_->cells();
   double highest = 0;
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g))
+    if (is_mobile(grains, frame, g))
       highest = std::max(highest, height<D>(frame.position[g]) + grains.radius[g]);
   if (!(highest < most_layers * thickness_))
     throw RunError(

@@ -57,10 +57,12 @@ MapAxis open_axis(char name, double side, double low, double high)
 template <int D>
 void GrainExtent<D>::add(const Grains& grains, const Frame<D>& frame)
 {
-  ++frames_;
-  heights_ += bed_heights(grains, frame).bed;
+  if (const double height = bed_heights(grains, frame).bed; !std::isnan(height)) {
+    ++frames_;
+    heights_ += height;
+  }
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
+    if (!is_mobile(grains, frame, g)) continue;
     const auto& position = frame.position[g];
     const double radius = grains.radius[g];
     low_ = low_.cwiseMin((position.array() - radius).matrix());

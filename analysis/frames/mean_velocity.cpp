@@ -26,7 +26,7 @@ void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
   of_layer_.resize(std::max(of_layer_.size(), layers_.count(grains, frame)),
                    std::vector<Sum>(species_));
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
+    if (!is_mobile(grains, frame, g)) continue;
     const auto& position = frame.position[g];
     const double y = layers_.height<D>(position), mass = grains.mass[g];
     const Sum own{mass,

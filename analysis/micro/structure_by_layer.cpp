@@ -96,7 +96,7 @@ template <int D>
 void StructureByLayer<D>::add_grains(const Grains& grains, const Frame<D>& frame)
 {
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g))
+    if (is_mobile(grains, frame, g))
       ++sums_[holding(frame.position[g])]
             .species[static_cast<std::size_t>(grains.species[g])]
             .grains;

@@ -85,7 +85,7 @@ void SegregationFlux<D>::add(const Grains& grains, const Frame<D>& frame)
   Profile now(layers_.count(grains, frame));
   std::vector<double> large_momentum(now.size());
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
+    if (!is_mobile(grains, frame, g)) continue;
     const auto species = static_cast<std::size_t>(grains.species[g]);
     const double y = frame.position[g].y(), radius = grains.radius[g], mass = grains.mass[g];
     const std::size_t layer = layers_.at(y);
@@ -130,7 +130,7 @@ void SegregationFlux<D>::add_displacements(const Grains& grains, std::size_t par
   std::vector<std::array<Drift, 2>> drift(profile.size());
   const auto for_each_grain = [&](const auto& use) {
     for (std::size_t g = 0; g < grains.size(); ++g)
-      if (is_mobile(grains, g))
+      if (is_mobile(grains, g) && !std::isnan(from.y[g]) && !std::isnan(to.y[g]))
         use(layers_.at(from.y[g]), static_cast<std::size_t>(grains.species[g]),
             to.y[g] - from.y[g]);
   };

@@ -83,7 +83,7 @@ class SegregationFlux {
   using Profile = std::vector<Sums>;  // by layer
   struct Snapshot {
     double time = 0;
-    std::vector<double> y;  // empty: no frame yet
+    std::vector<double> y;  // NaN of absent grains; empty: no frame yet
   };
 
   void add_displacements(const Grains& grains, std::size_t part, std::size_t lag,

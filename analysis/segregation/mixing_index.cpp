@@ -15,7 +15,7 @@ double mixing_index(const Layers& layers, const Grains& grains, const Frame<D>& 
   composition.add(grains, frame);
   std::array<double, 2> number{};
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g)) ++number[static_cast<std::size_t>(grains.species[g])];
+    if (is_mobile(grains, frame, g)) ++number[static_cast<std::size_t>(grains.species[g])];
   const auto all = composition.mean();
   const double volume = all[0] + all[1], phi = all[1] / volume;
   if (!(phi > 0 && phi < 1)) return std::numeric_limits<double>::quiet_NaN();

@@ -15,7 +15,7 @@ double shear_rate(const Grains& grains, const Frame<D>& frame, double bed)
   LayerFlowSums sums;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const double y = frame.position[g].y();
-    if (is_mobile(grains, g) && y > 0.1 * bed && y < 0.9 * bed)
+    if (is_mobile(grains, frame, g) && y > 0.1 * bed && y < 0.9 * bed)
       sums.add(grains.mass[g], y, frame.velocity[g]);
   }
   return sums.mean(bed).du_dy;

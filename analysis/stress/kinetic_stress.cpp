@@ -124,7 +124,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
   MeanVelocity<D> now(layers_, layers_.thickness(), species_);
   if (flow_ == MeanFlow::instant) now.add(grains, frame);
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
+    if (!is_mobile(grains, frame, g)) continue;
     const double mass = grains.mass[g], radius = grains.radius[g];
     const auto& position = frame.position[g];
     const double y = layers_.height<D>(position);

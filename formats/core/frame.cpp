@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/frame.hpp"
 
+#include <limits>
+
 namespace grseg {
 
 template <int D>
@@ -25,6 +27,52 @@ void ContactList<D>::reserve(std::size_t contacts)
 
 template struct ContactList<2>;
 template struct ContactList<3>;
+
+template <int D>
+std::size_t number_present(const Frame<D>& frame)
+{
+  std::size_t number = 0;
+  for (std::size_t g = 0; g < frame.position.size(); ++g) number += is_present(frame, g) ? 1 : 0;
+  return number;
+}
+
+template std::size_t number_present(const Frame<2>&);
+template std::size_t number_present(const Frame<3>&);
+
+/// A sum over absent grains of random numbers that belong to their rows (SplitMix64).
+template <int D>
+std::uint64_t which_are_absent(const Frame<D>& frame)
+{
+  std::uint64_t sum = 0;
+  for (std::size_t g = 0; g < frame.position.size(); ++g) {
+    if (is_present(frame, g)) continue;
+    std::uint64_t mixed = (g + 1) * 0x9e3779b97f4a7c15U;
+    mixed = (mixed ^ (mixed >> 30U)) * 0xbf58476d1ce4e5b9U;
+    mixed = (mixed ^ (mixed >> 27U)) * 0x94d049bb133111ebU;
+    sum += mixed ^ (mixed >> 31U);
+  }
+  return sum;
+}
+
+template std::uint64_t which_are_absent(const Frame<2>&);
+template std::uint64_t which_are_absent(const Frame<3>&);
+
+template <int D>
+void make_absent(Frame<D>& frame, std::size_t g)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  frame.position[g].setConstant(nan);
+  frame.image[g].fill(0);
+  frame.velocity[g].setConstant(nan);
+  if constexpr (D == 2)
+    frame.angular_velocity[g] = nan;
+  else
+    frame.angular_velocity[g].setConstant(nan);
+  if (!frame.force.empty()) frame.force[g].setConstant(nan);
+}
+
+template void make_absent(Frame<2>&, std::size_t);
+template void make_absent(Frame<3>&, std::size_t);
 
 template <int D>
 double share_of_first(const Grains& grains, const ContactList<D>& contacts, std::size_t contact)

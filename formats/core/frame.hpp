@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <type_traits>
 #include <vector>
@@ -118,6 +117,10 @@ bool is_present(const Frame<D>& frame, std::size_t g)
   return !std::isnan(frame.position[g].y());
 }
 
+/// How many grains are there in this frame.
+template <int D>
+std::size_t number_present(const Frame<D>& frame);
+
 /// Whether grain g belongs to the flow and is there in this frame.
 template <int D>
 bool is_mobile(const Grains& grains, const Frame<D>& frame, std::size_t g)
@@ -125,20 +128,14 @@ bool is_mobile(const Grains& grains, const Frame<D>& frame, std::size_t g)
   return is_mobile(grains, g) && is_present(frame, g);
 }
 
+/// A number that tells which grains are absent in this frame: 0 where all are there, and the same
+/// for the same grains.
+template <int D>
+std::uint64_t which_are_absent(const Frame<D>& frame);
+
 /// Marks grain g as absent in a frame whose arrays have their sizes.
 template <int D>
-void make_absent(Frame<D>& frame, std::size_t g)
-{
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  frame.position[g].setConstant(nan);
-  frame.image[g].fill(0);
-  frame.velocity[g].setConstant(nan);
-  if constexpr (D == 2)
-    frame.angular_velocity[g] = nan;
-  else
-    frame.angular_velocity[g].setConstant(nan);
-  if (!frame.force.empty()) frame.force[g].setConstant(nan);
-}
+void make_absent(Frame<D>& frame, std::size_t g);
 
 /// Where two grains touch: x_i - branch (r_i + gap/2)/(r_i + r_j + gap); at a wall the contact
 /// point is x_i - branch.

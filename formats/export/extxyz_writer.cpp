@@ -36,8 +36,9 @@ void ExtxyzWriter::add(const Frame<D>& frame)
 {
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);
-  fmt::format_to(end, "{}\n{} Time={}\n", grains_.size(), keys_, frame.time);
+  fmt::format_to(end, "{}\n{} Time={}\n", number_present(frame), keys_, frame.time);
   for (std::size_t g = 0; g < grains_.size(); ++g) {
+    if (!is_present(frame, g)) continue;
     const Vec3 x = in_space<D>(frame.position[g]), v = in_space<D>(frame.velocity[g]);
     const Vec3 spin = spin_in_space(frame.angular_velocity[g]);
     fmt::format_to(end, "{} {} {} {} {} {} {} {} {} {} {} {} {}", grains_.id[g], species_[g] + 1,

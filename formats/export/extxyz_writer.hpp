@@ -9,8 +9,8 @@
 
 namespace grseg {
 
-/// Extended XYZ as OVITO and ASE read it: per frame the number of grains, a line of keys, a row per
-/// grain. Types are numbers (1 the smallest species, the
+/// Extended XYZ as OVITO and ASE read it: per frame the number of grains that are present, a line
+/// of keys, a row for each. Types are numbers (1 the smallest species, the
 /// last one the boundary), since ASE refuses species that are not
 /// chemical symbols. Reals have the fewest digits that read back exactly; discs have z = 0;
 /// contacts cannot be stored.

@@ -17,6 +17,7 @@ namespace grseg {
 /// strings of fixed length, which H5MD demands); the file must be opened with convert_units=False,
 /// and numbers are SI as stated by /h5md/modules/units. position, velocity, force (where the run
 /// has it), image, angular_velocity (of discs about z, [F][N]), and per grain id, species, radius, mass;
+/// Grains that are absent in a frame are NaN in it, as H5MD has a fixed number of particles.
 /// /observables are those of the run. Contacts cannot be stored.
 class H5md3dWriter {
  public:

@@ -117,9 +117,10 @@ void LammpsWriter::add_grains(const Frame<D>& frame)
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);
   fmt::format_to(end, "{}id type mass radius x y z ix iy iz vx vy vz {}omegaz{}\n",
-                 head(frame, "ATOMS", grains.size()), D == 3 ? "omegax omegay " : "",
+                 head(frame, "ATOMS", number_present(frame)), D == 3 ? "omegax omegay " : "",
                  has_force ? " fx fy fz" : "");
   for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_present(frame, g)) continue;
     const auto& image = frame.image[g];
     fmt::format_to(end, "{} {} {} {}", grains.id[g],
                    type_of(grains.species[g], run_.species().size()), grains.mass[g],

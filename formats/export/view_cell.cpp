@@ -22,6 +22,7 @@ ViewCell view_cell(const TrajectoryReader& run, std::size_t frame)
     Frame<d> first;
     run.read(frame, first, {.velocity = false, .contacts = false, .force = false});
     for (std::size_t g = 0; g < radius.size(); ++g) {
+      if (!is_present(first, g)) continue;
       cell.low[1] = std::min(cell.low[1], first.position[g].y() - radius[g]);
       cell.high[1] = std::max(cell.high[1], first.position[g].y() + radius[g]);
     }

@@ -40,6 +40,17 @@ std::vector<float> padded(const std::vector<Vector<D>>& vectors)
   return single(all_in_space<D>(vectors));
 }
 
+/// Of the grains that are present, what all have.
+template <int D, class T>
+std::vector<T> of_present(const Frame<D>& frame, std::vector<T> all)
+{
+  std::size_t next = 0;
+  for (std::size_t g = 0; g < all.size(); ++g)
+    if (is_present(frame, g)) all[next++] = all[g];
+  all.resize(next);
+  return all;
+}
+
 /// A .pvd: times and files.
 std::string collection(const std::string& list)
 {
@@ -65,18 +76,20 @@ template <int D>
 std::string VtpWriter::grains_text(const Frame<D>& frame) const
 {
   const auto& grains = run_.grains();
-  auto diameter = grains.radius;
+  const auto own = [&](const auto& all) { return of_present(frame, all); };
+  const auto radius = own(grains.radius);
+  auto diameter = radius;
   for (auto& value : diameter) value *= 2;
 
-  PolyData data(PolyData::Cells::vertices, padded<D>(frame.position), frame.time);
+  PolyData data(PolyData::Cells::vertices, padded<D>(own(frame.position)), frame.time);
   data.point_array("diameter", single(diameter));
-  data.point_array("radius", single(grains.radius));
-  data.point_array("mass", single(grains.mass));
-  data.point_array("species", species_numbers(grains.species, run_.species().size()));
-  data.point_array("id", grains.id);
-  data.point_array("velocity", padded<D>(frame.velocity), 3);
-  data.point_array("angular_velocity", single(frame.angular_velocity), D == 2 ? 1 : 3);
-  if (run_.has_force()) data.point_array("force", padded<D>(frame.force), 3);
+  data.point_array("radius", single(radius));
+  data.point_array("mass", single(own(grains.mass)));
+  data.point_array("species", own(species_numbers(grains.species, run_.species().size())));
+  data.point_array("id", own(grains.id));
+  data.point_array("velocity", padded<D>(own(frame.velocity)), 3);
+  data.point_array("angular_velocity", single(own(frame.angular_velocity)), D == 2 ? 1 : 3);
+  if (run_.has_force()) data.point_array("force", padded<D>(own(frame.force)), 3);
   return data.text();
 }
 

@@ -10,7 +10,7 @@
 namespace grseg {
 
 /// A folder for ParaView: grains.pvd and contacts.pvd, each a list of times and files.
-///   grains/      a vertex per grain, with radius and diameter (to scale glyphs), mass,
+///   grains/      a vertex per grain that is present, with radius and diameter (to scale glyphs), mass,
 ///                species (0 the smallest, the last one the boundary), id, velocity,
 ///                angular_velocity (of discs about z), force
 ///   contacts/    a line per contact from x_i to x_i - branch, with points of its own: at the

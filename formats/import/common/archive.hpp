@@ -100,6 +100,8 @@ class Archive {
   /// Fills in the next moment that has both grains and contacts; false at the end.
   /// FormatError naming file, line and remedy where the archive is damaged.
   virtual bool next(ArchiveMoment& moment) = 0;
+  /// The same, but the contacts need not be read: faster where the format lets them be skipped.
+  virtual bool next_grains(ArchiveMoment& moment) { return next(moment); }
 
   /// How the columns of the contacts are read, as --columns would give it; "" where the format
   /// fixes it.

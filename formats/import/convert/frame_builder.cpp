@@ -2,6 +2,7 @@
 #include "formats/import/convert/frame_builder.hpp"
 
 #include "formats/import/common/minimum_image.hpp"
+#include "formats/import/convert/roster.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,18 +32,26 @@ bool is_finite(const Vec3& spin)
 
 }  // namespace
 
-FrameBuilder::FrameBuilder(const ArchiveMoment& first, const RunFacts& facts,
-                           const ImportSettings& settings)
-    : bed_(first, facts, settings), step_(facts.step)
+FrameBuilder::FrameBuilder(const ArchiveMoment& all, const RunFacts& facts,
+                           const ImportSettings& settings, bool grains_come_and_go)
+    : bed_(all, facts, settings),
+      step_(facts.step),
+      has_force_(!all.grains.force.empty()),
+      grains_come_and_go_(grains_come_and_go)
 {
 }
 
-std::size_t FrameBuilder::row_of(std::int64_t id, const ArchiveMoment& moment) const
+/// Of a grain that a contact names.
+template <int D>
+std::size_t FrameBuilder::row_of(std::int64_t id, const ArchiveMoment& moment,
+                                 const Frame<D>& frame) const
 {
   const auto row = bed_.rows.find(id);
-  if (row >= 0) return static_cast<std::size_t>(row);
+  if (row >= 0 && is_present(frame, static_cast<std::size_t>(row)))
+    return static_cast<std::size_t>(row);
   throw FormatError(fmt::format(
-      "{}: grain {} is not among those of the first moment; the number of grains must not change",
+      "{}: a contact names grain {}, which is not among the grains of this moment; are i and j "
+      "ids, and were grains and contacts written at the same steps?",
       moment.place, id));
 }
 
@@ -68,11 +77,14 @@ void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame<D>& 
   const auto fail = [&](const std::string& what) {
     throw FormatError(fmt::format("{}: {} has a number that is not finite", moment.place, what));
   };
-  for (std::size_t g = 0; g < bed_.grains.size(); ++g)
+  const auto require_of_grain = [&](std::size_t g) {
     if (!frame.position[g].allFinite() || !frame.velocity[g].allFinite() ||
         !is_finite(frame.angular_velocity[g]) ||
         (!frame.force.empty() && !frame.force[g].allFinite()))
       fail(fmt::format("grain {}", bed_.grains.id[g]));
+  };
+  for (const auto id : moment.grains.id)
+    require_of_grain(static_cast<std::size_t>(bed_.rows.find(id)));
   const auto& contacts = frame.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (!contacts.force[c].allFinite() || !contacts.branch[c].allFinite() ||
@@ -110,27 +122,29 @@ void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame<D>& frame) co
 {
   const auto& from = moment.grains;
   const auto n = bed_.grains.size();
-  if (from.size() != n)
-    throw FormatError(fmt::format(
-        "{}: {} grains, but {} in the first moment; the number of grains must not change",
-        moment.place, from.size(), n));
-  if (from.velocity.empty())
+  const auto refuse_others = [&](const std::string& what) {
+    throw OtherGrains(fmt::format("{}: {}; the grains of the first moment are not those of all",
+                                  moment.place, what));
+  };
+  if (!grains_come_and_go_ && from.size() != n)
+    refuse_others(fmt::format("{} grains, but {} in the first moment", from.size(), n));
+  if (from.velocity.empty() && from.size() > 0)
     throw FormatError(fmt::format("{}: the grains have no velocities", moment.place));
-  // A row that is still NaN below has not been filled yet.
-  frame.position.assign(n, Vector<D>::Constant(NAN));
-  frame.image.assign(n, {});
+  frame.position.resize(n);
+  frame.image.resize(n);
   frame.velocity.resize(n);
-  frame.angular_velocity.assign(n, no_spin<D>());
-  frame.force.assign(from.force.empty() ? 0 : n, Vector<D>::Zero());
-  for (std::size_t g = 0; g < n; ++g) {
-    const auto row = row_of(from.id[g], moment);
-    if (!std::isnan(frame.position[row].x()))
+  frame.angular_velocity.resize(n);
+  frame.force.resize(has_force_ ? n : 0);
+  for (std::size_t row = 0; row < n; ++row) make_absent(frame, row);
+  std::vector<bool> placed(n);
+  for (std::size_t g = 0; g < from.size(); ++g) {
+    const auto found = bed_.rows.find(from.id[g]);
+    if (found < 0) refuse_others(fmt::format("grain {} is not in the first moment", from.id[g]));
+    const auto row = static_cast<std::size_t>(found);
+    if (placed[row])
       throw FormatError(fmt::format("{}: grain {} appears twice", moment.place, from.id[g]));
-    if (!from.radius.empty() &&
-        std::abs(from.radius[g] - bed_.grains.radius[row]) > 1e-5 * bed_.grains.radius[row])
-      throw FormatError(fmt::format("{}: the radius of grain {} changes from {:g} to {:g}",
-                                    moment.place, from.id[g], bed_.grains.radius[row],
-                                    from.radius[g]));
+    placed[row] = true;
+    require_same_grain(bed_.known, row, from, g, moment.place);
     place(moment, g, row, frame);
   }
 }
@@ -157,11 +171,12 @@ void FrameBuilder::place(const ArchiveMoment& moment, std::size_t g, std::size_t
   }
   frame.position[row] = x;
   frame.velocity[row] = bed_.axes.components<D>(from.velocity[g]);
-  if (!from.angular_velocity.empty())
-    frame.angular_velocity[row] = bed_.axes.spin<D>(from.angular_velocity[g]);
+  frame.angular_velocity[row] =
+      from.angular_velocity.empty() ? no_spin<D>() : bed_.axes.spin<D>(from.angular_velocity[g]);
+  if (from.force.empty()) return;
   // What programs write as the force on held grains depends on the order of their computations.
-  if (!from.force.empty() && !bed_.is_boundary(row))
-    frame.force[row] = bed_.axes.components<D>(from.force[g]);
+  frame.force[row] =
+      bed_.is_boundary(row) ? Vector<D>(Vector<D>::Zero()) : bed_.axes.components<D>(from.force[g]);
 }
 
 template <int D>
@@ -179,8 +194,8 @@ void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const
 {
   const auto& from = moment.contacts;
   const bool wall = !from.wall.empty() && from.wall[c] >= 0;
-  auto i = row_of(from.i[c], moment);
-  auto j = wall ? i : row_of(from.j[c], moment);
+  auto i = row_of(from.i[c], moment, frame);
+  auto j = wall ? i : row_of(from.j[c], moment, frame);
   if (!wall && i == j)
     throw FormatError(fmt::format("{}: a contact joins grain {} to itself; check --columns",
                                   moment.place, from.i[c]));

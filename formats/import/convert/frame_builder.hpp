@@ -9,18 +9,20 @@
 namespace grseg {
 
 /// Turns the moments of an archive into frames of a trajectory (formats/README.md), in the
-/// archive's units. Every moment must have the grains of the first one. Grain i of a contact is
-/// mobile; contacts between two boundary grains are left out; the order of contacts is kept.
+/// archive's units. Every moment must have all grains, unless they come and go: then those that a
+/// moment does not have are absent in its frame. Grain i of a contact is mobile; contacts between two boundary grains are left out; the order of contacts is kept.
 class FrameBuilder {
  public:
   /// UsageError where the command line does not fit the grains, FormatError where they are
   /// impossible.
-  FrameBuilder(const ArchiveMoment& first, const RunFacts& facts, const ImportSettings& settings);
+  FrameBuilder(const ArchiveMoment& all, const RunFacts& facts, const ImportSettings& settings,
+               bool grains_come_and_go = false);
 
   const ImportedBed& bed() const { return bed_; }
 
   /// D is the dimension of the bed's box. FormatError naming the moment where grains or contacts are
-  /// impossible, or lack components in three dimensions.
+  /// impossible, or lack components in three dimensions; OtherGrains where a moment has not all
+  /// grains, or others.
   template <int D>
   void build(const ArchiveMoment& moment, Frame<D>& frame) const;
 
@@ -39,10 +41,12 @@ class FrameBuilder {
   template <int D>
   void add_contact(const ArchiveMoment& moment, std::size_t c, const Frame<D>& frame,
                    ContactList<D>& contacts) const;
-  std::size_t row_of(std::int64_t id, const ArchiveMoment& moment) const;
+  template <int D>
+  std::size_t row_of(std::int64_t id, const ArchiveMoment& moment, const Frame<D>& frame) const;
 
   ImportedBed bed_;
   double step_;
+  bool has_force_, grains_come_and_go_;
 };
 
 }  // namespace grseg

@@ -62,6 +62,13 @@ void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
     grains.radius.push_back(from.radius[g]);
     grains.mass.push_back(mass[g]);
     grains.fixed.push_back(species.species[g] == Species::boundary);
+    const auto keep = [g](const auto& its, auto& kept) {
+      if (!its.empty()) kept.push_back(its[g]);
+    };
+    keep(from.radius, known.radius);
+    keep(from.mass, known.mass);
+    keep(from.type, known.type);
+    keep(from.fixed, known.fixed);
   }
   rows = RowsById(ids);
 }

@@ -19,13 +19,13 @@ struct Period {
   bool forward = true;  // along it; otherwise against it
 };
 
-/// What all frames of an imported run share: its grains, cell and axes, found from the first moment
-/// of the archive, in the archive's units and the axes of the flow. Rows are grains by increasing
-/// id.
+/// What all frames of an imported run share: its grains, cell and axes, found from a moment with all
+/// grains (the first of the archive, or a Roster's), in the archive's units and the axes of the
+/// flow. Rows are grains by increasing id.
 struct ImportedBed {
   /// UsageError where the command line does not fit the grains, FormatError where the grains are
   /// impossible.
-  ImportedBed(const ArchiveMoment& first, const RunFacts& facts, const ImportSettings& settings);
+  ImportedBed(const ArchiveMoment& all, const RunFacts& facts, const ImportSettings& settings);
 
   bool is_boundary(std::size_t row) const { return grains.species[row] == Species::boundary; }
 
@@ -34,6 +34,7 @@ struct ImportedBed {
   Box box;
   SpeciesFound species;
   RowsById rows;
+  ArchiveGrains known;          // by row, what a grain keeps: radius, mass, type, fixed
   double origin = 0;            // height in the archive that is y = 0
   Vec3 shift = Vec3::Zero();    // to be added to components of positions
   std::vector<Period> periods;  // of the cell: none, along x, along z, or along both

@@ -72,6 +72,7 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   run.box.length_y *= units.length;
   run.box.length_z *= units.length;
   run.has_force = frames.has_force();
+  run.grains_come_and_go = frames.roster() != nullptr;
   run.observables = {{"momentum_defect", ""}};
 
   auto& numbers = run.parameters.numbers;
@@ -99,6 +100,8 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["import_base"] = frames.builder().bed().species.base;
   texts["import_sizes"] = frames.builder().bed().species.sizes;
   texts["import_columns"] = frames.archive().columns();
+  if (settings.from) texts["import_from"] = *settings.from;
+  if (settings.to) texts["import_to"] = *settings.to;
   texts["import_instant"] =
       "positions, velocities and forces are those of the archive at `time`, not of the middle of a "
       "step";
@@ -118,8 +121,9 @@ template <int D>
 [[noreturn]] void refuse(const VerifiedFrames<D>& frames, const ImportSettings& settings,
                          const Complaint& complaint, std::size_t moments)
 {
-  const auto fitting =
-      complaint.of_columns ? columns_that_fit(settings, frames.archive(), moments) : std::string();
+  const auto fitting = complaint.of_columns
+                           ? columns_that_fit(settings, frames.archive(), moments, frames.roster())
+                           : std::string();
   const bool of_balance = frames.residual() && frames.residual()->unexplained > frames.tolerance();
   throw CheckError(fmt::format(
       "{}: {}{}{}", frames.place(), complaint.sentence, fitting,
@@ -165,11 +169,22 @@ template <int D>
 void finish(TrajectoryWriter& writer, const VerifiedFrames<D>& frames, ImportReport& report)
 {
   report.remarks = frames.archive().remarks();
+  if (!frames.range().is_all())
+    report.remarks.push_back(
+        fmt::format("only moments in the range {} are imported", frames.range().text()));
+  if (const auto roster = frames.roster())
+    report.remarks.push_back(
+        fmt::format("grains come and go: {} ids in all, between {} and {} present",
+                    roster->all.grains.size(), roster->fewest, roster->most));
   if (!frames.has_force())
     report.remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
   if (!frames.has_angular_velocity())
     report.remarks.emplace_back("the archive has no angular velocities; they are written as 0");
   Parameters last;
+  if (frames.roster()) {  // the first moment may have had no contacts to tell
+    report.columns = frames.archive().columns();
+    last.texts["import_columns"] = report.columns;
+  }
   if (report.largest_residual) {
     last.numbers["import_residual_largest"] = {*report.largest_residual};
     last.numbers["import_residual_median"] = {*report.median_residual};
@@ -227,11 +242,18 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
   if (settings.output.empty())
     throw UsageError("name the trajectory to write with -o, e.g. -o run.h5");
   Output output(settings.output, settings.overwrite, inputs_of(settings.files));
-  OpenedArchive opened(settings, settings.files.columns);
-  auto report = with_dimension(opened.facts.dimension, [&](auto d) {
-    return write_frames(VerifiedFrames<d>(std::move(opened), settings), settings, command_line,
-                        output.temporary());
-  });
+  const auto write = [&](OpenedArchive opened) {
+    return with_dimension(opened.facts.dimension, [&](auto d) {
+      return write_frames(VerifiedFrames<d>(std::move(opened), settings), settings, command_line,
+                          output.temporary());
+    });
+  };
+  ImportReport report;
+  try {
+    report = write(open_with_grains(settings));
+  } catch (const OtherGrains&) {
+    report = write(open_with_roster(settings));
+  }
   output.publish();
   return report;
 }

@@ -1,35 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/convert/opened_archive.hpp"
 
-#include "formats/import/open_archive.hpp"
+#include <fmt/format.h>
 
 namespace grseg {
-namespace {
 
-ArchiveFiles with_columns(ArchiveFiles files, const std::string& columns)
-{
-  files.columns = columns;
-  return files;
-}
-
-}  // namespace
-
-OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& columns)
-    : archive(open_archive(settings.format, with_columns(settings.files, columns))),
-      drop_incomplete_(settings.drop_incomplete)
+OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& columns,
+                             std::shared_ptr<const Roster> roster)
+    : moments_(settings, columns), roster_(std::move(roster))
 {
   if (!next()) throw FormatError("the archive holds no moment with grains and contacts");
-  facts = collect_facts(archive->facts(), moment, settings);
+  if (!roster_ && moment.grains.size() == 0)
+    throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
+  facts = collect_facts(archive().facts(), all_grains(), settings);
 }
 
-bool OpenedArchive::next()
+OpenedArchive open_with_roster(const ImportSettings& settings)
+{
+  return {settings, settings.files.columns, std::make_shared<const Roster>(read_roster(settings))};
+}
+
+OpenedArchive open_with_grains(const ImportSettings& settings)
 {
   try {
-    return archive->next(moment);
-  } catch (const TruncatedArchive&) {
-    if (!drop_incomplete_) throw;
-    return false;
+    return {settings, settings.files.columns};
+  } catch (const OtherGrains&) {
+  } catch (const UsageError&) {
+    if (!grains_change_early(settings)) throw;
   }
+  return open_with_roster(settings);
 }
 
 }  // namespace grseg

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/import/convert/moments.hpp"
+#include "formats/import/convert/roster.hpp"
 #include "formats/import/facts/run_facts.hpp"
 
 #include <memory>
@@ -8,21 +10,37 @@
 
 namespace grseg {
 
-/// An archive at one of its moments, from the first on, and the facts of its run.
-struct OpenedArchive {
+/// An archive at one of its moments, from the first on, and the facts of its run. Where grains come
+/// and go there is a roster of them, and facts are found from it.
+class OpenedArchive {
+ public:
   /// Reads the first moment. Throws what readers and facts throw; FormatError where the archive
-  /// holds no moment.
-  OpenedArchive(const ImportSettings& settings, const std::string& columns);
+  /// holds no moment, OtherGrains where it begins without grains and there is no roster.
+  OpenedArchive(const ImportSettings& settings, const std::string& columns,
+                std::shared_ptr<const Roster> roster = nullptr);
 
-  /// Reads the next moment; false at the end, which with --drop-incomplete an incomplete one is.
-  bool next();
+  /// Reads the next moment; false at the end.
+  bool next() { return moments_.next(moment); }
 
-  std::unique_ptr<Archive> archive;
+  const Archive& archive() const { return moments_.archive(); }
+  const MomentRange& range() const { return moments_.range(); }
+  /// Of all moments; null where they all have the grains of the first one.
+  const std::shared_ptr<const Roster>& roster() const { return roster_; }
+  /// A moment with all grains of the run: the roster's, or as long as it has not been left the first.
+  const ArchiveMoment& all_grains() const { return roster_ ? roster_->all : moment; }
+
   ArchiveMoment moment;
   RunFacts facts;
 
  private:
-  bool drop_incomplete_;
+  Moments moments_;
+  std::shared_ptr<const Roster> roster_;
 };
+
+/// Opens an archive; where its facts cannot be found from the grains of the first moment, and other
+/// moments have others, with a roster.
+OpenedArchive open_with_grains(const ImportSettings& settings);
+/// Opens an archive with a roster.
+OpenedArchive open_with_roster(const ImportSettings& settings);
 
 }  // namespace grseg

@@ -12,13 +12,14 @@ template <int D>
 VerifiedFrames<D>::VerifiedFrames(OpenedArchive opened, const ImportSettings& settings)
     : opened_(std::move(opened)),
       tolerance_(settings.accept_residual.value_or(archive().facts().tolerance)),
-      builder_(std::make_unique<FrameBuilder>(opened_.moment, facts(), settings)),
+      builder_(std::make_unique<FrameBuilder>(opened_.all_grains(), facts(), settings,
+                                              opened_.roster() != nullptr)),
       verification_(builder_->bed().grains, builder_->bed().box,
                     facts().orientation.gravity.template head<D>(),
                     {tolerance_, archive().facts().forces_are_late, facts().step,
                      facts().discs ? inertia_factor<2> : inertia_factor<3>}),
-      has_force_(!opened_.moment.grains.force.empty()),
-      has_angular_velocity_(!opened_.moment.grains.angular_velocity.empty())
+      has_force_(!opened_.all_grains().grains.force.empty()),
+      has_angular_velocity_(!opened_.all_grains().grains.angular_velocity.empty())
 {
 }
 
@@ -27,7 +28,7 @@ bool VerifiedFrames<D>::next(Frame<D>& frame)
 {
   if (!std::exchange(first_, false) && !opened_.next()) return false;
   const auto& moment = opened_.moment;
-  if (moment.grains.force.empty() == has_force_)
+  if (moment.grains.size() > 0 && moment.grains.force.empty() == has_force_)
     throw FormatError(fmt::format(
         "{}: some moments have forces on grains and some do not; import them separately",
         moment.place));
@@ -62,10 +63,11 @@ std::optional<double> largest_residual(VerifiedFrames<D> frames, std::size_t mom
 
 /// The same with these columns; nothing where the archive is refused with them.
 std::optional<double> residual_with(const ImportSettings& settings, const std::string& columns,
-                                    std::size_t moments)
+                                    std::size_t moments,
+                                    const std::shared_ptr<const Roster>& roster)
 {
   try {
-    OpenedArchive opened(settings, columns);
+    OpenedArchive opened(settings, columns, roster);
     return with_dimension(opened.facts.dimension, [&](auto d) {
       return largest_residual(VerifiedFrames<d>(std::move(opened), settings), moments);
     });
@@ -79,12 +81,12 @@ std::optional<double> residual_with(const ImportSettings& settings, const std::s
 }  // namespace
 
 std::string columns_that_fit(const ImportSettings& settings, const Archive& archive,
-                             std::size_t moments)
+                             std::size_t moments, const std::shared_ptr<const Roster>& roster)
 {
   std::string best;
   double least = INFINITY;
   for (const auto& columns : archive.other_columns()) {
-    const auto residual = residual_with(settings, columns, moments);
+    const auto residual = residual_with(settings, columns, moments, roster);
     if (!residual || *residual >= least) continue;
     least = *residual;
     best = fmt::format("; with --columns {} they balance to {:.2g}", columns, *residual);

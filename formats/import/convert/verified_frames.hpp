@@ -26,7 +26,9 @@ class VerifiedFrames {
   const std::optional<Residual>& residual() const { return verification_.residual(); }
   const std::string& place() const { return opened_.moment.place; }
 
-  const Archive& archive() const { return *opened_.archive; }
+  const Archive& archive() const { return opened_.archive(); }
+  const std::shared_ptr<const Roster>& roster() const { return opened_.roster(); }
+  const MomentRange& range() const { return opened_.range(); }
   const RunFacts& facts() const { return opened_.facts; }
   const FrameBuilder& builder() const { return *builder_; }
   double tolerance() const { return tolerance_; }
@@ -46,6 +48,6 @@ class VerifiedFrames {
 /// The value of --columns with which the first `moments` moments of the archive balance best, as
 /// part of a sentence; "" where there is none.
 std::string columns_that_fit(const ImportSettings& settings, const Archive& archive,
-                             std::size_t moments);
+                             std::size_t moments, const std::shared_ptr<const Roster>& roster);
 
 }  // namespace grseg

@@ -30,6 +30,13 @@ class DumpArchive : public Archive {
 
   bool next(ArchiveMoment& moment) override
   {
+    if (!next_grains(moment)) return false;
+    read_contacts(moment);
+    return true;
+  }
+
+  bool next_grains(ArchiveMoment& moment) override
+  {
     if (!dumps_.next()) return false;
     facts_.units = dumps_.units();
     const auto& header = dumps_.grains().header();
@@ -41,7 +48,6 @@ class DumpArchive : public Archive {
     moment.place = fmt::format("step {} ({}; {})", header.step, header.place,
                                dumps_.contacts().header().place);
     grains_.read(dumps_.grains(), moment.grains);
-    read_contacts(moment);
     return true;
   }
 
@@ -49,6 +55,10 @@ class DumpArchive : public Archive {
   void read_contacts(ArchiveMoment& moment)
   {
     const auto header = dumps_.contacts().header();
+    if (!columns_ && moment.grains.size() == 0) {
+      moment.contacts = {};
+      return;
+    }
     if (!columns_ || header.columns != header_.columns) {
       if (columns_text_.empty()) columns_text_ = assumed_columns(header, moment.grains);
       columns_.emplace(dialect_.mapping(columns_text_, header));

@@ -44,6 +44,9 @@ po::options_description import_options(ImportSettings& s)
       "restart", po::value(&s.files.restart)->value_name("FILE"), restart.c_str())(
       "columns", po::value(&s.files.columns)->value_name("MAP"),
       "what the columns of the contacts mean, e.g. i=2,j=3,dist=4,force=5,tangential=8")(
+      "from", optional(s.from, "T"),
+      "leave out what comes before this time, in the archive's units, or before step:N")(
+      "to", optional(s.to, "T"), "leave out what comes after, likewise")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
       "import a text archive that ends inside a moment up to that moment");
 

@@ -30,6 +30,7 @@ struct ImportSettings {
   SpeciesSettings species;
   std::vector<std::string> walls;  // wall_planes.hpp
 
+  std::optional<std::string> from, to;  // moment_range.hpp
   std::optional<double> accept_residual;
   bool drop_incomplete = false;
   std::string output;

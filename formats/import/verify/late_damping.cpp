@@ -134,7 +134,7 @@ LateDamping subtract_late_damping(const Grains& grains, const Frame<D>& frame, d
   Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
   Vec2 projections = Vec2::Zero();
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
+    if (!is_mobile(grains, frame, g)) continue;
     Eigen::Matrix<double, D, 2> columns;
     columns << per_normal[g], per_tangential[g];
     products += columns.transpose() * columns;

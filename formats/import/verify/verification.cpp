@@ -29,7 +29,8 @@ Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect,
 {
   std::vector<std::pair<double, std::size_t>> sizes;
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g)) sizes.emplace_back(defect[g].norm() / scale, g);
+    if (is_mobile(grains, g) && !std::isnan(defect[g].x()))
+      sizes.emplace_back(defect[g].norm() / scale, g);
   if (sizes.empty()) return {};
   const auto largest = *std::max_element(sizes.begin(), sizes.end());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
@@ -149,6 +150,7 @@ std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
   double scale = 0;
   for (const auto& force : forces) scale = std::max(scale, force.norm());
   std::vector<Vector<D>> defect(grains_.size(), Vector<D>::Zero());
+  // That of a grain which is absent, now or before, is NaN.
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, g)) continue;
     const Vector<D> weight = grains_.mass[g] * gravity_;

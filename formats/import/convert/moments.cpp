@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/moments.hpp"
+
+#include "formats/cli/interruption.hpp"
+#include "formats/import/open_archive.hpp"
+
+#include <fmt/format.h>
+
+namespace grseg {
+namespace {
+
+ArchiveFiles with_columns(ArchiveFiles files, const std::string& columns)
+{
+  files.columns = columns;
+  return files;
+}
+
+}  // namespace
+
+Moments::Moments(const ImportSettings& settings, const std::string& columns)
+    : archive_(open_archive(settings.format, with_columns(settings.files, columns))),
+      step_(settings.step),
+      drop_incomplete_(settings.drop_incomplete),
+      range_(settings.from, settings.to)
+{
+}
+
+bool Moments::read_one(ArchiveMoment& moment, Read read)
+{
+  try {
+    return ((*archive_).*read)(moment);
+  } catch (const TruncatedArchive&) {
+    if (!drop_incomplete_) throw;
+    return false;
+  }
+}
+
+bool Moments::advance(ArchiveMoment& moment, Read read)
+{
+  while (!ended_ && read_one(moment, read)) {
+    stop_if_interrupted();
+    range_.set_step(step_ ? step_ : archive_->facts().step);
+    const auto side = range_.side(moment);
+    if (side == MomentRange::Side::within) return found_ = true;
+    // Without a moment in the range it is read to its end, to say what it has.
+    ended_ = found_ && side == MomentRange::Side::after;
+  }
+  if (!found_ && range_.any_seen())
+    throw UsageError(fmt::format("no moment lies in the range {}: the archive has {}",
+                                 range_.text(), range_.seen()));
+  return false;
+}
+
+}  // namespace grseg

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/convert/moment_range.hpp"
+#include "formats/import/facts/import_settings.hpp"
+
+#include <memory>
+#include <string>
+
+namespace grseg {
+
+/// The moments of an archive between --from and --to, one after another; with --drop-incomplete they
+/// end before one that is incomplete.
+class Moments {
+ public:
+  Moments(const ImportSettings& settings, const std::string& columns);
+
+  /// Reads the next moment; false at the end. UsageError at an end without any moment, where there
+  /// are others outside the range.
+  bool next(ArchiveMoment& moment) { return advance(moment, &Archive::next); }
+  /// The same with the grains alone; contacts may be there or not.
+  bool next_grains(ArchiveMoment& moment) { return advance(moment, &Archive::next_grains); }
+
+  const Archive& archive() const { return *archive_; }
+  const MomentRange& range() const { return range_; }
+
+ private:
+  using Read = bool (Archive::*)(ArchiveMoment&);
+  bool advance(ArchiveMoment& moment, Read read);
+  bool read_one(ArchiveMoment& moment, Read read);
+
+  std::unique_ptr<Archive> archive_;
+  std::optional<double> step_;  // --step
+  bool drop_incomplete_;
+  MomentRange range_;
+  bool found_ = false, ended_ = false;
+};
+
+}  // namespace grseg
