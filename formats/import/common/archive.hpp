@@ -133,8 +133,8 @@ struct ArchiveFormat {
   const char* name;  // as --format gives it
   std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
   /// Which of these options apply to it; the others are refused.
-  bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_wall_contacts = false,
-       takes_wall_columns = false;
+  bool takes_contacts = true, takes_columns = true, takes_restart = false,
+       takes_wall_contacts = false, takes_wall_columns = false;
   const char* examples;    // for --help: whole command lines, indented
   const char* notes = "";  // for --help: what its files and its --columns are, indented; may be ""
 };

@@ -100,6 +100,8 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["import_base"] = frames.builder().bed().species.base;
   texts["import_sizes"] = frames.builder().bed().species.sizes;
   texts["import_columns"] = frames.archive().columns();
+  if (!frames.builder().bed().walls.empty())
+    texts["import_walls"] = list_of(frames.builder().bed().walls);
   if (settings.from) texts["import_from"] = *settings.from;
   if (settings.to) texts["import_to"] = *settings.to;
   texts["import_instant"] =
@@ -176,6 +178,8 @@ void finish(TrajectoryWriter& writer, const VerifiedFrames<D>& frames, ImportRep
     report.remarks.push_back(
         fmt::format("grains come and go: {} ids in all, between {} and {} present",
                     roster->all.grains.size(), roster->fewest, roster->most));
+  if (frames.walls())
+    for (auto& remark : frames.walls()->remarks()) report.remarks.push_back(std::move(remark));
   if (!frames.has_force())
     report.remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
   if (!frames.has_angular_velocity())

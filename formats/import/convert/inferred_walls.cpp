@@ -35,9 +35,10 @@ InferredWalls<D>::InferredWalls(const std::vector<WallPlane>& walls, const Impor
             wall.name, wall.place(), "xyz"[wall.axis]));
     const Vec3 direction = bed_.axes.components<3>(Vec3::Unit(wall.axis));
     if (D == 2 && std::abs(direction.z()) > 1e-6)
-      throw UsageError(fmt::format("--wall {} ({}) is parallel to the plane of the flow, --axes; "
-                                   "leave it out",
-                                   wall.name, wall.place()));
+      throw UsageError(
+          fmt::format("--wall {} ({}) is parallel to the plane of the flow, --axes; "
+                      "leave it out",
+                      wall.name, wall.place()));
     planes_.push_back({direction.head<D>(), wall.position + direction.dot(bed_.shift)});
   }
 }
@@ -150,8 +151,9 @@ void InferredWalls<D>::add_to(Frame<D>& frame)
         "dump them (fx fy fz), or the contacts with walls themselves (--wall-contacts)");
   const auto rows = renumber(frame.contacts);
   const auto already_there = [&](std::size_t grain, const Touch& touch) {
-    const auto [from, to] = std::equal_range(rows.begin(), rows.end(), GrainAtWall{grain, 0},
-                                             [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto [from, to] =
+        std::equal_range(rows.begin(), rows.end(), GrainAtWall{grain, 0},
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
     return std::any_of(from, to, [&](const auto& grain_at_wall) {
       return (frame.contacts.branch[grain_at_wall.second] - touch.branch).norm() <
              same_branch * bed_.grains.radius[grain];
@@ -195,9 +197,10 @@ std::vector<std::string> InferredWalls<D>::remarks() const
         pulling_, contacts_, largest_pull_));
   for (std::size_t w = 0; w < walls_.size(); ++w)
     if (contacts_of_[w] == 0)
-      remarks.push_back(fmt::format("no grain ever touches the wall {} ({}), of which the archive "
-                                    "has no contacts either: is it there?",
-                                    walls_[w].name, walls_[w].place()));
+      remarks.push_back(
+          fmt::format("no grain ever touches the wall {} ({}), of which the archive "
+                      "has no contacts either: is it there?",
+                      walls_[w].name, walls_[w].place()));
   return remarks;
 }
 

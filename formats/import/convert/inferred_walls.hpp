@@ -65,7 +65,7 @@ class InferredWalls {
   std::vector<std::uint8_t> inferred_;
   std::vector<std::size_t> contacts_of_;  // of each wall, in all frames so far
   std::size_t frames_ = 0, fewest_ = 0, most_ = 0, contacts_ = 0, at_two_ = 0, pulling_ = 0;
-  double largest_pull_ = 0;  // over the largest force of its frame
+  double largest_pull_ = 0;   // over the largest force of its frame
   double largest_force_ = 0;  // of this frame
 };
 

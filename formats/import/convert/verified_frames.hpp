@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/import/convert/frame_builder.hpp"
+#include "formats/import/convert/inferred_walls.hpp"
 #include "formats/import/convert/opened_archive.hpp"
 #include "formats/import/verify/verification.hpp"
 
@@ -31,6 +32,8 @@ class VerifiedFrames {
   const MomentRange& range() const { return opened_.range(); }
   const RunFacts& facts() const { return opened_.facts; }
   const FrameBuilder& builder() const { return *builder_; }
+  /// Those of --wall; null where there are none.
+  const InferredWalls<D>* walls() const { return walls_ ? &*walls_ : nullptr; }
   double tolerance() const { return tolerance_; }
   bool has_force() const { return has_force_; }
   bool has_angular_velocity() const { return has_angular_velocity_; }
@@ -39,6 +42,7 @@ class VerifiedFrames {
   OpenedArchive opened_;
   double tolerance_;
   std::unique_ptr<FrameBuilder> builder_;  // where the verification refers to it
+  std::optional<InferredWalls<D>> walls_;
   Verification<D> verification_;
   std::optional<Complaint> complaint_;
   std::optional<std::pair<std::int64_t, double>> last_;  // step and time of the frame before

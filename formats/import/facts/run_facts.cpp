@@ -136,14 +136,20 @@ RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
   const auto density = either(archive.density, settings.density, "--density");
   if (grains.mass.empty() && !density) missing.add("masses (--density)");
   const bool walls = archive.walls || !settings.walls.empty();
-  if (!settings.species.boundary && !settings.species.boundary_ids && grains.fixed.empty() && !walls)
+  if (!settings.species.boundary && !settings.species.boundary_ids && grains.fixed.empty() &&
+      !walls)
     missing.add(
         "which grains are the base (--boundary TYPES, --boundary-ids IDS, or --boundary none)");
   missing.report();
   if (!(step > 0)) throw UsageError(fmt::format("a time step of {:g} is not positive", step));
   const int dimension = dimension_of(first, settings.axes, discs, settings.dimension);
-  return {step,  dimension, orientation_of(settings.axes, *gravity, settings.slope, dimension),
-          discs, walls, density,   parse_units(units),
+  return {step,
+          dimension,
+          orientation_of(settings.axes, *gravity, settings.slope, dimension),
+          discs,
+          walls,
+          density,
+          parse_units(units),
           units};
 }
 
