@@ -18,7 +18,7 @@ def layer_of(y, h):
 
 def layers_of(run, frames, h):
     """As many layers as the highest grain reaches."""
-    top = max((f["position"][:, 1] + run.radius)[run.mobile].max() for f in frames)
+    top = max((f["position"][:, 1] + run.radius)[run.mobile & f["present"]].max() for f in frames)
     return math.ceil(top / h)
 
 
@@ -125,7 +125,7 @@ def volumes(run, frames, h, layers):
     """Of the mobile grains of each species, clipped at the layers' edges."""
     content = np.zeros((run.species_count, layers))
     for f in frames:
-        for g in np.flatnonzero(run.mobile):
+        for g in np.flatnonzero(run.mobile & f["present"]):
             y = f["position"][g][1]
             below = 0.0
             for n in range(layers):
@@ -138,7 +138,7 @@ def volumes(run, frames, h, layers):
 def mobile_grains(run, frames):
     """Number, height, and velocity and spin in one."""
     for f in frames:
-        for g in np.flatnonzero(run.mobile):
+        for g in np.flatnonzero(run.mobile & f["present"]):
             yield g, f["position"][g][1], np.append(f["velocity"][g], f["spin"][g])
 
 

@@ -39,6 +39,7 @@ class Run:
             frame[name] = f[f"particles/grains/{name}/value"][k].astype(float)
         spin = f["particles/grains/angular_velocity/value"][k].astype(float)
         frame["spin"] = spin.reshape(len(spin), -1)  # one component about z, or three
+        frame["present"] = ~np.isnan(frame["position"]).any(axis=1)
         return frame
 
     def is_mobile(self, g):
@@ -104,6 +105,14 @@ def inertia_of_discs(run):
     run.inertia = lambda g: run.mass[g] * run.radius[g]**2 / 2
 
 
+def present_at_the_origin(run):
+    """Absent grains, for which the file has NaN, are taken for grains at rest at 0."""
+    for frame in run.frames:
+        frame["present"][:] = True
+        for name in ("position", "velocity", "spin"):
+            frame[name] = np.nan_to_num(frame[name])
+
+
 # What a reader could get wrong, by dimension and by whether there are more than two species.
 FAULTS = {
     "x and y of forces exchanged": exchanged("force", 0, 1),
@@ -140,4 +149,6 @@ def faults_of(run):
         faults |= FAULTS_IN_SPACE
     if run.species_count > 2:
         faults |= FAULTS_OF_MANY
+    if not all(frame["present"].all() for frame in run.frames):
+        faults["absent grains counted"] = present_at_the_origin
     return faults

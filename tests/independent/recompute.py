@@ -4,7 +4,7 @@
 Usage: recompute.py BIN RUN.h5 SCENE.ini
 
 For a few frames of RUN.h5, of a short fresh run of SCENE.ini, and of runs without symmetries in two
-and three dimensions and of two and three species: sums of force (x) branch by pair of species under
+and three dimensions and of two and three species, in some of which grains come and go: sums of force (x) branch by pair of species under
 three assignments, partial stresses by three rules, volumes of grains, kinetic stresses about the
 profile and about the layer's mean, coordination z and mean force f, by layer; then BIN/grseg-stress,
 grseg-kinetic and grseg-micro on the same frames. Every number must agree to 1e-10 of the largest
@@ -25,7 +25,8 @@ from tool_tables import Columns, keys, table
 
 TOLERANCE = 1e-10
 SYNTHETIC = ((2, "small,large"), (2, "fine,middle,coarse"), (3, "small,large"),
-             (3, "fine,middle,coarse"))
+             (3, "fine,middle,coarse"), (2, "small,large", "changing"),
+             (3, "fine,middle,coarse", "changing"))
 ASSIGNMENTS = ("contact-point", "branch", "grain")
 compared = 0
 
@@ -186,9 +187,9 @@ def main():
                             "--quiet", "-o", fresh], check=True)
             check(bin_folder, fresh, range(24, 28), 4)
             check(bin_folder, fresh, range(20, 22), 1.5)
-            for dimension, species in SYNTHETIC:
-                run = os.path.join(folder, f"{dimension}-{species}.h5")
-                subprocess.run([os.path.join(bin_folder, "synthetic_run"), run, str(dimension), species],
+            for dimension, *words in SYNTHETIC:
+                run = os.path.join(folder, f"{dimension}-{'-'.join(words)}.h5")
+                subprocess.run([os.path.join(bin_folder, "synthetic_run"), run, str(dimension), *words],
                                check=True)
                 check(bin_folder, run, range(2, 6), 3)
                 check(bin_folder, run, range(0, 2), 1.2)

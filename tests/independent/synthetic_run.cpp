@@ -2,7 +2,8 @@
 // Writes a run of discs or spheres whose numbers obey no symmetry: oblique contacts of all pairs of
 // species, forces and velocities with all components, sizes that differ within a species. Of
 // mechanics only the balance of each grain holds.
-// Usage: synthetic_run FILE DIMENSION NAME,NAME,...    species by increasing diameter
+// Usage: synthetic_run FILE DIMENSION NAME,NAME,... [changing]    species by increasing diameter;
+// changing: in each frame other mobile grains are absent
 #include "formats/core/dimension.hpp"
 #include "formats/trajectory/writer.hpp"
 
@@ -12,6 +13,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -24,8 +26,9 @@ constexpr double step = 1e-4, smallest = 0.005, ratio = 1.5, height = 0.09;
 template <int D>
 class Synthetic {
  public:
-  explicit Synthetic(const std::vector<std::string>& names)
+  Synthetic(const std::vector<std::string>& names, bool changing)
   {
+    run_.grains_come_and_go = changing;
     run_.box = {0.1, height, true};
     if (D == 3) run_.box = {0.1, height, true, 3, 0.07, true};
     double diameter = smallest;
@@ -59,7 +62,11 @@ class Synthetic {
       f.image.push_back({});
     }
     add_walls(f);
+    std::vector<bool> absent(run_.grains.size());
+    if (run_.grains_come_and_go) absent = remove_some(f);
     add_motion(f);
+    for (std::size_t g = 0; g < absent.size(); ++g)
+      if (absent[g]) make_absent(f, g);
     return f;
   }
 
@@ -81,6 +88,7 @@ class Synthetic {
   void add_contact(std::size_t i, std::int32_t j, const Vector<D>& branch, double gap,
                    ContactList<D>& contacts);
   void add_walls(Frame<D>& f);
+  std::vector<bool> remove_some(Frame<D>& f);
   void add_motion(Frame<D>& f);
 
   RunDescription run_;
@@ -161,6 +169,26 @@ void Synthetic<D>::add_walls(Frame<D>& f)
   }
 }
 
+/// Chooses mobile grains and removes their contacts.
+template <int D>
+std::vector<bool> Synthetic<D>::remove_some(Frame<D>& f)
+{
+  std::vector<bool> absent(run_.grains.size());
+  for (std::size_t g = fixed; g < absent.size(); ++g) absent[g] = uniform(0, 1) < 0.15;
+  const auto all = std::exchange(f.contacts, {});
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const auto i = all.i[c], j = all.j[c];
+    if (absent[static_cast<std::size_t>(i)] || (j >= 0 && absent[static_cast<std::size_t>(j)]))
+      continue;
+    f.contacts.i.push_back(i);
+    f.contacts.j.push_back(j);
+    f.contacts.force.push_back(all.force[c]);
+    f.contacts.branch.push_back(all.branch[c]);
+    f.contacts.gap.push_back(all.gap[c]);
+  }
+  return absent;
+}
+
 /// A sheared flow with fluctuations, and forces of grains that balance those of the contacts.
 template <int D>
 void Synthetic<D>::add_motion(Frame<D>& f)
@@ -187,9 +215,9 @@ void Synthetic<D>::add_motion(Frame<D>& f)
 }
 
 template <int D>
-void write(const std::string& path, const std::vector<std::string>& names)
+void write(const std::string& path, const std::vector<std::string>& names, bool changing)
 {
-  Synthetic<D> synthetic(names);
+  Synthetic<D> synthetic(names, changing);
   TrajectoryWriter writer(path, synthetic.description());
   for (int number = 0; number < frames; ++number) writer.append(synthetic.frame(number), {});
   writer.close();
@@ -199,13 +227,14 @@ void write(const std::string& path, const std::vector<std::string>& names)
 
 int main(int argc, char** argv)
 {
-  if (argc != 4) {
-    std::cerr << "synthetic_run: FILE DIMENSION NAME,NAME,...\n";
+  const bool changing = argc == 5 && std::string(argv[4]) == "changing";
+  if (argc != 4 && !changing) {
+    std::cerr << "synthetic_run: FILE DIMENSION NAME,NAME,... [changing]\n";
     return 2;
   }
   std::vector<std::string> names;
   std::istringstream list(argv[3]);
   for (std::string name; std::getline(list, name, ',');) names.push_back(name);
-  with_dimension(std::atoi(argv[2]), [&](auto d) { write<d>(argv[1], names); });
+  with_dimension(std::atoi(argv[2]), [&](auto d) { write<d>(argv[1], names, changing); });
   return 0;
 }

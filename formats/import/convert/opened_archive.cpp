@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/convert/opened_archive.hpp"
 
+#include "formats/import/convert/imported_bed.hpp"
+
 #include <fmt/format.h>
 
 namespace grseg {
@@ -23,7 +25,9 @@ OpenedArchive open_with_roster(const ImportSettings& settings)
 OpenedArchive open_with_grains(const ImportSettings& settings)
 {
   try {
-    return {settings, settings.files.columns};
+    OpenedArchive opened(settings, settings.files.columns);
+    ImportedBed(opened.all_grains(), opened.facts, settings);
+    return opened;
   } catch (const OtherGrains&) {
   } catch (const UsageError&) {
     if (!grains_change_early(settings)) throw;

@@ -168,6 +168,9 @@ void require_same_grain(const ArchiveGrains& known, std::size_t row, const Archi
   constexpr const char* used_again =
       "was its id used again after a grain had been removed? Then import the moments before and "
       "after it separately, with --from and --to";
+  constexpr const char* later =
+      "was its mass set only after it had been poured in, or its id used again after a removal? Then "
+      "import the moments before and after it separately, with --from and --to";
   constexpr const char* frozen =
       "grains that are frozen or let go later are another bed: import the phases separately, with "
       "--from and --to";
@@ -179,7 +182,7 @@ void require_same_grain(const ArchiveGrains& known, std::size_t row, const Archi
   };
   const auto unequal = [](auto a, auto b) { return a != b; };
   compare(known.radius, now.radius, "radius", differ, used_again);
-  compare(known.mass, now.mass, "mass", differ, used_again);
+  compare(known.mass, now.mass, "mass", differ, later);
   compare(known.type, now.type, "type", unequal, frozen);
   compare(known.fixed, now.fixed, "fixed flag", unequal, frozen);
 }

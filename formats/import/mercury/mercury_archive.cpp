@@ -3,20 +3,19 @@
 
 #include "formats/import/common/file_list.hpp"
 #include "formats/import/mercury/mercury_blocks.hpp"
-#include "formats/import/mercury/mercury_restart.hpp"
+#include "formats/import/mercury/mercury_contacts.hpp"
+#include "formats/import/mercury/mercury_grains.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
-#include <set>
 
 namespace grseg {
 namespace {
 
 constexpr const char* info_is_species = "info=species";
 
-/// Blocks of one table that are missing in the other.
+/// Moments of one table that are missing in the other.
 struct Unmatched {
   std::size_t count = 0;
   double first = 0;
@@ -26,170 +25,83 @@ struct Unmatched {
   }
 };
 
-class MercuryArchive : public Archive {
+void require_later(const ArchiveMoment& moment, std::optional<double>& last)
+{
+  if (last && *moment.time <= *last)
+    throw FormatError(fmt::format(
+        "{}: time {:g} comes after time {:g}: times must increase; remove the duplicate moment "
+        "(from a restart), or name the files in order of time",
+        moment.place, *moment.time, *last));
+  last = moment.time;
+}
+
+ArchiveFacts facts_of(const MercuryRestart* restart)
+{
+  ArchiveFacts facts;
+  facts.tolerance = 1e-4;
+  facts.tolerance_reason = "MercuryDPM writes ten digits";
+  if (restart == nullptr) return facts;
+  facts.step = restart->step;
+  facts.gravity = restart->gravity;
+  facts.discs = restart->discs();
+  return facts;
+}
+
+/// Grains and forces of two tables.
+class MercuryTables : public Archive {
  public:
-  explicit MercuryArchive(const ArchiveFiles& files);
+  MercuryTables(std::unique_ptr<MercuryGrainsSource> grains, std::vector<std::string> fstat)
+      : grains_(std::move(grains)), fstat_(std::move(fstat)), facts_(facts_of(grains_->restart()))
+  {
+  }
   const ArchiveFacts& facts() const override { return facts_; }
   bool next(ArchiveMoment& moment) override;
   std::vector<std::string> remarks() const override;
 
  private:
-  bool next_of_both();
-  void add_restart_facts(ArchiveGrains& grains) const;
-  void fill_contacts(ArchiveMoment& moment) const;
-  void add_contact(const MercuryContact& row, const ArchiveMoment& moment,
-                   ArchiveContacts& contacts) const;
-  [[noreturn]] void fail_at(const MercuryContact& row, const std::string& why) const;
+  bool next_of_both(ArchiveMoment& moment);
+  bool same_time(double a, double b) const;
 
-  MercuryData data_;
+  std::unique_ptr<MercuryGrainsSource> grains_;
   MercuryFStat fstat_;
-  std::string restart_path_;
-  std::optional<MercuryRestart> restart_;
-  bool info_is_species_ = false;
   ArchiveFacts facts_;
-  MercuryGrains grains_;
   MercuryForces forces_;
   std::optional<double> last_time_;
   Unmatched grains_alone_, forces_alone_;
 };
 
-MercuryArchive::MercuryArchive(const ArchiveFiles& files)
-    : data_(archive_files(files.grains, "--grains")),
-      fstat_(archive_files(files.contacts, "--contacts")),
-      restart_path_(files.restart),
-      info_is_species_(files.columns == info_is_species)
+/// Equal to the digits of the text, of which .data and .fstat have ten and old files eight or six.
+bool MercuryTables::same_time(double a, double b) const
 {
-  if (!files.columns.empty() && !info_is_species_)
-    throw UsageError(
-        fmt::format("--columns '{}': the columns of MercuryDPM are known; only {} is accepted",
-                    files.columns, info_is_species));
-  facts_.tolerance = 1e-4;
-  facts_.tolerance_reason = "MercuryDPM writes ten digits";
-  if (restart_path_.empty()) return;
-  restart_ = read_mercury_restart(restart_path_);
-  facts_.step = restart_->step;
-  facts_.gravity = restart_->gravity;
-  facts_.discs = restart_->particle_dimensions == 2;
+  return std::abs(a - b) <= 2e-6 * std::max(std::abs(a), std::abs(b));
 }
 
-/// Advances to the next time in both tables, equal to the digits of the text.
-bool MercuryArchive::next_of_both()
+/// Advances to the next time in both tables.
+bool MercuryTables::next_of_both(ArchiveMoment& moment)
 {
-  bool more_grains = data_.next(grains_), more_forces = fstat_.next(forces_);
+  bool more_grains = grains_->next(moment), more_forces = fstat_.next(forces_);
   while (more_grains && more_forces) {
-    const double a = grains_.time, b = forces_.time;
-    if (std::abs(a - b) <= 2e-6 * std::max(std::abs(a), std::abs(b))) return true;
-    if (a < b) {
-      grains_alone_.add(a);
-      more_grains = data_.next(grains_);
+    if (same_time(*moment.time, forces_.time)) return true;
+    if (*moment.time < forces_.time) {
+      grains_alone_.add(*moment.time);
+      more_grains = grains_->next(moment);
     } else {
-      forces_alone_.add(b);
+      forces_alone_.add(forces_.time);
       more_forces = fstat_.next(forces_);
     }
   }
   return false;
 }
 
-bool MercuryArchive::next(ArchiveMoment& moment)
+bool MercuryTables::next(ArchiveMoment& moment)
 {
-  if (!next_of_both()) return false;
-  if (last_time_ && grains_.time <= *last_time_)
-    throw FormatError(fmt::format(
-        "{}: time {:g} comes after time {:g}: times must increase; remove the duplicate moment "
-        "(from a restart), or name the files in order of time",
-        grains_.place, grains_.time, *last_time_));
-  last_time_ = grains_.time;
-  moment = ArchiveMoment{};
-  moment.time = grains_.time;
-  moment.place = grains_.place;
-  moment.low = grains_.low;
-  moment.high = grains_.high;
-  moment.grains = std::move(grains_.grains);
-  if (restart_) add_restart_facts(moment.grains);
-  if (info_is_species_)
-    for (const double info : grains_.info)
-      moment.grains.type.push_back(static_cast<std::int32_t>(std::lround(info)));
-  for (int axis = 0; restart_ && axis < 3; ++axis) {
-    if (!restart_->periodic[static_cast<std::size_t>(axis)]) continue;
-    moment.periodic[static_cast<std::size_t>(axis)] = true;
-    moment.low[axis] = restart_->low[axis];
-    moment.high[axis] = restart_->high[axis];
-  }
-  fill_contacts(moment);
+  if (!next_of_both(moment)) return false;
+  require_later(moment, last_time_);
+  add_mercury_contacts(forces_, grains_->restart() != nullptr, moment);
   return true;
 }
 
-/// Adds what .restart states about the grains.
-void MercuryArchive::add_restart_facts(ArchiveGrains& grains) const
-{
-  if (restart_->particles.size() != grains.size())
-    throw FormatError(
-        fmt::format("{}: {} grains, but {} in {}; the number of grains must not change",
-                    grains_.place, grains.size(), restart_->particles.size(), restart_path_));
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    const auto& particle = restart_->particles[g];
-    const double r = particle.radius;
-    if (std::abs(r - grains.radius[g]) > 1e-5 * r)
-      throw FormatError(fmt::format(
-          "{}: grain {} has the radius {:g}, but {:g} in {}; are they from the same run?",
-          grains_.place, g, grains.radius[g], r, restart_path_));
-    const double content =
-        *facts_.discs ? std::numbers::pi * r * r : 4 * std::numbers::pi / 3 * r * r * r;
-    const bool fixed = particle.inverse_mass == 0;
-    grains.fixed.push_back(fixed);
-    grains.mass.push_back(fixed ? restart_->density[static_cast<std::size_t>(particle.species)] *
-                                      content
-                                : 1 / particle.inverse_mass);
-    if (!info_is_species_) grains.type.push_back(particle.species);
-  }
-}
-
-void MercuryArchive::fail_at(const MercuryContact& row, const std::string& why) const
-{
-  throw FormatError(fmt::format("{}, {} lines on: {}", forces_.place, row.line - 1, why));
-}
-
-void MercuryArchive::fill_contacts(ArchiveMoment& moment) const
-{
-  std::set<std::pair<std::int64_t, std::int64_t>> known;
-  const auto grains = static_cast<std::int64_t>(moment.grains.size());
-  for (const auto& row : forces_.contacts) {
-    if (row.i < 0 || row.i >= grains || row.j >= grains || row.i == row.j)
-      fail_at(row, fmt::format("{} and {} are not two of {} grains; are .data and .fstat from "
-                               "the same run?",
-                               row.i, row.j, grains));
-    if (row.j >= 0 && !known.insert(std::minmax(row.i, row.j)).second) continue;
-    add_contact(row, moment, moment.contacts);
-  }
-}
-
-void MercuryArchive::add_contact(const MercuryContact& row, const ArchiveMoment& moment,
-                                 ArchiveContacts& contacts) const
-{
-  const auto& grains = moment.grains;
-  const auto i = static_cast<std::size_t>(row.i);
-  const bool wall = row.j < 0;
-  const double side = wall ? -1 : 1;  // written the other way round
-  double reach = grains.radius[i] - row.overlap;
-  if (!wall) {
-    const auto j = static_cast<std::size_t>(row.j);
-    reach += grains.radius[j];
-    const double distance = (grains.position[i] - grains.position[j]).norm();
-    if (!restart_ && distance > 1.1 * (grains.radius[i] + grains.radius[j]))
-      fail_at(row, fmt::format("grains {} and {} touch across a periodic boundary, or are from "
-                               "another run; give --restart, which says what is periodic",
-                               row.i, row.j));
-  }
-  contacts.i.push_back(row.i);
-  contacts.j.push_back(wall ? row.i : row.j);
-  contacts.wall.push_back(wall ? static_cast<std::int32_t>(-row.j - 1) : -1);
-  contacts.force.push_back(side *
-                           (row.normal_force * row.normal + row.tangential_force * row.tangent));
-  contacts.branch.push_back(side * reach * row.normal);
-  contacts.overlap.push_back(row.overlap);
-}
-
-std::vector<std::string> MercuryArchive::remarks() const
+std::vector<std::string> MercuryTables::remarks() const
 {
   std::vector<std::string> remarks;
   const auto add = [&](const Unmatched& alone, const char* has, const char* lacks) {
@@ -198,16 +110,67 @@ std::vector<std::string> MercuryArchive::remarks() const
           fmt::format("{} moments are in {} but not in {} and are left out, the first at t = {:g}",
                       alone.count, has, lacks, alone.first));
   };
-  add(grains_alone_, ".data", ".fstat");
-  add(forces_alone_, ".fstat", ".data");
+  add(grains_alone_, "the grains' files", ".fstat");
+  add(forces_alone_, ".fstat", "the grains' files");
   return remarks;
+}
+
+/// .restart files, each with its contacts.
+class MercuryRestarts : public Archive {
+ public:
+  explicit MercuryRestarts(std::vector<std::string> files)
+      : grains_(std::move(files)), facts_(facts_of(grains_.restart()))
+  {
+    facts_.tolerance = 1e-9;
+    facts_.tolerance_reason = "MercuryDPM writes fifteen digits into .restart";
+  }
+  const ArchiveFacts& facts() const override { return facts_; }
+  bool next(ArchiveMoment& moment) override;
+
+ private:
+  MercuryRestartGrains grains_;
+  ArchiveFacts facts_;
+  std::optional<double> last_time_;
+};
+
+bool MercuryRestarts::next(ArchiveMoment& moment)
+{
+  if (!grains_.next(moment)) return false;
+  require_later(moment, last_time_);
+  if (grains_.restart()->positional > 0)
+    throw UsageError(fmt::format(
+        "{}: a .restart of version {} has no contact forces; give it as --grains and the .fstat of "
+        "the run as --contacts",
+        grains_.path(), grains_.restart()->positional));
+  add_mercury_contacts(*grains_.restart(), grains_.path(), moment);
+  return true;
 }
 
 }  // namespace
 
 std::unique_ptr<Archive> open_mercury(const ArchiveFiles& files)
 {
-  return std::make_unique<MercuryArchive>(files);
+  if (!files.columns.empty() && files.columns != info_is_species)
+    throw UsageError(
+        fmt::format("--columns '{}': the columns of MercuryDPM are known; only {} is accepted",
+                    files.columns, info_is_species));
+  const bool only_restart = files.grains.empty() && files.contacts.empty();
+  if (only_restart && !files.restart.empty())
+    return std::make_unique<MercuryRestarts>(archive_files({files.restart}, "--restart"));
+  const auto grains = archive_files(files.grains, "--grains");
+  const bool of_restart = is_mercury_restart(grains[0]);
+  if (of_restart && files.contacts.empty()) return std::make_unique<MercuryRestarts>(grains);
+
+  const auto contacts = archive_files(files.contacts, "--contacts");
+  if (of_restart)
+    return std::make_unique<MercuryTables>(std::make_unique<MercuryRestartGrains>(grains),
+                                           contacts);
+  // Of many, the last lists all grains that were ever inserted.
+  const auto restart =
+      files.restart.empty() ? files.restart : archive_files({files.restart}, "--restart").back();
+  return std::make_unique<MercuryTables>(
+      std::make_unique<MercuryDataGrains>(grains, restart, files.columns == info_is_species),
+      contacts);
 }
 
 const ArchiveFormat mercury_format{
@@ -215,10 +178,11 @@ const ArchiveFormat mercury_format{
     .open = open_mercury,
     .takes_restart = true,
     .examples =
+        "  grseg-import --format mercury --restart 'run.restart.*' --units si -o run.h5\n"
         "  grseg-import --format mercury --grains run.data --contacts run.fstat \\\n"
         "    --restart run.restart --units si -o run.h5\n",
     .notes =
-        "  mercury: .restart holds step, gravity, masses, species and the base; the only\n"
-        "  --columns is info=species\n"};
+        "  mercury: .restart holds step, gravity, masses, species and the base, and from version\n"
+        "  1.0 on (2014) grains and contacts of its moment; the only --columns is info=species\n"};
 
 }  // namespace grseg

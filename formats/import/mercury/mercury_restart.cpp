@@ -1,140 +1,166 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/mercury/mercury_restart.hpp"
 
-#include "formats/import/common/text_source.hpp"
+#include "formats/import/mercury/mercury_boundary.hpp"
+#include "formats/import/mercury/mercury_lines.hpp"
+#include "formats/import/mercury/mercury_particle.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
+#include <numbers>
 
 namespace grseg {
 namespace {
 
-/// Lines as words and values.
-class Lines {
- public:
-  explicit Lines(const std::string& path) : source_({path}) {}
-
-  bool next()
-  {
-    if (!source_.next()) return false;
-    words_ = words_of(source_.line());
-    return true;
-  }
-  void need_next(const char* what)
-  {
-    if (!next()) fail(fmt::format("the file ends in its {}; copy it again", what));
-  }
-  bool has(std::string_view key) const { return place_of(key) < words_.size(); }
-  /// The `place`-th value behind a word of the line.
-  double value(std::string_view key, std::size_t place = 0) const
-  {
-    const auto at = place_of(key) + 1 + place;
-    double number = 0;
-    if (at >= words_.size()) fail(fmt::format("'{}' with its value is missing", key));
-    const auto word = words_[at];
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number))
-      fail(fmt::format("{} after '{}' is not a finite number", in_quotes(word), key));
-    return number;
-  }
-  Vec3 vector(std::string_view key) const { return {value(key), value(key, 1), value(key, 2)}; }
-  /// Where the line is "key count".
-  std::optional<std::size_t> count(std::string_view key) const
-  {
-    if (words_.empty() || words_[0] != key) return std::nullopt;
-    const double number = value(key);
-    if (number < 0 || number > 1e9 || std::trunc(number) != number)
-      fail(fmt::format("{} is not a number of {}", in_quotes(source_.line()), key));
-    return static_cast<std::size_t>(number);
-  }
-  std::string_view kind() const { return words_.empty() ? std::string_view() : words_[0]; }
-  [[noreturn]] void fail(const std::string& why) const
-  {
-    throw FormatError(fmt::format("{}: {}", source_.place(), why));
-  }
-
- private:
-  std::size_t place_of(std::string_view key) const
-  {
-    std::size_t at = 0;
-    while (at < words_.size() && words_[at] != key) ++at;
-    return at;
-  }
-  TextSource source_;
-  std::vector<std::string_view> words_;
-};
-
-void read_boundary(const Lines& lines, MercuryRestart& restart)
+/// The first line: the version.
+void read_version(const MercuryLines& lines, const std::string& path, MercuryRestart& restart)
 {
-  if (lines.kind().find("Periodic") == std::string_view::npos) return;
-  const Vec3 normal = lines.has("normal") ? lines.vector("normal") : Vec3(NAN, NAN, NAN);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(normal[axis]) > 1 - 1e-12)) continue;
-    const double left = normal[axis] * lines.value("distanceLeft");
-    const double right = normal[axis] * lines.value("distanceRight");
-    restart.periodic[static_cast<std::size_t>(axis)] = true;
-    restart.low[axis] = std::min(left, right);
-    restart.high[axis] = std::max(left, right);
-    return;
-  }
-  lines.fail(fmt::format("{} is periodic along none of the axes, which is not imported",
-                         in_quotes(lines.kind())));
+  const auto& words = lines.words();
+  const auto version = words.size() > 1 ? words[1] : std::string_view();
+  if (words.empty() || (words[0] != "MercuryDPM" && words[0] != "restart_version"))
+    throw FormatError(fmt::format(
+        "{} is not a .restart of MercuryDPM: it does not begin with 'MercuryDPM 1.0' or "
+        "'restart_version'. Files older than that name nothing; give --step, --gravity and "
+        "--density instead",
+        path));
+  if (version == "2" || version == "3")
+    restart.positional = version == "2" ? 2 : 3;
+  else if (version != "1.0" && version != "0.14")
+    lines.fail(fmt::format("version {} of .restart is not known; 0.14, 1.0, 2 and 3 are",
+                           in_quotes(version)));
 }
 
-MercuryRestart::Particle read_particle(const Lines& lines, const MercuryRestart& restart)
+/// A line above the species.
+void read_of_run(const MercuryLines& lines, MercuryRestart& restart)
 {
-  MercuryRestart::Particle particle;
-  const double species = lines.has("indSpecies") ? lines.value("indSpecies") : NAN;
-  if (!(species >= 0 && species < static_cast<double>(restart.density.size())))
+  if (lines.kind() == "name") return;
+  for (const char* key : {"timeStep", "dt"})
+    if (lines.has(key)) restart.step = lines.value(key);
+  for (const char* key : {"time", "t"})
+    if (lines.has(key)) restart.time = lines.value(key);
+  if (lines.has("particleDimensions"))
+    restart.particle_dimensions = static_cast<int>(lines.value("particleDimensions"));
+  if (lines.has("gravity")) restart.gravity = lines.vector("gravity");
+  constexpr std::pair<const char*, const char*> ends[][3] = {
+      {{"xMin", "xMax"}, {"yMin", "yMax"}, {"zMin", "zMax"}},
+      {{"xmin", "xmax"}, {"ymin", "ymax"}, {"zmin", "zmax"}}};
+  for (const auto& names : ends)
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto& [low, high] = names[axis];
+      if (!lines.has(low)) continue;
+      restart.domain_low[axis] = lines.value(low);
+      restart.domain_high[axis] = lines.value(high);
+    }
+  if (lines.has("numberOfProcessors") && lines.value("numberOfProcessors") > 1)
     lines.fail(
-        "the particle belongs to none of the species above; was the file written by an old "
-        "version?");
-  particle.species = static_cast<std::int32_t>(species);
-  particle.radius = lines.value("radius");
-  particle.inverse_mass = lines.value("invMass");
-  if (!(particle.radius > 0) || particle.inverse_mass < 0)
-    lines.fail("the radius of the particle is not positive, or its mass is negative");
-  return particle;
+        "the file holds the part of one of several processors; combine the parts with "
+        "CombineParallelRestartFiles.py of MercuryDPM's Tools");
+}
+
+/// Of the species that are mentioned in turn with their mixtures with those before.
+bool is_mixture(const MercuryLines& lines)
+{
+  return lines.kind().find("Mixed") != std::string_view::npos || lines.has("(mixed)");
+}
+
+void read_species(MercuryLines& lines, MercuryRestart& restart)
+{
+  while (is_mixture(lines)) lines.need_next("in its species");
+  restart.density.push_back(lines.value(lines.has("rho") ? "rho" : "density"));
+  if (lines.has("dim_particle"))
+    restart.particle_dimensions = static_cast<int>(lines.value("dim_particle"));
+}
+
+void read_wall(const MercuryLines& lines, MercuryRestart& restart)
+{
+  if (!lines.has("id")) return;
+  MercuryRestart::Wall wall;
+  wall.kind = lines.kind();
+  if (lines.has("position")) wall.position = lines.vector("position");
+  if (lines.has("normal")) wall.normal = lines.vector("normal");
+  restart.walls[lines.whole_number("id")] = wall;
+}
+
+void read_interaction(const MercuryLines& lines, MercuryRestart& restart)
+{
+  MercuryRestart::Interaction interaction;
+  interaction.wall = lines.has("particleWallIds");
+  const char* ids = interaction.wall ? "particleWallIds" : "particleIds";
+  interaction.i = lines.whole_number(ids);
+  interaction.j = lines.whole_number(ids, 1);
+  interaction.force = lines.vector("force");
+  if (lines.has("contactPoint")) interaction.point = lines.vector("contactPoint");
+  restart.interactions.push_back(interaction);
+}
+
+/// The lines of the block that the line at hand begins, if it begins one.
+void read_block(MercuryLines& lines, MercuryRestart& restart)
+{
+  const auto each = [&](const char* where, std::size_t count, const auto& read) {
+    for (std::size_t k = 0; k < count; ++k) {
+      lines.need_next(where);
+      read(k);
+    }
+  };
+  if (const auto species = lines.count("Species"))
+    each("in its species", *species, [&](std::size_t) { read_species(lines, restart); });
+  else if (const auto walls = lines.count("Walls"))
+    each("in its walls", *walls, [&](std::size_t) { read_wall(lines, restart); });
+  else if (const auto old_periods = lines.count("WallsPeriodic"))
+    each("in its periods", *old_periods,
+         [&](std::size_t) { read_mercury_boundary(lines, restart); });
+  else if (const auto boundaries = lines.count("Boundaries"))
+    each("in its boundaries", *boundaries,
+         [&](std::size_t) { read_mercury_boundary(lines, restart); });
+  else if (const auto particles = lines.count("Particles"))
+    each("in its particles", *particles, [&](std::size_t k) {
+      restart.particles.push_back(read_mercury_particle(lines, restart, k));
+    });
+  else if (const auto interactions = lines.count("Interactions"))
+    each("in its interactions", *interactions,
+         [&](std::size_t) { read_interaction(lines, restart); });
 }
 
 }  // namespace
 
-MercuryRestart read_mercury_restart(const std::string& path)
+bool MercuryRestart::ids_are_rows() const
+{
+  for (std::size_t g = 0; g < particles.size(); ++g)
+    if (particles[g].id != static_cast<std::int64_t>(g)) return false;
+  return true;
+}
+
+double MercuryRestart::mass_of(const Particle& particle) const
+{
+  if (particle.inverse_mass > 0) return 1 / particle.inverse_mass;
+  const double r = particle.radius;
+  const double content = discs() ? std::numbers::pi * r * r : 4 * std::numbers::pi / 3 * r * r * r;
+  return density[static_cast<std::size_t>(particle.species)] * content;
+}
+
+MercuryRestart read_mercury_restart(const std::string& path, MercuryBlocks blocks)
 {
   MercuryRestart restart;
-  Lines lines(path);
-  bool has_step = false, has_particles = false;
-  while (!has_particles && lines.next()) {
-    if (lines.has("timeStep")) {
-      restart.step = lines.value("timeStep");
-      has_step = true;
-    }
-    if (lines.has("particleDimensions"))
-      restart.particle_dimensions = static_cast<int>(lines.value("particleDimensions"));
-    if (lines.has("gravity")) restart.gravity = lines.vector("gravity");
-    if (const auto species = lines.count("Species")) {
-      for (std::size_t k = 0; k < *species; ++k) {
-        lines.need_next("species");
-        restart.density.push_back(lines.value("density"));
-      }
-    } else if (const auto boundaries = lines.count("Boundaries")) {
-      for (std::size_t k = 0; k < *boundaries; ++k) {
-        lines.need_next("boundaries");
-        read_boundary(lines, restart);
-      }
-    } else if (const auto particles = lines.count("Particles")) {
-      for (std::size_t k = 0; k < *particles; ++k) {
-        lines.need_next("particles");
-        restart.particles.push_back(read_particle(lines, restart));
-      }
-      has_particles = true;
-    }
+  MercuryLines lines(path);
+  lines.next();
+  read_version(lines, path, restart);
+  const bool to_the_end = blocks == MercuryBlocks::all && restart.positional == 0;
+  const std::string_view last = to_the_end ? "Interactions" : "Particles";
+  for (bool done = false; !done;) {
+    lines.need_next(fmt::format("before its {}", last));
+    done = lines.kind() == last;
+    if (restart.density.empty()) read_of_run(lines, restart);
+    read_block(lines, restart);
   }
-  if (!has_step || !has_particles)
-    lines.fail("is not a .restart of MercuryDPM: 'timeStep' and 'Particles' are missing");
+  if (!(restart.step > 0))
+    throw FormatError(fmt::format("{}: its time step is missing or not positive", path));
   return restart;
+}
+
+bool is_mercury_restart(const std::string& path)
+{
+  MercuryLines lines(path);
+  return lines.next() && (lines.kind() == "MercuryDPM" || lines.kind() == "restart_version");
 }
 
 }  // namespace grseg

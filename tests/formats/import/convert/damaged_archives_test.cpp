@@ -126,8 +126,8 @@ TEST_F(DamagedArchive, AMissingOrDuplicateGrain)
 {
   const auto whole = grains;
   replace(grains, "\n7 2", "\n8 2");
-  expect_refusal("another grain than before", exit_content,
-                 "grain 8 is not among those of the first moment");
+  expect_refusal("another grain than before, and contacts of the old one", exit_content,
+                 "a contact names grain 7, which is not among the grains of this moment");
   grains = whole;
   replace(grains, "\n7 2", "\n4 2");
   expect_refusal("a duplicate grain", exit_content, "grain 4 appears twice");
@@ -137,7 +137,7 @@ TEST_F(DamagedArchive, AContactOfAnUnknownGrain)
 {
   replace(contacts, " 4 7 ", " 5 7 ");
   expect_refusal("a contact of an unknown grain", exit_content,
-                 "grain 5 is not among those of the first moment");
+                 "a contact names grain 5, which is not among the grains of this moment");
 }
 
 TEST_F(DamagedArchive, ThatEndsInAMomentIsImportedUpToItOnRequest)
