@@ -51,10 +51,10 @@ struct ArchiveContacts {
   std::vector<std::int32_t> wall;  // -1: j is a grain; otherwise the number of a straight wall;
                                    // empty: no contact is one with a wall
   std::vector<Vec3> force;         // ON i FROM j
-  std::vector<double> overlap;     // positive where the two overlap
+  std::vector<double> overlap;     // positive where the two overlap; NaN: from the branch
   std::vector<double> distance;    // of the centres; where both are empty it is that of positions
-  std::vector<Vec3> branch;  // x_i - x_j, at a wall x_i - contact point; empty: from positions,
-                             // which needs contacts with grains alone
+  std::vector<Vec3> branch;  // x_i - x_j, at a wall x_i - contact point; empty, or NaN for a contact
+                             // with a grain: from positions
   std::vector<std::string> missing;  // components, as of grains
 
   std::size_t size() const { return i.size(); }
@@ -79,7 +79,7 @@ struct ArchiveFacts {
   std::optional<double> density;  // of the grains' matter, per area (discs) or volume (spheres)
   std::optional<Vec3> gravity;
   std::optional<bool> discs;         // false: spheres
-  bool walls = false;                // it has contacts with straight walls
+  std::vector<std::string> walls;    // names of those whose contacts it has
   std::optional<std::string> units;  // the program's name for them: "si", "cgs", "lj"
   /// The contact forces in the archive were evaluated with velocities half a step later than those
   /// that moved the grains (late_damping.hpp).

@@ -2,6 +2,7 @@
 #include "formats/import/convert/imported_bed.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -21,7 +22,7 @@ SpeciesSettings base_settings(const ArchiveMoment& first, const RunFacts& facts,
 {
   const auto& fixed = first.grains.fixed;
   const bool marked = std::find(fixed.begin(), fixed.end(), std::uint8_t{1}) != fixed.end();
-  if (facts.walls && !marked && !settings.boundary && !settings.boundary_ids)
+  if (!facts.walls.empty() && !marked && !settings.boundary && !settings.boundary_ids)
     settings.boundary = "none";
   return settings;
 }
@@ -36,7 +37,8 @@ ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
   box.periodic_x = false;
   walls = parse_walls(settings.walls);
   make_grains(first, facts, base_settings(first, facts, settings.species));
-  if (species.base == "none" && !walls.empty()) species.base = "walls " + list_of(walls);
+  if (species.base == "none" && !facts.walls.empty())
+    species.base = fmt::format("walls {}", fmt::join(facts.walls, ", "));
   require_no_other_period(first);
   make_box(first);
   find_origin(first, settings.origin);

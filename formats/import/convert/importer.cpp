@@ -100,8 +100,7 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["import_base"] = frames.builder().bed().species.base;
   texts["import_sizes"] = frames.builder().bed().species.sizes;
   texts["import_columns"] = frames.archive().columns();
-  if (!frames.builder().bed().walls.empty())
-    texts["import_walls"] = list_of(frames.builder().bed().walls);
+  if (!facts.walls.empty()) texts["import_walls"] = fmt::format("{}", fmt::join(facts.walls, ", "));
   if (settings.from) texts["import_from"] = *settings.from;
   if (settings.to) texts["import_to"] = *settings.to;
   texts["import_instant"] =

@@ -47,6 +47,10 @@ po::options_description import_options(ImportSettings& s)
       "from", optional(s.from, "T"),
       "leave out what comes before this time, in the archive's units, or before step:N")(
       "to", optional(s.to, "T"), "leave out what comes after, likewise")(
+      "wall-contacts", files(s.files.wall_contacts),
+      "liggghts only: files with the contacts with meshes (compute wall/gran/local)")(
+      "wall-columns", po::value(&s.files.wall_columns)->value_name("MAP"),
+      "what their columns mean; lammps: columns of fix wall/gran in the grains, floor=f_floor[1]")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
       "import a text archive that ends inside a moment up to that moment");
 

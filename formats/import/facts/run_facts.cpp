@@ -3,6 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/import/facts/dimension.hpp"
+#include "formats/import/facts/wall_planes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -135,9 +136,10 @@ RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
                                   "whether grains are discs or spheres (--grains-are discs)");
   const auto density = either(archive.density, settings.density, "--density");
   if (grains.mass.empty() && !density) missing.add("masses (--density)");
-  const bool walls = archive.walls || !settings.walls.empty();
+  auto walls = archive.walls;
+  for (const auto& wall : parse_walls(settings.walls)) walls.push_back(list_of({wall}));
   if (!settings.species.boundary && !settings.species.boundary_ids && grains.fixed.empty() &&
-      !walls)
+      walls.empty())
     missing.add(
         "which grains are the base (--boundary TYPES, --boundary-ids IDS, or --boundary none)");
   missing.report();

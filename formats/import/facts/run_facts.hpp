@@ -16,7 +16,7 @@ struct RunFacts {
   int dimension = 2;
   Orientation orientation;
   bool discs = true;              // false: spheres
-  bool walls = false;             // straight ones bound the flow: there may be no base grains
+  std::vector<std::string> walls;  // straight ones that bound the flow, in words
   std::optional<double> density;  // needed where grains have no mass
   Units units;
   std::string units_as_given;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/wall_planes.hpp"
 
+#include "formats/core/errors.hpp"
 #include "formats/core/species.hpp"
 #include "formats/import/common/text_source.hpp"
 

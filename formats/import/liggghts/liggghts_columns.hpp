@@ -21,6 +21,10 @@ namespace grseg {
 /// or force missing or not dumped, another number of columns.
 std::string liggghts_mapping(const std::string& columns, const DumpHeader& contacts);
 
+/// The same of `compute wall/gran/local` as a mapping of WallRows: pos holds contact point and grain, id
+/// mesh, triangle and grain, and force is that on the grain. "" is pos,id,force, which is needed.
+std::string liggghts_wall_mapping(const std::string& columns, const DumpHeader& walls);
+
 /// Presets and lists of keywords that have as many columns as the header.
 std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts);
 
