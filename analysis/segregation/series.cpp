@@ -5,8 +5,6 @@
 #include "analysis/frames/layer_flow.hpp"
 #include "analysis/segregation/mixing_index.hpp"
 
-#include <cmath>
-
 namespace grseg {
 namespace {
 
@@ -21,13 +19,6 @@ double shear_rate(const Grains& grains, const Frame<D>& frame, double bed)
       sums.add(grains.mass[g], y, frame.velocity[g]);
   }
   return sums.mean(bed).du_dy;
-}
-
-/// Between two moments, by trapezia; a moment without a shear rate adds nothing.
-double strain_between(const SegregationMoment& last, const SegregationMoment& next)
-{
-  const double rates = last.shear_rate + next.shear_rate;
-  return std::isnan(rates) ? 0 : rates / 2 * (next.time - last.time);
 }
 
 }  // namespace
@@ -45,7 +36,7 @@ void SegregationSeries<D>::add(const Grains& grains, const Frame<D>& frame)
   now.mixing = mixing_index(layers_, grains, frame);
   if (!moments_.empty()) {
     const auto& last = moments_.back();
-    now.strain = last.strain + strain_between(last, now);
+    now.strain = last.strain + (last.shear_rate + now.shear_rate) / 2 * (now.time - last.time);
   }
   moments_.push_back(now);
 }
@@ -57,7 +48,7 @@ void SegregationSeries<D>::merge(const SegregationSeries& later)
   double offset = 0;
   if (!moments_.empty()) {
     const auto &last = moments_.back(), &next = later.moments_.front();
-    offset = last.strain + strain_between(last, next);
+    offset = last.strain + (last.shear_rate + next.shear_rate) / 2 * (next.time - last.time);
   }
   for (auto moment : later.moments_) {
     moment.strain += offset;

@@ -17,7 +17,7 @@ struct SegregationMoment {
                                          // 90 % of `bed`
   double mixing = 0;                     // mixing_index
   double strain = 0;                     // integral of the shear rate since the first frame, by
-                                         // trapezia; it does not grow where there is no rate
+                                         // trapezia
 };
 
 /// How far a bed has segregated, frame by frame: a few numbers per frame.

@@ -67,9 +67,10 @@ std::string import_options_for(const TrajectoryReader& run)
 {
   const Vec3 gravity =
       with_dimension(run.dimension(), [&](auto d) { return in_space<d>(run.gravity<d>().start); });
+  const bool discs = run.dimension() == 2 && run.parameters().text("import_grains") != "spheres";
+  const char* grains = discs ? "discs" : run.dimension() == 2 ? "spheres" : "spheres --dimension 3";
   return fmt::format("--units si --step {} --gravity {},{},{} --grains-are {} --origin 0 {}{}",
-                     run.step(), gravity.x(), gravity.y(), gravity.z(),
-                     run.dimension() == 2 ? "discs" : "spheres --dimension 3",
+                     run.step(), gravity.x(), gravity.y(), gravity.z(), grains,
                      species_options_for(run), run.stores_float32() ? " --float32" : "");
 }
 

@@ -43,6 +43,11 @@ std::span<const ArchiveFormat* const> archive_formats()
   return formats;
 }
 
+void require_format(const std::string& name)
+{
+  format_of(name);
+}
+
 std::unique_ptr<Archive> open_archive(const std::string& name, const ArchiveFiles& files)
 {
   const auto& format = format_of(name);
@@ -55,6 +60,7 @@ std::unique_ptr<Archive> open_archive(const std::string& name, const ArchiveFile
   refuse_unless(format.takes_columns, !files.columns.empty(), "--columns");
   refuse_unless(format.takes_wall_contacts, !files.wall_contacts.empty(), "--wall-contacts");
   refuse_unless(format.takes_wall_columns, !files.wall_columns.empty(), "--wall-columns");
+  refuse_unless(format.takes_map, !files.map.empty(), "--map");
   refuse_unless(format.takes_restart, !files.restart.empty(), "--restart");
   return format.open(files);
 }

@@ -12,6 +12,9 @@ namespace grseg {
 /// The known formats, in the order in which --help names them.
 std::span<const ArchiveFormat* const> archive_formats();
 
+/// UsageError where there is no such format.
+void require_format(const std::string& name);
+
 /// UsageError where `format` is unknown, an option does not apply to it or a file is missing,
 /// FormatError where a file is damaged.
 std::unique_ptr<Archive> open_archive(const std::string& format, const ArchiveFiles& files);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 using namespace grseg;
@@ -25,14 +26,20 @@ std::string examples()
                      notes);
 }
 
-void check(const ImportSettings& settings, const po::variables_map& values)
+/// What was typed, without the files that are named anew, and the answers that are proposed.
+std::string proposed_command(int argc, char** argv, const ImportSettings& settings,
+                             const OpenQuestions& open)
 {
-  if (values.count("input") > 0)
-    throw UsageError(
-        fmt::format("unexpected argument '{}'; name files with --grains and --contacts",
-                    values["input"].as<std::vector<std::string>>()[0]));
-  if (settings.format.empty())
-    throw UsageError("name the program with --format; --help lists them");
+  std::vector<char*> kept;
+  const auto& unnamed = settings.files.unnamed;
+  for (int k = 0; k < argc; ++k)
+    if (k == 0 || std::find(unnamed.begin(), unnamed.end(), argv[k]) == unnamed.end())
+      kept.push_back(argv[k]);
+  return command_line(static_cast<int>(kept.size()), kept.data()) + " " + open.options();
+}
+
+void check(const ImportSettings& settings)
+{
   if (settings.storage.compression < 0 || settings.storage.compression > 9)
     throw UsageError("--compression is a deflate level from 0 (none) to 9");
   if (settings.accept_residual && !(*settings.accept_residual > 0))
@@ -51,9 +58,17 @@ int main(int argc, char** argv)
   ImportSettings settings;
   const auto options = import_options(settings);
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
-    check(settings, values);
+    if (values.count("input") > 0)
+      settings.files.unnamed = values["input"].as<std::vector<std::string>>();
+    check(settings);
     listen_to_signals();
-    const auto report = import_archive(settings, command_line(argc, argv));
-    if (!settings.quiet) fmt::print(stderr, "{}", to_text(report));
+    try {
+      const auto report = import_archive(settings, command_line(argc, argv));
+      if (!settings.quiet) fmt::print(stderr, "{}", to_text(report));
+    } catch (const OpenQuestions& open) {
+      throw UsageError(fmt::format(
+          "{}\nif what is proposed is right, and with the words in capitals filled in:\n  {}",
+          open.what(), proposed_command(argc, argv, settings, open)));
+    }
   });
 }

@@ -291,6 +291,30 @@ TEST(AbsentGrains, LeaveTheChangeOfMomentumUndefined)
   EXPECT_TRUE(with_others.change(1, Species::small).array().isNaN().all());
 }
 
+TEST(AbsentGrains, HaveNoPartInTheFluxOfSegregation)
+{
+  const Window window{0, 8, {}};
+  SegregationFlux<2> with_rows(unit_layers, window, 1, 2), without_rows = with_rows;
+  Packing rest;
+  for (int part = 0; part < 8; ++part) {
+    auto packing = without(heap_at(1 + part), {0, 2, 5});
+    packing.frame.time = part;
+    rest = compacted(packing);
+    with_rows.add(packing.grains, packing.frame);
+    without_rows.add(rest.grains, rest.frame);
+  }
+  const auto a = with_rows.results(heap().grains, 5), b = without_rows.results(rest.grains, 5);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    const auto mine = a[n].cells(2), others = b[n].cells(2);
+    for (std::size_t k = 0; k < mine.size(); ++k)
+      EXPECT_TRUE(mine[k].value == others[k].value ||
+                  (std::isnan(mine[k].value) && std::isnan(others[k].value)))
+          << mine[k].column << " of layer " << n;
+  }
+  EXPECT_GT(a[1].value.D_small, 0);
+}
+
 // Displacements are those of grains that are there at both ends; all rise by 0.1 per part.
 TEST(AbsentGrains, AreNotDisplaced)
 {

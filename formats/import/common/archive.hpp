@@ -3,6 +3,8 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
+#include "formats/import/common/file_start.hpp"
+#include "formats/import/common/questions.hpp"
 
 #include <array>
 #include <cstdint>
@@ -53,8 +55,9 @@ struct ArchiveContacts {
   std::vector<Vec3> force;         // ON i FROM j
   std::vector<double> overlap;     // positive where the two overlap; NaN: from the branch
   std::vector<double> distance;    // of the centres; where both are empty it is that of positions
-  std::vector<Vec3> branch;  // x_i - x_j, at a wall x_i - contact point; empty, or NaN for a contact
-                             // with a grain: from positions
+  std::vector<Vec3>
+      branch;  // x_i - x_j, at a wall x_i - contact point; empty, or NaN for a contact
+               // with a grain: from positions
   std::vector<std::string> missing;  // components, as of grains
 
   std::size_t size() const { return i.size(); }
@@ -69,7 +72,9 @@ struct ArchiveMoment {
   std::array<bool, 3> periodic{};
   ArchiveGrains grains;
   ArchiveContacts contacts;
-  std::string place;  // "atoms.dump, line 12": for sentences about this moment
+  std::string place;                // "atoms.dump, line 12": for sentences about this moment
+  std::vector<Question> questions;  // what the reader has to be told; what it could not read for
+                                    // lack of an answer is empty
 };
 
 /// What an archive states once about its run. What it does not state stays empty and must come from
@@ -126,14 +131,18 @@ struct ArchiveFiles {
   std::string columns;                        // contact_columns.hpp
   std::vector<std::string> wall_contacts;     // files, likewise
   std::string wall_columns;                   // of the contacts with walls
+  std::vector<std::string> unnamed;           // named without an option: proposed_files.hpp
+  std::vector<std::string> map;               // other names of columns; csv_map.hpp
 };
 
 /// All that is known of a format outside its own folder; open_archive.cpp lists the formats.
 struct ArchiveFormat {
   const char* name;  // as --format gives it
   std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
+  /// What a file holds that begins like this, if it looks like one of this format.
+  FileRole (*role)(const FileStart&);
   /// Which of these options apply to it; the others are refused.
-  bool takes_contacts = true, takes_columns = true, takes_restart = false,
+  bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_map = false,
        takes_wall_contacts = false, takes_wall_columns = false;
   const char* examples;    // for --help: whole command lines, indented
   const char* notes = "";  // for --help: what its files and its --columns are, indented; may be ""

@@ -203,9 +203,8 @@ void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const
 
   Vector<D> force = bed_.axes.components<D>(from.force[c]);
   const bool has_branch = !from.branch.empty() && !std::isnan(from.branch[c].x());
-  Vector<D> branch = !has_branch
-                         ? minimum_image<D>(bed_.box, frame.position[i] - frame.position[j])
-                         : bed_.axes.components<D>(from.branch[c]);
+  Vector<D> branch = !has_branch ? minimum_image<D>(bed_.box, frame.position[i] - frame.position[j])
+                                 : bed_.axes.components<D>(from.branch[c]);
   const double radii = bed_.grains.radius[i] + (wall ? 0 : bed_.grains.radius[j]);
   double gap = branch.norm() - radii;
   if (!from.overlap.empty() && !std::isnan(from.overlap[c]))

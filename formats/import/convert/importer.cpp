@@ -94,7 +94,7 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["history"] = command_line;
   texts["origin"] = settings.origin;
   texts["import_format"] = settings.format;
-  texts["import_axes"] = settings.axes;
+  texts["import_axes"] = facts.axes;
   texts["import_units_as_told"] = facts.units_as_given;
   texts["import_grains"] = facts.discs ? "discs" : "spheres";
   texts["import_base"] = frames.builder().bed().species.base;
@@ -242,8 +242,7 @@ ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settin
 
 ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
 {
-  if (settings.output.empty())
-    throw UsageError("name the trajectory to write with -o, e.g. -o run.h5");
+  if (settings.output.empty()) open_with_grains(settings);  // asks for it
   Output output(settings.output, settings.overwrite, inputs_of(settings.files));
   const auto write = [&](OpenedArchive opened) {
     return with_dimension(opened.facts.dimension, [&](auto d) {

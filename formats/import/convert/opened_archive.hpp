@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/import/common/questions.hpp"
 #include "formats/import/convert/moments.hpp"
 #include "formats/import/convert/roster.hpp"
 #include "formats/import/facts/run_facts.hpp"
@@ -14,10 +15,11 @@ namespace grseg {
 /// and go there is a roster of them, and facts are found from it.
 class OpenedArchive {
  public:
-  /// Reads the first moment. Throws what readers and facts throw; FormatError where the archive
-  /// holds no moment, OtherGrains where it begins without grains and there is no roster.
+  /// Reads the first moment. Throws what readers and facts throw; OpenQuestions with `questions` and
+  /// all that is missing; FormatError where the archive holds no moment, OtherGrains where it begins
+  /// without grains and there is no roster.
   OpenedArchive(const ImportSettings& settings, const std::string& columns,
-                std::shared_ptr<const Roster> roster = nullptr);
+                std::shared_ptr<const Roster> roster = nullptr, Questions questions = {});
 
   /// Reads the next moment; false at the end.
   bool next() { return moments_.next(moment); }
@@ -33,11 +35,15 @@ class OpenedArchive {
   RunFacts facts;
 
  private:
+  std::vector<bool> resting_grains_of(const ImportSettings& settings);
+  void ask_for_the_bed(const ImportSettings& settings, const std::vector<bool>& resting,
+                       Questions& questions) const;
+
   Moments moments_;
   std::shared_ptr<const Roster> roster_;
 };
 
-/// Opens an archive; where its facts cannot be found from the grains of the first moment, and other
+/// Opens an archive, of which the command line may name files only. Where its facts cannot be found from the grains of the first moment, and other
 /// moments have others, with a roster.
 OpenedArchive open_with_grains(const ImportSettings& settings);
 /// Opens an archive with a roster.

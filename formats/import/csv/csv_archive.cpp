@@ -2,12 +2,17 @@
 #include "formats/import/csv/csv_archive.hpp"
 
 #include "formats/import/common/enclosing_cell.hpp"
-#include "formats/import/common/file_list.hpp"
+#include "formats/import/csv/csv_comments.hpp"
+#include "formats/import/csv/csv_files.hpp"
+#include "formats/import/csv/csv_line.hpp"
+#include "formats/import/csv/csv_map.hpp"
 #include "formats/import/csv/csv_table.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <sstream>
 
 namespace grseg {
@@ -16,6 +21,7 @@ namespace {
 namespace of_grain {
 enum Column : std::size_t {
   time,
+  step,
   id,
   x,
   y,
@@ -35,38 +41,26 @@ enum Column : std::size_t {
   fy,
   fz
 };
-constexpr CsvTable::Column columns[] = {{"time|t", true},
-                                        {"id", true},
-                                        {"x", true},
-                                        {"y", true},
-                                        {"z", false},
-                                        {"radius|r", false},
-                                        {"diameter|d", false},
-                                        {"vx", true},
-                                        {"vy", true},
-                                        {"vz", false},
-                                        {"wx|omegax", false},
-                                        {"wy|omegay", false},
-                                        {"omega|wz|omegaz", false},
-                                        {"mass|m", false},
-                                        {"type|species", false},
-                                        {"fixed", false},
-                                        {"fx", false},
-                                        {"fy", false},
-                                        {"fz", false}};
+constexpr CsvTable::Column columns[] = {
+    {"time|t", false},      {"step|timestep|iteration|cycle", false},
+    {"id", true},           {"x", true},
+    {"y", false},           {"z", false},
+    {"radius|r", false},    {"diameter|d", false},
+    {"vx", true},           {"vy", false},
+    {"vz", false},          {"wx|omegax", false},
+    {"wy|omegay", false},   {"omega|wz|omegaz", false},
+    {"mass|m", false},      {"type|species", false},
+    {"fixed", false, true}, {"fx", false},
+    {"fy", false},          {"fz", false}};
 }  // namespace of_grain
 
 namespace of_contact {
-enum Column : std::size_t { time, i, j, fx, fy, fz, overlap, bx, by, bz };
-constexpr CsvTable::Column columns[] = {{"time|t", true},
-                                        {"i|id1", true},
-                                        {"j|id2", true},
-                                        {"fx", true},
-                                        {"fy", true},
-                                        {"fz", false},
-                                        {"overlap|delta|penetration", false},
-                                        {"bx", false},
-                                        {"by", false},
+enum Column : std::size_t { time, step, i, j, fx, fy, fz, overlap, bx, by, bz };
+constexpr CsvTable::Column columns[] = {{"time|t", false}, {"step|timestep|iteration|cycle", false},
+                                        {"i|id1", true},   {"j|id2", true},
+                                        {"fx", true},      {"fy", false},
+                                        {"fz", false},     {"overlap|delta|penetration", false},
+                                        {"bx", false},     {"by", false},
                                         {"bz", false}};
 }  // namespace of_contact
 
@@ -101,56 +95,75 @@ std::int64_t whole_number_at(const CsvTable& table, std::size_t row, std::size_t
   return static_cast<std::int64_t>(value);
 }
 
+std::vector<std::string> all_names()
+{
+  std::vector<std::string> names;
+  const auto add = [&names](std::span<const CsvTable::Column> columns) {
+    for (const auto& column : columns) {
+      std::istringstream words(column.names);
+      for (std::string word; std::getline(words, word, '|');)
+        if (std::find(names.begin(), names.end(), word) == names.end()) names.push_back(word);
+    }
+  };
+  add(of_grain::columns);
+  add(of_contact::columns);
+  return names;
+}
+
+/// A plane has two axes, of which x is one.
+void require_y_or_z(const CsvTable& table, std::size_t x, const char* y)
+{
+  if (!table.has(x + 1) && !table.has(x + 2))
+    table.fail(
+        fmt::format("no column {0} among {1}; --map NAME={0} tells which it is", y, table.names()));
+}
+
 class CsvArchive : public Archive {
  public:
-  explicit CsvArchive(const ArchiveFiles& files)
-      : grains_(archive_files(files.grains, "--grains"), of_grain::columns),
-        contacts_(archive_files(files.contacts, "--contacts"), of_contact::columns)
-  {
-    facts_.tolerance = 1e-4;
-    facts_.tolerance_reason = "the digits of the tables";
-    for (const auto& comment : grains_.comments()) read_comment(comment);
-  }
+  explicit CsvArchive(const ArchiveFiles& files);
   const ArchiveFacts& facts() const override { return facts_; }
   bool next(ArchiveMoment& moment) override;
   std::vector<std::string> remarks() const override;
 
  private:
-  void read_comment(const std::string& comment);
   bool next_of_both();
   void fill(ArchiveGrains& grains) const;
   void fill(ArchiveContacts& contacts) const;
 
+  CsvMap map_;
   CsvTable grains_, contacts_;
+  CsvComments comments_;
   ArchiveFacts facts_;
-  Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
-  std::array<bool, 3> periodic_{};
   std::size_t grains_alone_ = 0, contacts_alone_ = 0;
 };
 
-void CsvArchive::read_comment(const std::string& comment)
+CsvArchive::CsvArchive(const ArchiveFiles& files)
+    : map_(files.map, all_names()),
+      grains_(csv_files(files.grains, "--grains"), of_grain::columns, map_),
+      contacts_(csv_files(files.contacts, "--contacts"), of_contact::columns, map_),
+      comments_(read_csv_comments(grains_.comments())),
+      facts_(comments_.facts)
 {
-  constexpr std::string_view word = "# periodic:";
-  if (!comment.starts_with(word)) return;
-  std::istringstream text(comment.substr(word.size()));
-  std::string axis, more;
-  double low = NAN, high = NAN;
-  text >> axis >> low >> high;
-  const auto k = std::string_view("xyz").find(axis);
-  if (axis.size() != 1 || k == std::string_view::npos || !(low < high) || text >> more)
-    throw FormatError(
-        fmt::format("{} is not of the form '# periodic: x 0 0.35'", in_quotes(comment)));
-  periodic_[k] = true;
-  low_[static_cast<Eigen::Index>(k)] = low;
-  high_[static_cast<Eigen::Index>(k)] = high;
+  map_.require_all_used();
+  require_y_or_z(grains_, of_grain::x, "y");
+  require_y_or_z(grains_, of_grain::vx, "vy");
+  require_y_or_z(contacts_, of_contact::fx, "fy");
+  facts_.tolerance = 1e-4;
+  facts_.tolerance_reason = "the digits of the tables";
 }
 
-/// Goes to the next time that both tables have.
+/// Goes to the next moment that both tables have.
 bool CsvArchive::next_of_both()
 {
   bool more_grains = grains_.next(), more_contacts = contacts_.next();
   while (more_grains && more_contacts) {
-    const double a = grains_.time(), b = contacts_.time();
+    if (grains_.moment().is_step != contacts_.moment().is_step)
+      contacts_.fail(fmt::format(
+          "the table of contacts has {}, but that of grains has {}: give both the same, as a column "
+          "or in the names of files",
+          contacts_.moment().is_step ? "steps" : "times",
+          grains_.moment().is_step ? "steps" : "times"));
+    const double a = grains_.moment().value, b = contacts_.moment().value;
     if (std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b))) return true;
     if (a < b) {
       ++grains_alone_;
@@ -167,12 +180,18 @@ bool CsvArchive::next(ArchiveMoment& moment)
 {
   if (!next_of_both()) return false;
   moment = ArchiveMoment{};
-  moment.time = grains_.time();
-  moment.place =
-      fmt::format("t = {:g} ({}; {})", grains_.time(), grains_.begin(), contacts_.begin());
-  moment.periodic = periodic_;
-  moment.low = low_;
-  moment.high = high_;
+  const auto [value, is_step] = grains_.moment();
+  if (!is_step)
+    moment.time = value;
+  else if (std::trunc(value) == value && std::abs(value) < 9e15)
+    moment.step = static_cast<std::int64_t>(value);
+  else
+    grains_.fail(fmt::format("{:g} is not a step", value));
+  moment.place = fmt::format("{} = {:g} ({}; {})", is_step ? "step" : "t", value, grains_.begin(),
+                             contacts_.begin());
+  moment.periodic = comments_.periodic;
+  moment.low = comments_.low;
+  moment.high = comments_.high;
   fill(moment.grains);
   enclose_grains(moment);
   fill(moment.contacts);
@@ -234,6 +253,23 @@ std::vector<std::string> CsvArchive::remarks() const
   return remarks;
 }
 
+/// Contacts name two grains in the line of names.
+FileRole role_of(const FileStart& start)
+{
+  for (const auto& line : start.lines) {
+    if (line.empty() || line.starts_with('#')) continue;
+    std::vector<std::string_view> names;
+    split_csv(line, csv_separator(line), names);
+    const auto has = [&](const char* name) {
+      return std::any_of(names.begin(), names.end(),
+                         [&](std::string_view known) { return plain_name(known) == name; });
+    };
+    if (has("j") || has("id2")) return FileRole::contacts;
+    return has("x") && has("y") ? FileRole::grains : FileRole::none;
+  }
+  return FileRole::none;
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
@@ -244,13 +280,19 @@ std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
 const ArchiveFormat csv_format{
     .name = "csv",
     .open = open_csv,
+    .role = role_of,
     .takes_columns = false,
+    .takes_map = true,
     .examples =
         "  grseg-import --format csv --grains grains.csv --contacts contacts.csv \\\n"
-        "    --units si --step 1e-5 --gravity 9.81 --slope 23 -o run.h5\n",
+        "    --units si --step 1e-5 --gravity 9.81 --slope 23 -o run.h5\n"
+        "  grseg-import --format csv --grains 'grains_*.csv' --contacts 'contacts_*.csv' \\\n"
+        "    --map particle1=i,particle2=j,Fx=fx,Fy=fy --units si --step 1e-5 --gravity 9.81 \\\n"
+        "    --slope 23 -o run.h5\n",
     .notes =
         "  csv: tables whose first line names the columns (grains: time id x y vx vy and\n"
         "  radius|diameter; optional z vz wx wy omega mass type fixed fx fy fz; contacts:\n"
-        "  time i j fx fy; optional fz overlap bx by bz; in three dimensions all of x y z)\n"};
+        "  time i j fx fy; optional fz overlap bx by bz; in three dimensions all of x y z), or\n"
+        "  step instead of time, or one file per step with the step in its name\n"};
 
 }  // namespace grseg

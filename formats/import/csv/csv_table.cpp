@@ -2,128 +2,202 @@
 #include "formats/import/csv/csv_table.hpp"
 
 #include "formats/import/common/archive.hpp"
-#include "formats/import/common/number_row.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <sstream>
+#include <utility>
 
 namespace grseg {
 namespace {
 
-std::vector<std::string> split(std::string_view text, char separator)
+std::vector<std::string> words_between_bars(std::string_view names)
 {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    const bool between = c == separator || (separator == ' ' && c == '\t');
-    if (!between)
-      parts.back() += c;
-    else if (separator != ' ' || !parts.back().empty())
-      parts.emplace_back();
-  }
-  return parts;
+  std::vector<std::string> words(1);
+  for (const char c : names)
+    if (c == '|')
+      words.emplace_back();
+    else
+      words.back() += c;
+  return words;
 }
 
-/// " Radius[m]" is radius; quotation marks go, too.
-std::string plain_name(const std::string& text)
+bool is_comment(std::string_view line)
 {
-  std::string name;
-  for (const char c : text.substr(0, text.find('[')))
-    if (!std::isspace(static_cast<unsigned char>(c)) && c != '"')
-      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return name;
-}
-
-char separator_of(std::string_view line)
-{
-  for (const char c : {',', ';', '\t'})
-    if (line.find(c) != std::string_view::npos) return c;
-  return ' ';
+  return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
 }
 
 }  // namespace
 
-CsvTable::CsvTable(std::vector<std::string> files, std::span<const Column> columns)
-    : source_(std::move(files))
+CsvTable::CsvTable(std::vector<CsvFile> files, std::span<const Column> columns, CsvMap& map)
+    : files_(std::move(files)), columns_(columns), map_(map)
 {
-  read_names(columns);
+  open_next();
+  if (!next_line()) fail("the table is empty; it should begin with a line of column names");
+  read_names();
 }
 
 void CsvTable::fail(const std::string& why) const
 {
-  throw FormatError(fmt::format("{}: {}", source_.place(), why));
+  throw FormatError(fmt::format("{}: {}", source_->place(), why));
 }
 
-void CsvTable::read_names(std::span<const Column> columns)
+std::string CsvTable::names() const
 {
-  do {
-    if (!source_.next()) fail("the table is empty; it should begin with a line of column names");
-    if (source_.line().starts_with('#')) comments_.emplace_back(source_.line());
-  } while (source_.line().empty() || source_.line().starts_with('#'));
-  separator_ = separator_of(source_.line());
-  std::vector<std::string> names;
-  for (const auto& part : split(source_.line(), separator_)) names.push_back(plain_name(part));
-  if (!names.empty() && names.back().empty()) names.pop_back();
-  width_ = names.size();
-  for (const auto& column : columns) {
+  return in_quotes(fmt::format("{}", fmt::join(header_, " ")));
+}
+
+bool CsvTable::open_next()
+{
+  if (opened_ == files_.size()) return false;
+  source_.emplace(std::vector<std::string>{files_[opened_++].path});
+  return true;
+}
+
+/// The next line of the file at hand that is not a comment.
+bool CsvTable::next_line()
+{
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  while (source_->next()) {
+    line_ = source_->line();
+    if (line_.starts_with("\xff\xfe") || line_.starts_with("\xfe\xff"))
+      fail("the table is in UTF-16; save it as UTF-8");
+    if (line_.starts_with(mark)) line_.remove_prefix(mark.size());
+    if (is_comment(line_) && header_.empty()) comments_.emplace_back(line_);
+    if (!is_comment(line_) && line_.find_first_not_of(" \t,;") != std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+void CsvTable::read_names()
+{
+  separator_ = csv_separator(line_);
+  numbers_ = CsvNumbers(separator_);
+  split_csv(line_, separator_, fields_);
+  while (!fields_.empty() && fields_.back().empty()) fields_.pop_back();
+  header_.assign(fields_.begin(), fields_.end());
+  find_columns(map_.renamed(header_));
+  require_a_moment();
+}
+
+void CsvTable::find_columns(const std::vector<std::string>& names)
+{
+  place_.clear();
+  for (const auto& column : columns_) {
     place_.push_back(-1);
-    const auto known = split(column.names, '|');
+    const auto known = words_between_bars(column.names);
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (std::find(known.begin(), known.end(), names[k]) == known.end()) continue;
       if (place_.back() >= 0)
-        fail(fmt::format("two columns are named {}; rename one of them", known[0]));
+        fail(
+            fmt::format("two columns are named {}; rename one of them, or leave one out with --map "
+                        "NAME=",
+                        known[0]));
       place_.back() = static_cast<int>(k);
     }
     if (column.needed && place_.back() < 0)
-      fail(fmt::format("no column {} among {}", fmt::join(known, " or "),
-                       in_quotes(fmt::format("{}", fmt::join(names, " ")))));
+      fail(fmt::format("no column {} among {}; --map NAME={} tells which it is",
+                       fmt::join(known, " or "), this->names(), known[0]));
   }
+}
+
+void CsvTable::require_a_moment() const
+{
+  const auto& file = files_[opened_ - 1];
+  if (!has(0) && !has(1) && !file.time && !file.step)
+    fail(fmt::format(
+        "no column time or step among {}, and the name of the file holds neither; --map "
+        "NAME=time tells which column it is",
+        names()));
+}
+
+/// Whether the first line of a file names columns again.
+bool CsvTable::is_header() const
+{
+  CsvNumbers numbers(separator_);
+  double number = 0;
+  for (const int place : place_)
+    if (place >= 0 && static_cast<std::size_t>(place) < fields_.size() &&
+        numbers.read(fields_[static_cast<std::size_t>(place)], number))
+      return false;
+  return true;
 }
 
 /// Fills row_; false at the end.
 bool CsvTable::next_row()
 {
-  do {
-    if (!source_.next()) return false;
-  } while (source_.line().empty() || source_.line().starts_with('#'));
-  if (!source_.line_is_whole())
+  while (!next_line()) {
+    ends_in_rows_ |= !source_->line_is_whole();
+    if (!open_next()) return false;
+    if (!next_line()) continue;
+    split_csv(line_, separator_, fields_);
+    if (!is_header()) break;
+    read_names();
+  }
+  if (!source_->line_is_whole() && opened_ == files_.size() && !ends_in_rows_)
     throw TruncatedArchive(
         fmt::format("{}: the table ends inside a line; copy it again, or leave out the incomplete "
                     "moment with --drop-incomplete",
-                    source_.place()));
-  read_numbers(source_, row_, separator_);
-  if (row_.size() != width_)
-    fail(fmt::format("a row of {} numbers, but the header names {} columns", row_.size(), width_));
+                    source_->place()));
+  split_csv(line_, separator_, fields_);
+  while (fields_.size() > header_.size() && fields_.back().empty()) fields_.pop_back();
+  if (fields_.size() != header_.size())
+    fail(fmt::format("a row of {} fields, but the header names {} columns", fields_.size(),
+                     header_.size()));
+  read_fields();
   return true;
+}
+
+void CsvTable::read_fields()
+{
+  row_.assign(columns_.size(), 0);
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    if (place_[k] < 0) continue;
+    const auto at = static_cast<std::size_t>(place_[k]);
+    if (numbers_.read(fields_[at], row_[k])) continue;
+    const auto word = columns_[k].truth ? bare_name(fields_[at]) : std::string();
+    if (word != "true" && word != "false")
+      fail(fmt::format("{} in column {} ({}) is not a finite number{}", in_quotes(fields_[at]),
+                       at + 1, in_quotes(header_[at]), numbers_.why_not(fields_[at])));
+    row_[k] = word == "true";
+  }
+}
+
+void CsvTable::wait_for_next_row()
+{
+  waiting_ = next_row();
+  if (waiting_) waiting_place_ = source_->place();
+}
+
+CsvMoment CsvTable::moment_of_row() const
+{
+  if (has(0)) return {row_[0], false};
+  if (has(1)) return {row_[1], true};
+  const auto& file = files_[opened_ - 1];
+  return file.time ? CsvMoment{*file.time, false}
+                   : CsvMoment{static_cast<double>(*file.step), true};
 }
 
 bool CsvTable::next()
 {
-  const bool first = !waiting_ && values_.empty();
-  if (first) waiting_ = next_row();
+  if (!std::exchange(started_, true)) wait_for_next_row();
   if (!waiting_) return false;
-  const auto time_column = static_cast<std::size_t>(place_[0]);
-  begin_ = first ? source_.place() : waiting_place_;
-  time_ = row_[time_column];
+  begin_ = waiting_place_;
+  moment_ = moment_of_row();
   values_ = row_;
   rows_ = 1;
-  while ((waiting_ = next_row()) && row_[time_column] == time_) {
+  for (wait_for_next_row(); waiting_ && moment_of_row().value == moment_.value;
+       wait_for_next_row()) {
     values_.insert(values_.end(), row_.begin(), row_.end());
     ++rows_;
   }
-  if (waiting_) waiting_place_ = source_.place();
-  if (waiting_ && row_[time_column] < time_)
-    fail(fmt::format("time {:g} comes after time {:g}: rows must be in order of time",
-                     row_[time_column], time_));
+  if (!waiting_) return true;
+  if (const auto later = moment_of_row(); later.value < moment_.value)
+    fail(fmt::format("{0} {1:g} comes after {0} {2:g}: rows must be in order of time",
+                     later.is_step ? "step" : "time", later.value, moment_.value));
   return true;
-}
-
-double CsvTable::value(std::size_t row, std::size_t column) const
-{
-  return place_[column] < 0 ? 0 : values_[row * width_ + static_cast<std::size_t>(place_[column])];
 }
 
 }  // namespace grseg

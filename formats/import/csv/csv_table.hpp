@@ -2,6 +2,9 @@
 #pragma once
 
 #include "formats/import/common/text_source.hpp"
+#include "formats/import/csv/csv_files.hpp"
+#include "formats/import/csv/csv_line.hpp"
+#include "formats/import/csv/csv_map.hpp"
 
 #include <optional>
 #include <span>
@@ -10,50 +13,82 @@
 
 namespace grseg {
 
-/// A plain table: one line of column names, then rows, separated by commas, semicolons, tabs or
-/// blanks, whichever of these, in this order, the line of names contains. Empty lines and lines
-/// that begin with # are skipped; those above the names are kept. Rows are read in blocks of equal
-/// time.
+/// When the rows of a moment are: a time, or where the table has none, a step.
+struct CsvMoment {
+  double value = 0;
+  bool is_step = false;
+};
+
+/// A plain table in one file or many, each beginning with a line of column names (or, behind the
+/// first, going on without one), then rows: separated by commas, semicolons, tabs or blanks
+/// (csv_line.hpp), with a byte-order mark or none, lines ending as in Windows or not. Empty lines and
+/// lines that begin with #, % or // are skipped; those above the first names are kept. Only columns
+/// that are asked for must be numbers.
+///
+/// Rows are read in blocks of equal time, or of equal step; in a table that has neither column each
+/// file is a block, whose name says when it is (csv_files.hpp).
 class CsvTable {
  public:
-  /// The names of a column, "x|posx", in lower case; a unit in [] after the name in the table is
-  /// ignored.
+  /// The names of a column, "x|posx", in lower case.
   struct Column {
     const char* names;
     bool needed;
+    bool truth = false;  // "true" and "false" may stand for 1 and 0
   };
 
-  /// `columns[0]` is the time. UsageError where a file is missing, FormatError naming the line
-  /// where a required column is missing or present twice.
-  CsvTable(std::vector<std::string> files, std::span<const Column> columns);
+  /// `columns[0]` is the time, `columns[1]` the step; of each the table may have none. UsageError
+  /// where a file is missing, FormatError naming the line where a required column is missing or
+  /// present twice.
+  CsvTable(std::vector<CsvFile> files, std::span<const Column> columns, CsvMap& map);
 
   bool has(std::size_t column) const { return place_[column] >= 0; }
   const std::vector<std::string>& comments() const { return comments_; }
+  /// For a sentence: the names at hand.
+  std::string names() const;
+  [[noreturn]] void fail(const std::string& why) const;
 
-  /// Reads the rows of the next time; false at the end. FormatError naming the line where a row is
-  /// damaged or of a time before that of the row above.
+  /// Reads the rows of the next moment; false at the end. FormatError naming the line where a row is
+  /// damaged or of a moment before that of the row above.
   bool next();
-  double time() const { return time_; }
+  CsvMoment moment() const { return moment_; }
   std::size_t rows() const { return rows_; }
   /// 0 where the table has no such column.
-  double value(std::size_t row, std::size_t column) const;
-  /// "grains.csv, line 7": the first row of the time.
+  double value(std::size_t row, std::size_t column) const
+  {
+    return values_[row * columns_.size() + column];
+  }
+  /// "grains.csv, line 7": the first row of the moment.
   const std::string& begin() const { return begin_; }
 
  private:
-  void read_names(std::span<const Column> columns);
+  bool open_next();
+  bool next_line();
+  bool is_header() const;
+  void read_names();
+  void find_columns(const std::vector<std::string>& names);
+  void require_a_moment() const;
   bool next_row();
-  [[noreturn]] void fail(const std::string& why) const;
+  void read_fields();
+  void wait_for_next_row();
+  CsvMoment moment_of_row() const;
 
-  TextSource source_;
-  std::vector<std::string> comments_;
+  std::vector<CsvFile> files_;
+  std::size_t opened_ = 0;
+  std::span<const Column> columns_;
+  CsvMap& map_;
+  std::optional<TextSource> source_;
+  std::string_view line_;
+  std::vector<std::string> comments_, header_;
   char separator_ = ' ';
-  std::size_t width_ = 0;
+  CsvNumbers numbers_;
   std::vector<int> place_;  // of the columns asked for; -1: missing
-  std::vector<double> row_, values_;
-  bool waiting_ = false;  // row_ is the first of the next time
+  std::vector<std::string_view> fields_;
+  std::vector<double> row_, values_;  // of the columns asked for
+  bool started_ = false;
+  bool waiting_ = false;       // row_ is the first of the next moment
+  bool ends_in_rows_ = false;  // files before this one have no line end behind their last row
   std::string begin_, waiting_place_;
-  double time_ = 0;
+  CsvMoment moment_;
   std::size_t rows_ = 0;
 };
 

@@ -45,11 +45,10 @@ void ColumnMap::assign(const std::string& word, const std::string& column)
     if (word != triple) continue;
     const auto number = column_number(column);
     if (!number)
-      throw UsageError(
-          fmt::format("{}: {}={}: give the number of the first of three columns, or {} {} {} one "
-                      "by one",
-                      words_.option, word, column, words[first], words[first + 1],
-                      words[first + 2]));
+      throw UsageError(fmt::format(
+          "{}: {}={}: give the number of the first of three columns, or {} {} {} one "
+          "by one",
+          words_.option, word, column, words[first], words[first + 1], words[first + 2]));
     for (std::size_t k = 0; k < 3; ++k) column_[first + k] = std::to_string(*number + k);
     return;
   }

@@ -12,11 +12,11 @@ namespace {
 
 const ColumnWords& contact_words()
 {
-  static const ColumnWords words{"--columns",
-                                 "i=2,j=3,force=5",
-                                 {"i", "j", "fx", "fy", "fz", "tx", "ty", "tz", "bx", "by", "bz",
-                                  "dist", "overlap", "wall"},
-                                 {{"force", 2}, {"tangential", 5}}};
+  static const ColumnWords words{
+      "--columns",
+      "i=2,j=3,force=5",
+      {"i", "j", "fx", "fy", "fz", "tx", "ty", "tz", "bx", "by", "bz", "dist", "overlap", "wall"},
+      {{"force", 2}, {"tangential", 5}}};
   return words;
 }
 
@@ -75,8 +75,8 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   contacts.missing.clear();
   const auto& words = contact_words().words;
   for (const auto x : {fx, tx, bx})
-    add_missing({has(x), has(x + 1), has(x + 2)},
-                {words[x], words[x + 1], words[x + 2]}, contacts.missing);
+    add_missing({has(x), has(x + 1), has(x + 2)}, {words[x], words[x + 1], words[x + 2]},
+                contacts.missing);
   contacts.overlap = of(overlap);
   contacts.distance = of(dist);
   contacts.wall.clear();

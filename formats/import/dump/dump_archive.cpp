@@ -8,6 +8,7 @@
 #include "formats/import/dump/wall_contacts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace grseg {
 namespace {
@@ -37,7 +38,8 @@ class DumpArchive : public Archive {
     if (!next_grains(moment)) return false;
     read_contacts(moment);
     if (dumps_.walls()) read_walls(*dumps_.walls(), moment);
-    wall_columns_.add_to(moment, [&](std::size_t k) -> const auto& { return grains_.more(k); });
+    wall_columns_.add_to(
+        moment, [&](std::size_t k) -> const auto& { return grains_.more(k); });
     return true;
   }
 
@@ -51,6 +53,7 @@ class DumpArchive : public Archive {
     moment.low = header.low;
     moment.high = header.high;
     moment.periodic = header.periodic;
+    moment.questions.clear();
     moment.place = fmt::format("step {} ({}; {})", header.step, header.place,
                                dumps_.contacts().header().place);
     wall_columns_.look_up(header);
@@ -77,7 +80,12 @@ class DumpArchive : public Archive {
       return;
     }
     if (!columns_ || header.columns != header_.columns) {
-      if (columns_text_.empty()) columns_text_ = assumed_columns(header, moment.grains);
+      if (columns_text_.empty()) columns_text_ = dialect_.assumed(header, moment.grains);
+      if (columns_text_.empty()) {
+        moment.contacts = {};
+        moment.questions.push_back(question_of_columns(header));
+        return;
+      }
       columns_.emplace(dialect_.mapping(columns_text_, header));
       columns_->look_up(header.columns, header.place);
       header_ = header;
@@ -86,14 +94,11 @@ class DumpArchive : public Archive {
     columns_->fill(values_, header.place, moment.contacts);
   }
 
-  std::string assumed_columns(const DumpHeader& header, const ArchiveGrains& grains) const
+  Question question_of_columns(const DumpHeader& header) const
   {
-    auto assumed = dialect_.assumed(header, grains);
-    if (!assumed.empty()) return assumed;
-    throw UsageError(
-        fmt::format("{}: the names of the {} columns do not say what they mean; give it with "
-                    "--columns, as in {}",
-                    header.place, header.columns.size(), dialect_.example));
+    return {fmt::format("what the {} columns of {} mean", header.columns.size(), header.place),
+            "--columns MAP",
+            fmt::format("they are {}; as in {}", fmt::join(header.columns, " "), dialect_.example)};
   }
 
   const DumpDialect& dialect_;
@@ -120,6 +125,21 @@ ArchiveFacts facts_of_late_forces(const std::string& program)
                            " evaluates contact forces anew at output, with the velocities of the "
                            "end of the step";
   return facts;
+}
+
+FileRole role_of_dump(const FileStart& start,
+                      bool (*is_of_program)(const std::vector<std::string>& columns))
+{
+  if (start.lines.empty() || !start.lines.front().starts_with("ITEM:")) return FileRole::none;
+  std::string label = "ENTRIES";
+  for (const auto& line : start.lines) {
+    const auto words = words_of(line);
+    if (words.size() == 4 && line.starts_with("ITEM: NUMBER OF ")) label = words[3];
+    if (words.size() < 3 || words[0] != "ITEM:" || words[1] != label) continue;
+    if (label == "ATOMS") return FileRole::grains;
+    return is_of_program({words.begin() + 2, words.end()}) ? FileRole::contacts : FileRole::none;
+  }
+  return FileRole::none;
 }
 
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect)

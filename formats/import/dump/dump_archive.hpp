@@ -23,12 +23,17 @@ struct DumpDialect {
   /// What --wall-columns means for these rows of contacts with walls, as a mapping of WallRows; null
   /// where the program writes no such rows.
   std::string (*wall_mapping)(const std::string& columns, const DumpHeader& walls);
-  ArchiveFacts facts;   // that are the same for every run
+  ArchiveFacts facts;  // that are the same for every run
 };
 
 /// Facts of a program that re-evaluates contact forces at output, with velocities half a step later
 /// than those that moved the grains.
 ArchiveFacts facts_of_late_forces(const std::string& program);
+
+/// Grains where a dump holds ATOMS, contacts where it holds other rows, which are those of the
+/// program if `columns` says so of their names.
+FileRole role_of_dump(const FileStart& start,
+                      bool (*is_of_program)(const std::vector<std::string>& columns));
 
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect);
 

@@ -58,9 +58,9 @@ std::size_t first_column(const std::string& word, const DumpHeader& header)
   if (error == std::errc() && end == word.data() + word.size() && number > 0 &&
       number + 7 <= header.columns.size())
     return number - 1;
-  throw UsageError(fmt::format(
-      "--wall-columns: {} is not the first of eight columns of {}, which are {}", in_quotes(word),
-      header.place, fmt::join(header.columns, " ")));
+  throw UsageError(
+      fmt::format("--wall-columns: {} is not the first of eight columns of {}, which are {}",
+                  in_quotes(word), header.place, fmt::join(header.columns, " ")));
 }
 
 const ColumnWords& row_words()
@@ -155,18 +155,19 @@ void WallRows::read(DumpReader& dump, ArchiveMoment& moment)
     const auto grain = is_id ? static_cast<std::int64_t>(of(id)[row]) : -1;
     const auto found = place.find(grain);
     if (found == place.end())
-      throw FormatError(
-          fmt::format("{}: {:g} in the column of id is not among the grains of step {}; say what the "
-                      "columns mean with --wall-columns",
-                      header.place, of(id)[row], header.step));
+      throw FormatError(fmt::format(
+          "{}: {:g} in the column of id is not among the grains of step {}; say what the "
+          "columns mean with --wall-columns",
+          header.place, of(id)[row], header.step));
     const Vec3 centre = of(x).empty() ? moment.grains.position[found->second] : triple(x, row);
     std::int32_t wall = rows_of[grain]++;
     if (!of(triangle).empty()) {
       const double number = (of(mesh).empty() ? 0 : of(mesh)[row]) * 1e6 + of(triangle)[row];
       if (!(number >= 0 && number < 2e9))
-        throw FormatError(fmt::format("{}: {:g} is not a number of a wall; say what the columns mean "
-                                      "with --wall-columns",
-                                      header.place, number));
+        throw FormatError(
+            fmt::format("{}: {:g} is not a number of a wall; say what the columns mean "
+                        "with --wall-columns",
+                        header.place, number));
       wall = static_cast<std::int32_t>(number);
     }
     append(moment.contacts, grain, wall, triple(fx, row),

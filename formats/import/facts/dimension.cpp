@@ -21,15 +21,22 @@ Vec3 extent_of(const ArchiveGrains& grains)
   return high - low;
 }
 
-/// The other planes of two axes in which grains lie that extend so far, as --axes would name them.
-std::string plane_of(const Vec3& extent, double thickness)
+double thickness_of_a_plane(const ArchiveGrains& grains)
 {
-  if (extent.y() <= thickness) return "xz";
-  if (extent.x() <= thickness) return "yz";
-  return extent.z() <= thickness ? "xy" : "";
+  return *std::max_element(grains.radius.begin(), grains.radius.end()) / 10;
 }
 
 }  // namespace
+
+std::string plane_of(const ArchiveGrains& grains)
+{
+  if (grains.size() == 0) return "xy";
+  const Vec3 extent = extent_of(grains);
+  const double thickness = thickness_of_a_plane(grains);
+  if (extent.z() <= thickness) return "xy";
+  if (extent.y() <= thickness) return "xz";
+  return extent.x() <= thickness ? "yz" : "";
+}
 
 int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs,
                  std::optional<int> asked)
@@ -43,13 +50,12 @@ int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs
   const auto& grains = first.grains;
   if (asked == 3 || grains.size() == 0) return asked.value_or(2);
   const auto across = *Axes(axes).axis_of(2);
-  const double thickness = *std::max_element(grains.radius.begin(), grains.radius.end()) / 10;
   const Vec3 extent = extent_of(grains);
-  if (!(extent[across] > thickness)) return 2;
+  if (!(extent[across] > thickness_of_a_plane(grains))) return 2;
   const auto apart =
       fmt::format("{}: grains lie up to {:g} apart across the plane of the flow, --axes {}",
                   first.place, extent[across], axes);
-  if (const auto plane = plane_of(extent, thickness); !plane.empty())
+  if (const auto plane = plane_of(grains); !plane.empty())
     throw UsageError(fmt::format("{}, but in a plane of the axes: pass --axes {}{}", apart, plane,
                                  discs ? "" : " for a flow in it, or --dimension 3"));
   if (discs)

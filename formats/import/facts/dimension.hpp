@@ -16,4 +16,8 @@ namespace grseg {
 int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs,
                  std::optional<int> asked);
 
+/// The plane of two axes in which grains lie, to a tenth of the largest radius, as --axes would name
+/// it; "" where they lie in none.
+std::string plane_of(const ArchiveGrains& grains);
+
 }  // namespace grseg

@@ -51,6 +51,8 @@ po::options_description import_options(ImportSettings& s)
       "liggghts only: files with the contacts with meshes (compute wall/gran/local)")(
       "wall-columns", po::value(&s.files.wall_columns)->value_name("MAP"),
       "what their columns mean; lammps: columns of fix wall/gran in the grains, floor=f_floor[1]")(
+      "map", po::value(&s.files.map)->composing()->value_name("NAME=COLUMN"),
+      "csv only: what other names of columns mean, e.g. particle1=i,Fx=fx; NAME= leaves one out")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
       "import a text archive that ends inside a moment up to that moment");
 
@@ -63,8 +65,8 @@ po::options_description import_options(ImportSettings& s)
       "of the base; with a vector the axes are turned to it")(
       "grains-are", optional(s.grains, "WHAT"), "discs or spheres")(
       "density", optional(s.density, "RHO"), "of discs per area, of spheres per volume")(
-      "axes", po::value(&s.axes)->default_value(s.axes)->value_name("XY"),
-      "axes of the flow: along the base, away from it")(
+      "axes", optional(s.axes, "XY"),
+      "axes of the flow: along the base, away from it (default: xy)")(
       "dimension", optional(s.dimension, "D"),
       "2 or 3 (default: 3 for spheres that do not lie in one plane)")(
       "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),

@@ -24,9 +24,9 @@ struct ImportSettings {
   std::optional<std::string> grains;   // "discs", "spheres"
   std::optional<std::string> gravity;  // axes.hpp
   std::optional<double> slope;         // degrees
-  std::string axes = "xy";
-  std::string origin = "top";    // or "centre", or a height in the archive
-  std::optional<int> dimension;  // dimension.hpp
+  std::optional<std::string> axes;     // "xy" where not given
+  std::string origin = "top";          // or "centre", or a height in the archive
+  std::optional<int> dimension;        // dimension.hpp
   SpeciesSettings species;
   std::vector<std::string> walls;  // wall_planes.hpp
 

@@ -3,6 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/import/facts/dimension.hpp"
+#include "formats/import/facts/proposals.hpp"
 #include "formats/import/facts/wall_planes.hpp"
 
 #include <fmt/format.h>
@@ -50,27 +51,6 @@ std::optional<bool> discs_by_mass(const ArchiveGrains& grains)
   return std::nullopt;
 }
 
-/// Collects what neither archive nor command line states.
-class Missing {
- public:
-  template <class Value>
-  Value take(const std::optional<Value>& value, const char* what)
-  {
-    if (!value) add(what);
-    return value.value_or(Value{});
-  }
-  void add(const char* what) { list_.emplace_back(what); }
-  void report() const
-  {
-    if (!list_.empty())
-      throw UsageError(
-          fmt::format("the archive does not state {}; pass them", fmt::join(list_, ", nor ")));
-  }
-
- private:
-  std::vector<std::string> list_;
-};
-
 /// The value on the command line, which must agree with the archive's, or else the archive's.
 std::optional<double> either(const std::optional<double>& archive,
                              const std::optional<double>& given, const char* option)
@@ -105,54 +85,159 @@ std::optional<std::string> units_of(const ArchiveFacts& archive, const ImportSet
   if (settings.units && known && *settings.units != *archive.units)
     throw UsageError(fmt::format("--units {}, but the archive says {}; leave the option out",
                                  *settings.units, *archive.units));
-  if (!settings.units && !known)
-    throw UsageError(
-        fmt::format("the archive is in units {}: give them in m, s and kg with --units "
-                    "LENGTH:TIME:MASS",
-                    *archive.units));
-  return settings.units ? settings.units : archive.units;
+  return settings.units || !known ? settings.units : archive.units;
+}
+
+/// The largest diameter.
+double widest(const ArchiveGrains& grains)
+{
+  double radius = 0;
+  for (const double r : grains.radius) radius = std::max(radius, r);
+  return 2 * radius;
+}
+
+/// Facts by one, with questions for what is missing.
+class FactFinder {
+ public:
+  FactFinder(const ArchiveFacts& archive, const FirstLook& look, const ImportSettings& settings,
+             Questions& questions)
+      : archive_(archive), look_(look), settings_(settings), questions_(questions)
+  {
+  }
+  RunFacts find();
+
+ private:
+  void find_units();
+  void find_step();
+  void find_grains();
+  void find_base();
+  std::optional<GravityText> gravity();
+  void find_axes(const std::optional<GravityText>& gravity);
+  void find_orientation(const std::optional<GravityText>& gravity);
+
+  const ArchiveFacts& archive_;
+  const FirstLook& look_;
+  const ImportSettings& settings_;
+  Questions& questions_;
+  RunFacts facts_;
+};
+
+void FactFinder::find_units()
+{
+  const auto units = units_of(archive_, settings_);
+  if (!units && archive_.units)
+    questions_.ask({fmt::format("what its units {} are", *archive_.units),
+                    "--units LENGTH:TIME:MASS", "in m, s, kg"});
+  else if (!units)
+    questions_.ask({"its units", "--units UNITS",
+                    fmt::format("si, cgs, or LENGTH:TIME:MASS in m, s, kg; grains are up to {:.4g} "
+                                "wide",
+                                widest(look_.all.grains))});
+  facts_.units_as_given = units.value_or("si");
+  facts_.units = parse_units(facts_.units_as_given);
+}
+
+void FactFinder::find_step()
+{
+  const auto step = either(archive_.step, settings_.step, "--step");
+  if (!step) questions_.ask({"the length of a time step", "--step DT", "in the archive's units"});
+  facts_.step = step.value_or(1);
+  if (!(facts_.step > 0))
+    throw UsageError(fmt::format("a time step of {:g} is not positive", facts_.step));
+}
+
+void FactFinder::find_grains()
+{
+  const auto& grains = look_.all.grains;
+  auto discs = discs_or_spheres(archive_, grains, settings_);
+  if (!discs && plane_of(grains).empty()) discs = false;
+  if (!discs)
+    questions_.ask({"whether grains are discs or spheres", "--grains-are WHAT",
+                    "discs or spheres: LAMMPS makes spheres without density/disc, also in two "
+                    "dimensions"});
+  facts_.discs = discs.value_or(true);
+  facts_.density = either(archive_.density, settings_.density, "--density");
+  if (grains.mass.empty() && !facts_.density)
+    questions_.ask({"the masses of the grains", "--density RHO",
+                    facts_.discs ? "per area of discs" : "per volume of spheres"});
+}
+
+void FactFinder::find_base()
+{
+  facts_.walls = archive_.walls;
+  for (const auto& wall : parse_walls(settings_.walls)) facts_.walls.push_back(list_of({wall}));
+  if (!facts_.walls.empty() || settings_.species.boundary || settings_.species.boundary_ids ||
+      !look_.all.grains.fixed.empty())
+    return;
+  questions_.ask(question_of_base(look_.all.grains, look_.resting));
+}
+
+/// Where it is missing, what is proposed.
+std::optional<GravityText> FactFinder::gravity()
+{
+  if (settings_.gravity) return parse_gravity(*settings_.gravity);
+  if (archive_.gravity) return GravityText{std::nullopt, archive_.gravity};
+  const auto& grains = look_.moment.grains;
+  const bool has_mass = !grains.mass.empty() || facts_.density;
+  const auto suggested =
+      suggested_gravity(look_.moment, has_mass ? masses_of(grains, facts_) : std::vector<double>(),
+                        resting_grains(grains, nullptr));
+  if (suggested)
+    questions_.ask({"gravity", "--gravity " + gravity_option(*suggested),
+                    "what the forces on the grains suggest; or its magnitude and --slope"});
+  else
+    questions_.ask({"gravity", "--gravity GX,GY,GZ", "or --gravity G --slope DEGREES"});
+  if (!suggested) return std::nullopt;
+  return GravityText{std::nullopt, suggested};
+}
+
+void FactFinder::find_axes(const std::optional<GravityText>& gravity)
+{
+  if (settings_.axes) {
+    facts_.axes = *settings_.axes;
+    return;
+  }
+  const auto axes = question_of_axes(look_.all.grains, settings_.dimension == 3,
+                                     gravity ? gravity->vector : std::nullopt);
+  if (!axes) return;
+  questions_.ask(*axes);
+  facts_.axes = axes->option.substr(axes->option.size() - 2);
+}
+
+/// Where gravity or its slope is asked for, the axes are as they were named.
+void FactFinder::find_orientation(const std::optional<GravityText>& gravity)
+{
+  auto slope = settings_.slope;
+  if (gravity && gravity->magnitude && !slope)
+    questions_.ask({"the inclination of the base", "--slope DEGREES",
+                    "--gravity is a magnitude; or give the vector, as in --gravity 3.8,-9.0,0"});
+  if (!gravity || gravity->magnitude) slope = slope.value_or(0);
+  facts_.orientation = orientation_of(facts_.axes, gravity.value_or(GravityText{1, std::nullopt}),
+                                      slope, facts_.dimension);
+}
+
+RunFacts FactFinder::find()
+{
+  find_units();
+  find_step();
+  find_grains();
+  const auto direction = gravity();
+  find_axes(direction);
+  find_base();
+  facts_.dimension = dimension_of(look_.all, facts_.axes, facts_.discs, settings_.dimension);
+  find_orientation(direction);
+  return facts_;
 }
 
 }  // namespace
 
-RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
-                       const ImportSettings& settings)
+RunFacts collect_facts(const ArchiveFacts& archive, const FirstLook& look,
+                       const ImportSettings& settings, Questions& questions)
 {
-  const auto& grains = first.grains;
-  if (grains.radius.empty())
+  if (look.all.grains.radius.empty())
     throw FormatError(
         "the grains of the archive have no radius or diameter, so they cannot be imported");
-  Missing missing;
-  const auto units = missing.take(units_of(archive, settings), "its units (--units si)");
-  const double step =
-      missing.take(either(archive.step, settings.step, "--step"), "the time step (--step)");
-  std::optional<GravityText> gravity;
-  if (settings.gravity)
-    gravity = parse_gravity(*settings.gravity);
-  else if (archive.gravity)
-    gravity = GravityText{std::nullopt, archive.gravity};
-  missing.take(gravity, "gravity (--gravity 3.8,-9.0,0, or --gravity 9.8 --slope 23)");
-  const bool discs = missing.take(discs_or_spheres(archive, grains, settings),
-                                  "whether grains are discs or spheres (--grains-are discs)");
-  const auto density = either(archive.density, settings.density, "--density");
-  if (grains.mass.empty() && !density) missing.add("masses (--density)");
-  auto walls = archive.walls;
-  for (const auto& wall : parse_walls(settings.walls)) walls.push_back(list_of({wall}));
-  if (!settings.species.boundary && !settings.species.boundary_ids && grains.fixed.empty() &&
-      walls.empty())
-    missing.add(
-        "which grains are the base (--boundary TYPES, --boundary-ids IDS, or --boundary none)");
-  missing.report();
-  if (!(step > 0)) throw UsageError(fmt::format("a time step of {:g} is not positive", step));
-  const int dimension = dimension_of(first, settings.axes, discs, settings.dimension);
-  return {step,
-          dimension,
-          orientation_of(settings.axes, *gravity, settings.slope, dimension),
-          discs,
-          walls,
-          density,
-          parse_units(units),
-          units};
+  return FactFinder(archive, look, settings, questions).find();
 }
 
 std::vector<double> masses_of(const ArchiveGrains& grains, const RunFacts& facts)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/import/common/questions.hpp"
 #include "formats/import/facts/axes.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "formats/import/facts/units.hpp"
@@ -14,19 +15,28 @@ namespace grseg {
 struct RunFacts {
   double step = 0;
   int dimension = 2;
+  std::string axes = "xy";  // letters, before they are turned to a slope
   Orientation orientation;
-  bool discs = true;              // false: spheres
+  bool discs = true;               // false: spheres
   std::vector<std::string> walls;  // straight ones that bound the flow, in words
-  std::optional<double> density;  // needed where grains have no mass
+  std::optional<double> density;   // needed where grains have no mass
   Units units;
   std::string units_as_given;
 };
 
+/// What facts are found from.
+struct FirstLook {
+  const ArchiveMoment& all;          // a moment with all grains, perhaps without contacts
+  const ArchiveMoment& moment;       // the first one
+  const std::vector<bool>& resting;  // grains of `all` that seem to be the base (proposals.hpp)
+};
+
 /// Takes each fact from the archive or the command line; discs and spheres are distinguished by the
-/// masses of grains of different radii. UsageError, one sentence with the options for all that is
-/// missing, or where archive and command line contradict each other.
-RunFacts collect_facts(const ArchiveFacts& archive, const ArchiveMoment& first,
-                       const ImportSettings& settings);
+/// masses of grains of different radii, or by grains that lie in no plane. What is missing is added
+/// to `questions`, and the fact is then the one that is proposed, or of no meaning. UsageError where
+/// archive and command line contradict each other.
+RunFacts collect_facts(const ArchiveFacts& archive, const FirstLook& look,
+                       const ImportSettings& settings, Questions& questions);
 
 /// Mass of every grain: the archive's own, or density times area or volume. FormatError where a
 /// grain has neither.

@@ -3,6 +3,7 @@
 
 #include "formats/import/facts/named_species.hpp"
 #include "formats/import/facts/number_list.hpp"
+#include "formats/import/facts/proposals.hpp"
 
 #include <fmt/format.h>
 
@@ -95,15 +96,12 @@ void require_alone(const SpeciesSettings& settings)
                       option));
 }
 
-double diameter_that_splits(const std::vector<double>& diameter, const SpeciesSettings& settings)
+double diameter_that_splits(const std::vector<double>& diameter, const ArchiveGrains& grains,
+                            const std::vector<bool>& boundary, const SpeciesSettings& settings)
 {
   if (settings.split_diameter) return *settings.split_diameter;
   if (const auto gap = gap_between_sizes(diameter)) return *gap;
-  throw UsageError(fmt::format(
-      "diameters do not fall into two sizes far apart ({}); separate the species with --small and "
-      "--large TYPES, with --split-diameter, or any number with --species NAME=TYPES; or take all as "
-      "one with --species NAME=all",
-      histogram(diameter)));
+  throw OpenQuestions(question_of_species(grains, boundary, histogram(diameter)));
 }
 
 }  // namespace
@@ -134,7 +132,7 @@ SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& 
   std::vector<double> diameter;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (!boundary[g]) diameter.push_back(2 * grains.radius[g]);
-  const double split = diameter_that_splits(diameter, settings);
+  const double split = diameter_that_splits(diameter, grains, boundary, settings);
   for (std::size_t g = 0; g < grains.size(); ++g)
     found.species.push_back(boundary[g]                    ? Species::boundary
                             : 2 * grains.radius[g] < split ? Species::small

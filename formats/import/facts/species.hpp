@@ -31,7 +31,7 @@ struct SpeciesFound {
 /// fixed; all others are of a named species, or small or large: by type, by --split-diameter, or,
 /// where none is given, by two sizes far apart: the widest step between diameters is a factor of
 /// 1.2 or more, and on either side of it they differ by less than the root of that factor.
-/// UsageError with a histogram of diameters where there are no such two sizes.
+/// OpenQuestions with a histogram of diameters where there are no such two sizes.
 SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& settings);
 
 /// "0.0048 to 0.0052: 120, ...": numbers of values in ten equal bins; empty bins are left out.

@@ -2,6 +2,7 @@
 #include "formats/import/lammps/lammps_archive.hpp"
 
 #include "formats/import/dump/dump_archive.hpp"
+#include "formats/import/liggghts/liggghts_columns.hpp"
 
 #include <fmt/format.h>
 
@@ -41,19 +42,27 @@ std::vector<std::string> other_columns(const DumpHeader& header)
   return others;
 }
 
+FileRole role_of(const FileStart& start)
+{
+  return role_of_dump(
+      start, [](const std::vector<std::string>& columns) { return !are_of_one_compute(columns); });
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
 {
   static const DumpDialect dialect{
       assumed_columns, [](const std::string& columns, const DumpHeader&) { return columns; },
-      other_columns, recipe, nullptr, facts_of_late_forces("LAMMPS")};
+      other_columns,   recipe,
+      nullptr,         facts_of_late_forces("LAMMPS")};
   return open_dumps(files, dialect);
 }
 
 const ArchiveFormat lammps_format{
     .name = "lammps",
     .open = open_lammps,
+    .role = role_of,
     .takes_wall_columns = true,
     .examples =
         "  grseg-import --format lammps --grains atoms.dump --contacts contacts.dump \\\n"

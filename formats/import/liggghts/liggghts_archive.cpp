@@ -14,18 +14,25 @@ std::string assumed_columns(const DumpHeader& contacts, const ArchiveGrains&)
   return "";
 }
 
+FileRole role_of(const FileStart& start)
+{
+  return role_of_dump(start, are_of_one_compute);
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
 {
-  static const DumpDialect dialect{assumed_columns, liggghts_mapping, liggghts_columns_of,
-                                   "pos,id,force,delta", liggghts_wall_mapping, facts_of_late_forces("LIGGGHTS")};
+  static const DumpDialect dialect{assumed_columns,       liggghts_mapping,
+                                   liggghts_columns_of,   "pos,id,force,delta",
+                                   liggghts_wall_mapping, facts_of_late_forces("LIGGGHTS")};
   return open_dumps(files, dialect);
 }
 
 const ArchiveFormat liggghts_format{
     .name = "liggghts",
     .open = open_liggghts,
+    .role = role_of,
     .takes_wall_contacts = true,
     .takes_wall_columns = true,
     .examples =

@@ -146,6 +146,17 @@ bool MercuryRestarts::next(ArchiveMoment& moment)
   return true;
 }
 
+/// Files for each moment have numbers behind: run.data.0001.
+FileRole role_of(const FileStart& start)
+{
+  constexpr std::pair<const char*, FileRole> endings[] = {
+      {".data", FileRole::grains}, {".fstat", FileRole::contacts}, {".restart", FileRole::restart}};
+  const auto name = start.name.substr(0, start.name.find_last_not_of(".0123456789") + 1);
+  for (const auto& [ending, role] : endings)
+    if (name.ends_with(ending)) return role;
+  return FileRole::none;
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_mercury(const ArchiveFiles& files)
@@ -176,6 +187,7 @@ std::unique_ptr<Archive> open_mercury(const ArchiveFiles& files)
 const ArchiveFormat mercury_format{
     .name = "mercury",
     .open = open_mercury,
+    .role = role_of,
     .takes_restart = true,
     .examples =
         "  grseg-import --format mercury --restart 'run.restart.*' --units si -o run.h5\n"

@@ -272,6 +272,11 @@ std::vector<std::string> SiconosArchive::remarks() const
                   path_, left_out_)};
 }
 
+FileRole role_of(const FileStart& start)
+{
+  return start.groups == std::vector<std::string>{"data"} ? FileRole::grains : FileRole::none;
+}
+
 }  // namespace
 
 std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
@@ -284,6 +289,7 @@ std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
 const ArchiveFormat siconos_format{
     .name = "siconos",
     .open = open_siconos,
+    .role = role_of,
     .takes_contacts = false,
     .takes_columns = false,
     .examples =

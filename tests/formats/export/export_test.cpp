@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -75,6 +76,48 @@ TEST_F(Export, AContactAcrossThePeriodicEdgeLeavesTheCellRatherThanCrossThePictu
   EXPECT_FLOAT_EQ(points[6], 0.345F);
   EXPECT_FLOAT_EQ(points[9], 0.351F);  // the image of x = 0.001
   EXPECT_FLOAT_EQ(points[10], 0.0055F);
+}
+
+/// The three grains in two frames; the small one (row 1, id 8) is absent in the second.
+void write_with_an_absent_grain(const std::string& path)
+{
+  auto run = three_grains::description();
+  run.grains_come_and_go = true;
+  auto frame = three_grains::frame(1);
+  frame.contacts.clear();
+  make_absent(frame, 1);
+  TrajectoryWriter writer(path, run);
+  writer.append(three_grains::frame(0), std::vector<double>{0});
+  writer.append(frame, std::vector<double>{0});
+  writer.close();
+}
+
+TEST_F(Export, AGrainThatIsAbsentIsLeftOutWhereTheFormatAllowsIt)
+{
+  write_with_an_absent_grain(at("changing.h5"));
+  const TrajectoryReader run(at("changing.h5"));
+  const auto cell = view_cell(run, 1);
+  EXPECT_TRUE(std::isfinite(cell.low[1]) && std::isfinite(cell.high[1]));
+
+  write(VtpWriter(run, at("view"), false), run, 2);
+  const auto vtp = content(folder / "view/grains/000001.vtp");
+  EXPECT_EQ(array_in<std::int32_t>(vtp, "id"), (std::vector<std::int32_t>{7, 9}));
+  EXPECT_EQ(array_in<float>(vtp, "radius"), (std::vector<float>{0.005F, 0.005F}));
+  EXPECT_EQ(array_in<float>(vtp, "velocity"), (std::vector<float>{0.1F, 0.2F, 0, 0, 0, 0}));
+  EXPECT_EQ(array_in<std::int32_t>(content(folder / "view/grains/000000.vtp"), "id").size(), 3U);
+
+  write(ExtxyzWriter(run, cell, at("run.xyz"), false), run, 2);
+  const auto xyz = lines_of(content(folder / "run.xyz"));
+  ASSERT_EQ(xyz.size(), 5U + 4U);
+  EXPECT_EQ(xyz[5], "2");
+  EXPECT_EQ(xyz[7].substr(0, 2), "7 ");
+  EXPECT_EQ(xyz[8].substr(0, 2), "9 ");
+
+  LammpsWriter dump(run, cell, at("run.dump"), false);
+  write(dump, run, 2);
+  const auto text = content(folder / "run.dump");
+  EXPECT_NE(text.find("NUMBER OF ATOMS\n2\n"), std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
 TEST_F(Export, AContactWithAWallEndsWhereTheGrainTouches)

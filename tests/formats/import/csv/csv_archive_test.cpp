@@ -3,6 +3,7 @@
 
 #include "tests/formats/import/archive_balance.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -130,7 +131,7 @@ TEST_F(Csv, DamageIsNamedByLine)
   EXPECT_NE(grains("time,id,x,vx,vy\n").find("no column y"), std::string::npos);
   EXPECT_NE(grains(with(grain_table, "radius", "r,d,t")).find("two columns are named time"),
             std::string::npos);
-  EXPECT_NE(grains(with(grain_table, "0.6,9,", "0.6,")).find("line 4: a row of 7 numbers"),
+  EXPECT_NE(grains(with(grain_table, "0.6,9,", "0.6,")).find("line 4: a row of 7 fields"),
             std::string::npos);
   EXPECT_NE(grains(with(grain_table, "0.6", "0.4")).find("time 0.4 comes after time 0.5"),
             std::string::npos);
@@ -140,6 +141,203 @@ TEST_F(Csv, DamageIsNamedByLine)
   EXPECT_NE(grains(with(grain_table, "0.105", "nan")).find("'nan' in column 4"), std::string::npos);
   auto all = files(grain_table.substr(0, grain_table.size() - 4), contact_table);
   EXPECT_THROW(all_of(*open_csv(all)), TruncatedArchive);
+}
+
+/// One file per step, whose name ends in the step.
+class CsvPerStep : public Csv {
+ protected:
+  void write(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(folder / name, std::ios::binary) << text;
+  }
+  ArchiveFiles named(const std::string& grains, const std::string& contacts) const
+  {
+    ArchiveFiles all;
+    all.grains = {(folder / grains).string()};
+    all.contacts = {(folder / contacts).string()};
+    return all;
+  }
+  std::string complaint_of(const ArchiveFiles& all) const
+  {
+    try {
+      all_of(*open_csv(all));
+    } catch (const ToolError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+};
+
+TEST_F(CsvPerStep, WindowsTablesHaveAMarkSemicolonsCommasInNumbersAndNoLastLineEnd)
+{
+  const std::string mark = "\xef\xbb\xbf";
+  for (const int step : {900, 1000}) {
+    write(fmt::format("grains_{:06}.csv", step),
+          mark + "id;x;y;radius;vx;vy\r\n7;0,1;0,2;0,05;1;2\r\n9;0,1;0,105;0,05;0;-1,5e-3");
+    write(fmt::format("contacts_{:06}.csv", step), mark + "i;j;fx;fy\r\n7;9;0,25;-4");
+  }
+  const auto moments = all_of(*open_csv(named("grains_*.csv", "contacts_*.csv")));
+  ASSERT_EQ(moments.size(), 2u);
+  EXPECT_EQ(*moments[0].step, 900);
+  EXPECT_EQ(*moments[1].step, 1000);
+  EXPECT_FALSE(moments[0].time);
+  EXPECT_EQ(moments[1].grains.position[1], Vec3(0.1, 0.105, 0));
+  EXPECT_EQ(moments[1].grains.velocity[1].y(), -1.5e-3);
+  EXPECT_EQ(moments[1].contacts.force[0], Vec3(0.25, -4, 0));
+}
+
+TEST_F(CsvPerStep, TheStepIsWhatTheStarStandsForWhateverDigitsElseTheNameHas)
+{
+  for (const char* step : {"9", "10", "11"}) {
+    write(fmt::format("mu0.5_{}_v2.csv", step), "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
+    write(fmt::format("c{}.csv", step), "i,j,fx,fy\n7,9,0,0\n");
+  }
+  const auto moments = all_of(*open_csv(named("mu0.5_*_v2.csv", "c*.csv")));
+  ASSERT_EQ(moments.size(), 3u);
+  std::vector<std::int64_t> steps;
+  for (const auto& moment : moments) steps.push_back(*moment.step);
+  EXPECT_EQ(steps, (std::vector<std::int64_t>{9, 10, 11}));
+}
+
+TEST_F(CsvPerStep, ANumberWithAPointIsATime)
+{
+  for (const char* time : {"0.5", "0.75"}) {
+    write(fmt::format("g{}.csv", time), "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
+    write(fmt::format("c{}.csv", time), "i,j,fx,fy\n7,9,0,0\n");
+  }
+  const auto moments = all_of(*open_csv(named("g*.csv", "c*.csv")));
+  ASSERT_EQ(moments.size(), 2u);
+  EXPECT_EQ(*moments[1].time, 0.75);
+  EXPECT_FALSE(moments[1].step);
+}
+
+TEST_F(CsvPerStep, TimesAndStepsDoNotMatchAndNamesWithoutEitherAreRefused)
+{
+  write("g1.csv", "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
+  write("grains.csv", "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
+  write("c.csv", contact_table);
+  EXPECT_NE(complaint_of(named("g1.csv", "c.csv")).find("has times, but that of grains has steps"),
+            std::string::npos)
+      << complaint_of(named("g1.csv", "c.csv"));
+  EXPECT_NE(complaint_of(named("grains.csv", "c.csv")).find("no column time or step among"),
+            std::string::npos);
+}
+
+TEST_F(CsvPerStep, FilesInUtf16AreNamed)
+{
+  write("g1.csv", std::string("\xff\xfei\0d\0", 6));
+  EXPECT_NE(complaint_of(named("g1.csv", "g1.csv")).find("is in UTF-16; save it as UTF-8"),
+            std::string::npos);
+}
+
+TEST_F(Csv, IndexColumnsQuotationMarksAndTruthValuesAreThoseOfPandas)
+{
+  const auto moments = read(
+      ",\"time\",\"id\",\"name\",\"x\",\"y\",\"radius\",\"vx\",\"vy\",\"omega\",fixed\n"
+      "0,0.5,7,\"a, b\",0.1,0.2,0.05,1,2,-3,False\n1,0.5,9,,0.1,0.105,0.05,0,0,0,True\n",
+      contact_table);
+  ASSERT_EQ(moments.size(), 1u);
+  EXPECT_EQ(moments[0].grains.fixed, (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_EQ(moments[0].grains.position[1], Vec3(0.1, 0.105, 0));
+}
+
+TEST_F(Csv, TextAndUnitsInBracketsMayStandBesideTheNumbers)
+{
+  const auto moments = read(
+      "t [s]\tID\tmaterial\tx (m)\ty (m)\tradius (m)\tvx\tvy\tomega\n"
+      "0.5\t7\tglass bead\t0.1\t0.2\t0.05\t1\t2\t-3\n0.5\t9\t\t0.1\t0.105\t0.05\t0\t0\t0\n",
+      contact_table);
+  ASSERT_EQ(moments.size(), 1u);
+  EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
+}
+
+TEST_F(Csv, AMapGivesOtherNamesAndLeavesColumnsOut)
+{
+  auto all = files(
+      "Cycle,Ball ID,x,pos_x,pos_y,Radius,velx,vely,fx\n100,7,4,0.1,0.2,0.05,1,2,12\n"
+      "100,9,4,0.1,0.105,0.05,0,0,12\n",
+      "Cycle,particle1,particle2,Force(x),Force(y),t\n100,7,9,0.25,-4,text\n");
+  all.map = {"Ball ID=id,pos_x=x,pos_y=y,velx=vx",
+             "vely=vy,particle1=i,particle2=j,fx=,t=", "Force(x)=fx,Force(y)=fy"};
+  const auto moments = all_of(*open_csv(all));
+  ASSERT_EQ(moments.size(), 1u);
+  EXPECT_EQ(*moments[0].step, 100);
+  EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
+  EXPECT_EQ(moments[0].grains.velocity[0], Vec3(1, 2, 0));
+  EXPECT_TRUE(moments[0].grains.force.empty());
+  EXPECT_EQ(moments[0].contacts.force[0], Vec3(0.25, -4, 0));
+}
+
+TEST_F(Csv, AMapThatFitsNothingIsRefused)
+{
+  auto all = files(grain_table, contact_table);
+  const auto said = [&](const std::string& map) {
+    all.map = {map};
+    try {
+      all_of(*open_csv(all));
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no complaint");
+  };
+  EXPECT_NE(said("particle1").find("is not NAME=COLUMN"), std::string::npos);
+  EXPECT_NE(said("particle1=i").find("no table has a column of that name"), std::string::npos);
+  EXPECT_NE(said("x=raduis").find("radius"), std::string::npos) << said("x=raduis");
+  EXPECT_EQ(said("omega="), "no complaint");
+}
+
+TEST_F(Csv, APointAndACommaInOneTableAreRefused)
+{
+  const std::string names = "time;id;x;y;radius;vx;vy\n";
+  EXPECT_NE(complaint(names + "0,5;7;0,1;0.2;0,05;1;2\n", contact_table)
+                .find("a decimal point or a decimal comma, the same in the whole table"),
+            std::string::npos);
+  EXPECT_NE(complaint(names + "0.5;7;1.234,5;0.2;0.05;1;2\n", contact_table)
+                .find("'1.234,5' in column 3 ('x') is not a finite number"),
+            std::string::npos);
+}
+
+TEST_F(Csv, ManyFilesWithTheirTimesMayEachHaveNamesOrNot)
+{
+  auto all = files(grain_table, contact_table);
+  std::ofstream(folder / "part1.csv")
+      << "time,id,x,y,radius,vx,vy,omega\n0.5,7,0.1,0.2,0.05,1,2,-3\n";
+  std::ofstream(folder / "part2.csv") << "0.5,9,0.1,0.105,0.05,0,0,0\n";
+  std::ofstream(folder / "part3.csv") << "time,id,y,x,radius,vx,vy\n0.6,9,0.105,0.1,0.05,0,0\n";
+  all.grains = {(folder / "part*.csv").string()};
+  const auto moments = all_of(*open_csv(all));
+  ASSERT_EQ(moments.size(), 2u);
+  EXPECT_EQ(moments[0].grains.size(), 2u);
+  EXPECT_EQ(moments[1].grains.position[0], Vec3(0.1, 0.105, 0));
+}
+
+TEST_F(Csv, CommentsAboveTheNamesStateFactsOfTheRun)
+{
+  const auto open = [&](const std::string& comments) {
+    return open_csv(files(comments + grain_table, contact_table));
+  };
+  const auto archive =
+      open("# gravity: 3.8 -9 0\n# step: 1e-5\n# units: si\n# grains: discs\n# by hand\n");
+  const auto& facts = archive->facts();
+  EXPECT_EQ(*facts.gravity, Vec3(3.8, -9, 0));
+  EXPECT_EQ(*facts.step, 1e-5);
+  EXPECT_EQ(*facts.units, "si");
+  EXPECT_TRUE(*facts.discs);
+  for (const char* line :
+       {"# gravity: 9.8\n", "# step: -1\n", "# units: feet\n", "# grains: cubes\n"})
+    EXPECT_THROW(open(line), FormatError) << line;
+}
+
+TEST_F(Csv, AColumnThatIsMissingIsAskedForByMap)
+{
+  EXPECT_NE(
+      complaint("time,id,x,y,vx\n", contact_table).find("no column vy among 'time id x y vx'"),
+      std::string::npos)
+      << complaint("time,id,x,y,vx\n", contact_table);
+  EXPECT_NE(complaint(grain_table, "time,a,j,fx,fy\n")
+                .find("no column i or id1 among 'time a j fx fy'"
+                      "; --map NAME=i tells which it is"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -139,8 +139,8 @@ TEST(NamedSpecies, AreNamedWhereSizesAreNotTwo)
   SpeciesSettings settings;
   settings.boundary = "6";
   const auto said = complaint(settings);
-  EXPECT_TRUE(mentions(said, "any number with --species NAME=TYPES"));
-  EXPECT_TRUE(mentions(said, "as one with --species NAME=all"));
+  EXPECT_TRUE(mentions(said, "--species type1=1 --species type2=2"));
+  EXPECT_TRUE(mentions(said, "or --species grains=all"));
 }
 
 TEST(NamedSpecies, AreInTheFileInOrderWithTheirNominalDiametersInMetres)

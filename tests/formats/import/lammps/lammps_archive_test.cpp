@@ -104,7 +104,8 @@ TEST_F(Lammps, FewerThanTheTenColumnsNeedAMapping)
   auto s = settings(folder, grains_at(0),
                     block("ENTRIES", 0, "index a b c d", {"1 4 7 0 0", "2 7 9 0 0"}));
   EXPECT_EQ(refusal(s).code, exit_usage);
-  EXPECT_TRUE(mentions(refusal(s).sentence, "give it with --columns, as in i=2,j=3"));
+  EXPECT_TRUE(mentions(refusal(s).sentence,
+                       "--columns MAP  (they are index a b c d; as in i=2,j=3,dist=4"));
 }
 
 TEST_F(Lammps, ColumnsMayBeGivenByNameAndOneByOne)
@@ -327,7 +328,7 @@ TEST_F(Lammps, DimensionlessUnitsMustBeGiven)
 {
   auto s = settings(folder, "ITEM: UNITS\nlj\n" + grains_at(0), contacts_at(0));
   s.units.reset();
-  EXPECT_TRUE(mentions(refusal(s).sentence, "units lj: give them in m, s and kg"));
+  EXPECT_TRUE(mentions(refusal(s).sentence, "its units lj are: --units LENGTH:TIME:MASS"));
   s.units = "0.5:0.1:2";
   const auto frame = frame_of(s);
   EXPECT_NEAR(frame.position[1].y(), 0.005 * 0.5, 1e-17);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/common/file_start.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
+#include "formats/import/common/text_source.hpp"
+#include "formats/trajectory/hdf5.hpp"
+
+#include <filesystem>
+
+namespace grseg {
+
+FileStart read_start(const std::string& path)
+{
+  require_file(path);
+  FileStart start{std::filesystem::path(path).filename().string(), {}, {}};
+  if (H5Fis_hdf5(path.c_str()) > 0) {
+    start.groups = hdf5::names_in(hdf5::open_for_reading(path), "/");
+    return start;
+  }
+  constexpr std::size_t most = 20;
+  try {
+    TextSource text({path});
+    while (start.lines.size() < most && text.next()) start.lines.emplace_back(text.line());
+  } catch (const FormatError&) {  // not a text, or damaged: told when it is read
+  }
+  return start;
+}
+
+}  // namespace grseg

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/proposed_files.hpp"
+
+#include "formats/import/common/file_list.hpp"
+#include "formats/import/common/file_start.hpp"
+#include "formats/import/open_archive.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace grseg {
+namespace {
+
+/// Files by what they hold for one format.
+struct Roles {
+  std::vector<std::string> grains, contacts, restart;
+};
+
+/// None where the format does not know one of the files, or none of them holds grains.
+std::optional<Roles> roles_for(const ArchiveFormat& format, const std::vector<std::string>& paths,
+                               const std::vector<FileStart>& starts)
+{
+  Roles roles;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const auto role = format.role(starts[k]);
+    if (role == FileRole::none) return std::nullopt;
+    (role == FileRole::grains     ? roles.grains
+     : role == FileRole::contacts ? roles.contacts
+                                  : roles.restart)
+        .push_back(paths[k]);
+  }
+  if (roles.grains.empty() && roles.restart.empty()) return std::nullopt;
+  return roles;
+}
+
+/// One name stands for many: atoms.*.dump for atoms.100.dump atoms.200.dump.
+std::string pattern_of(const std::vector<std::string>& names)
+{
+  const auto& first = names.front();
+  std::size_t head = first.size(), tail = first.size();
+  for (const auto& name : names) {
+    const auto same = std::mismatch(first.begin(), first.end(), name.begin(), name.end()).first;
+    head = std::min(head, static_cast<std::size_t>(same - first.begin()));
+    const auto from_end =
+        std::mismatch(first.rbegin(), first.rend(), name.rbegin(), name.rend()).first;
+    tail = std::min(tail, static_cast<std::size_t>(from_end - first.rbegin()));
+  }
+  const auto is_digit = [&](std::size_t k) {
+    return std::isdigit(static_cast<unsigned char>(first[k])) != 0;
+  };
+  while (head > 0 && is_digit(head - 1)) --head;
+  while (tail > 0 && is_digit(first.size() - tail)) --tail;
+  return first.substr(0, head) + "*" + first.substr(first.size() - tail);
+}
+
+std::string in_shell(const std::string& name)
+{
+  const bool plain = name.find_first_of(" \t\n'\"\\$*?[]&;|<>()`!#~") == std::string::npos;
+  return plain ? name : "'" + name + "'";
+}
+
+/// As on a command line: the names, or, where there are many, a pattern.
+std::string listed(const std::vector<std::string>& names)
+{
+  constexpr std::size_t many = 4;
+  if (names.size() >= many) return in_shell(pattern_of(names));
+  std::vector<std::string> quoted;
+  for (const auto& name : names) quoted.push_back(in_shell(name));
+  return fmt::format("{}", fmt::join(quoted, " "));
+}
+
+/// The first format that knows all files; the one that was named, if any.
+const ArchiveFormat* recognize(const std::string& named, const std::vector<std::string>& paths,
+                               Roles& roles)
+{
+  if (paths.empty()) return nullptr;
+  std::vector<FileStart> starts;
+  for (const auto& path : paths) {
+    starts.push_back(read_start(path));
+    const auto& groups = starts.back().groups;
+    if (std::find(groups.begin(), groups.end(), "h5md") != groups.end())
+      throw UsageError(fmt::format(
+          "{} is a trajectory of grseg already; grseg-stress and the other tools read it as it is",
+          path));
+  }
+  for (const auto* format : archive_formats()) {
+    if (!named.empty() && named != format->name) continue;
+    if (const auto found = roles_for(*format, paths, starts)) {
+      roles = *found;
+      return format;
+    }
+  }
+  return nullptr;
+}
+
+/// One of many files is enough to see what they are.
+std::vector<std::string> samples_of(const ArchiveFiles& files)
+{
+  std::vector<std::string> names = files.unnamed;
+  for (const auto* list : {&files.grains, &files.contacts})
+    if (!list->empty()) names.push_back(archive_files(*list, "--grains").front());
+  if (!files.restart.empty()) names.push_back(archive_files({files.restart}, "--restart").front());
+  return names;
+}
+
+std::string known_formats()
+{
+  std::vector<std::string> names;
+  for (const auto* format : archive_formats()) names.emplace_back(format->name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+bool needs_contacts(const ImportSettings& settings)
+{
+  const auto formats = archive_formats();
+  const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto* known) {
+    return settings.format == known->name;
+  });
+  return format == formats.end() || ((*format)->takes_contacts && settings.files.restart.empty());
+}
+
+bool names_all_files(const ImportSettings& settings)
+{
+  const auto& files = settings.files;
+  return !settings.format.empty() && files.unnamed.empty() &&
+         (!files.grains.empty() || !files.restart.empty()) &&
+         (!files.contacts.empty() || !needs_contacts(settings));
+}
+
+/// Asks for files that were not given an option, and takes what is proposed.
+void take(std::vector<std::string>& place, const std::vector<std::string>& found,
+          const Question& question, Questions& questions)
+{
+  if (!place.empty() || found.empty()) return;
+  questions.ask({question.what, question.option + " " + listed(found), question.reason});
+  place = found;
+}
+
+/// What cannot be proposed. Without it nothing can be read.
+void ask_for_the_rest(const ImportSettings& settings, Questions& questions)
+{
+  const auto& files = settings.files;
+  if (files.grains.empty() && files.restart.empty())
+    questions.ask({"the files with the grains", "--grains FILES", ""});
+  if (files.contacts.empty() && needs_contacts(settings))
+    questions.ask({"the files with the contacts", "--contacts FILES", ""});
+  if (!names_all_files(settings)) questions.report();
+}
+
+}  // namespace
+
+ImportSettings with_proposed_files(const ImportSettings& settings, Questions& questions)
+{
+  auto proposed = settings;
+  if (settings.output.empty()) questions.ask({"the trajectory to write", "-o run.h5", ""});
+  if (!settings.format.empty()) require_format(settings.format);
+  if (names_all_files(settings)) return proposed;
+
+  auto& files = proposed.files;
+  Roles roles;
+  const auto* format = recognize(settings.format, samples_of(files), roles);
+  if (settings.format.empty())
+    questions.ask({"the program that wrote it",
+                   fmt::format("--format {}", format == nullptr ? "NAME" : format->name),
+                   format == nullptr ? known_formats() : "by the look of its files"});
+  if (format != nullptr) {
+    proposed.format = format->name;
+    take(files.grains, roles.grains, {"the files with the grains", "--grains", ""}, questions);
+    if (format->takes_contacts)
+      take(files.contacts, roles.contacts, {"the files with the contacts", "--contacts", ""},
+           questions);
+    std::vector<std::string> restart;
+    if (files.restart.empty())
+      take(restart, roles.restart, {"the restart file", "--restart", ""}, questions);
+    if (!restart.empty()) files.restart = restart.front();
+    files.unnamed.clear();
+  }
+  ask_for_the_rest(proposed, questions);
+  return proposed;
+}
+
+}  // namespace grseg

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/facts/proposals.hpp"
+
+#include "formats/import/facts/dimension.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <unordered_map>
+
+namespace grseg {
+namespace {
+
+bool is_at_rest(const ArchiveGrains& grains, std::size_t g)
+{
+  return g < grains.velocity.size() && grains.velocity[g].isZero(0);
+}
+
+/// The sum of the contact forces on every grain.
+std::vector<Vec3> contact_sums(const ArchiveMoment& moment)
+{
+  std::unordered_map<std::int64_t, std::size_t> row;
+  for (std::size_t g = 0; g < moment.grains.size(); ++g) row[moment.grains.id[g]] = g;
+  std::vector<Vec3> sum(moment.grains.size(), Vec3::Zero());
+  const auto& contacts = moment.contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (const auto i = row.find(contacts.i[c]); i != row.end()) sum[i->second] += contacts.force[c];
+    if (!contacts.wall.empty() && contacts.wall[c] >= 0) continue;
+    if (const auto j = row.find(contacts.j[c]); j != row.end()) sum[j->second] -= contacts.force[c];
+  }
+  return sum;
+}
+
+double median(std::vector<double>& values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The grains of one type.
+struct OfType {
+  std::size_t count = 0, resting = 0;
+  double low = INFINITY, high = 0;  // diameters
+};
+
+std::map<std::int32_t, OfType> types_of(const ArchiveGrains& grains,
+                                        const std::vector<bool>& resting)
+{
+  std::map<std::int32_t, OfType> types;
+  for (std::size_t g = 0; g < grains.type.size(); ++g) {
+    auto& of = types[grains.type[g]];
+    ++of.count;
+    of.resting += !resting.empty() && resting[g] ? 1 : 0;
+    of.low = std::min(of.low, 2 * grains.radius[g]);
+    of.high = std::max(of.high, 2 * grains.radius[g]);
+  }
+  return types;
+}
+
+std::string range_in_words(double low, double high)
+{
+  const auto first = fmt::format("{:.4g}", low), last = fmt::format("{:.4g}", high);
+  return first == last ? first : first + " to " + last;
+}
+
+/// "type 1: 300 grains of diameters 0.9 to 1.1"
+std::string in_words(const std::map<std::int32_t, OfType>& types)
+{
+  constexpr std::size_t most = 8;
+  std::vector<std::string> parts;
+  for (const auto& [type, of] : types) {
+    parts.push_back(fmt::format("type {}: {} grain{}, {} wide{}", type, of.count,
+                                of.count == 1 ? "" : "s", range_in_words(of.low, of.high),
+                                of.resting == of.count ? ", at rest" : ""));
+    if (parts.size() < most || types.size() == most) continue;
+    parts.push_back(fmt::format("{} types in all", types.size()));
+    break;
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// "1-35,70", if there are not too many ranges.
+std::string ids_at_rest(const ArchiveGrains& grains, const std::vector<bool>& resting)
+{
+  constexpr std::size_t most_ranges = 12;
+  std::vector<std::int64_t> ids;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (resting[g]) ids.push_back(grains.id[g]);
+  std::sort(ids.begin(), ids.end());
+  std::vector<std::string> ranges;
+  for (std::size_t k = 0; k < ids.size();) {
+    const auto first = ids[k];
+    while (k + 1 < ids.size() && ids[k + 1] == ids[k] + 1) ++k;
+    ranges.push_back(first == ids[k] ? fmt::format("{}", first)
+                                     : fmt::format("{}-{}", first, ids[k]));
+    ++k;
+  }
+  return ranges.size() > most_ranges ? "" : fmt::format("{}", fmt::join(ranges, ","));
+}
+
+}  // namespace
+
+std::vector<bool> resting_grains(const ArchiveGrains& first, const ArchiveGrains* later)
+{
+  std::unordered_map<std::int64_t, std::size_t> row;
+  for (std::size_t g = 0; later != nullptr && g < later->size(); ++g) row[later->id[g]] = g;
+  std::vector<bool> resting(first.size());
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < first.size(); ++g) {
+    resting[g] = is_at_rest(first, g);
+    if (const auto at = row.find(first.id[g]); resting[g] && at != row.end())
+      resting[g] =
+          is_at_rest(*later, at->second) && first.position[g] == later->position[at->second];
+    count += resting[g] ? 1 : 0;
+  }
+  if (count == first.size()) resting.clear();
+  return resting;
+}
+
+std::optional<Vec3> suggested_gravity(const ArchiveMoment& moment, const std::vector<double>& mass,
+                                      const std::vector<bool>& resting)
+{
+  const auto& grains = moment.grains;
+  if (grains.force.empty() || !moment.questions.empty() || mass.empty()) return std::nullopt;
+  const auto sum = contact_sums(moment);
+  std::array<std::vector<double>, 3> values;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if ((!resting.empty() && resting[g]) || !(mass[g] > 0)) continue;
+    const Vec3 weight = (grains.force[g] - sum[g]) / mass[g];
+    for (std::size_t k = 0; k < 3; ++k) values[k].push_back(weight[static_cast<int>(k)]);
+  }
+  if (values[0].empty()) return std::nullopt;
+  Vec3 gravity(median(values[0]), median(values[1]), median(values[2]));
+  constexpr double negligible = 1e-3;
+  for (double& component : gravity)
+    if (std::abs(component) < negligible * gravity.norm()) component = 0;
+  if (!gravity.allFinite() || gravity.isZero(0)) return std::nullopt;
+  return gravity;
+}
+
+std::string gravity_option(const Vec3& gravity)
+{
+  return fmt::format("{:.6g},{:.6g},{:.6g}", gravity.x(), gravity.y(), gravity.z());
+}
+
+Question question_of_base(const ArchiveGrains& grains, const std::vector<bool>& resting)
+{
+  const bool has_types = !grains.type.empty();
+  Question question{"which grains are the base",
+                    has_types ? "--boundary TYPES" : "--boundary-ids IDS", "or --boundary none"};
+  if (has_types) question.reason += "; " + in_words(types_of(grains, resting));
+  if (resting.empty()) return question;
+  question.option = "--boundary none";
+  if (has_types) {
+    std::vector<std::int32_t> types;
+    for (const auto& [type, of] : types_of(grains, resting))
+      if (of.resting == of.count) types.push_back(type);
+    if (!types.empty()) question.option = fmt::format("--boundary {}", fmt::join(types, ","));
+    question.reason = in_words(types_of(grains, resting));
+  } else if (const auto ids = ids_at_rest(grains, resting); !ids.empty()) {
+    question.option = "--boundary-ids " + ids;
+    question.reason = "they are at rest, others are not";
+  } else {
+    question.reason = "or --boundary-ids IDS";
+  }
+  return question;
+}
+
+Question question_of_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
+                             const std::string& diameters)
+{
+  Question question{"how species are told apart", "--species grains=all",
+                    "all as one; diameters are " + diameters +
+                        "; or --small TYPES --large TYPES, --split-diameter D, or --species "
+                        "NAME=TYPES for each"};
+  std::vector<std::int32_t> mobile;
+  for (std::size_t g = 0; g < grains.type.size(); ++g)
+    if (!boundary[g]) mobile.push_back(grains.type[g]);
+  std::sort(mobile.begin(), mobile.end());
+  mobile.erase(std::unique(mobile.begin(), mobile.end()), mobile.end());
+  if (mobile.size() < 2 || mobile.size() > 20) return question;
+  question.option.clear();
+  for (const auto type : mobile)
+    question.option +=
+        fmt::format("{}--species type{}={}", question.option.empty() ? "" : " ", type, type);
+  question.reason = in_words(types_of(grains, {})) + "; or --species grains=all";
+  return question;
+}
+
+std::optional<Question> question_of_axes(const ArchiveGrains& grains, bool in_space,
+                                         const std::optional<Vec3>& gravity)
+{
+  const auto plane = in_space ? "" : plane_of(grains);
+  if (!plane.empty()) {
+    if (plane == "xy") return std::nullopt;
+    return Question{"the axes of the flow", "--axes " + plane,
+                    "along the base, away from it; the grains lie in this plane"};
+  }
+  if (!gravity) return std::nullopt;
+  int normal = 0;
+  gravity->cwiseAbs().maxCoeff(&normal);
+  if (normal == 1) return std::nullopt;
+  return Question{"the axes of the flow", normal == 2 ? "--axes xz" : "--axes yx",
+                  "along the base, away from it; gravity is nearest to the second"};
+}
+
+}  // namespace grseg

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/csv/csv_archive.hpp"
+#include "tests/formats/import/archive_balance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+/// Tables that scripts/archives/yade_export.py wrote, beside what YADE itself says.
+namespace grseg {
+namespace {
+
+using namespace archive_balance;
+
+const std::string inputs = GRSEG_TEST_INPUTS "/yade/";
+
+std::unique_ptr<Archive> open(const std::string& name)
+{
+  ArchiveFiles files;
+  files.grains = {inputs + name + "-grains.csv.gz"};
+  files.contacts = {inputs + name + "-contacts.csv.gz"};
+  return open_csv(files);
+}
+
+/// Rows of `columns` numbers behind a time.
+std::map<double, std::vector<double>> rows_of(const std::string& name, std::size_t columns)
+{
+  std::ifstream file(inputs + name);
+  std::map<double, std::vector<double>> rows;
+  for (double time = 0; file >> time;) {
+    auto& row = rows[time];
+    row.resize(columns);
+    for (auto& number : row) file >> number;
+  }
+  return rows;
+}
+
+TEST(YadeArchive, StressOfAPeriodicChuteIsYadesOwn)
+{
+  const auto own = rows_of("chute-stress.csv", 9);
+  const auto archive = open("chute");
+  std::size_t moments = 0;
+  for (const auto& moment : all_of(*archive)) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (std::size_t c = 0; c < moment.contacts.size(); ++c)
+      sum += moment.contacts.force[c] * moment.contacts.branch[c].transpose();
+    const auto& row = own.at(*moment.time);
+    Eigen::Matrix3d yades;
+    yades << row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7], row[8];
+    // Of its cell of 8 x 6 x 40, tension positive.
+    EXPECT_LT((sum / (8 * 6 * 40) + yades).norm(), 1e-13 * yades.norm());
+    EXPECT_LT(residual(moment, *archive->facts().gravity), 1e-13);
+    EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, true, false}));
+    ++moments;
+  }
+  EXPECT_EQ(moments, 6u);
+}
+
+TEST(YadeArchive, BoundsOfABoxAreWallsWithTheForcesThatYadeSums)
+{
+  const auto own = rows_of("box-walls.csv", 21);
+  const auto archive = open("box");
+  const auto moments = all_of(*archive);
+  const double g = archive->facts().gravity->norm();
+  std::set<std::size_t> counts;
+  for (const auto& moment : moments) {
+    const auto& contacts = moment.contacts;
+    std::vector<Vec3> felt(7, Vec3::Zero());  // the floor, two boxes, four facets
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      if (at_wall(contacts, c))
+        felt.at(static_cast<std::size_t>(contacts.wall[c])) -= contacts.force[c];
+    const auto& row = own.at(*moment.time);
+    for (std::size_t w = 0; w < 7; ++w)
+      EXPECT_LT((felt[w] - Vec3(row[3 * w], row[3 * w + 1], row[3 * w + 2])).norm(), 1e-13);
+    EXPECT_LT(residual(moment, *archive->facts().gravity), 1e-13);
+    counts.insert(moment.grains.size());
+  }
+  EXPECT_GT(counts.size(), 3u) << "it is being filled";
+
+  double weight = 0, carried = 0;  // in the end it rests, up to what still trembles
+  for (const double mass : moments.back().grains.mass) weight += mass * g;
+  for (std::size_t c = 0; c < moments.back().contacts.size(); ++c)
+    if (at_wall(moments.back().contacts, c)) carried += moments.back().contacts.force[c].z();
+  EXPECT_NEAR(carried / weight, 1, 0.01);
+}
+
+TEST(YadeArchive, BranchesAtWallsEndOnThem)
+{
+  for (const auto& moment : all_of(*open("box"))) {
+    const auto entry = entries(moment.grains);
+    for (std::size_t c = 0; c < moment.contacts.size(); ++c) {
+      if (!at_wall(moment.contacts, c)) continue;
+      const auto& contacts = moment.contacts;
+      const auto i = entry.at(contacts.i[c]);
+      const Vec3 point = moment.grains.position[i] - contacts.branch[c];
+      const double away[] = {point.z(), point.x(),        point.x() - 0.06, point.y(),
+                             point.y(), point.y() - 0.06, point.y() - 0.06};
+      EXPECT_NEAR(away[contacts.wall[c]], 0, 1e-15);
+      EXPECT_NEAR(contacts.branch[c].norm(), moment.grains.radius[i] - contacts.overlap[c], 1e-15);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grseg

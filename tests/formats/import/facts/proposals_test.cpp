@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/facts/proposals.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+/// Three grains of mass 2 in one column, along y: the lowest, of type 3, is held; what is above
+/// rests, or falls, in a gravity of (1, -4, 0).
+ArchiveMoment column(const Vec3& acceleration)
+{
+  const Vec3 gravity(1, -4, 0);
+  constexpr double mass = 2;
+  ArchiveMoment moment;
+  auto& grains = moment.grains;
+  grains.id = {11, 12, 13};
+  grains.type = {3, 1, 1};
+  grains.radius = {0.5, 0.5, 0.5};
+  grains.mass = {mass, mass, mass};
+  grains.position = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
+  grains.velocity = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0, 0}};
+  const Vec3 force = mass * acceleration, carried = force - mass * gravity;
+  grains.force = {{7, 7, 7}, force, force};
+  auto& contacts = moment.contacts;
+  contacts.i = {12, 12};
+  contacts.j = {11, 13};
+  contacts.force = {2 * carried, -carried};
+  return moment;
+}
+
+const std::vector<double> masses{2, 2, 2};
+
+TEST(Proposals, GravityIsWhatContactsDoNotExplainOfTheForcesOnMovingGrains)
+{
+  for (const Vec3& acceleration : {Vec3(0, 0, 0), Vec3(0.3, 2, -1)}) {
+    const auto moment = column(acceleration);
+    const auto gravity = suggested_gravity(moment, masses, resting_grains(moment.grains, nullptr));
+    ASSERT_TRUE(gravity);
+    EXPECT_NEAR((*gravity - Vec3(1, -4, 0)).norm(), 0, 1e-14);
+    EXPECT_EQ(gravity_option(*gravity), "1,-4,0");
+  }
+}
+
+TEST(Proposals, GravityIsNotKnownWithoutForcesOnGrainsMassesOrTheMeaningOfColumns)
+{
+  auto moment = column({0, 0, 0});
+  EXPECT_FALSE(suggested_gravity(moment, {}, {}));
+  moment.grains.force.clear();
+  EXPECT_FALSE(suggested_gravity(moment, masses, {}));
+  moment = column({0, 0, 0});
+  moment.contacts = {};
+  moment.questions.push_back({"what the 5 columns mean", "--columns MAP", ""});
+  EXPECT_FALSE(suggested_gravity(moment, masses, {}));
+}
+
+TEST(Proposals, TheBaseIsWhatNeverMovesWhileOtherGrainsDo)
+{
+  const auto first = column({0, 0, 0}).grains;
+  auto question = question_of_base(first, resting_grains(first, nullptr));
+  EXPECT_EQ(question.option, "--boundary 3");
+  EXPECT_EQ(question.reason, "type 1: 2 grains, 1 wide; type 3: 1 grain, 1 wide, at rest");
+
+  auto without_types = first;
+  without_types.type.clear();
+  question = question_of_base(without_types, resting_grains(without_types, nullptr));
+  EXPECT_EQ(question.option, "--boundary-ids 11");
+
+  auto later = first;
+  later.position[0].x() = 0.1;  // at rest by chance
+  question = question_of_base(first, resting_grains(first, &later));
+  EXPECT_EQ(question.option, "--boundary none");
+}
+
+TEST(Proposals, TheBaseIsNotKnownWhereNothingMoves)
+{
+  auto grains = column({0, 0, 0}).grains;
+  for (auto& v : grains.velocity) v.setZero();
+  EXPECT_EQ(question_of_base(grains, resting_grains(grains, nullptr)).option, "--boundary TYPES");
+}
+
+TEST(Proposals, TheNormalOfAFlowInSpaceIsTheAxisNearestToGravity)
+{
+  ArchiveGrains grains;
+  grains.id = {1, 2, 3, 4};
+  grains.radius = {0.5, 0.5, 0.5, 0.5};
+  grains.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_FALSE(question_of_axes(grains, false, Vec3(3, -9, 0)));
+  EXPECT_EQ(question_of_axes(grains, false, Vec3(3, 0, -9))->option, "--axes xz");
+  EXPECT_EQ(question_of_axes(grains, false, Vec3(-9, 3, 0))->option, "--axes yx");
+  EXPECT_FALSE(question_of_axes(grains, false, std::nullopt));
+}
+
+TEST(Proposals, TheAxesOfAPlaneFlowAreThoseOfItsPlane)
+{
+  ArchiveGrains grains;
+  grains.id = {1, 2, 3};
+  grains.radius = {0.5, 0.5, 0.5};
+  grains.position = {{0, 3, 0}, {1, 3, 0}, {0, 3, 1}};
+  EXPECT_EQ(question_of_axes(grains, false, std::nullopt)->option, "--axes xz");
+  EXPECT_FALSE(question_of_axes(grains, true, std::nullopt));
+  for (auto& x : grains.position) std::swap(x.y(), x.z());
+  EXPECT_FALSE(question_of_axes(grains, false, std::nullopt));
+}
+
+}  // namespace
+}  // namespace grseg
