@@ -3,6 +3,7 @@
 
 #include "analysis/frames/layer_key.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/table.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
@@ -17,6 +18,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <thread>
 #include <utility>
@@ -129,7 +132,13 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
       windows_(cut_into_windows(times_of(run_), options.windows)),
       progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
 {
-  options.output.check(values);
+  options.parts.check(options.output.path);
+  if (const auto& part = options.parts.part) {
+    if (options.json)
+      throw UsageError(fmt::format("--part {} makes a table; give --json to --join", part->text()));
+    options_.output.path = part->path(options.output.path, ".tsv");
+  }
+  options_.output.check(values);
   if (options.threads < 0 || options.threads > 1024)
     throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", options.threads));
   if (options.threads == 0)
@@ -146,6 +155,15 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
     check_map_file(options.output, {run_.path()});
   }
   if (plane) with_dimension(dimension(), [&](auto d) { layers_ = map_of<d>(*plane); });
+}
+
+std::span<const Window> FrameLoop::windows() const
+{
+  const std::span all(windows_);
+  if (options_.parts.join > 0) return {};
+  if (!options_.parts.part) return all;
+  const auto [begin, end] = options_.parts.part->range(all.size());
+  return all.subspan(begin, end - begin);
 }
 
 template <int D>
@@ -179,11 +197,12 @@ void FrameLoop::require_two_species() const
 template <int D>
 void FrameLoop::read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields)
 {
+  TrajectoryReader::Packed packed;
   {
     const std::lock_guard lock(reading_);
-    run_.load(index, frame, fields);
+    packed = run_.load(index, frame, fields);
   }
-  run_.verify(index, frame, fields);
+  run_.unpack(packed, frame);
 }
 
 template void FrameLoop::read(std::size_t, Frame<2>&, TrajectoryReader::Fields);
@@ -297,11 +316,60 @@ std::vector<double> FrameLoop::bed_row(const Window& window, double height,
       values);
 }
 
+namespace {
+
+/// What the header of a part of a table has more than that of the whole.
+HeaderLine part_line(const OutputPart& part)
+{
+  return {"part", part.text()};
+}
+
+/// The part of `table`, which has no rows, in the file `path`.
+Table read_part(const Table& table, const OutputPart& part, const std::string& path)
+{
+  const auto remedy =
+      fmt::format("make it with this command and --part {} in place of --join", part.text());
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw UsageError(fmt::format("{} is missing; {}", path, remedy));
+  auto expected = table;
+  expected.header.push_back(part_line(part));
+  expected = Table::parse(expected.to_text(), path);
+  auto found = Table::read(path);
+  const auto [ours, theirs] = std::mismatch(expected.header.begin(), expected.header.end(),
+                                            found.header.begin(), found.header.end());
+  const auto line = [](auto at, auto end) {
+    return at == end ? "no line there" : fmt::format("'# {}: {}'", at->first, at->second);
+  };
+  if (ours != expected.header.end() || theirs != found.header.end())
+    throw FormatError(fmt::format("{}: is a part of another table, with {} where this has {}; {}",
+                                  path, line(theirs, found.header.end()),
+                                  line(ours, expected.header.end()), remedy));
+  if (expected.columns != found.columns)
+    throw FormatError(fmt::format("{}: has other columns than this table; {}", path, remedy));
+  return found;
+}
+
+}  // namespace
+
+Table FrameLoop::joined(const Table& table) const
+{
+  auto all = table;
+  for (std::size_t k = 1; k <= options_.parts.join; ++k) {
+    const OutputPart part{k, options_.parts.join};
+    auto rows = read_part(table, part, part.path(options_.output.path, ".tsv")).rows;
+    std::move(rows.begin(), rows.end(), std::back_inserter(all.rows));
+  }
+  return all;
+}
+
 void FrameLoop::write(const Table& table) const
 {
+  auto whole = options_.parts.join > 0 ? joined(table) : table;
+  if (options_.parts.part) whole.header.push_back(part_line(*options_.parts.part));
   if (is_map_file(options_.output.path))
-    return write_map_file(table, options_.output, {run_.path()});
-  write_whole(options_.output, options_.json ? table.to_json() : table.to_text());
+    return write_map_file(whole, options_.output, {run_.path()});
+  write_whole(options_.output, options_.json ? whole.to_json() : whole.to_text());
 }
 
 }  // namespace grseg

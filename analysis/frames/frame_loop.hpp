@@ -6,6 +6,7 @@
 #include "analysis/frames/layers.hpp"
 #include "analysis/frames/windows.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/part.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/cli/verification.hpp"
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -31,12 +33,15 @@ struct FrameOptions {
   bool json = false, quiet = false;
   TrustOption trust;
   GroupingOptions grouping;
+  PartOptions parts;
 
   /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
   /// --quiet --group --classes --edges.
   void add_to(po::options_description& options);
   /// Adds --bins, for tools that also know annuli and maps.
   void add_bins_to(po::options_description& options);
+  /// Adds --part and --join, for tools whose table has rows of one window each.
+  void add_parts_to(po::options_description& options) { parts.add_to(options); }
   bool annuli() const { return bins.starts_with("radius"); }
   /// The plane of a map, where --bins names one.
   std::optional<MapPlane> map() const;
@@ -60,7 +65,8 @@ class FrameLoop {
   /// UsageError with the remedy unless these are two.
   void require_two_species() const;
   const Layers& layers() const { return layers_; }
-  const std::vector<Window>& windows() const { return windows_; }
+  /// Those to sum over: all, or those of --part; none with --join, whose rows `write` has.
+  std::span<const Window> windows() const;
 
   /// Sums over the frames of a window. Each of `empty`, accumulators without frames, is returned
   /// with all frames added:
@@ -96,6 +102,8 @@ class FrameLoop {
   template <int D>
   void read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields);
   void report_progress(const Window& window);
+  /// The table with the rows of all parts.
+  Table joined(const Table& table) const;
   /// The cells that hold the grains of all windows, whose frames are read for that.
   template <int D>
   Layers map_of(MapPlane plane);

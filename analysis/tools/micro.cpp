@@ -60,6 +60,7 @@ po::options_description options_into(Settings& s)
   s.derivation.add_to(options);
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
+  s.frames.add_parts_to(options);
   return options;
 }
 
@@ -181,8 +182,10 @@ int main(int argc, char** argv)
   const auto options = options_into(settings);
   return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
     const auto command = command_line(argc, argv);
-    if (settings.derived)
+    if (settings.derived) {
+      refuse_options(values, {"part", "join"}, "makes parts of sums, which --derived reads whole");
       return write_derived_table(info, values, settings.derivation, settings.frames, command);
+    }
     refuse_options(values, {"force", "average", "partition", "pool", "depth", "heights"},
                    "needs --derived and a table of sums");
     if (settings.distribution) {

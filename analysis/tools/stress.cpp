@@ -58,6 +58,7 @@ po::options_description options_into(Settings& s)
                         "with --merge: of all windows together");
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
+  s.frames.add_parts_to(options);
   return options;
 }
 

@@ -47,8 +47,8 @@ Header trust_of(const std::vector<Table>& tables)
   auto verified = header_values(tables, "verified");
   if (verified.size() > 1) std::erase(verified, "all");
   for (auto& value : verified) lines.emplace_back("verified", std::move(value));
-  for (auto& value : header_values(tables, "incomplete"))
-    lines.emplace_back("incomplete", std::move(value));
+  for (const char* key : {"incomplete", "undecided", "waived"})
+    for (auto& value : header_values(tables, key)) lines.emplace_back(key, std::move(value));
   return lines;
 }
 

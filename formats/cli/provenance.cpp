@@ -58,7 +58,8 @@ Header settings_of(const Table& table)
   Header settings = table.header;
   std::erase_if(settings, [](const HeaderLine& line) {
     return line.first == "program" || line.first == "history" || line.first == "input" ||
-           line.first == "verified" || line.first == "incomplete";
+           line.first == "verified" || line.first == "incomplete" || line.first == "undecided" ||
+           line.first == "waived";
   });
   return settings;
 }

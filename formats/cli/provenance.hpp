@@ -17,6 +17,8 @@
 ///   input     digest of the content of each run the table was made of
 ///   verified  "all", or what of the inputs could not be verified
 ///   incomplete  which run had not ended
+///   undecided   a check of an import that could not be told from the archive: "check: why"
+///   waived      a check of an import that had failed or was undecided, and was accepted: likewise
 namespace grseg {
 
 using HeaderLine = std::pair<std::string, std::string>;

@@ -78,7 +78,8 @@ std::string Table::to_json() const
   for (const auto& [key, value] : header) {
     if (key == "input")
       all["inputs"].push_back(printable(value));
-    else if (key == "history" || key == "verified" || key == "incomplete")
+    else if (key == "history" || key == "verified" || key == "incomplete" || key == "undecided" ||
+             key == "waived")
       all[key].push_back(printable(value));
     else
       all["settings"][key] = printable(value);

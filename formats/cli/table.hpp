@@ -35,7 +35,8 @@ class Table {
 
   std::string to_text() const;
   /// {"columns": [...], "rows": [[...], ...], "settings": {...}, "inputs": [...], "history":
-  /// [...]}; NaN becomes null. Where the header says so, also "verified" and "incomplete".
+  /// [...]}; NaN becomes null. Where the header says so, also "verified", "incomplete", "undecided"
+  /// and "waived".
   std::string to_json() const;
 
   /// From a file, or from standard input where `path` is "-". UsageError where it is missing,

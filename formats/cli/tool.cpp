@@ -160,8 +160,11 @@ std::string command_line(int argc, char** argv)
   std::string line = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "";
   for (int k = 1; k < argc; ++k) {
     const std::string word = argv[k];
-    if (word == "--threads") ++k;
-    if (word.starts_with("--threads")) continue;
+    const auto name = word.substr(0, word.find('='));
+    if (name == "--threads" || name == "--part" || name == "--join") {
+      if (name == word) ++k;
+      continue;
+    }
     const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$*") == std::string::npos;
     line += plain ? " " + word : " '" + word + "'";
   }

@@ -41,8 +41,8 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
 /// The preset that was given, or "none".
 std::string preset_of(const po::variables_map& values);
 
-/// The command line as typed, but with the program's bare name and without --threads, on which no
-/// output depends: a line of the history.
+/// The command line as typed, but with the program's bare name and without --threads, --part and
+/// --join, on which no output depends: a line of the history.
 std::string command_line(int argc, char** argv);
 
 /// The single run on the command line. UsageError where it names no run or several; `remedy` then

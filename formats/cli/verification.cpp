@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/verification.hpp"
 
+#include "formats/core/text.hpp"
+
 #include <fmt/format.h>
 
+#include <sstream>
+#include <string>
+
 namespace grseg {
+namespace {
+
+/// A header line for each line of a parameter.
+void add_lines(Header& header, const char* key, const TrajectoryReader& run, const char* parameter)
+{
+  std::istringstream lines(run.parameters().text(parameter));
+  for (std::string line; std::getline(lines, line);) header.emplace_back(key, printable(line));
+}
+
+}  // namespace
 
 void TrustOption::add_to(po::options_description& options)
 {
@@ -21,6 +36,8 @@ Header verification_lines(const TrajectoryReader& run)
             ? std::string("the run had not ended, and had no frame")
             : fmt::format("the run had not ended; it had {} frames, the last at {:.9g} s",
                           run.size(), run.times().back()));
+  add_lines(lines, "undecided", run, "import_undecided");
+  add_lines(lines, "waived", run, "import_waived");
   return lines;
 }
 

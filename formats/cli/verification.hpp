@@ -15,8 +15,8 @@ struct TrustOption {
   Verify verify() const { return trust ? Verify::no : Verify::yes; }
 };
 
-/// The header lines of what was made of `run`: `verified`, what of it was compared with digests, and
-/// `incomplete` where the run had not ended.
+/// The header lines of what was made of `run`: `verified`, what of it was compared with digests,
+/// `incomplete` where the run had not ended, and of an import `undecided` and `waived`.
 Header verification_lines(const TrajectoryReader& run);
 
 }  // namespace grseg

@@ -42,8 +42,7 @@ void check(const ImportSettings& settings)
 {
   if (settings.storage.compression < 0 || settings.storage.compression > 9)
     throw UsageError("--compression is a deflate level from 0 (none) to 9");
-  if (settings.accept_residual && !(*settings.accept_residual > 0))
-    throw UsageError("--accept-residual must be positive");
+  const Waivers waivers(settings.accept_residual);  // for its complaints before work begins
 }
 
 }  // namespace

@@ -71,14 +71,6 @@ std::string why_it_does_not_open(const std::string& path)
                 : "is not an HDF5 file, or is truncated or damaged";
 }
 
-hsize_t size_of_file(hid_t object)
-{
-  hsize_t bytes = 0;
-  const File file(H5Iget_file_id(object));
-  H5Fget_filesize(file, &bytes);
-  return bytes;
-}
-
 /// The product, or the largest number where that is too large.
 hsize_t product(hsize_t a, hsize_t b)
 {
@@ -258,7 +250,7 @@ void CheckedDataset::check_storage()
 
 void CheckedDataset::fail(const std::string& why) const
 {
-  throw FormatError(fmt::format("{}: {} {}", file_, path_, why));
+  throw FormatError(fmt::format("{} {}", full_path(), why));
 }
 
 void CheckedDataset::require(std::size_t axis, hsize_t size, bool at_least) const
@@ -293,6 +285,14 @@ void CheckedDataset::read_all(hid_t memory_type, void* data) const
 {
   if (H5Dread(dataset_, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     fail("cannot be read: the file is damaged or truncated");
+}
+
+hsize_t size_of_file(hid_t object)
+{
+  hsize_t bytes = 0;
+  const File file(H5Iget_file_id(object));
+  H5Fget_filesize(file, &bytes);
+  return bytes;
 }
 
 bool exists(hid_t parent, const std::string& path)

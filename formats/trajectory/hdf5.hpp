@@ -99,6 +99,8 @@ class CheckedDataset {
 
   const std::vector<hsize_t>& dims() const { return dims_; }
   const std::string& path() const { return path_; }
+  /// With the name of the file before it.
+  std::string full_path() const { return file_ + ": " + path_; }
   hid_t id() const { return dataset_; }
   bool stores_float32() const { return H5Tget_size(Type(H5Dget_type(dataset_))) == 4; }
 
@@ -121,6 +123,9 @@ class CheckedDataset {
   hsize_t most_bytes_ = 0;  // that a file of this size can hold
   std::string path_, file_;
 };
+
+/// Of the file that an object lies in, bytes.
+hsize_t size_of_file(hid_t object);
 
 /// Whether `path` leads from `parent` to something.
 bool exists(hid_t parent, const std::string& path);

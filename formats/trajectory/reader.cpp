@@ -50,7 +50,9 @@ struct TrajectoryReader::Impl : StoredRun {
   std::string damage_of_observables() const;
   void drop_damaged_end();
   template <int D>
-  void read(std::size_t index, Frame<D>& frame, Fields fields) const;
+  Packed load(std::size_t index, Frame<D>& frame, Fields fields) const;
+  template <int D>
+  void unpack(const Packed& packed, Frame<D>& frame) const;
   template <int D>
   std::optional<Field> changed_field(std::size_t index, const Frame<D>& frame, Fields fields) const;
   void verify_whole(std::size_t index) const;
@@ -106,7 +108,7 @@ void TrajectoryReader::Impl::drop_damaged_end()
     return with_dimension(dimension(), [&](auto d) {
       Frame<d> frame;
       try {
-        read(last, frame, whole);
+        unpack(load(last, frame, whole), frame);
       } catch (const FormatError&) {
         return false;
       }
@@ -155,30 +157,40 @@ std::string TrajectoryReader::Impl::damage_of_observables() const
 }
 
 template <int D>
-void TrajectoryReader::Impl::read(std::size_t index, Frame<D>& frame, Fields fields) const
+TrajectoryReader::Packed TrajectoryReader::Impl::load(std::size_t index, Frame<D>& frame,
+                                                      Fields fields) const
 {
   if (D != dimension())
     fail(fmt::format("is a run in {} dimensions, which this program does not read",
                      dimension() == 2 ? "two" : "three"));
+  Packed packed{index, fields, {}};
+  auto& rows = packed.rows;
   frame.step = steps.at(index);
   frame.time = times[index];
-  read_row(position, index, frame.position);
+  load_row(position, index, frame.position, rows);
   frame.velocity.clear();
   frame.angular_velocity.clear();
   frame.force.clear();
   frame.image.clear();
   frame.contacts.clear();
   if (fields.velocity) {
-    read_row(velocity, index, frame.velocity);
-    read_row(angular_velocity, index, frame.angular_velocity);
+    load_row(velocity, index, frame.velocity, rows);
+    load_row(angular_velocity, index, frame.angular_velocity, rows);
   }
   if (fields.force) {
-    if (run.has_force) read_row(force, index, frame.force);
-    frame.image.resize(run.grains.size());
-    image.read_rows(H5T_NATIVE_INT32, index, 1, frame.image.data());
+    if (run.has_force) load_row(force, index, frame.force, rows);
+    load_row(image, index, frame.image, rows);
   }
-  if (fields.contacts) read_contacts(index, frame.contacts);
-  if (run.grains_come_and_go) check_presence(index, frame);
+  if (fields.contacts) load_contacts(index, frame.contacts, rows);
+  return packed;
+}
+
+/// Decompresses and checks, without digests.
+template <int D>
+void TrajectoryReader::Impl::unpack(const Packed& packed, Frame<D>& frame) const
+{
+  for (const auto& rows : packed.rows) rows.unpack();
+  check(packed.index, frame);
 }
 
 /// The first of the fields that were read which is not as it was written.
@@ -207,7 +219,7 @@ void TrajectoryReader::Impl::verify_whole(std::size_t index) const
 {
   with_dimension(dimension(), [&](auto d) {
     Frame<d> frame;
-    read(index, frame, whole);
+    unpack(load(index, frame, whole), frame);
     if (!chain_matches(index, frame))
       fail(
           fmt::format("frame {} is not what was written: the file is damaged; take a copy that is "
@@ -301,20 +313,23 @@ Gravity<D> TrajectoryReader::gravity() const
 }
 
 template <int D>
-void TrajectoryReader::load(std::size_t index, Frame<D>& frame, Fields fields) const
+TrajectoryReader::Packed TrajectoryReader::load(std::size_t index, Frame<D>& frame,
+                                                Fields fields) const
 {
   const auto& my = *impl_;
-  my.read(index, frame, fields);
+  auto packed = my.load(index, frame, fields);
   if (my.verify == Verify::yes && !my.has_field_digests()) my.verify_whole(index);
+  return packed;
 }
 
 template <int D>
-void TrajectoryReader::verify(std::size_t index, const Frame<D>& frame, Fields fields) const
+void TrajectoryReader::unpack(const Packed& packed, Frame<D>& frame) const
 {
   const auto& my = *impl_;
+  my.unpack(packed, frame);
   if (my.verify == Verify::no || !my.has_field_digests()) return;
-  if (const auto field = my.changed_field(index, frame, fields))
-    my.fail(Impl::changed(*field, index));
+  if (const auto field = my.changed_field(packed.index, frame, packed.fields))
+    my.fail(Impl::changed(*field, packed.index));
 }
 
 bool TrajectoryReader::has_observable(const std::string& name) const
@@ -369,10 +384,12 @@ bool TrajectoryReader::is_intact(std::size_t index, const Frame<D>& frame) const
 
 template Gravity<2> TrajectoryReader::gravity() const;
 template Gravity<3> TrajectoryReader::gravity() const;
-template void TrajectoryReader::load(std::size_t, Frame<2>&, Fields) const;
-template void TrajectoryReader::load(std::size_t, Frame<3>&, Fields) const;
-template void TrajectoryReader::verify(std::size_t, const Frame<2>&, Fields) const;
-template void TrajectoryReader::verify(std::size_t, const Frame<3>&, Fields) const;
+using Packed = TrajectoryReader::Packed;
+using Fields = TrajectoryReader::Fields;
+template Packed TrajectoryReader::load(std::size_t, Frame<2>&, Fields) const;
+template Packed TrajectoryReader::load(std::size_t, Frame<3>&, Fields) const;
+template void TrajectoryReader::unpack(const Packed&, Frame<2>&) const;
+template void TrajectoryReader::unpack(const Packed&, Frame<3>&) const;
 template bool TrajectoryReader::is_intact(std::size_t, const Frame<2>&) const;
 template bool TrajectoryReader::is_intact(std::size_t, const Frame<3>&) const;
 

@@ -5,6 +5,7 @@
 #include "formats/core/gravity.hpp"
 #include "formats/core/parameters.hpp"
 #include "formats/core/species.hpp"
+#include "formats/trajectory/chunk.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -29,6 +30,13 @@ class TrajectoryReader {
     bool velocity = true;  // velocity, angular_velocity
     bool contacts = true;
     bool force = false;  // force and image
+  };
+
+  /// What `load` leaves of a frame that is stored compressed: it goes to the arrays of that frame.
+  struct Packed {
+    std::size_t index = 0;
+    Fields fields;
+    std::vector<PackedRows> rows;
   };
 
   explicit TrajectoryReader(const std::string& path, Verify verify = Verify::yes);
@@ -68,20 +76,20 @@ class TrajectoryReader {
   template <int D>
   void read(std::size_t index, Frame<D>& frame, Fields fields) const
   {
-    load(index, frame, fields);
-    verify(index, frame, fields);
+    unpack(load(index, frame, fields), frame);
   }
   template <int D>
   void read(std::size_t index, Frame<D>& frame) const
   {
     read(index, frame, Fields{});
   }
-  /// The two halves of `read`: `load` uses HDF5, which knows no threads, `verify` does not, so that
-  /// several threads can call it at once.
+  /// The two halves of `read`: `load` uses HDF5, which knows no threads; `unpack`, which decompresses
+  /// and verifies what has been loaded to the same frame, does not, so that several threads can call
+  /// it at once.
   template <int D>
-  void load(std::size_t index, Frame<D>& frame, Fields fields) const;
+  Packed load(std::size_t index, Frame<D>& frame, Fields fields) const;
   template <int D>
-  void verify(std::size_t index, const Frame<D>& frame, Fields fields) const;
+  void unpack(const Packed& packed, Frame<D>& frame) const;
 
   /// The observables of the file, in alphabetical order.
   const std::vector<Observable>& observables() const;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace grseg {
 
@@ -114,21 +115,21 @@ std::vector<T> StoredRun::constant(const std::string& name, H5T_class_t kind, hi
   return values;
 }
 
-CheckedDataset StoredRun::element(const std::string& name, H5T_class_t kind, int rank) const
+RowReader StoredRun::element(const std::string& name, H5T_class_t kind, int rank) const
 {
   auto dataset = open("/particles/grains/" + name + "/value", kind, rank);
   dataset.require(0, size(), true);
   dataset.require(1, run.grains.size());
   if (rank == 3) dataset.require(2, static_cast<hsize_t>(dimension()));
-  return dataset;
+  return RowReader(std::move(dataset));
 }
 
-CheckedDataset StoredRun::rows(const std::string& name, H5T_class_t kind, int rank) const
+RowReader StoredRun::rows(const std::string& name, H5T_class_t kind, int rank) const
 {
   auto dataset = open("/grseg/contacts/" + name, kind, rank);
   dataset.require(0, offset.back(), true);
   if (rank == 2) dataset.require(1, static_cast<hsize_t>(dimension()));
-  return dataset;
+  return RowReader(std::move(dataset));
 }
 
 std::vector<int> StoredRun::require_version(const std::string& module) const
@@ -345,13 +346,11 @@ void StoredRun::check_finite(const double* values, std::size_t count, const std:
 }
 
 template <class T>
-void StoredRun::read_row(const CheckedDataset& dataset, hsize_t row, std::vector<T>& out) const
+void StoredRun::load_row(const RowReader& rows, hsize_t row, std::vector<T>& out,
+                         std::vector<PackedRows>& packed) const
 {
   out.resize(run.grains.size());
-  auto* const values = reinterpret_cast<double*>(out.data());
-  dataset.read_rows(H5T_NATIVE_DOUBLE, row, 1, values);
-  if (!run.grains_come_and_go)
-    check_finite(values, out.size() * sizeof(T) / sizeof(double), dataset.path(), row);
+  rows.load(row, 1, out.data(), packed);
 }
 
 namespace {
@@ -381,19 +380,19 @@ bool is_nan(const Vector<D>& value)
 template <int D>
 void StoredRun::check_presence(std::size_t index, const Frame<D>& frame) const
 {
-  const auto check = [&](const auto& values, const CheckedDataset& dataset) {
+  const auto check_of = [&](const auto& values, const RowReader& rows) {
     for (std::size_t g = 0; g < values.size(); ++g)
       if (is_present(frame, g) ? !is_finite(values[g]) : !is_nan(values[g]))
-        fail(fmt::format("{} of grain {} in frame {} is {}; the frame is damaged", dataset.path(),
-                         g, index,
+        fail(fmt::format("{} of grain {} in frame {} is {}; the frame is damaged", rows.path(), g,
+                         index,
                          is_present(frame, g)
                              ? "not finite"
                              : "not NaN throughout, though its position says that it is absent"));
   };
-  check(frame.position, position);
-  check(frame.velocity, velocity);
-  check(frame.angular_velocity, angular_velocity);
-  check(frame.force, force);
+  check_of(frame.position, position);
+  check_of(frame.velocity, velocity);
+  check_of(frame.angular_velocity, angular_velocity);
+  check_of(frame.force, force);
   const auto& contacts = frame.contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (const auto g : {contacts.i[k], contacts.j[k]})
@@ -403,28 +402,49 @@ void StoredRun::check_presence(std::size_t index, const Frame<D>& frame) const
 }
 
 template <int D>
-void StoredRun::read_contacts(std::size_t index, ContactList<D>& contacts) const
+void StoredRun::load_contacts(std::size_t index, ContactList<D>& contacts,
+                              std::vector<PackedRows>& packed) const
 {
   const hsize_t begin = offset[index], count = offset[index + 1] - begin;
   if (count > 64 * run.grains.size() + 1024)
     fail(fmt::format("frame {} claims {} contacts for {} grains; /grseg/contacts/offset is damaged",
                      index, count, run.grains.size()));
-  contacts.i.resize(count);
-  contacts.j.resize(count);
-  contacts.force.resize(count);
-  contacts.branch.resize(count);
-  contacts.gap.resize(count);
-  if (count == 0) return;
-  contact_i.read_rows(H5T_NATIVE_INT32, begin, count, contacts.i.data());
-  contact_j.read_rows(H5T_NATIVE_INT32, begin, count, contacts.j.data());
-  contact_force.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.force.front().data());
-  contact_branch.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.branch.front().data());
-  contact_gap.read_rows(H5T_NATIVE_DOUBLE, begin, count, contacts.gap.data());
-  check_finite(contacts.force.front().data(), D * count, contact_force.path(), index);
-  check_finite(contacts.branch.front().data(), D * count, contact_branch.path(), index);
-  check_finite(contacts.gap.data(), count, contact_gap.path(), index);
+  const auto load = [&](const RowReader& rows, auto& values) {
+    values.resize(count);
+    if (count > 0) rows.load(begin, count, values.data(), packed);
+  };
+  load(contact_i, contacts.i);
+  load(contact_j, contacts.j);
+  load(contact_force, contacts.force);
+  load(contact_branch, contacts.branch);
+  load(contact_gap, contacts.gap);
+}
+
+template <int D>
+void StoredRun::check(std::size_t index, const Frame<D>& frame) const
+{
+  const auto finite = [&]<class T>(const std::vector<T>& values, const RowReader& rows) {
+    check_finite(reinterpret_cast<const double*>(values.data()),
+                 values.size() * sizeof(T) / sizeof(double), rows.path(), index);
+  };
+  if (!run.grains_come_and_go) {
+    finite(frame.position, position);
+    finite(frame.velocity, velocity);
+    finite(frame.angular_velocity, angular_velocity);
+    finite(frame.force, force);
+  }
+  finite(frame.contacts.force, contact_force);
+  finite(frame.contacts.branch, contact_branch);
+  finite(frame.contacts.gap, contact_gap);
+  check_contacts(index, frame.contacts);
+  if (run.grains_come_and_go) check_presence(index, frame);
+}
+
+template <int D>
+void StoredRun::check_contacts(std::size_t index, const ContactList<D>& contacts) const
+{
   const auto grain_count = static_cast<std::int64_t>(run.grains.size());
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
     if (contacts.i[k] < 0 || contacts.i[k] >= grain_count || contacts.j[k] >= grain_count ||
         contacts.i[k] == contacts.j[k])
       fail(fmt::format("contact {} of frame {} joins grains {} and {}, which is impossible", k,
@@ -432,12 +452,17 @@ void StoredRun::read_contacts(std::size_t index, ContactList<D>& contacts) const
   }
 }
 
-template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<double>&) const;
-template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<Vec2>&) const;
-template void StoredRun::read_row(const CheckedDataset&, hsize_t, std::vector<Vec3>&) const;
-template void StoredRun::check_presence(std::size_t, const Frame<2>&) const;
-template void StoredRun::check_presence(std::size_t, const Frame<3>&) const;
-template void StoredRun::read_contacts(std::size_t, ContactList<2>&) const;
-template void StoredRun::read_contacts(std::size_t, ContactList<3>&) const;
+using Packed = std::vector<PackedRows>;
+template void StoredRun::load_row(const RowReader&, hsize_t, std::vector<double>&, Packed&) const;
+template void StoredRun::load_row(const RowReader&, hsize_t, std::vector<Vec2>&, Packed&) const;
+template void StoredRun::load_row(const RowReader&, hsize_t, std::vector<Vec3>&, Packed&) const;
+template void StoredRun::load_row(const RowReader&, hsize_t,
+                                  std::vector<std::array<std::int32_t, 2>>&, Packed&) const;
+template void StoredRun::load_row(const RowReader&, hsize_t,
+                                  std::vector<std::array<std::int32_t, 3>>&, Packed&) const;
+template void StoredRun::load_contacts(std::size_t, ContactList<2>&, Packed&) const;
+template void StoredRun::load_contacts(std::size_t, ContactList<3>&, Packed&) const;
+template void StoredRun::check(std::size_t, const Frame<2>&) const;
+template void StoredRun::check(std::size_t, const Frame<3>&) const;
 
 }  // namespace grseg

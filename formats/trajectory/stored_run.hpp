@@ -3,6 +3,7 @@
 
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/row_reader.hpp"
 #include "formats/trajectory/run_description.hpp"
 
 #include <cstdint>
@@ -25,8 +26,8 @@ struct StoredRun {
   std::vector<std::uint64_t> chain;         // /grseg/digest
   std::vector<FieldDigests> field_digests;  // none in files of version 1.0
   int minor_version = 0;                    // of the module grseg: 1.1 or later has field digests
-  hdf5::CheckedDataset position, image, velocity, angular_velocity, force;
-  hdf5::CheckedDataset contact_i, contact_j, contact_force, contact_branch, contact_gap;
+  RowReader position, image, velocity, angular_velocity, force;
+  RowReader contact_i, contact_j, contact_force, contact_branch, contact_gap;
 
   /// FormatError naming the file.
   [[noreturn]] void fail(const std::string& why) const;
@@ -44,23 +45,30 @@ struct StoredRun {
   void drop_last();
   /// Whether numbers of grains and contacts are stored in single precision.
   bool stores_float32() const { return position.stores_float32(); }
-  /// FormatError naming `what` and `frame` where one of the values is not finite.
-  void check_finite(const double* values, std::size_t count, const std::string& what,
-                    std::size_t frame) const;
   int dimension() const { return run.box.dimension; }
-  /// A row of a dataset with one vector, or one number, per grain; finite, unless grains come and go.
+  /// A row of a dataset with one vector, or one number, per grain. What is compressed is appended to
+  /// `packed`.
   template <class T>
-  void read_row(const hdf5::CheckedDataset& dataset, hsize_t row, std::vector<T>& out) const;
+  void load_row(const RowReader& rows, hsize_t row, std::vector<T>& out,
+                std::vector<PackedRows>& packed) const;
   template <int D>
-  void read_contacts(std::size_t frame, ContactList<D>& contacts) const;
-  /// For a run in which grains come and go, of what has been read: FormatError unless the numbers of
-  /// a grain that is present are finite, those of one that is absent NaN, and no contact names it.
+  void load_contacts(std::size_t frame, ContactList<D>& contacts,
+                     std::vector<PackedRows>& packed) const;
+  /// FormatError where the numbers of a frame that has been read are not finite (of an absent grain:
+  /// not NaN throughout), or its contacts join no grains or absent ones.
   template <int D>
-  void check_presence(std::size_t index, const Frame<D>& frame) const;
+  void check(std::size_t index, const Frame<D>& frame) const;
   /// The values of an observable in all committed frames.
   std::vector<double> read_observable(const std::string& name) const;
 
  private:
+  /// FormatError naming `what` and `frame` where one of the values is not finite.
+  void check_finite(const double* values, std::size_t count, const std::string& what,
+                    std::size_t frame) const;
+  template <int D>
+  void check_presence(std::size_t index, const Frame<D>& frame) const;
+  template <int D>
+  void check_contacts(std::size_t index, const ContactList<D>& contacts) const;
   std::vector<int> require_version(const std::string& module) const;
   void read_offset();
   void read_box();
@@ -77,9 +85,9 @@ struct StoredRun {
   std::vector<T> constant(const std::string& name, H5T_class_t kind, hid_t type,
                           hsize_t count) const;
   /// A property of the grains with a row per frame.
-  hdf5::CheckedDataset element(const std::string& name, H5T_class_t kind, int rank) const;
+  RowReader element(const std::string& name, H5T_class_t kind, int rank) const;
   /// A property of the contacts of all frames.
-  hdf5::CheckedDataset rows(const std::string& name, H5T_class_t kind, int rank) const;
+  RowReader rows(const std::string& name, H5T_class_t kind, int rank) const;
 };
 
 }  // namespace grseg

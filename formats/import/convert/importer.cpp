@@ -7,6 +7,7 @@
 #include "formats/core/dimension.hpp"
 #include "formats/core/version.hpp"
 #include "formats/import/common/file_list.hpp"
+#include "formats/import/convert/judgement.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 
 #include <fmt/format.h>
@@ -73,7 +74,8 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   run.box.length_z *= units.length;
   run.has_force = frames.has_force();
   run.grains_come_and_go = frames.roster() != nullptr;
-  run.observables = {{"momentum_defect", ""}};
+  run.observables = check_observables();
+  run.observables.insert(run.observables.begin(), {"momentum_defect", ""});
 
   auto& numbers = run.parameters.numbers;
   const Vector<D> gravity = facts.orientation.gravity.template head<D>() * units.acceleration();
@@ -106,6 +108,7 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["import_instant"] =
       "positions, velocities and forces are those of the archive at `time`, not of the middle of a "
       "step";
+  add_check_parameters(run.parameters, frames, settings);
   return run;
 }
 
@@ -120,15 +123,19 @@ std::vector<std::string> inputs_of(const ArchiveFiles& files)
 
 template <int D>
 [[noreturn]] void refuse(const VerifiedFrames<D>& frames, const ImportSettings& settings,
-                         const Complaint& complaint, std::size_t moments)
+                         const Judgement& judgement, std::size_t moments)
 {
+  const auto& complaint = *frames.complaint();
   const auto fitting = complaint.of_columns
                            ? columns_that_fit(settings, frames.archive(), moments, frames.roster())
                            : std::string();
-  const bool of_balance = frames.residual() && frames.residual()->unexplained > frames.tolerance();
-  throw CheckError(fmt::format(
-      "{}: {}{}{}", frames.place(), complaint.sentence, fitting,
-      fitting.empty() && of_balance ? "; --accept-residual R imports what balances to R" : ""));
+  const auto others = fitting.empty()
+                          ? judgement.also_failed(in_si(frames.moment(), frames.facts().units))
+                          : std::string();
+  const bool offer = fitting.empty() && complaint.check == "balance";
+  throw CheckError(
+      fmt::format("{}: {}{}{}{}", frames.place(), complaint.sentence, fitting, others,
+                  offer ? "; --accept-residual balance=R imports what balances to R" : ""));
 }
 
 double median(std::vector<double> values)
@@ -199,6 +206,7 @@ void finish(TrajectoryWriter& writer, const VerifiedFrames<D>& frames, ImportRep
   if (report.frames > 1)
     last.numbers["frame_interval"] = {(report.last_time - report.first_time) /
                                       static_cast<double>(report.frames - 1)};
+  add_findings(last, report.findings);
   if (!report.remarks.empty())
     last.texts["import_remarks"] = fmt::format("{}", fmt::join(report.remarks, "; "));
   writer.add_parameters(last);
@@ -219,10 +227,11 @@ ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settin
   report.base = frames.builder().bed().species.base;
   report.sizes = frames.builder().bed().species.sizes;
   TrajectoryWriter writer(path, run, settings.storage);
+  Judgement judgement(run);
   Residuals residuals;
   for (Frame<D> frame; frames.next(frame);) {
     stop_if_interrupted();
-    if (frames.complaint()) refuse(frames, settings, *frames.complaint(), report.frames + 1);
+    if (frames.complaint()) refuse(frames, settings, judgement, report.frames + 1);
     const double defect = frames.residual() ? frames.residual()->largest : 0;
     if (frames.residual()) residuals.add(*frames.residual());
     frames.facts().units.convert(frame);
@@ -230,9 +239,14 @@ ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settin
     report.last_time = frame.time;
     ++report.frames;
     report.contacts += frame.contacts.size();
-    writer.append(frame, {&defect, 1});
+    const auto moment = in_si(frames.moment(), frames.facts().units);
+    judgement.add(moment, frames.place());
+    auto observables = check_values(moment);
+    observables.insert(observables.begin(), defect);
+    writer.append(frame, observables);
   }
   residuals.add_to(report, frames.facts().units);
+  report.findings = judgement.close(settings.strict);
   finish(writer, frames, report);
   writer.close();
   return report;
@@ -279,6 +293,8 @@ std::string to_text(const ImportReport& report)
         *report.unexplained_residual, report.late.normal, report.late.tangential);
   if (report.largest_residual)
     text += fmt::format("tolerance {:g}: {}\n", report.tolerance, report.tolerance_reason);
+  for (const auto& [check, verdict, sentence, measure] : report.findings)
+    text += fmt::format("check {}: {} ({:.2g}): {}\n", check, to_text(verdict), measure, sentence);
   for (const auto& remark : report.remarks) text += remark + "\n";
   return text;
 }

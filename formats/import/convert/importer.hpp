@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/import/facts/import_settings.hpp"
+#include "formats/import/verify/finding.hpp"
 #include "formats/import/verify/late_damping.hpp"
 
 #include <cstddef>
@@ -26,12 +27,13 @@ struct ImportReport {
   double tolerance = 0;
   std::string tolerance_reason, columns, base, sizes;
   std::vector<std::string> remarks;
+  std::vector<Finding> findings;  // of all checks
 };
 
 /// Imports the archive moment by moment into the trajectory file `settings.output`, which appears
 /// whole or not at all; `command_line` goes into its history. Throws what readers, facts and
 /// builder throw, and CheckError where a moment fails the verification, with another --columns that
-/// would pass.
+/// would pass, where a check over all moments fails, and with --strict where one is undecided.
 ImportReport import_archive(const ImportSettings& settings, const std::string& command_line);
 
 /// A summary for the user, several lines.

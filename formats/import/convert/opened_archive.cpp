@@ -34,14 +34,23 @@ OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& 
                              std::shared_ptr<const Roster> roster, Questions questions)
     : moments_(settings, columns), roster_(std::move(roster))
 {
-  if (!next()) throw FormatError("the archive holds no moment with grains and contacts");
+  if (!moments_.next(moment))
+    throw FormatError("the archive holds no moment with grains and contacts");
   if (!roster_ && moment.grains.size() == 0)
     throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
-  for (const auto& question : moment.questions) questions.ask(question);
+  const auto full = roster_ ? full_moment(settings, columns) : moment;
+  for (const auto& question : full.questions) questions.ask(question);
   const auto resting = resting_grains_of(settings);
-  facts = collect_facts(archive().facts(), {all_grains(), moment, resting}, settings, questions);
+  facts = collect_facts(archive().facts(), {all_grains(), full, resting}, settings, questions);
   ask_for_the_bed(settings, resting, questions);
   questions.report();
+}
+
+bool OpenedArchive::next()
+{
+  if (!moments_.next(moment)) return false;
+  if (!moment.questions.empty()) throw OpenQuestions(moment.questions);
+  return true;
 }
 
 /// Where the base is asked for. Without a roster the next moment tells, too: the import will not go
@@ -52,10 +61,27 @@ std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& setting
   if (roster_) return resting_grains(roster_->all.grains, nullptr);
   const auto first = std::move(moment);
   moment = {};
-  const bool more = next();
+  const bool more = moments_.next(moment);
   auto resting = resting_grains(first.grains, more ? &moment.grains : nullptr);
   moment = first;
   return resting;
+}
+
+/// One of the first moments that has half of the grains, or as many as there are; with the questions
+/// of all before it.
+ArchiveMoment OpenedArchive::full_moment(const ImportSettings& settings,
+                                         const std::string& columns) const
+{
+  constexpr int furthest = 100;
+  Moments ahead(settings, columns);
+  ArchiveMoment full, next;
+  std::vector<Question> questions;
+  for (int k = 0; k < furthest && 2 * full.grains.size() < roster_->most && ahead.next(next); ++k) {
+    questions.insert(questions.end(), next.questions.begin(), next.questions.end());
+    if (k == 0 || next.grains.size() > full.grains.size()) full = next;
+  }
+  full.questions = questions;
+  return full;
 }
 
 /// What species and origin leave open. Where other answers are missing, what else is wrong may come

@@ -21,8 +21,8 @@ class OpenedArchive {
   OpenedArchive(const ImportSettings& settings, const std::string& columns,
                 std::shared_ptr<const Roster> roster = nullptr, Questions questions = {});
 
-  /// Reads the next moment; false at the end.
-  bool next() { return moments_.next(moment); }
+  /// Reads the next moment; false at the end. OpenQuestions where the reader cannot go on.
+  bool next();
 
   const Archive& archive() const { return moments_.archive(); }
   const MomentRange& range() const { return moments_.range(); }
@@ -36,6 +36,7 @@ class OpenedArchive {
 
  private:
   std::vector<bool> resting_grains_of(const ImportSettings& settings);
+  ArchiveMoment full_moment(const ImportSettings& settings, const std::string& columns) const;
   void ask_for_the_bed(const ImportSettings& settings, const std::vector<bool>& resting,
                        Questions& questions) const;
 

@@ -6,18 +6,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace grseg {
+namespace {
+
+OwnFacts own_facts(const ArchiveMoment& all, const ArchiveMoment& moment)
+{
+  const auto& mass = all.grains.mass;
+  const bool masses = !mass.empty() && std::all_of(mass.begin(), mass.end(), [](double m) {
+    return std::isfinite(m) && m > 0;
+  });
+  return {masses, !moment.time ? "steps" : moment.step ? "both" : "times"};
+}
+
+std::array<AxisInArchive, 3> axes_of(const ImportedBed& bed)
+{
+  std::array<AxisInArchive, 3> axes;
+  for (int k = 0; k < 3; ++k)
+    if (const auto axis = bed.axes.axis_of(k))
+      axes[static_cast<std::size_t>(k)] = {"xyz"[*axis], bed.axes.is_forward(k), bed.shift[k]};
+  return axes;
+}
+
+}  // namespace
 
 template <int D>
 VerifiedFrames<D>::VerifiedFrames(OpenedArchive opened, const ImportSettings& settings)
     : opened_(std::move(opened)),
-      tolerance_(settings.accept_residual.value_or(archive().facts().tolerance)),
+      waivers_(settings.accept_residual),
+      own_(own_facts(opened_.all_grains(), opened_.moment)),
       builder_(std::make_unique<FrameBuilder>(opened_.all_grains(), facts(), settings,
                                               opened_.roster() != nullptr)),
       verification_(builder_->bed().grains, builder_->bed().box,
                     facts().orientation.gravity.template head<D>(),
-                    {tolerance_, archive().facts().forces_are_late, facts().step,
-                     facts().discs ? inertia_factor<2> : inertia_factor<3>}),
+                    {archive().facts().tolerance, archive().facts().forces_are_late, facts().step,
+                     facts().discs ? inertia_factor<2> : inertia_factor<3>},
+                    waivers_, axes_of(builder_->bed())),
       has_force_(!opened_.all_grains().grains.force.empty()),
       has_angular_velocity_(!opened_.all_grains().grains.angular_velocity.empty())
 {
@@ -43,7 +69,7 @@ bool VerifiedFrames<D>::next(Frame<D>& frame)
                     "at least one step; is --step too long?",
                     moment.place, frame.step, frame.time, last_->first, last_->second));
   last_ = {frame.step, frame.time};
-  complaint_ = verification_.check(frame);
+  complaint_ = verification_.check(frame, !moment.grains.image.empty());
   return true;
 }
 

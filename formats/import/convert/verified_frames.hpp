@@ -14,6 +14,12 @@
 
 namespace grseg {
 
+/// What the first moment of an archive has.
+struct OwnFacts {
+  bool masses = false;  // of every grain
+  std::string times;    // "steps", "times" or "both": what its moments are known by
+};
+
 /// The moments of an archive as frames, each verified, in the archive's units. D is the dimension
 /// of its facts.
 template <int D>
@@ -25,6 +31,8 @@ class VerifiedFrames {
   bool next(Frame<D>& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }
   const std::optional<Residual>& residual() const { return verification_.residual(); }
+  /// Of the last frame, in the archive's units.
+  const CheckMoment& moment() const { return verification_.moment(); }
   const std::string& place() const { return opened_.moment.place; }
 
   const Archive& archive() const { return opened_.archive(); }
@@ -34,13 +42,16 @@ class VerifiedFrames {
   const FrameBuilder& builder() const { return *builder_; }
   /// Those of --wall; null where there are none.
   const InferredWalls<D>* walls() const { return walls_ ? &*walls_ : nullptr; }
-  double tolerance() const { return tolerance_; }
+  double tolerance() const { return waivers_.limit("balance", archive().facts().tolerance); }
+  const Waivers& waivers() const { return waivers_; }
+  const OwnFacts& own() const { return own_; }
   bool has_force() const { return has_force_; }
   bool has_angular_velocity() const { return has_angular_velocity_; }
 
  private:
   OpenedArchive opened_;
-  double tolerance_;
+  Waivers waivers_;
+  OwnFacts own_;
   std::unique_ptr<FrameBuilder> builder_;  // where the verification refers to it
   std::optional<InferredWalls<D>> walls_;
   Verification<D> verification_;

@@ -82,8 +82,11 @@ class DumpArchive : public Archive {
     if (!columns_ || header.columns != header_.columns) {
       if (columns_text_.empty()) columns_text_ = dialect_.assumed(header, moment.grains);
       if (columns_text_.empty()) {
-        moment.contacts = {};
+        columns_text_ = proposed_columns(header);
         moment.questions.push_back(question_of_columns(header));
+      }
+      if (columns_text_.empty()) {
+        moment.contacts = {};
         return;
       }
       columns_.emplace(dialect_.mapping(columns_text_, header));
@@ -94,10 +97,18 @@ class DumpArchive : public Archive {
     columns_->fill(values_, header.place, moment.contacts);
   }
 
+  /// The only list of keywords that has as many columns; "" where there is none.
+  std::string proposed_columns(const DumpHeader& header) const
+  {
+    const auto others = dialect_.others(header);
+    const bool lists = others.size() == 1 && others.front().find('=') == std::string::npos;
+    return lists ? others.front() : "";
+  }
+
   Question question_of_columns(const DumpHeader& header) const
   {
     return {fmt::format("what the {} columns of {} mean", header.columns.size(), header.place),
-            "--columns MAP",
+            "--columns " + (columns_text_.empty() ? "MAP" : columns_text_),
             fmt::format("they are {}; as in {}", fmt::join(header.columns, " "), dialect_.example)};
   }
 

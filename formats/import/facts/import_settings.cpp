@@ -93,12 +93,14 @@ po::options_description import_options(ImportSettings& s)
 
   po::options_description output("The trajectory");
   output.add_options()("output,o", po::value(&s.output)->value_name("FILE"), "the file to write")(
-      "accept-residual", optional(s.accept_residual, "R"),
-      "accept grains that balance to R of the largest force (default: what faithful output of the "
-      "program reaches)")("compression",
-                          po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
-                          "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
-                                                   "single precision, half the size")(
+      "accept-residual", po::value(&s.accept_residual)->composing()->value_name("NAME=R"),
+      "waive one check up to R, as in balance=0.1 (of the largest force) or overlap=0.6 (of a "
+      "radius); its name is printed with it")(
+      "strict", po::bool_switch(&s.strict),
+      "refuse, with exit code 4, also what a check cannot tell from this archive")(
+      "compression", po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
+      "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
+                               "single precision, half the size")(
       "quiet", po::bool_switch(&s.quiet), "print no summary on standard error");
 
   add_overwrite_to(output, s.overwrite);

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace grseg {
 
@@ -31,7 +32,8 @@ struct ImportSettings {
   std::vector<std::string> walls;  // wall_planes.hpp
 
   std::optional<std::string> from, to;  // moment_range.hpp
-  std::optional<double> accept_residual;
+  std::vector<std::string> accept_residual;  // finding.hpp
+  bool strict = false;                       // refuse what is undecided
   bool drop_incomplete = false;
   std::string output;
   StorageSettings storage;

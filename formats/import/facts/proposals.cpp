@@ -125,7 +125,8 @@ std::optional<Vec3> suggested_gravity(const ArchiveMoment& moment, const std::ve
                                       const std::vector<bool>& resting)
 {
   const auto& grains = moment.grains;
-  if (grains.force.empty() || !moment.questions.empty() || mass.empty()) return std::nullopt;
+  const bool understood = moment.questions.empty() || moment.contacts.size() > 0;
+  if (grains.force.empty() || !understood || mass.empty()) return std::nullopt;
   const auto sum = contact_sums(moment);
   std::array<std::vector<double>, 3> values;
   for (std::size_t g = 0; g < grains.size(); ++g) {

@@ -12,6 +12,58 @@
 namespace grseg {
 namespace {
 
+constexpr hsize_t most_corners = 64;
+
+using Plane = SiconosBody::Plane;
+
+std::vector<Plane> sides_of_box(const std::vector<double>& size)
+{
+  std::vector<Plane> planes;
+  for (std::size_t k = 0; k < size.size(); ++k)
+    for (const double side : {-1.0, 1.0})
+      planes.push_back({side * Vec3::Unit(static_cast<Eigen::Index>(k)), size[k] / 2});
+  return planes;
+}
+
+/// Adds the plane if all corners lie on one side of it, and it is not known yet.
+void add_side(const std::vector<Vec3>& corners, Plane plane, double length,
+              std::vector<Plane>& planes)
+{
+  double low = 0, high = 0;
+  for (const auto& corner : corners) {
+    low = std::min(low, plane.normal.dot(corner) - plane.distance);
+    high = std::max(high, plane.normal.dot(corner) - plane.distance);
+  }
+  if (std::min(-low, high) > 1e-9 * length || std::max(-low, high) < 1e-9 * length) return;
+  if (high > -low) plane = {-plane.normal, -plane.distance};
+  for (const auto& known : planes)
+    if ((known.normal - plane.normal).norm() < 1e-9) return;
+  planes.push_back(plane);
+}
+
+/// The sides of the hull of corners: in a plane the lines through two of them, in space the planes
+/// through three.
+template <int D>
+std::vector<Plane> sides_of_hull(const std::vector<Vec3>& corners)
+{
+  std::vector<Plane> planes;
+  double length = 0;
+  for (const auto& corner : corners) length = std::max(length, (corner - corners[0]).norm());
+  const auto try_side = [&](const Vec3& at, const Vec3& normal) {
+    if (!(normal.norm() > 1e-9 * std::pow(length, D - 1))) return;
+    const Vec3 unit = normal.normalized();
+    add_side(corners, {unit, unit.dot(at)}, length, planes);
+  };
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec3 along = corners[j] - corners[i];
+      if (D == 2) try_side(corners[i], along.cross(Vec3::UnitZ()));
+      for (std::size_t k = 0; D == 3 && k < j; ++k)
+        try_side(corners[i], along.cross(corners[k] - corners[i]));
+    }
+  return planes;
+}
+
 /// The attributes of one object of the file.
 class Attributes {
  public:
@@ -58,11 +110,52 @@ class Attributes {
   const std::string& name_;
 };
 
+/// Bullet's margin, by which it makes a hull in a plane thicker: as given to add_convex_shape, or 2 %
+/// of its smallest extent.
+double margin_of(const std::vector<Vec3>& corners, hsize_t dimension, const Attributes& attributes)
+{
+  Vec3 low = corners[0], high = low;
+  for (const auto& corner : corners) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const double smallest = (high - low).head(static_cast<Eigen::Index>(dimension)).minCoeff();
+  const auto inside = attributes.numbers("insideMargin"),
+             outside = attributes.numbers("outsideMargin");
+  return (inside.empty() ? 0.02 * smallest : inside[0]) + (outside.empty() ? 0 : outside[0]);
+}
+
+/// The shape is the hull of points: add_convex_shape.
+void read_hull(hid_t file, const std::string& path, const std::string& at,
+               const Attributes& attributes, SiconosBody& body)
+{
+  const hdf5::CheckedDataset dataset(file, at, H5T_FLOAT, 2, path);
+  const auto rows = dataset.dims()[0], columns = dataset.dims()[1];
+  if (body.mass > 0) attributes.fail("is a convex hull: grains are Disk or Sphere");
+  if (columns < 2 || columns > 3 || rows < 1 || rows > most_corners)
+    attributes.fail(
+        fmt::format("is a hull of {} points with {} coordinates; up to {} with 2 or 3 are "
+                    "read",
+                    rows, columns, most_corners));
+  std::vector<double> values(rows * columns);
+  dataset.read_all(H5T_NATIVE_DOUBLE, values.data());
+  std::vector<Vec3> corners;
+  for (hsize_t k = 0; k < rows; ++k)
+    corners.emplace_back(values[k * columns], values[k * columns + 1],
+                         columns == 3 ? values[k * columns + 2] : 0);
+  for (const auto& corner : corners)
+    if (!corner.allFinite()) attributes.fail("holds a point that is not finite");
+  body.planes = columns == 3 ? sides_of_hull<3>(corners) : sides_of_hull<2>(corners);
+  body.margin = margin_of(corners, columns, attributes);
+  if (body.planes.size() <= columns) attributes.fail("has corners that span no body");
+}
+
 void read_shape(hid_t file, const std::string& path, const std::string& shape, SiconosBody& body,
                 bool& disc)
 {
   const std::string at = "/data/ref/" + shape;
   const Attributes attributes(file, at, path);
+  if (attributes.text("type") == "convex") return read_hull(file, path, at, attributes, body);
   const auto primitive = attributes.text("primitive");
   const hdf5::CheckedDataset dataset(file, at, H5T_FLOAT, 2, path);
   if (dataset.dims()[0] != 1 || dataset.dims()[1] < 1 || dataset.dims()[1] > 3)
@@ -75,13 +168,13 @@ void read_shape(hid_t file, const std::string& path, const std::string& shape, S
     body.radius = size[0];
     disc = primitive == "Disk";
   } else if (body.mass == 0 && primitive == "Box2d" && size.size() == 2) {
-    body.half_sides = {size[0] / 2, size[1] / 2, HUGE_VAL};
+    body.planes = sides_of_box(size);
   } else if (body.mass == 0 && primitive == "Box" && size.size() == 3) {
-    body.half_sides = Vec3(size[0], size[1], size[2]) / 2;
+    body.planes = sides_of_box(size);
   } else {
     attributes.fail(
         fmt::format("is a '{}': grains are Disk or Sphere, static bodies may also be "
-                    "Box2d or Box",
+                    "Box2d, Box or a convex hull",
                     primitive));
   }
 }
@@ -148,7 +241,10 @@ double distance_to_surface(const SiconosBody& body, const Vec3& point)
 {
   if (body.radius > 0) return std::abs((point - body.position).norm() - body.radius);
   const Vec3 inside = body.orientation.inverse() * (point - body.position);
-  return std::abs((inside.cwiseAbs() - body.half_sides).maxCoeff());
+  double highest = -HUGE_VAL;
+  for (const auto& [normal, distance] : body.planes)
+    highest = std::max(highest, normal.dot(inside) - distance);
+  return std::max(0.0, std::abs(highest) - body.margin);
 }
 
 std::optional<std::size_t> static_body_at(const SiconosBodies& bodies, const Vec3& point,

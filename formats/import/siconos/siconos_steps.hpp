@@ -3,17 +3,21 @@
 
 #include <hdf5.h>
 
+#include <cstdint>
 #include <string>
 
 namespace grseg {
 
 /// The steps of a Siconos run, all of one length.
 struct SiconosSteps {
-  double first = 0;   // time of the first
-  double length = 0;  // in units of time
+  double first = 0;        // time of the first that was written
+  double length = 0;       // in units of time
+  std::int64_t every = 1;  // most steps between two that were written (output_frequency)
 };
 
-/// From /data/solv, which has a row per step. FormatError where the steps differ in length.
+/// From the first time of /data/dynamic, which is before the first step, and /data/solv, which has a
+/// row per step that was written: the first step, and then every output_frequency-th. FormatError
+/// where the steps differ in length.
 SiconosSteps read_siconos_steps(hid_t file, const std::string& path);
 
 }  // namespace grseg

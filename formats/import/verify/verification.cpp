@@ -2,6 +2,7 @@
 #include "formats/import/verify/verification.hpp"
 
 #include "formats/import/common/minimum_image.hpp"
+#include "formats/import/verify/judge.hpp"
 
 #include <fmt/format.h>
 
@@ -13,12 +14,6 @@
 namespace grseg {
 namespace {
 
-/// In units of the smaller radius: by how much a distance may differ from radii and overlap (digits
-/// of the text), and how deep soft grains may overlap and how far apart they may be.
-constexpr double distance_tolerance = 0.01, deepest = 0.3, furthest = 0.05;
-/// Fraction of the normal force that may pull: damping of soft grains that separate.
-constexpr double most_pull = 0.2;
-
 std::size_t row(std::int32_t index)
 {
   return static_cast<std::size_t>(index);
@@ -29,7 +24,7 @@ Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect,
 {
   std::vector<std::pair<double, std::size_t>> sizes;
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g) && !std::isnan(defect[g].x()))
+    if (is_mobile(grains, g) && !std::isnan(defect[g].y()))
       sizes.emplace_back(defect[g].norm() / scale, g);
   if (sizes.empty()) return {};
   const auto largest = *std::max_element(sizes.begin(), sizes.end());
@@ -42,21 +37,37 @@ Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect,
 
 template <int D>
 Verification<D>::Verification(const Grains& grains, const Box& box, const Vector<D>& gravity,
-                              const OutputAccuracy& accuracy)
-    : grains_(grains), box_(box), gravity_(gravity), accuracy_(accuracy)
+                              const OutputAccuracy& accuracy, const Waivers& waivers,
+                              const std::array<AxisInArchive, 3>& axes)
+    : grains_(grains),
+      box_(box),
+      gravity_(gravity),
+      accuracy_(accuracy),
+      waivers_(waivers),
+      axes_(axes),
+      statistics_(grains, box)
 {
 }
 
 template <int D>
-std::optional<Complaint> Verification<D>::check(const Frame<D>& frame)
+std::optional<Complaint> Verification<D>::check(const Frame<D>& frame, bool has_images)
 {
+  moment_ = {};
+  moment_.step = frame.step;
+  moment_.time = frame.time;
   residual_ = residual_with(frame, frame.contacts.force);
   auto complaint = geometry(frame);
   if (!complaint) complaint = double_rows(frame);
-  if (!complaint) complaint = pull(frame);
-  if (!complaint) complaint = balance(frame);
-  if (frame.force.empty())
-    before_ = {frame.time, frame.velocity, sums(frame.contacts, frame.contacts.force)};
+  if (auto other = pull(frame); !complaint) complaint = other;
+  if (auto other = balance(frame); !complaint) complaint = other;
+  auto sums = contact_sums(grains_.size(), frame.contacts, frame.contacts.force);
+  const auto distance = from_before(frame, sums);
+  if (before_ && distance != Distance::step)
+    moment_.change = change_of_sums(grains_, frame, before_->sums, sums);
+  const bool close = distance == Distance::step || distance == Distance::close;
+  statistics_.add_to(moment_, frame, sums, before_, close, has_images && !frame.image.empty());
+  before_ = {frame.step,  frame.time,  frame.position, frame.velocity,
+             frame.force, frame.image, std::move(sums)};
   return complaint;
 }
 
@@ -70,29 +81,52 @@ std::string Verification<D>::pair_of(const ContactList<D>& contacts, std::size_t
 
 /// Contacts that carry force must join grains that touch. Wall contacts are not checked.
 template <int D>
-std::optional<Complaint> Verification<D>::geometry(const Frame<D>& frame) const
+std::optional<Complaint> Verification<D>::geometry(const Frame<D>& frame)
 {
   const auto& contacts = frame.contacts;
+  std::optional<Complaint> first;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts.j[c] < 0 || contacts.force[c].norm() == 0) continue;
-    const auto i = row(contacts.i[c]), j = row(contacts.j[c]);
-    const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
-    const double radii = grains_.radius[i] + grains_.radius[j];
-    const auto between = minimum_image<D>(box_, frame.position[i] - frame.position[j]);
-    const double stated = radii + contacts.gap[c], distance = between.norm();
-    const bool as_stated = std::abs(distance - stated) <= distance_tolerance * smaller &&
-                           (contacts.branch[c] - between).norm() <= distance_tolerance * smaller;
-    const bool touching =
-        contacts.gap[c] >= -deepest * smaller && contacts.gap[c] <= furthest * smaller;
-    if (as_stated && touching) continue;
+    if (auto complaint = touching(frame, c); !first) first = std::move(complaint);
+  }
+  return first;
+}
+
+template <int D>
+std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::size_t c)
+{
+  const auto& contacts = frame.contacts;
+  const auto i = row(contacts.i[c]), j = row(contacts.j[c]);
+  const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
+  const double radii = grains_.radius[i] + grains_.radius[j];
+  const auto between = minimum_image<D>(box_, frame.position[i] - frame.position[j]);
+  const double stated = radii + contacts.gap[c], apart = between.norm();
+  const double gap = contacts.gap[c] / smaller;
+  const double distance =
+      std::max(std::abs(apart - stated), (contacts.branch[c] - between).norm()) / smaller;
+  moment_.distance = std::max(moment_.distance, distance);
+  moment_.gap = std::max(moment_.gap, gap);
+  moment_.overlap = std::max(moment_.overlap, -gap);
+  const bool as_stated = distance <= waivers_.limit("contacts", largest_distance);
+  if (!as_stated || gap > waivers_.limit("contacts", widest_gap))
     return Complaint{
+        "contacts",
         fmt::format(
             "{} are listed as touching, but their centres are {:.6g} apart and the radii add up "
             "to {:.6g}{}: are i and j their ids, and is the cell periodic as the archive says?",
-            pair_of(contacts, c), distance, radii,
+            pair_of(contacts, c), apart, radii,
             as_stated ? "" : fmt::format(" while the archive states a distance of {:.6g}", stated)),
         true};
-  }
+  if (-gap > waivers_.limit("overlap", deepest_overlap))
+    return Complaint{
+        "overlap",
+        fmt::format(
+            "{} overlap by {:.2g} of the smaller radius: their centres are {:.6g} apart and "
+            "the radii add up to {:.6g}: are radii and ids read as they are meant? Where "
+            "grains are that soft, or a bed is being filled, --accept-residual overlap={:.1g} "
+            "imports it",
+            pair_of(contacts, c), -gap, apart, radii, std::ceil(-gap * 10) / 10),
+        true};
   return std::nullopt;
 }
 
@@ -107,14 +141,15 @@ std::optional<Complaint> Verification<D>::double_rows(const Frame<D>& frame) con
   std::sort(pairs.begin(), pairs.end());
   for (std::size_t k = 1; k < pairs.size(); ++k)
     if (pairs[k].first == pairs[k - 1].first)
-      return Complaint{fmt::format("the contact of {} appears twice; each must be listed once",
+      return Complaint{"contacts",
+                       fmt::format("the contact of {} appears twice; each must be listed once",
                                    pair_of(contacts, pairs[k].second)),
                        false};
   return std::nullopt;
 }
 
 template <int D>
-std::optional<Complaint> Verification<D>::pull(const Frame<D>& frame) const
+std::optional<Complaint> Verification<D>::pull(const Frame<D>& frame)
 {
   const auto& contacts = frame.contacts;
   double pushing = 0, pulling = 0;
@@ -122,49 +157,62 @@ std::optional<Complaint> Verification<D>::pull(const Frame<D>& frame) const
     const double normal = contacts.force[c].dot(contacts.branch[c].normalized());
     (normal < 0 ? pulling : pushing) += std::abs(normal);
   }
-  if (pulling <= most_pull * (pulling + pushing)) return std::nullopt;
-  return Complaint{fmt::format("contacts pull: {:.0f} % of the normal force is attractive{}",
-                               100 * pulling / (pulling + pushing), other_readings(frame)),
+  if (pulling > 0) moment_.pull = pulling / (pulling + pushing);
+  if (moment_.pull <= waivers_.limit("pull", largest_pull)) return std::nullopt;
+  return Complaint{"pull",
+                   fmt::format("contacts pull: {:.0f} % of the normal force is attractive{}",
+                               100 * moment_.pull, other_readings(frame)),
                    true};
 }
 
 template <int D>
-std::vector<Vector<D>> Verification<D>::sums(const ContactList<D>& contacts,
-                                             const std::vector<Vector<D>>& forces) const
+auto Verification<D>::from_before(const Frame<D>& frame, const Forces& sums) const -> Distance
 {
-  std::vector<Vector<D>> sum(grains_.size(), Vector<D>::Zero());
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    sum[row(contacts.i[c])] += forces[c];
-    if (contacts.j[c] >= 0) sum[row(contacts.j[c])] -= forces[c];
-  }
-  return sum;
+  if (!before_) return Distance::none;
+  if (frame.step == before_->step + 1) return Distance::step;
+  const double change = change_of_sums(grains_, frame, before_->sums, sums);
+  return change <= close_together ? Distance::close : Distance::far;
 }
 
 template <int D>
-std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
-                                                       const std::vector<Vector<D>>& forces) const
+auto Verification<D>::defect_of(const Frame<D>& frame, const Forces& forces) const
+    -> std::pair<Forces, double>
 {
   const bool has_force = !frame.force.empty();
-  if (!has_force && !before_) return std::nullopt;
-  const auto sum = sums(frame.contacts, forces);
+  const auto sum = contact_sums(grains_.size(), frame.contacts, forces);
   double scale = 0;
   for (const auto& force : forces) scale = std::max(scale, force.norm());
-  std::vector<Vector<D>> defect(grains_.size(), Vector<D>::Zero());
-  // That of a grain which is absent, now or before, is NaN.
+  Forces defect(grains_.size(), Vector<D>::Constant(NAN));  // also of what is absent, now or before
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, g)) continue;
+    if (!is_mobile(grains_, frame, g)) continue;
     const Vector<D> weight = grains_.mass[g] * gravity_;
     scale = std::max(scale, weight.norm());
     if (has_force)
       defect[g] = sum[g] + weight - frame.force[g];
-    else
+    else if (!std::isnan(before_->position[g].y()))
       defect[g] = (sum[g] + before_->sums[g]) / 2 + weight -
                   grains_.mass[g] * (frame.velocity[g] - before_->velocity[g]) /
                       (frame.time - before_->time);
   }
+  return {std::move(defect), scale};
+}
+
+template <int D>
+std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
+                                                       const Forces& forces) const
+{
+  const bool has_force = !frame.force.empty();
+  const auto sums = contact_sums(grains_.size(), frame.contacts, forces);
+  if (!has_force) {
+    const auto distance = from_before(frame, sums);
+    if (distance == Distance::none || distance == Distance::far) return std::nullopt;
+  }
+  auto [defect, scale] = defect_of(frame, forces);
   if (!(scale > 0)) return std::nullopt;
   auto residual = residual_of(grains_, defect, scale);
-  if (has_force && accuracy_.late_forces) {
+  if (!has_force) {
+    judge_by_velocities(frame, sums, defect, scale, residual);
+  } else if (accuracy_.late_forces) {
     residual.late =
         subtract_late_damping(grains_, frame, accuracy_.step, accuracy_.inertia, defect);
     residual.unexplained = residual_of(grains_, defect, scale).largest;
@@ -172,25 +220,67 @@ std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
   return residual;
 }
 
+/// A mean force over a step differs from that of the two moments by half of their difference at
+/// most. Over more steps a few grains may have collided meanwhile, but not the median one of those
+/// in contact.
 template <int D>
-std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame) const
+void Verification<D>::judge_by_velocities(const Frame<D>& frame, const Forces& sums,
+                                          const Forces& defect, double scale,
+                                          Residual& residual) const
 {
-  if (!residual_ || residual_->unexplained <= accuracy_.tolerance) return std::nullopt;
+  const bool each = frame.step == before_->step + 1;
+  std::vector<double> sizes;
+  for (std::size_t g = 0; g < grains_.size(); ++g) {
+    if (!is_mobile(grains_, g) || std::isnan(defect[g].y())) continue;
+    const double size = defect[g].norm(), change = (sums[g] - before_->sums[g]).norm();
+    if (each)
+      sizes.push_back(std::max(0.0, size - change / 2) / scale);
+    else if (sums[g].norm() > 0)
+      sizes.push_back(size / scale);
+  }
+  if (sizes.empty()) {
+    residual.unexplained = 0;
+    return;
+  }
+  const auto place =
+      each ? sizes.end() - 1 : sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), place, sizes.end());
+  residual.unexplained = *place;
+}
+
+template <int D>
+std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame)
+{
+  if (!residual_) return std::nullopt;
+  moment_.balance = residual_->unexplained;
+  for (std::size_t g = 0; g < grains_.size(); ++g)
+    moment_.balance_grains += is_mobile(grains_, frame, g);
+  if (residual_->unexplained <= tolerance()) return std::nullopt;
+  auto remedy = other_readings(frame);
+  if (remedy.empty()) remedy = cause(frame);
   return Complaint{
+      "balance",
       fmt::format("the forces on grain {} do not add up: {:.3g} of the largest force is missing "
                   "(tolerance {:g}){}{}{}",
-                  grains_.id[residual_->grain], residual_->largest, accuracy_.tolerance,
+                  grains_.id[residual_->grain], residual_->largest, tolerance(),
                   residual_->late
                       ? fmt::format(", and {:.3g} that damping evaluated half a step late does not "
                                     "explain",
                                     residual_->unexplained)
                       : "",
                   frame.force.empty()
-                      ? ", its acceleration being the difference of velocities between "
-                        "two moments, which need to be close together"
+                      ? ", its acceleration being the difference of velocities between two moments "
+                        "that are close together"
                       : "",
-                  other_readings(frame)),
+                  remedy),
       true};
+}
+
+template <int D>
+std::string Verification<D>::cause(const Frame<D>& frame) const
+{
+  const auto [defect, scale] = defect_of(frame, frame.contacts.force);
+  return likely_cause<D>(grains_, box_, frame, {defect, tolerance() * scale}, axes_);
 }
 
 /// Another meaning of the rows with which the grains balance, if there is one.
@@ -218,7 +308,7 @@ std::string Verification<D>::other_readings(const Frame<D>& frame) const
     for (std::size_t c = 0; c < contacts.size(); ++c)
       forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
     const auto residual = residual_with(frame, forces);
-    if (residual && residual->unexplained <= accuracy_.tolerance)
+    if (residual && residual->unexplained <= tolerance())
       return fmt::format("; they balance to {:.2g} {}", residual->unexplained, what);
   }
   return "";

@@ -2,11 +2,17 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
+#include "formats/import/verify/check_series.hpp"
+#include "formats/import/verify/finding.hpp"
+#include "formats/import/verify/imbalance.hpp"
 #include "formats/import/verify/late_damping.hpp"
+#include "formats/import/verify/moment_statistics.hpp"
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grseg {
@@ -22,6 +28,7 @@ struct Residual {
 
 /// What is wrong with a frame, as a sentence about the reading of its archive.
 struct Complaint {
+  std::string check;  // finding.hpp
   std::string sentence;
   bool of_columns = false;  // another --columns might help
 };
@@ -37,45 +44,58 @@ struct OutputAccuracy {
 /// Checks in each frame of an import what must be true if the archive has been read as it was
 /// meant: contacts join grains that touch, each is listed once, they push rather than pull, and add
 /// up to the force on each grain. Where the archive has no forces on grains, m times the difference
-/// of velocities from the frame before is used, with the mean contact forces of the two frames.
+/// of velocities from the frame before is used, with the mean contact forces of the two frames: of
+/// every grain where the two follow step by step, of the median grain where they are close together
+/// (judge.hpp), and not at all otherwise. What can only be told from many frames goes into `moment`.
 template <int D>
 class Verification {
  public:
-  /// In any consistent units.
+  /// In any consistent units. `axes` are for sentences.
   Verification(const Grains& grains, const Box& box, const Vector<D>& gravity,
-               const OutputAccuracy& accuracy);
+               const OutputAccuracy& accuracy, const Waivers& waivers = {},
+               const std::array<AxisInArchive, 3>& axes = {});
 
-  /// To be called for the frames in order; what is wrong with this one, if anything.
-  std::optional<Complaint> check(const Frame<D>& frame);
+  /// To be called for the frames in order; what is wrong with this one, if anything that is not
+  /// waived. `has_images`: images of positions are the archive's.
+  std::optional<Complaint> check(const Frame<D>& frame, bool has_images = true);
 
   /// Of the last frame; empty where there is nothing to compare with.
   const std::optional<Residual>& residual() const { return residual_; }
+  /// Of the last frame, in the units of the grains.
+  const CheckMoment& moment() const { return moment_; }
 
  private:
-  std::optional<Complaint> geometry(const Frame<D>& frame) const;
-  std::optional<Complaint> double_rows(const Frame<D>& frame) const;
-  std::optional<Complaint> pull(const Frame<D>& frame) const;
-  std::optional<Complaint> balance(const Frame<D>& frame) const;
+  using Forces = std::vector<Vector<D>>;
 
-  /// Contact forces on every grain if `forces` are those of the frame's contacts.
-  std::vector<Vector<D>> sums(const ContactList<D>& contacts,
-                              const std::vector<Vector<D>>& forces) const;
-  std::optional<Residual> residual_with(const Frame<D>& frame,
-                                        const std::vector<Vector<D>>& forces) const;
+  std::optional<Complaint> geometry(const Frame<D>& frame);
+  std::optional<Complaint> touching(const Frame<D>& frame, std::size_t contact);
+  std::optional<Complaint> double_rows(const Frame<D>& frame) const;
+  std::optional<Complaint> pull(const Frame<D>& frame);
+  std::optional<Complaint> balance(const Frame<D>& frame);
+
+  /// How the frame and the one before can be compared, if `forces` are those of the contacts.
+  enum class Distance { none, far, close, step };
+  Distance from_before(const Frame<D>& frame, const Forces& sums) const;
+  /// What is missing on each mobile grain, and the largest force.
+  std::pair<Forces, double> defect_of(const Frame<D>& frame, const Forces& forces) const;
+  std::optional<Residual> residual_with(const Frame<D>& frame, const Forces& forces) const;
+  void judge_by_velocities(const Frame<D>& frame, const Forces& sums, const Forces& defect,
+                           double scale, Residual& residual) const;
   std::string other_readings(const Frame<D>& frame) const;
+  std::string cause(const Frame<D>& frame) const;
   std::string pair_of(const ContactList<D>& contacts, std::size_t c) const;
+  double tolerance() const { return waivers_.limit("balance", accuracy_.tolerance); }
 
   const Grains& grains_;
   Box box_;
   Vector<D> gravity_;
   OutputAccuracy accuracy_;
+  Waivers waivers_;
+  std::array<AxisInArchive, 3> axes_;
+  MomentStatistics<D> statistics_;
   std::optional<Residual> residual_;
-
-  struct Before {
-    double time = 0;
-    std::vector<Vector<D>> velocity, sums;
-  };
-  std::optional<Before> before_;
+  CheckMoment moment_;
+  std::optional<MomentBefore<D>> before_;
 };
 
 }  // namespace grseg

@@ -260,7 +260,7 @@ TEST_F(FlowInSpace, LateDampingRollsSpheresAndNotDiscs)
       along_n / (1 - c_n * half_step) +
       (total - along_n + c_t * half_step * friction / 0.4) / (1 - c_t * half_step);
   auto settings = lammps(folder, views()[1], flow);
-  settings.accept_residual = 1e-9;
+  settings.accept_residual = {"1e-9"};
   const auto report = import_archive(settings, "");
   EXPECT_NEAR(report.late.normal, c_n, 1e-7);
   EXPECT_NEAR(report.late.tangential, c_t, 1e-7);

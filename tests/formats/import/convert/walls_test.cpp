@@ -181,6 +181,7 @@ TEST_F(Walls, AreRefusedWithASentenceWhereTheyCannotBe)
   EXPECT_TRUE(mentions(sentence({"floor=y:0", "left=x:0"}),
                        "--wall left (x = 0): the cell is periodic along x"));
   auto s = two_discs(0.05, "pp ff pp", "id type mass radius x y vx vy omegaz ax ay");
+  s.files.columns = "i=2,j=3,dist=4,force=5,tangential=8";
   s.walls = {"floor=y:0"};
   EXPECT_TRUE(mentions(refusal(s).sentence, "the archive has no forces on grains"));
 }

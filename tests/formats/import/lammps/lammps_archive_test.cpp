@@ -185,8 +185,8 @@ TEST_F(Lammps, ABalanceToFivePercentIsAcceptedAndMoreOnlyOnRequest)
   auto s = missing(0.06);
   s.overwrite = true;
   EXPECT_EQ(refusal(s).code, exit_check);
-  EXPECT_TRUE(mentions(refusal(s).sentence, "--accept-residual R"));
-  s.accept_residual = 0.07;
+  EXPECT_TRUE(mentions(refusal(s).sentence, "--accept-residual balance=R"));
+  s.accept_residual = {"0.07"};
   EXPECT_EQ(refusal(s).code, 0);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/siconos/siconos_archive.hpp"
 
+#include "formats/import/siconos/siconos_bodies.hpp"
 #include "tests/formats/import/archive_balance.hpp"
 
 #include <gtest/gtest.h>
@@ -218,6 +219,86 @@ TEST(SiconosArchive, StaticDiscsHaveTheDensityOfTheOthers)
     EXPECT_NEAR(grains.mass[g], pi * grains.radius[g] * grains.radius[g], 1e-8);
   }
   EXPECT_EQ(held, 5);
+}
+
+const std::string ground_in_plane = inputs + "ground2d-10.hdf5";
+const std::string ground_in_space = inputs + "ground3d-10.hdf5";
+
+TEST(SiconosArchive, EveryTenthStepHasNoForcesOnGrainsAndSaysWhatCannotBeTold)
+{
+  const auto archive = open(ground_in_plane);
+  const auto moments = all_of(*archive);
+  EXPECT_NEAR(*archive->facts().step, 0.002, 1e-9);
+  ASSERT_EQ(moments.size(), 31u);  // the first step is written as well
+  EXPECT_EQ(*moments[0].step, 1);
+  for (std::size_t k = 1; k < moments.size(); ++k)
+    EXPECT_EQ(*moments[k].step, static_cast<std::int64_t>(10 * k));
+  for (const auto& moment : moments) EXPECT_TRUE(moment.grains.force.empty());
+  ASSERT_EQ(archive->remarks().size(), 1u);
+  EXPECT_NE(archive->remarks()[0].find("at most every 10 steps were written"), std::string::npos);
+}
+
+/// Mean of what the ground carries in the last `count` moments, over the weight of all grains; its
+/// normal is `up`.
+double carried_in(const std::string& path, std::size_t count, int up)
+{
+  const auto moments = all_of(*open(path));
+  double carried = 0, weight = 0;
+  for (const double mass : moments.back().grains.mass) weight += 9.81 * mass;
+  for (auto k = moments.size() - count; k < moments.size(); ++k)
+    for (std::size_t c = 0; c < moments[k].contacts.size(); ++c)
+      if (at_wall(moments[k].contacts, c))
+        carried += moments[k].contacts.force[c][up] / static_cast<double>(count);
+  return carried / weight;
+}
+
+TEST(SiconosArchive, AGroundThatIsAConvexHullIsAWallThatCarriesTheWeight)
+{
+  EXPECT_NEAR(carried_in(ground_in_space, 5, 2), 1, 1e-4);
+  // Discs still leave the ground for single steps: a bound that was seen, not derived.
+  EXPECT_NEAR(carried_in(ground_in_plane, 5, 1), 1, 0.1);
+}
+
+TEST(SiconosArchive, ContactsWithAHullLieOnItOrOnItsMargin)
+{
+  const auto expect_on_ground = [](const std::string& path, int up, double margin) {
+    std::size_t found = 0;
+    for (const auto& moment : all_of(*open(path))) {
+      const auto entry = entries(moment.grains);
+      const auto& contacts = moment.contacts;
+      for (std::size_t c = 0; c < contacts.size(); ++c) {
+        if (!at_wall(contacts, c)) continue;
+        const Vec3 x = moment.grains.position[entry.at(contacts.i[c])];
+        EXPECT_NEAR((x - contacts.branch[c])[up], margin, 1e-5);
+        EXPECT_EQ(contacts.wall[c], 0);
+        ++found;
+      }
+    }
+    EXPECT_GT(found, 100u);
+  };
+  expect_on_ground(ground_in_plane, 1, 0.006);  // 2 % of its height of 0.3
+  expect_on_ground(ground_in_space, 2, 0);
+}
+
+TEST(SiconosBodies, TheSidesOfAHullAreThoseOfItsCorners)
+{
+  SiconosBody ground;
+  {
+    const auto file = hdf5::open_for_reading(ground_in_plane);
+    ground = read_siconos_bodies(file, ground_in_plane).all.front();
+  }
+  EXPECT_EQ(ground.planes.size(), 4u);  // of (-1, -0.3), (1, -0.3), (1.2, 0), (-1.2, 0)
+  EXPECT_NEAR(ground.margin, 0.006, 1e-8);
+  ground.margin = 0;
+  EXPECT_NEAR(distance_to_surface(ground, {0.3, 0.25, 0}), 0.25, 1e-7);
+  EXPECT_NEAR(distance_to_surface(ground, {0.3, -0.2, 0}), 0.1, 1e-7);
+  EXPECT_NEAR(distance_to_surface(ground, {1.1, -0.15, 0}), 0, 1e-7);
+  const auto file = hdf5::open_for_reading(ground_in_space);
+  ground = read_siconos_bodies(file, ground_in_space).all.front();
+  ground.margin = 0;
+  EXPECT_EQ(ground.planes.size(), 6u);
+  EXPECT_NEAR(distance_to_surface(ground, {0.2, -1.5, -0.1}), 0.5, 1e-7);
+  EXPECT_NEAR(distance_to_surface(ground, {0.2, 0.95, -0.1}), 0.05, 1e-7);
 }
 
 TEST_F(DamagedSiconos, TimesThatDifferInTheLastPlaceAreTheSame)

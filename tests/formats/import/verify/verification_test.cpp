@@ -141,21 +141,118 @@ TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsTheMissingForc
 }
 
 // Without forces on grains a fall from rest has v = g t, and the held grain none.
-TEST(Verification, WithoutForcesVelocitiesOfTwoMomentsAreUsed)
+TEST(Verification, WithoutForcesVelocitiesOfTwoStepsAreUsed)
 {
   Scene scene;
   scene.frame.force.clear();
   auto verification = scene.verification();
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_FALSE(verification.residual()) << "nothing to compare with yet";
+  scene.frame.step = 1;
   scene.frame.time = 0.5;
   scene.frame.velocity[0] = {0, -5};
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_LT(verification.residual()->largest, 1e-15);
+  scene.frame.step = 2;
   scene.frame.time = 1;
   const auto complaint = verification.check(scene.frame);
   ASSERT_TRUE(complaint);
+  EXPECT_EQ(complaint->check, "balance");
   EXPECT_TRUE(mentions(complaint->sentence, "difference of velocities between two moments"));
+}
+
+// The force on the held grain changes from 30 to 60: over a step its mean may be anything between.
+TEST(Verification, AForceThatChangesOverAStepIsKnownToHalfOfTheChange)
+{
+  Scene scene;
+  scene.frame.force.clear();
+  for (const double velocity : {0.0, -0.5, 9.5, 10.5}) {
+    auto verification = scene.verification();
+    scene.frame.step = 0;
+    scene.frame.time = 0;
+    scene.frame.velocity = {{0, 0}, {0, 0}, {0, 0}};
+    scene.frame.contacts.force[0] = {0, 30};
+    EXPECT_FALSE(verification.check(scene.frame));
+    scene.frame.step = 1;
+    scene.frame.time = 1;
+    scene.frame.velocity = {{0, -10}, {0, velocity}, {0, 0}};
+    scene.frame.contacts.force[0] = {0, 60};
+    // m v = 0 to 30
+    EXPECT_EQ(verification.check(scene.frame).has_value(), velocity < 0 || velocity > 10)
+        << velocity;
+  }
+}
+
+TEST(Verification, MomentsFarApartBalanceNeitherWellNorBadly)
+{
+  Scene scene;
+  scene.frame.force.clear();
+  auto verification = scene.verification();
+  EXPECT_FALSE(verification.check(scene.frame));
+  scene.frame.step = 1000;
+  scene.frame.time = 1000;
+  scene.frame.contacts.force[0] = {0, 40};
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_FALSE(verification.residual());
+  EXPECT_EQ(verification.moment().balance_grains, 0);
+  EXPECT_DOUBLE_EQ(verification.moment().change, 10.0 / 40);
+  // Where they do not change, as in a packing at rest, the median grain in contact is judged.
+  scene.frame.step = 2000;
+  scene.frame.time = 2000;
+  const auto complaint = verification.check(scene.frame);
+  ASSERT_TRUE(complaint) << "40 does not balance 30";
+  EXPECT_EQ(complaint->check, "balance");
+}
+
+TEST(Verification, ADeepOverlapHasItsOwnNameAndCanBeWaived)
+{
+  Scene scene;
+  scene.frame.position[1] = {1, 1.5};
+  scene.frame.contacts.branch[0] = {0, 1.5};
+  scene.frame.contacts.gap[0] = -0.5;
+  const auto complaint = scene.verification().check(scene.frame);
+  ASSERT_TRUE(complaint);
+  EXPECT_EQ(complaint->check, "overlap");
+  EXPECT_TRUE(mentions(complaint->sentence, "grains 2 and 3 overlap by 0.5 of the smaller radius"));
+  EXPECT_TRUE(mentions(complaint->sentence, "--accept-residual overlap=0.5"));
+  Verification<2> waived(scene.grains, scene.box, scene.gravity, {1e-10, false, 0, 0.5},
+                         Waivers({"overlap=0.6"}));
+  EXPECT_FALSE(waived.check(scene.frame));
+  EXPECT_DOUBLE_EQ(waived.moment().overlap, 0.5);
+}
+
+// The disc on the base disc is held by a wall below, which the archive does not mention.
+TEST(Verification, AMissingWallIsNamedWhereGrainsLackItsPush)
+{
+  Scene scene;
+  scene.frame.contacts.clear();
+  Verification<2> verification(scene.grains, scene.box, scene.gravity, {1e-10, false, 0, 0.5}, {},
+                               {AxisInArchive{'x', true, 0}, {'z', true, 0.5}});
+  const auto complaint = verification.check(scene.frame);
+  ASSERT_TRUE(complaint);
+  EXPECT_TRUE(mentions(complaint->sentence,
+                       "of the 1 grains that do not balance 1 lie at a side of the bed and lack a "
+                       "push away from it (1 at the lowest z, at about z = 0.5)"));
+  EXPECT_TRUE(mentions(complaint->sentence, "name the wall with --wall"));
+}
+
+TEST(Verification, AMissingTangentialPartIsNamed)
+{
+  Scene scene;
+  scene.gravity = {4, -10};
+  scene.frame.force[0] = {8, -20};
+  EXPECT_TRUE(mentions(scene.complaint(), "is the tangential part missing?"));
+}
+
+TEST(Verification, ABedThatIsStillFillingIsNamed)
+{
+  Scene scene;
+  scene.frame.position[1] = {1, 1.8};
+  auto& contacts = scene.frame.contacts;
+  contacts.branch[0] = {0, 1.8};
+  contacts.gap[0] = -0.2;
+  contacts.force[0] = {9, 80};
+  EXPECT_TRUE(mentions(scene.complaint(), "a bed that is still being filled"));
 }
 
 /// The same with spheres: one that falls, and one on a base sphere in an oblique direction, across

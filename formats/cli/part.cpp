@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/part.hpp"
+
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace grseg {
+namespace {
+
+constexpr std::size_t most_parts = 9999;
+
+std::optional<std::size_t> count_in(const std::string& text)
+{
+  if (text.empty() || text.size() > 4 || text.find_first_not_of("0123456789") != std::string::npos)
+    return {};
+  return std::stoul(text);
+}
+
+OutputPart parse_part(const std::string& text)
+{
+  const auto slash = text.find('/');
+  const auto number = count_in(text.substr(0, slash));
+  const auto count = slash == std::string::npos ? std::nullopt : count_in(text.substr(slash + 1));
+  if (!number || !count || *number < 1 || *number > *count)
+    throw UsageError(fmt::format(
+        "--part '{}': give the number of the part and how many there are, as in 3/16", text));
+  return {*number, *count};
+}
+
+}  // namespace
+
+std::string OutputPart::text() const
+{
+  return fmt::format("{}/{}", number, count);
+}
+
+std::pair<std::size_t, std::size_t> OutputPart::range(std::size_t things) const
+{
+  return {things * (number - 1) / count, things * number / count};
+}
+
+std::string OutputPart::path(const std::string& output, const std::string& extension) const
+{
+  const auto name = std::filesystem::path(output).replace_extension().string();
+  return fmt::format("{}.part-{:0{}}-of-{}{}", name, number, fmt::formatted_size("{}", count),
+                     count, extension);
+}
+
+void PartOptions::add_to(po::options_description& options)
+{
+  options.add_options()(
+      "part",
+      po::value<std::string>()->value_name("K/N")->notifier(
+          [this](const std::string& text) { part = parse_part(text); }),
+      "make the K-th of N parts of the output, of -o run.tsv run.part-K-of-N.tsv: each may be made "
+      "by a process of its own");
+  options.add_options()(
+      "join", po::value<std::size_t>(&join)->value_name("N")->notifier([](std::size_t n) {
+        if (n < 1 || n > most_parts)
+          throw UsageError(fmt::format("--join {}: it must be 1 to {}", n, most_parts));
+      }),
+      "make the output of its N parts, with all other options as they had: the "
+      "bytes that one process would write");
+}
+
+void PartOptions::check(const std::string& output) const
+{
+  if (part && join > 0) throw UsageError("--part makes a part and --join needs all; take one");
+  if (part && (output.empty() || output == "-"))
+    throw UsageError(fmt::format(
+        "--part {} writes a file: name the whole output with -o, as in -o sums.tsv", part->text()));
+  if (join > 0 && (output.empty() || output == "-"))
+    throw UsageError("--join reads the parts of a file: name this with -o, as in -o sums.tsv");
+}
+
+}  // namespace grseg

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/cli/tool.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace grseg {
+
+/// One of several parts of an output, each made by a process of its own.
+struct OutputPart {
+  std::size_t number = 1, count = 1;  // 1 .. count
+
+  /// "3/16"
+  std::string text() const;
+  /// Those of `things` that belong to it: from the first of the pair up to before the second. Parts
+  /// follow each other and differ by one thing at most.
+  std::pair<std::size_t, std::size_t> range(std::size_t things) const;
+  /// The file of the part of an output: "sums.part-03-of-16.tsv" of "sums.tsv". `extension`
+  /// replaces that of the output.
+  std::string path(const std::string& output, const std::string& extension) const;
+};
+
+/// --part K/N makes a part of the output, and the same command with --join N, where the files of all
+/// parts are there, the output itself, with the bytes that one process would have written.
+struct PartOptions {
+  std::optional<OutputPart> part;
+  std::size_t join = 0;  // number of parts; 0: no joining
+
+  /// Adds --part and --join.
+  void add_to(po::options_description& options);
+  /// UsageError where both are given, or there is no file that parts could be named after.
+  void check(const std::string& output) const;
+};
+
+}  // namespace grseg

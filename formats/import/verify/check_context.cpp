@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/verify/check_context.hpp"
+
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+/// Sizes that differ by less are one size.
+constexpr double one_size = 1.05;
+
+template <std::size_t N>
+std::array<double, N> numbers(const Parameters& parameters, const std::string& name,
+                              const std::string& file)
+{
+  const auto found = parameters.numbers.find(name);
+  if (found == parameters.numbers.end() || found->second.size() != N)
+    throw FormatError(fmt::format(
+        "{}: /parameters/{} does not hold {} numbers: import the archive again", file, name, N));
+  std::array<double, N> values;
+  std::copy(found->second.begin(), found->second.end(), values.begin());
+  return values;
+}
+
+Vec3 vector_of(const Parameters& parameters, const std::string& name)
+{
+  Vec3 vector = Vec3::Zero();
+  const auto found = parameters.numbers.find(name);
+  if (found == parameters.numbers.end()) return vector;
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, found->second.size()); ++k)
+    vector[static_cast<Eigen::Index>(k)] = found->second[k];
+  return vector;
+}
+
+std::vector<std::string> words(const std::string& text)
+{
+  std::istringstream stream(text);
+  std::vector<std::string> all;
+  for (std::string word; stream >> word;) all.push_back(word);
+  return all;
+}
+
+/// `types` holds a line for each species.
+std::vector<SpeciesSizes> sizes_of(const Grains& grains, const SpeciesList& species,
+                                   const std::string& types)
+{
+  std::istringstream lines(types);
+  std::vector<SpeciesSizes> sizes;
+  for (std::size_t k = 0; k < species.size(); ++k) {
+    SpeciesSizes size{species[k].name, "", species[k].diameter, 0, INFINITY, 0};
+    std::getline(lines, size.types);
+    double count = 0;
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      if (grains.species[g] != static_cast<Species>(k)) continue;
+      const double diameter = 2 * grains.radius[g];
+      size.mean += diameter, ++count;
+      size.smallest = std::min(size.smallest, diameter);
+      size.largest = std::max(size.largest, diameter);
+    }
+    if (count == 0) continue;
+    size.mean /= count;
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
+double ratio_of_sizes(const Grains& grains)
+{
+  const double split = split_of_sizes(grains);
+  if (split == 0) return 1;
+  double sum[2] = {}, count[2] = {};
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    const int larger = grains.radius[g] >= split;
+    sum[larger] += grains.radius[g], ++count[larger];
+  }
+  return sum[1] / count[1] / (sum[0] / count[0]);
+}
+
+}  // namespace
+
+double split_of_sizes(const Grains& grains)
+{
+  double low = INFINITY, high = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    low = std::min(low, grains.radius[g]);
+    high = std::max(high, grains.radius[g]);
+  }
+  return high > one_size * low ? std::sqrt(low * high) : 0;
+}
+
+CheckContext check_context(const Grains& grains, const SpeciesList& species,
+                           const Parameters& parameters, bool has_force, const std::string& file)
+{
+  CheckContext context;
+  context.has_force = has_force;
+  context.dimension = static_cast<int>(parameters.numbers.at("gravity").size());
+  context.gravity = vector_of(parameters, "gravity");
+  const auto axes = numbers<9>(parameters, "import_directions", file);
+  for (std::size_t k = 0; k < 3; ++k)
+    context.axes[k] = {axes[3 * k], axes[3 * k + 1], axes[3 * k + 2]};
+  const auto [length, time, mass] = numbers<3>(parameters, "import_units", file);
+  context.units = {length, time, mass};
+  context.step = parameters.number("step", file);
+  const auto is_own = [&](const char* name) { return parameters.text(name) == "archive"; };
+  context.gravity_is_given = !is_own("import_gravity");
+  context.masses_are_given = !is_own("import_masses");
+  context.step_is_given = !is_own("import_step");
+  const auto times = parameters.text("import_times");
+  context.times_are_own = times != "steps";
+  context.steps_are_own = times != "times";
+  context.tolerance = parameters.number("import_tolerance_of_program", file);
+  context.reason = parameters.text("import_tolerance_reason");
+  context.species = sizes_of(grains, species, parameters.text("import_types"));
+  context.size_ratio = ratio_of_sizes(grains);
+  context.waivers = Waivers(words(parameters.text("import_accepted")));
+  return context;
+}
+
+}  // namespace grseg

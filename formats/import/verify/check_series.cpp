@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/verify/check_series.hpp"
+
+#include <string>
+
+namespace grseg {
+namespace {
+
+/// Calls `visit` with name, unit and place of every number of a moment.
+template <class Moment, class Visit>
+void visit_numbers(Moment& moment, const Visit& visit)
+{
+  visit("distance", "", moment.distance);
+  visit("gap", "", moment.gap);
+  visit("overlap", "", moment.overlap);
+  visit("pull", "", moment.pull);
+  visit("balance", "", moment.balance);
+  visit("balance_grains", "", moment.balance_grains);
+  visit("change", "", moment.change);
+  visit("acceleration", "m s-2", moment.acceleration);
+  visit("medians", "", moment.medians);
+  const auto visit_estimate = [&](const std::string& name, auto& estimate) {
+    visit(name + "_grains", "", estimate.grains);
+    visit(name + "_x", "m s-2", estimate.gravity.x());
+    visit(name + "_y", "m s-2", estimate.gravity.y());
+    visit(name + "_z", "m s-2", estimate.gravity.z());
+    visit(name + "_error", "m s-2", estimate.error);
+  };
+  visit_estimate("gravity", moment.all);
+  visit_estimate("gravity_smaller", moment.smaller);
+  visit_estimate("gravity_larger", moment.larger);
+  const auto visit_sums = [&](const std::string& name, auto& sums, const char* square,
+                              const char* fourth) {
+    visit(name + "_grains", "", sums.grains);
+    visit(name + "_xx", square, sums.xx);
+    visit(name + "_xy", square, sums.xy);
+    visit(name + "_yy", square, sums.yy);
+    visit(name + "_xx_xx", fourth, sums.xx_xx);
+    visit(name + "_xx_xy", fourth, sums.xx_xy);
+    visit(name + "_xy_xy", fourth, sums.xy_xy);
+  };
+  visit_sums("motion", moment.motion, "", "");
+  visit_sums("force", moment.force, "m2 s-4", "m4 s-8");
+}
+
+}  // namespace
+
+SlopeSums& SlopeSums::operator+=(const SlopeSums& other)
+{
+  grains += other.grains, xx += other.xx, xy += other.xy, yy += other.yy;
+  xx_xx += other.xx_xx, xx_xy += other.xx_xy, xy_xy += other.xy_xy;
+  return *this;
+}
+
+CheckMoment in_si(CheckMoment moment, const Units& units)
+{
+  const double acceleration = units.acceleration(), square = acceleration * acceleration;
+  moment.time *= units.time;
+  moment.acceleration *= acceleration;
+  for (auto* estimate : {&moment.all, &moment.smaller, &moment.larger}) {
+    estimate->gravity *= acceleration;
+    estimate->error *= acceleration;
+  }
+  auto& force = moment.force;
+  for (auto* sum : {&force.xx, &force.xy, &force.yy}) *sum *= square;
+  for (auto* sum : {&force.xx_xx, &force.xx_xy, &force.xy_xy}) *sum *= square * square;
+  return moment;
+}
+
+const std::vector<Observable>& check_observables()
+{
+  static const auto observables = [] {
+    std::vector<Observable> all;
+    const CheckMoment moment;
+    visit_numbers(moment, [&](const std::string& name, const char* unit, const double&) {
+      all.push_back({"check_" + name, unit});
+    });
+    return all;
+  }();
+  return observables;
+}
+
+std::vector<double> check_values(const CheckMoment& moment)
+{
+  std::vector<double> values;
+  visit_numbers(moment, [&](const std::string&, const char*, const double& value) {
+    values.push_back(value);
+  });
+  return values;
+}
+
+void set_check_values(CheckMoment& moment, const std::vector<double>& values)
+{
+  auto value = values.begin();
+  visit_numbers(moment, [&](const std::string&, const char*, double& place) { place = *value++; });
+}
+
+}  // namespace grseg

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+#include "formats/core/parameters.hpp"
+#include "formats/import/facts/units.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+/// What the checks of an import remember of each moment: numbers that are stored with every frame as
+/// observables `check_...`, so that findings can be computed again from the file alone. Where the
+/// number of grains of a group is 0, the rest of the group is 0 and says nothing.
+namespace grseg {
+
+/// An estimate of gravity (m/s^2, in the axes of the flow) from some of the grains of a moment.
+struct GravityEstimate {
+  double grains = 0;  // that it is made of
+  Vec3 gravity = Vec3::Zero();
+  double error = 0;  // standard error within the moment; 0 where it is a sum over all grains
+};
+
+/// Sums over grains from which the slope of a line y = k x through the origin and its standard error
+/// follow, x and y being vectors.
+struct SlopeSums {
+  double grains = 0, xx = 0, xy = 0, yy = 0;  // sums of 1, x.x, x.y, y.y
+  double xx_xx = 0, xx_xy = 0, xy_xy = 0;     // sums of products of these
+
+  template <int D>
+  void add(const Vector<D>& x, const Vector<D>& y)
+  {
+    const double a = x.dot(x), b = x.dot(y);
+    grains += 1, xx += a, xy += b, yy += y.dot(y);
+    xx_xx += a * a, xx_xy += a * b, xy_xy += b * b;
+  }
+  SlopeSums& operator+=(const SlopeSums& other);
+};
+
+/// One moment.
+struct CheckMoment {
+  std::int64_t step = 0;
+  double time = 0;  // s
+
+  // Of contacts that bear a force, in units of the smaller radius: the largest difference between
+  // the distance that the archive states and that of the positions, the widest gap, the deepest
+  // overlap. Fraction of the normal force that pulls.
+  double distance = 0, gap = 0, overlap = 0, pull = 0;
+
+  /// By how much the force on a grain is missed, over the largest force; of how many grains: 0 where
+  /// it could not be judged.
+  double balance = 0, balance_grains = 0;
+  /// Without forces on grains: how much the contact forces on a grain have changed since the moment
+  /// before, over their size; medians. 0 where one follows the other step by step.
+  double change = 0;
+  /// Median over grains of the sum of sizes of contact forces over the mass, m/s^2.
+  double acceleration = 0;
+  /// Of all mobile grains, and of the smaller and the larger ones.
+  GravityEstimate all, smaller, larger;
+  /// Whether these are medians over grains (1), or sums over all grains (0).
+  double medians = 0;
+
+  SlopeSums motion;  // x: velocity times time, y: displacement, in mean diameters
+  SlopeSums force;   // x: mass times acceleration, y: force, both over the mass, m/s^2
+};
+
+/// From the units of an archive to SI.
+CheckMoment in_si(CheckMoment moment, const Units& units);
+
+using CheckSeries = std::vector<CheckMoment>;
+
+/// The observables that hold a moment, and what a moment holds of them, in the same order.
+const std::vector<Observable>& check_observables();
+std::vector<double> check_values(const CheckMoment& moment);
+void set_check_values(CheckMoment& moment, const std::vector<double>& values);
+
+}  // namespace grseg

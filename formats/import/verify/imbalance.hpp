@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// Where an axis of the flow lies in the archive: x = +-X + shift. No letter: along none of its axes.
+struct AxisInArchive {
+  char letter = 0;
+  bool forward = true;
+  double shift = 0;
+};
+
+/// Grains that do not balance: by how much, N (contact forces + m g - force), and from where on.
+template <int D>
+struct Imbalance {
+  const std::vector<Vector<D>>& defect;
+  double limit = 0;
+};
+
+/// What the archive itself shows of why grains do not balance, as part of a sentence, "" where it
+/// shows nothing: most of them lie at a face of the bed, away from which they are pushed (a wall is
+/// missing); all contact forces are along their normals (the tangential part is missing); they
+/// overlap deeply (a bed that is being filled).
+template <int D>
+std::string likely_cause(const Grains& grains, const Box& box, const Frame<D>& frame,
+                         const Imbalance<D>& imbalance, const std::array<AxisInArchive, 3>& axes);
+
+}  // namespace grseg

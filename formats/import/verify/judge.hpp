@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/verify/check_context.hpp"
+#include "formats/import/verify/check_series.hpp"
+#include "formats/import/verify/finding.hpp"
+
+#include <vector>
+
+namespace grseg {
+
+/// The findings of all checks, one each in the order of check_names, from the moments of an import
+/// so far. Depends on nothing else: parts of an import that are put together reach the same findings
+/// as the whole.
+std::vector<Finding> judge(const CheckSeries& series, const CheckContext& context);
+
+/// Single checks, before waivers.
+Finding judge_gravity(const CheckSeries& series, const CheckContext& context);
+Finding judge_masses(const CheckSeries& series, const CheckContext& context,
+                     const Finding& gravity);
+Finding judge_sizes(const CheckContext& context);
+Finding judge_time(const CheckSeries& series, const CheckContext& context);
+
+/// In units of the smaller radius: by how much a distance may differ from radii and overlap (digits
+/// of the text), how far apart grains that bear a force may be, and how deep they may overlap.
+inline constexpr double largest_distance = 0.01, widest_gap = 0.05, deepest_overlap = 0.3;
+/// Fraction of the normal force that may pull: damping of soft grains that separate.
+inline constexpr double largest_pull = 0.2;
+
+/// Without forces on grains, two moments are close together where the contact forces on a grain have
+/// changed by less than this fraction of their size. The mean over the time between them then
+/// differs by at most half of the change from that of the two moments, as long as they change one
+/// way.
+inline constexpr double close_together = 0.1;
+
+}  // namespace grseg

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/verify/estimate.hpp"
+#include "formats/import/verify/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace grseg {
+namespace {
+
+/// An error of gravity by three degrees has to be seen: it is this part of gravity. What is nearer
+/// to it than to 0 is called wrong; a standard error of a third of that leaves three of them on
+/// either side.
+constexpr double three_degrees = 0.0523, tolerance = three_degrees / 2, sharp = tolerance / 3;
+
+/// Where contacts accelerate grains by a hundred times more than gravity, gravity does not matter.
+constexpr double negligible = 0.01;
+
+double degrees(double radians)
+{
+  return radians * 180 / std::numbers::pi;
+}
+
+Vec3 in_the_archive(const CheckContext& context, const Vec3& gravity)
+{
+  Vec3 vector = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) vector += gravity[k] * context.axes[static_cast<std::size_t>(k)];
+  return vector / context.units.acceleration();
+}
+
+/// "9.8 along (0.391, -0.921, 0), slope 23.0 degrees", in the archive's units and axes.
+std::string text_of(const CheckContext& context, const Vec3& gravity)
+{
+  const Vec3 vector = in_the_archive(context, gravity);
+  const double size = vector.norm();
+  if (!(size > 0)) return "0";
+  const auto clean = [&](double component) {
+    const double rounded = std::round(component / size * 1000) / 1000;
+    return rounded == 0 ? 0 : rounded;
+  };
+  return fmt::format("{:.4g} along ({:g}, {:g}, {:g}), slope {:.1f} degrees", size,
+                     clean(vector.x()), clean(vector.y()), clean(vector.z()),
+                     degrees(std::atan2(gravity.x(), -gravity.y())));
+}
+
+double median_acceleration(const CheckSeries& series)
+{
+  std::vector<double> values;
+  for (const auto& moment : series) values.push_back(moment.acceleration);
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What on the command line would agree with the archive.
+std::string remedy(const CheckContext& context, const Vec3& found, bool medians)
+{
+  const Vec3 vector = in_the_archive(context, found);
+  const Vec3& given = context.gravity;
+  const auto option =
+      fmt::format("--gravity {:.4g},{:.4g},{:.4g}", vector.x(), vector.y(), vector.z());
+  std::vector<std::string> ways{
+      context.gravity_is_given
+          ? fmt::format("gravity is another ({})", option)
+          : fmt::format("the archive states another gravity than its grains felt ({})", option)};
+  const double ratio = found.norm() / given.norm();
+  const bool same_way = found.dot(given) > std::cos(0.02) * found.norm() * given.norm();
+  if (same_way && std::isfinite(ratio))
+    ways.push_back(fmt::format(
+        "masses are {:.3g} times {}", ratio,
+        context.masses_are_given ? "what --density makes them" : "those that the archive states"));
+  if (!medians) ways.emplace_back("contacts with the base or a wall are missing");
+  std::string text = ways.size() > 1 ? "either " : "";
+  for (std::size_t k = 0; k < ways.size(); ++k) text += (k > 0 ? ", or " : "") + ways[k];
+  return text;
+}
+
+std::string source(const Estimate& found)
+{
+  return fmt::format(
+      "from {} {:.0f} grains at {} {}", found.medians ? "the median over" : "the sum over",
+      found.grains, found.moments,
+      found.medians ? (found.moments == 1 ? "moment" : "moments") : "pairs of moments");
+}
+
+Finding undecided(const CheckContext& context, const std::string& why)
+{
+  if (!context.gravity_is_given)
+    return {"gravity", Verdict::passed, "it is stated by the archive; " + why, 0};
+  return {"gravity", Verdict::undecided, why, 0};
+}
+
+}  // namespace
+
+Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
+{
+  const auto found = gravity_from(series, &CheckMoment::all);
+  if (!found)
+    return undecided(
+        context, fmt::format("without forces on grains it takes {} pairs of moments, or moments "
+                             "close together, to tell gravity from the grains",
+                             fewest_pairs));
+  const double scale = std::max(
+      {context.gravity.norm(), found->value.norm(), negligible * median_acceleration(series)});
+  if (!(scale > 0))
+    return {"gravity", Verdict::passed, "there is none, and the grains feel none", 0};
+  const double measure = (found->value - context.gravity).norm() / scale;
+  const double error = found->error / scale;
+  const auto suggestion =
+      fmt::format("the archive suggests gravity {}, with a standard error of {:.2g} of it, {}",
+                  text_of(context, found->value), error, source(*found));
+  if (measure > tolerance && measure > 5 * error)
+    return {"gravity", Verdict::failed,
+            fmt::format("{}; as given it is {}: {}", suggestion, text_of(context, context.gravity),
+                        remedy(context, found->value, found->medians)),
+            measure};
+  if (measure <= tolerance && error <= sharp)
+    return {"gravity", Verdict::passed, suggestion, measure};
+  auto finding = undecided(context, suggestion + ": an error of 3 degrees would not be seen");
+  finding.measure = measure;
+  return finding;
+}
+
+}  // namespace grseg
