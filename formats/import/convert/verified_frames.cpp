@@ -49,7 +49,9 @@ VerifiedFrames<D>::VerifiedFrames(OpenedArchive opened, const ImportSettings& se
 {
   const auto& bed = builder_->bed();
   if (!bed.walls.empty())
-    walls_.emplace(bed.walls, bed, facts().orientation.gravity.template head<D>());
+    walls_ = std::make_unique<InferredWalls<D>>(bed.walls, bed,
+                                                facts().orientation.gravity.template head<D>());
+  if (walls_) verification_.leave_out(walls_->inferred());
 }
 
 template <int D>

@@ -164,8 +164,8 @@ void FactFinder::find_grains()
 
 void FactFinder::find_base()
 {
-  facts_.walls = archive_.walls;
   for (const auto& wall : parse_walls(settings_.walls)) facts_.walls.push_back(list_of({wall}));
+  facts_.walls.insert(facts_.walls.end(), archive_.walls.begin(), archive_.walls.end());
   if (!facts_.walls.empty() || settings_.species.boundary || settings_.species.boundary_ids ||
       !look_.all.grains.fixed.empty())
     return;

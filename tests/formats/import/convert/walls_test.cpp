@@ -213,9 +213,9 @@ TEST_F(WallsOfTrueArchives, ThatArePlanesCarryTheWeightOfDiscsPouredInBySixDigit
   s.gravity = "9.8";
   s.axes = "xy";
   s.walls = {"floor=y:0", "left=x:-0.04", "right=x:0.04"};
-  EXPECT_EQ(import_archive(s, "").frames, 19u);
+  EXPECT_EQ(import_archive(s, "").frames, 20u);
   const TrajectoryReader run(s.output);
-  for (const std::size_t at_rest : {14, 18}) {
+  for (const std::size_t at_rest : {15, 19}) {
     const auto frame = frame_of<2>(s, at_rest);
     const auto [weight, force] = weight_and_force<2>(run.grains(), frame, {0, -9.8});
     // A force's components are off by 5e-6 of themselves at most: 200 contacts of two rows each.
