@@ -5,20 +5,25 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/dimension.hpp"
+#include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 #include "formats/import/common/file_list.hpp"
-#include "formats/import/convert/judgement.hpp"
+#include "formats/import/convert/closing.hpp"
+#include "formats/import/convert/import_part.hpp"
 #include "formats/import/convert/verified_frames.hpp"
+#include "formats/trajectory/integrity.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 namespace grseg {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Mean of the smallest and the largest diameter of a species; 0 where it has no grains.
 double mid_range(const Grains& grains, Species species)
@@ -74,8 +79,7 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   run.box.length_z *= units.length;
   run.has_force = frames.has_force();
   run.grains_come_and_go = frames.roster() != nullptr;
-  run.observables = check_observables();
-  run.observables.insert(run.observables.begin(), {"momentum_defect", ""});
+  run.observables = import_observables();
 
   auto& numbers = run.parameters.numbers;
   const Vector<D> gravity = facts.orientation.gravity.template head<D>() * units.acceleration();
@@ -138,78 +142,53 @@ template <int D>
                   offer ? "; --accept-residual balance=R imports what balances to R" : ""));
 }
 
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Residuals of all moments.
-class Residuals {
- public:
-  void add(const Residual& residual)
-  {
-    largest_ = std::max(largest_, residual.largest);
-    medians_.push_back(residual.median);
-    if (!residual.late) return;
-    unexplained_ = std::max(unexplained_, residual.unexplained);
-    normal_.push_back(residual.late->normal);
-    tangential_.push_back(residual.late->tangential);
-  }
-  void add_to(ImportReport& report, const Units& units) const
-  {
-    if (medians_.empty()) return;
-    report.largest_residual = largest_;
-    report.median_residual = median(medians_);
-    if (normal_.empty()) return;
-    report.unexplained_residual = unexplained_;
-    report.late = {median(normal_) / units.time, median(tangential_) / units.time};
-  }
-
- private:
-  double largest_ = 0, unexplained_ = 0;
-  std::vector<double> medians_, normal_, tangential_;
-};
-
-/// What is known only at the end.
+/// What is left out of the archive, and the like: complete once it has been read to its end.
 template <int D>
-void finish(TrajectoryWriter& writer, const VerifiedFrames<D>& frames, ImportReport& report)
+std::vector<std::string> remarks_of(const VerifiedFrames<D>& frames)
 {
-  report.remarks = frames.archive().remarks();
+  auto remarks = frames.archive().remarks();
   if (!frames.range().is_all())
-    report.remarks.push_back(
+    remarks.push_back(
         fmt::format("only moments in the range {} are imported", frames.range().text()));
   if (const auto roster = frames.roster())
-    report.remarks.push_back(
-        fmt::format("grains come and go: {} ids in all, between {} and {} present",
-                    roster->all.grains.size(), roster->fewest, roster->most));
-  if (frames.walls())
-    for (auto& remark : frames.walls()->remarks()) report.remarks.push_back(std::move(remark));
+    remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} present",
+                                  roster->all.grains.size(), roster->fewest, roster->most));
+  if (frames.walls()) remarks.push_back(frames.walls()->remark());
   if (!frames.has_force())
-    report.remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
+    remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
   if (!frames.has_angular_velocity())
-    report.remarks.emplace_back("the archive has no angular velocities; they are written as 0");
-  Parameters last;
-  if (frames.roster()) {  // the first moment may have had no contacts to tell
-    report.columns = frames.archive().columns();
-    last.texts["import_columns"] = report.columns;
-  }
-  if (report.largest_residual) {
-    last.numbers["import_residual_largest"] = {*report.largest_residual};
-    last.numbers["import_residual_median"] = {*report.median_residual};
-  }
-  if (report.unexplained_residual) {
-    last.numbers["import_residual_unexplained"] = {*report.unexplained_residual};
-    last.numbers["import_late_damping"] = {report.late.normal, report.late.tangential};
-  }
-  if (report.frames > 1)
-    last.numbers["frame_interval"] = {(report.last_time - report.first_time) /
-                                      static_cast<double>(report.frames - 1)};
-  add_findings(last, report.findings);
-  if (!report.remarks.empty())
-    last.texts["import_remarks"] = fmt::format("{}", fmt::join(report.remarks, "; "));
-  writer.add_parameters(last);
+    remarks.emplace_back("the archive has no angular velocities; they are written as 0");
+  return remarks;
+}
+
+/// What the report says of a run before its first moment.
+ImportReport report_of(const RunDescription& run)
+{
+  ImportReport report;
+  report.dimension = run.box.dimension;
+  report.grains = run.grains.size();
+  report.tolerance = run.parameters.numbers.at("import_tolerance")[0];
+  report.columns = run.parameters.text("import_columns");
+  report.base = run.parameters.text("import_base");
+  report.sizes = run.parameters.text("import_sizes");
+  return report;
+}
+
+/// `frame` in SI.
+template <int D>
+void count(ImportReport& report, const Frame<D>& frame)
+{
+  if (report.frames == 0) report.first_time = frame.time;
+  report.last_time = frame.time;
+  ++report.frames;
+  report.contacts += frame.contacts.size();
+}
+
+/// Of the moment that has just been read.
+template <int D>
+MomentRecord record_of(const VerifiedFrames<D>& frames)
+{
+  return {frames.residual(), in_si(frames.moment(), frames.facts().units)};
 }
 
 /// Verifies and writes all frames to the file `path`.
@@ -218,45 +197,72 @@ ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settin
                           const std::string& command_line, const std::string& path)
 {
   const auto run = describe(frames, settings, command_line);
-  ImportReport report;
-  report.dimension = D;
-  report.grains = run.grains.size();
-  report.tolerance = frames.tolerance();
+  auto report = report_of(run);
   report.tolerance_reason = frames.archive().facts().tolerance_reason;
-  report.columns = frames.archive().columns();
-  report.base = frames.builder().bed().species.base;
-  report.sizes = frames.builder().bed().species.sizes;
   TrajectoryWriter writer(path, run, settings.storage);
-  Judgement judgement(run);
-  Residuals residuals;
+  Closing closing(run);
   for (Frame<D> frame; frames.next(frame);) {
     stop_if_interrupted();
-    if (frames.complaint()) refuse(frames, settings, judgement, report.frames + 1);
-    const double defect = frames.residual() ? frames.residual()->largest : 0;
-    if (frames.residual()) residuals.add(*frames.residual());
+    if (frames.complaint()) refuse(frames, settings, closing.judgement(), report.frames + 1);
     frames.facts().units.convert(frame);
-    if (report.frames == 0) report.first_time = frame.time;
-    report.last_time = frame.time;
-    ++report.frames;
-    report.contacts += frame.contacts.size();
-    const auto moment = in_si(frames.moment(), frames.facts().units);
-    judgement.add(moment, frames.place());
-    auto observables = check_values(moment);
-    observables.insert(observables.begin(), defect);
-    writer.append(frame, observables);
+    count(report, frame);
+    const auto record = record_of(frames);
+    closing.add(record, frames.place());
+    writer.append(frame, import_values(record));
   }
-  residuals.add_to(report, frames.facts().units);
-  report.findings = judgement.close(settings.strict);
-  finish(writer, frames, report);
+  report.columns = frames.archive().columns();
+  report.remarks = remarks_of(frames);
+  writer.add_parameters(closing.close(report, settings.strict));
   writer.close();
+  if (frames.walls())
+    for (auto& count : frames.walls()->counts()) report.remarks.push_back(std::move(count));
   return report;
 }
 
-}  // namespace
-
-ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
+/// The same of a part, whose moments are only judged one by one.
+template <int D>
+ImportReport write_part(VerifiedFrames<D> frames, PartPlace place, const ImportSettings& settings,
+                        const std::string& command_line, const std::string& path)
 {
-  if (settings.output.empty()) open_with_grains(settings);  // asks for it
+  auto run = describe(frames, settings, command_line);
+  const Judgement judgement(run);
+  const auto more = part_observables();
+  run.observables.insert(run.observables.end(), more.begin(), more.end());
+  auto report = report_of(run);
+  TrajectoryWriter writer(path, run, settings.storage);
+  Frame<D> frame;
+  if (place.begin > 0) {  // what is verified with velocities needs the moment before
+    frames.skip(place.begin - 1);
+    frames.next(frame);
+  }
+  for (auto left = place.end - place.begin; left > 0 && frames.next(frame); --left) {
+    stop_if_interrupted();
+    if (frames.complaint()) refuse(frames, settings, judgement, place.begin + report.frames + 1);
+    frames.facts().units.convert(frame);
+    count(report, frame);
+    const auto record = record_of(frames);
+    auto values = import_values(record);
+    const auto of_part = part_values(record);
+    values.insert(values.end(), of_part.begin(), of_part.end());
+    writer.append(frame, values);
+  }
+  if (report.frames != place.end - place.begin ||
+      (place.part.number == place.part.count && frames.next(frame)))
+    throw RunError(fmt::format("{}: the archive changes while it is read", frames.place()));
+  place.tolerance_reason = frames.archive().facts().tolerance_reason;
+  place.columns = frames.archive().columns();
+  place.remarks = remarks_of(frames);
+  writer.add_parameters(place.parameters());
+  writer.close();
+  report.remarks.push_back(
+      fmt::format("part {}: moments {} to {} of {}; checks of all moments are "
+                  "made when parts are joined",
+                  place.part.text(), place.begin + 1, place.end, place.moments));
+  return report;
+}
+
+ImportReport import_whole(const ImportSettings& settings, const std::string& command_line)
+{
   Output output(settings.output, settings.overwrite, inputs_of(settings.files));
   const auto write = [&](OpenedArchive opened) {
     return with_dimension(opened.facts.dimension, [&](auto d) {
@@ -272,6 +278,96 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
   }
   output.publish();
   return report;
+}
+
+/// Each part reads the grains of all moments first: how many moments there are, and whether grains
+/// come and go.
+ImportReport import_part(const ImportSettings& settings, const std::string& command_line)
+{
+  const auto& part = *settings.parts.part;
+  Output output(part.path(settings.output, fs::path(settings.output).extension().string()),
+                settings.overwrite, inputs_of(settings.files));
+  const auto write = [&](OpenedArchive opened, std::size_t moments) {
+    const auto [begin, end] = part.range(moments);
+    return with_dimension(opened.facts.dimension, [&](auto d) {
+      return write_part(VerifiedFrames<d>(std::move(opened), settings),
+                        {part, begin, end, moments, {}, {}, {}}, settings, command_line,
+                        output.temporary());
+    });
+  };
+  auto opened = open_with_grains(settings);
+  const auto roster =
+      opened.roster() ? opened.roster() : std::make_shared<const Roster>(read_roster(settings));
+  const bool is_complete = opened.roster() || !roster->grains_change();
+  auto report =
+      write(is_complete ? std::move(opened) : open_with_roster(settings), roster->moments);
+  output.publish();
+  return report;
+}
+
+/// FormatError unless the part continues what the parts before it hold.
+void require_next_part(const ImportPart& first, const ImportPart& part, std::size_t begin,
+                       const std::string& command_line)
+{
+  const auto& ours = part.run().parameters().text("command_line");
+  if (ours != command_line)
+    part.fail(fmt::format("is a part of another import, by '{}'", printable(ours)));
+  if (static_digest(part.description()) != static_digest(first.description()) ||
+      part.place().moments != first.place().moments || part.place().begin != begin)
+    part.fail("is a part of another archive");
+}
+
+template <int D>
+void append_part(TrajectoryWriter& writer, const ImportPart& part, Closing& closing,
+                 ImportReport& report)
+{
+  Frame<D> frame;
+  for (std::size_t k = 0; k < part.run().size(); ++k) {
+    stop_if_interrupted();
+    part.run().read(k, frame, {.velocity = true, .contacts = true, .force = true});
+    count(report, frame);
+    const auto record = part.record(k);
+    closing.add(record, fmt::format("{}, frame {}", part.run().path(), k));
+    writer.append(frame, import_values(record));
+  }
+}
+
+ImportReport join_parts(const ImportSettings& settings, const std::string& command_line)
+{
+  const std::size_t parts = settings.parts.join;
+  const ImportPart first(settings.output, {1, parts});
+  auto inputs = inputs_of(settings.files);
+  inputs.push_back(first.run().path());
+  Output output(settings.output, settings.overwrite, inputs);
+  const auto run = first.description();
+  auto report = report_of(run);
+  TrajectoryWriter writer(output.temporary(), run, settings.storage);
+  Closing closing(run);
+  for (std::size_t k = 1; k <= parts; ++k) {
+    const ImportPart part(settings.output, {k, parts});
+    require_next_part(first, part, report.frames, command_line);
+    with_dimension(run.box.dimension,
+                   [&](auto d) { append_part<d>(writer, part, closing, report); });
+    report.columns = part.place().columns;
+    report.remarks = part.place().remarks;
+    report.tolerance_reason = part.place().tolerance_reason;
+  }
+  if (report.frames != first.place().moments) first.fail("is a part of another archive");
+  writer.add_parameters(closing.close(report, settings.strict));
+  writer.close();
+  output.publish();
+  return report;
+}
+
+}  // namespace
+
+ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
+{
+  if (settings.output.empty()) open_with_grains(settings);  // asks for it
+  settings.parts.check(settings.output);
+  if (settings.parts.part) return import_part(settings, command_line);
+  if (settings.parts.join > 0) return join_parts(settings, command_line);
+  return import_whole(settings, command_line);
 }
 
 std::string to_text(const ImportReport& report)

@@ -178,14 +178,20 @@ void InferredWalls<D>::add_to(Frame<D>& frame)
 }
 
 template <int D>
-std::vector<std::string> InferredWalls<D>::remarks() const
+std::string InferredWalls<D>::remark() const
+{
+  return fmt::format(
+      "forces of {} are inferred from the balance of the grains that touch them, of which it is then "
+      "no check",
+      list_of(walls_));
+}
+
+template <int D>
+std::vector<std::string> InferredWalls<D>::counts() const
 {
   std::vector<std::string> remarks;
   if (contacts_ > 0)
-    remarks.push_back(fmt::format(
-        "forces of {} are inferred from the balance of the grains that touch them, {} to {} in a "
-        "moment, of which it is then no check",
-        list_of(walls_), fewest_, most_));
+    remarks.push_back(fmt::format("{} to {} grains touch these walls in a moment", fewest_, most_));
   if (at_two_ > 0)
     remarks.push_back(fmt::format(
         "of these {} contacts, {} times a grain touches more than one wall: their friction cannot be "

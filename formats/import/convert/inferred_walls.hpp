@@ -34,8 +34,10 @@ class InferredWalls {
 
   /// By row, of the last frame: 1 where the balance of the grain went into a wall's force.
   const std::vector<std::uint8_t>& inferred() const { return inferred_; }
-  /// What was done, a sentence each.
-  std::vector<std::string> remarks() const;
+  /// What is done, in a sentence that is the same for every part of an archive.
+  std::string remark() const;
+  /// How often it was done so far, a sentence each.
+  std::vector<std::string> counts() const;
 
  private:
   struct Plane {

@@ -23,6 +23,8 @@ class OpenedArchive {
 
   /// Reads the next moment; false at the end. OpenQuestions where the reader cannot go on.
   bool next();
+  /// The same without its contacts.
+  bool next_grains() { return moments_.next_grains(moment); }
 
   const Archive& archive() const { return moments_.archive(); }
   const MomentRange& range() const { return moments_.range(); }

@@ -118,6 +118,7 @@ Roster Collector::finish()
   auto& all = roster_.all.grains;
   for (std::size_t row = 0; row < all.size(); ++row)
     all.position[row] /= static_cast<double>(seen_[row].times);
+  roster_.moments = moments_;
   return std::move(roster_);
 }
 

@@ -15,6 +15,9 @@ struct Roster {
   /// otherwise be found from the first moment are found from this one.
   ArchiveMoment all;
   std::size_t fewest = 0, most = 0;  // grains at a moment
+  std::size_t moments = 0;
+
+  bool grains_change() const { return fewest < all.grains.size(); }
 };
 
 /// Reads the grains of all moments between --from and --to. FormatError naming moment and grain

@@ -55,6 +55,13 @@ VerifiedFrames<D>::VerifiedFrames(OpenedArchive opened, const ImportSettings& se
 }
 
 template <int D>
+void VerifiedFrames<D>::skip(std::size_t moments)
+{
+  for (std::size_t k = 1; k < moments; ++k) opened_.next_grains();
+  if (moments > 0) opened_.next();
+}
+
+template <int D>
 bool VerifiedFrames<D>::next(Frame<D>& frame)
 {
   if (!std::exchange(first_, false) && !opened_.next()) return false;

@@ -27,6 +27,8 @@ class VerifiedFrames {
  public:
   VerifiedFrames(OpenedArchive opened, const ImportSettings& settings);
 
+  /// Before the first `next`: leaves out that many moments, of which only grains are read.
+  void skip(std::size_t moments);
   /// False at the end. `complaint` then says what is wrong with the frame, if anything.
   bool next(Frame<D>& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }

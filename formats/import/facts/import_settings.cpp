@@ -103,6 +103,7 @@ po::options_description import_options(ImportSettings& s)
                                "single precision, half the size")(
       "quiet", po::bool_switch(&s.quiet), "print no summary on standard error");
 
+  s.parts.add_to(output);
   add_overwrite_to(output, s.overwrite);
 
   po::options_description all;

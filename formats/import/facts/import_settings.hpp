@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/cli/part.hpp"
 #include "formats/import/common/archive.hpp"
 #include "formats/import/facts/species.hpp"
 #include "formats/trajectory/writer.hpp"
@@ -31,11 +32,12 @@ struct ImportSettings {
   SpeciesSettings species;
   std::vector<std::string> walls;  // wall_planes.hpp
 
-  std::optional<std::string> from, to;  // moment_range.hpp
+  std::optional<std::string> from, to;       // moment_range.hpp
   std::vector<std::string> accept_residual;  // finding.hpp
   bool strict = false;                       // refuse what is undecided
   bool drop_incomplete = false;
   std::string output;
+  PartOptions parts;
   StorageSettings storage;
   bool overwrite = false, quiet = false;
 };

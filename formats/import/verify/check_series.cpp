@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/check_series.hpp"
 
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
 #include <string>
 
 namespace grseg {
@@ -89,10 +93,26 @@ std::vector<double> check_values(const CheckMoment& moment)
   return values;
 }
 
-void set_check_values(CheckMoment& moment, const std::vector<double>& values)
+CheckSeries check_series(const TrajectoryReader& run)
 {
-  auto value = values.begin();
-  visit_numbers(moment, [&](const std::string&, const char*, double& place) { place = *value++; });
+  CheckSeries series(run.size());
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    series[k].step = run.steps()[k];
+    series[k].time = run.times()[k];
+  }
+  std::vector<std::vector<double>> columns;
+  for (const auto& [name, unit] : check_observables()) {
+    if (!run.has_observable(name))
+      throw FormatError(fmt::format("{}: /observables/{} is missing: import the archive again",
+                                    run.path(), name));
+    columns.push_back(run.observable(name));
+  }
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    auto column = columns.begin();
+    visit_numbers(series[k],
+                  [&](const std::string&, const char*, double& place) { place = (*column++)[k]; });
+  }
+  return series;
 }
 
 }  // namespace grseg

@@ -57,8 +57,9 @@ double median_acceleration(const CheckSeries& series)
 }
 
 /// What on the command line would agree with the archive.
-std::string remedy(const CheckContext& context, const Vec3& found, bool medians)
+std::string remedy(const CheckContext& context, const Estimate& estimate)
 {
+  const Vec3& found = estimate.value;
   const Vec3 vector = in_the_archive(context, found);
   const Vec3& given = context.gravity;
   const auto option =
@@ -68,12 +69,15 @@ std::string remedy(const CheckContext& context, const Vec3& found, bool medians)
           ? fmt::format("gravity is another ({})", option)
           : fmt::format("the archive states another gravity than its grains felt ({})", option)};
   const double ratio = found.norm() / given.norm();
-  const bool same_way = found.dot(given) > std::cos(0.02) * found.norm() * given.norm();
+  // As far as their directions are known.
+  const double angle = std::max(sharp, 3 * estimate.error / found.norm());
+  const bool same_way =
+      found.dot(given) > std::cos(std::min(angle, 0.5)) * found.norm() * given.norm();
   if (same_way && std::isfinite(ratio))
     ways.push_back(fmt::format(
         "masses are {:.3g} times {}", ratio,
         context.masses_are_given ? "what --density makes them" : "those that the archive states"));
-  if (!medians) ways.emplace_back("contacts with the base or a wall are missing");
+  if (!estimate.medians) ways.emplace_back("contacts with the base or a wall are missing");
   std::string text = ways.size() > 1 ? "either " : "";
   for (std::size_t k = 0; k < ways.size(); ++k) text += (k > 0 ? ", or " : "") + ways[k];
   return text;
@@ -116,7 +120,7 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
   if (measure > tolerance && measure > 5 * error)
     return {"gravity", Verdict::failed,
             fmt::format("{}; as given it is {}: {}", suggestion, text_of(context, context.gravity),
-                        remedy(context, found->value, found->medians)),
+                        remedy(context, *found)),
             measure};
   if (measure <= tolerance && error <= sharp)
     return {"gravity", Verdict::passed, suggestion, measure};

@@ -16,6 +16,12 @@ constexpr double steady = 0.2;
 /// By how much the change of velocity in free flight may deviate from the force's direction, as a
 /// sine.
 constexpr double along = 0.05;
+/// A bed at rest swings to and fro, by less than its grains overlap, and may be seen in any phase:
+/// the mean velocity of two moments is then not that between them. That cannot be where grains have
+/// moved by this part of a diameter (root mean square), or within this number of steps, which are
+/// half of a collision.
+constexpr double has_moved = 0.1;
+constexpr std::int64_t no_swing = 10;
 /// Of a period, how far a grain may move where images of positions are missing.
 constexpr double share_of_period = 0.25;
 /// From the median absolute deviation to the standard deviation of a normal distribution, and from
@@ -208,10 +214,11 @@ std::vector<bool> free_grains(const Frame<D>& frame, const std::vector<Vector<D>
 /// Displacements and velocities of grains whose velocity is steady or has changed along the force of
 /// a free flight, for which the mean velocity of the two moments is that over the time between them.
 template <int D>
-void MomentStatistics<D>::add_motion(SlopeSums& sums, const Frame<D>& frame,
+void MomentStatistics<D>::add_motion(SlopeSums& all, const Frame<D>& frame,
                                      const MomentBefore<D>& before,
                                      const std::vector<bool>& is_free, bool has_images) const
 {
+  SlopeSums sums;
   const double time = frame.time - before.time;
   const double lengths[] = {box_.length_x, 0, box_.length_z};
   const bool periodic[] = {box_.periodic_x, false, box_.periodic_z};
@@ -232,6 +239,8 @@ void MomentStatistics<D>::add_motion(SlopeSums& sums, const Frame<D>& frame,
     if (!has_images) moved = minimum_image<D>(box_, moved);
     if (known) sums.add<D>(expected / diameter_, moved / diameter_);
   }
+  if (frame.step <= before.step + no_swing || sums.yy >= has_moved * has_moved * sums.grains)
+    all += sums;
 }
 
 /// Forces and accelerations of grains whose force is steady and which are free or seen at every step:

@@ -17,6 +17,7 @@ struct MomentBefore {
   std::vector<Vector<D>> position, velocity, force;
   std::vector<std::array<std::int32_t, D>> image;
   std::vector<Vector<D>> sums;  // contact forces on each grain
+  ContactList<D> contacts;
 };
 
 /// Sum of the contact forces on each grain if `forces` are those of the contacts.

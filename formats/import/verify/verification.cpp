@@ -55,19 +55,19 @@ std::optional<Complaint> Verification<D>::check(const Frame<D>& frame, bool has_
   moment_ = {};
   moment_.step = frame.step;
   moment_.time = frame.time;
-  residual_ = residual_with(frame, frame.contacts.force);
+  auto sums = sums_as(frame, [](const Vector<D>& force, const Vector<D>&) { return force; });
+  residual_ = residual_with(frame, sums);
   auto complaint = geometry(frame);
   if (!complaint) complaint = double_rows(frame);
   if (auto other = pull(frame); !complaint) complaint = other;
   if (auto other = balance(frame); !complaint) complaint = other;
-  auto sums = contact_sums(grains_.size(), frame.contacts, frame.contacts.force);
   const auto distance = from_before(frame, sums);
-  if (before_ && distance != Distance::step)
-    moment_.change = change_of_sums(grains_, frame, before_->sums, sums);
+  if (before_ && frame.force.empty() && distance != Distance::step)
+    moment_.change = change_of_sums(grains_, frame, sums.before, sums.now);
   const bool close = distance == Distance::step || distance == Distance::close;
-  statistics_.add_to(moment_, frame, sums, before_, close, has_images && !frame.image.empty());
-  before_ = {frame.step,  frame.time,  frame.position, frame.velocity,
-             frame.force, frame.image, std::move(sums)};
+  statistics_.add_to(moment_, frame, sums.now, before_, close, has_images && !frame.image.empty());
+  before_ = {frame.step,  frame.time,  frame.position,      frame.velocity,
+             frame.force, frame.image, std::move(sums.now), frame.contacts};
   return complaint;
 }
 
@@ -166,31 +166,48 @@ std::optional<Complaint> Verification<D>::pull(const Frame<D>& frame)
 }
 
 template <int D>
-auto Verification<D>::from_before(const Frame<D>& frame, const Forces& sums) const -> Distance
+auto Verification<D>::sums_as(const Frame<D>& frame, const Reading& reading) const -> Sums
+{
+  Sums sums;
+  const auto of = [&](const ContactList<D>& contacts) {
+    Forces forces(contacts.size());
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
+      sums.largest = std::max(sums.largest, forces[c].norm());
+    }
+    return contact_sums(grains_.size(), contacts, forces);
+  };
+  if (before_ && frame.force.empty()) sums.before = of(before_->contacts);
+  sums.largest = 0;
+  sums.now = of(frame.contacts);
+  return sums;
+}
+
+template <int D>
+auto Verification<D>::from_before(const Frame<D>& frame, const Sums& sums) const -> Distance
 {
   if (!before_) return Distance::none;
   if (frame.step == before_->step + 1) return Distance::step;
-  const double change = change_of_sums(grains_, frame, before_->sums, sums);
+  if (!frame.force.empty()) return Distance::far;
+  const double change = change_of_sums(grains_, frame, sums.before, sums.now);
   return change <= close_together ? Distance::close : Distance::far;
 }
 
 template <int D>
-auto Verification<D>::defect_of(const Frame<D>& frame, const Forces& forces) const
+auto Verification<D>::defect_of(const Frame<D>& frame, const Sums& sums) const
     -> std::pair<Forces, double>
 {
   const bool has_force = !frame.force.empty();
-  const auto sum = contact_sums(grains_.size(), frame.contacts, forces);
-  double scale = 0;
-  for (const auto& force : forces) scale = std::max(scale, force.norm());
+  double scale = sums.largest;
   Forces defect(grains_.size(), Vector<D>::Constant(NAN));  // also of what is absent, now or before
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, frame, g)) continue;
     const Vector<D> weight = grains_.mass[g] * gravity_;
     scale = std::max(scale, weight.norm());
     if (has_force)
-      defect[g] = sum[g] + weight - frame.force[g];
+      defect[g] = sums.now[g] + weight - frame.force[g];
     else if (!std::isnan(before_->position[g].y()))
-      defect[g] = (sum[g] + before_->sums[g]) / 2 + weight -
+      defect[g] = (sums.now[g] + sums.before[g]) / 2 + weight -
                   grains_.mass[g] * (frame.velocity[g] - before_->velocity[g]) /
                       (frame.time - before_->time);
   }
@@ -199,15 +216,14 @@ auto Verification<D>::defect_of(const Frame<D>& frame, const Forces& forces) con
 
 template <int D>
 std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
-                                                       const Forces& forces) const
+                                                       const Sums& sums) const
 {
   const bool has_force = !frame.force.empty();
-  const auto sums = contact_sums(grains_.size(), frame.contacts, forces);
   if (!has_force) {
     const auto distance = from_before(frame, sums);
     if (distance == Distance::none || distance == Distance::far) return std::nullopt;
   }
-  auto [defect, scale] = defect_of(frame, forces);
+  auto [defect, scale] = defect_of(frame, sums);
   if (!(scale > 0)) return std::nullopt;
   auto residual = residual_of(grains_, defect, scale);
   if (!has_force) {
@@ -220,11 +236,11 @@ std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
   return residual;
 }
 
-/// A mean force over a step differs from that of the two moments by half of their difference at
-/// most. Over more steps a few grains may have collided meanwhile, but not the median one of those
+/// A mean force over a short time differs from that of the two moments by half of their difference
+/// at most. Over more steps a few grains may have collided meanwhile, but not the median one of those
 /// in contact.
 template <int D>
-void Verification<D>::judge_by_velocities(const Frame<D>& frame, const Forces& sums,
+void Verification<D>::judge_by_velocities(const Frame<D>& frame, const Sums& sums,
                                           const Forces& defect, double scale,
                                           Residual& residual) const
 {
@@ -232,11 +248,9 @@ void Verification<D>::judge_by_velocities(const Frame<D>& frame, const Forces& s
   std::vector<double> sizes;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, g) || std::isnan(defect[g].y())) continue;
-    const double size = defect[g].norm(), change = (sums[g] - before_->sums[g]).norm();
-    if (each)
-      sizes.push_back(std::max(0.0, size - change / 2) / scale);
-    else if (sums[g].norm() > 0)
-      sizes.push_back(size / scale);
+    const double change = (sums.now[g] - sums.before[g]).norm();
+    if (each || sums.now[g].norm() > 0)
+      sizes.push_back(std::max(0.0, defect[g].norm() - change / 2) / scale);
   }
   if (sizes.empty()) {
     residual.unexplained = 0;
@@ -279,7 +293,8 @@ std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame)
 template <int D>
 std::string Verification<D>::cause(const Frame<D>& frame) const
 {
-  const auto [defect, scale] = defect_of(frame, frame.contacts.force);
+  const auto sums = sums_as(frame, [](const Vector<D>& force, const Vector<D>&) { return force; });
+  const auto [defect, scale] = defect_of(frame, sums);
   return likely_cause<D>(grains_, box_, frame, {defect, tolerance() * scale}, axes_);
 }
 
@@ -287,12 +302,10 @@ std::string Verification<D>::cause(const Frame<D>& frame) const
 template <int D>
 std::string Verification<D>::other_readings(const Frame<D>& frame) const
 {
-  using Reading =
-      std::pair<const char*, std::function<Vector<D>(const Vector<D>& force, const Vector<D>& n)>>;
   const auto normal = [](const Vector<D>& f, const Vector<D>& n) {
     return Vector<D>(f.dot(n) * n);
   };
-  const Reading readings[] = {
+  const std::pair<const char*, Reading> readings[] = {
       {"with the opposite sign, the force being that on j: exchange i and j",
        [](const Vector<D>& f, const Vector<D>&) { return Vector<D>(-f); }},
       {"with half of every force: is each contact in two rows?",
@@ -302,12 +315,8 @@ std::string Verification<D>::other_readings(const Frame<D>& frame) const
       {"with the tangential part reversed",
        [&](const Vector<D>& f, const Vector<D>& n) { return Vector<D>(2 * normal(f, n) - f); }},
   };
-  const auto& contacts = frame.contacts;
-  std::vector<Vector<D>> forces(contacts.size());
   for (const auto& [what, reading] : readings) {
-    for (std::size_t c = 0; c < contacts.size(); ++c)
-      forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
-    const auto residual = residual_with(frame, forces);
+    const auto residual = residual_with(frame, sums_as(frame, reading));
     if (residual && residual->unexplained <= tolerance())
       return fmt::format("; they balance to {:.2g} {}", residual->unexplained, what);
   }

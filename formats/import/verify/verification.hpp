@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -75,13 +76,23 @@ class Verification {
   std::optional<Complaint> pull(const Frame<D>& frame);
   std::optional<Complaint> balance(const Frame<D>& frame);
 
-  /// How the frame and the one before can be compared, if `forces` are those of the contacts.
+  /// What a row's force means, given the unit vector along its branch.
+  using Reading = std::function<Vector<D>(const Vector<D>& force, const Vector<D>& n)>;
+  /// The contact forces on each grain by a reading, in this frame and, where there is one, in that
+  /// before; and the largest force of a contact.
+  struct Sums {
+    Forces now, before;
+    double largest = 0;
+  };
+  Sums sums_as(const Frame<D>& frame, const Reading& reading) const;
+
+  /// How the frame and the one before can be compared.
   enum class Distance { none, far, close, step };
-  Distance from_before(const Frame<D>& frame, const Forces& sums) const;
+  Distance from_before(const Frame<D>& frame, const Sums& sums) const;
   /// What is missing on each mobile grain, and the largest force.
-  std::pair<Forces, double> defect_of(const Frame<D>& frame, const Forces& forces) const;
-  std::optional<Residual> residual_with(const Frame<D>& frame, const Forces& forces) const;
-  void judge_by_velocities(const Frame<D>& frame, const Forces& sums, const Forces& defect,
+  std::pair<Forces, double> defect_of(const Frame<D>& frame, const Sums& sums) const;
+  std::optional<Residual> residual_with(const Frame<D>& frame, const Sums& sums) const;
+  void judge_by_velocities(const Frame<D>& frame, const Sums& sums, const Forces& defect,
                            double scale, Residual& residual) const;
   std::string other_readings(const Frame<D>& frame) const;
   std::string cause(const Frame<D>& frame) const;

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/import_part.hpp"
+
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+constexpr const char* place_name = "import_part";
+
+std::string remedy(const OutputPart& part)
+{
+  return fmt::format("make it with this command and --part {} in place of --join", part.text());
+}
+
+std::string existing(const std::string& output, const OutputPart& part)
+{
+  auto path = part.path(output, std::filesystem::path(output).extension().string());
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw UsageError(fmt::format("{} is missing; {}", path, remedy(part)));
+  return path;
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<Observable> all_observables()
+{
+  auto all = import_observables();
+  const auto more = part_observables();
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<Observable> import_observables()
+{
+  auto all = check_observables();
+  all.insert(all.begin(), {"momentum_defect", ""});
+  return all;
+}
+
+std::vector<double> import_values(const MomentRecord& record)
+{
+  auto values = check_values(record.moment);
+  values.insert(values.begin(), record.residual ? record.residual->largest : 0);
+  return values;
+}
+
+std::vector<Observable> part_observables()
+{
+  return {{"part_residual_median", ""},
+          {"part_residual_unexplained", ""},
+          {"part_late_normal", ""},
+          {"part_late_tangential", ""}};
+}
+
+/// NaN where there is no residual, or no late damping; observables may be NaN.
+std::vector<double> part_values(const MomentRecord& record)
+{
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto& residual = record.residual;
+  const bool late = residual && residual->late;
+  return {residual ? residual->median : none, residual ? residual->unexplained : none,
+          late ? residual->late->normal : none, late ? residual->late->tangential : none};
+}
+
+Parameters PartPlace::parameters() const
+{
+  Parameters all;
+  const auto number = [](std::size_t n) { return static_cast<double>(n); };
+  all.numbers[place_name] = {number(part.number), number(part.count), number(begin), number(end),
+                             number(moments)};
+  all.texts["import_part_tolerance_reason"] = tolerance_reason;
+  all.texts["import_part_columns"] = columns;
+  all.texts["import_part_remarks"] = fmt::format("{}", fmt::join(remarks, "\n"));
+  return all;
+}
+
+ImportPart::ImportPart(const std::string& output, const OutputPart& part)
+    : run_(existing(output, part))
+{
+  const auto& parameters = run_.parameters();
+  const auto found = parameters.numbers.find(place_name);
+  if (found == parameters.numbers.end() || found->second.size() != 5)
+    fail("is not a part of an import");
+  const auto whole = [&](std::size_t k) {
+    const double value = found->second[k];
+    if (!(value >= 0 && value < 1e15) || value != std::floor(value)) fail("is damaged");
+    return static_cast<std::size_t>(value);
+  };
+  place_ = {{whole(0), whole(1)}, whole(2), whole(3), whole(4), {}, {}, {}};
+  if (place_.part.number != part.number || place_.part.count != part.count)
+    fail(fmt::format("is part {}, not {}", place_.part.text(), part.text()));
+  place_.tolerance_reason = parameters.text("import_part_tolerance_reason");
+  place_.columns = parameters.text("import_part_columns");
+  place_.remarks = lines_of(parameters.text("import_part_remarks"));
+  if (!run_.closed() || place_.end < place_.begin || run_.size() != place_.end - place_.begin)
+    fail("does not hold all its moments");
+  for (const auto& observable : all_observables()) {
+    if (!run_.has_observable(observable.name)) fail("is not a part of an import by this program");
+    values_.push_back(run_.observable(observable.name));
+  }
+}
+
+MomentRecord ImportPart::record(std::size_t frame) const
+{
+  std::vector<double> values;
+  for (const auto& of_all : values_) values.push_back(of_all[frame]);
+  const std::size_t checks = check_observables().size();
+  MomentRecord record;
+  record.moment.step = run_.steps()[frame];
+  record.moment.time = run_.times()[frame];
+  set_check_values(record.moment,
+                   {values.begin() + 1, values.begin() + 1 + static_cast<std::ptrdiff_t>(checks)});
+  const double* more = values.data() + 1 + checks;
+  if (std::isnan(more[0])) return record;
+  record.residual = Residual{values[0], more[0], 0, more[1], {}};
+  if (!std::isnan(more[2])) record.residual->late = LateDamping{more[2], more[3]};
+  return record;
+}
+
+RunDescription ImportPart::description() const
+{
+  RunDescription run{
+      run_.grains(),    run_.box(),     run_.parameters(),        import_observables(),
+      run_.has_force(), run_.species(), run_.grains_come_and_go()};
+  const auto is_of_part = [](const auto& parameter) {
+    return parameter.first.starts_with(place_name) || parameter.first == "complete";
+  };
+  std::erase_if(run.parameters.numbers, is_of_part);
+  std::erase_if(run.parameters.texts, is_of_part);
+  return run;
+}
+
+void ImportPart::fail(const std::string& why) const
+{
+  throw FormatError(fmt::format("{}: {}; {}", run_.path(), why, remedy(place_.part)));
+}
+
+}  // namespace grseg

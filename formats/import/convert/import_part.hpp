@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/facts/import_settings.hpp"
+#include "formats/import/verify/check_series.hpp"
+#include "formats/import/verify/verification.hpp"
+#include "formats/trajectory/reader.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// An import by several processes: each writes a part, a trajectory of the moments of its range that
+/// also holds what the whole needs to know of each moment and of the archive. Joined, parts give the
+/// bytes of an import by one process.
+namespace grseg {
+
+/// What is known of a moment beside its frame: its residual (the late damping in the archive's
+/// units), and what the checks remember, in SI.
+struct MomentRecord {
+  std::optional<Residual> residual;
+  CheckMoment moment;
+};
+
+/// The observables of an imported run, and their values.
+std::vector<Observable> import_observables();
+std::vector<double> import_values(const MomentRecord& record);
+/// Of a part there are more, which come after these.
+std::vector<Observable> part_observables();
+std::vector<double> part_values(const MomentRecord& record);
+
+/// Where a part stands in its archive, and what an import by one process says at its end.
+struct PartPlace {
+  OutputPart part;
+  std::size_t begin = 0, end = 0, moments = 0;  // of the archive: those of the part, and all
+  std::string tolerance_reason, columns;
+  std::vector<std::string> remarks;
+
+  Parameters parameters() const;
+};
+
+/// The file of a part, open.
+class ImportPart {
+ public:
+  /// UsageError with the remedy where it is missing.
+  ImportPart(const std::string& output, const OutputPart& part);
+
+  const TrajectoryReader& run() const { return run_; }
+  const PartPlace& place() const { return place_; }
+  MomentRecord record(std::size_t frame) const;
+  /// The description of the whole run.
+  RunDescription description() const;
+  /// FormatError naming the file and what to do.
+  [[noreturn]] void fail(const std::string& why) const;
+
+ private:
+  TrajectoryReader run_;
+  PartPlace place_;
+  std::vector<std::vector<double>> values_;  // of import_observables() and part_observables()
+};
+
+}  // namespace grseg

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/verify/judge.hpp"
+
+#include "formats/core/errors.hpp"
+#include "tests/formats/import/lammps_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+using lammps_text::mentions;
+
+/// Spheres of two sizes under gravity (0, -10, 0), whose masses come from --density.
+CheckContext context_of(bool has_force = true)
+{
+  CheckContext context;
+  context.has_force = has_force;
+  context.gravity = {0, -10, 0};
+  context.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  context.step = 0.01;
+  context.masses_are_given = true;
+  context.tolerance = 0.05;
+  context.size_ratio = 2;
+  context.species = {{"small", "1", 0.01, 0.01, 0.009, 0.011},
+                     {"large", "2", 0.02, 0.02, 0.02, 0.02}};
+  return context;
+}
+
+/// A moment from which gravity follows with a standard error.
+CheckMoment moment_with(const Vec3& gravity, double error)
+{
+  CheckMoment moment;
+  moment.medians = 1;
+  moment.acceleration = 100;
+  moment.balance_grains = 100;
+  moment.all = moment.smaller = moment.larger = {100, gravity, error};
+  return moment;
+}
+
+Finding gravity_of(const Vec3& found, double error, CheckContext context = context_of())
+{
+  return judge_gravity({moment_with(found, error)}, context);
+}
+
+TEST(JudgeGravity, ThreeDegreesAreSeenWhereTheErrorIsSmall)
+{
+  const double three = 3 * lammps_text::pi / 180;
+  EXPECT_EQ(gravity_of({0, -10, 0}, 0.01).verdict, Verdict::passed);
+  EXPECT_EQ(gravity_of({0.1, -10, 0}, 0.01).verdict, Verdict::passed) << "half a degree";
+  const auto off = gravity_of({10 * std::sin(three), -10 * std::cos(three), 0}, 0.01);
+  EXPECT_EQ(off.verdict, Verdict::failed);
+  EXPECT_NEAR(off.measure, 2 * std::sin(three / 2), 1e-12);
+  EXPECT_TRUE(mentions(off.sentence, "slope 3.0 degrees"));
+  EXPECT_TRUE(mentions(off.sentence, "--gravity 0.5234,-9.986,0"));
+  EXPECT_EQ(gravity_of({0, -10, 0}, 0.2).verdict, Verdict::undecided)
+      << "three degrees are 0.52: 0.2 is too blunt";
+  EXPECT_EQ(gravity_of({0.5, -10, 0}, 0.2).verdict, Verdict::undecided);
+}
+
+TEST(JudgeGravity, ThreeTimesUpwardAndNoneAreWrong)
+{
+  const auto three_times = gravity_of({0, -10.0 / 3, 0}, 0.01);
+  EXPECT_EQ(three_times.verdict, Verdict::failed);
+  EXPECT_TRUE(
+      mentions(three_times.sentence, "or masses are 0.333 times what --density makes them"));
+  EXPECT_EQ(gravity_of({0, 10, 0}, 0.01).verdict, Verdict::failed);
+  EXPECT_EQ(gravity_of({0, 0, 0}, 0.01).verdict, Verdict::failed);
+  auto none = context_of();
+  none.gravity = Vec3::Zero();
+  EXPECT_EQ(gravity_of({0, -10, 0}, 0.01, none).verdict, Verdict::failed);
+  EXPECT_EQ(gravity_of({0, 1e-6, 0}, 1e-7, none).verdict, Verdict::passed)
+      << "contacts accelerate grains by 100";
+}
+
+TEST(JudgeGravity, IsSaidInTheUnitsAndAxesOfTheArchive)
+{
+  auto context = context_of();
+  context.axes = {Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()};
+  context.units = {.length = 0.01, .time = 1, .mass = 0.001};
+  const auto finding = gravity_of({0, -5, 0}, 0.01, context);
+  EXPECT_TRUE(mentions(finding.sentence, "suggests gravity 500 along (0, 0, -1), slope 0.0"));
+  EXPECT_TRUE(mentions(finding.sentence, "--gravity 0,0,-500"));
+}
+
+// Sums over all grains that alternate between -9 and -11: a mean of -10, and neighbours that differ.
+TEST(JudgeGravity, FromSumsNeedsEightPairsOfMoments)
+{
+  CheckSeries series;
+  for (int k = 0; k <= 8; ++k) {
+    auto moment = moment_with({0, k % 2 == 0 ? -9.9 : -10.1, 0}, 0);
+    moment.medians = 0;
+    moment.time = k;
+    EXPECT_TRUE(k < 8 || judge_gravity(series, context_of(false)).verdict == Verdict::undecided);
+    series.push_back(moment);
+  }
+  EXPECT_EQ(judge_gravity(series, context_of(false)).verdict, Verdict::passed);
+  auto upward = context_of(false);
+  upward.gravity = {0, 10, 0};
+  EXPECT_EQ(judge_gravity(series, upward).verdict, Verdict::failed);
+  EXPECT_TRUE(mentions(judge_gravity(series, upward).sentence, "or contacts with the base"));
+}
+
+// Masses as r^3 instead of r^2 make the weight over the mass of small grains twice that of large ones.
+TEST(JudgeMasses, SpheresForDiscsShowInTheWeightOfSmallAndLargeGrains)
+{
+  auto moment = moment_with({0, -10, 0}, 0.01);
+  moment.smaller.gravity = {0, -12, 0};
+  moment.larger.gravity = {0, -6, 0};
+  const Finding gravity{"gravity", Verdict::passed, "", 0};
+  const auto wrong = judge_masses({moment}, context_of(), gravity);
+  EXPECT_EQ(wrong.verdict, Verdict::failed);
+  EXPECT_TRUE(mentions(wrong.sentence, "is 2 times that of larger ones"));
+  EXPECT_TRUE(mentions(wrong.sentence, "--grains-are"));
+  moment.smaller.error = moment.larger.error = 3;
+  EXPECT_EQ(judge_masses({moment}, context_of(), gravity).verdict, Verdict::undecided);
+  EXPECT_EQ(judge_masses({moment_with({0, -10, 0}, 0.01)}, context_of(), gravity).verdict,
+            Verdict::passed);
+}
+
+TEST(JudgeMasses, WithoutForcesOnlyTheWeightIsKnown)
+{
+  const Finding gravity{"gravity", Verdict::passed, "", 0};
+  const CheckSeries series{moment_with({0, -10, 0}, 0.01)};
+  auto context = context_of(false);
+  const auto finding = judge_masses(series, context, gravity);
+  EXPECT_EQ(finding.verdict, Verdict::undecided);
+  EXPECT_TRUE(mentions(finding.sentence, "only the weight, mass times gravity, is known"));
+  context.masses_are_given = false;
+  EXPECT_EQ(judge_masses(series, context, gravity).verdict, Verdict::passed);
+}
+
+/// Grains that move with y = k x for several x.
+SlopeSums line(double k, double noise = 0)
+{
+  SlopeSums sums;
+  for (int g = 1; g <= 20; ++g)
+    sums.add<2>(Vec2(g, 0.5 * g), k * Vec2(g, 0.5 * g) + Vec2(g % 2 == 0 ? noise : -noise, 0));
+  return sums;
+}
+
+TEST(JudgeMasses, ForceOverAccelerationIsTheMass)
+{
+  const Finding gravity{"gravity", Verdict::passed, "", 0};
+  auto moment = moment_with({0, -10, 0}, 0.01);
+  moment.force = line(2);
+  const auto finding = judge_masses({moment}, context_of(), gravity);
+  EXPECT_EQ(finding.verdict, Verdict::failed);
+  EXPECT_TRUE(mentions(finding.sentence,
+                       "either masses are 2 times what --density makes them, or "
+                       "the time step is 0.5 times as long"));
+}
+
+Finding time_of(const SlopeSums& motion)
+{
+  CheckMoment moment;
+  moment.motion = motion;
+  return judge_time({CheckMoment(), moment}, context_of());
+}
+
+TEST(JudgeTime, AStepTenTimesTooLongIsRefusedWithTheStepThatFits)
+{
+  EXPECT_EQ(time_of(line(1)).verdict, Verdict::passed);
+  const auto finding = time_of(line(0.1));
+  EXPECT_EQ(finding.verdict, Verdict::failed);
+  EXPECT_TRUE(mentions(finding.sentence, "suggests a step of 0.001 (--step); as given it is 0.01"));
+  EXPECT_EQ(time_of(line(10)).verdict, Verdict::failed);
+  EXPECT_EQ(time_of(line(0.5, 0.5)).verdict, Verdict::failed);
+}
+
+TEST(JudgeTime, APackingAtRestTellsNothing)
+{
+  EXPECT_EQ(time_of({}).verdict, Verdict::undecided);
+  EXPECT_EQ(time_of(line(0.1, 3)).verdict, Verdict::undecided) << "noise";
+  EXPECT_EQ(judge_time({CheckMoment()}, context_of()).verdict, Verdict::undecided);
+}
+
+TEST(JudgeSizes, SmallAndLargeExchangedAreRefusedWithTheExchange)
+{
+  auto context = context_of();
+  EXPECT_EQ(judge_sizes(context).verdict, Verdict::passed);
+  std::swap(context.species[0].mean, context.species[1].mean);
+  std::swap(context.species[0].smallest, context.species[1].smallest);
+  std::swap(context.species[0].largest, context.species[1].largest);
+  std::swap(context.species[0].nominal, context.species[1].nominal);
+  EXPECT_TRUE(mentions(judge_sizes(context).sentence, "exchange them, --small 2 --large 1"));
+  context = context_of();
+  context.species[0].nominal = 0.04;
+  EXPECT_TRUE(mentions(judge_sizes(context).sentence, "is far from those of its grains"));
+}
+
+TEST(Waivers, WaiveOneCheckEachUpToItsMeasure)
+{
+  const Waivers waivers({"0.1", "overlap=0.6"});
+  EXPECT_EQ(waivers.text(), "balance=0.1 overlap=0.6");
+  const auto verdict = [&](const char* check, Verdict before, double measure) {
+    return waivers.applied_to({check, before, "", measure}).verdict;
+  };
+  EXPECT_EQ(verdict("balance", Verdict::failed, 0.09), Verdict::waived);
+  EXPECT_EQ(verdict("balance", Verdict::failed, 0.11), Verdict::failed);
+  EXPECT_EQ(verdict("balance", Verdict::passed, 0.04), Verdict::passed);
+  EXPECT_EQ(verdict("gravity", Verdict::failed, 0.09), Verdict::failed);
+  EXPECT_EQ(verdict("overlap", Verdict::undecided, 0), Verdict::waived);
+  EXPECT_EQ(Waivers({"balance=1e-9"}).applied_to({"balance", Verdict::passed, "", 0.04}).verdict,
+            Verdict::failed)
+      << "less than the program's own tolerance";
+  for (const char* text : {"weight=1", "balance=", "balance=-1", "nan", "=1", "overlap"})
+    EXPECT_THROW(Waivers({text}), UsageError) << text;
+  EXPECT_THROW(Waivers({"0.1", "balance=0.2"}), UsageError);
+}
+
+}  // namespace
+}  // namespace grseg
