@@ -46,8 +46,8 @@ class OpenedArchive {
   std::shared_ptr<const Roster> roster_;
 };
 
-/// Opens an archive, of which the command line may name files only. Where its facts cannot be found from the grains of the first moment, and other
-/// moments have others, with a roster.
+/// Opens an archive, of which the command line may name files only. Where its facts cannot be found
+/// from the grains of the first moment, and other moments have others, with a roster.
 OpenedArchive open_with_grains(const ImportSettings& settings);
 /// Opens an archive with a roster.
 OpenedArchive open_with_roster(const ImportSettings& settings);

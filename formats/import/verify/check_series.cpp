@@ -93,6 +93,12 @@ std::vector<double> check_values(const CheckMoment& moment)
   return values;
 }
 
+void set_check_values(CheckMoment& moment, const std::vector<double>& values)
+{
+  auto value = values.begin();
+  visit_numbers(moment, [&](const std::string&, const char*, double& place) { place = *value++; });
+}
+
 CheckSeries check_series(const TrajectoryReader& run)
 {
   CheckSeries series(run.size());

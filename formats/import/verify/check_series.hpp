@@ -73,6 +73,8 @@ using CheckSeries = std::vector<CheckMoment>;
 /// The observables that hold a moment, and what a moment holds of them, in the same order.
 const std::vector<Observable>& check_observables();
 std::vector<double> check_values(const CheckMoment& moment);
+void set_check_values(CheckMoment& moment, const std::vector<double>& values);
+
 /// The moments of an imported run. FormatError where its file does not hold them.
 CheckSeries check_series(const TrajectoryReader& run);
 
