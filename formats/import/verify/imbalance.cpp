@@ -9,7 +9,7 @@
 namespace grseg {
 namespace {
 
-/// Of the grains that do not balance, the part that a cause has to explain.
+/// Of what is missing, the part that a cause has to explain.
 constexpr double most = 0.8;
 /// In units of the radius: how near to a face of the bed a grain lies that touches it, and from
 /// where on an overlap is deep.
@@ -75,8 +75,10 @@ std::string missing_walls(const Grains& grains, const Box& box, const Frame<D>& 
   const auto sides = open_sides<D>(grains, box, frame);
   std::vector<std::size_t> count(sides.size());
   std::size_t explained = 0;
+  double missing = 0, missing_at_sides = 0;
   for (const auto g : unbalanced) {
     bool at_any = false;
+    missing += imbalance.defect[g].norm();
     for (std::size_t s = 0; s < sides.size(); ++s) {
       const auto& side = sides[s];
       // What is missing pushes away from the side: the opposite of the defect.
@@ -88,8 +90,9 @@ std::string missing_walls(const Grains& grains, const Box& box, const Frame<D>& 
       at_any = true;
     }
     explained += at_any;
+    if (at_any) missing_at_sides += imbalance.defect[g].norm();
   }
-  if (static_cast<double>(explained) < most * static_cast<double>(unbalanced.size())) return "";
+  if (missing_at_sides < most * missing) return "";
   std::string where;
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (count[s] > 0)
@@ -99,6 +102,15 @@ std::string missing_walls(const Grains& grains, const Box& box, const Frame<D>& 
       "of the {} grains that do not balance {} lie at a side of the bed and lack a push away from it "
       "({}): contacts with a wall are missing; name the wall with --wall, or write its contacts",
       unbalanced.size(), explained, where);
+}
+
+/// Whether two grains alone do not balance, by opposite forces.
+template <int D>
+bool is_pair(const Imbalance<D>& imbalance, const std::vector<std::size_t>& unbalanced)
+{
+  if (unbalanced.size() != 2) return false;
+  const Vector<D>&a = imbalance.defect[unbalanced[0]], &b = imbalance.defect[unbalanced[1]];
+  return (a + b).norm() < 0.1 * (a.norm() + b.norm());
 }
 
 template <int D>
@@ -140,6 +152,11 @@ std::string likely_cause(const Grains& grains, const Box& box, const Frame<D>& f
     if (is_mobile(grains, g) && imbalance.defect[g].norm() > imbalance.limit)
       unbalanced.push_back(g);
   if (unbalanced.empty()) return "";
+  if (is_pair<D>(imbalance, unbalanced))
+    return fmt::format(
+        "; what is missing on grain {} is the opposite of that on grain {}: their contact is missing, "
+        "or has a row too many",
+        grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
   const auto walls = missing_walls<D>(grains, box, frame, imbalance, unbalanced, axes);
   if (!walls.empty()) return "; " + walls;
   if (all_along_normals<D>(frame.contacts))
