@@ -79,6 +79,11 @@ class DumpArchive : public Archive {
       moment.contacts = {};
       return;
     }
+    if (header.find("id") && (header.find("x") || header.find("xu") || header.find("xs")))
+      throw FormatError(fmt::format(
+          "{}: these are grains, with id and position, and not contacts; name them with "
+          "--grains, and the dump local with --contacts",
+          header.place));
     if (!columns_ || header.columns != header_.columns) {
       if (columns_text_.empty()) columns_text_ = dialect_.assumed(header, moment.grains);
       if (columns_text_.empty()) {
