@@ -30,7 +30,8 @@ inline constexpr double largest_pull = 0.2;
 /// Without forces on grains, two moments are close together where the contact forces on a grain have
 /// changed by less than this fraction of their size. The mean over the time between them then
 /// differs by at most half of the change from that of the two moments, as long as they change one
-/// way.
+/// way. That no grain has met another in between is only sure where none can have moved by more
+/// than this fraction of its radius.
 inline constexpr double close_together = 0.1;
 
 }  // namespace grseg

@@ -183,6 +183,19 @@ auto Verification<D>::sums_as(const Frame<D>& frame, const Reading& reading) con
   return sums;
 }
 
+/// By how much a grain can have moved since the moment before, by its faster velocity, in radii.
+template <int D>
+double Verification<D>::longest_path(const Frame<D>& frame) const
+{
+  double longest = 0;
+  for (std::size_t g = 0; g < grains_.size(); ++g) {
+    const double speed = std::max(frame.velocity[g].norm(), before_->velocity[g].norm());
+    if (is_mobile(grains_, frame, g) && speed > 0)  // not where it was absent
+      longest = std::max(longest, speed * (frame.time - before_->time) / grains_.radius[g]);
+  }
+  return longest;
+}
+
 template <int D>
 auto Verification<D>::from_before(const Frame<D>& frame, const Sums& sums) const -> Distance
 {
@@ -190,7 +203,8 @@ auto Verification<D>::from_before(const Frame<D>& frame, const Sums& sums) const
   if (frame.step == before_->step + 1) return Distance::step;
   if (!frame.force.empty()) return Distance::far;
   const double change = change_of_sums(grains_, frame, sums.before, sums.now);
-  return change <= close_together ? Distance::close : Distance::far;
+  const bool close = change <= close_together && longest_path(frame) <= close_together;
+  return close ? Distance::close : Distance::far;
 }
 
 template <int D>

@@ -88,6 +88,7 @@ class Verification {
 
   /// How the frame and the one before can be compared.
   enum class Distance { none, far, close, step };
+  double longest_path(const Frame<D>& frame) const;
   Distance from_before(const Frame<D>& frame, const Sums& sums) const;
   /// What is missing on each mobile grain, and the largest force.
   std::pair<Forces, double> defect_of(const Frame<D>& frame, const Sums& sums) const;

@@ -71,6 +71,9 @@ TEST(InputTables, WhatIsMadeOfThemSaysOfEachOnceWhatWasNotVerified)
   EXPECT_EQ(trust_of({all, some, some}),
             (Header{{"verified", "frames only"}, {"incomplete", "run.h5.part"}}));
   EXPECT_EQ(trust_of({with_header({})}), Header{});
+  const HeaderLine undecided{"undecided", "gravity: why"}, waived{"waived", "overlap: how deep"};
+  EXPECT_EQ(trust_of({with_header({waived, undecided}), with_header({undecided})}),
+            (Header{undecided, waived}));
 }
 
 }  // namespace
