@@ -58,6 +58,8 @@ std::unique_ptr<Archive> open_archive(const std::string& name, const ArchiveFile
   };
   refuse_unless(format.takes_contacts, !files.contacts.empty(), "--contacts");
   refuse_unless(format.takes_columns, !files.columns.empty(), "--columns");
+  refuse_unless(format.takes_wall_contacts, !files.wall_contacts.empty(), "--wall-contacts");
+  refuse_unless(format.takes_wall_columns, !files.wall_columns.empty(), "--wall-columns");
   refuse_unless(format.takes_map, !files.map.empty(), "--map");
   refuse_unless(format.takes_restart, !files.restart.empty(), "--restart");
   return format.open(files);

@@ -53,10 +53,11 @@ struct ArchiveContacts {
   std::vector<std::int32_t> wall;  // -1: j is a grain; otherwise the number of a straight wall;
                                    // empty: no contact is one with a wall
   std::vector<Vec3> force;         // ON i FROM j
-  std::vector<double> overlap;     // positive where the two overlap
+  std::vector<double> overlap;     // positive where the two overlap; NaN: from the branch
   std::vector<double> distance;    // of the centres; where both are empty it is that of positions
-  std::vector<Vec3> branch;  // x_i - x_j, at a wall x_i - contact point; empty: from positions,
-                             // which needs contacts with grains alone
+  std::vector<Vec3>
+      branch;  // x_i - x_j, at a wall x_i - contact point; empty, or NaN for a contact
+               // with a grain: from positions
   std::vector<std::string> missing;  // components, as of grains
 
   std::size_t size() const { return i.size(); }
@@ -83,6 +84,7 @@ struct ArchiveFacts {
   std::optional<double> density;  // of the grains' matter, per area (discs) or volume (spheres)
   std::optional<Vec3> gravity;
   std::optional<bool> discs;         // false: spheres
+  std::vector<std::string> walls;    // names of those whose contacts it has
   std::optional<std::string> units;  // the program's name for them: "si", "cgs", "lj"
   /// The contact forces in the archive were evaluated with velocities half a step later than those
   /// that moved the grains (late_damping.hpp).
@@ -127,6 +129,8 @@ struct ArchiveFiles {
   std::vector<std::string> grains, contacts;  // may hold `*`; file_list.hpp
   std::string restart;                        // with what the other files lack
   std::string columns;                        // contact_columns.hpp
+  std::vector<std::string> wall_contacts;     // files, likewise
+  std::string wall_columns;                   // of the contacts with walls
   std::vector<std::string> unnamed;           // named without an option: proposed_files.hpp
   std::vector<std::string> map;               // other names of columns; csv_map.hpp
 };
@@ -138,7 +142,8 @@ struct ArchiveFormat {
   /// What a file holds that begins like this, if it looks like one of this format.
   FileRole (*role)(const FileStart&);
   /// Which of these options apply to it; the others are refused.
-  bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_map = false;
+  bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_map = false,
+       takes_wall_contacts = false, takes_wall_columns = false;
   const char* examples;    // for --help: whole command lines, indented
   const char* notes = "";  // for --help: what its files and its --columns are, indented; may be ""
 };

@@ -202,14 +202,14 @@ void FrameBuilder::add_contact(const ArchiveMoment& moment, std::size_t c, const
   if (bed_.is_boundary(i) && (wall || bed_.is_boundary(j))) return;
 
   Vector<D> force = bed_.axes.components<D>(from.force[c]);
-  Vector<D> branch = from.branch.empty()
-                         ? minimum_image<D>(bed_.box, frame.position[i] - frame.position[j])
-                         : bed_.axes.components<D>(from.branch[c]);
+  const bool has_branch = !from.branch.empty() && !std::isnan(from.branch[c].x());
+  Vector<D> branch = !has_branch ? minimum_image<D>(bed_.box, frame.position[i] - frame.position[j])
+                                 : bed_.axes.components<D>(from.branch[c]);
   const double radii = bed_.grains.radius[i] + (wall ? 0 : bed_.grains.radius[j]);
   double gap = branch.norm() - radii;
-  if (!from.overlap.empty())
+  if (!from.overlap.empty() && !std::isnan(from.overlap[c]))
     gap = -from.overlap[c];
-  else if (!from.distance.empty())
+  else if (!from.distance.empty() && !std::isnan(from.distance[c]))
     gap = from.distance[c] - radii;
   if (bed_.is_boundary(i)) {
     std::swap(i, j);

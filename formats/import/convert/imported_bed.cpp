@@ -2,6 +2,7 @@
 #include "formats/import/convert/imported_bed.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -15,6 +16,17 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr auto most_ids = std::numeric_limits<std::int32_t>::max();
 
+/// Where walls bound the flow and nothing is said of base grains, there are none.
+SpeciesSettings base_settings(const ArchiveMoment& first, const RunFacts& facts,
+                              SpeciesSettings settings)
+{
+  const auto& fixed = first.grains.fixed;
+  const bool marked = std::find(fixed.begin(), fixed.end(), std::uint8_t{1}) != fixed.end();
+  if (!facts.walls.empty() && !marked && !settings.boundary && !settings.boundary_ids)
+    settings.boundary = "none";
+  return settings;
+}
+
 }  // namespace
 
 ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
@@ -23,7 +35,10 @@ ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
 {
   box.dimension = facts.dimension;
   box.periodic_x = false;
-  make_grains(first, facts, settings.species);
+  walls = parse_walls(settings.walls);
+  make_grains(first, facts, base_settings(first, facts, settings.species));
+  if (species.base == "none" && !facts.walls.empty())
+    species.base = fmt::format("walls {}", fmt::join(facts.walls, ", "));
   require_no_other_period(first);
   make_box(first);
   find_origin(first, settings.origin);
@@ -146,7 +161,8 @@ Question question_of_origin(const ArchiveGrains& grains, const Height& height)
           "no base grains lie below the others; this is the lowest point of the grains"};
 }
 
-/// The highest of the boundary grains below the middle of the others.
+/// The highest of the boundary grains, or, where there are none, of the walls, below the middle of
+/// the others.
 void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& text)
 {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), origin);
@@ -166,10 +182,17 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
       ++mobile;
     }
   origin = -infinity;
+  const bool has_base = mobile < ids.size();
   for (std::size_t g = 0; g < ids.size(); ++g)
     if (is_boundary(static_cast<std::size_t>(rows.find(ids[g]))) &&
         height(g) * static_cast<double>(mobile) <= sum)
       origin = std::max(origin, height(g) + (text == "top" ? first.grains.radius[g] : 0));
+  for (const auto& wall : walls) {
+    const double up = axes.components<3>(Vec3::Unit(wall.axis)).y();
+    const bool is_floor =
+        std::abs(up) > 1 - 1e-6 && up * wall.position * static_cast<double>(mobile) <= sum;
+    if (!has_base && is_floor) origin = std::max(origin, up * wall.position);
+  }
   if (!std::isfinite(origin)) throw OpenQuestions(question_of_origin(first.grains, height));
 }
 

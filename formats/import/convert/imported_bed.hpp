@@ -4,6 +4,7 @@
 #include "formats/core/frame.hpp"
 #include "formats/import/convert/rows_by_id.hpp"
 #include "formats/import/facts/run_facts.hpp"
+#include "formats/import/facts/wall_planes.hpp"
 
 #include <string>
 #include <vector>
@@ -33,10 +34,11 @@ struct ImportedBed {
   Box box;
   SpeciesFound species;
   RowsById rows;
-  ArchiveGrains known;          // by row, what a grain keeps: radius, mass, type, fixed
-  double origin = 0;            // height in the archive that is y = 0
-  Vec3 shift = Vec3::Zero();    // to be added to components of positions
-  std::vector<Period> periods;  // of the cell: none, along x, along z, or along both
+  ArchiveGrains known;           // by row, what a grain keeps: radius, mass, type, fixed
+  double origin = 0;             // height in the archive that is y = 0
+  Vec3 shift = Vec3::Zero();     // to be added to components of positions
+  std::vector<Period> periods;   // of the cell: none, along x, along z, or along both
+  std::vector<WallPlane> walls;  // of --wall
 
  private:
   void make_grains(const ArchiveMoment& first, const RunFacts& facts,

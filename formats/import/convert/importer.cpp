@@ -106,6 +106,7 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["import_base"] = frames.builder().bed().species.base;
   texts["import_sizes"] = frames.builder().bed().species.sizes;
   texts["import_columns"] = frames.archive().columns();
+  if (!facts.walls.empty()) texts["import_walls"] = fmt::format("{}", fmt::join(facts.walls, ", "));
   if (settings.from) texts["import_from"] = *settings.from;
   if (settings.to) texts["import_to"] = *settings.to;
   texts["import_instant"] =
@@ -152,6 +153,7 @@ std::vector<std::string> remarks_of(const VerifiedFrames<D>& frames)
   if (const auto roster = frames.roster())
     remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} present",
                                   roster->all.grains.size(), roster->fewest, roster->most));
+  if (frames.walls()) remarks.push_back(frames.walls()->remark());
   if (!frames.has_force())
     remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
   if (!frames.has_angular_velocity())
@@ -212,6 +214,8 @@ ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settin
   report.remarks = remarks_of(frames);
   writer.add_parameters(closing.close(report, settings.strict));
   writer.close();
+  if (frames.walls())
+    for (auto& count : frames.walls()->counts()) report.remarks.push_back(std::move(count));
   return report;
 }
 

@@ -10,9 +10,13 @@
 namespace grseg {
 namespace {
 
-bool asks_for_base(const ArchiveGrains& grains, const SpeciesSettings& settings)
+/// Where walls bound the flow there need not be one.
+bool asks_for_base(const ArchiveGrains& grains, const ArchiveFacts& facts,
+                   const ImportSettings& settings)
 {
-  return grains.fixed.empty() && !settings.boundary && !settings.boundary_ids;
+  const auto& species = settings.species;
+  return grains.fixed.empty() && !species.boundary && !species.boundary_ids &&
+         facts.walls.empty() && settings.walls.empty();
 }
 
 /// Settings as if the proposal were accepted: "--boundary 3" or "--boundary-ids 1-35".
@@ -53,7 +57,7 @@ bool OpenedArchive::next()
 /// on.
 std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& settings)
 {
-  if (!asks_for_base(all_grains().grains, settings.species)) return {};
+  if (!asks_for_base(all_grains().grains, archive().facts(), settings)) return {};
   if (roster_) return resting_grains(roster_->all.grains, nullptr);
   const auto first = std::move(moment);
   moment = {};
@@ -87,7 +91,7 @@ void OpenedArchive::ask_for_the_bed(const ImportSettings& settings,
 {
   auto trial = settings;
   const auto& grains = all_grains().grains;
-  if (asks_for_base(grains, trial.species)) {
+  if (asks_for_base(grains, archive().facts(), trial)) {
     trial.species.boundary = "none";
     if (resting.empty())
       trial.origin = "0";

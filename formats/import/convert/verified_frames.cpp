@@ -47,6 +47,11 @@ VerifiedFrames<D>::VerifiedFrames(OpenedArchive opened, const ImportSettings& se
       has_force_(!opened_.all_grains().grains.force.empty()),
       has_angular_velocity_(!opened_.all_grains().grains.angular_velocity.empty())
 {
+  const auto& bed = builder_->bed();
+  if (!bed.walls.empty())
+    walls_ = std::make_unique<InferredWalls<D>>(bed.walls, bed,
+                                                facts().orientation.gravity.template head<D>());
+  if (walls_) verification_.leave_out(walls_->inferred());
 }
 
 template <int D>
@@ -66,6 +71,7 @@ bool VerifiedFrames<D>::next(Frame<D>& frame)
         "{}: some moments have forces on grains and some do not; import them separately",
         moment.place));
   builder_->build(moment, frame);
+  if (walls_) walls_->add_to(frame);
   if (last_ && (frame.step <= last_->first || frame.time <= last_->second))
     throw FormatError(
         fmt::format("{}: step {} at {:.10g} comes after step {} at {:.10g}: time must increase by "

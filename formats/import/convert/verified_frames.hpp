@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/import/convert/frame_builder.hpp"
+#include "formats/import/convert/inferred_walls.hpp"
 #include "formats/import/convert/opened_archive.hpp"
 #include "formats/import/verify/verification.hpp"
 
@@ -41,6 +42,8 @@ class VerifiedFrames {
   const MomentRange& range() const { return opened_.range(); }
   const RunFacts& facts() const { return opened_.facts; }
   const FrameBuilder& builder() const { return *builder_; }
+  /// Those of --wall; null where there are none.
+  const InferredWalls<D>* walls() const { return walls_.get(); }
   double tolerance() const { return waivers_.limit("balance", archive().facts().tolerance); }
   const Waivers& waivers() const { return waivers_; }
   const OwnFacts& own() const { return own_; }
@@ -51,7 +54,8 @@ class VerifiedFrames {
   OpenedArchive opened_;
   Waivers waivers_;
   OwnFacts own_;
-  std::unique_ptr<FrameBuilder> builder_;  // where the verification refers to it
+  std::unique_ptr<FrameBuilder> builder_;    // where the verification refers to it
+  std::unique_ptr<InferredWalls<D>> walls_;  // where the verification refers to it
   Verification<D> verification_;
   std::optional<Complaint> complaint_;
   std::optional<std::pair<std::int64_t, double>> last_;  // step and time of the frame before

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "formats/import/common/archive.hpp"
+#include "formats/import/dump/column_map.hpp"
 
-#include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,30 +26,26 @@ class ContactColumns {
   explicit ContactColumns(const std::string& text);
 
   /// Finds the columns among `names`. UsageError naming `place` where one is not there.
-  void look_up(const std::vector<std::string>& names, const std::string& place);
+  void look_up(const std::vector<std::string>& names, const std::string& place)
+  {
+    map_.look_up(names, place);
+  }
   /// The columns to read, 0-based, in the order in which `fill` takes them.
-  const std::vector<std::size_t>& wanted() const { return wanted_; }
+  const std::vector<std::size_t>& wanted() const { return map_.wanted(); }
   /// Rows as contacts; `values[k]` is column `wanted()[k]`. FormatError naming `place` where i or j
   /// is not an id.
   void fill(const std::vector<std::vector<double>>& values, const std::string& place,
             ArchiveContacts& contacts) const;
 
-  const std::string& text() const { return text_; }
+  const std::string& text() const { return map_.text(); }
 
  private:
-  enum Meaning { i, j, fx, fy, fz, tx, ty, tz, bx, by, bz, dist, overlap, wall, meanings };
-  static const std::array<const char*, meanings> words;
+  enum Meaning { i, j, fx, fy, fz, tx, ty, tz, bx, by, bz, dist, overlap, wall };
 
-  void assign(const std::string& word, const std::string& column);
   void require_sense() const;
-  const std::vector<double>& of(Meaning meaning,
-                                const std::vector<std::vector<double>>& values) const;
-  bool has(Meaning meaning) const { return !column_[meaning].empty(); }
+  bool has(std::size_t meaning) const { return map_.has(meaning); }
 
-  std::string text_;
-  std::array<std::string, meanings> column_;  // number or name; "": not given
-  std::array<int, meanings> place_{};         // in wanted_; -1: not given
-  std::vector<std::size_t> wanted_;
+  ColumnMap map_;
 };
 
 }  // namespace grseg

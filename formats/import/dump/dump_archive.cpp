@@ -5,6 +5,7 @@
 #include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/dump/dump_grains.hpp"
 #include "formats/import/dump/dump_pair.hpp"
+#include "formats/import/dump/wall_contacts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,10 +16,13 @@ namespace {
 class DumpArchive : public Archive {
  public:
   DumpArchive(const std::vector<std::string>& grains, const std::vector<std::string>& contacts,
-              std::string columns, const DumpDialect& dialect)
+              const std::vector<std::string>& walls, const ArchiveFiles& files,
+              const DumpDialect& dialect)
       : dialect_(dialect),
-        dumps_(grains, contacts),
-        columns_text_(std::move(columns)),
+        dumps_(grains, contacts, walls),
+        columns_text_(files.columns),
+        wall_text_(files.wall_columns),
+        wall_columns_(walls.empty() ? files.wall_columns : "none"),
         facts_(dialect.facts)
   {
     facts_.step = dumps_.step();
@@ -33,6 +37,9 @@ class DumpArchive : public Archive {
   {
     if (!next_grains(moment)) return false;
     read_contacts(moment);
+    if (dumps_.walls()) read_walls(*dumps_.walls(), moment);
+    wall_columns_.add_to(
+        moment, [&](std::size_t k) -> const auto& { return grains_.more(k); });
     return true;
   }
 
@@ -49,11 +56,22 @@ class DumpArchive : public Archive {
     moment.questions.clear();
     moment.place = fmt::format("step {} ({}; {})", header.step, header.place,
                                dumps_.contacts().header().place);
-    grains_.read(dumps_.grains(), moment.grains);
+    wall_columns_.look_up(header);
+    facts_.walls = wall_columns_.walls();
+    if (dumps_.walls()) facts_.walls = {"of the rows of --wall-contacts"};
+    grains_.read(dumps_.grains(), moment.grains, wall_columns_.wanted());
     return true;
   }
 
  private:
+  void read_walls(DumpReader& dump, ArchiveMoment& moment)
+  {
+    if (moment.grains.size() == 0) return;
+    const auto& header = dump.header();
+    if (!wall_rows_) wall_rows_.emplace(dialect_.wall_mapping(wall_text_, header));
+    wall_rows_->read(dump, moment);
+  }
+
   void read_contacts(ArchiveMoment& moment)
   {
     const auto header = dumps_.contacts().header();
@@ -61,6 +79,11 @@ class DumpArchive : public Archive {
       moment.contacts = {};
       return;
     }
+    if (header.find("id") && (header.find("x") || header.find("xu") || header.find("xs")))
+      throw FormatError(fmt::format(
+          "{}: these are grains, with id and position, and not contacts; name them with "
+          "--grains, and the dump local with --contacts",
+          header.place));
     if (!columns_ || header.columns != header_.columns) {
       if (columns_text_.empty()) columns_text_ = dialect_.assumed(header, moment.grains);
       if (columns_text_.empty()) {
@@ -99,6 +122,9 @@ class DumpArchive : public Archive {
   DumpGrains grains_;
   std::string columns_text_;  // as --columns gives it
   std::optional<ContactColumns> columns_;
+  std::string wall_text_;  // as --wall-columns gives it
+  WallColumns wall_columns_;
+  std::optional<WallRows> wall_rows_;
   DumpHeader header_;  // of the contacts, whose columns were looked up
   std::vector<std::vector<double>> values_;
   ArchiveFacts facts_;
@@ -135,8 +161,10 @@ FileRole role_of_dump(const FileStart& start,
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect)
 {
   const auto grains = archive_files(files.grains, "--grains");
-  return std::make_unique<DumpArchive>(grains, archive_files(files.contacts, "--contacts"),
-                                       files.columns, dialect);
+  const auto contacts = archive_files(files.contacts, "--contacts");
+  std::vector<std::string> walls;
+  if (!files.wall_contacts.empty()) walls = archive_files(files.wall_contacts, "--wall-contacts");
+  return std::make_unique<DumpArchive>(grains, contacts, walls, files, dialect);
 }
 
 }  // namespace grseg

@@ -20,7 +20,10 @@ struct DumpDialect {
   /// Other possible values of --columns.
   std::vector<std::string> (*others)(const DumpHeader& contacts);
   const char* example;  // of --columns
-  ArchiveFacts facts;   // that are the same for every run
+  /// What --wall-columns means for these rows of contacts with walls, as a mapping of WallRows; null
+  /// where the program writes no such rows.
+  std::string (*wall_mapping)(const std::string& columns, const DumpHeader& walls);
+  ArchiveFacts facts;  // that are the same for every run
 };
 
 /// Facts of a program that re-evaluates contact forces at output, with velocities half a step later

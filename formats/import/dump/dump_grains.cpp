@@ -114,11 +114,18 @@ void DumpGrains::take(const Triple& columns, std::vector<Vec3>& out) const
   }
 }
 
-void DumpGrains::read(DumpReader& dump, ArchiveGrains& grains)
+void DumpGrains::read(DumpReader& dump, ArchiveGrains& grains, const std::vector<std::size_t>& more)
 {
   const auto header = dump.header();
   look_up(header);
-  dump.read_rows(wanted_, values_);
+  auto all = wanted_;
+  all.insert(all.end(), more.begin(), more.end());
+  auto sorted = all;
+  std::sort(sorted.begin(), sorted.end());
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
+    throw UsageError(fmt::format("--wall-columns: column {} ({}) of {} would be two things at once",
+                                 *twice + 1, header.columns[*twice], header.place));
+  dump.read_rows(all, values_);
   const auto column = [&](int k) -> const std::vector<double>& {
     static const std::vector<double> none;
     return k < 0 ? none : values_[static_cast<std::size_t>(k)];

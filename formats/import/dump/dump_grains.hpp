@@ -14,8 +14,10 @@ namespace grseg {
 /// a missing component is 0 and said to be missing, other columns are ignored.
 class DumpGrains {
  public:
-  /// Reads the rows of the current block of `dump`.
-  void read(DumpReader& dump, ArchiveGrains& grains);
+  /// Reads the rows of the current block of `dump`, and `more` columns of them, by number.
+  void read(DumpReader& dump, ArchiveGrains& grains, const std::vector<std::size_t>& more = {});
+  /// The values of more[k] of these rows.
+  const std::vector<double>& more(std::size_t k) const { return values_[wanted_.size() + k]; }
 
  private:
   enum class Positions { plain, scaled };

@@ -20,9 +20,14 @@ std::optional<double> step_by_times(const std::vector<std::string>& files)
 }  // namespace
 
 DumpPair::DumpPair(const std::vector<std::string>& grain_files,
-                   const std::vector<std::string>& contact_files)
+                   const std::vector<std::string>& contact_files,
+                   const std::vector<std::string>& wall_files)
     : grains_(grain_files), contacts_(contact_files)
 {
+  if (!wall_files.empty()) {
+    walls_.emplace(wall_files);
+    more_walls_ = true;
+  }
   try {
     step_ = step_by_times(grain_files);
   } catch (const FormatError&) {  // to be reported when it is that block's turn
@@ -30,6 +35,24 @@ DumpPair::DumpPair(const std::vector<std::string>& grain_files,
 }
 
 bool DumpPair::next()
+{
+  while (next_pair()) {
+    if (!walls_ || walls_have(grains_.header().step)) return true;
+    without_walls_.add(grains_.header().step);
+  }
+  return false;
+}
+
+bool DumpPair::walls_have(std::int64_t step)
+{
+  while (more_walls_ && (!walls_begun_ || walls_->header().step < step)) {
+    walls_begun_ = true;
+    more_walls_ = walls_->next();
+  }
+  return more_walls_ && walls_->header().step == step;
+}
+
+bool DumpPair::next_pair()
 {
   bool more_grains = grains_.next(), more_contacts = contacts_.next();
   while (more_grains || more_contacts) {
@@ -70,6 +93,7 @@ std::vector<std::string> DumpPair::remarks() const
   };
   add(grains_alone_, "grains", "contacts");
   add(contacts_alone_, "contacts", "grains");
+  add(without_walls_, "grains and contacts", "contacts with walls");
   return remarks;
 }
 

@@ -77,6 +77,12 @@ void DumpReader::read_header()
   std::string label;
   for (bool has_step = false, has_box = false;; next_line("a header")) {
     const auto line = source_.line();
+    const bool is_text = std::all_of(line.begin(), line.end(), [](char c) {
+      return is_blank(c) || c == '\r' || static_cast<unsigned char>(c) >= ' ';
+    });
+    if (!is_text)
+      fail(
+          "this is not text: a binary dump? Turn it into text with binary2txt, which comes with LAMMPS");
     if (!line.starts_with(item_word))
       fail(fmt::format("{} found where a text dump has a line 'ITEM: ...'", in_quotes(line)));
     const auto item = line.substr(item_word.size());
@@ -163,7 +169,10 @@ void DumpReader::read_box(std::string_view item)
     }
     if (!good || value[0] > value[1])
       fail(fmt::format("{} is not a pair of bounds of the cell", in_quotes(source_.line())));
-    if (value[2] != 0) fail("the cell is tilted; only rectangular cells are imported");
+    if (value[2] != 0)
+      fail(
+          "the cell is tilted; only rectangular cells are imported: write the run in one (`change_box "
+          "all ortho`, where nothing tilts it)");
     header_.low[axis] = value[0];
     header_.high[axis] = value[1];
   }

@@ -47,6 +47,10 @@ po::options_description import_options(ImportSettings& s)
       "from", optional(s.from, "T"),
       "leave out what comes before this time, in the archive's units, or before step:N")(
       "to", optional(s.to, "T"), "leave out what comes after, likewise")(
+      "wall-contacts", files(s.files.wall_contacts),
+      "liggghts only: files with the contacts with meshes (compute wall/gran/local)")(
+      "wall-columns", po::value(&s.files.wall_columns)->value_name("MAP"),
+      "what their columns mean; lammps: columns of fix wall/gran in the grains, floor=f_floor[1]")(
       "map", po::value(&s.files.map)->composing()->value_name("NAME=COLUMN"),
       "csv only: what other names of columns mean, e.g. particle1=i,Fx=fx; NAME= leaves one out")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
@@ -66,7 +70,9 @@ po::options_description import_options(ImportSettings& s)
       "dimension", optional(s.dimension, "D"),
       "2 or 3 (default: 3 for spheres that do not lie in one plane)")(
       "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),
-      "y = 0: top or centre of the base grains, or a height in the archive");
+      "y = 0: top or centre of the base grains, or a height in the archive")(
+      "wall", po::value(&s.walls)->composing()->value_name("NAME=AXIS:POSITION"),
+      "a plane wall of which the archive has no contacts, once for each: floor=z:0");
 
   auto& species = s.species;
   po::options_description sizes("Species");

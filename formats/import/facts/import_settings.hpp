@@ -30,6 +30,7 @@ struct ImportSettings {
   std::string origin = "top";          // or "centre", or a height in the archive
   std::optional<int> dimension;        // dimension.hpp
   SpeciesSettings species;
+  std::vector<std::string> walls;  // wall_planes.hpp
 
   std::optional<std::string> from, to;       // moment_range.hpp
   std::vector<std::string> accept_residual;  // finding.hpp

@@ -4,6 +4,7 @@
 #include "formats/cli/words.hpp"
 #include "formats/import/facts/dimension.hpp"
 #include "formats/import/facts/proposals.hpp"
+#include "formats/import/facts/wall_planes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -109,7 +110,7 @@ class FactFinder {
   void find_units();
   void find_step();
   void find_grains();
-  void find_base() const;
+  void find_base();
   std::optional<GravityText> gravity();
   void find_axes(const std::optional<GravityText>& gravity);
   void find_orientation(const std::optional<GravityText>& gravity);
@@ -161,9 +162,11 @@ void FactFinder::find_grains()
                     facts_.discs ? "per area of discs" : "per volume of spheres"});
 }
 
-void FactFinder::find_base() const
+void FactFinder::find_base()
 {
-  if (settings_.species.boundary || settings_.species.boundary_ids ||
+  for (const auto& wall : parse_walls(settings_.walls)) facts_.walls.push_back(list_of({wall}));
+  facts_.walls.insert(facts_.walls.end(), archive_.walls.begin(), archive_.walls.end());
+  if (!facts_.walls.empty() || settings_.species.boundary || settings_.species.boundary_ids ||
       !look_.all.grains.fixed.empty())
     return;
   questions_.ask(question_of_base(look_.all.grains, look_.resting));

@@ -17,8 +17,9 @@ struct RunFacts {
   int dimension = 2;
   std::string axes = "xy";  // letters, before they are turned to a slope
   Orientation orientation;
-  bool discs = true;              // false: spheres
-  std::optional<double> density;  // needed where grains have no mass
+  bool discs = true;               // false: spheres
+  std::vector<std::string> walls;  // straight ones that bound the flow, in words
+  std::optional<double> density;   // needed where grains have no mass
   Units units;
   std::string units_as_given;
 };

@@ -54,7 +54,8 @@ std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
 {
   static const DumpDialect dialect{
       assumed_columns, [](const std::string& columns, const DumpHeader&) { return columns; },
-      other_columns, recipe, facts_of_late_forces("LAMMPS")};
+      other_columns,   recipe,
+      nullptr,         facts_of_late_forces("LAMMPS")};
   return open_dumps(files, dialect);
 }
 
@@ -62,6 +63,7 @@ const ArchiveFormat lammps_format{
     .name = "lammps",
     .open = open_lammps,
     .role = role_of,
+    .takes_wall_columns = true,
     .examples =
         "  grseg-import --format lammps --grains atoms.dump --contacts contacts.dump \\\n"
         "    --columns i=2,j=3,dist=4,force=5,tangential=8 --units si --step 1e-5 \\\n"

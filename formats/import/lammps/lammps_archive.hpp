@@ -18,7 +18,8 @@ namespace grseg {
 /// ten columns above are assumed, which the grains' balance verifies. Columns that are named like
 /// the words of --columns (by `dump_modify colname`) are recognised. dx dy dz, whose sign depended
 /// on tags until 12Jun2025, are never used: the branch is x_patom1 - x_patom2. Contacts of fix
-/// wall/gran are not in any dump local.
+/// wall/gran are not in any dump local, but with its keyword `contacts` they may be columns of the dump
+/// of grains (wall_contacts.hpp).
 std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files);
 
 extern const ArchiveFormat lammps_format;

@@ -23,8 +23,9 @@ FileRole role_of(const FileStart& start)
 
 std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
 {
-  static const DumpDialect dialect{assumed_columns, liggghts_mapping, liggghts_columns_of,
-                                   "pos,id,force,delta", facts_of_late_forces("LIGGGHTS")};
+  static const DumpDialect dialect{assumed_columns,       liggghts_mapping,
+                                   liggghts_columns_of,   "pos,id,force,delta",
+                                   liggghts_wall_mapping, facts_of_late_forces("LIGGGHTS")};
   return open_dumps(files, dialect);
 }
 
@@ -32,6 +33,8 @@ const ArchiveFormat liggghts_format{
     .name = "liggghts",
     .open = open_liggghts,
     .role = role_of,
+    .takes_wall_contacts = true,
+    .takes_wall_columns = true,
     .examples =
         "  grseg-import --format liggghts --grains 'atoms_*' --contacts 'contacts_*' \\\n"
         "    --units si --columns pos,id,force,delta --step 5e-6 --gravity 9.81 --slope 23 \\\n"

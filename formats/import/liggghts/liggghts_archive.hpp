@@ -12,7 +12,8 @@ namespace grseg {
 /// dump of 12, 25 or 35 columns is assumed to be the preset of that size; the grains' balance
 /// verifies it. `force` is the whole force on the first of the two ids. Text has 6 digits unless
 /// dump_modify says otherwise, so `delta` is used as the overlap where it is dumped. Contacts with
-/// primitive walls (fix wall/gran) are not in such dumps, so grains there do not balance.
+/// meshes are the rows of another dump, of `compute wall/gran/local`; those with primitive walls are in
+/// none.
 std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files);
 
 extern const ArchiveFormat liggghts_format;

@@ -184,6 +184,36 @@ std::string liggghts_mapping(const std::string& columns, const DumpHeader& conta
   return mapping;
 }
 
+std::string liggghts_wall_mapping(const std::string& columns, const DumpHeader& walls)
+{
+  if (columns.find('=') != std::string::npos) return columns;
+  const auto keywords = columns.empty() ? "pos,id,force" : columns;
+  const auto layout = layout_of(keywords);
+  const Dumped dumped(walls);
+  if (!dumped.fits(layout.columns))
+    throw UsageError(fmt::format(
+        "--wall-columns {}: these are {} columns, but {} has {}; list the keywords of the "
+        "compute wall/gran/local",
+        keywords, layout.columns, walls.place, fmt::join(walls.columns, " ")));
+  const std::pair<const char*, std::size_t> meanings[] = {
+      {"px", layout["pos"]},    {"py", layout["pos"] + 1},      {"pz", layout["pos"] + 2},
+      {"x", layout["pos"] + 3}, {"y", layout["pos"] + 4},       {"z", layout["pos"] + 5},
+      {"mesh", layout["id"]},   {"triangle", layout["id"] + 1}, {"id", layout["id"] + 2},
+      {"fx", layout["force"]},  {"fy", layout["force"] + 1},    {"fz", layout["force"] + 2}};
+  std::string mapping;
+  bool all_there = layout["pos"] > 0 && layout["id"] > 0 && layout["force"] > 0;
+  for (const auto& [meaning, of_compute] : meanings) {
+    const auto column = dumped.column(of_compute);
+    all_there = all_there && column > 0;
+    mapping += fmt::format("{}{}={}", mapping.empty() ? "" : ",", meaning, column);
+  }
+  if (!all_there)
+    throw UsageError(
+        fmt::format("--wall-columns {}: pos, id and force are needed and have to be in {}",
+                    keywords, walls.place));
+  return mapping;
+}
+
 bool are_of_one_compute(const std::vector<std::string>& columns)
 {
   const auto compute = columns.front().substr(0, columns.front().find('['));

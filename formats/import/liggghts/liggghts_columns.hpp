@@ -21,6 +21,10 @@ namespace grseg {
 /// or force missing or not dumped, another number of columns.
 std::string liggghts_mapping(const std::string& columns, const DumpHeader& contacts);
 
+/// The same of `compute wall/gran/local` as a mapping of WallRows: pos holds contact point and grain, id
+/// mesh, triangle and grain, and force is that on the grain. "" is pos,id,force, which is needed.
+std::string liggghts_wall_mapping(const std::string& columns, const DumpHeader& walls);
+
 /// Whether all columns are of one compute, c_cp[1] c_cp[2] ...: LAMMPS takes two, for ids and forces.
 bool are_of_one_compute(const std::vector<std::string>& columns);
 

@@ -139,6 +139,7 @@ auto MomentStatistics<D>::weights(const Frame<D>& frame, const Vectors& sums,
   Vectors weights(grains_.size(), Vector<D>::Constant(NAN));
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, frame, g)) continue;
+    if (left_out_ && g < left_out_->size() && (*left_out_)[g] != 0) continue;
     if (has_force)
       weights[g] = (frame.force[g] - sums[g]) / grains_.mass[g];
     else if (before && is_there<D>(before->position, g))

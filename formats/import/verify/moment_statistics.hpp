@@ -43,6 +43,10 @@ class MomentStatistics {
   void add_to(CheckMoment& moment, const Frame<D>& frame, const std::vector<Vector<D>>& sums,
               const std::optional<MomentBefore<D>>& before, bool close, bool has_images) const;
 
+  /// Grains, by row, that tell nothing of weights: their balance is not independent of gravity.
+  /// Referred to, and empty or as many as there are grains at each call of add_to.
+  void leave_out(const std::vector<std::uint8_t>& grains) { left_out_ = &grains; }
+
  private:
   using Vectors = std::vector<Vector<D>>;
   enum class Group { all, smaller, larger };
@@ -58,6 +62,7 @@ class MomentStatistics {
   void add_inertia(SlopeSums& sums, const Frame<D>& frame, const MomentBefore<D>& before,
                    const std::vector<bool>& is_free) const;
 
+  const std::vector<std::uint8_t>* left_out_ = nullptr;
   const Grains& grains_;
   Box box_;
   double split_ = 0, diameter_ = 0;  // of sizes; mean of mobile grains

@@ -56,6 +56,8 @@ class Verification {
                const OutputAccuracy& accuracy, const Waivers& waivers = {},
                const std::array<AxisInArchive, 3>& axes = {});
 
+  /// See MomentStatistics.
+  void leave_out(const std::vector<std::uint8_t>& grains) { statistics_.leave_out(grains); }
   /// To be called for the frames in order; what is wrong with this one, if anything that is not
   /// waived. `has_images`: images of positions are the archive's.
   std::optional<Complaint> check(const Frame<D>& frame, bool has_images = true);

@@ -67,8 +67,7 @@ TEST_F(DamagedArchive, BinaryNoise)
 {
   std::mt19937 noise(1);
   for (auto& c : contacts) c = static_cast<char>(noise());
-  expect_refusal("noise instead of contacts", exit_content,
-                 "found where a text dump has a line 'ITEM: ...'");
+  expect_refusal("noise instead of contacts", exit_content, "this is not text: a binary dump?");
 }
 
 TEST_F(DamagedArchive, WrongNumberOfColumns)

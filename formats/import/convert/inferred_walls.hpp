@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/convert/imported_bed.hpp"
+#include "formats/import/facts/wall_planes.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grseg {
+
+/// Contacts with plane walls of which the archive has no rows: a grain touches a wall where its
+/// centre is nearer to the plane than its radius, and what its other contacts and its weight leave
+/// of the force on it, the wall exerts:
+///   force of the wall = force on the grain - m g - sum of its contact forces.
+/// Errors of all these forces add up in it, damping half a step late among them, and the grain's
+/// balance is no check any more. A grain that touches two walls shares this force out: along each
+/// normal it is that wall's, the rest is shared in proportion; a wall that would pull gets nothing.
+template <int D>
+class InferredWalls {
+ public:
+  /// In the archive's units. UsageError where a wall lies across the plane of a flow in two
+  /// dimensions or across a period.
+  InferredWalls(const std::vector<WallPlane>& walls, const ImportedBed& bed,
+                const Vector<D>& gravity);
+
+  /// Appends these contacts to those of the frame. The walls here have the first numbers; those of
+  /// contacts that the frame already has move up by as many. A wall that the grain already has a
+  /// contact with is left out. UsageError where grains have no forces.
+  void add_to(Frame<D>& frame);
+
+  /// By row, of the last frame: 1 where the balance of the grain went into a wall's force.
+  const std::vector<std::uint8_t>& inferred() const { return inferred_; }
+  /// What is done, in a sentence that is the same for every part of an archive.
+  std::string remark() const;
+  /// How often it was done so far, a sentence each.
+  std::vector<std::string> counts() const;
+
+ private:
+  struct Plane {
+    Vector<D> direction;  // unit
+    double position;      // of the plane along it, in the flow's axes
+  };
+  /// A grain at a wall.
+  struct Touch {
+    std::size_t wall;
+    Vector<D> branch;  // from the plane to the centre
+    Vector<D> normal;  // towards the grain
+  };
+  using GrainAtWall = std::pair<std::size_t, std::size_t>;  // its row, and that of the contact
+  std::vector<GrainAtWall> renumber(ContactList<D>& contacts) const;
+  double largest_force(const Frame<D>& frame) const;
+  std::vector<Vector<D>> missing_forces(const Frame<D>& frame) const;
+  std::vector<Touch> touches(const Frame<D>& frame, std::size_t grain,
+                             const Vector<D>& missing) const;
+  void add(Frame<D>& frame, std::size_t grain, std::vector<Touch> touches,
+           const Vector<D>& missing);
+  void append(Frame<D>& frame, std::size_t grain, const Touch& touch, const Vector<D>& force);
+
+  std::vector<WallPlane> walls_;
+  const ImportedBed& bed_;
+  Vector<D> gravity_;
+  std::vector<Plane> planes_;
+  std::vector<std::uint8_t> inferred_;
+  std::vector<std::size_t> contacts_of_;  // of each wall, in all frames so far
+  std::size_t frames_ = 0, fewest_ = 0, most_ = 0, contacts_ = 0, at_two_ = 0, pulling_ = 0;
+  double largest_pull_ = 0;   // over the largest force of its frame
+  double largest_force_ = 0;  // of this frame
+};
+
+}  // namespace grseg

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/common/archive.hpp"
+#include "formats/import/dump/column_map.hpp"
+#include "formats/import/dump/dump_reader.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// Contacts with walls in the dump of grains: the eight columns f_NAME[1] to f_NAME[8] of LAMMPS'
+/// `fix NAME all wall/gran ... contacts`. The first is 1 where the grain touches the wall, then
+/// follow the force of the wall on the grain, the contact point, and the radius.
+class WallColumns {
+ public:
+  /// `text`: "floor=f_floor[1],sides=27", the first of eight columns of each wall; "none"; or "" for
+  /// those that are recognised by their names.
+  explicit WallColumns(const std::string& text) : text_(text) {}
+
+  /// UsageError where a column is not there.
+  void look_up(const DumpHeader& grains);
+  /// Columns of the dump of grains, 0-based, eight for each wall.
+  const std::vector<std::size_t>& wanted() const { return wanted_; }
+  /// Names of the walls, by number.
+  const std::vector<std::string>& walls() const { return walls_; }
+  /// Adds the contacts; `column(k)` has the values of `wanted()[k]`. FormatError where the columns do
+  /// not hold what they should.
+  template <class Column>
+  void add_to(ArchiveMoment& moment, const Column& column) const
+  {
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+      for (std::size_t g = 0; g < moment.grains.size(); ++g) {
+        std::array<double, 8> values;
+        for (std::size_t k = 0; k < 8; ++k) values[k] = column(8 * w + k)[g];
+        add(moment, w, g, values);
+      }
+  }
+
+ private:
+  void add(ArchiveMoment& moment, std::size_t wall, std::size_t grain,
+           const std::array<double, 8>& values) const;
+
+  std::string text_;
+  std::vector<std::string> names_;  // of the columns that the rest refers to
+  std::vector<std::string> walls_;
+  std::vector<std::size_t> wanted_;
+};
+
+/// Contacts with walls as rows of a dump of their own: LIGGGHTS' `compute wall/gran/local`. A mapping
+/// gives their columns: "id=9,force=10,point=1,centre=4,mesh=7,triangle=8".
+///   id             of the grain
+///   force          of the wall on the grain, three columns from this one on (or fx fy fz)
+///   point          where they touch, likewise (px py pz)
+///   centre         of the grain there (x y z), else its position in the dump of grains
+///   mesh triangle  number the walls: mesh times a million plus triangle; without them the rows of a
+///                  grain are walls 0, 1, ...
+class WallRows {
+ public:
+  explicit WallRows(const std::string& mapping);
+
+  /// Adds the rows of the current block of `dump` to the contacts.
+  void read(DumpReader& dump, ArchiveMoment& moment);
+
+ private:
+  ColumnMap map_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> values_;
+};
+
+}  // namespace grseg
