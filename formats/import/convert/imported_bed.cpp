@@ -134,16 +134,10 @@ double ImportedBed::make_length(const ArchiveMoment& first, int direction)
 void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
 {
   const auto across = axes.axis_of(2), along = axes.axis_of(0), normal = axes.axis_of(1);
+  if (normal) require_open_normal(first, *normal);
   for (int axis = 0; axis < 3; ++axis) {
     if (!first.periodic[static_cast<std::size_t>(axis)] || axis == across || axis == along)
       continue;
-    const char letter = "xyz"[axis];
-    if (axis == normal)
-      throw UsageError(fmt::format(
-          "{}: the cell is periodic along {}, the normal of the base, where layers end at the base "
-          "and at the surface; name the axes with --axes (along the base, away from it), or write "
-          "the archive with an open boundary there",
-          first.place, letter));
     throw UsageError(
         "the cell is periodic but the base does not lie along one of the archive's axes; check "
         "--gravity and --slope");

@@ -98,6 +98,16 @@ bool Axes::is_forward(int direction) const
   return direction_[static_cast<std::size_t>(direction)].sum() > 0;
 }
 
+void require_open_normal(const ArchiveMoment& moment, int normal)
+{
+  if (!moment.periodic[static_cast<std::size_t>(normal)]) return;
+  throw UsageError(fmt::format(
+      "{}: the cell is periodic along {}, the normal of the base, where layers end at the base "
+      "and at the surface; name the axes with --axes (along the base, away from it), or write "
+      "the archive with an open boundary there",
+      moment.place, "xyz"[normal]));
+}
+
 GravityText parse_gravity(const std::string& text)
 {
   std::vector<double> numbers;

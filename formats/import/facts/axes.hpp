@@ -40,6 +40,9 @@ class Axes {
   std::array<Vec3, 3> direction_;
 };
 
+/// UsageError where the cell of `moment` is periodic along `normal`, an axis of the archive.
+void require_open_normal(const ArchiveMoment& moment, int normal);
+
 /// "9.8" or "3.8,-9.0,0". UsageError otherwise.
 struct GravityText {
   std::optional<double> magnitude;

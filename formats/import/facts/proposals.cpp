@@ -192,15 +192,18 @@ Question question_of_species(const ArchiveGrains& grains, const std::vector<bool
   return question;
 }
 
-std::optional<Question> question_of_axes(const ArchiveGrains& grains, bool in_space,
+std::optional<Question> question_of_axes(const ArchiveMoment& moment, bool in_space,
                                          const std::optional<Vec3>& gravity)
 {
-  const auto plane = in_space ? "" : plane_of(grains);
+  const auto plane = in_space ? "" : plane_of(moment.grains);
   if (!plane.empty()) {
     if (plane == "xy") return std::nullopt;
     return Question{"the axes of the flow", "--axes " + plane,
                     "along the base, away from it; the grains lie in this plane"};
   }
+  if (!gravity && moment.periodic[1] && !moment.periodic[2])
+    return Question{"the axes of the flow", "--axes xz",
+                    "along the base, away from it; the cell is periodic along y, but not along z"};
   if (!gravity) return std::nullopt;
   int normal = 0;
   gravity->cwiseAbs().maxCoeff(&normal);

@@ -34,9 +34,10 @@ Question question_of_species(const ArchiveGrains& grains, const std::vector<bool
                              const std::string& diameters);
 
 /// The axes of the flow where they are not x and y: the plane that the grains lie in, or, for
-/// grains in space, the axis that gravity is nearest to as the normal. None where --axes xy does.
-/// `in_space`: also grains that lie in a plane are in space.
-std::optional<Question> question_of_axes(const ArchiveGrains& grains, bool in_space,
+/// grains in space, the axis that gravity is nearest to as the normal; where gravity is not known as
+/// a vector, z if y is periodic and z is not. None where --axes xy does. `in_space`: also grains that
+/// lie in a plane are in space.
+std::optional<Question> question_of_axes(const ArchiveMoment& moment, bool in_space,
                                          const std::optional<Vec3>& gravity);
 
 }  // namespace grseg

@@ -197,7 +197,7 @@ void FactFinder::find_axes(const std::optional<GravityText>& gravity)
     facts_.axes = *settings_.axes;
     return;
   }
-  const auto axes = question_of_axes(look_.all.grains, settings_.dimension == 3,
+  const auto axes = question_of_axes(look_.all, settings_.dimension == 3,
                                      gravity ? gravity->vector : std::nullopt);
   if (!axes) return;
   questions_.ask(*axes);
@@ -226,6 +226,10 @@ RunFacts FactFinder::find()
   find_base();
   facts_.dimension = dimension_of(look_.all, facts_.axes, facts_.discs, settings_.dimension);
   find_orientation(direction);
+  // At once, whatever else is open, unless the axes may be others.
+  const auto normal = facts_.orientation.axes.axis_of(1);
+  if (normal && (settings_.axes || (direction && direction->vector)))
+    require_open_normal(look_.all, *normal);
   return facts_;
 }
 

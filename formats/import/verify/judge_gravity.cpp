@@ -41,9 +41,10 @@ std::string text_of(const CheckContext& context, const Vec3& gravity)
     const double rounded = std::round(component / size * 1000) / 1000;
     return rounded == 0 ? 0 : rounded;
   };
+  const double slope = std::round(10 * degrees(std::atan2(gravity.x(), -gravity.y()))) / 10;
   return fmt::format("{:.4g} along ({:g}, {:g}, {:g}), slope {:.1f} degrees", size,
                      clean(vector.x()), clean(vector.y()), clean(vector.z()),
-                     degrees(std::atan2(gravity.x(), -gravity.y())));
+                     slope == 0 ? 0 : slope);  // not -0.0
 }
 
 double median_acceleration(const CheckSeries& series)

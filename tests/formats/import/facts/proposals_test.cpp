@@ -81,26 +81,30 @@ TEST(Proposals, TheBaseIsNotKnownWhereNothingMoves)
 
 TEST(Proposals, TheNormalOfAFlowInSpaceIsTheAxisNearestToGravity)
 {
-  ArchiveGrains grains;
+  ArchiveMoment moment;
+  auto& grains = moment.grains;
   grains.id = {1, 2, 3, 4};
   grains.radius = {0.5, 0.5, 0.5, 0.5};
   grains.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  EXPECT_FALSE(question_of_axes(grains, false, Vec3(3, -9, 0)));
-  EXPECT_EQ(question_of_axes(grains, false, Vec3(3, 0, -9))->option, "--axes xz");
-  EXPECT_EQ(question_of_axes(grains, false, Vec3(-9, 3, 0))->option, "--axes yx");
-  EXPECT_FALSE(question_of_axes(grains, false, std::nullopt));
+  EXPECT_FALSE(question_of_axes(moment, false, Vec3(3, -9, 0)));
+  EXPECT_EQ(question_of_axes(moment, false, Vec3(3, 0, -9))->option, "--axes xz");
+  EXPECT_EQ(question_of_axes(moment, false, Vec3(-9, 3, 0))->option, "--axes yx");
+  EXPECT_FALSE(question_of_axes(moment, false, std::nullopt));
+  moment.periodic = {true, true, false};
+  EXPECT_EQ(question_of_axes(moment, false, std::nullopt)->option, "--axes xz");
 }
 
 TEST(Proposals, TheAxesOfAPlaneFlowAreThoseOfItsPlane)
 {
-  ArchiveGrains grains;
+  ArchiveMoment moment;
+  auto& grains = moment.grains;
   grains.id = {1, 2, 3};
   grains.radius = {0.5, 0.5, 0.5};
   grains.position = {{0, 3, 0}, {1, 3, 0}, {0, 3, 1}};
-  EXPECT_EQ(question_of_axes(grains, false, std::nullopt)->option, "--axes xz");
-  EXPECT_FALSE(question_of_axes(grains, true, std::nullopt));
+  EXPECT_EQ(question_of_axes(moment, false, std::nullopt)->option, "--axes xz");
+  EXPECT_FALSE(question_of_axes(moment, true, std::nullopt));
   for (auto& x : grains.position) std::swap(x.y(), x.z());
-  EXPECT_FALSE(question_of_axes(grains, false, std::nullopt));
+  EXPECT_FALSE(question_of_axes(moment, false, std::nullopt));
 }
 
 }  // namespace
