@@ -168,7 +168,7 @@ ImportSettings with_proposed_files(const ImportSettings& settings, Questions& qu
   if (format != nullptr) {
     proposed.format = format->name;
     take(files.grains, roles.grains, {"the files with the grains", "--grains", ""}, questions);
-    if (format->takes_contacts)
+    if (format->takes_contacts && !roles.grains.empty())  // restart files alone hold them
       take(files.contacts, roles.contacts, {"the files with the contacts", "--contacts", ""},
            questions);
     std::vector<std::string> restart;

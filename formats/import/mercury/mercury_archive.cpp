@@ -152,6 +152,11 @@ FileRole role_of(const FileStart& start)
   constexpr std::pair<const char*, FileRole> endings[] = {
       {".data", FileRole::grains}, {".fstat", FileRole::contacts}, {".restart", FileRole::restart}};
   const auto name = start.name.substr(0, start.name.find_last_not_of(".0123456789") + 1);
+  // Of versions 2 and 3 it stands for .data.
+  const bool positional =
+      !start.lines.empty() && (start.lines[0].starts_with("restart_version 2") ||
+                               start.lines[0].starts_with("restart_version 3"));
+  if (name.ends_with(".restart") && positional) return FileRole::grains;
   for (const auto& [ending, role] : endings)
     if (name.ends_with(ending)) return role;
   return FileRole::none;

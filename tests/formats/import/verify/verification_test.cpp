@@ -251,7 +251,7 @@ TEST(Verification, AMissingWallIsNamedWhereGrainsLackItsPush)
   EXPECT_TRUE(mentions(complaint->sentence,
                        "of the 1 grains that do not balance 1 lie at a side of the bed and lack a "
                        "push away from it (1 at the lowest z, at about z = 0.5)"));
-  EXPECT_TRUE(mentions(complaint->sentence, "name the wall with --wall"));
+  EXPECT_TRUE(mentions(complaint->sentence, "name the wall, as in --wall floor=z:0"));
 }
 
 TEST(Verification, AMissingTangentialPartIsNamed)
