@@ -22,6 +22,9 @@ FileStart read_start(const std::string& path)
   try {
     TextSource text({path});
     while (start.lines.size() < most && text.next()) start.lines.emplace_back(text.line());
+    constexpr std::string_view mark = "\xef\xbb\xbf";  // of UTF-8
+    if (!start.lines.empty() && start.lines[0].starts_with(mark))
+      start.lines[0].erase(0, mark.size());
   } catch (const FormatError&) {  // not a text, or damaged: told when it is read
   }
   return start;

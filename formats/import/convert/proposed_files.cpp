@@ -174,7 +174,8 @@ ImportSettings with_proposed_files(const ImportSettings& settings, Questions& qu
     std::vector<std::string> restart;
     if (files.restart.empty())
       take(restart, roles.restart, {"the restart file", "--restart", ""}, questions);
-    if (!restart.empty()) files.restart = restart.front();
+    if (!restart.empty())
+      files.restart = restart.size() == 1 ? restart.front() : pattern_of(restart);
     files.unnamed.clear();
   }
   ask_for_the_rest(proposed, questions);
