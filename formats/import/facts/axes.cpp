@@ -144,7 +144,7 @@ Orientation orientation_of(const std::string& letters, const GravityText& gravit
         g.x(), g.y(), g.z(), letters));
   if (axes.components<2>(g).x() < 0 && slope.value_or(1) > 0) axes.look_from_behind();
   if (slope) axes.turn_to_slope(g, *slope);
-  return {axes, axes.components<3>(g)};
+  return {axes, axes.components<3>(g) + Vec3::Zero()};  // not -0
 }
 
 }  // namespace grseg
