@@ -150,7 +150,7 @@ std::vector<std::string> remarks_of(const VerifiedFrames<D>& frames)
   if (!frames.range().is_all())
     remarks.push_back(
         fmt::format("only moments in the range {} are imported", frames.range().text()));
-  if (const auto roster = frames.roster())
+  if (const auto& roster = frames.roster())
     remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} present",
                                   roster->all.grains.size(), roster->fewest, roster->most));
   if (frames.walls()) remarks.push_back(frames.walls()->remark());
@@ -288,11 +288,11 @@ ImportReport import_part(const ImportSettings& settings, const std::string& comm
   Output output(part.path(settings.output, fs::path(settings.output).extension().string()),
                 settings.overwrite, inputs_of(settings.files));
   const auto write = [&](OpenedArchive opened, std::size_t moments) {
-    const auto [begin, end] = part.range(moments);
+    const auto range = part.range(moments);
     return with_dimension(opened.facts.dimension, [&](auto d) {
       return write_part(VerifiedFrames<d>(std::move(opened), settings),
-                        {part, begin, end, moments, {}, {}, {}}, settings, command_line,
-                        output.temporary());
+                        {part, range.first, range.second, moments, {}, {}, {}}, settings,
+                        command_line, output.temporary());
     });
   };
   auto opened = open_with_grains(settings);

@@ -67,6 +67,7 @@ std::string listed(const std::vector<std::string>& names)
   constexpr std::size_t many = 4;
   if (names.size() >= many) return in_shell(pattern_of(names));
   std::vector<std::string> quoted;
+  quoted.reserve(names.size());
   for (const auto& name : names) quoted.push_back(in_shell(name));
   return fmt::format("{}", fmt::join(quoted, " "));
 }

@@ -25,7 +25,7 @@ std::string moment_in(const std::string& path, const std::vector<std::string>& p
         path.ends_with(after))
       return path.substr(before.size(), path.size() - before.size() - after.size());
   }
-  const auto name = std::filesystem::path(path).filename().string();
+  auto name = std::filesystem::path(path).filename().string();
   for (const std::string_view ending : {".csv", ".txt", ".tsv", ".dat"})
     if (const auto at = name.find(ending); at != std::string::npos) return name.substr(0, at);
   return name;

@@ -24,9 +24,7 @@ auto files(std::vector<std::string>& place)
   return po::value(&place)->multitoken()->value_name("FILES");
 }
 
-}  // namespace
-
-po::options_description import_options(ImportSettings& s)
+po::options_description archive_options(ImportSettings& s)
 {
   std::vector<std::string> all_formats, with_restart;
   for (const auto* format : archive_formats()) {
@@ -55,7 +53,11 @@ po::options_description import_options(ImportSettings& s)
       "csv only: what other names of columns mean, e.g. particle1=i,Fx=fx; NAME= leaves one out")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
       "import a text archive that ends inside a moment up to that moment");
+  return archive;
+}
 
+po::options_description fact_options(ImportSettings& s)
+{
   po::options_description facts("What the archive does not state (in its own units)");
   facts.add_options()("units", optional(s.units, "UNITS"),
                       "si, cgs, or LENGTH:TIME:MASS of its units in m, s, kg")(
@@ -73,8 +75,11 @@ po::options_description import_options(ImportSettings& s)
       "y = 0: top or centre of the base grains, or a height in the archive")(
       "wall", po::value(&s.walls)->composing()->value_name("NAME=AXIS:POSITION"),
       "a plane wall of which the archive has no contacts, once for each: floor=z:0");
+  return facts;
+}
 
-  auto& species = s.species;
+po::options_description species_options(SpeciesSettings& species)
+{
   po::options_description sizes("Species");
   sizes.add_options()(
       "species", po::value(&species.named)->composing()->value_name("NAME=TYPES"),
@@ -90,7 +95,11 @@ po::options_description import_options(ImportSettings& s)
       "small-diameter", optional(species.small_diameter, "D"),
       "nominal, the unit of length in analyses (default: mid-range)")(
       "large-diameter", optional(species.large_diameter, "D"), "likewise");
+  return sizes;
+}
 
+po::options_description output_options(ImportSettings& s)
+{
   po::options_description output("The trajectory");
   output.add_options()("output,o", po::value(&s.output)->value_name("FILE"), "the file to write")(
       "accept-residual", po::value(&s.accept_residual)->composing()->value_name("NAME=R"),
@@ -105,9 +114,16 @@ po::options_description import_options(ImportSettings& s)
 
   s.parts.add_to(output);
   add_overwrite_to(output, s.overwrite);
+  return output;
+}
 
+}  // namespace
+
+po::options_description import_options(ImportSettings& s)
+{
   po::options_description all;
-  all.add(archive).add(facts).add(sizes).add(output);
+  all.add(archive_options(s)).add(fact_options(s)).add(species_options(s.species));
+  all.add(output_options(s));
   return all;
 }
 

@@ -89,7 +89,7 @@ MercuryRestart::Particle read_mercury_particle(const MercuryLines& lines,
 {
   if (lines.kind() == "Clump" || lines.kind() == "SuperQuadricParticle")
     lines.fail(fmt::format("a {} is not one sphere or disc, as grains are here", lines.kind()));
-  const auto particle =
+  auto particle =
       restart.positional > 0 ? positional_particle(lines, restart, row) : named_particle(lines);
   if (particle.species < 0 || particle.species >= std::ssize(restart.density))
     lines.fail("the particle belongs to none of the species above");

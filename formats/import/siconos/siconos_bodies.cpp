@@ -167,9 +167,8 @@ void read_shape(hid_t file, const std::string& path, const std::string& shape, S
   if (primitive == "Disk" || primitive == "Sphere") {
     body.radius = size[0];
     disc = primitive == "Disk";
-  } else if (body.mass == 0 && primitive == "Box2d" && size.size() == 2) {
-    body.planes = sides_of_box(size);
-  } else if (body.mass == 0 && primitive == "Box" && size.size() == 3) {
+  } else if (body.mass == 0 && ((primitive == "Box2d" && size.size() == 2) ||
+                                (primitive == "Box" && size.size() == 3))) {
     body.planes = sides_of_box(size);
   } else {
     attributes.fail(

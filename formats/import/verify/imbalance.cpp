@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace grseg {
 namespace {
@@ -45,7 +46,7 @@ std::vector<Side> open_sides(const Grains& grains, const Box& box, const Frame<D
   for (int axis = 0; axis < D; ++axis) {
     if ((axis == 0 && box.periodic_x) || (axis == 2 && box.periodic_z)) continue;
     for (const bool upper : {false, true}) {
-      Side side{axis, upper, -INFINITY};
+      Side side{axis, upper, -std::numeric_limits<double>::infinity()};
       for (std::size_t g = 0; g < grains.size(); ++g)
         if (is_mobile(grains, frame, g))
           side.position = std::max(side.position, reach<D>(grains, frame, g, side));
