@@ -130,7 +130,7 @@ MomentRecord ImportPart::record(std::size_t frame) const
                    {values.begin() + 1, values.begin() + 1 + static_cast<std::ptrdiff_t>(checks)});
   const double* more = values.data() + 1 + checks;
   if (std::isnan(more[0])) return record;
-  record.residual = Residual{values[0], more[0], 0, more[1], {}};
+  record.residual = Residual{values[0], more[0], 0, more[1], more[1], {}};
   if (!std::isnan(more[2])) record.residual->late = LateDamping{more[2], more[3]};
   return record;
 }

@@ -11,12 +11,10 @@ namespace grseg {
 namespace {
 
 /// Where walls bound the flow there need not be one.
-bool asks_for_base(const ArchiveGrains& grains, const ArchiveFacts& facts,
-                   const ImportSettings& settings)
+bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
 {
   const auto& species = settings.species;
-  return grains.fixed.empty() && !species.boundary && !species.boundary_ids &&
-         facts.walls.empty() && settings.walls.empty();
+  return grains.fixed.empty() && !species.boundary && !species.boundary_ids;
 }
 
 /// Settings as if the proposal were accepted: "--boundary 3" or "--boundary-ids 1-35".
@@ -40,7 +38,7 @@ OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& 
     throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
   const auto full = roster_ ? full_moment(settings, columns) : moment;
   for (const auto& question : full.questions) questions.ask(question);
-  const auto resting = resting_grains_of(settings);
+  const auto resting = resting_grains_of(settings, columns);
   facts = collect_facts(archive().facts(), {all_grains(), full, resting}, settings, questions);
   ask_for_the_bed(settings, resting, questions);
   questions.report();
@@ -53,18 +51,16 @@ bool OpenedArchive::next()
   return true;
 }
 
-/// Where the base is asked for. Without a roster the next moment tells, too: the import will not go
-/// on.
-std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& settings)
+/// Where nothing says which grains are the base. Without a roster the next moment tells, too.
+std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& settings,
+                                                   const std::string& columns) const
 {
-  if (!asks_for_base(all_grains().grains, archive().facts(), settings)) return {};
+  if (!base_is_open(all_grains().grains, settings)) return {};
   if (roster_) return resting_grains(roster_->all.grains, nullptr);
-  const auto first = std::move(moment);
-  moment = {};
-  const bool more = moments_.next(moment);
-  auto resting = resting_grains(first.grains, more ? &moment.grains : nullptr);
-  moment = first;
-  return resting;
+  Moments ahead(settings, columns);
+  ArchiveMoment later;
+  const bool more = ahead.next_grains(later) && ahead.next_grains(later);
+  return resting_grains(moment.grains, more ? &later.grains : nullptr);
 }
 
 /// One of the first moments that has half of the grains, or as many as there are; with the questions
@@ -77,7 +73,7 @@ ArchiveMoment OpenedArchive::full_moment(const ImportSettings& settings,
   ArchiveMoment full, next;
   std::vector<Question> questions;
   for (int k = 0; k < furthest && 2 * full.grains.size() < roster_->most && ahead.next(next); ++k) {
-    questions.insert(questions.end(), next.questions.begin(), next.questions.end());
+    if (questions.empty()) questions = next.questions;
     if (k == 0 || next.grains.size() > full.grains.size()) full = next;
   }
   full.questions = questions;
@@ -91,7 +87,8 @@ void OpenedArchive::ask_for_the_bed(const ImportSettings& settings,
 {
   auto trial = settings;
   const auto& grains = all_grains().grains;
-  if (asks_for_base(grains, archive().facts(), trial)) {
+  const bool has_walls = !facts.walls.empty();
+  if (base_is_open(grains, trial) && (!has_walls || !resting.empty())) {
     trial.species.boundary = "none";
     if (resting.empty())
       trial.origin = "0";

@@ -37,7 +37,8 @@ class OpenedArchive {
   RunFacts facts;
 
  private:
-  std::vector<bool> resting_grains_of(const ImportSettings& settings);
+  std::vector<bool> resting_grains_of(const ImportSettings& settings,
+                                      const std::string& columns) const;
   ArchiveMoment full_moment(const ImportSettings& settings, const std::string& columns) const;
   void ask_for_the_bed(const ImportSettings& settings, const std::vector<bool>& resting,
                        Questions& questions) const;

@@ -98,6 +98,18 @@ bool Axes::is_forward(int direction) const
   return direction_[static_cast<std::size_t>(direction)].sum() > 0;
 }
 
+void require_towards_the_base(const Vec3& gravity, const Orientation& orientation,
+                              const std::string& letters)
+{
+  const Vec3& g = orientation.gravity;
+  constexpr double along = 1e-3;
+  if (g.isZero(0) || std::abs(g.y()) > along * g.norm()) return;
+  throw UsageError(fmt::format(
+      "gravity ({:g}, {:g}, {:g}) has no part towards the base along --axes {}, whose second letter is "
+      "the axis away from it; name the axes of the flow (xy, xz)",
+      gravity.x(), gravity.y(), gravity.z(), letters));
+}
+
 void require_open_normal(const ArchiveMoment& moment, int normal)
 {
   if (!moment.periodic[static_cast<std::size_t>(normal)]) return;

@@ -61,4 +61,9 @@ struct Orientation {
 Orientation orientation_of(const std::string& letters, const GravityText& gravity,
                            std::optional<double> slope, int dimension);
 
+/// UsageError unless gravity, as given in the archive's axes, has a part along the normal. `letters`
+/// are those of --axes.
+void require_towards_the_base(const Vec3& gravity, const Orientation& orientation,
+                              const std::string& letters);
+
 }  // namespace grseg

@@ -166,10 +166,13 @@ void FactFinder::find_base()
 {
   for (const auto& wall : parse_walls(settings_.walls)) facts_.walls.push_back(list_of({wall}));
   facts_.walls.insert(facts_.walls.end(), archive_.walls.begin(), archive_.walls.end());
-  if (!facts_.walls.empty() || settings_.species.boundary || settings_.species.boundary_ids ||
+  if (settings_.species.boundary || settings_.species.boundary_ids ||
       !look_.all.grains.fixed.empty())
     return;
-  questions_.ask(question_of_base(look_.all.grains, look_.resting));
+  const auto question = question_of_base(look_.all.grains, look_.resting);
+  // With walls there need not be a base, unless there are grains that never move.
+  const bool seems_none = look_.resting.empty() || question.option == "--boundary none";
+  if (facts_.walls.empty() || !seems_none) questions_.ask(question);
 }
 
 /// Where it is missing, what is proposed.
@@ -214,6 +217,8 @@ void FactFinder::find_orientation(const std::optional<GravityText>& gravity)
   if (!gravity || gravity->magnitude) slope = slope.value_or(0);
   facts_.orientation = orientation_of(facts_.axes, gravity.value_or(GravityText{1, std::nullopt}),
                                       slope, facts_.dimension);
+  if (gravity && gravity->vector && !slope)
+    require_towards_the_base(*gravity->vector, facts_.orientation, facts_.axes);
 }
 
 RunFacts FactFinder::find()
@@ -250,6 +255,8 @@ std::vector<double> masses_of(const ArchiveGrains& grains, const RunFacts& facts
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (good_mass(grains, g))
       mass[g] = grains.mass[g];
+    else if (grains.mass.empty() && !facts.density)
+      mass[g] = 1;  // it is asked for
     else if (facts.density)
       mass[g] = *facts.density * content(grains.radius[g], facts.discs);
     else

@@ -43,7 +43,9 @@ std::vector<bool> boundary_grains(const ArchiveGrains& grains, const SpeciesSett
     how = "grains that the archive marks as fixed";
   }
   const bool any = std::find(boundary.begin(), boundary.end(), true) != boundary.end();
-  if (!any && how != "none")
+  const bool by_archive = !settings.boundary && !settings.boundary_ids;
+  if (!any && by_archive) how = "none: the archive marks no grain as fixed";
+  if (!any && !by_archive && how != "none")
     throw UsageError(fmt::format(
         "no grain belongs to the base ({}); if there is no base, pass --boundary none", how));
   return boundary;

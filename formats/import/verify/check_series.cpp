@@ -20,6 +20,7 @@ void visit_numbers(Moment& moment, const Visit& visit)
   visit("pull", "", moment.pull);
   visit("balance", "", moment.balance);
   visit("balance_grains", "", moment.balance_grains);
+  visit("balance_worst", "", moment.balance_worst);
   visit("change", "", moment.change);
   visit("acceleration", "m s-2", moment.acceleration);
   visit("medians", "", moment.medians);

@@ -51,6 +51,9 @@ struct CheckMoment {
   /// By how much the force on a grain is missed, over the largest force; of how many grains: 0 where
   /// it could not be judged.
   double balance = 0, balance_grains = 0;
+  /// The same of the grain that misses most. Between moments that are close together, but not one
+  /// step apart, a few grains may have collided: then `balance` is that of the median grain.
+  double balance_worst = 0;
   /// Without forces on grains: how much the contact forces on a grain have changed since the moment
   /// before, over their size; medians. 0 where one follows the other step by step.
   double change = 0;

@@ -100,11 +100,13 @@ std::string missing_walls(const Grains& grains, const Box& box, const Frame<D>& 
       where += fmt::format("{}{} at the {}", where.empty() ? "" : "; ", count[s],
                            text_of(sides[s], axes[static_cast<std::size_t>(sides[s].axis)]));
   return fmt::format(
-      "{} at a side of the bed and in want of a push away from it ({}): contacts with a wall are missing; "
+      "{} a push away from it ({}): contacts with a wall are missing; "
       "name the wall, as in --wall floor=z:0, or write its contacts",
-      unbalanced.size() == 1 ? "the only grain that does not balance is"
-                             : fmt::format("of the {} grains that do not balance {} are",
-                                           unbalanced.size(), explained),
+      unbalanced.size() == 1
+          ? "the only grain that does not balance is at a side of the bed and lacks"
+          : fmt::format("of the {} grains that do not balance {} are at a side of the "
+                        "bed and lack",
+                        unbalanced.size(), explained),
       where);
 }
 

@@ -66,13 +66,22 @@ std::string why_balance_is_open(const CheckSeries& series)
 
 Finding judge_balance(const CheckSeries& series, const CheckContext& context)
 {
-  double measure = 0, moments = 0;
+  double measure = 0, worst = 0, moments = 0;
   for (const auto& moment : series) {
     if (moment.balance_grains == 0) continue;
     measure = std::max(measure, moment.balance);
+    worst = std::max(worst, moment.balance_worst);
     ++moments;
   }
   if (moments == 0) return {"balance", Verdict::undecided, why_balance_is_open(series), 0};
+  if (measure <= context.tolerance && worst > context.tolerance)
+    return {"balance", Verdict::undecided,
+            fmt::format(
+                "most grains balance, but {:.3g} of the largest force is missing on one: grains "
+                "may have collided between two moments, or contacts with a wall are missing; "
+                "write forces on grains, or consecutive steps",
+                worst),
+            worst};
   return within("balance", measure, context.tolerance,
                 fmt::format("up to {:.3g} of the largest force is missing on a grain, at {} {}",
                             measure, moments, moments == 1 ? "moment" : "moments"));

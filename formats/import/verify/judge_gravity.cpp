@@ -123,6 +123,10 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
             fmt::format("{}; as given it is {}: {}", suggestion, text_of(context, context.gravity),
                         remedy(context, *found)),
             measure};
+  if (measure <= tolerance && error <= sharp && context.gravity.y() > 0)
+    return {"gravity", Verdict::failed,
+            suggestion + ", which points away from the base: name the axes of the flow with --axes",
+            1 + context.gravity.y() / context.gravity.norm()};
   if (measure <= tolerance && error <= sharp)
     return {"gravity", Verdict::passed, suggestion, measure};
   auto finding = undecided(context, suggestion + ": an error of 3 degrees would not be seen");

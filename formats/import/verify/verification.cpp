@@ -30,7 +30,7 @@ Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect,
   const auto largest = *std::max_element(sizes.begin(), sizes.end());
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
-  return {largest.first, middle->first, largest.second, largest.first, std::nullopt};
+  return {largest.first, middle->first, largest.second, largest.first, 0, std::nullopt};
 }
 
 }  // namespace
@@ -247,6 +247,7 @@ std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
         subtract_late_damping(grains_, frame, accuracy_.step, accuracy_.inertia, defect);
     residual.unexplained = residual_of(grains_, defect, scale).largest;
   }
+  residual.worst = std::max(residual.worst, residual.unexplained);
   return residual;
 }
 
@@ -260,11 +261,13 @@ void Verification<D>::judge_by_velocities(const Frame<D>& frame, const Sums& sum
 {
   const bool each = frame.step == before_->step + 1;
   std::vector<double> sizes;
+  residual.worst = 0;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, g) || std::isnan(defect[g].y())) continue;
     const double change = (sums.now[g] - sums.before[g]).norm();
-    if (each || sums.now[g].norm() > 0)
-      sizes.push_back(std::max(0.0, defect[g].norm() - change / 2) / scale);
+    const double size = std::max(0.0, defect[g].norm() - change / 2) / scale;
+    residual.worst = std::max(residual.worst, size);
+    if (each || sums.now[g].norm() > 0) sizes.push_back(size);
   }
   if (sizes.empty()) {
     residual.unexplained = 0;
@@ -281,6 +284,7 @@ std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame)
 {
   if (!residual_) return std::nullopt;
   moment_.balance = residual_->unexplained;
+  moment_.balance_worst = residual_->worst;
   for (std::size_t g = 0; g < grains_.size(); ++g)
     moment_.balance_grains += is_mobile(grains_, frame, g);
   if (residual_->unexplained <= tolerance()) return std::nullopt;

@@ -24,6 +24,7 @@ struct Residual {
   double largest = 0, median = 0;
   std::size_t grain = 0;            // row of the largest
   double unexplained = 0;           // the largest after late damping is subtracted
+  double worst = 0;                 // where `unexplained` is that of the median grain: the largest
   std::optional<LateDamping> late;  // where that was looked for
 };
 

@@ -249,8 +249,8 @@ TEST(Verification, AMissingWallIsNamedWhereGrainsLackItsPush)
   const auto complaint = verification.check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(mentions(complaint->sentence,
-                       "the only grain that does not balance is at a side of the bed and in want "
-                       "of a push away from it (1 at the lowest z, at about z = 0.5)"));
+                       "the only grain that does not balance is at a side of the bed and lacks "
+                       "a push away from it (1 at the lowest z, at about z = 0.5)"));
   EXPECT_TRUE(mentions(complaint->sentence, "name the wall, as in --wall floor=z:0"));
 }
 
