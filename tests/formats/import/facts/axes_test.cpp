@@ -126,5 +126,16 @@ TEST(Axes, GravityInSpaceKeepsItsComponentAcross)
   EXPECT_THROW(orientation_of("xy", parse_gravity("0,-10,2"), 30, 2), UsageError);
 }
 
+TEST(Axes, GravityAcrossTheNormalMeansOtherAxes)
+{
+  const auto complain = [](const std::string& letters, const Vec3& gravity) {
+    const auto orientation = orientation_of(letters, {std::nullopt, gravity}, std::nullopt, 3);
+    require_towards_the_base(gravity, orientation, letters);
+  };
+  EXPECT_THROW(complain("xy", {4.3, 0, -8.8}), UsageError);
+  EXPECT_NO_THROW(complain("xz", {4.3, 0, -8.8}));
+  EXPECT_NO_THROW(complain("xy", {0, 0, 0})) << "there is none";
+}
+
 }  // namespace
 }  // namespace grseg

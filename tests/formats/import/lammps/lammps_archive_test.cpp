@@ -324,6 +324,33 @@ TEST_F(Lammps, AllThatIsMissingIsNamedInOneSentence)
   EXPECT_FALSE(mentions(refused.sentence, "--density")) << "masses are in the archive";
 }
 
+TEST_F(Lammps, MassesThatAreNotThereAreAskedFor)
+{
+  auto s = settings(folder,
+                    block("ATOMS", 0, "id type diameter x y vx vy omegaz fx fy",
+                          {"9 3 0.01 0.05 -0.005 0 0 0 0 0", "4 1 0.005 0.05 0.0125 0 0 0 0 0",
+                           "7 2 0.01 0.05 0.005 0 0 0 0 0"}),
+                    contacts_at(0));
+  s.grains = "discs";
+  EXPECT_EQ(refusal(s).code, exit_usage);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "the masses of the grains: --density RHO"));
+  s.density = 1;
+  EXPECT_EQ(refusal(s).code, 0) << refusal(s).sentence;
+}
+
+TEST_F(Lammps, TheBaseIsAskedForAlsoBesideWallsWhereGrainsNeverMove)
+{
+  auto moving = grain_rows();
+  for (const std::size_t g : {1, 2})
+    moving[g].replace(moving[g].find(" 0 0 0 0 0"), 10, " 1 0 0 0 0");
+  auto s = settings(folder, block("ATOMS", 0, grain_columns, moving), contacts_at(0));
+  s.species.boundary.reset();
+  s.walls = {"lid=y:0.09"};
+  EXPECT_TRUE(mentions(refusal(s).sentence, "which grains are the base: --boundary 3"));
+  s.species.boundary = "3";
+  EXPECT_EQ(refusal(s).code, 0) << refusal(s).sentence;
+}
+
 TEST_F(Lammps, DimensionlessUnitsMustBeGiven)
 {
   auto s = settings(folder, "ITEM: UNITS\nlj\n" + grains_at(0), contacts_at(0));

@@ -61,6 +61,31 @@ TEST(JudgeGravity, ThreeDegreesAreSeenWhereTheErrorIsSmall)
   EXPECT_EQ(gravity_of({0.5, -10, 0}, 0.2).verdict, Verdict::undecided);
 }
 
+TEST(JudgeGravity, ThatAgreesButPointsAwayFromTheBaseMeansOtherAxes)
+{
+  auto upside_down = context_of();
+  upside_down.gravity = {4, 9, 0};
+  const auto finding = gravity_of({4, 9, 0}, 0.001, upside_down);
+  EXPECT_EQ(finding.verdict, Verdict::failed);
+  EXPECT_TRUE(mentions(finding.sentence, "points away from the base: name the axes"));
+}
+
+// A bed at rest without the contacts with its walls: what is inside balances, what is at the side does
+// not.
+TEST(JudgeBalance, IsUndecidedWhereMostGrainsBalanceButNotAll)
+{
+  auto moment = moment_with({0, -10, 0}, 0.01);
+  const auto verdict_with = [&](double median, double worst) {
+    moment.balance = median;
+    moment.balance_worst = worst;
+    return judge({moment}, context_of())[3];
+  };
+  EXPECT_EQ(verdict_with(1e-6, 1.5).verdict, Verdict::undecided);
+  EXPECT_EQ(verdict_with(1e-6, 1.5).measure, 1.5);
+  EXPECT_EQ(verdict_with(1e-6, 0.04).verdict, Verdict::passed);
+  EXPECT_EQ(verdict_with(0.1, 1.5).verdict, Verdict::failed);
+}
+
 TEST(JudgeGravity, ThreeTimesUpwardAndNoneAreWrong)
 {
   const auto three_times = gravity_of({0, -10.0 / 3, 0}, 0.01);
