@@ -88,6 +88,20 @@ std::optional<std::string> units_of(const ArchiveFacts& archive, const ImportSet
   return settings.units || !known ? settings.units : archive.units;
 }
 
+/// UsageError where the masses of the archive are those of another density than --density.
+void require_density(const ArchiveGrains& grains, double density, bool discs)
+{
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!good_mass(grains, g)) continue;
+    const double found = grains.mass[g] / content(grains.radius[g], discs);
+    if (std::abs(found - density) > 1e-3 * density)
+      throw UsageError(fmt::format(
+          "--density is {:g}, but the archive has masses, of a density of {:.6g} (grain {}); leave the "
+          "option out",
+          density, found, grains.id[g]));
+  }
+}
+
 /// The largest diameter.
 double widest(const ArchiveGrains& grains)
 {
@@ -157,6 +171,7 @@ void FactFinder::find_grains()
                     "dimensions"});
   facts_.discs = discs.value_or(true);
   facts_.density = either(archive_.density, settings_.density, "--density");
+  if (settings_.density && discs) require_density(grains, *settings_.density, *discs);
   if (grains.mass.empty() && !facts_.density)
     questions_.ask({"the masses of the grains", "--density RHO",
                     facts_.discs ? "per area of discs" : "per volume of spheres"});

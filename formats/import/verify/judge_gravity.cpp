@@ -16,6 +16,9 @@ namespace {
 /// either side.
 constexpr double three_degrees = 0.0523, tolerance = three_degrees / 2, sharp = tolerance / 3;
 
+/// What differs by less is the digits of --gravity.
+constexpr double smallest_difference = 1e-3;
+
 /// Where contacts accelerate grains by a hundred times more than gravity, gravity does not matter.
 constexpr double negligible = 0.01;
 
@@ -127,8 +130,13 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
     return {"gravity", Verdict::failed,
             suggestion + ", which points away from the base: name the axes of the flow with --axes",
             1 + context.gravity.y() / context.gravity.norm()};
-  if (measure <= tolerance && error <= sharp)
-    return {"gravity", Verdict::passed, suggestion, measure};
+  if (measure <= tolerance && error <= sharp) {
+    const bool differs = measure > 5 * error && measure > smallest_difference;
+    return {"gravity", Verdict::passed,
+            suggestion +
+                (differs ? "; as given it is " + text_of(context, context.gravity) : std::string()),
+            measure};
+  }
   auto finding = undecided(context, suggestion + ": an error of 3 degrees would not be seen");
   finding.measure = measure;
   return finding;

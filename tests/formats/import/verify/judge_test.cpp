@@ -50,7 +50,10 @@ TEST(JudgeGravity, ThreeDegreesAreSeenWhereTheErrorIsSmall)
 {
   const double three = 3 * lammps_text::pi / 180;
   EXPECT_EQ(gravity_of({0, -10, 0}, 0.01).verdict, Verdict::passed);
-  EXPECT_EQ(gravity_of({0.1, -10, 0}, 0.01).verdict, Verdict::passed) << "half a degree";
+  const auto half_a_degree = gravity_of({0.1, -10, 0}, 0.01);
+  EXPECT_EQ(half_a_degree.verdict, Verdict::passed);
+  EXPECT_TRUE(mentions(half_a_degree.sentence, "; as given it is 10 along (0, -1, 0)"));
+  EXPECT_FALSE(mentions(gravity_of({0, -10, 0}, 0.01).sentence, "as given"));
   const auto off = gravity_of({10 * std::sin(three), -10 * std::cos(three), 0}, 0.01);
   EXPECT_EQ(off.verdict, Verdict::failed);
   EXPECT_NEAR(off.measure, 2 * std::sin(three / 2), 1e-12);
