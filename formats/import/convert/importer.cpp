@@ -119,9 +119,9 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
 /// All files that an import reads.
 std::vector<std::string> inputs_of(const ArchiveFiles& files)
 {
-  auto names = files.grains;
-  names.insert(names.end(), files.contacts.begin(), files.contacts.end());
-  names.push_back(files.restart);
+  std::vector<std::string> names{files.restart};
+  for (const auto* some : {&files.grains, &files.contacts, &files.wall_contacts})
+    names.insert(names.end(), some->begin(), some->end());
   return files_meant(names);
 }
 

@@ -154,6 +154,16 @@ TEST_F(Walls, ThoseInTheColumnsOfGrainsAreReadAndNotInferredOnceMore)
   EXPECT_EQ(refusal(s).code, exit_check);
 }
 
+TEST_F(Walls, AFileOfTheirContactsIsAnInputAndNeverReplaced)
+{
+  auto s = two_discs();
+  s.files.wall_contacts = {folder.write("walls.dump", "kept")};
+  s.output = s.files.wall_contacts[0];
+  s.overwrite = true;
+  EXPECT_TRUE(mentions(refusal(s).sentence, "is an input and cannot be the output"));
+  EXPECT_EQ(lammps_text::read(s.output), "kept");
+}
+
 TEST_F(Walls, ColumnsOfTheSameNamesThatHoldSomethingElseAreRefused)
 {
   auto columns = grain_columns;
