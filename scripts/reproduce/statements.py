@@ -49,7 +49,7 @@ def below(text, edge, source):
 
 FIT_ERROR = 0.003  # of the slope 0.9660; dB/ds = -1 there to 4 %
 OPEN_B = "open in the paper: fit (0.02), layer of a contact (0.01)"
-OPEN_RULES = "difference to the rule by size is geometry, which leaves 0.01; printed digits and fit the rest"
+OPEN_RULES = "open in the paper: fit, layer of a contact; its values have one or two digits"
 OPEN_P_KAPPA = ("open in the paper: mean velocity, V, e, step, together a factor of 2; its smaller side is taken on "
                 "both")
 OPEN_B_KAPPA = "open in the paper: which mean over φ (0.31 to 0.44 in size), mean velocity"
@@ -61,13 +61,13 @@ FIGURE_1_END = above(
 FIGURE_1_MIXED = below(
     "\"segregation occurred\" (snapshot at 150 s)", 0.2, "no number in the paper; the same four fifths, from mixed (1) to separated (0)")
 FIGURE_2A = number("ρ g cosθ, cos 23° = 0.9205", 0.9205, 0.046, "5 %: the line is that of σ_yy, and σ_xx/σ_yy is not given")
-SLOPE = number("0.9660 ± 0.003", 0.9660, 0.035, "as B", error=FIT_ERROR)
+SLOPE = number("0.9660 ± 0.003", 0.9660, 0.035, "0.93 to 1.00: that of B, as dB/ds is −1", error=FIT_ERROR)
 B = number("0.034 to 0.035", 0.0345, 0.03, OPEN_B, error=FIT_ERROR)
 SIGN = above("\"supports the plausibility of gravity-driven segregation\"", 0, "the claim, for the mixture in which B is least certain")
 CONTROL = number("0 by symmetry", 0, 0.005, "a seventh of the paper's B")
-MIXED_MOST = number("\"can reach locally 50 %\"", 0.5, 0.04, "figure 2c: width of its cloud of points", unit=0.01)
-MIXED_MOST_AT = between("no number; neutral contacts 2/3", 0.55, 0.72, "a flat maximum: neutral contacts stay within 0.02 of it")
-MIXED_CURVE = number("figure 2c; neutral contacts 4 φ_L φ_S/(1 + φ_S)²", 0, 0.04, "figure 2c: width of its cloud of points")
+MIXED_MOST = number("\"can reach locally 50 %\"", 0.5, 0.04, "a figure without numbers: 8 % of its maximum", unit=0.01)
+MIXED_MOST_AT = between("no number; neutral contacts 2/3", 0.55, 0.72, "a flat maximum: neutral contacts stay within 0.03 of it")
+MIXED_CURVE = number("figure 2c; neutral contacts 4 φ_L φ_S/(1 + φ_S)²", 0, 0.04, "a figure without numbers: 8 % of its maximum")
 B_PRESSURE = number("0.045 to 0.047", 0.046, 0.03, OPEN_B, error=FIT_ERROR)
 PRESSURE_LESS_YY = number("0.011", 0.011, 0.015, "half of the room of B: same fit, same layers", error=FIT_ERROR)
 RULES = {
@@ -98,7 +98,7 @@ FIGURE_5 = {
     "_S": (number("6.4", 6.4, 6.4, OPEN_PI, unit=0.1), below("\"less than 9 %\"", 9, "the claim")),
 }
 START = between("no number; large grains below 0.225", 0.22, 0.24, "geometry and packing")
-END = between("no number; 0.775 if separated", 0.65, 0.76, "75 to 97 % of the way")
+END = between("no number; 0.775 if separated", 0.65, 0.76, "77 to 97 % of the way")
 Z_ORDER = above("z_L > z_S always", 1, ORDER)
 Z_MOST = above("\"maximum when the mixing is maximum\"", 1, "the claim: largest ratio over that of the first and of the last windows")
 F_ORDER = above("f_L > f_S, also \"as segregation proceeds\"", 1, ORDER)
