@@ -10,7 +10,8 @@
 
 namespace grseg {
 
-/// Products of fluctuations in one frame without the bias of a mean that holds the grain itself.
+/// Products of fluctuations in one frame (dv (x) dv of Staron & Phillips 2015, eq. 5) without the
+/// bias of a mean that holds the grain itself.
 ///
 /// V, the mean of n grains of masses m (M in all), moves with each of them, so that
 /// (v_i - V) (x) (v_i - V) falls short of the variance of v_i: of equal grains by the factor 1 - 1/n,
