@@ -31,6 +31,7 @@ options_stress-stride2 := --stride 2
 options_stress-stride5 := --stride 5
 options_kinetic-layer := --mean layer
 options_kinetic-instant := --mean instant
+options_balance-rules := --partition size,half,drop
 options_kinetic-unbiased := --mean instant-unbiased
 options_kinetic-middle := --velocity middle
 options_kinetic-unbiased-middle := --mean instant-unbiased --velocity middle
