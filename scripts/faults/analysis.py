@@ -1,5 +1,11 @@
 """Faults in what computes B, its intervals and the verdicts. Chosen from the sources before any test in
 tests/analysis had been read; each is a slip that a careful but tired physicist could make."""
+import concurrent.futures
+import glob
+import os
+import re
+
+from copy_of_sources import run_quietly
 
 # What is broken, where, what stands there, what takes its place.
 FAULTS = [
@@ -372,3 +378,62 @@ FAULTS = [
     ("choices: differences to the first row instead of its own base", "scripts/reproduce/choices",
      "for other in reversed(rows[:rows.index(row) + 1])", "for other in rows[:rows.index(row) + 1]"),
 ]
+
+LIBRARY = "grseg_analysis"
+OUTPUT = "docs/studies/fault-injection.md"
+# The tests of each room of analysis/ and of the rooms that build on it.
+ASKED = {"frames": ["frames", "stress", "micro", "balance", "segregation", "fit", "check"],
+         "statistics": ["statistics", "segregation", "fit"], "stress": ["stress", "micro", "fit", "check"],
+         "micro": ["micro"], "balance": ["balance"], "segregation": ["segregation"], "fit": ["fit"]}
+ROOMS = list(ASKED["frames"]) + ["statistics"]
+# On files known by heart, and recomputed by numpy.
+WHOLE_PROGRAMS = r"^(Tool\.(stress|kinetic|micro|balance|segregation|fit)|Independent\.|Import\.(Halves|Six))"
+TOOLS = ["stress", "kinetic", "micro", "balance", "segregation", "fit", "check", "sim", "import"]
+TARGETS = [f"analysis_{room}_test" for room in ROOMS]
+OPTIONS = ["-DCMAKE_CXX_FLAGS_RELEASE=-O1"]  # a fault is compiled more often than it runs; assertions are on
+
+
+def of_rooms(copy, rooms):
+    with concurrent.futures.ThreadPoolExecutor(copy.jobs) as pool:
+        programs = [f"analysis_{room}_test" for room in rooms]
+        return sum(pool.map(lambda name: copy.failures(name, seconds=60), programs), [])
+
+
+def of_whole_programs(copy):
+    copy.must_build([f"grseg-{tool}" for tool in TOOLS] + ["synthetic_run"])
+    done = run_quietly(["ctest", "--test-dir", f"{copy.tree}/build", "-R", WHOLE_PROGRAMS, "-j", str(copy.jobs),
+                        "--timeout", "300"])
+    return re.findall(r"^\s*\d+ - (\S+) \((?:Failed|Timeout|.*xception.*)\)", done.stdout, re.MULTILINE)
+
+
+def of_scripts(copy):
+    """Names of the tests of scripts/reproduce that fail on tables known by heart."""
+    names = []
+    for test in sorted(glob.glob(f"{copy.tree}/tests/tools/reproduction_*_test.py")):
+        done = run_quietly(["/usr/bin/python3", "-B", test, f"{copy.tree}/scripts"])
+        failed = re.findall(r"^(?:FAIL|ERROR): test_(\w+)", done.stdout, re.MULTILINE)
+        names += failed or ([os.path.basename(test)] if done.returncode != 0 else [])
+    return names
+
+
+def noticed(copy, path):
+    """Names of the tests that fail. Those of whole programs are asked only where no test of a room notices. That a
+    number of docs/studies/reproduction.md changes is not counted: it would be accepted with the next run."""
+    if path.startswith("scripts/"):
+        return {"near": of_scripts(copy), "far": []}
+    near = of_rooms(copy, ASKED[path.split("/")[1]])
+    return {"near": near, "far": [] if near else of_whole_programs(copy)}
+
+
+def sound(copy):
+    """Tests that fail without a fault."""
+    return of_rooms(copy, ROOMS) + of_scripts(copy)
+
+
+def table(results):
+    yield "| what is broken | file | tests that fail | among them |"
+    yield "|---|---|---|---|"
+    for r in results:
+        names = r["near"] or r["far"]
+        shown = ", ".join(f"`{name}`" for name in names[:2]) or "**none**"
+        yield f"| {r['what']} | {os.path.basename(r['file'])} | {len(names)} | {shown} |"

@@ -1,4 +1,7 @@
 """Faults in sim/ and what may notice them: hard cases and unit tests, each a program of its own."""
+import concurrent.futures
+import os
+
 # What is broken, where, what stands there, what takes its place.
 FAULTS = [
     ("sign: the partner is pushed the same way", "sim/contact/contact_law-inl.hpp",
@@ -82,3 +85,34 @@ FAULTS = [
      "return table[e.friction][e.rotation][e.restitution];",
      "return table[true][e.rotation][e.restitution];"),
 ]
+
+LIBRARY = "grseg_simulator"
+OUTPUT = "docs/studies/hard-cases.md"
+HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",
+        "invariances", "newcomer", "extremes", "slopes"]
+UNIT = ["contact_law", "sweep", "solver", "detection", "pair_list", "simulation", "restart",
+        "effects", "energy_balance", "boundary_body", "left_out"]
+OPTIONS = []
+TARGETS = [f"{name}_test" for name in HARD + UNIT]
+
+
+def noticed(copy, _=None):
+    """Names of the tests that fail, of the hard cases and of the others."""
+    with concurrent.futures.ThreadPoolExecutor(copy.jobs) as pool:
+        found = dict(zip(TARGETS, pool.map(copy.failures, TARGETS)))
+    of = lambda names: sum((found[f"{name}_test"] for name in names), [])
+    return {"hard": of(HARD), "unit": of(UNIT)}
+
+
+def sound(copy):
+    """Tests that fail without a fault."""
+    return sum(noticed(copy).values(), [])
+
+
+def table(results):
+    yield "| what is broken | file | hard cases that fail | among them | other tests that fail |"
+    yield "|---|---|---|---|---|"
+    for r in results:
+        shown = ", ".join(f"`{name}`" for name in r["hard"][:3]) or "–"
+        others = f"{len(r['unit'])}" + (f": `{r['unit'][0]}`" if r["unit"] and not r["hard"] else "")
+        yield f"| {r['what']} | {os.path.basename(r['file'])} | {len(r['hard'])} | {shown} | {others} |"
