@@ -54,6 +54,24 @@ SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
   };
 }
 
+/// The columns that count the grains of each species; none where one of them is missing.
+std::vector<std::size_t> grain_columns(const Table& table, const SpeciesList& species)
+{
+  std::vector<std::size_t> columns;
+  for (const auto& word : column_words(species)) {
+    const auto name = fmt::format("grains_{}", word);
+    if (!table.has_column(name)) return {};
+    columns.push_back(table.column(name));
+  }
+  return columns;
+}
+
+/// What a grain of nominal diameter covers, m^2 or m^3.
+double content_of_grain(double diameter, int dimension)
+{
+  return dimension == 3 ? grain_volume<3>(diameter / 2) : grain_volume<2>(diameter / 2);
+}
+
 std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Quantity quantity,
                               const std::vector<PartitionRule>& rules)
 {
@@ -65,12 +83,22 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
 
   const auto keys = read_layer_keys(table, "a table of grseg-stress or grseg-kinetic has it");
   const auto bottom = table.column("y0");
+  const auto counts = grain_columns(table, species);
+  const auto grains_in = [&](std::size_t row, const std::vector<double>& content) {
+    std::vector<double> grains;
+    for (const auto column : counts) grains.push_back(non_negative_cell(table, row, column));
+    if (!counts.empty() || quantity == Quantity::kinetic) return grains;
+    for (std::size_t k = 0; k < species.size(); ++k)
+      grains.push_back(content[k] / content_of_grain(species[k].diameter, dimension_of(table)));
+    return grains;
+  };
   std::vector<FitRow> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     finite_cell(table, row, bottom);  // these tables have no row for the whole bed
-    rows.push_back({keys[row], sums(row)});
-    rows.back().sums.volume = keys[row].volume;
+    auto& added = rows.emplace_back(FitRow{keys[row], sums(row), {}});
+    added.sums.volume = keys[row].volume;
+    added.grains = grains_in(row, added.sums.content);
   }
   return rows;
 }
@@ -101,6 +129,10 @@ bool passes(const FitRow& row, const SpeciesPair& pair, const FitFilters& filter
   if (!(large > 0)) return goes_to(count.without_large);
   if (ratio < filters.ratio_low || ratio > filters.ratio_high) return goes_to(count.outside_ratio);
   if (row.solid() < filters.min_solid * median_solid) return goes_to(count.below_solid);
+  if (row.grains.empty())
+    ++count.uncounted;
+  else if (std::min(row.grains[pair.smaller], row.grains[pair.larger]) < filters.min_grains)
+    return goes_to(count.few_grains);
   ++count.used;
   return true;
 }
@@ -197,6 +229,7 @@ std::string FilterCount::sentence() const
   add(without_large, "without large grains");
   add(outside_ratio, "outside --ratio-range");
   add(below_solid, "below --min-solid");
+  add(few_grains, "with fewer grains of the rarer species than --min-grains");
   return text;
 }
 

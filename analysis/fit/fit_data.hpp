@@ -27,8 +27,11 @@ inline constexpr Choice<Component> components[] = {
 
 /// Which rows of the tables are points of the fit.
 struct FitFilters {
-  double ratio_low = 0.01, ratio_high = 100;                // of phi_S/phi_L
-  double min_solid = 0.5;                                   // of the run's median solid fraction
+  double ratio_low = 0.01, ratio_high = 100;  // of phi_S/phi_L
+  double min_solid = 0.5;                     // of the run's median solid fraction
+  // Of the rarer species of the two in a layer, mean over the window. With one or two of them the
+  // mean of ln(y/x) is off: half the relative variance of a species' stress goes into it.
+  double min_grains = 3;
   double begin = -std::numeric_limits<double>::infinity();  // s, windows lie in [begin, end]
   double end = std::numeric_limits<double>::infinity();
   std::string heights{};  // between which layers lie, as on the command line: "4dS:56dS"; "": all
@@ -57,9 +60,10 @@ struct LayerSample {
 /// How many rows were used, and why the others were not.
 struct FilterCount {
   std::size_t rows = 0, outside_times = 0, without_grains = 0, without_small = 0, without_large = 0,
-              outside_ratio = 0, below_solid = 0, outside_heights = 0, used = 0;
+              outside_ratio = 0, below_solid = 0, outside_heights = 0, few_grains = 0, used = 0;
+  std::size_t uncounted = 0;  // of those used, how many had no number of grains to judge
 
-  /// "320 rows, of which 20 hold no grains, ...": names the options that removed them.
+  /// "320 rows, 20 without grains, ...": names the options that removed them.
   std::string sentence() const;
 };
 
@@ -80,11 +84,15 @@ struct FitData {
 struct FitRow {
   LayerKey key;
   ContactSums<3> sums;
+  std::vector<double> grains;  // mean number by species; empty where it is not known
 
   double solid() const;  // solid fraction
 };
 
 /// The rows of one table, its run's median solid fraction and its species.
+///
+/// Grains: as counted, where the table has columns "grains_S", "grains_L"; otherwise the species'
+/// area or volume over that of a grain of nominal diameter; of masses without a count unknown.
 struct FitTable {
   const Table* table;
   SpeciesList species;

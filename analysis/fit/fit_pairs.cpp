@@ -44,14 +44,17 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
   std::vector<RuleFit> fits;
   for (const auto& rule : rules) {
     const auto first = fits.size();
+    const auto add_fit = [&](const FitData& of_pair, const Bootstrap& drawn) {
+      fits.push_back(fit_rule(of_pair, rule, settings, drawn));
+      add_components(fits.back(), of_pair, settings, drawn);
+    };
     for (const auto& pair : pairs) {
       if (pairs.size() == 1) {
-        fits.push_back(fit_rule(data, rule, settings, bootstrap));
+        add_fit(data, bootstrap);
         continue;
       }
       const auto of_pair = select_fit_data(tables, quantity, filters, {pair});
-      fits.push_back(fit_rule(of_pair, rule, settings,
-                              Bootstrap(of_pair.runs, resampling.samples, resampling.seed)));
+      add_fit(of_pair, Bootstrap(of_pair.runs, resampling.samples, resampling.seed));
     }
     if (!with_exponent || !rule.adds_up()) continue;
     const auto exponent = size_exponent(data, rule, settings, bootstrap);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace grseg {
@@ -15,20 +16,22 @@ double component_of(const Tensor3& stress, const FitData& data, Component compon
   return component == Component::yy ? stress(1, 1) : stress.trace() / data.dimension;
 }
 
-void require_finite(const FitPoint& point, const std::string& table, const PartitionRule& rule,
-                    Component component)
+bool is_finite(const FitPoint& point)
 {
-  if (!std::isfinite(point.small + point.large + point.total))
-    throw FormatError(fmt::format(
-        "{}: the stress ({}) by {} is not finite: a sum that it needs was not kept (see "
-        "the line '# not kept: ...') or is too large; make the table anew",
-        table, word_of(component, components), rule.name()));
+  return std::isfinite(point.small + point.large + point.total);
 }
 
-}  // namespace
+[[noreturn]] void refuse(const std::string& table, const PartitionRule& rule, Component component)
+{
+  throw FormatError(
+      fmt::format("{}: the stress ({}) by {} is not finite: a sum that it needs was not kept (see "
+                  "the line '# not kept: ...') or is too large; make the table anew",
+                  table, word_of(component, components), rule.name()));
+}
 
-std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
-                                 const FitSettings& settings)
+/// One per sample, finite or not.
+std::vector<FitPoint> points_of(const FitData& data, const PartitionRule& rule,
+                                const FitSettings& settings)
 {
   std::vector<PartialStress<3>> stresses;
   stresses.reserve(data.rows.size());
@@ -50,8 +53,24 @@ std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                       .small = of(smaller),
                       .large = of(larger),
                       .total = only_two ? of(stress.total) : of(smaller) + of(larger)});
-    require_finite(points.back(), data.tables[sample.table], rule, settings.component);
   }
+  return points;
+}
+
+}  // namespace
+
+bool has_stresses(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
+{
+  const auto points = points_of(data, rule, settings);
+  return std::all_of(points.begin(), points.end(), is_finite);
+}
+
+std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
+                                 const FitSettings& settings)
+{
+  auto points = points_of(data, rule, settings);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (!is_finite(points[k])) refuse(data.tables[data.samples[k].table], rule, settings.component);
   return points;
 }
 

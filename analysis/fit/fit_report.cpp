@@ -32,6 +32,12 @@ constexpr RuleColumn rule_columns[] = {
     {"B_half_windows_low", [](const RuleFit& fit) { return fit.B_half_windows.low; }},
     {"B_half_windows_high", [](const RuleFit& fit) { return fit.B_half_windows.high; }},
     {"share", [](const RuleFit& fit) { return fit.share; }},
+    {"B_yy", [](const RuleFit& fit) { return fit.B_yy.value; }},
+    {"B_yy_low", [](const RuleFit& fit) { return fit.B_yy.low; }},
+    {"B_yy_high", [](const RuleFit& fit) { return fit.B_yy.high; }},
+    {"B_pressure", [](const RuleFit& fit) { return fit.B_pressure.value; }},
+    {"B_pressure_low", [](const RuleFit& fit) { return fit.B_pressure.low; }},
+    {"B_pressure_high", [](const RuleFit& fit) { return fit.B_pressure.high; }},
 };
 
 Header header_of(const FitReport& report)
@@ -105,6 +111,11 @@ Json pair(const Interval& interval)
   return Json::array({interval.low, interval.high});
 }
 
+Json of_estimate(const Estimate& estimate)
+{
+  return {{"value", estimate.value}, {"interval", {estimate.low, estimate.high}}};
+}
+
 Json rule_object(const FitReport& report, const RuleFit& fit)
 {
   Json estimators = Json::object();
@@ -123,6 +134,8 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
               {"B_direct", fit.value.B_direct},
               {"B_interval", {fit.low.B_half, fit.high.B_half}},
               {"B_windows_interval", pair(fit.B_half_windows)},
+              {"B_yy", of_estimate(fit.B_yy)},
+              {"B_pressure", of_estimate(fit.B_pressure)},
               {"share", fit.share},
               {"neutral", fit.neutral},
               {"minus_size", fit.minus_size},
@@ -136,9 +149,7 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
   if (report.names_pairs())
     object["species"] = {report.species[fit.pair.smaller].name,
                          report.species[fit.pair.larger].name};
-  if (fit.size_exponent)
-    object["size_exponent"] = {{"value", fit.size_exponent->value},
-                               {"interval", {fit.size_exponent->low, fit.size_exponent->high}}};
+  if (fit.size_exponent) object["size_exponent"] = of_estimate(*fit.size_exponent);
   return object;
 }
 

@@ -81,6 +81,20 @@ void add_minus_size(RuleFit& fit, const WindowSums& windows,
 
 }  // namespace
 
+void add_components(RuleFit& fit, const FitData& data, const FitSettings& settings,
+                    const Bootstrap& bootstrap)
+{
+  const auto is_yy = settings.component == Component::yy;
+  auto &own = is_yy ? fit.B_yy : fit.B_pressure, &other = is_yy ? fit.B_pressure : fit.B_yy;
+  const auto b_half_of = [](const RuleFit& of) {
+    return Estimate{of.value.B_half, of.low.B_half, of.high.B_half};
+  };
+  own = b_half_of(fit);
+  const FitSettings swapped{is_yy ? Component::pressure : Component::yy, settings.base};
+  if (fit.rule.adds_up() && has_stresses(data, fit.rule, swapped))
+    other = b_half_of(fit_rule(data, fit.rule, swapped, bootstrap));
+}
+
 Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
 {
   return dependence(window_sums(fit_points(data, rule, settings), data.runs), data.runs,

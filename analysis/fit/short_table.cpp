@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,28 +32,58 @@ std::string with_interval(double value, const Interval& interval)
                      rounded(interval.high));
 }
 
-using Line = std::array<std::string, 6>;
+using Line = std::vector<std::string>;  // all of the same length
 
-/// Words to the left, numbers to the right, columns as wide as they must be.
+/// Words to the left in the first and last column, numbers to the right between them, columns as
+/// wide as they must be.
 std::string aligned(const std::vector<Line>& lines)
 {
-  std::array<std::size_t, 6> width{};
+  std::vector<std::size_t> width(lines.front().size());
   for (const auto& line : lines)
     for (std::size_t c = 0; c < line.size(); ++c) width[c] = std::max(width[c], line[c].size());
   std::string text;
-  for (const auto& line : lines)
-    text += fmt::format("{:<{}}  {:>{}}  {:>{}}  {:>{}}  {:>{}}  {}\n", line[0], width[0], line[1],
-                        width[1], line[2], width[2], line[3], width[3], line[4], width[4], line[5]);
+  for (const auto& line : lines) {
+    text += fmt::format("{:<{}}", line.front(), width.front());
+    for (std::size_t c = 1; c + 1 < line.size(); ++c)
+      text += fmt::format("  {:>{}}", line[c], width[c]);
+    text += fmt::format("  {}\n", line.back());
+  }
   return text;
+}
+
+/// B of the component that the report is not about; none where no rule has it.
+struct OtherComponent {
+  const char* title;
+  Estimate RuleFit::*b;
+};
+std::optional<OtherComponent> other_component(const FitReport& report)
+{
+  const OtherComponent other = report.component == Component::yy
+                                   ? OtherComponent{"B, pressure", &RuleFit::B_pressure}
+                                   : OtherComponent{"B, yy", &RuleFit::B_yy};
+  const bool any = std::any_of(report.rules.begin(), report.rules.end(), [&](const RuleFit& fit) {
+    return std::isfinite((fit.*other.b).value);
+  });
+  return any ? std::optional(other) : std::nullopt;
 }
 
 std::string rules_text(const FitReport& report)
 {
-  std::vector<Line> lines{{"rule", "B", "95 % interval", "share", "points", "used by"}};
-  for (const auto& fit : report.rules)
-    lines.push_back({row_name(report, fit), rounded(fit.value.B_half),
-                     interval_text(fit.low.B_half, fit.high.B_half), rounded(fit.share),
-                     fmt::format("{}", fit.points), used_by(report, fit)});
+  const auto other = other_component(report);
+  std::vector<Line> lines{{"rule", "B", "95 % interval"}};
+  if (other) lines.back().insert(lines.back().end(), {other->title, "95 % interval"});
+  lines.back().insert(lines.back().end(), {"share", "points", "used by"});
+  for (const auto& fit : report.rules) {
+    Line line{row_name(report, fit), rounded(fit.value.B_half),
+              interval_text(fit.low.B_half, fit.high.B_half)};
+    if (other) {
+      const Estimate& b = fit.*other->b;
+      line.insert(line.end(), {rounded(b.value), interval_text(b.low, b.high)});
+    }
+    line.insert(line.end(),
+                {rounded(fit.share), fmt::format("{}", fit.points), used_by(report, fit)});
+    lines.push_back(line);
+  }
   return aligned(lines);
 }
 

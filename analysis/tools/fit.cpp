@@ -98,6 +98,8 @@ po::options_description options_into(Settings& s)
       "layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
   add("min-solid", number(s.filters.min_solid, "X")->default_value(0.5, "0.5"),
       "least solid fraction of a layer, in units of the run's median");
+  add("min-grains", number(s.filters.min_grains, "N")->default_value(3),
+      "least grains of the rarer species in a layer, mean over the window");
   add("begin", number(s.filters.begin, "s"), "first time of the windows that take part");
   add("end", number(s.filters.end, "s"), "last time of the windows that take part");
   add("short", po::bool_switch(&s.short_form),
@@ -131,6 +133,7 @@ void check(const Settings& s, const po::variables_map& values)
   if (std::isnan(s.filters.begin) || std::isnan(s.filters.end))
     throw UsageError("--begin and --end are times in seconds");
   if (!(s.filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
+  if (!(s.filters.min_grains >= 0)) throw UsageError("--min-grains must not be negative");
   if (s.json && s.short_form) throw UsageError("--short and --json exclude each other");
   parse_rules(s.partition);
   parse_heights(s.filters.heights, {1, 1});
@@ -201,6 +204,20 @@ std::vector<SpeciesPair> pairs_of(const Settings& s, const SpeciesList& species)
   return all_pairs(species.size());
 }
 
+/// Where the numbers of grains come from.
+std::string grains_words(const std::vector<FitTable>& tables, const FitData& data)
+{
+  if (data.count.uncounted > 0)
+    return fmt::format(
+        "unknown in {} of the rows used, whose tables give masses without counts; --min-grains does "
+        "not apply to them",
+        data.count.uncounted);
+  const bool counted = std::all_of(tables.begin(), tables.end(), [](const FitTable& table) {
+    return table.table->has_column(fmt::format("grains_{}", column_words(table.species)[0]));
+  });
+  return counted ? "as counted" : "areas or volumes over those of a grain of nominal diameter";
+}
+
 FitReport make_report(const Settings& s, const std::string& preset,
                       const std::vector<Table>& tables)
 {
@@ -234,6 +251,8 @@ FitReport make_report(const Settings& s, const std::string& preset,
       {"times",
        s.filters.all_times() ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
       {"min_solid", format_number(s.filters.min_solid)},
+      {"min_grains", format_number(s.filters.min_grains)},
+      {"grains", grains_words(all, data)},
       {"rows", data.count.sentence()},
       {"runs", fmt::format("{}", data.runs.size())},
       {"windows", fmt::format("{}", bootstrap.windows())},

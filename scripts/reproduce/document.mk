@@ -1,7 +1,7 @@
 # Figures, numbers and docs/studies/reproduction.md from the tables of the campaign, or from those kept in
 # data/reproduction: nothing is simulated and no trajectory is read.
 #
-#   make -C scripts reproduction.md                    docs/studies/reproduction.md and its figures, from data/reproduction
+#   make -C scripts reproduction.md                    docs/studies/reproduction.md, its annex and figures, from data/reproduction
 #   make -C scripts reproduction.md TABLES=FOLDER      from the tables that make reproduce left in FOLDER
 #   make -C scripts figures/kinetic-profile.png        one figure, into WORK
 #   make -C scripts kept TABLES=FOLDER                 makes data/reproduction again from these tables
@@ -16,10 +16,12 @@ KEPT := $(CURDIR)/../../data/reproduction
 TABLES ?=
 WORK ?= reproduction-figures
 DOCUMENT ?= $(CURDIR)/../../docs/studies/reproduction.md
+# A page elsewhere has an annex only where one is named.
+ANNEX ?= $(if $(filter file,$(origin DOCUMENT)),$(DOCUMENT:.md=-annex.md))
 PICTURES ?= $(CURDIR)/../../docs/studies/figures/reproduction
 BOOTSTRAP ?= 1000
 
-$(call check_names,HERE BIN TABLES WORK DOCUMENT PICTURES)
+$(call check_names,HERE BIN TABLES WORK DOCUMENT ANNEX PICTURES)
 $(call check_values,BOOTSTRAP)
 work := $(call absolute,$(WORK))
 bin := $(call absolute,$(BIN))
@@ -114,11 +116,11 @@ $(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/str
 
 choices.tsv: $(work)/choices.tsv
 
-# The document: only its generated parts are replaced.
+# The document and its annex: only their generated parts are replaced.
 reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv)
 	mkdir -p $(PICTURES)
 	cp $(pictures) $(PICTURES)
-	./document $(work) $(DOCUMENT)
+	./document $(work) $(DOCUMENT) $(ANNEX)
 
 kept: keep $(scripts) $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }

@@ -1,5 +1,8 @@
 """What is wrong or left open in the paper's text, and the measurement that bears on it."""
+import statements as paper
+import verdicts
 from measured import plain
+from targets import signed
 
 
 def rows(m):
@@ -26,12 +29,7 @@ def rows(m):
          f"σ^κ_yy/σ_yy = {steady('Kyy/syy', 4)} on average between 4 and 56 d_S"],
         ["P = ρ g (H₀ − z) (caption of figure 2)", "cosθ is missing; the text has it",
          f"P falls by {steady('P_solid_slope', 3)} ρ g per unit of height; cos 23° = 0.9205"],
-        ["V",
-         "**open**: the paper does not say whether V includes the voids, and its figures 2a and 3a favour "
-         "different answers",
-         f"figure 2a, slope 0.9205 ρ g: {steady('P_solid_slope', 3)} without voids, {steady('P_slope', 3)} with "
-         f"(ν = {steady('nu', 3)}). Figure 3a, prefactor 0.98 ρ g d_S: {steady('K_solid_prefactor')} without "
-         f"voids, {steady('K_prefactor', 3)} with"],
+        volume(m),
         ["δv",
          "the mean velocity it refers to is not given; about a layer's mean, the shear inside the layer counts "
          "as fluctuation",
@@ -71,6 +69,31 @@ def rows(m):
         ["Φ_L \"between 0.06 and 0.90\"; \"width\" 35 d_L; \"segregation rate\"",
          "no result is for 0.90; 35 d_L is the length of the cell; the \"rate\" is the final degree", "–"],
     ]
+
+
+def volume(m):
+    """Which of figures 2a and 3a each reading of V meets, by the rule of verdicts.py."""
+    readings = (("without voids", "_solid"), ("with voids", ""))
+    figures = (("the slope of figure 2a", "P{}_slope", 3, paper.FIGURE_2A), ("the prefactor of 3a", "K{}_prefactor", 2, paper.P_KAPPA),
+               ("its decay length", "K{}_decay", 1, paper.P_KAPPA_DECAY))
+    told, meets = [], {reading: [] for reading, _ in readings}
+    for title, name, digits, statement in figures:
+        each = []
+        for reading, suffix in readings:
+            value = m.number("phi0.30-s23", name.format(suffix))
+            verdict = verdicts.verdict(value, statement)
+            each.append(f"{value.text(digits)} {reading} ({verdict}, {signed(verdicts.difference(value, statement))})")
+            if verdict == verdicts.AGREES:
+                meets[reading].append(title)
+        told.append(f"{title}, {statement.value:g}: {', '.join(each)}")
+    met = [f"{reading} it meets {listed(titles)}" for reading, titles in meets.items()]
+    return ["V", "**open**: the paper does not say whether V includes the voids. By the tolerances, "
+            f"{listed(met)}. If ρ were the density of the bed, both figures would be as without voids",
+            "; ".join(told) + ". In brackets: verdict, difference in standard errors"]
+
+
+def listed(words):
+    return " and ".join([", ".join(words[:-1])] * (len(words) > 1) + words[-1:]) or "none of the figures"
 
 
 def shift(m, rule):

@@ -6,13 +6,16 @@ import tables
 
 
 class Value:
-    """A number with its 95 % interval; low and high are nan where there is none."""
+    """A number with its 95 % interval and standard error; low, high and error are nan where there is none."""
 
-    def __init__(self, value, low=math.nan, high=math.nan):
-        self.value, self.low, self.high = value, low, high
+    def __init__(self, value, low=math.nan, high=math.nan, error=math.nan):
+        self.value, self.low, self.high, self.error = value, low, high, error
 
     def __neg__(self):
-        return Value(-self.value, -self.high, -self.low)
+        return Value(-self.value, -self.high, -self.low, self.error)
+
+    def minus(self, number):
+        return Value(self.value - number, self.low - number, self.high - number, self.error)
 
     def has_interval(self):
         return not math.isnan(self.low + self.high)
@@ -24,14 +27,6 @@ class Value:
             return plain(self.value, digits)
         return f"{plain(self.value, digits)} [{plain(self.low, digits)}, {plain(self.high, digits)}]"
 
-    def meets(self, low, high):
-        """Whether the interval (the value, where there is none) and [low, high] overlap."""
-        if math.isnan(self.value):
-            return None
-        if not self.has_interval():
-            return low <= self.value <= high
-        return self.low <= high and self.high >= low
-
 
 def plain(value, digits):
     if math.isnan(value):
@@ -40,6 +35,11 @@ def plain(value, digits):
     if not float(text):
         text = text.lstrip("-")
     return text.replace("-", "−")
+
+
+def of_runs(value, low, high, runs):
+    """A value whose interval was made by Student's t over so many runs (at least two)."""
+    return Value(value, low, high, (high - low) / 2 / tables.student(max(1, runs - 1)))
 
 
 class Measured:
@@ -55,7 +55,7 @@ class Measured:
 
     def number(self, of, name):
         row = self._numbers.get((of, name))
-        return Value(row["value"], row["low"], row["high"]) if row else Value(math.nan)
+        return Value(row["value"], row["low"], row["high"], row["error"]) if row else Value(math.nan)
 
     def row(self, which, rule="size", component="yy", heights="inside", stage="all",
             quantity="contact"):
@@ -72,7 +72,7 @@ class Measured:
         row = self.row(which, **how)
         if row is None:
             return Value(math.nan)
-        return Value(row[name], row.get(f"{name}_low", math.nan), row.get(f"{name}_high", math.nan))
+        return of_runs(row[name], row.get(f"{name}_low", math.nan), row.get(f"{name}_high", math.nan), row["seeds"])
 
     def flow(self, name):
         return next((row for row in self.flows if row["flow"] == name), None)
@@ -86,7 +86,11 @@ class Measured:
         if row is None:
             return Value(math.nan)
         value, half = row[quantity], row.get(f"hw_{quantity}", math.nan)
-        return Value(value, value - half, value + half)
+        return of_runs(value, value - half, value + half, row["seeds"])
+
+    def flows_with(self, name):
+        """What a number of this name was measured of, in order."""
+        return sorted(of for of, other in self._numbers if other == name)
 
     def plain_flows(self):
         return [row for row in self.flows if row["variant"] == "none"]
@@ -112,4 +116,4 @@ def line_fit(x, y):
     left = sum((b - level - slope * a) ** 2 for a, b in zip(x, y)) / (n - 2)
     t = tables.student(n - 2)
     ds, dl = t * math.sqrt(left / sxx), t * math.sqrt(left * (1 / n + mx ** 2 / sxx))
-    return Value(slope, slope - ds, slope + ds), Value(level, level - dl, level + dl)
+    return Value(slope, slope - ds, slope + ds, ds / t), Value(level, level - dl, level + dl, dl / t)

@@ -13,6 +13,7 @@ import sealed_tables  # noqa: E402
 # Name of a run: phi0.30-s23-seed1, phi0.45-s23-e0.5-seed2. Its tables are NAME/QUANTITY.tsv.
 NAME = re.compile(r"phi(?P<phi>[\d.]+)-s(?P<slope>[\d.]+)(?:-(?P<variant>.+?))?-seed(?P<seed>\d+)$")
 CONTROL = "ratio1"  # the variant with equal grains
+EARLY, LATE = 60, 100  # s: the early stage ends, the late one begins
 STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365, 8: 2.306, 9: 2.262,
            10: 2.228, 15: 2.131, 20: 2.086, 30: 2.042, 60: 2.000, 10**9: 1.960}
 

@@ -1,258 +1,221 @@
-"""The paper's statements one by one: what it says, what was measured, how far the two may differ.
+"""The paper's statements one by one: what it says, what was measured, and whether that meets it.
 
-A tolerance is the range that the paper's own ambiguities leave open (definitions, estimators, contacts at
-the base), not an error of measurement. A target is met where the 95 % interval overlaps the paper's
-value +- tolerance; a line is met where every measured point is.
+Statements and their ranges are in statements.py, the rule in verdicts.py; here is which number answers which.
 """
 import math
 
+import statements as paper
+import tables
+import verdicts
 from measured import Value, line_fit, plain
-
-NOT_YET = "not measured yet"
-DIFFERS = "**differs**"
-FROM_BEST_TO_WORST = ("agrees", "undecided", DIFFERS, NOT_YET)
-B_KAPPA_TOLERANCE = 0.04
 
 
 class Target:
-    def __init__(self, name, paper, ours, verdict, why):
-        self.name, self.paper, self.ours, self.verdict, self.why = name, paper, ours, verdict, why
+    """A statement, what was measured, and the pairs (value, statement) that are judged, by the worst of them."""
+
+    def __init__(self, name, statement, ours, points, why):
+        self.name, self.statement, self.ours, self.points, self.why = name, statement, ours, points, why
+        self.point = verdicts.worst(points)
+
+    def verdict(self):
+        return verdicts.verdict(*self.point) if self.point else verdicts.NOT_YET
+
+    def difference(self):
+        return verdicts.difference(*self.point) if self.point else math.nan
 
     def cells(self):
-        if self.verdict == NOT_YET:
-            return [self.name, self.paper, "–", NOT_YET, "its flows have not been run"]
-        return [self.name, self.paper, self.ours, self.verdict, self.why]
+        met = allowed(self.point[1] if self.point and len(self.points) == 1 else self.statement)
+        if self.verdict() == verdicts.NOT_YET:
+            return [self.name, self.statement.text, met, "–", "–", verdicts.NOT_YET, "its flows have not been run"]
+        return [self.name, self.statement.text, met, self.ours, signed(self.difference()), self.verdict(), self.why]
 
 
-def judged(value, paper, tolerance):
-    met = value.meets(paper - tolerance, paper + tolerance)
-    if met is None:
-        return NOT_YET
-    if met and value.high - value.low > 2 * tolerance:
-        return "undecided"  # the interval is wider than the tolerance
-    return "agrees" if met else DIFFERS
+def allowed(statement):
+    """The range, with the digits that it needs."""
+    return statement.range_text(lambda x: f"{x:.2g}" if 0 < abs(x) < 0.001 else f"{x:.4g}".replace("-", "−"))
 
 
-def worst(verdicts):
-    return max(verdicts, key=FROM_BEST_TO_WORST.index, default=NOT_YET)
+def signed(number):
+    """A number of standard errors."""
+    if math.isnan(number):
+        return "–"
+    text = f"{number:+.1f}" if abs(number) < 10 else f"{number:+.0f}"
+    return text.replace("-", "−")
 
 
-def judged_line(points, line, tolerance):
-    """Verdict on (x, value) pairs against line(x): that of the worst point."""
-    return worst(judged(value, line(x), tolerance) for x, value in points)
-
-
-def distance_from_line(points, line, tolerance):
-    """How far the points lie off the line, in words: in its units and in tolerances."""
-    off = [value.value - line(x) for x, value in points]
-    if not off:
-        return "none"
-    if min(off) <= 0 <= max(off):
-        return f"from {plain(min(off), 3)} to {plain(max(off), 3)} off that line"
-    sizes = sorted(map(abs, off))
-    return (f"{'below' if max(off) < 0 else 'above'} that line by {plain(sizes[0], 3)} to {plain(sizes[-1], 3)}, "
-            f"{plain(sizes[0] / tolerance, 1)} to {plain(sizes[-1] / tolerance, 1)} tolerances")
-
-
-def number(name, text, value, digits, paper, tolerance, why):
+def number(name, statement, value, digits, why):
     """A target that is one number."""
-    return Target(name, f"{text} (± {tolerance:g})", value.text(digits),
-                  judged(value, paper, tolerance), why)
-
-
-def claim(name, text, ours, holds, why, otherwise=DIFFERS):
-    """A target that is a statement; `holds` may be None where nothing was measured."""
-    verdict = NOT_YET if holds is None else "agrees" if holds else otherwise
-    return Target(name, text, ours, verdict, why)
+    return Target(name, statement, value.text(digits), [(value, statement)], why)
 
 
 def contact_stress(m):
     """Figures 1 and 2 and section III."""
-    yield segregated(m)
+    yield from separated(m)
+    yield from pressure_profile(m)
     b = m.fit("mixtures")
-    every = m.fit("mixtures", heights="all")
-    pressure = m.fit("mixtures", component="pressure")
-    slope = m.number("phi0.30-s23", "P_solid_slope")
-    yield number("2a: P(z) falls by ρ g cosθ per unit of height", "0.9205 ρ g", slope, 3, 0.9205, 0.046,
-                 "per area of grains; per bulk volume it is ν times that, "
-                 f"{m.number('phi0.30-s23', 'P_slope').text(3)}. σ_yy + σ^κ_yy is "
-                 f"{m.number('phi0.30-s23', 'weight').text(3)} of the weight above")
-    yield number("2b: slope of σ^S/σ^L over φ_S/φ_L", "0.9660 ± 0.003", m.fit("mixtures", "s"), 3, 0.966,
-                 0.035, f"with the lowest layer and the surface {m.fit('mixtures', 's', heights='all').text(3)}")
-    yield number("2b: B by size", "0.034 to 0.035", b, 3, 0.0345, 0.03,
-                 f"pooled over the six mixtures; {m.range_over_mixtures(3)} by mixture; all heights {every.text(3)}, "
-                 "with the row of large grains that the base traps; "
-                 f"nominal 2/3 instead of actual radii {m.fit('mixtures', rule='uniform:0.66667').text(3)}")
+    yield number("2b: slope of σ^S/σ^L over φ_S/φ_L", paper.SLOPE, m.fit("mixtures", "s"), 3,
+                 f"with the lowest layer and the surface {m.fit('mixtures', 's', heights='all').text(3)}")
+    yield number("2b: B by size", paper.B, b, 3,
+                 f"these 24 runs together; {m.range_over_mixtures(3)} by mixture; all heights "
+                 f"{m.fit('mixtures', heights='all').text(3)}; nominal 2/3 instead of actual radii "
+                 f"{m.fit('mixtures', rule='uniform:0.66667').text(3)}")
     yield sign_of_b(m)
-    yield number("Control, all grains alike: B", "0 by symmetry", m.fit("control"), 3, 0, 0.03,
+    yield number("Control, all grains alike: B", paper.CONTROL, m.fit("control"), 3,
                  "size ratio 1, small and large labels assigned at random")
-    most = m.number("mixtures", "mixed_most")
-    yield number("2c: largest share of mixed contacts", "\"locally 50 %\"", most, 3, 0.5, 0.04,
-                 "neutral contacts: 0.500")
-    yield number("2c: φ_L where it is largest", "neutral contacts: 2/3", m.number("mixtures", "mixed_most_at"), 2, 0.635,
-                 0.085, "the text gives no number; 0.55 to 0.72 counts as met")
-    yield neutral_curve(m)
-    yield number("B from pressures", "0.045 to 0.047", pressure, 3, 0.046, 0.03, "half the trace instead of σ_yy")
-    yield number("B from pressures minus B from σ_yy", "0.011", Value(pressure.value - b.value), 3, 0.011, 0.015,
-                 "normal stresses differ")
-    for rule, paper, text in (("uniform:0.8", 0.33, "≈ 0.33"), ("uniform:0.6", -0.1, "≈ −0.1"),
-                              ("half", -0.32, "≈ −0.32")):
-        p = {"half": 0.5}.get(rule) or float(rule.split(":")[1])
-        row = m.row("mixtures", rule=rule) or {}
-        less = Value(*(row.get(f"minus_size{end}", math.nan) for end in ("", "_low", "_high")))
-        yield number(f"B, mixed contacts {p:g} to the large grain", text,
-                     m.fit("mixtures", rule=rule), 3, paper, 0.05, "at φ = 1/2")
-        yield number("... minus B by size", plain(paper - 0.0345, 3), less, 3, paper - 0.0345, 0.05,
-                     f"direct fit; neutral contacts: {plain(row.get('neutral', math.nan), 3)}")
-    yield slope_and_b(m)
-    yield stages(m)
+    yield from mixed_contacts(m)
+    yield number("B from pressures", paper.B_PRESSURE, m.fit("mixtures", component="pressure"), 3, "half the trace instead of σ_yy")
+    yield number("... minus B from σ_yy", paper.PRESSURE_LESS_YY, m.number("mixtures", "pressure_less_yy"), 3,
+                 "normal stresses differ; interval of the difference")
+    yield from other_rules(m)
+    yield slopes(m)
+    yield from stages(m)
 
 
-def neutral_curve(m):
-    least, most = (m.number("mixtures", f"mixed_off_{end}") for end in ("least", "most"))
-    holds = None if math.isnan(least.value) else max(-least.value, most.value) <= 0.04
-    return claim("2c: share of mixed contacts over φ_L", "a curve; neutral contacts: 4 φ_L φ_S/(1 + φ_S)² (± 0.04)",
-                 f"{least.text(3)} to {most.text(3)} off that curve", holds, "compositions inside, without contacts with the base")
+def separated(m):
+    """Figure 1: from large grains below to large grains above."""
+    at = lambda name: m.number("phi0.30-s23", name)
+    others = [flow for flow in m.flows_with("way") if flow != "phi0.30-s23"]
+    others = "".join(f"; {flow}: {m.number(flow, 'way').text(2)}" for flow in others)
+    yield number("1: way of y_L/H from 0.15 (all large grains below) to 0.85 (above)", paper.FIGURE_1_END, at("way"), 2,
+                 f"{at('lowest_large').text(0)} large grains stay in the lowest layer: all 35 or hardly any, seed by seed{others}")
+    yield number("1: mean of φ_L φ_S over that of the mixed bed", paper.FIGURE_1_MIXED, at("mixed"), 2,
+                 "1 where the bed is mixed, 0 where species are separated; that a fifth is little enough is our reading")
 
 
-def segregated(m):
-    """Figure 1: y_L/H goes from Phi_L/2 to 1 - Phi_L/2 if the species separate."""
-    start, end = (m.of_flow("phi0.30-s23", name) for name in ("yL0", "yL1"))
-    way = (end.value - 0.15) / (0.85 - 0.15)
-    holds = None if math.isnan(way) else way > 0.8
-    return claim("1: large grains end on top, with a thin mixed zone", "snapshots at 0 and 150 s",
-                 f"y_L/H from {start.text(3)} to {end.text(3)}", holds,
-                 f"{plain(100 * way, 0)} % of the way from 0.15 to 0.85, the value of fully separated species; "
-                 "80 % counts as met. The first row stays at the base")
+def pressure_profile(m):
+    """Figure 2a, for both readings of V."""
+    at = lambda name: m.number("phi0.30-s23", name)
+    yield number("2a: P(z) falls by, over ρ g, per area of grains", paper.FIGURE_2A, at("P_solid_slope"), 3,
+                 f"V is open. σ_yy + σ^κ_yy is {at('weight').text(3)} of the weight above")
+    yield number("2a: the same per area with voids", paper.FIGURE_2A, at("P_slope"), 3, f"smaller by ν = {at('nu').text(3)}")
 
 
 def sign_of_b(m):
-    """B > 0 asks for four seeds of each mixture, whose intervals all lie above 0."""
-    flows = m.mixtures()
-    seeds = min((row["seeds"] for row in flows), default=0)
-    least = min((row["B_low"] for row in flows), default=math.nan)
-    holds = None if math.isnan(least) else least > 0 and seeds >= 4
-    return claim("2b: B > 0", "\"supports the plausibility of gravity-driven segregation\"",
-                 f"{m.range_over_mixtures(3)} by mixture, lowest end of an interval {plain(least, 3)}", holds,
-                 f"{seeds:.0f} seeds per mixture; four are required. The rule for mixed contacts matters more: "
-                 f"B = 0 at p = {m.of_scan('p_zero').text(3)}", "undecided")
+    """B > 0 in every mixture."""
+    points = [(m.fit(row["flow"]), paper.SIGN) for row in m.mixtures()]
+    least = min((value.low for value, _ in points), default=math.nan)
+    return Target("2b: B > 0", paper.SIGN, f"{m.range_over_mixtures(3)} by mixture, lowest end of an interval {plain(least, 3)}", points,
+                  "by this rule for mixed contacts; B = 0 if the large grain is given "
+                  f"{m.of_scan('p_zero').text(3)} of each")
 
 
-def slope_and_b(m):
+def mixed_contacts(m):
+    """Figure 2c."""
+    at = lambda name: m.number("mixtures", name)
+    yield number("2c: largest share of mixed contacts", paper.MIXED_MOST, at("mixed_most"), 3, "neutral contacts: 0.500")
+    yield number("2c: φ_L where it is largest", paper.MIXED_MOST_AT, at("mixed_most_at"), 2, "")
+    least, most = at("mixed_off_least"), at("mixed_off_most")
+    yield Target("2c: share of mixed contacts minus that of neutral ones", paper.MIXED_CURVE,
+                 f"{least.text(3)} to {most.text(3)}", [(least, paper.MIXED_CURVE), (most, paper.MIXED_CURVE)],
+                 "by composition, without contacts with the base")
+
+
+def other_rules(m):
+    for rule, statement in paper.RULES.items():
+        p = 0.5 if rule == "half" else float(rule.split(":")[1])
+        row = m.row("mixtures", rule=rule) or {}
+        yield number(f"B, mixed contacts {p:g} to the large grain", statement, m.fit("mixtures", rule=rule), 3, "at φ = 1/2")
+        yield number("... minus B by size", paper.RULES_LESS_SIZE[rule], m.fit("mixtures", "minus_size", rule=rule), 3,
+                     f"direct fit; neutral contacts: {plain(row.get('neutral', math.nan), 3)}")
+
+
+def slopes(m):
     flows = [row for row in m.plain_flows() if row["phi"] == 0.45 and not math.isnan(row["B"])]
     trend, _ = line_fit([row["slope"] for row in flows], [row["B"] for row in flows])
     mean = sum(row["B"] for row in flows) / max(1, len(flows))
     off = max((abs(row["B"] - mean) for row in flows), default=math.nan)
-    holds = None if len(flows) < 3 else trend.meets(0, 0) and off < 0.02
-    return claim("B does not depend on the slope", "none seen",
-                 f"dB/dθ = {trend.text(4)} per degree over {len(flows)} slopes", holds,
-                 f"the slope farthest from the mean differs from it by {plain(off, 3)}; up to 0.02 counts as met")
+    return Target("B does not depend on the slope: dB/dθ per degree", paper.TREND, trend.text(4), [(trend, paper.TREND)],
+                  f"line through {len(flows)} slopes; the farthest from their mean differs from it by {plain(off, 3)}")
 
 
 def stages(m):
     early, late = m.fit("mixtures", stage="early"), m.fit("mixtures", stage="late")
-    holds = early.meets(late.low, late.high) if late.has_interval() else None
-    return claim("Early and late stages give the same B", "no visible influence",
-                 f"t < 60 s {early.text(3)}, t > 100 s {late.text(3)}", holds,
-                 "see the figure of B by flow; later stages have other compositions at other heights")
+    yield number("B of early minus late stages, all mixtures", paper.STAGES, m.number("mixtures", "early_less_late"), 3,
+                 f"t < {tables.EARLY} s {early.text(3)}, t > {tables.LATE} s {late.text(3)}")
+    each = [(row, m.number(row["flow"], "early_less_late")) for row in m.mixtures()]
+    yield Target("... in every mixture", paper.STAGES,
+                 ", ".join(f"{value.text(3)} at {row['phi']:g}" for row, value in each),
+                 [(value, paper.STAGES) for _, value in each], "later stages have other compositions at other heights")
 
 
 def kinetic_stress(m):
     """Figures 3 and 4 and section IV."""
-    at = lambda name: m.number("phi0.30-s23", name)
-    about_layer = (f"about the mean of the layer {at('K_layer_solid_prefactor').text(2)} and "
-                   f"{at('K_layer_solid_decay').text(1)} d_L, because the shear inside the layer adds "
-                   f"{at('shear_share').text(2)} of P^κ")
-    yield number("3a: P^κ at the base, over ρ g d_S", "0.98", at("K_solid_prefactor"), 2, 0.98, 0.49,
-                 "about the profile of the mean velocity, per area of grains, 4 to 56 d_S; per bulk volume "
-                 f"{at('K_prefactor').text(2)} (V is an open question, see below); " + about_layer)
-    yield number("3a: decay length of P^κ, d_L", "14.8", at("K_solid_decay"), 1, 14.8, 5,
-                 "an exponential is only a convenient fit: see the figure")
+    yield from kinetic_profile(m)
     kinetic = {"quantity": "kinetic"}
-    yield number("3b: prefactor of σ^κS/σ^κL", "1.4413 ± 0.0022",
-                 m.fit("mixtures", "prefactor_power", **kinetic), 3, 1.4413, 0.1,
+    yield number("3b: prefactor of σ^κS/σ^κL", paper.KINETIC_PREFACTOR, m.fit("mixtures", "prefactor_power", **kinetic), 3,
                  f"logarithmic fit of exponent one {m.fit('mixtures', 's', **kinetic).text(3)}; "
                  f"with all heights {m.fit('mixtures', 's', heights='all', **kinetic).text(3)}")
-    yield number("3b: its exponent", "1.0057", m.fit("mixtures", "exponent", **kinetic), 3, 1.0057, 0.02,
-                 "a power law, as in the paper")
-    half_sum = m.fit("mixtures", "B_paper", **kinetic)
-    yield number("B_κ", "−0.373", half_sum, 3, -0.373, B_KAPPA_TOLERANCE,
-                 "half the sum of the end values, which the paper compares with −0.39 (Hill & Tan) and −0.38 "
-                 "(Weinhart et al.); at φ = 1/2 "
-                 f"{m.fit('mixtures', **kinetic).text(3)}; all heights, with the row that the base traps, "
-                 f"{m.fit('mixtures', 'B_paper', heights='all', **kinetic).text(3)}. For e and the mean "
-                 "velocity see the choices below")
-    ratio = -m.fit("mixtures", **kinetic).value / m.fit("mixtures").value
-    yield number("|B_κ| over B".replace("|", "\\|"), "\"more than 10 times\", 10.8", Value(ratio), 1, 10.8, 5,
-                 "both at φ = 1/2")
-    least, most = at("Kyy/syy_least"), at("Kyy/syy_most")
-    yield Target("Kinetic stress is \"about four orders of magnitude\" below contact stress", "1e-4",
-                 f"least {least.text(4)}, largest {most.text(4)}, 4 to 56 d_S",
-                 "paper inconsistent", "the paper's own figure 3a gives 0.98/55 = 0.018")
+    yield number("3b: its exponent", paper.KINETIC_EXPONENT, m.fit("mixtures", "exponent", **kinetic), 3, "a power law, as in the paper")
+    yield number("B_κ", paper.B_KAPPA, m.fit("mixtures", "B_paper", **kinetic), 3,
+                 f"half the sum of the end values; at φ = 1/2 {m.fit('mixtures', **kinetic).text(3)}; all heights "
+                 f"{m.fit('mixtures', 'B_paper', heights='all', **kinetic).text(3)}")
+    yield number("\\|B_κ\\| over B", paper.B_KAPPA_OVER_B, m.number("mixtures", "B_kappa/B"), 1, "both at φ = 1/2")
+    points = [(m.number("phi0.30-s23", f"Kyy/syy_{end}"), paper.KINETIC_OVER_CONTACT) for end in ("least", "most")]
+    yield Target("Kinetic over contact stress", paper.KINETIC_OVER_CONTACT,
+                 " to ".join(value.text(4) for value, _ in points), points,
+                 "4 to 56 d_S; the paper contradicts itself: its figure 3a gives 0.98/55 = 0.018")
     yield from shear_rate(m)
 
 
+def kinetic_profile(m):
+    """Figure 3a, for both readings of V; about the profile of the mean velocity."""
+    at = lambda name: m.number("phi0.30-s23", name)
+    for volume, suffix in (("per area of grains", "_solid"), ("per area with voids", "")):
+        yield number(f"3a: P^κ at the base over ρ g d_S, {volume}", paper.P_KAPPA, at(f"K{suffix}_prefactor"), 2,
+                     f"about the mean of the layer {at(f'K_layer{suffix}_prefactor').text(2)}")
+        yield number(f"3a: decay length of P^κ in d_L, {volume}", paper.P_KAPPA_DECAY, at(f"K{suffix}_decay"), 1,
+                     f"about the mean of the layer {at(f'K_layer{suffix}_decay').text(1)}")
+
+
 def shear_rate(m):
-    """Figure 4, the line 0.310 + 0.205 x: each slope's B_kappa against it, with the tolerance of B_kappa."""
-    flows = [row for row in m.plain_flows()
-             if row["phi"] == 0.45 and not math.isnan(row["K"] + row["rate"])]
+    """Figure 4, the line 0.310 + 0.205 x: each slope's B_kappa against it, by the estimator of the paper's -0.373."""
+    flows = [row for row in m.plain_flows() if row["phi"] == 0.45 and not math.isnan(row["rate"])]
     flows.sort(key=lambda row: row["rate"])
-    line = lambda rate: 0.310 + 0.205 * rate
-    points = [(row["rate"], -Value(row["K"], row["K_low"], row["K_high"])) for row in flows]
-    rates, values = [rate for rate, _ in points], [value.value for _, value in points]
-    slope, level = line_fit(rates, values)
-    falls = sum(b < a for a, b in zip(values, values[1:]))
-    yield Target("4: −B_κ over x = γ̇/√(g/d_S), six slopes", f"0.310 + 0.205 x (± {B_KAPPA_TOLERANCE:g})",
-                 distance_from_line(points, line, B_KAPPA_TOLERANCE),
-                 judged_line(points, line, B_KAPPA_TOLERANCE) if len(points) > 2 else NOT_YET,
-                 "here (paper's line): "
-                 + ", ".join(f"{plain(value, 3)} ({plain(line(row['rate']), 3)}) at {row['slope']:g}°, "
-                             f"x = {plain(row['rate'], 2)}" if row is flows[0] or row is flows[-1] else
-                             f"{plain(value, 3)} ({plain(line(row['rate']), 3)}) at {row['slope']:g}°"
-                             for row, value in zip(flows, values))
-                 + f"; fitted line {level.text(3)} + {slope.text(3)} x. In order of x −B_κ "
-                 + ("grows from each slope to the next, as in the paper" if falls == 0
-                    else f"falls {falls} times"))
+    kinetic = [(row, -m.fit(row["flow"], "B_paper", quantity="kinetic")) for row in flows]
+    kinetic = [(row, value) for row, value in kinetic if not math.isnan(value.value)]
+    if len(kinetic) < 3:
+        kinetic = []
+    points = [(value, paper.figure_4(row["rate"])) for row, value in kinetic]
+    off = [value.minus(line.value) for value, line in points] or [Value(math.nan)]
+    off.sort(key=lambda value: value.value)
+    line = paper.figure_4(0)
+    room = (line.high - line.low) / 2
+    yield Target("4: −B_κ minus the paper's line, over x = γ̇/√(g/d_S)",
+                 paper.number(line.text, 0, room, line.source), f"{off[0].text(3)} to {off[-1].text(3)}", points,
+                 "here (the line): " + ", ".join(f"{plain(value.value, 3)} ({plain(on.value, 3)}) at x = {plain(row['rate'], 2)}"
+                                                 for (row, value), (_, on) in zip(kinetic, points)))
+    slope, level = line_fit([row["rate"] for row, _ in kinetic], [value.value for _, value in kinetic])
+    yield Target("4: −B_κ grows with x: slope of the line", paper.FIGURE_4_RISES, slope.text(3), [(slope, paper.FIGURE_4_RISES)],
+                 f"fitted line {level.text(3)} + {slope.text(3)} x")
 
 
 def micro_structure(m):
     """Figures 5 and 6 and section V."""
     at = lambda name: m.number("mixtures", name)
-    for name, end, mean, most in (("Π", "", 2.2, 3), ("Π^L", "_L", 1.9, 5), ("Π^S", "_S", 6.4, 9)):
-        ours, largest = (at(f"contacts_error{end}_{which}") for which in ("mean", "most"))
-        yield Target(f"5: mean (largest) error of {name}, %", f"{mean:g} ({most:g}) (up to twice that)",
-                     f"{ours.text(1)} ({largest.text(1)})",
-                     worst((judged(ours, mean, mean), judged(largest, most, most))),
-                     f"with 1/(πd); as printed, 2/(πd): {at(f'contacts_error{end}_printed_mean').text(0)}; "
+    for name, end in (("Π", ""), ("Π^L", "_L"), ("Π^S", "_S")):
+        mean, most = paper.FIGURE_5[end]
+        yield number(f"5: mean error of {name}, %", mean, at(f"contacts_error{end}_mean"), 1,
+                     f"with 1/(πd); as printed, 2/(πd), {at(f'contacts_error{end}_printed_mean').text(0)}; "
                      f"over ends and with f_n {at(f'ends_error{end}_mean').text(2)}")
+        yield number(f"5: largest error of {name}, %", most, at(f"contacts_error{end}_most"), 1, "")
     first = lambda name: m.number("phi0.45-s23", name)
-    yield number("6a: y_L/H at the start", "large grains below: 0.225", first("yL_first"), 3, 0.225, 0.02,
-                 "geometry")
-    yield number("6a: y_L/H at the end", "no number in the text; 0.775 if separated, hence 0.705", first("yL_last"), 3,
-                 0.705, 0.055, f"decreases from one window to the next {first('yL_falls').text(0)} times in "
-                 f"{first('windows').text(0)}")
+    yield number("6a: y_L/H at the start", paper.START, first("yL_first"), 3, "")
+    yield number("6a: y_L/H at the end", paper.END, first("yL_last"), 3,
+                 f"decreases from one window to the next {first('yL_falls').text(0)} times in {first('windows').text(0)}")
     yield from orderings(first)
 
 
 def orderings(first):
-    z, f = first("z_least"), first("f_least")
-    none = lambda value, holds: None if math.isnan(value.value) else holds
-    yield claim("6b: z_L > z_S, most so when most mixed", "always",
-                f"z_L/z_S {first('z_first').text(2)} at the start, at most {first('z_most').text(2)}, "
-                f"{first('z_last').text(2)} at the end", none(z, z.value > 1),
-                f"largest at {first('z_most_at').text(0)} s; neutral contacts: up to 2")
-    last, neutral = first("f_last"), first("neutral_last")
-    yield claim("6c: f_L > f_S", "always, also \"as segregation proceeds\"",
-                f"f_L/f_S {first('f_first').text(2)} at the start, at least {f.text(2)}, {last.text(2)} at the end",
-                none(f, f.value > 1),
-                f"forces that ignore grain size would give {neutral.text(2)} at the end, and 1 at y_L/H = 0.677; the measured "
-                f"ratio over that one is {first('f_over_neutral').text(2)} on average, below 1 in {first('f_below_neutral').text(0)} of "
-                f"{first('windows').text(0)} windows")
-    hat = first("hat_last")
-    yield claim("6c, inset: f over the pressure at its depth is larger for large grains", "significantly",
-                f"ratio {first('hat_first').text(2)} at the start, at least {first('hat_least').text(2)}, "
-                f"{hat.text(2)} at the end", none(hat, first("hat_least").value > 1),
-                "neutral contacts: r z_S/z_L, because f ∝ d/z at a given pressure")
+    yield number("6b: least z_L/z_S of all windows", paper.Z_ORDER, first("z_least"), 2,
+                 f"{first('z_first').text(2)} at the start, {first('z_last').text(2)} at the end")
+    yield number("6b: largest z_L/z_S over that at the ends", paper.Z_MOST, first("z_most/ends"), 2,
+                 f"{first('z_most').text(2)}, at {first('z_most_at').text(0)} s; neutral contacts: up to 2")
+    yield number("6c: least f_L/f_S of all windows", paper.F_ORDER, first("f_least"), 2,
+                 f"{first('f_first').text(2)} at the start, {first('f_last').text(2)} at the end. Forces that ignore grain size would "
+                 f"give {first('neutral_last').text(2)} at the end; the measured ratio over that one is "
+                 f"{first('f_over_neutral').text(2)} on average")
+    yield number("6c, inset: the same over the pressure at their depth", paper.F_DEPTH_ORDER, first("hat_least"), 2,
+                 f"{first('hat_first').text(2)} at the start, {first('hat_last').text(2)} at the end; neutral contacts: r z_S/z_L")
 
 
 SECTIONS = (("Contact stress (section III)", contact_stress),

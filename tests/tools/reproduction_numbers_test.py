@@ -15,8 +15,10 @@ scripts = sys.argv.pop(1)
 sys.path.insert(0, os.path.join(scripts, "reproduce"))
 import measured  # noqa: E402
 import profiles  # noqa: E402
+import statements  # noqa: E402
 import tables  # noqa: E402
 import targets  # noqa: E402
+import verdicts  # noqa: E402
 
 
 def program(name):
@@ -96,41 +98,119 @@ class Reproduction(unittest.TestCase):
         slope, _ = measured.line_fit([-1, 0, 1], [0.1, -0.2, 0.1])
         self.assertAlmostEqual(slope.high, 12.706 * math.sqrt(0.06 / 2), 9)
 
-    def test_verdicts_follow_from_interval_and_tolerance(self):
-        value = measured.Value
-        self.assertEqual(targets.judged(value(0.04, 0.03, 0.05), 0.1, 0.05), "agrees")
-        self.assertEqual(targets.judged(value(0.04, 0.03, 0.045), 0.1, 0.05), "**differs**")
-        self.assertEqual(targets.judged(value(0.04, -0.2, 0.2), 0.1, 0.05), "undecided")
-        self.assertEqual(targets.judged(value(0.2), 0.1, 0.05), "**differs**")
-        self.assertEqual(targets.judged(value(math.nan), 0.1, 0.05), "not measured yet")
+    def test_a_statement_is_met_where_the_whole_interval_lies_in_its_range(self):
+        value, about = measured.Value, statements.number("0.1", 0.1, 0.05, "")
+        verdict = lambda *numbers: verdicts.verdict(value(*numbers), about)
+        self.assertEqual(verdict(0.08, 0.06, 0.14), "agrees")
+        self.assertEqual(verdict(0.04, 0.03, 0.045), "**differs**")
+        self.assertEqual(verdict(0.2, 0.16, 0.24), "**differs**")
+        # Crossing an edge, also both of them, decides nothing, wherever the value itself lies.
+        self.assertEqual(verdict(0.1, 0.04, 0.12), "undecided")
+        self.assertEqual(verdict(0.2, 0.14, 0.26), "undecided")
+        self.assertEqual(verdict(0.04, 0.02, 0.06), "undecided")
+        self.assertEqual(verdict(0.1, -0.2, 0.4), "undecided")
+        # A value without interval is not judged by itself.
+        self.assertEqual(verdict(0.1), "undecided")
+        self.assertEqual(verdict(math.nan), "not measured yet")
         self.assertEqual(value(-0.0001, -0.02, 0.01).text(2), "0.00 [−0.02, 0.01]")
 
-    def test_a_line_is_met_only_where_every_measured_point_is(self):
-        value, line = measured.Value, lambda x: 0.310 + 0.205 * x
-        on, low = (0.5, value(0.40, 0.39, 0.41)), (0.3, value(0.28, 0.26, 0.30))
-        self.assertEqual(targets.judged_line([on], line, 0.04), "agrees")
-        self.assertEqual(targets.judged_line([on, low], line, 0.04), "**differs**")
-        self.assertEqual(targets.judged_line([on, (0.3, value(0.28, 0.1, 0.46))], line, 0.04), "undecided")
-        self.assertEqual(targets.judged_line([on, (0.3, value(math.nan))], line, 0.04), "not measured yet")
+    def test_a_claim_is_met_by_its_edge_alone(self):
+        value = measured.Value
+        more_than_ten = statements.above("more than 10 times", 10, "")
+        self.assertEqual(verdicts.verdict(value(1000, 11, 2000), more_than_ten), "agrees")
+        self.assertEqual(verdicts.verdict(value(10.5, 9, 12), more_than_ten), "undecided")
+        self.assertEqual(verdicts.verdict(value(7.3, 7.1, 7.5), more_than_ten), "**differs**")
+        self.assertEqual(verdicts.verdict(value(-5, -6, -4), statements.below("less than 9", 9, "")), "agrees")
+
+    def test_the_difference_is_in_standard_errors_of_both_sides(self):
+        ours = measured.Value(3, -5, 11, 3)
+        self.assertAlmostEqual(verdicts.difference(ours, statements.number("0 ± 4", 0, 1, "", error=4)), 0.6)
+        # Rounded to 0.1 a number is uniform between -0.05 and 0.05: 0.1/sqrt(12).
+        rounded = statements.number("0.3", 0.3, 1, "", unit=0.1)
+        self.assertAlmostEqual(verdicts.difference(measured.Value(0.3 + 0.1 / math.sqrt(12), 0, 1, 0), rounded), 1)
+        # From the edge of a claim; a range without a number has no place to count from.
+        self.assertAlmostEqual(verdicts.difference(ours, statements.above("> 9", 9, "")), -2)
+        self.assertTrue(math.isnan(verdicts.difference(ours, statements.between("", 0, 1, ""))))
+        self.assertTrue(math.isnan(verdicts.difference(measured.Value(3), rounded.__class__("", 0, 1, "", 0))))
+
+    def test_the_standard_error_of_four_runs_is_that_of_three_degrees_of_freedom(self):
+        self.assertAlmostEqual(measured.of_runs(1, 1 - 3.182, 1 + 3.182, 4).error, 1)
+        self.assertAlmostEqual(measured.of_runs(1, 1 - 12.706, 1 + 12.706, 2).error, 1)
+
+    def test_several_points_are_judged_by_the_worst(self):
+        value, about = measured.Value, statements.number("0", 0, 1, "")
+        inside, nearer, crossing, outside, farther = (
+            (value(x, x - 0.1, x + 0.1), about) for x in (0, 0.8, 1, -2, 3))
+        self.assertIs(verdicts.worst([inside, nearer]), nearer)
+        self.assertIs(verdicts.worst([nearer, crossing, inside]), crossing)
+        self.assertIs(verdicts.worst([crossing, outside]), outside)
+        self.assertIs(verdicts.worst([farther, outside]), farther)
+        self.assertIs(verdicts.worst([inside, (value(0), about)])[0].has_interval(), False)
+        self.assertIsNone(verdicts.worst([]))
+
+    def test_the_paper_meets_its_own_statements_and_every_range_has_a_source(self):
+        each = [x for x in vars(statements).values() if isinstance(x, statements.Statement)]
+        each += [*statements.RULES.values(), *statements.RULES_LESS_SIZE.values(), statements.figure_4(0.5)]
+        each += [x for pair in statements.FIGURE_5.values() for x in pair]
+        self.assertGreater(len(each), 30)
+        for statement in each:
+            self.assertTrue(statement.source and statement.text)
+            self.assertLess(statement.low, statement.high)
+            if not math.isnan(statement.value):
+                self.assertEqual(verdicts.verdict(measured.Value(*[statement.value] * 3), statement), "agrees")
 
     def test_figure_4_is_judged_by_its_points_not_by_slope_and_level_of_a_fitted_line(self):
         # These points rise with the shear rate, and slope and level of their line are near the paper's.
-        flows = [{"phi": 0.45, "slope": 21 + k, "rate": rate, "K": -k_small, "K_low": -k_small - 0.01,
-                  "K_high": -k_small + 0.01}
-                 for k, (rate, k_small) in enumerate([(0.3, 0.2765), (0.5, 0.3125), (0.7, 0.3535)])]
+        rates, low = (0.3, 0.5, 0.7), (0.2765, 0.3125, 0.3535)
 
         class Flows:
-            def plain_flows(self):
-                return flows
+            lift = 0
 
-        [target] = targets.shear_rate(Flows())
-        self.assertEqual(target.verdict, "**differs**")
-        self.assertEqual(target.ours, "below that line by 0.095 to 0.100, 2.4 to 2.5 tolerances")
-        for flow in flows:  # a tenth of a tolerance below the line
-            for name in ("K", "K_low", "K_high"):
-                flow[name] -= 0.09
-        [target] = targets.shear_rate(Flows())
-        self.assertEqual(target.verdict, "agrees")
+            def plain_flows(self):
+                return [{"flow": k, "phi": 0.45, "slope": 21 + k, "rate": rate} for k, rate in enumerate(rates)]
+
+            def fit(self, k, name, quantity):
+                return measured.Value(*(-low[k] - self.lift + off for off in (0, -0.01, 0.01)), 0.005)
+
+        target, rises = targets.shear_rate(Flows())
+        self.assertEqual((target.verdict(), rises.verdict()), ("**differs**", "agrees"))
+        # The line is 0.3715, 0.4125, 0.4535 there.
+        self.assertEqual(target.ours, "−0.100 [−0.110, −0.090] to −0.095 [−0.105, −0.085]")
+        self.assertAlmostEqual(target.difference(), -0.1 / math.hypot(0.005, 0.001 / math.sqrt(12)), 3)
+        Flows.lift = 0.09
+        self.assertEqual(next(targets.shear_rate(Flows())).verdict(), "agrees")
+        Flows.lift = 0.065  # two points lie 0.035 below the line, with intervals of 0.01
+        self.assertEqual(next(targets.shear_rate(Flows())).verdict(), "undecided")
+
+    def test_separated_species_have_gone_all_the_way_and_mixed_ones_half_of_it(self):
+        numbers = program("numbers")
+        d, layers = 0.005, 10
+
+        def bed(large_at):
+            """Way and mixing of a bed of ten layers, of which three tenths of the area are large grains."""
+            with open(self.table, "w") as table:
+                table.write("t1[s]\ty0[m]\tarea_S[m^2]\tarea_L[m^2]\tgrains_L\n")
+                for t in (1, 2):  # in the first window large grains are below
+                    for k in range(layers):
+                        large = large_at(k) if t == 2 else float(k < 3)
+                        table.write(f"{t}\t{k * d}\t{1 - large}\t{large}\t{5 * large}\n")
+                    table.write(f"{t}\tnan\t7\t3\t15\n")
+            height = sum(large_at(k) * (k + 0.5) for k in range(layers)) / 3 / layers
+            numbers.over_windows = lambda *_: [{"t1": 1, "yL/H": 0.15}, {"t1": 2, "yL/H": height}]
+
+            class One:
+                def path(self, _):
+                    return bed_table
+
+            return numbers.separation(None, numbers.Part([One()]))
+
+        bed_table = self.table
+        for large_at, way, mixed in ((lambda k: float(k >= 7), 1, 0), (lambda k: 0.3, 0.5, 1),
+                                     (lambda k: float(k < 3), 0, 0)):
+            found = bed(large_at)
+            self.assertAlmostEqual(found["way"], way, 9)
+            self.assertAlmostEqual(found["mixed"], mixed, 9)
+        self.assertEqual(found["lowest_large"], 5)
 
 
 unittest.main()

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,30 @@ TEST(FitData, EachFilterCountsWhatItRemoves)
             "without large grains, 1 outside --ratio-range, 1 below --min-solid");
   EXPECT_EQ(data.count.used, 6u);
   EXPECT_EQ(data.samples.size(), 6u);
+}
+
+/// A layer of 2 m^2 in which `grains` grains of 0.01 m are the rarer species.
+TableRow layer_with(double grains)
+{
+  constexpr double volume = 2, solid = 0.8, area = std::numbers::pi / 4 * 0.01 * 0.01;
+  return {2, 3, 9, neutral_sums(grains * area / (solid * volume), 2, solid, volume)};
+}
+
+TEST(FitData, LayersWithFewGrainsOfTheRarerSpeciesAreLeftOutAndCounted)
+{
+  const auto table = stress_table({layer_with(2.9), layer_with(3.1), layer_with(1), layer_with(8)});
+  const auto used = [&](double grains) {
+    return read({table}, {.ratio_high = 1e6, .min_grains = grains}).count.used;
+  };
+  const auto usual = read({table}, {.ratio_high = 1e6});
+  EXPECT_EQ(usual.count.sentence(),
+            "4 rows, 2 with fewer grains of the rarer species than --min-grains");
+  EXPECT_EQ(usual.count.used, 2u);
+  EXPECT_EQ(usual.count.uncounted, 0u);
+  EXPECT_EQ(used(0), 4u);
+  EXPECT_EQ(used(2), 3u);
+  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.ratio_high = 1e6, .min_grains = 9}),
+                    "4 with fewer grains"));
 }
 
 TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
@@ -206,6 +231,49 @@ TEST(FitData, KineticStressesAreFittedWithMassesForComposition)
   EXPECT_TRUE(std::isnan(yy.minus_size));
   EXPECT_NEAR(fit(data, "size", {.component = Component::pressure}).value.slope, (9 + 1.44) / 2,
               1e-13);
+}
+
+TEST(FitData, GrainsOfAKineticTableAreCountedOrUnknown)
+{
+  auto table = kinetic_table(1.44);
+  const auto unknown = read({table}, {.min_grains = 1e9}, Quantity::kinetic);
+  EXPECT_EQ(unknown.count.used, compositions.size());
+  EXPECT_EQ(unknown.count.uncounted, compositions.size());
+  table.columns.insert(table.columns.end(), {"grains_S", "grains_L"});
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    table.rows[row].push_back(row < 2 ? 40 : 3);
+    table.rows[row].push_back(row < 3 ? 2 : 40);
+  }
+  const auto counted = read({table}, {}, Quantity::kinetic);
+  EXPECT_EQ(counted.count.uncounted, 0u);
+  EXPECT_EQ(counted.count.few_grains, 3u);
+}
+
+// Of the same rows B from yy and from the trace, whichever of them was asked for.
+TEST(FitData, TheOtherComponentStandsBesideTheOneAskedFor)
+{
+  const auto data = read({kinetic_table(1.44)}, {}, Quantity::kinetic);
+  const auto b_of = [](double slope) { return 2 * (1 - slope) / (1 + slope); };
+  for (const auto component : {Component::yy, Component::pressure}) {
+    auto both = fit(data, "size", {.component = component});
+    add_components(both, data, {.component = component}, synthetic::no_bootstrap(data));
+    EXPECT_NEAR(both.B_yy.value, b_of(1.44), 1e-13);
+    EXPECT_NEAR(both.B_pressure.value, b_of((9 + 1.44) / 2), 1e-13);
+  }
+}
+
+TEST(FitData, WithoutTheSumsOfAComponentItHasNoB)
+{
+  auto table = stress_table(neutral_rows(0.1));
+  const auto column = table.column("M_xx");
+  table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(column));
+  for (auto& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
+  table.header.emplace_back("not kept", "M_xx");
+  const auto data = read({table});
+  auto of_yy = fit(data, "half");
+  add_components(of_yy, data, {}, synthetic::no_bootstrap(data));
+  EXPECT_EQ(of_yy.B_yy.value, of_yy.value.B_half);
+  EXPECT_TRUE(std::isnan(of_yy.B_pressure.value));
 }
 
 TEST(FitData, ATableOfAnotherToolIsRefusedWithTheNameOfTheRightOne)

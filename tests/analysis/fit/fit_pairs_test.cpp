@@ -70,8 +70,8 @@ std::vector<RuleFit> fits_of(const Table& table, std::size_t samples = 0)
   const std::vector<PartitionRule> rules{{}};
   const std::vector<Table> tables{table};
   const auto read = read_fit_tables(tables, Quantity::contact, rules);
-  return fit_pairs(read, Quantity::contact, {}, all_pairs(read[0].species.size()), rules, {},
-                   {samples, 1}, true);
+  return fit_pairs(read, Quantity::contact, {.min_grains = 0}, all_pairs(read[0].species.size()),
+                   rules, {}, {samples, 1}, true);
 }
 
 const SpeciesList five{{"p", 1}, {"q", 1.3}, {"r", 2}, {"s", 2.2}, {"t", 4}};

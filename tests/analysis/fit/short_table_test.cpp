@@ -58,6 +58,23 @@ TEST(ShortTable, RoundsToThreeDecimalsAndLeavesADashWhereThereIsNoNumber)
             "2.100 there\n");
 }
 
+TEST(ShortTable, BOfThePressureStandsBesideThatOfYy)
+{
+  auto both = report();
+  both.rules.resize(2);
+  both.rules[0].B_pressure = {0.0412, 0.0388, 0.0436};
+  const auto text = short_table(both);
+  EXPECT_NE(text.find("rule       B     95 % interval  B, pressure     95 % interval  share"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("size   0.034   0.029 to  0.039        0.041   0.039 to  0.044  0.667"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("half  -0.315  -0.321 to -0.309            -                 -  0.500"),
+            std::string::npos)
+      << text;
+}
+
 TEST(ShortTable, EndsWithTheDoubts)
 {
   auto doubtful = report();

@@ -1,0 +1,49 @@
+"""The one rule by which measured numbers meet a statement of the paper.
+
+*agrees* where the whole 95 % interval lies in the statement's range, *differs* where it lies wholly outside,
+*undecided* where it crosses an edge or does not exist. Several points (a line, "always") are judged by the worst.
+Beside it stands the difference from the paper's value in standard errors, which asks for more: it knows no room
+for what the paper leaves open.
+"""
+import math
+
+AGREES, UNDECIDED, DIFFERS, NOT_YET = "agrees", "undecided", "**differs**", "not measured yet"
+FROM_BEST_TO_WORST = (AGREES, UNDECIDED, DIFFERS, NOT_YET)
+
+
+def verdict(value, statement):
+    if math.isnan(value.value):
+        return NOT_YET
+    if not value.has_interval():
+        return UNDECIDED
+    if statement.low <= value.low and value.high <= statement.high:
+        return AGREES
+    if value.high < statement.low or value.low > statement.high:
+        return DIFFERS
+    return UNDECIDED
+
+
+def reference(statement):
+    """What the difference is taken from: the paper's value, or the edge of a claim that has only one."""
+    if not math.isnan(statement.value):
+        return statement.value
+    edges = [edge for edge in (statement.low, statement.high) if math.isfinite(edge)]
+    return edges[0] if len(edges) == 1 else math.nan
+
+
+def difference(value, statement):
+    """(ours - paper)/sqrt(s^2 + s_paper^2); nan where there is no number to take it from, or no error."""
+    error = math.hypot(value.error, statement.error)
+    return (value.value - reference(statement)) / error if error > 0 else math.nan
+
+
+def margin(value, statement):
+    """How far inside the range the interval ends, in its units; negative outside."""
+    return min(value.low - statement.low, statement.high - value.high)
+
+
+def worst(points):
+    """The pair (value, statement) that decides on several of them; None if there is none."""
+    rank = lambda point: (FROM_BEST_TO_WORST.index(verdict(*point)),
+                          -margin(*point) if point[0].has_interval() else -math.inf)
+    return max(points, key=rank, default=None)
