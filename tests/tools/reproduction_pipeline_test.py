@@ -6,6 +6,8 @@ Usage: reproduction_pipeline_test.py SCRIPTS
 grseg-fit and grseg-micro are stood in for by a script that prints what the test put down for its arguments, so
 that what is asked of them, and what is made of their answers, is tested and not they.
 """
+import importlib.machinery
+import importlib.util
 import json
 import math
 import os
@@ -19,8 +21,21 @@ scripts = sys.argv.pop(1)
 sys.path.insert(0, os.path.join(scripts, "reproduce"))
 import measured  # noqa: E402
 import profiles  # noqa: E402
+import statements  # noqa: E402
 import tables  # noqa: E402
+import targets  # noqa: E402
+import verdicts  # noqa: E402
 
+
+def program(name):
+    """A script without .py as a module, not run."""
+    loader = importlib.machinery.SourceFileLoader(name, os.path.join(scripts, "reproduce", name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+numbers = program("numbers")
 NAN = math.nan
 D, G, SLOPE, RHO = 0.005, 9.8, math.radians(23), 1.0
 UNIT = RHO * G * D  # of stress, N/m
@@ -120,76 +135,78 @@ class Pipeline(unittest.TestCase):
     def tearDown(self):
         self.temporary.cleanup()
 
-    def numbers(self, of):
-        """Values by name, of one set."""
-        return {row["name"]: row["value"] for row in self.campaign.made_by("numbers") if row["of"] == of}
-
 
 class Numbers(Pipeline):
+    """The measurements of scripts/reproduce/numbers one by one, on a run and on answers known by heart."""
+
+    def part(self, **quantities):
+        self.campaign.run("phi0.30-s23-seed1", **quantities)
+        return numbers.Part(tables.runs_in(self.campaign.tables))
+
+    def with_answers(self, answer, measure, part):
+        """`answer(words)` gives the rows that a program prints."""
+        told, numbers.tables.program = numbers.tables.program, \
+            lambda options, name, *words, columns=None: ({}, answer([name, *map(str, words)]))
+        try:
+            return measure(None, part)
+        finally:
+            numbers.tables.program = told
+
     def bed(self, layers=15, prefactor=0.5, decay=7.5):
         """A bed at rest whose mixed contacts carry the weight above, and that is hot as
-        prefactor exp(-y/(decay d_L)) rho g d_S, per bulk volume, at every time but the first 100 s of 150."""
+        prefactor exp(-y/(decay d_L)) rho g d_S, per bulk volume."""
         stress, kinetic = [], []
-        for t in (0, 149):
-            for n in range(layers):
-                y = (n + 0.5) * 4 * D
-                volume = layer(n)["V"]
-                above = 0.8 * G * math.cos(SLOPE) * (layers * 4 * D - y)
-                hot = prefactor * math.exp(-y / (decay * 2 * D)) * UNIT
-                stress.append(layer(n, t, M_xx=above * volume, M_yy=(above - hot) * volume))
-                kinetic.append(moving(n, t, (1 if t else 3) * hot * volume, bias=0.25 * hot * volume))
-        return stress, kinetic
+        for n in range(layers):
+            y = (n + 0.5) * 4 * D
+            volume = layer(n)["V"]
+            above = 0.8 * G * math.cos(SLOPE) * (layers * 4 * D - y)
+            hot = prefactor * math.exp(-y / (decay * 2 * D)) * UNIT
+            stress.append(layer(n, M_xx=above * volume, M_yy=(above - hot) * volume))
+            kinetic.append(moving(n, energy=hot * volume, bias=0.25 * hot * volume))
+        return numbers.pressures(None, self.part(stress=stress, kinetic=kinetic))
 
     def test_kinetic_pressure_that_falls_exponentially_has_its_prefactor_at_the_base_and_its_length_in_large_diameters(self):
-        stress, kinetic = self.bed()
-        self.campaign.run("phi0.30-s23-seed1", stress=stress, kinetic=kinetic, segregation=[{"t0": 0, "t1": 150}])
-        # Quarters of the last third of the time, of which the last alone has a window.
-        found = self.numbers("phi0.30-s23")
-        self.assertAlmostEqual(found["K_prefactor"], 0.5, 7)
-        self.assertAlmostEqual(found["K_decay"], 7.5, 6)
-        self.assertAlmostEqual(found["K_solid_prefactor"], 0.5 / 0.8, 7)
+        found = self.bed()
+        self.assertAlmostEqual(found["K_prefactor"], 0.5, 9)
+        self.assertAlmostEqual(found["K_decay"], 7.5, 9)
+        self.assertAlmostEqual(found["K_solid_prefactor"], 0.5 / 0.8, 9)
         # 4 to 56 d_S: the lowest of the layers 4 d_S high lies around 6 d_S.
-        self.assertAlmostEqual(found["K_lowest"], 0.5 * math.exp(-6 / 15), 7)
+        self.assertAlmostEqual(found["K_lowest"], 0.5 * math.exp(-6 / 15), 9)
         # About the layer's mean two biases of a quarter are added to xx, half of which is pressure.
-        self.assertAlmostEqual(found["shear_share"], 0.25, 7)
+        self.assertAlmostEqual(found["shear_share"], 0.25, 9)
 
     def test_mixed_contacts_alone_may_carry_the_whole_bed(self):
-        stress, kinetic = self.bed()
-        self.campaign.run("phi0.30-s23-seed1", stress=stress, kinetic=kinetic, segregation=[{"t0": 0, "t1": 150}])
-        self.assertAlmostEqual(self.numbers("phi0.30-s23")["weight"], 1, 7)
+        self.assertAlmostEqual(self.bed()["weight"], 1, 9)
 
-    def structure(self, frames, weights, slopes, phis):
-        """Layers of one window inside, with the grains of their rarer species and s = r (z_S/z_L)(f_S/f_L)."""
-        sums = [{"t0": 0.0, "y0": 4 * D * (k + 1), "grains_S": w, "grains_L": w + 7} for k, w in enumerate(weights)]
-        self.campaign.run("phi0.45-s23-seed1", micro=sums)
+    def test_b_of_the_micro_structure_weighs_by_frames_and_grains_of_the_rarer_species_within_a_hundred_to_one(self):
+        # ln s is -0.1 with weight 2 x 30 and -0.4 with 1 x 20; a layer of nearly pure small grains is left out.
+        frames, weights, phis = (2, 1, 5), (30, 20, 1), (0.5, 0.3, 0.001)
+        slopes = (math.exp(-0.1), math.exp(-0.4), 5.0)
+        part = self.part(micro=[{"t0": 0.0, "y0": float(k), "grains_S": w, "grains_L": w + 7} for k, w in enumerate(weights)])
+        rows = [{"t0": 0.0, "y0": float(k), "frames": frames[k], "phi_L": phis[k], "s_Pi": slopes[k]} for k in range(3)]
+        s = math.exp((60 * -0.1 + 20 * -0.4) / 80)
+        found = self.with_answers(lambda _: rows, lambda options, part: numbers.b_of_structure(options, part.runs, []), part)
+        self.assertAlmostEqual(found, 2 * (1 - s) / (1 + s), 9)
+
+    def test_errors_of_pi_are_sizes_and_the_mixed_share_lies_above_neutral_contacts_where_it_is_larger(self):
         bins = [{"phi_L": 0.6, "mixed_share": 0.49, "neutral_share": 0.50, "error": -0.02, "error_S": 0.05,
                  "error_L": -0.01, "error_printed": 0.96, "error_S_printed": 1.1, "error_L_printed": 0.98},
                 {"phi_L": 0.1, "mixed_share": 0.13, "neutral_share": 0.10, "error": 0.04, "error_S": 0.07,
                  "error_L": 0.01, "error_printed": 1.08, "error_S_printed": 1.14, "error_L_printed": 1.02}]
-        self.campaign.answer("--pool", "composition", rows=bins)
-        self.campaign.answer("4dS:56dS", rows=[
-            {"t0": 0.0, "y0": 4 * D * (k + 1), "frames": frames[k], "phi_L": phis[k], "s_Pi": slopes[k]}
-            for k in range(len(weights))])
-
-    def test_b_of_the_micro_structure_weighs_by_frames_and_grains_of_the_rarer_species_within_a_hundred_to_one(self):
-        # ln s is -0.1 with weight 2 x 30 and -0.4 with 1 x 20; a layer of nearly pure small grains is left out.
-        self.structure((2, 1, 5), (30, 20, 1), (math.exp(-0.1), math.exp(-0.4), 5.0), (0.5, 0.3, 0.001))
-        s = math.exp((60 * -0.1 + 20 * -0.4) / 80)
-        self.assertAlmostEqual(self.numbers("mixtures")["ends_B"], 2 * (1 - s) / (1 + s), 7)
-
-    def test_errors_of_pi_are_sizes_and_the_mixed_share_lies_above_neutral_contacts_where_it_is_larger(self):
-        self.structure((1,), (1,), (1.0,), (0.5,))
-        found = self.numbers("mixtures")
+        layers = [{"t0": 0.0, "y0": 0.0, "frames": 1, "phi_L": 0.5, "s_Pi": 1.0}]
+        part = self.part(micro=[{"t0": 0.0, "y0": 0.0, "grains_S": 1, "grains_L": 1}])
+        answer = lambda words: bins if "composition" in words else layers
+        found = self.with_answers(answer, numbers.estimates, part)
         self.assertAlmostEqual(found["contacts_error_mean"], 3)
         self.assertAlmostEqual(found["contacts_error_most"], 4)
         self.assertAlmostEqual(found["contacts_error_S_signed"], 6)
         self.assertAlmostEqual(found["contacts_error_printed_most"], 108)
+        found = self.with_answers(answer, numbers.mixed_share, part)
         self.assertAlmostEqual(found["mixed_off_least"], -0.01)
         self.assertAlmostEqual(found["mixed_off_most"], 0.03)
         self.assertEqual((found["mixed_most"], found["mixed_most_at"]), (0.49, 0.6))
 
     def test_the_end_of_figure_6_is_the_mean_of_its_last_twelve_and_a_half_seconds(self):
-        self.campaign.run("phi0.45-s23-seed1", micro=[{"t0": 0}])
         rows = []
         for k in range(20):  # windows of 2.5 s: five of them are the end
             late = k >= 15
@@ -197,8 +214,7 @@ class Numbers(Pipeline):
                          "z_L": 2.0 + (0.5 + 0.1 * (k - 17) if late else 1.0 if k == 4 else 0), "f_S": 1.0,
                          "f_L": 3.0 if late else 2.0, "f_depth_S": 1.0, "f_depth_L": 4.0,
                          "f_weight_neutral_S": 1.0, "f_weight_neutral_L": 2.5})
-        self.campaign.answer("grseg-micro", rows=rows)
-        found = self.numbers("phi0.45-s23")
+        found = self.with_answers(lambda _: rows, numbers.over_time, self.part(micro=[{"t0": 0}]))
         self.assertAlmostEqual(found["yL_last"], 0.02 * 17)
         self.assertAlmostEqual(found["z_last"], 1.25)
         self.assertEqual((found["z_most"], found["z_most_at"], found["f_below_neutral"]), (1.5, 10, 15))
@@ -206,14 +222,42 @@ class Numbers(Pipeline):
     def test_a_push_in_the_direction_of_the_weight_is_negative_and_outside_of_the_middle_none_counts(self):
         rows = [{"t0": 0, "t1": 1, "y0": n * 4 * D, "y1": (n + 1) * 4 * D, "gravity_L_y": -2.0, "push": push,
                  "push_kinetic": -0.01, "drag": 0.0} for n, push in ((0, 9.0), (1, 0.05), (2, 0.03), (14, 9.0))]
-        self.campaign.run("phi0.45-s23-seed1", balance=rows, segregation=[{"t0": 0, "t1": 1}])
-        found = self.numbers("phi0.45-s23")
-        self.assertEqual(found, {})  # quarters of a single window hold none
-        for seed in (2, 3):
-            self.campaign.run(f"phi0.45-s23-seed{seed}", balance=rows, segregation=[{"t0": 0, "t1": 1}])
-        found = self.numbers("phi0.45-s23")
+        found = numbers.pushes(None, self.part(balance=rows))
         self.assertAlmostEqual(found["push"], 1000 * 0.08 / 4)
         self.assertAlmostEqual(found["push_kinetic"], -1000 * 0.02 / 4)
+
+    def test_large_grains_have_gone_the_whole_way_where_they_fill_the_upper_part_of_the_bed(self):
+        # 30 % of large grains: their centre lies at 0.15 of the height below, at 0.85 above the small ones.
+        def way(height):
+            micro = [{"t1": 1.0, "y0": 0.0, "area_S": 0.7, "area_L": 0.0, "grains_L": 0},
+                     {"t1": 1.0, "y0": 1.0, "area_S": 0.0, "area_L": 0.3, "grains_L": 9}]
+            with tempfile.TemporaryDirectory() as folder:
+                self.campaign = Campaign(folder)
+                return self.with_answers(lambda _: [{"t1": 1.0, "y0": NAN, "yL/H": height}], numbers.separation,
+                                         self.part(micro=micro))["way"]
+        self.assertAlmostEqual(way(0.15), 0)
+        self.assertAlmostEqual(way(0.85), 1)
+
+    def test_differences_are_early_minus_late_pressure_minus_yy_and_kinetic_over_contact(self):
+        b = {"early": 0.05, "late": 0.03, "pressure": 0.045, "kinetic": -0.4, "all": 0.04}
+
+        def answer(words):
+            which = "early" if "--end" in words else "late" if "--begin" in words else \
+                "pressure" if "pressure" in words else "kinetic" if "kinetic" in words else "all"
+            self.assertEqual([words[words.index(name) + 1] for name in ("--end", "--begin") if name in words],
+                             {"early": ["60"], "late": ["100"]}.get(which, []))
+            return [{"B_half": b[which]}]
+
+        found = self.with_answers(answer, numbers.differences, self.part())
+        self.assertAlmostEqual(found["early_less_late"], 0.02)
+        self.assertAlmostEqual(found["pressure_less_yy"], 0.005)
+        self.assertAlmostEqual(found["B_kappa/B"], 10)
+
+    def test_the_interval_of_a_number_is_students_t_times_its_standard_error_over_seeds(self):
+        answers = iter([{"n": 1.0}, {"n": 2.0}, {"n": 3.0}])
+        [line] = numbers.collected(None, "mixtures", [numbers.Part([]) for _ in range(3)], lambda *_: next(answers))
+        self.assertAlmostEqual(line["error"], math.sqrt(1 / 3), 3)
+        self.assertAlmostEqual(line["high"] - line["value"], 4.3026527 * math.sqrt(1 / 3), 3)
 
 
 class Fits(Pipeline):
