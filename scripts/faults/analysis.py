@@ -1,6 +1,5 @@
 """Faults in what computes B, its intervals and the verdicts. Chosen from the sources before any test in
 tests/analysis had been read; each is a slip that a careful but tired physicist could make."""
-import concurrent.futures
 import glob
 import os
 import re
@@ -412,7 +411,7 @@ FAULTS = [
 
 LIBRARY = "grseg_analysis"
 OUTPUT = "docs/studies/fault-injection.md"
-# The tests of each room of analysis/ and of the rooms that build on it.
+# Whose tests are asked for a fault in a room: its own, then those of rooms that build on it.
 ASKED = {"frames": ["frames", "stress", "micro", "balance", "segregation", "fit", "check"],
          "statistics": ["statistics", "segregation", "fit"], "stress": ["stress", "micro", "fit", "check"],
          "micro": ["micro"], "balance": ["balance"], "segregation": ["segregation"], "fit": ["fit"]}
@@ -424,10 +423,14 @@ TARGETS = [f"analysis_{room}_test" for room in ROOMS]
 OPTIONS = ["-DCMAKE_CXX_FLAGS_RELEASE=-O1"]  # a fault is compiled more often than it runs; assertions are on
 
 
-def of_rooms(copy, rooms):
-    with concurrent.futures.ThreadPoolExecutor(copy.jobs) as pool:
-        programs = [f"analysis_{room}_test" for room in rooms]
-        return sum(pool.map(lambda name: copy.failures(name, seconds=60), programs), [])
+def of_rooms(copy, rooms, all_of_them=False):
+    """Names of the tests that fail, of the first room where any does, or of all of them."""
+    names = []
+    for room in rooms:
+        names += copy.failures(f"analysis_{room}_test", seconds=60)
+        if names and not all_of_them:
+            break
+    return names
 
 
 def of_whole_programs(copy):
@@ -438,18 +441,21 @@ def of_whole_programs(copy):
 
 
 def of_scripts(copy):
-    """Names of the tests of scripts/reproduce that fail on tables known by heart."""
+    """Names of the tests of scripts/reproduce that fail on tables known by heart, of the first file where any does."""
     names = []
     for test in sorted(glob.glob(f"{copy.tree}/tests/tools/reproduction_*_test.py")):
         done = run_quietly(["/usr/bin/python3", "-B", test, f"{copy.tree}/scripts"])
         failed = re.findall(r"^(?:FAIL|ERROR): test_(\w+)", done.stdout, re.MULTILINE)
         names += failed or ([os.path.basename(test)] if done.returncode != 0 else [])
+        if names:
+            break
     return names
 
 
 def noticed(copy, path):
-    """Names of the tests that fail. Those of whole programs are asked only where no test of a room notices. That a
-    number of docs/studies/reproduction.md changes is not counted: it would be accepted with the next run."""
+    """Names of the tests that fail: of the fault's own room; where none notices, of the rooms that build on it
+    and then of whole programs. That a number of docs/studies/reproduction.md changes is not counted: the page is
+    made again with every campaign."""
     if path.startswith("scripts/"):
         return {"near": of_scripts(copy), "far": []}
     near = of_rooms(copy, ASKED[path.split("/")[1]])
@@ -458,7 +464,7 @@ def noticed(copy, path):
 
 def sound(copy):
     """Tests that fail without a fault."""
-    return of_rooms(copy, ROOMS) + of_scripts(copy)
+    return of_rooms(copy, ROOMS, all_of_them=True) + of_scripts(copy)
 
 
 def table(results):
