@@ -4,11 +4,12 @@ import json
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
 
-PARTS = ["CMakeLists.txt", "analysis", "data", "docs", "formats", "scripts", "sim", "tests"]
+FOLDERS = ["analysis", "data", "formats", "scripts", "sim", "tests"]
 
 
 def run_quietly(command, **options):
@@ -16,26 +17,47 @@ def run_quietly(command, **options):
                           check=False, **options)
 
 
+def without_joined_libraries(text):
+    """CMakeLists.txt that compiles each file of the libraries alone, so that a fault costs one file, not a
+    room; tests stay joined."""
+    return re.sub(r"\ngrseg_join_sources\(grseg_(analysis|simulator)\)", "", text)
+
+
+def mirror(source, copy, change=lambda text: text):
+    """Makes the copy of a file or folder equal. Contents decide, not times: a file may have been edited while an
+    earlier copy of it was compiled, or broken. What is equal keeps its time."""
+    if os.path.isdir(source):
+        os.makedirs(copy, exist_ok=True)
+        names = [name for name in os.listdir(source) if name != "__pycache__"]
+        for name in set(os.listdir(copy)) - set(names):
+            left = os.path.join(copy, name)
+            shutil.rmtree(left) if os.path.isdir(left) else os.remove(left)
+        for name in names:
+            mirror(os.path.join(source, name), os.path.join(copy, name))
+        return
+    with open(source, "rb") as file:
+        content = change(file.read())
+    if os.path.exists(copy):
+        with open(copy, "rb") as file:
+            if file.read() == content:
+                return
+    with open(copy, "wb") as file:
+        file.write(content)
+    shutil.copymode(source, copy)
+
+
 class Copy:
-    """The sources as they are now, in WORK/tree; untouched files keep their times."""
+    """The sources as they are now, in WORK/tree, built with `options` of CMake."""
 
     def __init__(self, work, jobs, options=()):
         self.work, self.tree, self.jobs, self.options = work, f"{work}/tree", jobs, options
         self.bin = f"{self.tree}/build/bin"
         self.commit = run_quietly(["git", "rev-parse", "--short=7", "HEAD"]).stdout.strip()
         os.makedirs(self.tree, exist_ok=True)
-        for part in PARTS:
-            subprocess.run(["cp", "-rpu", part, self.tree], check=True)
-        self.compile_each_file_of_the_libraries()
-
-    def compile_each_file_of_the_libraries(self):
-        """So that a fault costs one file, not a room; tests stay joined."""
-        path = f"{self.tree}/CMakeLists.txt"
-        text = open(path, encoding="utf-8").read()
-        alone = re.sub(r"\ngrseg_join_sources\(grseg_(analysis|simulator)\)", "", text)
-        if alone != text:
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(alone)
+        for part in FOLDERS:
+            mirror(part, f"{self.tree}/{part}")
+        mirror("CMakeLists.txt", f"{self.tree}/CMakeLists.txt",
+               lambda text: without_joined_libraries(text.decode()).encode())
 
     def build(self, targets):
         if not os.path.exists(f"{self.tree}/build/build.ninja"):

@@ -382,6 +382,45 @@ class Statistics(unittest.TestCase):
             self.assertAlmostEqual(profiles.last_third(path), 100)
 
 
+class Verdicts(unittest.TestCase):
+    def test_b_is_positive_only_where_that_of_every_mixture_is_however_sure_all_together_are(self):
+        value = measured.Value
+
+        class Mixtures:
+            of = {"phi0.06-s23": value(0.03, -0.01, 0.07), "phi0.45-s23": value(0.04, 0.03, 0.05),
+                  "mixtures": value(0.04, 0.035, 0.045)}
+
+            def mixtures(self):
+                return [{"flow": flow, "B": self.of[flow].value} for flow in self.of if flow != "mixtures"]
+
+            def fit(self, which, *_, **__):
+                return self.of[which]
+
+            def range_over_mixtures(self, _):
+                return ""
+
+            def of_scan(self, _):
+                return value(0.65)
+
+        m = Mixtures()
+        self.assertEqual(targets.sign_of_b(m).verdict(), verdicts.UNDECIDED)
+        m.of["phi0.06-s23"] = value(0.03, 0.01, 0.05)
+        self.assertEqual(targets.sign_of_b(m).verdict(), verdicts.AGREES)
+        m.of["phi0.06-s23"] = value(-0.03, -0.05, -0.01)
+        self.assertEqual(targets.sign_of_b(m).verdict(), verdicts.DIFFERS)
+
+    def test_a_number_rounded_to_hundredths_is_as_uncertain_as_one_drawn_evenly_between_its_neighbours(self):
+        # Variance of an even distribution of width w: w^2/12.
+        self.assertAlmostEqual(statements.number("0.98", 0.98, 0.1, "", unit=0.01).error, 0.01 / math.sqrt(12), 12)
+
+    def test_the_difference_is_in_standard_errors_of_both(self):
+        statement = statements.number("1 ± 0.3", 1.0, 0.5, "", error=0.3)
+        self.assertAlmostEqual(verdicts.difference(measured.Value(2.0, 1.0, 3.0, 0.4), statement), 2)
+
+    def test_the_standard_error_of_four_seeds_is_half_of_their_interval_over_students_t_for_three_degrees(self):
+        self.assertAlmostEqual(measured.of_runs(1.0, 0.0, 2.0, 4).error, 1 / 3.1824463, 4)
+
+
 class Tables(unittest.TestCase):
     def measured(self, fits, flows):
         with tempfile.TemporaryDirectory() as folder:
