@@ -135,6 +135,59 @@ def volumes(run, frames, h, layers):
     return content
 
 
+def parts_of_kernel(y, h, layers, width):
+    """Of a Gaussian about a height, what lies in each layer; the outer ones take what is beyond them."""
+    below = [0.5 * math.erfc((y - n * h) / width / math.sqrt(2)) for n in range(1, layers)]
+    return np.diff([0.0, *below, 1.0])
+
+
+def share_of_larger(rule, run, c):
+    """Of a mixed contact, by the words of the rule; `drop` has none."""
+    i, j, part = c["i"], c["j"], c["part_i"]
+    r_large, r_small = run.radius[i], run.radius[j]
+    if run.species[i] < run.species[j]:
+        r_large, r_small, part = r_small, r_large, 1 - part
+    return {"size": r_large / (r_large + r_small), "contact-point": part, "half": 0.5, "drop": None,
+            f"power:{POWER:g}": r_large**POWER / (r_large**POWER + r_small**POWER)}[rule]
+
+
+def forces_by_rule(run, frames, h, layers, rule, width):
+    """By species and layer, sums of force per frame: C = sum f [S(y) - S(cut)], beta = sum f S(cut) and
+    N = sum f S(y) of the contacts, as the rule cuts mixed ones; those with the base where they touch."""
+    shape = (run.species_count, layers, run.dimension)
+    contact, interaction, at_centre = (np.zeros(shape) for _ in range(3))
+    for f in frames:
+        count = layers_of(run, [f], h)
+
+        def booked(y, force):
+            parts = np.zeros(layers)
+            parts[:count] = parts_of_kernel(y, h, count, width)
+            return np.outer(parts, force) / len(frames)
+
+        for c in contacts_of(run, f):
+            mobile = run.is_mobile(c["j"])
+            mixed = mobile and run.species[c["i"]] != run.species[c["j"]]
+            ends = [(c["i"], c["y_i"], c["force"])]
+            if mobile:
+                ends.append((c["j"], f["position"][c["j"]][1], -c["force"]))
+            for g, y, force in ends:
+                s, cut = run.species[g], c["y_contact"]
+                if mixed:
+                    p = share_of_larger(rule, run, c)
+                    if p is None:
+                        cut = y
+                    else:
+                        part = p if run.species[c["i"]] > run.species[c["j"]] else 1 - p
+                        cut = c["y_i"] + part * (c["y_j"] - c["y_i"])
+                at_centre[s] += booked(y, force)
+                if mixed:
+                    interaction[s] += booked(cut, force)
+                if mixed or not mobile:
+                    contact[s] -= booked(cut, force)
+                contact[s] += booked(y, force)
+    return contact, interaction, at_centre
+
+
 def mobile_grains(run, frames):
     """Number, height, and velocity and spin in one."""
     for f in frames:

@@ -7,8 +7,9 @@ For a few frames of RUN.h5, of a short fresh run of SCENE.ini, and of runs witho
 and three dimensions and of two and three species, in some of which grains come and go: sums of force
 (x) branch by pair of species under three assignments, partial stresses by three rules, volumes of
 grains, kinetic stresses about four means of the velocities after a step and in its middle,
-coordination z and mean force f, by layer; then BIN/grseg-stress, grseg-kinetic and grseg-micro on
-the same frames. Every number must agree to 1e-10 of the largest
+coordination z and mean force f, divergence of stress and interaction of each species by five rules,
+by layer; then BIN/grseg-stress, grseg-kinetic, grseg-micro and grseg-balance on the same frames.
+Every number must agree to 1e-10 of the largest
 component of its tensor. Then faults are put into what is read here (raw_run.py), each of which must
 make a difference.
 """
@@ -29,6 +30,7 @@ TOLERANCE = 1e-10
 SYNTHETIC = ((2, "small,large"), (2, "fine,middle,coarse"), (3, "small,large"),
              (3, "fine,middle,coarse"), (2, "small,large", "changing"),
              (3, "fine,middle,coarse", "changing"))
+RULES = ("size", "contact-point", "half", "drop", f"power:{by_definition.POWER:g}")
 ASSIGNMENTS = ("contact-point", "branch", "grain")
 MEANS = ("profile", "layer", "instant", "instant-unbiased")
 compared = 0
@@ -155,6 +157,21 @@ class Window:
                         quotient(sum(row[f"sum_f_{p}"] for p in pairs),
                                  sum(row[f"n_{p}"] for p in pairs)))
 
+    def check_balance(self, rows):
+        run, columns = self.run, self.columns
+        self.require_rows(rows, self.layers)
+        volume = run.volume_of_layer(self.h)
+        for rule in RULES:
+            of_rule = self.definition(by_definition.forces_by_rule, rule, run.small_diameter)
+            names = (f"contact_{{}}_{{}}@{rule}", f"interaction_{{}}_{{}}@{rule}", "N_{}_{}")
+            for n, row in enumerate(rows):
+                terms = max(abs(of_all[:, n]).max() for of_all in of_rule) / volume
+                for name, of_all in zip(names, of_rule):
+                    for s, species in enumerate(columns.names):
+                        tools = [row[name.format(species, axis)] for axis in columns.axes]
+                        compare(f"{self.place(n)}: {name.format(species, '*')}",
+                                of_all[s][n] / volume, tools, terms)
+
 
 def check(bin_folder, path, frames, layer, fault=None):
     """Two windows, each of half of the frames."""
@@ -179,6 +196,7 @@ def check(bin_folder, path, frames, layer, fault=None):
         for mean, velocity in itertools.product(MEANS, ("after", "middle")):
             rows = rows_of("kinetic", "--mean", mean, "--velocity", velocity)
             window.check_kinetic(rows[number], mean, velocity)
+        window.check_balance(rows_of("balance", "--partition", ",".join(RULES))[number])
         if window.columns.two:
             window.check_micro(rows_of("micro")[number])
 
