@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t largest_count = 1'000'000'000'000'000;  // a double counts up to there
 constexpr std::int32_t most_periods = 1'000'000'000;
 constexpr double farthest = 1e12;     // in d_S: beyond, a double knows no distance of neighbours
-constexpr double largest_radius = 1;  // in d_L
+constexpr double largest_radius = 1;  // in d_L, or in base-diameter
 constexpr std::size_t most_in_cell = 64;  // grains whose centres lie in one square of side d_S
 constexpr double unit_tolerance = 1e-9;   // of the length of a normal
 
@@ -202,10 +202,10 @@ class Check {
     require(c_.state.steps_done >= 0 && c_.state.steps_done <= scene.steps_in_all(),
             fmt::format("/state/steps_done is {}, and the run has {} steps", c_.state.steps_done,
                         scene.steps_in_all()));
-    const double most = largest_radius * scene.large_diameter;
+    const double most = largest_radius * std::max(scene.large_diameter, scene.base_diameter);
     each(
         "/grains/radius", c_.grains.radius, [most](double radius) { return radius <= most; },
-        "is larger than the large grains' diameter");
+        "is larger than the diameter of large grains and base grains");
     const double end = farthest * scene.small_diameter;
     const auto near = [end](const Vec2& x) { return x.cwiseAbs().maxCoeff() <= end; };
     for (const auto& [path, positions] : {std::pair{"/state/position", &c_.state.position},

@@ -32,14 +32,68 @@ double width_of(const Room& room)
   return room.right - room.left;
 }
 
-/// Rows of jittered grains from height `y` up; returns the height above the last row.
-double add_layer(Packing& packing, const Scene& scene, Species species, long count, double y,
-                 RandomNumbers& random)
+/// A grain in the air.
+struct Falling {
+  Species species;
+  double radius;  // m
+  Vec2 at;        // m
+};
+
+/// Grains in the air, and the height above them, m.
+struct Shower {
+  std::vector<Falling> grains;
+  double top;
+};
+
+/// A square of the lattice that falls, and the grains in it: one of the lattice's largest species,
+/// or up to `per_side` x `per_side` smaller ones.
+struct Cell {
+  Species species;
+  long per_side, grains;
+};
+
+double nominal_diameter(const Scene& scene, Species species)
 {
-  const double nominal = species == Species::large ? scene.large_diameter : scene.small_diameter;
-  const double largest = nominal * (1 + scene.spread / 2);
-  const double row_height = loose * largest;
-  for (long k = 0; k < count; y += row_height) {
+  return species == Species::large ? scene.large_diameter : scene.small_diameter;
+}
+
+double largest_diameter(const Scene& scene, Species species)
+{
+  return nominal_diameter(scene, species) * (1 + scene.spread / 2);
+}
+
+/// A row of the lattice, m.
+struct Row {
+  double left, bottom, spacing, height;
+};
+
+/// Adds the jittered grains of the cell at `place` of `row`.
+void fill_cell(Shower& shower, const Scene& scene, const Row& row, long place, const Cell& cell,
+               RandomNumbers& random)
+{
+  const double nominal = nominal_diameter(scene, cell.species);
+  const double largest = largest_diameter(scene, cell.species);
+  const auto per_side = static_cast<double>(cell.per_side);
+  const double slack = row.spacing / per_side - largest;
+  for (long k = 0; k < cell.grains; ++k) {
+    const double along = (static_cast<double>(k % cell.per_side) + 0.5) / per_side;
+    const double up = (static_cast<double>(k / cell.per_side) + 0.5) / per_side;
+    const double diameter = nominal * (1 + scene.spread * (random.uniform() - 0.5));
+    const double x = row.left + (static_cast<double>(place) + along) * row.spacing +
+                     slack * (random.uniform() - 0.5);
+    const double jitter = (row.height / per_side - largest) * (random.uniform() - 0.5);
+    shower.grains.push_back(
+        {cell.species, diameter / 2, {x, row.bottom + up * row.height + jitter}});
+  }
+}
+
+/// Adds rows of `cells`, which are as wide as the grains of diameter `widest`, m, need.
+void add_rows(Shower& shower, const Scene& scene, const std::vector<Cell>& cells, double widest,
+              RandomNumbers& random)
+{
+  const double row_height = loose * widest;
+  auto& y = shower.top;
+  for (auto cell = cells.begin(); cell != cells.end(); y += row_height) {
     const auto below = scene.geometry->room_at(scene, y),
                above = scene.geometry->room_at(scene, y + row_height);
     const auto room = overlap_of(below, above);
@@ -50,17 +104,54 @@ double add_layer(Packing& packing, const Scene& scene, Species species, long cou
           fmt::format("the falling grains do not fit: the {} has no room for one at a height of "
                       "{:.4g} m; choose a wider one or fewer grains",
                       scene.geometry->name(), y));
-    const double spacing = width / static_cast<double>(per_row);
-    const double slack = spacing - largest;
-    for (long place = 0; place < per_row && k < count; ++place, ++k) {
-      const double diameter = nominal * (1 + scene.spread * (random.uniform() - 0.5));
-      const double x = room.left + (static_cast<double>(place) + 0.5) * spacing +
-                       slack * (random.uniform() - 0.5);
-      const double jitter = (row_height - largest) * (random.uniform() - 0.5);
-      add_grain(packing, species, diameter / 2, scene.density, {x, y + row_height / 2 + jitter});
-    }
+    const Row row{room.left, y, width / static_cast<double>(per_row), row_height};
+    for (long place = 0; place < per_row && cell != cells.end(); ++place, ++cell)
+      fill_cell(shower, scene, row, place, *cell, random);
   }
-  return y;
+}
+
+std::vector<Cell> cells_of_one(Species species, long count)
+{
+  return std::vector<Cell>(static_cast<std::size_t>(count), Cell{species, 1, 1});
+}
+
+/// The grains of both species in cells of the larger one, in random order.
+std::vector<Cell> mixed_cells(const Scene& scene, long large, long small, RandomNumbers& random)
+{
+  constexpr double round_off = 1e-9;
+  const double ratio = scene.large_diameter / scene.small_diameter;
+  const long per_side = std::lround(std::floor(ratio + round_off));
+  auto cells = cells_of_one(Species::large, large);
+  for (long left = small; left > 0; left -= per_side * per_side)
+    cells.push_back({Species::small, per_side, std::min(left, per_side * per_side)});
+  random.shuffle(cells);
+  return cells;
+}
+
+/// Grains in the air above `bottom`, m, ordered as Scene::initial says; in the list large ones come
+/// first.
+Shower shower_of(const Scene& scene, long large, long small, double bottom, RandomNumbers& random)
+{
+  Shower shower{{}, bottom};
+  const auto add = [&](Species lattice, const std::vector<Cell>& cells) {
+    add_rows(shower, scene, cells, largest_diameter(scene, lattice), random);
+  };
+  const auto all_large = cells_of_one(Species::large, large);
+  const auto all_small = cells_of_one(Species::small, small);
+  switch (scene.initial) {
+    case Scene::Initial::large_below:
+      add(Species::large, all_large), add(Species::small, all_small);
+      break;
+    case Scene::Initial::mixed:
+      add(Species::large, mixed_cells(scene, large, small, random));
+      break;
+    case Scene::Initial::large_above:
+      add(Species::small, all_small), add(Species::large, all_large);
+      break;
+  }
+  std::stable_partition(shower.grains.begin(), shower.grains.end(),
+                        [](const Falling& grain) { return grain.species == Species::large; });
+  return shower;
 }
 
 void add_boundaries(Packing& packing, const Scene& scene, const Boundaries& boundaries)
@@ -86,11 +177,12 @@ Packing loose_packing(const Scene& scene, double area, RandomNumbers& random)
   if (large + small == 0)
     throw UsageError("the bed holds no grain; choose a larger depth or length, or smaller grains");
   const auto boundaries = scene.geometry->boundaries(scene);
-  double y = add_layer(packing, scene, Species::large, large, boundaries.top, random);
-  y = add_layer(packing, scene, Species::small, small, y, random);
+  const auto shower = shower_of(scene, large, small, boundaries.top, random);
+  for (const auto& grain : shower.grains)
+    add_grain(packing, grain.species, grain.radius, scene.density, grain.at);
   add_boundaries(packing, scene, boundaries);
 
-  world.box = {scene.length, 1.5 * y, scene.lateral == Scene::Lateral::periodic};
+  world.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};
   set_conditions(world, scene);
   return packing;
 }

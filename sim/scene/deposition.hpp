@@ -17,8 +17,8 @@ struct DepositionHooks {
   std::function<void(const StepReport&, const Simulation&, const Frame<2>*)> record;
 };
 
-/// A bed of large grains under small ones, at rest on its base at slope 0, made by letting a loose
-/// random packing fall (Staron & Phillips 2015, section II). Its height, twice the area-weighted
+/// A bed at rest on its base at slope 0, made by letting a loose random packing fall: large grains
+/// under small ones (Staron & Phillips 2015, section II), or as Scene::initial says. Its height, twice the area-weighted
 /// mean height of its mobile grains above y = 0, lies within 2 % of scene.depth: grains are added
 /// or left out, at constant phi_L, and the deposition is repeated until it does. RunError where
 /// that cannot be reached.

@@ -47,6 +47,9 @@ class Geometry {
   /// Whether the base can be shaken.
   virtual bool can_shake(const Scene&) const { return false; }
 
+  /// Whether the keys base-... may ask for another row of beads than the regular one.
+  virtual bool can_shape_base(const Scene&) const { return false; }
+
   virtual Boundaries boundaries(const Scene& scene) const = 0;
   /// At height y, m, of the cell.
   virtual Room room_at(const Scene& scene, double y) const;

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace grseg {
 
@@ -18,6 +20,15 @@ class RandomNumbers {
   double uniform();                   ///< in [0, 1)
   double gaussian(double deviation);  ///< of mean 0
   Vec2 direction();                   ///< a unit vector
+
+  /// Puts `items` into random order.
+  template <class T>
+  void shuffle(std::vector<T>& items)
+  {
+    for (auto left = items.size(); left > 1; --left)
+      std::swap(items[left - 1],
+                items[static_cast<std::size_t>(uniform() * static_cast<double>(left))]);
+  }
 
  private:
   std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> generator_;

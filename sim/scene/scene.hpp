@@ -25,6 +25,7 @@ struct Scene {
   double density = 0;                // kg/m^2, of the grains
   double phi_large = 0;              // share of the large grains in the area of all grains
   std::optional<long> large_grains;  // their number, where it is given instead
+  enum class Initial { large_below, mixed, large_above } initial{};
   const Geometry* geometry = nullptr;
   double depth = 0;       // m, height H0 of the deposited bed above y = 0
   double length = 0;      // m, of the cell
@@ -37,6 +38,11 @@ struct Scene {
   ContactLaw law{};
   double horizon = 0;  // steps, of the speculative law
   enum class Base { grains, wall } base{};
+  double base_diameter = 0;         // m, mean; all of the base: sim/scene/geometry/base_row.hpp
+  double base_diameter_spread = 0;  // (d_max - d_min)/mean
+  double base_height_spread = 0;    // m
+  double base_spacing = 0;          // m, mean along x
+  double base_spacing_spread = 0;   // (max - min)/mean
   enum class Lateral { periodic, walls } lateral{};
   enum class Origin { top, centre } origin{};
 

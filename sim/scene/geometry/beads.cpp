@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/geometry/beads.hpp"
 
+#include "sim/scene/geometry/base_row.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,7 +45,7 @@ void add_base(Boundaries& to, const Scene& scene)
   if (scene.base == Scene::Base::wall)
     to.walls.push_back({{0, 0}, {0, 1}});
   else
-    add_bead_base(to, scene, row_of_beads(scene));
+    add_base_row(to, scene);
 }
 
 void add_side_walls(Boundaries& to, const Scene& scene)

@@ -16,6 +16,11 @@ class Bed : public Geometry {
 
   bool can_shake(const Scene& scene) const override { return scene.base == Scene::Base::grains; }
 
+  bool can_shape_base(const Scene& scene) const override
+  {
+    return scene.base == Scene::Base::grains;
+  }
+
   Boundaries boundaries(const Scene& scene) const override
   {
     Boundaries all;

@@ -69,6 +69,10 @@ std::vector<SceneKey> bed_keys()
      "share of the large grains in the area of all grains"},
     {"large-grains", "", whole_number(&Scene::large_grains, 0, most), bed, no,
      "number of large grains, instead of phi-large"},
+    {"initial", "large-below", choice(&Scene::initial, Words<Scene::Initial>{
+         {"large-below", Scene::Initial::large_below}, {"mixed", Scene::Initial::mixed},
+         {"large-above", Scene::Initial::large_above}}), bed, yes,
+     "where the large grains of the deposited bed are: below the small ones, among them, or above"},
     {"geometry", "bed", choice(&Scene::geometry, geometry_words()), bed, yes,
      geometry_help()},
     {"depth", "60dS", length(&Scene::depth, "1dS", "1e6dS"), bed, no,
@@ -117,13 +121,25 @@ std::vector<SceneKey> boundary_keys()
   return {
     {"base", "grains", choice(&Scene::base, Words<Base>{
          {"grains", Base::grains}, {"wall", Base::wall}}), bed, no,
-     "grains (a row of fixed large grains) or wall (straight)"},
+     "grains (a row of fixed grains, by default large ones that touch) or wall (straight)"},
+    {"base-diameter", "1dL", length(&Scene::base_diameter, "0.1dS", "10dL"), bed, yes,
+     "of a bed's base: mean diameter of its grains"},
+    {"base-diameter-spread", "0", number(&Scene::base_diameter_spread, 0, 1), bed, yes,
+     "of a bed's base: (d_max - d_min)/d of its grains, uniform; their tops stay level"},
+    {"base-height-spread", "0", length(&Scene::base_height_spread, "0", "10dL"), bed, yes,
+     "of a bed's base: its grains are lowered at random, by 0 to this, uniform; the highest stays "
+     "where it was"},
+    {"base-spacing", "", length(&Scene::base_spacing, "0.1dS", "10dL"), bed, yes,
+     "of a bed's base: mean distance of its grains' centres along x, widened until a whole number "
+     "fills the cell; below base-diameter they overlap (default: base-diameter)"},
+    {"base-spacing-spread", "0", number(&Scene::base_spacing_spread, 0, 1), bed, yes,
+     "of a bed's base: (max - min)/mean of these distances, uniform"},
     {"lateral", "periodic", choice(&Scene::lateral, Words<Lateral>{
          {"periodic", Lateral::periodic}, {"walls", Lateral::walls}}), bed, no,
      "what bounds the cell along x"},
     {"origin", "top", choice(&Scene::origin, Words<Origin>{
          {"top", Origin::top}, {"centre", Origin::centre}}), bed, yes,
-     "of y: top or centre of the base grains"},
+     "of y: top of the (highest) base grains, or half a base-diameter below it, their centre"},
     {"drum-diameter", "100dS", length(&Scene::drum_diameter, "4dL", "1e6dL"), bed, no,
      "of a drum, between its beads"},
     {"drum-rate", "0.5", number(&Scene::drum_rate, -1e6, 1e6), flow, no,

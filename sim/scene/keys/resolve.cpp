@@ -2,6 +2,7 @@
 #include "sim/scene/keys/resolve.hpp"
 
 #include "sim/scene/geometry.hpp"
+#include "sim/scene/geometry/base_row.hpp"
 #include "sim/scene/keys/accuracy.hpp"
 #include "sim/scene/keys/keys.hpp"
 
@@ -120,6 +121,7 @@ Scene resolve_scene(const po::variables_map& values)
   Scene scene;
   read_keys(values, scene);
   scene.geometry->resolve(scene, given);
+  resolve_base_row(scene, given);
   if (!given("plate-mass")) scene.plate_mass = mass_of_plate(scene);
   check_shaking(scene);
   resolve_accuracy(scene, given);

@@ -260,8 +260,9 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Checkpoint& c) { c.grains.fixed[1] = 2; }},
         Forgery{"/grains/radius, entry 0, is not a positive number",
                 [](Checkpoint& c) { c.grains.radius[0] = 0; }},
-        Forgery{"/grains/radius, entry 0, is larger than the large grains' diameter",
-                [](Checkpoint& c) { c.grains.radius[0] = 1e6; }},
+        Forgery{
+            "/grains/radius, entry 0, is larger than the diameter of large grains and base grains",
+            [](Checkpoint& c) { c.grains.radius[0] = 1e6; }},
         Forgery{"/grains/mass, entry 1, is not a positive number",
                 [](Checkpoint& c) { c.grains.mass[1] = -1; }},
         Forgery{"/walls, entry 0, is not a point and a normal of length 1",

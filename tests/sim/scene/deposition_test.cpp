@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -43,6 +44,58 @@ TEST(Deposition, MakesABedOfTheAskedDepthAndComposition)
   EXPECT_EQ(base, 15);
   EXPECT_NEAR(large / all, 0.4, 0.02);
   EXPECT_LT(y_large / count_large, 0.6 * y_small / count_small);
+}
+
+struct Halves {
+  double large = 0, small = 0;      // grains
+  double large_below = 0;           // large grains among the lower half of all
+  double area_large = 0, area = 0;  // m^2
+  double height = 0;                // m, of the bed
+  double deviation = 0;             // of large_below over random mixtures of these grains
+};
+
+Halves halves_of(const char* initial, const char* seed)
+{
+  const auto simulation = deposit(scene_from({"--depth", "24dS", "--length", "20dL", "--accuracy",
+                                              "draft", "--initial", initial, "--seed", seed}));
+  const auto& grains = simulation.world().grains;
+  std::vector<std::pair<double, bool>> by_height;
+  Halves found;
+  found.height = bed_height(simulation);
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    if (grains.fixed[k]) continue;
+    const bool large = grains.species[k] == Species::large;
+    by_height.emplace_back(simulation.position(k).y(), large);
+    ++(large ? found.large : found.small);
+    const double area = std::numbers::pi * grains.radius[k] * grains.radius[k];
+    found.area += area, found.area_large += large ? area : 0;
+  }
+  std::sort(by_height.begin(), by_height.end());
+  for (std::size_t k = 0; k < by_height.size() / 2; ++k) found.large_below += by_height[k].second;
+  const double all = found.large + found.small;
+  found.deviation = std::sqrt(found.large * found.small / (4 * (all - 1)));
+  return found;
+}
+
+TEST(Deposition, PutsLargeGrainsBelowAmongOrAboveTheSmallOnes)
+{
+  const auto below = halves_of("large-below", "1"), above = halves_of("large-above", "1");
+  EXPECT_EQ(below.large_below, below.large);
+  EXPECT_EQ(above.large_below, 0);
+  for (const auto* seed : {"1", "2", "3", "4"}) {
+    const auto mixed = halves_of("mixed", seed);
+    EXPECT_NEAR(mixed.large_below, mixed.large / 2, 2.5 * mixed.deviation) << "seed " << seed;
+  }
+}
+
+TEST(Deposition, TakesTheSameGrainsHoweverTheyAreOrdered)
+{
+  for (const auto* initial : {"large-below", "mixed", "large-above"}) {
+    const auto bed = halves_of(initial, "1");
+    EXPECT_NEAR(bed.height, 0.12, 0.02 * 0.12) << initial;
+    EXPECT_NEAR(bed.area_large / bed.area, 0.3, 0.01) << initial;
+    EXPECT_NEAR(bed.area / (0.12 * 0.2), 0.81, 0.04) << initial;  // as dense as any deposit
+  }
 }
 
 /// Kinetic energy over m g d of a small grain, per grain, of a bed left flat for a second.

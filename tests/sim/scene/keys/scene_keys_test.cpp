@@ -105,6 +105,18 @@ TEST(Scene, ASlopeThatTurnsIsStoredAndMustTurnSlowly)
   }
 }
 
+TEST(Scene, BaseAndOrderOfTheDepositionAreStored)
+{
+  const auto parameters = to_parameters(scene_from(
+      {"--base-height-spread", "0.5dS", "--base-spacing", "1.25dL", "--initial", "large-above"}));
+  EXPECT_NEAR(parameters.numbers.at("base_height_spread").at(0), 0.0025, 1e-15);
+  EXPECT_NEAR(parameters.numbers.at("base_spacing").at(0), 0.0125, 1e-15);
+  EXPECT_NEAR(parameters.numbers.at("base_diameter").at(0), 0.01, 1e-15);
+  EXPECT_EQ(parameters.numbers.at("base_diameter_spread").at(0), 0);
+  EXPECT_EQ(parameters.numbers.at("base_spacing_spread").at(0), 0);
+  EXPECT_EQ(parameters.texts.at("initial"), "large-above");
+}
+
 TEST(Scene, ItsTextMakesTheSameScene)
 {
   const auto scene = scene_from(
@@ -254,6 +266,11 @@ TEST(SceneKeys, OfASceneAreReadBackAsTheyAreWritten)
 
 TEST(SceneKeys, ThatDifferAreFoundByWhatTheyBelongTo)
 {
+  EXPECT_EQ(
+      differing_key(scene_from({}), scene_from({"--base-height-spread", "1mm"}), KeyRole::bed),
+      "base-height-spread");
+  EXPECT_EQ(differing_key(scene_from({}), scene_from({"--initial", "mixed"}), KeyRole::bed),
+            "initial");
   const auto one = scene_from({}), other = scene_from({"--duration", "3", "--friction", "0.1"});
   EXPECT_EQ(differing_key(one, other, KeyRole::bed), "");
   EXPECT_EQ(differing_key(one, other, KeyRole::flow), "friction");

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/scene/geometry/base_row.hpp"
+
+#include "sim/scene/random_numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+// Of the smallest grain's diameter. Weight wedges a grain into a gap: on a gap of 0.9 a grain pushes
+// with twice its weight on each of two beads twice its size, on one of 0.99 with six times.
+constexpr double widest_gap_that_holds = 0.9;
+constexpr double fewest_beads = 4;  // so that no bead meets its own image
+constexpr double round_off = 1e-9;  // of a number of beads
+constexpr std::uint64_t own_stream = 1U
+                                     << 31;  // a seed of the base differs from that of grains here
+
+long beads_at_spacing(const Scene& scene, double spacing)
+{
+  return std::lround(std::floor(scene.length / spacing + round_off));
+}
+
+double mean_spacing(const Scene& scene, double at_least)
+{
+  return scene.length / static_cast<double>(beads_at_spacing(scene, at_least));
+}
+
+/// `count` values from -1/2 to 1/2, evenly spaced, in random order.
+std::vector<double> evenly_spaced(std::size_t count, RandomNumbers& random)
+{
+  std::vector<double> values(count);
+  for (std::size_t k = 0; k < count; ++k)
+    values[k] = static_cast<double>(k) / static_cast<double>(count - 1) - 0.5;
+  random.shuffle(values);
+  return values;
+}
+
+/// The first key that asks for another base than touching beads of the large grains' diameter.
+const char* key_of_other_base(const Scene& scene)
+{
+  if (scene.base_diameter != scene.large_diameter) return "base-diameter";
+  if (scene.base_diameter_spread != 0) return "base-diameter-spread";
+  if (scene.base_height_spread != 0) return "base-height-spread";
+  if (scene.base_spacing != mean_spacing(scene, scene.large_diameter)) return "base-spacing";
+  if (scene.base_spacing_spread != 0) return "base-spacing-spread";
+  return nullptr;
+}
+
+void check_room(const Scene& scene)
+{
+  const double widest = scene.base_diameter * (1 + scene.base_diameter_spread / 2);
+  for (const auto& [key, what, value] :
+       {std::tuple{"base-diameter", "wide", widest}, {"base-spacing", "apart", scene.base_spacing}})
+    require(value <= scene.length / fewest_beads, key,
+            fmt::format("{}: base grains would be {:.4g} m {}, more than a quarter of the length, "
+                        "{:.4g} m; choose a smaller {} or a longer cell",
+                        key, value, what, scene.length, key));
+}
+
+void check_that_it_holds(const Scene& scene, const char* key)
+{
+  const double gap = widest_gap(scene), most = widest_gap_that_holds * smallest_grain(scene);
+  require(gap <= most, key,
+          fmt::format("{}: grains would fall through the base, whose keys allow gaps of {:.4g} m; "
+                      "the smallest grains are held up to {:.4g} m: choose a smaller base-spacing "
+                      "or smaller spreads",
+                      key, gap, most));
+}
+
+}  // namespace
+
+double widest_gap(const Scene& scene)
+{
+  const double spacing = scene.base_spacing * (1 + scene.base_spacing_spread / 2);
+  const double diameter = scene.base_diameter * (1 - scene.base_diameter_spread / 2);
+  const double between = std::hypot(spacing, scene.base_height_spread) - diameter;
+  if (scene.lateral == Scene::Lateral::periodic) return between;
+  const double to_wall = scene.base_spacing * (1 + scene.base_spacing_spread) / 2 - diameter / 2;
+  return std::max(between, to_wall);
+}
+
+double smallest_grain(const Scene& scene)
+{
+  const bool only_large = !scene.large_grains && scene.phi_large == 1;
+  return (only_large ? scene.large_diameter : scene.small_diameter) * (1 - scene.spread / 2);
+}
+
+void resolve_base_row(Scene& scene, const KeyGiven& given)
+{
+  if (!given("base-spacing")) scene.base_spacing = scene.base_diameter;
+  const bool free_to_choose = scene.geometry->can_shape_base(scene);
+  if (free_to_choose) check_room(scene);
+  scene.base_spacing = mean_spacing(scene, scene.base_spacing);
+  const char* key = key_of_other_base(scene);
+  if (key == nullptr) return;
+  require(free_to_choose, key,
+          fmt::format("{} shapes the grains under a bed; set geometry = bed and base = grains, or "
+                      "leave it out",
+                      key));
+  check_that_it_holds(scene, key);
+}
+
+void add_base_row(Boundaries& to, const Scene& scene)
+{
+  to.top = scene.origin == Scene::Origin::top ? 0 : scene.base_diameter / 2;
+  const auto count = static_cast<std::size_t>(std::lround(scene.length / scene.base_spacing));
+  RandomNumbers random(scene.seed ^ own_stream);
+  const auto spacing = evenly_spaced(count, random), diameter = evenly_spaced(count, random),
+             height = evenly_spaced(count, random);
+  double displaced = 0;  // of the row's x from the evenly spaced one, in mean spacings
+  for (std::size_t k = 0; k < count; ++k) {
+    const double radius = scene.base_diameter / 2 * (1 + scene.base_diameter_spread * diameter[k]);
+    const double lowered = scene.base_height_spread * (0.5 - height[k]);
+    const double x = (static_cast<double>(k) + 0.5 + displaced) * scene.base_spacing;
+    to.position.emplace_back(x, to.top - lowered - radius);
+    to.radius.push_back(radius);
+    displaced += scene.base_spacing_spread * spacing[k];
+  }
+}
+
+}  // namespace grseg
