@@ -261,6 +261,14 @@ void require_population(const Settings& s, const FitData& data)
                     s.over));
 }
 
+/// What the rows' intervals are over: "runs", or "runs, then mixtures" of mixtures one by one.
+std::string over_words(const FitReport& report)
+{
+  const auto of = [](const RuleFit& fit) { return std::string(word_of(fit.over, overs)); };
+  const auto& rows = report.scan ? report.scan->fits : report.rules;
+  return rows.front().mixture ? of(rows.front()) + ", then " + of(rows.back()) : of(rows.back());
+}
+
 /// The lines that say how the fit was made.
 Header header_of(const Settings& s, const std::string& preset, const FitReport& report,
                  const FitData& data, const std::string& grains)
@@ -283,8 +291,7 @@ Header header_of(const Settings& s, const std::string& preset, const FitReport& 
       {"bootstrap", fmt::format("{}", s.bootstrap)},
       {"seed", fmt::format("{}", s.seed)},
       {"interval", "95 %"},
-      {"over",
-       s.over.empty() ? report.is_by_mixture() ? "runs, then mixtures" : "automatic" : s.over},
+      {"over", over_words(report)},
       {"mixtures", grouping_words(s.mixtures)}};
 }
 
