@@ -95,7 +95,7 @@ $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
 # The tables behind the choices are not kept, only their result.
 $(work)/choices.tsv: $(every) choices $(scripts) | $(work)
 	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
-$(work)/numbers.tsv: $(every) numbers $(scripts) | $(work)
+$(work)/numbers.tsv: $(every) numbers rise.py $(scripts) | $(work)
 	./numbers $(tables) -o $@ --bin $(bin)
 
 # Each figure and its tables.
