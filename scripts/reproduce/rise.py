@@ -5,7 +5,7 @@ stress of mixed contacts and q = phi_L phi_S, sums over layers and windows weigh
 three factors, exactly, and without the bias of the logarithm of a ratio of few grains:
 
     B            = sum(psi - phi_L)/sum(q) = beyond x mixed x geometry
-    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p*: what a mixed contact gives its large grain beyond the
+    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p_star: what a mixed contact gives its large grain beyond the
                    share at which B = 0
     mixed        = sum(M/sigma)/sum(the same of neutral contacts)
     geometry     = sum(the same of neutral contacts)/sum(q); of neutral contacts M/sigma = q (1 + r)/(phi_L + r phi_S)
@@ -54,7 +54,7 @@ class Layer:
         self.q = self.phi * (1 - self.phi)
         whole = sum(self.stress["yy"]) or math.nan
         self.excess = self.stress["yy"][1] / whole - self.phi
-        self.mixed = total("M_yy") / whole
+        self.mixed, self.by_size = total("M_yy") / whole, total("Msize_yy") / whole
         self.neutral = self.q * (1 + r) / (self.phi + r * (1 - self.phi))
 
     def ends(self):
@@ -98,7 +98,8 @@ def total(layers, name):
 
 def factors(layers):
     excess, mixed, neutral, q = (total(layers, name) for name in ("excess", "mixed", "neutral", "q"))
-    return {"B": excess / q, "beyond": excess / mixed, "mixed": mixed / neutral, "geometry": neutral / q}
+    return {"B": excess / q, "beyond": excess / mixed, "mixed": mixed / neutral, "geometry": neutral / q,
+            "p_star": (total(layers, "by_size") - excess) / mixed}
 
 
 def terms(layers):
@@ -152,7 +153,12 @@ def alike(label, mixtures, names):
 
 def mixture(layers):
     """Of the layers of one run: everything that is said of a mixture."""
-    return {f"rise_{name}": value for name, value in {**factors(layers), **terms(layers)}.items()}
+    early, late = ([layer for layer in layers if begin <= layer.t < end]
+                   for begin, end in ((0, tables.EARLY), (tables.LATE, math.inf)))
+    found = {**factors(layers), **terms(layers)}
+    if early and late:
+        found["early_less_late"] = factors(early)["B"] - factors(late)["B"]
+    return {f"rise_{name}": value for name, value in found.items()}
 
 
 def trends(mixtures, long):

@@ -228,6 +228,8 @@ class Reproduction(unittest.TestCase):
         for phi in (0.1, 0.4, 0.7):
             found = rise.factors(layers_of(self.table, [contacts(4 * D, phi, 0.02)]))
             self.assertAlmostEqual(found["beyond"], 0.02, 12)
+            # The share by size is 2/3 and 0.02, and with 2/3 B would be 0.
+            self.assertAlmostEqual(found["p_star"], 2 / 3, 12)
             self.assertAlmostEqual(found["B"], 0.02 * 3 / (2 - phi), 12)
 
     def test_contacts_and_forces_take_apart_what_the_stress_says(self):
