@@ -56,7 +56,8 @@ figures: $(pictures)
 $(names:%=figures/%.png): figures/%.png: $(work)/%.png
 
 inside := --heights 4dS:56dS --quiet
-fit = $(bin)/grseg-fit --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
+# One number for all mixtures, as published (docs/studies/uncertainty.md).
+fit = $(bin)/grseg-fit --over compositions --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
 micro = $(bin)/grseg-micro --derived --overwrite -o $@
 scripts := $(CURDIR)/tables.py $(CURDIR)/profiles.py
 every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
