@@ -17,4 +17,4 @@ set ylabel "share given to the large grain"
 set key bottom left reverse Left
 plot 2.0/3 with lines dt 2 lc rgb "black" title "neutral contacts, r/(1 + r)", \
      rules using "phi":(only(column("share"))) with linespoints pt 6 lc rgb "#1f77b4" title "mean share by size", \
-     rules using "phi":(only(column("p_zero"))):"p_zero_low":"p_zero_high" with yerrorbars pt 7 lw 1.5 lc rgb "#d62728" title "p*: B = 0"
+     rules using "phi":(only(column("p_star"))):"p_star_low":"p_star_high" with yerrorbars pt 7 lw 1.5 lc rgb "#d62728" title "p*: B = 0"
