@@ -5,7 +5,7 @@ stress of mixed contacts and q = phi_L phi_S, sums over layers and windows weigh
 three factors, exactly, and without the bias of the logarithm of a ratio of few grains:
 
     B            = sum(psi - phi_L)/sum(q) = beyond x mixed x geometry
-    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p*: what a mixed contact gives its large grain beyond the
+    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p_star: what a mixed contact gives its large grain beyond the
                    share at which B = 0
     mixed        = sum(M/sigma)/sum(the same of neutral contacts)
     geometry     = sum(the same of neutral contacts)/sum(q); of neutral contacts M/sigma = q (1 + r)/(phi_L + r phi_S)
@@ -24,7 +24,7 @@ import statistics
 
 import tables
 
-WINDOW = 5  # s
+WINDOW, LONG_WINDOW = 5, 25  # s; in the longer one phi_L scatters less
 INSIDE = (4, 56)  # d_S
 FEW = 3
 PAIRS = ("SS", "LS", "LL", "Sb", "Lb")
@@ -54,7 +54,7 @@ class Layer:
         self.q = self.phi * (1 - self.phi)
         whole = sum(self.stress["yy"]) or math.nan
         self.excess = self.stress["yy"][1] / whole - self.phi
-        self.mixed = total("M_yy") / whole
+        self.mixed, self.by_size = total("M_yy") / whole, total("Msize_yy") / whole
         self.neutral = self.q * (1 + r) / (self.phi + r * (1 - self.phi))
 
     def ends(self):
@@ -74,14 +74,14 @@ class Layer:
         return {"ends": ends, "forces": forces, "pairing": whole - forces, "normal": yy - ends - whole}
 
 
-def layers_of(path):
-    """Layers inside, with both species, of one run's table of grseg-micro."""
+def layers_of(path, window=WINDOW):
+    """Layers inside, with both species, of one run's table of grseg-micro, in windows of so many seconds."""
     header, rows = tables.read(path)
     d, large = float(header["small_diameter"]), float(header["large_diameter"])
     groups = {}
     for row in rows:
         if not math.isnan(row["y0"]) and row["area_S"] + row["area_L"] > 0:
-            groups.setdefault((int(row["t0"] / WINDOW + 1e-6), round(row["y0"] / d, 6)), []).append(row)
+            groups.setdefault((int(row["t0"] / window + 1e-6), round(row["y0"] / d, 6)), []).append(row)
     found = {key: Layer(group, d, large / d) for key, group in groups.items()}
     for (t, y), layer in found.items():
         thickness = (groups[t, y][0]["y1"] - groups[t, y][0]["y0"]) / d
@@ -98,7 +98,8 @@ def total(layers, name):
 
 def factors(layers):
     excess, mixed, neutral, q = (total(layers, name) for name in ("excess", "mixed", "neutral", "q"))
-    return {"B": excess / q, "beyond": excess / mixed, "mixed": mixed / neutral, "geometry": neutral / q}
+    return {"B": excess / q, "beyond": excess / mixed, "mixed": mixed / neutral, "geometry": neutral / q,
+            "p_star": (total(layers, "by_size") - excess) / mixed}
 
 
 def terms(layers):
@@ -144,14 +145,25 @@ def trend_where_alike(mixtures, names):
     return above / below
 
 
+def alike(label, mixtures, names):
+    upper = [pair for pair in mixtures if pair[0] >= FROM]
+    found = {label: trend_where_alike(mixtures, names)}
+    return {**found, f"upper_{label}": trend_where_alike(upper, names)} if len(upper) > 1 else found
+
+
 def mixture(layers):
     """Of the layers of one run: everything that is said of a mixture."""
-    return {f"rise_{name}": value for name, value in {**factors(layers), **terms(layers)}.items()}
+    early, late = ([layer for layer in layers if begin <= layer.t < end]
+                   for begin, end in ((0, tables.EARLY), (tables.LATE, math.inf)))
+    found = {**factors(layers), **terms(layers)}
+    if early and late:
+        found["early_less_late"] = factors(early)["B"] - factors(late)["B"]
+    return {f"rise_{name}": value for name, value in found.items()}
 
 
-def trends(mixtures):
+def trends(mixtures, long):
     """Of one seed of each mixture: slopes over Phi_L, of all mixtures and of those from FROM on; B if p_size - p* were
-    that of all together; slopes where layers are alike."""
+    that of all together; slopes where layers are alike, of equal phi_L also in the windows of `long`."""
     parts = [(phi, {**factors(layers), **terms(layers)}) for phi, layers in mixtures]
     found = {"beyond": factors([layer for _, layers in mixtures for layer in layers])["beyond"]}
     for phi, part in parts:
@@ -163,8 +175,6 @@ def trends(mixtures):
                 found[f"{label}_{name}"] = statistics.linear_regression(
                     [phi for phi, _ in points], [part[name] for _, part in points]).slope
     for names in ALIKE:
-        found["_".join(("alike",) + names)] = trend_where_alike(mixtures, names)
-        upper = [pair for pair in mixtures if pair[0] >= FROM]
-        if len(upper) > 1:
-            found["_".join(("upper_alike",) + names)] = trend_where_alike(upper, names)
+        found.update(alike("_".join(("alike",) + names), mixtures, names))
+    found.update(alike("alike_phi_long", long, ("phi",)))
     return {f"rise_{name}": value for name, value in found.items()}

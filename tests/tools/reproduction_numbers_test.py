@@ -228,6 +228,8 @@ class Reproduction(unittest.TestCase):
         for phi in (0.1, 0.4, 0.7):
             found = rise.factors(layers_of(self.table, [contacts(4 * D, phi, 0.02)]))
             self.assertAlmostEqual(found["beyond"], 0.02, 12)
+            # The share by size is 2/3 and 0.02, and with 2/3 B would be 0.
+            self.assertAlmostEqual(found["p_star"], 2 / 3, 12)
             self.assertAlmostEqual(found["B"], 0.02 * 3 / (2 - phi), 12)
 
     def test_contacts_and_forces_take_apart_what_the_stress_says(self):
@@ -242,6 +244,21 @@ class Reproduction(unittest.TestCase):
         self.assertAlmostEqual(terms["forces"], -math.log(at_random), 12)
         self.assertAlmostEqual(terms["log"], 0, 12)
         self.assertAlmostEqual(terms["LS/random"], 4 / (13 * 2 * (20 / 26) * (6 / 26)), 12)
+        # A layer of two large grains has no part in the logarithms.
+        few = {**contacts(8 * D, phi), "grains_L": 2}
+        self.assertAlmostEqual(rise.terms(layers_of(self.table, [contacts(4 * D, phi, more_ends=2), few]))["ends"], terms["ends"], 12)
+
+    def test_windows_merge_by_frames_and_composition_that_grows_upward_has_a_positive_gradient(self):
+        rows = [contacts(4 * k * D, 0.2 + 0.1 * k, t=t, frames=frames) for t, frames in ((0, 10), (2.5, 30)) for k in range(4)]
+        for row in rows[:4]:  # in the first 2.5 s there is no large grain
+            row.update({name: 0.0 for name in row if name in ("area_L", "grains_L") or "_LL" in name or "_LS" in name or name[0] == "M"})
+        layers = layers_of(self.table, rows)
+        for layer, phi in zip(layers, (0.3, 0.4)):
+            small = 0.25 * (1 - phi) + 0.75 * (1 - phi)
+            self.assertAlmostEqual(layer.phi, 0.75 * phi / (small + 0.75 * phi), 12)
+            self.assertEqual((layer.frames, layer.grains), (40, 0.75 * 99))
+        one = [contacts(4 * k * D, 0.2 + 0.1 * k) for k in range(4)]
+        self.assertAlmostEqual(layers_of(self.table, one)[0].gradient, 0.1 / 4, 12)
 
     def test_a_trend_that_is_composition_is_gone_where_composition_is_equal(self):
         low, high = [0.15, 0.3, 0.5], [0.3, 0.5, 0.7]
