@@ -111,23 +111,21 @@ class Regressions {
     return both;
   }
 
-  /// The coefficient of `x` alone, over the points that have a value.
-  template <class X, class Of>
-  Linear on_one(const X& x, const Of& of) const
+  /// sum of `above`/sum of `below`, over the points that have both.
+  template <class Above, class Below>
+  Linear ratio_of_sums(const Above& above, const Below& below) const
   {
-    double squares = 0, right = 0;
+    double over = 0, under = 0;
     for (const auto& point : data_.points) {
-      if (!std::isfinite(of(point))) continue;
-      squares += point.weight * x(point) * x(point);
-      right += point.weight * x(point) * of(point);
+      if (!std::isfinite(above(point) + below(point))) continue;
+      over += above(point);
+      under += below(point);
     }
-    auto all = none(right / squares);
+    auto all = none(over / under);
     for (const auto& point : data_.points) {
-      if (!std::isfinite(of(point))) continue;
-      const double own = x(point);
-      all.influence[index_of(point.window)] +=
-          point.weight * own * (of(point) - own * all.value) / squares;
-      all.weight[index_of(point.window)] += point.weight * own * own;
+      if (!std::isfinite(above(point) + below(point))) continue;
+      all.influence[index_of(point.window)] += (above(point) - all.value * below(point)) / under;
+      all.weight[index_of(point.window)] += below(point);
     }
     return all;
   }
@@ -238,11 +236,12 @@ std::array<Linear, 2> add_taus(Report& report, const Regressions& regressions)
   return regressions.on_both(parts[0].of);
 }
 
-/// B of the rule number `rule`, by the direct estimator.
+/// B of the rule number `rule`, by sums.
 Linear b_of(const Regressions& regressions, std::size_t rule)
 {
-  return regressions.on_one([](const ClosurePoint& p) { return p.product; },
-                            [rule](const ClosurePoint& p) { return p.excess[rule]; });
+  return regressions.ratio_of_sums(
+      [rule](const ClosurePoint& p) { return p.frames * p.excess[rule]; },
+      [](const ClosurePoint& p) { return p.frames * p.product; });
 }
 
 /// "+", "-" or "not known".
@@ -319,14 +318,17 @@ SegregationSummary closure_summary(const ClosureData& data, const std::vector<Pa
   report.add("B_over_c[s]", flux[0]);
   report.add("d_over_c[m^2/s]", flux[1]);
   add_collinearity(report, regressions, flux);
-  report.add("D_displacements[m^2/s]",
-             regressions.on_one([](const ClosurePoint& p) { return p.gradient; },
-                                [](const ClosurePoint& p) { return p.gradient * p.diffusivity; }));
+  report.add(
+      "D_displacements[m^2/s]",
+      regressions.ratio_of_sums(
+          [](const ClosurePoint& p) { return p.weight * p.gradient * p.gradient * p.diffusivity; },
+          [](const ClosurePoint& p) { return p.weight * p.gradient * p.gradient; }));
   report.add_doubt(flux[0]);
   if (data.has_kinetic) {
-    report.add("stress_slope_over_weight",
-               regressions.on_one([](const ClosurePoint&) { return 1; },
-                                  [](const ClosurePoint& p) { return p.weight_above; }));
+    report.add(
+        "stress_slope_over_weight",
+        regressions.ratio_of_sums([](const ClosurePoint& p) { return p.weight * p.weight_above; },
+                                  [](const ClosurePoint& p) { return p.weight; }));
     const auto tau = add_taus(report, regressions);
     add_rules(report, regressions, rules, flux, &tau);
   } else {

@@ -23,10 +23,14 @@ struct ClosureResampling {
 /// without a constant. In least squares the noise of the flux is correlated with the gradient: what
 /// moves up by chance within a window makes the gradient of this window larger, and d/c smaller,
 /// below 0 where grains are few. With X and G of the window before as instruments Z, on which that
-/// noise does not act, sum w Z (q_L - (B/c) X + (d/c) G) = 0 is free of this. The rule p of the partition is in neither regressor: what the motion of the
-/// grains fixes is B/c and d/c, and c(p) = B(p)/(B/c), B(p) by the direct estimator over the same
-/// rows and weights, is what a rule makes of it. c changes its sign with B(p), at p*; where it is
-/// negative, the closure's "drag" pushes grains the way they move.
+/// noise does not act, sum w Z (q_L - (B/c) X + (d/c) G) = 0 is free of this.
+///
+/// The rule p of the partition is in neither regressor: what the motion of the grains fixes is B/c
+/// and d/c, and c(p) = B(p)/(B/c) is what a rule makes of it, with
+/// B(p) = sum frames (psi_L - phi_L)/sum frames phi_L phi_S over the same rows, free of the bias of
+/// few grains that products with phi_L have. Where all contacts have the same share p, B and c go
+/// with p - p*: c changes its sign there, and where it is negative the closure's "drag" pushes
+/// grains the way they move.
 ///
 /// What the kinetic terms and inertia, t = k_push + k_spread - a, do to this is exact: with the
 /// same regression t = tau_X X - tau_G G + rest, the coefficients of the flux are (B + tau_X)/c and

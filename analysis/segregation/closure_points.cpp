@@ -289,6 +289,7 @@ std::optional<ClosurePoint> RunReader::point_of(const Motion& motion,
         "{} has; make both tables of the run with the same --begin and --end",
         tables_.stress->name, key.bottom, key.top, key.begin, key.end, tables_.segregation->name));
   ClosurePoint point;
+  point.frames = key.frames;
   point.weight = key.frames * (motion.small + motion.large);
   point.flux = motion.flux;
   point.gradient = motion.gradient;

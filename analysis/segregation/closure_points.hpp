@@ -39,6 +39,7 @@ struct ClosurePoint {
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
   std::size_t window = 0;            // in the series of all windows, run after run
+  double frames = 0;                 // of the window
   double weight = 0;                 // frames x area or volume of the grains
   double flux = 0;                   // q_L, m/s
   double driving = 0, gradient = 0;  // X and G

@@ -170,22 +170,22 @@ TEST(SegregationClosure, AFluxWithoutNoiseGivesItsCoefficientsFromTablesInAnyOrd
   EXPECT_NEAR(number_of(summary, "D_displacements[m^2/s]").value, d_over_c, 1e-15);
 }
 
-// Neutral contacts: B by any share follows from r, and is 0 at p* = r/(1 + r) = 2/3. The layers count by
-// (phi_L phi_S)^2 and their grains.
+// Neutral contacts: B by any share follows from r, and is 0 at p* = r/(1 + r) = 2/3. Layers count by
+// phi_L phi_S.
 TEST(SegregationClosure, CIsBOverTheFluxAndChangesItsSignAtPStar)
 {
   const auto run = tables_of({}, "a");
   const auto summary = summary_of({run.segregation, run.stress});
   EXPECT_NEAR(number_of(summary, "p_zero").value, 2.0 / 3, 1e-12);
   for (const auto& rule : two_rules) {
-    double b = 0, squares = 0;
+    double b = 0, sum = 0;
     for (int window = 1; window < 20; ++window)  // the first one has none before it
       for (int n = 1; n < 9; ++n) {              // the outer layers lack a neighbour
         const double phi = phi_of(n, window / 19.0), both = phi * (1 - phi);
-        b += both * both * neutral_b(rule, 2, phi);
-        squares += both * both;
+        b += both * neutral_b(rule, 2, phi);
+        sum += both;
       }
-    b /= squares;
+    b /= sum;
     EXPECT_NEAR(number_of(summary, "B@" + rule.name()).value, b, 1e-12);
     EXPECT_NEAR(number_of(summary, "c@" + rule.name() + "[1/s]").value, b / b_over_c, 1e-7);
     EXPECT_NEAR(number_of(summary, "d@" + rule.name() + "[m^2/s^2]").value, b / b_over_c * d_over_c,
@@ -327,7 +327,7 @@ ClosureData noisy(const RunLengths& runs, double kick, synthetic::Ar1& noise, bo
         const double phi = phi_of(n, progress);
         ClosurePoint point;
         point.window = window;
-        point.weight = 1;
+        point.frames = point.weight = 1;
         point.driving = driving(progress);
         point.gradient = gradient(progress);
         point.driving_before = driving(before);
@@ -401,6 +401,35 @@ TEST(SegregationClosure, IntervalsOfSeveralRunsHoldTheTruthAlsoWhereRunsDiffer)
   expect_coverage(tried(400, [&](auto& noise) { return noisy(six, 0.5, noise, false, 0.5); }), 400);
 }
 
+double width_of(const SegregationSummary& summary, const std::string& name)
+{
+  const auto estimate = number_of(summary, name);
+  return estimate.high - estimate.low;
+}
+
+// A B without noise: c = B/(B/c) is as uncertain, in parts of itself, as B/c. A psi that is off by the
+// same under all rules: p* moves by that over B(1) - B(0) = 0.8.
+TEST(SegregationClosure, IntervalsOfCAndPStarFollowFromThoseOfWhatTheyAreMadeOf)
+{
+  synthetic::Ar1 noise(0);
+  auto data = noisy({60}, 0.1, noise);
+  const auto sure = closure_summary(data, parse_rules({"size"}), {});
+  EXPECT_NEAR(width_of(sure, "c@size[1/s]") / number_of(sure, "c@size[1/s]").value,
+              width_of(sure, "B_over_c[s]") / number_of(sure, "B_over_c[s]").value, 1e-5);
+  EXPECT_NEAR(number_of(sure, "p_zero").value, 0.5 / 0.8, 1e-12);
+  EXPECT_NEAR(width_of(sure, "p_zero"), 0, 1e-12);
+  EXPECT_NEAR(number_of(sure, "dc_dp[1/s]").value, 0.8 / number_of(sure, "B_over_c[s]").value,
+              1e-7);
+
+  for (auto& point : data.points) {
+    const double off = 0.01 * noise.normal() * point.product;
+    for (auto& excess : point.excess) excess += off;
+  }
+  const auto off = closure_summary(data, parse_rules({"size"}), {});
+  EXPECT_GT(width_of(off, "B@size"), 1e-4);
+  EXPECT_NEAR(width_of(off, "p_zero"), width_of(off, "B@size") / 0.8, 1e-10);
+}
+
 // One over the sine of the angle between the regressors.
 TEST(SegregationClosure, CollinearRegressorsAreReportedWithWhatTheyMakeOfTheError)
 {
@@ -420,11 +449,7 @@ TEST(SegregationClosure, CollinearRegressorsAreReportedWithWhatTheyMakeOfTheErro
   EXPECT_NEAR(number_of(steady, "condition_number").value, std::sqrt((1 + r) / (1 - r)), 1e-6);
   EXPECT_GT(number_of(steady, "estimate_correlation").value, 0.99);
   EXPECT_TRUE(remarks_hold(steady, "collinear over these rows"));
-  const auto width = [](const SegregationSummary& summary) {
-    const auto b = number_of(summary, "B_over_c[s]");
-    return b.high - b.low;
-  };
-  EXPECT_GT(width(steady), 20 * width(apart));
+  EXPECT_GT(width_of(steady, "B_over_c[s]"), 20 * width_of(apart, "B_over_c[s]"));
 }
 
 /// A bed whose composition is moved by a flux of the closure and by noise of that flux, as in a run: the
@@ -460,7 +485,7 @@ ClosureData moved_by_its_flux(synthetic::Ar1& noise, Instruments instruments)
     for (std::size_t n = 2; window > 0 && n + 2 < layers; ++n) {
       ClosurePoint point;
       point.window = static_cast<std::size_t>(window - 1);
-      point.weight = 1;
+      point.frames = point.weight = 1;
       point.flux = flux[n];
       point.driving = driving(mean[n]);
       point.gradient = gradient(mean, n);
