@@ -17,6 +17,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace grseg {
@@ -169,7 +170,10 @@ void add_run(const FitTable& run, const FitFilters& filters, const std::vector<S
   std::size_t window = 0;
   for (const auto length : data.runs) window += length;
   for (auto& [time, number] : window_at) number = window++;
-  if (!window_at.empty()) data.runs.push_back(window_at.size());
+  if (!window_at.empty()) {
+    data.runs.push_back(window_at.size());
+    data.mixtures.push_back(run.mixture);
+  }
 
   data.tables.push_back(table.name);
   const FitRow* last = nullptr;
@@ -216,6 +220,11 @@ double FitRow::solid() const
   return std::accumulate(sums.content.begin(), sums.content.end(), 0.0) / sums.volume;
 }
 
+std::size_t FitData::number_of_mixtures() const
+{
+  return std::max<std::size_t>(1, std::set(mixtures.begin(), mixtures.end()).size());
+}
+
 std::string FilterCount::sentence() const
 {
   std::string text = fmt::format("{} rows", rows);
@@ -241,7 +250,7 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
     const auto species = species_of(table);
     auto rows = read_rows(table, species, quantity, rules);
     const double median = median_solid_fraction(rows);
-    all.push_back({&table, species, std::move(rows), median});
+    all.push_back({&table, species, std::move(rows), median, 0});
     require_alike(all.front(), all.back());
   }
   require_distinct_runs(tables);

@@ -70,14 +70,18 @@ struct FilterCount {
 struct FitData {
   Quantity quantity = Quantity::contact;
   int dimension = 2;
-  RunLengths runs;                  // windows with samples, per table
-  std::vector<std::string> tables;  // their names
-  SpeciesList species;              // of the first; those of the others have the same names
+  RunLengths runs;                    // windows with samples, per table
+  std::vector<std::size_t> mixtures;  // of each run (mixtures.hpp); empty: all are of one
+  std::vector<std::string> tables;    // their names
+  SpeciesList species;                // of the first; those of the others have the same names
   std::vector<ContactSums<3>>
       rows;  // kinetic: species alone, nothing mixed, so every rule gives the
              // same
   std::vector<LayerSample> samples;
   FilterCount count;
+
+  std::size_t mixture_of(std::size_t run) const { return mixtures.empty() ? 0 : mixtures[run]; }
+  std::size_t number_of_mixtures() const;  // that have runs
 };
 
 /// A row of a table and the window and layer it belongs to.
@@ -98,6 +102,7 @@ struct FitTable {
   SpeciesList species;
   std::vector<FitRow> rows;
   double median_solid = 0;
+  std::size_t mixture = 0;
 };
 
 /// Reads tables of grseg-stress (contact) or grseg-kinetic; the latter's "contents" are masses.

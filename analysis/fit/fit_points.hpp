@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
+#include "analysis/fit/over.hpp"
 #include "analysis/stress/partial_stress.hpp"
 
 #include <cstddef>
@@ -27,6 +28,7 @@ struct FitPoint {
 struct FitSettings {
   Component component = Component::yy;
   BasePart base = BasePart::contact_point;
+  Over over = Over::automatic;  // what intervals are over
 };
 
 /// Whether every sum that the rule and the component need was kept.

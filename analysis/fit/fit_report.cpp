@@ -8,6 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 namespace grseg {
 namespace {
 
@@ -40,19 +44,62 @@ constexpr RuleColumn rule_columns[] = {
     {"B_pressure_high", [](const RuleFit& fit) { return fit.B_pressure.high; }},
 };
 
+/// "Phi_L = 0.06, 4 tables, 1.7 % of the weight: a.tsv b.tsv"
+std::string mixture_line(const FitReport& report, std::size_t m)
+{
+  const auto& mixture = report.mixtures[m];
+  const auto tables = mixture.tables.size();
+  std::string line =
+      fmt::format("{}, {} table{}, {:.3g} % of the weight:", mixture.name, tables,
+                  tables == 1 ? "" : "s", m < report.shares.size() ? 100 * report.shares[m] : 0);
+  for (const auto table : mixture.tables)
+    line += ' ' + (table < report.table_names.size() ? printable(report.table_names[table]) : "-");
+  return line;
+}
+
+/// B of a population, its columns "B_equal_mixtures", "B_equal_mixtures_low" ...
+std::string column_of_population(Over over)
+{
+  std::string name = std::string("B_") + word_of(over, overs);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 Header header_of(const FitReport& report)
 {
   Header lines = report.header;
   for (const auto& input : report.inputs) lines.emplace_back("input", input);
   lines.insert(lines.end(), report.trust.begin(), report.trust.end());
   for (const auto& line : report.history) lines.emplace_back("history", line);
+  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
+    lines.emplace_back("mixture", mixture_line(report, m));
+  for (const auto& [over, words] : estimands(report))
+    lines.emplace_back("estimand", fmt::format("{}: {}", word_of(over, overs), words));
   for (const auto& doubt : doubts(report)) lines.emplace_back("doubt", doubt);
   return lines;
+}
+
+/// Those that have columns of their own; of windows there is B_half_windows_low and _high.
+constexpr Over populations[] = {Over::runs, Over::mixtures, Over::equal_mixtures,
+                                Over::random_mixtures, Over::compositions};
+
+/// Of all tables together that of all their grains is not known: not a number, unless there is one
+/// mixture.
+double phi_large_of(const FitReport& report, const RuleFit& fit)
+{
+  if (!fit.mixture && report.mixtures.size() != 1) return Estimators::nan;
+  return report.mixtures[fit.mixture.value_or(0)].phi_large();
+}
+
+double share_of(const FitReport& report, const RuleFit& fit)
+{
+  return fit.mixture ? report.shares[*fit.mixture] : 1;
 }
 
 std::string rule_table(const FitReport& report)
 {
   std::vector<std::string> columns{"rule"};
+  if (report.is_by_mixture()) columns.emplace_back("mixture");
   if (report.names_pairs()) columns.insert(columns.end(), {"smaller", "larger"});
   columns.emplace_back("points");
   for (const auto& [name, place] : estimator_columns)
@@ -61,12 +108,17 @@ std::string rule_table(const FitReport& report)
   const bool has_exponent = report.has_exponent();
   if (has_exponent)
     columns.insert(columns.end(), {"size_exponent", "size_exponent_low", "size_exponent_high"});
+  columns.insert(columns.end(), {"over", "runs", "degrees_of_freedom", "Phi_L", "weight_share"});
+  for (const auto& population : populations)
+    for (const char* suffix : {"", "_low", "_high"})
+      columns.push_back(column_of_population(population) + suffix);
   columns.emplace_back("used_by");
 
   std::vector<std::vector<std::string>> rows;
   for (const auto& fit : report.rules) {
     auto& row = rows.emplace_back();
     row = {rule_name(report, fit)};
+    if (report.is_by_mixture()) row.push_back(mixture_name(report, fit));
     if (report.names_pairs())
       row.insert(row.end(),
                  {report.species[fit.pair.smaller].name, report.species[fit.pair.larger].name});
@@ -80,6 +132,14 @@ std::string rule_table(const FitReport& report)
       for (const double number : {exponent.value, exponent.low, exponent.high})
         row.push_back(format_number(number));
     }
+    row.emplace_back(word_of(fit.over, overs));
+    row.push_back(format_number(static_cast<double>(fit.runs)));
+    for (const double number : {fit.degrees, phi_large_of(report, fit), share_of(report, fit)})
+      row.push_back(format_number(number));
+    for (const auto& population : populations)
+      for (const double number :
+           {fit.at(population).value, fit.at(population).low, fit.at(population).high})
+        row.push_back(format_number(number));
     row.push_back(used_by(report, fit));
   }
   return table_text(header_of(report), columns, rows);
@@ -146,6 +206,14 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
               {"block_length", fit.dependence.block},
               {"effective_windows", fit.dependence.effective_windows},
               {"estimators", estimators}};
+  object["over"] = word_of(fit.over, overs);
+  object["mixture"] = mixture_name(report, fit);
+  object["runs"] = fit.runs;
+  object["degrees_of_freedom"] = fit.degrees;
+  object["weight_share"] = share_of(report, fit);
+  object["populations"]["windows"] = of_estimate(fit.at(Over::windows));
+  for (const auto& population : populations)
+    object["populations"][word_of(population, overs)] = of_estimate(fit.at(population));
   if (report.names_pairs())
     object["species"] = {report.species[fit.pair.smaller].name,
                          report.species[fit.pair.larger].name};
@@ -162,9 +230,34 @@ std::string rule_name(const FitReport& report, const RuleFit& fit)
 
 std::string row_name(const FitReport& report, const RuleFit& fit)
 {
-  if (!report.names_pairs()) return rule_name(report, fit);
-  return fmt::format("{} {}+{}", rule_name(report, fit), report.species[fit.pair.smaller].name,
-                     report.species[fit.pair.larger].name);
+  auto name = rule_name(report, fit);
+  if (report.names_pairs())
+    name += fmt::format(" {}+{}", report.species[fit.pair.smaller].name,
+                        report.species[fit.pair.larger].name);
+  if (report.is_by_mixture()) name += ", " + mixture_name(report, fit);
+  return name;
+}
+
+std::string mixture_name(const FitReport& report, const RuleFit& fit)
+{
+  if (fit.mixture) return report.mixtures[*fit.mixture].name;
+  return report.mixtures.size() == 1 ? report.mixtures.front().name : "all";
+}
+
+std::vector<std::pair<Over, std::string>> estimands(const FitReport& report)
+{
+  std::set<Over> used;
+  for (const auto& fit : report.rules) {
+    used.insert(fit.over);
+    for (const auto& [word, population, meaning] : overs)
+      if (std::isfinite(fit.at(population).low)) used.insert(population);
+  }
+  if (report.scan) used = {report.scan->fits.front().over};
+  const auto mixtures = static_cast<std::size_t>(
+      std::count_if(report.shares.begin(), report.shares.end(), [](double s) { return s > 0; }));
+  std::vector<std::pair<Over, std::string>> words;
+  for (const auto over : used) words.emplace_back(over, estimand_words(over, mixtures));
+  return words;
 }
 
 std::string used_by(const FitReport& report, const RuleFit& fit)
@@ -206,6 +299,14 @@ std::string to_json(const FitReport& report)
     all["block_length"] = report.scan->dependence.block;
   }
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
+  all["mixtures"] = Json::array();
+  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
+    all["mixtures"].push_back({{"name", report.mixtures[m].name},
+                               {"Phi_L", report.mixtures[m].phi_large()},
+                               {"weight_share", report.shares[m]},
+                               {"tables", mixture_line(report, m)}});
+  for (const auto& [over, words] : estimands(report))
+    all["estimands"][word_of(over, overs)] = words;
   all["inputs"] = report.inputs;
   for (const auto& [key, value] : report.trust) all[key].push_back(value);
   all["history"] = Json::array();

@@ -70,7 +70,9 @@ std::optional<OtherComponent> other_component(const FitReport& report)
 std::string rules_text(const FitReport& report)
 {
   const auto other = other_component(report);
+  const bool by_mixture = report.is_by_mixture();
   std::vector<Line> lines{{"rule", "B", "95 % interval"}};
+  if (by_mixture) lines.back() = {"rule, mixture", "B", "95 % interval"};
   if (other) lines.back().insert(lines.back().end(), {other->title, "95 % interval"});
   lines.back().insert(lines.back().end(), {"share", "points", "used by"});
   for (const auto& fit : report.rules) {
@@ -100,10 +102,47 @@ std::string matrix_text(const FitReport& report, const std::string& rule)
   for (std::size_t b = 1; b < species.size(); ++b) {
     text += fmt::format("\n{:<{}}", species[b].name, width);
     for (const auto& fit : report.rules)
-      if (rule_name(report, fit) == rule && fit.pair.larger == b)
+      if (rule_name(report, fit) == rule && fit.pair.larger == b && !fit.mixture)
         text += fmt::format("{:>{}}", rounded(fit.value.B_half), width);
   }
   return text + '\n';
+}
+
+/// The numbers for all mixtures together under the rules that have B, and what each of them is.
+std::string populations_text(const FitReport& report)
+{
+  std::string text;
+  std::vector<Line> lines;
+  for (const auto& fit : report.rules)
+    for (const auto& [word, population, meaning] : overs) {
+      const auto& b = fit.at(population);
+      if (report.shares.size() < 2 || fit.mixture || !std::isfinite(b.value)) continue;
+      lines.push_back(
+          {row_name(report, fit), rounded(b.value), interval_text(b.low, b.high), word});
+    }
+  if (!lines.empty()) {
+    lines.insert(lines.begin(), {"all together", "B", "95 % interval", "over"});
+    text += '\n' + aligned(lines);
+  }
+  const auto words = estimands(report);
+  if (!words.empty() && !report.mixtures.empty()) text += '\n';
+  if (!report.mixtures.empty())
+    for (const auto& [over, sentence] : words)
+      text += fmt::format("over {}: {}\n", word_of(over, overs), sentence);
+  if (report.mixtures.size() < 2) return text;
+  text += '\n';
+  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
+    text += fmt::format("{}: {} tables, {:.3g} % of the weight\n", report.mixtures[m].name,
+                        report.mixtures[m].tables.size(), 100 * report.shares[m]);
+  return text;
+}
+
+bool has_several_pairs(const FitReport& report)
+{
+  const auto& first = report.rules.front().pair;
+  return std::any_of(report.rules.begin(), report.rules.end(), [&first](const RuleFit& fit) {
+    return fit.pair.smaller != first.smaller || fit.pair.larger != first.larger;
+  });
 }
 
 /// What is known of all pairs together, each rule once.
@@ -114,11 +153,12 @@ std::string pairs_text(const FitReport& report)
     const auto rule = rule_name(report, fit);
     if (rule == last) continue;
     last = rule;
-    const auto pairs =
-        std::count_if(report.rules.begin(), report.rules.end(),
-                      [&](const auto& other) { return rule_name(report, other) == rule; });
-    if (pairs > 1) text += matrix_text(report, rule);
-    if (const auto& a = fit.size_exponent)
+    if (report.names_pairs() && has_several_pairs(report)) text += matrix_text(report, rule);
+    const auto of_all = std::find_if(
+        report.rules.begin(), report.rules.end(),
+        [&](const auto& other) { return rule_name(report, other) == rule && other.size_exponent; });
+    if (of_all == report.rules.end()) continue;
+    if (const auto& a = of_all->size_exponent)
       text += fmt::format("{}: a = {}: sigma^nu/sigma = phi^nu s^a/sum(phi s^a)\n", rule,
                           with_interval(a->value, {a->low, a->high}));
   }
@@ -168,10 +208,11 @@ std::string short_table(const FitReport& report)
   const auto plural = [](std::size_t n, const char* word) {
     return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
   };
-  std::string text =
-      fmt::format("B of the {} stress ({}) at phi_L = 1/2, from {} of {}\n\n",
-                  word_of(report.quantity, quantities), word_of(report.component, components),
-                  plural(report.number_of_windows, "window"), plural(report.number_of_runs, "run"));
+  std::string text = fmt::format(
+      "B of the {} stress ({}) at phi_L = 1/2, from {} of {}{}\n\n",
+      word_of(report.quantity, quantities), word_of(report.component, components),
+      plural(report.number_of_windows, "window"), plural(report.number_of_runs, "run"),
+      report.mixtures.size() > 1 ? fmt::format(" of {} mixtures", report.mixtures.size()) : "");
   text += rules_text(report);
   text += pairs_text(report);
   if (report.scan || report.zero) text += '\n';
@@ -180,6 +221,7 @@ std::string short_table(const FitReport& report)
     text += zero_text(*report.scan);
   else if (report.zero)
     text += zero_text(*report.zero);
+  text += populations_text(report);
   return text + doubts_text(report);
 }
 

@@ -116,6 +116,11 @@ WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& ru
   return {std::move(sums), window_noise(points, windows)};
 }
 
+Eigen::VectorXd WindowSums::weight() const
+{
+  return sums.col(sums.col(sum_w).any() ? sum_w : sum_wQQ);
+}
+
 Eigen::MatrixXd WindowSums::totals(const Eigen::MatrixXd& times) const
 {
   const Eigen::RowVectorXd without_noise = total() - noise.colwise().sum();
