@@ -2,6 +2,7 @@
 #include "analysis/segregation/closure.hpp"
 
 #include "analysis/statistics/bootstrap.hpp"
+#include "analysis/statistics/composition_noise.hpp"
 #include "analysis/statistics/confidence.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -111,21 +113,28 @@ class Regressions {
     return both;
   }
 
-  /// sum of `above`/sum of `below`, over the points that have both.
-  template <class Above, class Below>
-  Linear ratio_of_sums(const Above& above, const Below& below) const
+  /// sum of weight x value/sum of weight, over the points that have both. What composition explains
+  /// of it is not noise (composition_noise.hpp).
+  template <class Value, class Weight>
+  Linear mean(const Value& value, const Weight& weight) const
   {
-    double over = 0, under = 0;
-    for (const auto& point : data_.points) {
-      if (!std::isfinite(above(point) + below(point))) continue;
-      over += above(point);
-      under += below(point);
-    }
-    auto all = none(over / under);
-    for (const auto& point : data_.points) {
-      if (!std::isfinite(above(point) + below(point))) continue;
-      all.influence[index_of(point.window)] += (above(point) - all.value * below(point)) / under;
-      all.weight[index_of(point.window)] += below(point);
+    std::vector<const ClosurePoint*> used;
+    for (const auto& point : data_.points)
+      if (weight(point) > 0 && std::isfinite(value(point))) used.push_back(&point);
+    const auto list = [&](const auto& of) {
+      Eigen::VectorXd all(index_of(used.size()));
+      for (std::size_t k = 0; k < used.size(); ++k) all[index_of(k)] = of(*used[k]);
+      return all;
+    };
+    if (used.empty()) return none(unknown);
+    const Eigen::VectorXd values = list(value), weights = list(weight);
+    const Eigen::VectorXd noise =
+        composition_noise(list([](const ClosurePoint& p) { return p.phi_large; }), values, weights);
+    auto all = none(weights.dot(values) / weights.sum());
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      const auto point = index_of(k), window = index_of(used[k]->window);
+      all.influence[window] += weights[point] * noise[point] / weights.sum();
+      all.weight[window] += weights[point];
     }
     return all;
   }
@@ -239,9 +248,8 @@ std::array<Linear, 2> add_taus(Report& report, const Regressions& regressions)
 /// B of the rule number `rule`, by sums.
 Linear b_of(const Regressions& regressions, std::size_t rule)
 {
-  return regressions.ratio_of_sums(
-      [rule](const ClosurePoint& p) { return p.frames * p.excess[rule]; },
-      [](const ClosurePoint& p) { return p.frames * p.product; });
+  return regressions.mean([rule](const ClosurePoint& p) { return p.excess[rule] / p.product; },
+                          [](const ClosurePoint& p) { return p.frames * p.product; });
 }
 
 /// "+", "-" or "not known".
@@ -320,15 +328,13 @@ SegregationSummary closure_summary(const ClosureData& data, const std::vector<Pa
   add_collinearity(report, regressions, flux);
   report.add(
       "D_displacements[m^2/s]",
-      regressions.ratio_of_sums(
-          [](const ClosurePoint& p) { return p.weight * p.gradient * p.gradient * p.diffusivity; },
-          [](const ClosurePoint& p) { return p.weight * p.gradient * p.gradient; }));
+      regressions.mean([](const ClosurePoint& p) { return p.diffusivity; },
+                       [](const ClosurePoint& p) { return p.weight * p.gradient * p.gradient; }));
   report.add_doubt(flux[0]);
   if (data.has_kinetic) {
-    report.add(
-        "stress_slope_over_weight",
-        regressions.ratio_of_sums([](const ClosurePoint& p) { return p.weight * p.weight_above; },
-                                  [](const ClosurePoint& p) { return p.weight; }));
+    report.add("stress_slope_over_weight",
+               regressions.mean([](const ClosurePoint& p) { return p.weight_above; },
+                                [](const ClosurePoint& p) { return p.weight; }));
     const auto tau = add_taus(report, regressions);
     add_rules(report, regressions, rules, flux, &tau);
   } else {

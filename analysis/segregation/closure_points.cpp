@@ -218,6 +218,7 @@ void add_stress(ClosurePoint& point, const Stress& stress, const std::vector<Par
 {
   const double small = stress.sums.content[0], large = stress.sums.content[1];
   const double phi = large / (small + large);
+  point.phi_large = phi;
   point.product = phi * (1 - phi);
   for (const auto& rule : rules) {
     const auto parts = partial_stress(stress.sums, rule);

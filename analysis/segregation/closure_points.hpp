@@ -48,8 +48,9 @@ struct ClosurePoint {
   double kinetic_push = nan, kinetic_spread = nan, inertia = nan;  // m/s^2; NaN: not in the table
   double diffusivity = nan;                                        // m^2/s, from displacements
   double weight_above = nan;  // -sigma' of the table of stress over that of the balance
-  // Of the table of stress: phi_L phi_S, and psi_L - phi_L by rule; behind those of the rules stand
+  // Of the table of stress: phi_L, phi_L phi_S, and psi_L - phi_L by rule; behind those of the rules stand
   // the ones where large grains get nothing and all of mixed contacts.
+  double phi_large = 0;
   double product = 0;
   std::vector<double> excess;
 };

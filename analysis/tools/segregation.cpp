@@ -66,6 +66,11 @@ po::options_description options_into(Settings& s)
   const auto rules = "with --closure: rules for c, " + list_of_rules() + ", or stock (default)";
   options.add_options()("partition", po::value(&s.partition)->composing()->value_name("RULE,..."),
                         rules.c_str());
+  const auto instruments =
+      "with --closure: what the flux's noise is weighed with: " + list_of(instrument_choices);
+  options.add_options()("instruments",
+                        po::value(&s.instruments)->default_value(s.instruments)->value_name("WORD"),
+                        instruments.c_str());
   options.add_options()("bootstrap",
                         po::value(&s.bootstrap)->default_value(s.bootstrap)->value_name("N"),
                         "with --closure: samples for the 95 % intervals; 0: no intervals");

@@ -335,6 +335,7 @@ ClosureData noisy(const RunLengths& runs, double kick, synthetic::Ar1& noise, bo
         point.flux =
             b_over_c * point.driving - d_over_c * point.gradient +
             kick * b_over_c * weight_of_mass / 4 * normal[static_cast<Eigen::Index>(window)];
+        point.phi_large = phi;
         point.product = phi * (1 - phi);
         point.excess = {0.04 * point.product, -0.5 * point.product, 0.3 * point.product};
         data.points.push_back(point);
@@ -491,6 +492,7 @@ ClosureData moved_by_its_flux(synthetic::Ar1& noise, Instruments instruments)
       point.gradient = gradient(mean, n);
       point.driving_before = driving(before[n]);
       point.gradient_before = gradient(before, n);
+      point.phi_large = mean[n];
       point.product = mean[n] * (1 - mean[n]);
       point.excess = {0.04 * point.product, -0.5 * point.product, 0.3 * point.product};
       data.points.push_back(point);
