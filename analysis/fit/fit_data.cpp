@@ -148,6 +148,7 @@ LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesL
   const double rarer = std::min(small / size(d_small), large / size(d_large));
   return {.phi_large = large / (small + large),
           .weight = row.key.frames * rarer,
+          .frames = row.key.frames,
           .size_ratio = d_large / d_small,
           .pair = pair};
 }
@@ -179,6 +180,7 @@ void add_run(const FitTable& run, const FitFilters& filters, const std::vector<S
   const FitRow* last = nullptr;
   for (const auto& [row, pair] : used) {
     if (row != last) data.rows.push_back(row->sums);
+    if (data.samples.empty()) data.window = row->key.end - row->key.begin;
     last = row;
     auto& sample = data.samples.emplace_back(sample_of(*row, pair, run.species, data.dimension));
     sample.window = window_at.at(row->key.begin);

@@ -16,17 +16,33 @@ struct Mean {
   StandardError equal, random;
 };
 
-/// The unweighted mean over mixtures with its errors over equal and over random mixtures.
-Mean mean_of(const std::vector<RuleFit>& mixtures, double Estimators::*place)
+/// The unweighted mean over mixtures with its errors over equal and over random mixtures, of numbers
+/// that value(fit) and error(fit) give.
+template <class Value, class Error>
+Mean mean_of(const std::vector<RuleFit>& mixtures, const Value& value, const Error& error)
 {
   const auto count = static_cast<double>(mixtures.size());
   Eigen::VectorXd values(static_cast<Eigen::Index>(mixtures.size()));
   std::vector<StandardError> parts;
   for (std::size_t k = 0; k < mixtures.size(); ++k) {
-    values[static_cast<Eigen::Index>(k)] = mixtures[k].value.*place;
-    parts.push_back({mixtures[k].error.*place / count, mixtures[k].degrees});
+    values[static_cast<Eigen::Index>(k)] = value(mixtures[k]);
+    parts.push_back({error(mixtures[k]) / count, mixtures[k].degrees});
   }
   return {values.mean(), added(parts), scatter_of_values(values)};
+}
+
+Mean mean_of(const std::vector<RuleFit>& mixtures, double Estimators::*place)
+{
+  return mean_of(
+      mixtures, [place](const RuleFit& fit) { return fit.value.*place; },
+      [place](const RuleFit& fit) { return fit.error.*place; });
+}
+
+Mean mean_of_zeros(const std::vector<RuleFit>& mixtures)
+{
+  return mean_of(
+      mixtures, [](const RuleFit& fit) { return fit.p_zero_sums.value; },
+      [](const RuleFit& fit) { return fit.p_zero_sums_error.error; });
 }
 
 Estimate with(double value, const StandardError& error)
@@ -51,12 +67,18 @@ void combine(RuleFit& all, const std::vector<RuleFit>& mixtures)
   const auto b = mean_of(mixtures, &Estimators::B_half);
   all.at(Over::equal_mixtures) = with(b.value, b.equal);
   all.at(Over::random_mixtures) = with(b.value, b.random);
+  const auto sums = mean_of(mixtures, &Estimators::B_sums);
+  all.sums_at(Over::equal_mixtures) = with(sums.value, sums.equal);
+  all.sums_at(Over::random_mixtures) = with(sums.value, sums.random);
   if (!equal && !random) return;
   for (const auto& [name, place] : estimator_columns) {
     const auto mean = mean_of(mixtures, place);
     all.value.*place = mean.value;
     set_error(all, place, equal ? mean.equal : mean.random);
   }
+  const auto zero = mean_of_zeros(mixtures);
+  all.p_zero_sums_error = equal ? zero.equal : zero.random;
+  all.p_zero_sums = with(zero.value, all.p_zero_sums_error);
   if (random) all.doubt = doubt_of_random(mixtures.size());
 }
 

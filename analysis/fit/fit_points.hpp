@@ -15,6 +15,7 @@ struct FitPoint {
   std::size_t window = 0;
   double phi_large = 0;
   double weight = 0;
+  double frames = 1;
   double size_ratio = 0;  // nominal d_L/d_S
   double small = 0, large = 0, total = 0;
 

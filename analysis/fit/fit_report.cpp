@@ -42,25 +42,30 @@ constexpr RuleColumn rule_columns[] = {
     {"B_pressure", [](const RuleFit& fit) { return fit.B_pressure.value; }},
     {"B_pressure_low", [](const RuleFit& fit) { return fit.B_pressure.low; }},
     {"B_pressure_high", [](const RuleFit& fit) { return fit.B_pressure.high; }},
+    {"p_zero_sums", [](const RuleFit& fit) { return fit.p_zero_sums.value; }},
+    {"p_zero_sums_low", [](const RuleFit& fit) { return fit.p_zero_sums.low; }},
+    {"p_zero_sums_high", [](const RuleFit& fit) { return fit.p_zero_sums.high; }},
+    {"B_sums_windows_low", [](const RuleFit& fit) { return fit.sums_at(Over::windows).low; }},
+    {"B_sums_windows_high", [](const RuleFit& fit) { return fit.sums_at(Over::windows).high; }},
 };
 
-/// "Phi_L = 0.06, 4 tables, 1.7 % of the weight: a.tsv b.tsv"
+/// "Phi_L = 0.06, 4 tables, 1.7 % of the weight of B_half, 3.1 % of that of B_sums: a.tsv b.tsv"
 std::string mixture_line(const FitReport& report, std::size_t m)
 {
   const auto& mixture = report.mixtures[m];
   const auto tables = mixture.tables.size();
-  std::string line =
-      fmt::format("{}, {} table{}, {:.3g} % of the weight:", mixture.name, tables,
-                  tables == 1 ? "" : "s", m < report.shares.size() ? 100 * report.shares[m] : 0);
+  std::string line = fmt::format("{}, {} table{}, {}:", mixture.name, tables,
+                                 tables == 1 ? "" : "s", share_words(report, m));
   for (const auto table : mixture.tables)
     line += ' ' + (table < report.table_names.size() ? printable(report.table_names[table]) : "-");
   return line;
 }
 
-/// B of a population, its columns "B_equal_mixtures", "B_equal_mixtures_low" ...
-std::string column_of_population(Over over)
+/// B_half of a population, its columns "B_equal_mixtures", "B_equal_mixtures_low" ...; of B_sums
+/// with `stem` "B_sums_".
+std::string column_of_population(const char* stem, Over over)
 {
-  std::string name = std::string("B_") + word_of(over, overs);
+  std::string name = std::string(stem) + word_of(over, overs);
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
@@ -93,7 +98,7 @@ double phi_large_of(const FitReport& report, const RuleFit& fit)
 
 double share_of(const FitReport& report, const RuleFit& fit)
 {
-  return fit.mixture ? report.shares[*fit.mixture] : 1;
+  return fit.mixture ? report.shares.half[*fit.mixture] : 1;
 }
 
 std::string rule_table(const FitReport& report)
@@ -109,9 +114,10 @@ std::string rule_table(const FitReport& report)
   if (has_exponent)
     columns.insert(columns.end(), {"size_exponent", "size_exponent_low", "size_exponent_high"});
   columns.insert(columns.end(), {"over", "runs", "degrees_of_freedom", "Phi_L", "weight_share"});
-  for (const auto& population : populations)
-    for (const char* suffix : {"", "_low", "_high"})
-      columns.push_back(column_of_population(population) + suffix);
+  for (const char* stem : {"B_", "B_sums_"})
+    for (const auto& population : populations)
+      for (const char* suffix : {"", "_low", "_high"})
+        columns.push_back(column_of_population(stem, population) + suffix);
   columns.emplace_back("used_by");
 
   std::vector<std::vector<std::string>> rows;
@@ -136,10 +142,11 @@ std::string rule_table(const FitReport& report)
     row.push_back(format_number(static_cast<double>(fit.runs)));
     for (const double number : {fit.degrees, phi_large_of(report, fit), share_of(report, fit)})
       row.push_back(format_number(number));
-    for (const auto& population : populations)
-      for (const double number :
-           {fit.at(population).value, fit.at(population).low, fit.at(population).high})
-        row.push_back(format_number(number));
+    for (const auto* over : {&fit.B_over, &fit.B_sums_over})
+      for (const auto& population : populations) {
+        const auto& b = (*over)[static_cast<std::size_t>(population)];
+        for (const double number : {b.value, b.low, b.high}) row.push_back(format_number(number));
+      }
     row.push_back(used_by(report, fit));
   }
   return table_text(header_of(report), columns, rows);
@@ -156,13 +163,19 @@ std::string scan_table(const FitReport& report)
                                    {"dB_dp", scan.dB_dp},
                                    {"dB_dp_low", scan.dB_dp_interval.low},
                                    {"dB_dp_high", scan.dB_dp_interval.high},
+                                   {"p_zero_sums", report.rules.back().p_zero_sums.value},
+                                   {"p_zero_sums_low", report.rules.back().p_zero_sums.low},
+                                   {"p_zero_sums_high", report.rules.back().p_zero_sums.high},
                                    {"autocorrelation_time", scan.dependence.time},
                                    {"block_length", static_cast<double>(scan.dependence.block)}})
     table.header.emplace_back(key, format_number(value));
-  table.columns = {"p", "B", "low", "high", "B_direct", "B_direct_low", "B_direct_high", "neutral"};
+  table.columns = {
+      "p",       "B",      "low",        "high",       "B_direct", "B_direct_low", "B_direct_high",
+      "neutral", "B_sums", "B_sums_low", "B_sums_high"};
   for (const auto& fit : scan.fits)
     table.rows.push_back({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half,
-                          fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral});
+                          fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral,
+                          fit.value.B_sums, fit.low.B_sums, fit.high.B_sums});
   return table.to_text();
 }
 
@@ -214,6 +227,11 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
   object["populations"]["windows"] = of_estimate(fit.at(Over::windows));
   for (const auto& population : populations)
     object["populations"][word_of(population, overs)] = of_estimate(fit.at(population));
+  object["populations_of_B_sums"]["windows"] = of_estimate(fit.sums_at(Over::windows));
+  for (const auto& population : populations)
+    object["populations_of_B_sums"][word_of(population, overs)] =
+        of_estimate(fit.sums_at(population));
+  object["p_zero_sums"] = of_estimate(fit.p_zero_sums);
   if (report.names_pairs())
     object["species"] = {report.species[fit.pair.smaller].name,
                          report.species[fit.pair.larger].name};
@@ -238,6 +256,13 @@ std::string row_name(const FitReport& report, const RuleFit& fit)
   return name;
 }
 
+std::string share_words(const FitReport& report, std::size_t mixture)
+{
+  if (mixture >= report.shares.half.size()) return "weight unknown";
+  return fmt::format("{:.3g} % of the weight of B_half, {:.3g} % of that of B_sums",
+                     100 * report.shares.half[mixture], 100 * report.shares.sums[mixture]);
+}
+
 std::string mixture_name(const FitReport& report, const RuleFit& fit)
 {
   if (fit.mixture) return report.mixtures[*fit.mixture].name;
@@ -253,8 +278,8 @@ std::vector<std::pair<Over, std::string>> estimands(const FitReport& report)
       if (std::isfinite(fit.at(population).low)) used.insert(population);
   }
   if (report.scan) used = {report.scan->fits.front().over};
-  const auto mixtures = static_cast<std::size_t>(
-      std::count_if(report.shares.begin(), report.shares.end(), [](double s) { return s > 0; }));
+  const auto mixtures = static_cast<std::size_t>(std::count_if(
+      report.shares.half.begin(), report.shares.half.end(), [](double s) { return s > 0; }));
   std::vector<std::pair<Over, std::string>> words;
   for (const auto over : used) words.emplace_back(over, estimand_words(over, mixtures));
   return words;
@@ -296,6 +321,7 @@ std::string to_json(const FitReport& report)
     all["dB_dp"] = report.scan->dB_dp;
     all["dB_dp_interval"] = pair(report.scan->dB_dp_interval);
     all["autocorrelation_time"] = report.scan->dependence.time;
+    all["p_zero_sums"] = of_estimate(report.rules.back().p_zero_sums);
     all["block_length"] = report.scan->dependence.block;
   }
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
@@ -303,7 +329,8 @@ std::string to_json(const FitReport& report)
   for (std::size_t m = 0; m < report.mixtures.size(); ++m)
     all["mixtures"].push_back({{"name", report.mixtures[m].name},
                                {"Phi_L", report.mixtures[m].phi_large()},
-                               {"weight_share", report.shares[m]},
+                               {"weight_share", report.shares.half[m]},
+                               {"weight_share_sums", report.shares.sums[m]},
                                {"tables", mixture_line(report, m)}});
   for (const auto& [over, words] : estimands(report))
     all["estimands"][word_of(over, overs)] = words;

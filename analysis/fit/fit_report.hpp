@@ -25,7 +25,7 @@ struct FitReport {
   Component component = Component::yy;
   SpeciesList species;            // of the tables
   std::vector<Mixture> mixtures;  // of the tables
-  std::vector<double> shares;     // of each mixture in the weight of all
+  WeightShares shares;            // of each mixture in the weight of all
   std::vector<std::string> table_names;
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
@@ -56,6 +56,9 @@ std::string used_by(const FitReport& report, const RuleFit& fit);
 
 /// The name of the mixture that a row is of; "all" of all of them.
 std::string mixture_name(const FitReport& report, const RuleFit& fit);
+
+/// "1.7 % of the weight of B_half, 3.1 % of that of B_sums".
+std::string share_words(const FitReport& report, std::size_t mixture);
 
 /// What each kind of interval in the report is over, in words.
 std::vector<std::pair<Over, std::string>> estimands(const FitReport& report);

@@ -177,6 +177,7 @@ FitData of_mixture(const FitData& data, std::size_t mixture)
   part.dimension = data.dimension;
   part.tables = data.tables;
   part.species = data.species;
+  part.window = data.window;
   part.count = data.count;
   std::vector<std::size_t> run_of, window_of;  // of each window: its run, its number in the part
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
@@ -202,19 +203,22 @@ FitData of_mixture(const FitData& data, std::size_t mixture)
   return part;
 }
 
-std::vector<double> weight_shares(const FitData& data, std::size_t mixtures)
+WeightShares weight_shares(const FitData& data, std::size_t mixtures)
 {
   std::vector<std::size_t> mixture_of;  // of each window
   for (std::size_t run = 0; run < data.runs.size(); ++run)
     mixture_of.insert(mixture_of.end(), data.runs[run], data.mixture_of(run));
-  std::vector<double> share(mixtures);
-  double all = 0;
+  WeightShares shares{std::vector<double>(mixtures), std::vector<double>(mixtures)};
   for (const auto& sample : data.samples) {
-    share[mixture_of[sample.window]] += sample.weight;
-    all += sample.weight;
+    const auto mixture = mixture_of[sample.window];
+    shares.half[mixture] += sample.weight;
+    shares.sums[mixture] += sample.frames * sample.phi_large * (1 - sample.phi_large);
   }
-  for (double& part : share) part /= all;
-  return share;
+  for (auto* parts : {&shares.half, &shares.sums}) {
+    const double all = std::accumulate(parts->begin(), parts->end(), 0.0);
+    for (double& part : *parts) part /= all;
+  }
+  return shares;
 }
 
 }  // namespace grseg

@@ -37,7 +37,10 @@ std::vector<Mixture> find_mixtures(std::vector<FitTable>& tables, const std::str
 /// The part of `data` that is of one mixture, as if it had been selected alone.
 FitData of_mixture(const FitData& data, std::size_t mixture);
 
-/// Each mixture's part of the weight of all samples.
-std::vector<double> weight_shares(const FitData& data, std::size_t mixtures);
+/// Each mixture's part of the weight of all samples: in B_half and in B_sums.
+struct WeightShares {
+  std::vector<double> half, sums;
+};
+WeightShares weight_shares(const FitData& data, std::size_t mixtures);
 
 }  // namespace grseg

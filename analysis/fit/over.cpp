@@ -16,7 +16,9 @@ Over resolved(Over over, std::size_t runs, std::size_t mixtures)
 std::string estimand_words(Over over, std::size_t mixtures)
 {
   const std::string within = "over all their runs; from the scatter of runs within mixtures";
-  const std::string weighted = "weighted as they are (frames x grains of the rarer species), ";
+  const std::string weighted =
+      "weighted as they are (B_half by frames x grains of the rarer species, B_sums by frames x "
+      "phi_L phi_S), ";
   switch (over) {
     case Over::automatic:
       break;

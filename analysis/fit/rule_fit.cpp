@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace grseg {
 namespace {
@@ -19,6 +20,7 @@ void remove_b(RuleFit& fit)
       if (name[0] == 'B') all->*place = Estimators::nan;
   fit.B_half_windows = {Estimators::nan, Estimators::nan};
   fit.B_over.fill({});
+  fit.B_sums_over.fill({});
 }
 
 /// Weighted mean of what a rule gives to the large grains, over that of all mixed stress.
@@ -59,10 +61,10 @@ StandardError window_error(const std::vector<Estimators>& of_blocks, double Esti
   return bootstrap.window_error(column_of(of_blocks, place), fit.dependence);
 }
 
-Estimate b_half_with(const RuleFit& fit, const StandardError& error)
+Estimate estimate_with(double value, const StandardError& error)
 {
-  const auto interval = students_interval(fit.value.B_half, error);
-  return {fit.value.B_half, interval.low, interval.high};
+  const auto interval = students_interval(value, error);
+  return {value, interval.low, interval.high};
 }
 
 /// Errors over windows, over runs within mixtures and over runs about one function of composition;
@@ -84,11 +86,15 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
               fit.over == Over::windows        ? over_windows
               : fit.over == Over::compositions ? about_one_function
                                                : within);
-    if (place != &Estimators::B_half) continue;
-    fit.at(Over::windows) = b_half_with(fit, over_windows);
+    if (place != &Estimators::B_half && place != &Estimators::B_sums) continue;
+    auto& over = place == &Estimators::B_half ? fit.B_over : fit.B_sums_over;
+    const auto set = [&](Over population, const StandardError& error) {
+      over[static_cast<std::size_t>(population)] = estimate_with(fit.value.*place, error);
+    };
+    set(Over::windows, over_windows);
     if (fit.runs < 2) continue;
-    fit.at(Over::compositions) = b_half_with(fit, about_one_function);
-    fit.at(data.number_of_mixtures() > 1 ? Over::mixtures : Over::runs) = b_half_with(fit, within);
+    set(Over::compositions, about_one_function);
+    set(data.number_of_mixtures() > 1 ? Over::mixtures : Over::runs, within);
   }
   fit.B_half_windows = {fit.at(Over::windows).low, fit.at(Over::windows).high};
 }
@@ -115,6 +121,45 @@ void add_minus_size(RuleFit& fit, const FitData& data, const WindowSums& windows
       fit.minus_size, RunErrors(data, windows.weight())
                           .within_mixtures(own.sums.col(direct) - others.sums.col(direct),
                                            own.noise.col(direct) - others.noise.col(direct)));
+}
+
+/// p* of the sums. sigma^L is linear in the share p, so that the sum over frames of psi_L - phi_L is
+/// zero at p* = -D(0)/(D(1) - D(0)); what a window adds to p* is its D(p*) over that slope.
+void add_zero_of_sums(RuleFit& fit, const FitData& data, const FitSettings& settings,
+                      const Bootstrap& bootstrap)
+{
+  const auto sum_at = [&](double share) {
+    double sum = 0;
+    for (const auto& point : fit_points(data, {PartitionRule::Kind::uniform, share}, settings))
+      if (point.total > 0) sum += point.frames * point.excess();
+    return sum;
+  };
+  const double none = sum_at(0), slope = sum_at(1) - none, zero = -none / slope;
+  fit.p_zero_sums = {zero};
+  if (bootstrap.count() == 0 || !std::isfinite(zero)) return;
+  const auto windows = window_sums(fit_points(data, {PartitionRule::Kind::uniform, zero}, settings),
+                                   bootstrap.runs());
+  const Eigen::VectorXd sums = windows.excess() / -slope, noise = windows.excess_noise() / -slope;
+  fit.p_zero_sums_error =
+      fit.over == Over::windows
+          ? bootstrap.window_error(bootstrap.blocks(fit.dependence.block) * noise, fit.dependence)
+      : fit.over == Over::compositions
+          ? bootstrap.run_error(bootstrap.whole_runs() * noise, fit.dependence)
+          : RunErrors(data, windows.weight()).within_mixtures(sums, noise);
+  fit.p_zero_sums = estimate_with(zero, fit.p_zero_sums_error);
+}
+
+/// Where the mean of ln(y/x) and the ratio of sums cannot both be right. Only under rules whose
+/// neutral B is 0 at all compositions: by others B_half and B_sums may well differ.
+std::string doubt_of_few_grains(const RuleFit& fit, double window)
+{
+  const double apart = std::abs(fit.value.B_half - fit.value.B_sums);
+  const double reach = (fit.high.B_half - fit.low.B_half + fit.high.B_sums - fit.low.B_sums) / 2;
+  if (!(std::abs(fit.neutral) < 1e-3) || !(apart > reach)) return {};
+  return fmt::format(
+      "B_half = {:.4f} and B_sums = {:.4f} differ by more than their intervals: in windows of {:g} s "
+      "the mean of ln(y/x) suffers from few grains; B_sums does not",
+      fit.value.B_half, fit.value.B_sums, window);
 }
 
 /// What limits the interval, mostly nothing.
@@ -184,7 +229,9 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
     if (data.species.size() <= 2) {
       fit.share = share_of_large(data, points, settings);
       fit.neutral = neutral_mean(points, rule);
+      if (!common) add_zero_of_sums(fit, data, settings, bootstrap);
     }
+    if (fit.doubt.empty()) fit.doubt = doubt_of_few_grains(fit, data.window);
     add_minus_size(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
   }
   return fit;

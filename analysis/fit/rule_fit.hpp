@@ -24,10 +24,20 @@ struct RuleFit {
   Estimators value, low, high, error;
   double degrees = Estimators::nan;  // of freedom of the interval of B_half
   Interval B_half_windows{Estimators::nan, Estimators::nan};  // by the windows' scatter inside runs
-  // B_half over each population, as far as it is known: see at().
-  std::array<Estimate, std::size(overs) + 1> B_over = {};
+  // B_half and B_sums over each population, as far as they are known: see at() and sums_at().
+  using Populations = std::array<Estimate, std::size(overs) + 1>;
+  Populations B_over = {}, B_sums_over = {};
   Estimate& at(Over population) { return B_over[static_cast<std::size_t>(population)]; }
   const Estimate& at(Over population) const { return B_over[static_cast<std::size_t>(population)]; }
+  Estimate& sums_at(Over population) { return B_sums_over[static_cast<std::size_t>(population)]; }
+  const Estimate& sums_at(Over population) const
+  {
+    return B_sums_over[static_cast<std::size_t>(population)];
+  }
+  // The share of every mixed contact at which B_sums = 0, whatever the fit's rule; of contact stress
+  // and two species.
+  Estimate p_zero_sums = {};
+  StandardError p_zero_sums_error{Estimators::nan, 0};
   // B_half of the normal stress sigma_yy and of the pressure; not a number where a sum was not kept.
   Estimate B_yy = {}, B_pressure = {};
   double neutral = Estimators::nan;

@@ -59,8 +59,8 @@ struct OtherComponent {
 std::optional<OtherComponent> other_component(const FitReport& report)
 {
   const OtherComponent other = report.component == Component::yy
-                                   ? OtherComponent{"B, pressure", &RuleFit::B_pressure}
-                                   : OtherComponent{"B, yy", &RuleFit::B_yy};
+                                   ? OtherComponent{"B_half, pressure", &RuleFit::B_pressure}
+                                   : OtherComponent{"B_half, yy", &RuleFit::B_yy};
   const bool any = std::any_of(report.rules.begin(), report.rules.end(), [&](const RuleFit& fit) {
     return std::isfinite((fit.*other.b).value);
   });
@@ -71,13 +71,14 @@ std::string rules_text(const FitReport& report)
 {
   const auto other = other_component(report);
   const bool by_mixture = report.is_by_mixture();
-  std::vector<Line> lines{{"rule", "B", "95 % interval"}};
-  if (by_mixture) lines.back() = {"rule, mixture", "B", "95 % interval"};
+  std::vector<Line> lines{{by_mixture ? "rule, mixture" : "rule", "B_half", "95 % interval",
+                           "B_sums", "95 % interval"}};
   if (other) lines.back().insert(lines.back().end(), {other->title, "95 % interval"});
   lines.back().insert(lines.back().end(), {"share", "points", "used by"});
   for (const auto& fit : report.rules) {
     Line line{row_name(report, fit), rounded(fit.value.B_half),
-              interval_text(fit.low.B_half, fit.high.B_half)};
+              interval_text(fit.low.B_half, fit.high.B_half), rounded(fit.value.B_sums),
+              interval_text(fit.low.B_sums, fit.high.B_sums)};
     if (other) {
       const Estimate& b = fit.*other->b;
       line.insert(line.end(), {rounded(b.value), interval_text(b.low, b.high)});
@@ -116,12 +117,14 @@ std::string populations_text(const FitReport& report)
   for (const auto& fit : report.rules)
     for (const auto& [word, population, meaning] : overs) {
       const auto& b = fit.at(population);
-      if (report.shares.size() < 2 || fit.mixture || !std::isfinite(b.value)) continue;
-      lines.push_back(
-          {row_name(report, fit), rounded(b.value), interval_text(b.low, b.high), word});
+      if (report.shares.half.size() < 2 || fit.mixture || !std::isfinite(b.value)) continue;
+      const auto& sums = fit.sums_at(population);
+      lines.push_back({row_name(report, fit), rounded(b.value), interval_text(b.low, b.high),
+                       rounded(sums.value), interval_text(sums.low, sums.high), word});
     }
   if (!lines.empty()) {
-    lines.insert(lines.begin(), {"all together", "B", "95 % interval", "over"});
+    lines.insert(lines.begin(),
+                 {"all together", "B_half", "95 % interval", "B_sums", "95 % interval", "over"});
     text += '\n' + aligned(lines);
   }
   const auto words = estimands(report);
@@ -132,8 +135,8 @@ std::string populations_text(const FitReport& report)
   if (report.mixtures.size() < 2) return text;
   text += '\n';
   for (std::size_t m = 0; m < report.mixtures.size(); ++m)
-    text += fmt::format("{}: {} tables, {:.3g} % of the weight\n", report.mixtures[m].name,
-                        report.mixtures[m].tables.size(), 100 * report.shares[m]);
+    text += fmt::format("{}: {} tables, {}\n", report.mixtures[m].name,
+                        report.mixtures[m].tables.size(), share_words(report, m));
   return text;
 }
 
@@ -181,6 +184,20 @@ std::string zero_text(const ZeroOfB& zero)
                      with_interval(zero.dB_dp, zero.dB_dp_interval));
 }
 
+/// p* of the sums, of each mixture and of all, which no rule changes.
+std::string zeros_of_sums_text(const FitReport& report)
+{
+  std::string text;
+  const auto name = report.rules.empty() ? "" : rule_name(report, report.rules.front());
+  for (const auto& fit : report.rules)
+    if (rule_name(report, fit) == name && std::isfinite(fit.p_zero_sums.value))
+      text += fmt::format(
+          "p* by sums = {}: with this share B_sums = 0{}\n",
+          with_interval(fit.p_zero_sums.value, {fit.p_zero_sums.low, fit.p_zero_sums.high}),
+          report.is_by_mixture() ? "; " + mixture_name(report, fit) : "");
+  return text;
+}
+
 /// Each doubt once, with the rules that it is about.
 std::string doubts_text(const FitReport& report)
 {
@@ -209,7 +226,8 @@ std::string short_table(const FitReport& report)
     return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
   };
   std::string text = fmt::format(
-      "B of the {} stress ({}) at phi_L = 1/2, from {} of {}{}\n\n",
+      "B of the {} stress ({}), B_half: at phi_L = 1/2, B_sums: mean with weight phi_L phi_S, from {} "
+      "of {}{}\n\n",
       word_of(report.quantity, quantities), word_of(report.component, components),
       plural(report.number_of_windows, "window"), plural(report.number_of_runs, "run"),
       report.mixtures.size() > 1 ? fmt::format(" of {} mixtures", report.mixtures.size()) : "");
@@ -221,6 +239,7 @@ std::string short_table(const FitReport& report)
     text += zero_text(*report.scan);
   else if (report.zero)
     text += zero_text(*report.zero);
+  text += zeros_of_sums_text(report);
   text += populations_text(report);
   return text + doubts_text(report);
 }

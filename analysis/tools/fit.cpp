@@ -110,8 +110,9 @@ po::options_description options_into(Settings& s)
       "layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
   add("min-solid", number(s.filters.min_solid, "X")->default_value(0.5, "0.5"),
       "least solid fraction of a layer, in units of the run's median");
-  add("min-grains", number(s.filters.min_grains, "N")->default_value(3),
-      "least grains of the rarer species in a layer, mean over the window");
+  add("min-grains", number(s.filters.min_grains, "N")->default_value(0),
+      "least grains of the rarer species in a layer, mean over the window; 0: off, because choosing "
+      "by a number that fluctuates is a bias of its own (B_sums needs no such choice)");
   add("begin", number(s.filters.begin, "s"), "first time of the windows that take part");
   add("end", number(s.filters.end, "s"), "last time of the windows that take part");
   add("short", po::bool_switch(&s.short_form),

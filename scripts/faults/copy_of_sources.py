@@ -1,4 +1,5 @@
 """A copy of the sources that may be broken, and what its test programs say."""
+import contextlib
 import hashlib
 import json
 import os
@@ -107,26 +108,42 @@ def mark_of(fault):
     return hashlib.sha256("\n".join(fault).encode()).hexdigest()[:16]
 
 
+@contextlib.contextmanager
+def broken(copy, part, path, text):
+    """The file with this text, compiled. Then file, object and library are put back as they were, times too, so
+    that nothing has to be compiled again; what a header broke is compiled again by the next build."""
+    source = f"{copy.tree}/{path}"
+    folder, name = path.split("/", 1)
+    made = [f"{copy.tree}/build/{folder}/CMakeFiles/{part.LIBRARY}.dir/{name}.o",
+            f"{copy.tree}/build/{folder}/lib{part.LIBRARY}.so"] if name.endswith(".cpp") else []
+    compiled = name.endswith((".cpp", ".hpp"))
+    for sound in [source, *made]:
+        shutil.copy2(sound, sound + ".sound")
+    try:
+        with open(source, "w", encoding="utf-8") as file:
+            file.write(text)
+        if compiled:
+            copy.must_build([part.LIBRARY], path)
+        yield
+    finally:
+        for sound in [source, *made]:
+            os.replace(sound + ".sound", sound)
+        if compiled and not made:
+            os.utime(source)
+
+
 def inject(copy, part, fault):
-    """Builds the copy with the fault, asks the tests, and puts the file back."""
+    """What the tests say of the copy with the fault."""
     what, path, old, new = fault
     kept = f"{copy.work}/{re.sub('[^a-z]+', '-', what.lower())}.json"
     result = kept_result(kept, fault)
     if result:
         return result
-    broken = f"{copy.tree}/{path}"
-    text = open(broken, encoding="utf-8").read()
+    text = open(f"{copy.tree}/{path}", encoding="utf-8").read()
     if text.count(old) != 1:
         raise SystemExit(f"{path} no longer has, once: {old}")
-    with open(broken, "w", encoding="utf-8") as file:
-        file.write(text.replace(old, new))
-    try:
-        if os.path.splitext(path)[1] in (".cpp", ".hpp"):
-            copy.must_build([part.LIBRARY], what)
+    with broken(copy, part, path, text.replace(old, new)):
         groups = part.noticed(copy, path)
-    finally:
-        with open(broken, "w", encoding="utf-8") as file:
-            file.write(text)
     result = {"what": what, "file": path, "fault": mark_of(fault), "commit": copy.commit,
               "noticed": sum(map(len, groups.values())), **groups}
     with open(kept, "w", encoding="utf-8") as file:

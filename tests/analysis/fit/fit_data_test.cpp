@@ -84,12 +84,13 @@ TEST(FitData, LayersWithFewGrainsOfTheRarerSpeciesAreLeftOutAndCounted)
   const auto used = [&](double grains) {
     return read({table}, {.ratio_high = 1e6, .min_grains = grains}).count.used;
   };
-  const auto usual = read({table}, {.ratio_high = 1e6});
+  const auto usual = read({table}, {.ratio_high = 1e6, .min_grains = 3});
   EXPECT_EQ(usual.count.sentence(),
             "4 rows, 2 with fewer grains of the rarer species than --min-grains");
   EXPECT_EQ(usual.count.used, 2u);
   EXPECT_EQ(usual.count.uncounted, 0u);
   EXPECT_EQ(used(0), 4u);
+  EXPECT_EQ(read({table}, {.ratio_high = 1e6}).count.used, 4u);  // off unless asked for
   EXPECT_EQ(used(2), 3u);
   EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.ratio_high = 1e6, .min_grains = 9}),
                     "4 with fewer grains"));
@@ -245,7 +246,7 @@ TEST(FitData, GrainsOfAKineticTableAreCountedOrUnknown)
     table.rows[row].push_back(row < 2 ? 40 : 3);
     table.rows[row].push_back(row < 3 ? 2 : 40);
   }
-  const auto counted = read({table}, {}, Quantity::kinetic);
+  const auto counted = read({table}, {.min_grains = 3}, Quantity::kinetic);
   EXPECT_EQ(counted.count.uncounted, 0u);
   EXPECT_EQ(counted.count.few_grains, 3u);
 }

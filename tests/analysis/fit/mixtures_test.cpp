@@ -84,10 +84,12 @@ TEST(Mixtures, ThePartOfOneIsWhatItsTablesGiveAlone)
   const PartitionRule half = parse_rule("half");
   EXPECT_EQ(fit_rule(part, half, {}, {part.runs, 0, 1}).value.B_half,
             fit_rule(alone, half, {}, {alone.runs, 0, 1}).value.B_half);
-  const auto shares = weight_shares(both, 2);
+  const auto shares = weight_shares(both, 2).half;
   // The rarer species are large grains: 0.3, 0.5 and 0.31 of the same area, each in two windows.
   EXPECT_NEAR(shares[0], 0.61 / 1.11, 1e-12);
   EXPECT_NEAR(shares[1], 0.5 / 1.11, 1e-12);
+  const double products = 0.3 * 0.7 + 0.31 * 0.69;
+  EXPECT_NEAR(weight_shares(both, 2).sums[0], products / (products + 0.25), 1e-12);
 }
 
 /// Runs of one window and one layer, each with its own -ln s, that of its mixture plus -d, 0, d.
@@ -183,7 +185,8 @@ TEST(Populations, EachIsNamedInWordsWithItsWeights)
 {
   EXPECT_NE(
       estimand_words(Over::mixtures, 6)
-          .find("these 6 mixtures, weighted as they are (frames x grains of the rarer species)"),
+          .find("these 6 mixtures, weighted as they are (B_half by frames x grains of the rarer "
+                "species, B_sums by frames x phi_L phi_S)"),
       std::string::npos);
   EXPECT_NE(estimand_words(Over::equal_mixtures, 6).find("each counting the same"),
             std::string::npos);
