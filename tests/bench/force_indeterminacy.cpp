@@ -237,23 +237,29 @@ Solution solve(const FrozenStep& step, const Start& start, const SolverSettings&
   return solution;
 }
 
-/// The step made by the simulator itself, with its own start and order.
-Solution solve_by_simulator(const Simulation::State& state, World world, const Gravity<2>& gravity,
-                            const SolverSettings& settings)
+/// `simulation` under another solver.
+Simulation with_solver(const Simulation& simulation, const Scene& scene,
+                       const SolverSettings& settings)
 {
+  auto world = simulation.world();
   world.solver = settings;
-  Simulation simulation(world, state);
-  simulation.tilt(gravity);
+  Simulation other(world, simulation.state());
+  start_flow(other, scene);
+  return other;
+}
+
+/// The next step made by the simulator itself, with its own start and order, in the contacts of
+/// `step`.
+Solution solve_by_simulator(Simulation simulation, const FrozenStep& step)
+{
   Frame<2> frame;
-  const auto report = simulation.advance(frame);
-  Solution solution;
-  solution.report = report.solver;
+  Solution solution{step.contacts, {}};
+  solution.report = simulation.advance(frame).solver;
   for (std::size_t k = 0; k < frame.contacts.size(); ++k) {
-    const Vec2 normal = frame.contacts.branch[k].normalized(), tangent(-normal.y(), normal.x());
-    Contact c{};
-    c.impulse_n = world.step * frame.contacts.force[k].dot(normal);
-    c.impulse_t = world.step * frame.contacts.force[k].dot(tangent);
-    solution.contacts.push_back(c);
+    auto& c = solution.contacts[k];
+    const Vec2 impulse = simulation.world().step * frame.contacts.force[k];
+    c.impulse_n = impulse.dot(Vec2(c.nx, c.ny));
+    c.impulse_t = impulse.dot(Vec2(-c.ny, c.nx));
   }
   return solution;
 }
@@ -356,7 +362,7 @@ void write_row(fmt::ostream& table, int n, const FrozenStep& step, const std::st
 
 struct Given {
   std::string checkpoint, folder;
-  int frames = 50, seeds = 8;
+  int frames = 50, seeds = 8, exact_steps = 0;
   double interval = 0.25;
   SolverSettings settings;
 };
@@ -368,13 +374,15 @@ std::optional<Given> read_command_line(int argc, char** argv)
   po::options_description options(
       "force_indeterminacy CHECKPOINT FOLDER [options]: solves steps of a run again and again\n");
   auto value = [](auto& to) { return po::value(&to)->default_value(to); };
-  given.settings.tolerance = 1e-8, given.settings.max_sweeps = 200000;
+  given.settings.tolerance = 1e-8, given.settings.max_sweeps = 20000;
   options.add_options()("checkpoint", po::value(&given.checkpoint)->required(), "of a run")(
       "folder", po::value(&given.folder)->required(), "for START.h5 and solutions.tsv")(
-      "frames", value(given.frames), "steps that are solved")("interval", value(given.interval),
-                                                              "s between them")(
-      "seeds", value(given.seeds), "random starts")("tolerance", value(given.settings.tolerance),
-                                                    "of the solver")(
+      "frames", value(given.frames), "steps that are solved")(
+      "interval", value(given.interval), "s between them")("seeds", value(given.seeds),
+                                                           "random starts")(
+      "exact-steps", value(given.exact_steps),
+      "steps before each of them that are made at the tolerance, too")(
+      "tolerance", value(given.settings.tolerance), "of the solver")(
       "max-sweeps", value(given.settings.max_sweeps), "of the solver")("help", "this text");
   po::positional_options_description place;
   place.add("checkpoint", 1).add("folder", 1);
@@ -406,23 +414,22 @@ void solve_all(const Given& given)
   for (const auto& start : starts)
     writers.emplace_back(fmt::format("{}/{}.h5", given.folder, start.name), description);
   const auto steps_between = std::llround(given.interval / scene.step);
+  if (steps_between <= given.exact_steps)
+    throw UsageError("--exact-steps: choose fewer, or a longer --interval");
   for (int n = 0; n < given.frames; ++n) {
-    for (std::int64_t k = 1; k < steps_between; ++k) simulation.advance();
-    const auto state = simulation.state();
+    for (std::int64_t k = 1; k < steps_between - given.exact_steps; ++k) simulation.advance();
+    auto exact = with_solver(simulation, scene, given.settings);
+    for (int k = 0; k < given.exact_steps; ++k) exact.advance();
+    simulation = with_solver(exact, scene, scene.solver);
     const auto step = freeze(simulation);
-    const auto exact =
-        solve_by_simulator(state, simulation.world(), gravity_of(scene), given.settings);
-    auto reference = step.contacts;
-    for (std::size_t k = 0; k < reference.size(); ++k) {
-      reference[k].impulse_n = exact.contacts[k].impulse_n;
-      reference[k].impulse_t = exact.contacts[k].impulse_t;
-    }
+    const auto simulator = solve_by_simulator(exact, step);
     for (std::size_t s = 0; s < starts.size(); ++s) {
-      Solution solution{step.contacts, {}};
-      if (starts[s].kind == Start::Kind::simulator) solution = {reference, exact.report};
-      if (starts[s].kind > Start::Kind::simulator)
-        solution = solve(step, starts[s], given.settings);
-      write_row(table, n, step, starts[s].name, solution, reference);
+      const auto kind = starts[s].kind;
+      const auto solution = kind == Start::Kind::run ? Solution{step.contacts, {}}
+                            : kind == Start::Kind::simulator
+                                ? simulator
+                                : solve(step, starts[s], given.settings);
+      write_row(table, n, step, starts[s].name, solution, simulator.contacts);
       writers[s].append(frame_of(step, simulation.world(), solution.contacts), {});
     }
     table.flush();
