@@ -303,6 +303,17 @@ class Neutral:
     def mean(self, values):
         return sum(w * v for w, v in zip(self.weight, values)) / sum(self.weight)
 
+    def b_sums(self):
+        """Sum of psi_L - phi_L over that of phi_L phi_S."""
+        return (sum(psi - p for psi, p in zip(self.psi, self.phi))
+                / sum(p * (1 - p) for p in self.phi))
+
+    def p_zero_sums(self):
+        """The share of mixed contacts, sum M/sigma, with which the sum of psi_L - phi_L is 0."""
+        totals = [small + large + mixed for _, small, large, mixed in self.points]
+        return (sum(p - large / t for (p, _, large, _), t in zip(self.points, totals))
+                / sum(mixed / t for (*_, mixed), t in zip(self.points, totals)))
+
     def estimators(self):
         logs = [math.log(y / x) for x, y in zip(self.x, self.y)]
         s = math.exp(self.mean(logs))
@@ -321,6 +332,7 @@ class Neutral:
                 "B_pure_small": (1 - s) / s, "B_paper": ((1 - s) + (1 - s) / s) / 2,
                 "slope_linear": line, "B_linear": half(line), "prefactor_power": prefactor,
                 "exponent": exponent, "B_power": half(prefactor), "B_direct": direct,
+                "B_sums": self.b_sums(), "p_zero_sums": self.p_zero_sums(),
                 "B_yy": half(s), "B_pressure": half(s), "points": 3}
 
 
@@ -342,7 +354,7 @@ def fit():
     for rule, share in shares.items():
         row = Neutral(share).estimators()
         if share is None:  # its stresses do not add up, so that it has no B
-            row = {name: NAN if name.startswith("B_") else value for name, value in row.items()}
+            row = {name: NAN if name.startswith(("B_", "p_zero")) else value for name, value in row.items()}
         row |= {"rule": rule, "share": NAN if share is None else share, "neutral": neutral_b(share),
                 "minus_size": row["B_direct"] - by_size, "not_positive": 0,
                 "autocorrelation_time[windows]": 1, "block_length[windows]": 1, "effective_windows": 1,
@@ -356,7 +368,7 @@ def scan():
     for p in (0.5, 0.6, 0.7, 0.8):
         found = Neutral(p).estimators()
         rows.append({"p": p, "B": found["B_half"], "B_direct": found["B_direct"],
-                     "neutral": neutral_b(p)})
+                     "neutral": neutral_b(p), "B_sums": found["B_sums"]})
     return rows
 
 
@@ -365,7 +377,7 @@ def zero_of_scan():
     slopes = []
     for (_, small, large, mixed), p in zip(Neutral.points, (2 / 3,) * 3):
         slopes.append(mixed * (1 / (small + (1 - p) * mixed) + 1 / (large + p * mixed)))
-    return {"p_zero": 2 / 3, "dB_dp": Neutral(2 / 3).mean(slopes)}
+    return {"p_zero": 2 / 3, "p_zero_sums": 2 / 3, "dB_dp": Neutral(2 / 3).mean(slopes)}
 
 
 def read(path):

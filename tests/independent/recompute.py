@@ -20,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 
+import h5py
 import numpy as np
 
 import definitions as by_definition
@@ -201,6 +202,24 @@ def check(bin_folder, path, frames, layer, fault=None):
             window.check_micro(rows_of("micro")[number])
 
 
+def check_mid_step(path):
+    """In consecutive frames the velocity in the middle of a step is the mean of that stored before it and
+    after it, and so is the spin."""
+    with h5py.File(path, "r") as f:
+        steps = f["particles/grains/position/step"][:]
+    pairs = [k for k in range(1, len(steps)) if steps[k] == steps[k - 1] + 1]
+    if len(pairs) < 5:
+        raise Difference(f"{path}: {len(pairs)} pairs of consecutive steps")
+    for k in pairs[-5:]:
+        run = Run(path, range(k - 1, k + 1))
+        before, after = run.frames
+        middle = by_definition.in_mid_step(run, [after])[0]
+        for name in ("velocity", "spin"):
+            mean = (before[name] + after[name]) / 2
+            compare(f"{path}, frame {k}: {name} in the middle of the step", mean[run.mobile],
+                    middle[name][run.mobile])
+
+
 def require_that_faults_show(bin_folder, path, frames, layer):
     faults = faults_of(Run(path, frames))
     for what, fault in faults.items():
@@ -222,11 +241,18 @@ def main():
         check(bin_folder, sample, range(60, 62), 1.5)
         with tempfile.TemporaryDirectory() as folder:
             fresh = os.path.join(folder, "fresh.h5")
-            subprocess.run([os.path.join(bin_folder, "grseg-sim"), scene, "--depth", "12dS", "--length",
-                            "10dL", "--phi-large", "0.4", "--duration", "1.5", "--accuracy", "draft",
-                            "--quiet", "-o", fresh], check=True)
+
+            def simulate(path, *options):
+                subprocess.run([os.path.join(bin_folder, "grseg-sim"), scene, "--depth", "12dS",
+                                "--length", "10dL", "--phi-large", "0.4", "--accuracy", "draft",
+                                "--quiet", "-o", path, *options], check=True)
+
+            simulate(fresh, "--duration", "1.5")
             check(bin_folder, fresh, range(24, 28), 4)
             check(bin_folder, fresh, range(20, 22), 1.5)
+            bursts = os.path.join(folder, "bursts.h5")
+            simulate(bursts, "--duration", "0.4", "--burst", "2")
+            check_mid_step(bursts)
             for dimension, *words in SYNTHETIC:
                 run = os.path.join(folder, f"{dimension}-{'-'.join(words)}.h5")
                 subprocess.run([os.path.join(bin_folder, "synthetic_run"), run, str(dimension), *words],
