@@ -62,6 +62,68 @@ DrivingForces driving_forces(const MomentumBalance<D>& balance, std::size_t laye
   return of;
 }
 
+namespace {
+
+/// What the large grains' share psi of the mixture's stress makes of its slope, N/m^2 or N/m^3.
+double push_of(double psi, double phi, double total, double slope)
+{
+  return total > 0 ? -(psi - phi) * slope : 0;
+}
+
+/// yy of the contact stress of both species and its derivative along y, under any rule.
+template <int D>
+struct Mixture {
+  Mixture(const PartitionedBalance<D>& contacts, std::size_t layer)
+      : stress((contacts.unmixed_stress(layer, Species::small) +
+                contacts.unmixed_stress(layer, Species::large) +
+                contacts.mixed_stress(layer))(1, 1)),
+        slope(-(contacts.contact_force(layer, Species::small) +
+                contacts.contact_force(layer, Species::large))
+                   .y())
+  {
+  }
+  double stress, slope;
+};
+
+}  // namespace
+
+template <int D>
+RuleForces rule_forces(const DrivingForces& forces, const PartitionedBalance<D>& contacts,
+                       std::size_t layer, std::size_t rule)
+{
+  const Mixture mixture(contacts, layer);
+  const auto large = contacts.mean(layer, Species::large, rule);
+  RuleForces of{};
+  of.psi = mixture.stress > 0 ? large.stress(1, 1) / mixture.stress : nan;
+  const bool adds_up = contacts.rules()[rule].adds_up();
+  of.b = adds_up ? (of.psi - forces.phi) / (forces.phi * (1 - forces.phi)) : nan;
+  of.push = push_of(of.psi, forces.phi, mixture.stress, mixture.slope);
+  of.spread = -(large.contact + large.base).y() - forces.phi * mixture.slope + of.push;
+  of.drag = forces.drag + forces.push - of.push;
+  return of;
+}
+
+template <int D>
+PushOverShare push_over_share(const DrivingForces& forces, const PartitionedBalance<D>& contacts,
+                              std::size_t layer)
+{
+  const Mixture mixture(contacts, layer);
+  const double own = contacts.unmixed_stress(layer, Species::large)(1, 1);
+  const double mixed = contacts.mixed_stress(layer)(1, 1);
+  const auto push = [&](double stress) {
+    return push_of(stress / mixture.stress, forces.phi, mixture.stress, mixture.slope);
+  };
+  return {push(own), push(own + mixed)};
+}
+
+template RuleForces rule_forces(const DrivingForces&, const PartitionedBalance<2>&, std::size_t,
+                                std::size_t);
+template RuleForces rule_forces(const DrivingForces&, const PartitionedBalance<3>&, std::size_t,
+                                std::size_t);
+template PushOverShare push_over_share(const DrivingForces&, const PartitionedBalance<2>&,
+                                       std::size_t);
+template PushOverShare push_over_share(const DrivingForces&, const PartitionedBalance<3>&,
+                                       std::size_t);
 template DrivingForces driving_forces(const MomentumBalance<2>&, std::size_t);
 template DrivingForces driving_forces(const MomentumBalance<3>&, std::size_t);
 

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "analysis/balance/momentum_balance.hpp"
+#include "analysis/balance/partitioned_balance.hpp"
 
 namespace grseg {
 
-/// The forces that drive segregation, i.e. which mechanism pushes the large grains which way: their
+/// The forces that drive segregation, with mixed contacts cut at the contact point: the large grains'
 /// momentum balance along y less the share phi_L = rho^L/rho of the mixture's, so that gravity
 /// drops out (phi_L is a share of the mass, and of the area if both species have the same density).
 /// Means over a layer; force densities on the large grains, N/m^2 or N/m^3, upward positive; the
@@ -46,5 +47,34 @@ struct DrivingForces {
 /// Of two species.
 template <int D>
 DrivingForces driving_forces(const MomentumBalance<D>& balance, std::size_t layer);
+
+/// What a partition rule changes of them, of two species in one layer: the share psi of the contact
+/// stress, and with it B, push, spread and drag; the kinetic terms, the change and the scatter are
+/// the same under all rules. The mixture's sigma' is -(N^S + N^L), under any rule, and
+///
+///   beta = spread + spread_kinetic + drag + scatter,   to round-off, by that rule's beta and drag.
+///
+/// `drag` closes the balance, whatever the rule: it is what is left, not a measured force.
+/// NaN as in DrivingForces; B of `drop`, whose stresses do not add up to the whole, is NaN.
+struct RuleForces {
+  double psi, b, push, spread, drag;
+};
+template <int D>
+RuleForces rule_forces(const DrivingForces& forces, const PartitionedBalance<D>& contacts,
+                       std::size_t layer, std::size_t rule);
+
+/// The contact push on the large grains where they get the share p of the stress that every mixed
+/// contact has in the layer: linear in p, push = (all - none) (p - p*), from `none` at p = 0 to `all`
+/// at p = 1; N/m^2 or N/m^3. RuleForces give each grain the stress along its own stretch of the
+/// branch, which is the same at 0 and 1 and hardly another in between.
+struct PushOverShare {
+  double none = 0, all = 0;
+
+  /// p*, at which the push changes its sign; without mixed contacts not a number.
+  double zero() const { return none / (none - all); }
+};
+template <int D>
+PushOverShare push_over_share(const DrivingForces& forces, const PartitionedBalance<D>& contacts,
+                              std::size_t layer);
 
 }  // namespace grseg

@@ -21,16 +21,9 @@ std::string direction(const std::vector<double>& push)
   return fmt::format("{} by {:.2g} +- {:.1g}", mean > 0 ? "up" : "down", std::abs(mean), error);
 }
 
-}  // namespace
-
+/// m.
 template <int D>
-BalanceSummary<D>::BalanceSummary(const Layers& layers, double large_diameter)
-    : layers_(layers), margin_(2 * large_diameter)
-{
-}
-
-template <int D>
-double BalanceSummary<D>::surface(const MomentumBalance<D>& window) const
+double surface(const MomentumBalance<D>& window, const Layers& layers)
 {
   double mass = 0, moment = 0;
   for (std::size_t n = 0; n < window.layers(); ++n) {
@@ -38,9 +31,30 @@ double BalanceSummary<D>::surface(const MomentumBalance<D>& window) const
     for (std::size_t k = 0; k < window.species(); ++k)
       here += window.mean(n, static_cast<Species>(k)).density;
     mass += here;
-    moment += here * (layers_.bottom(n) + layers_.top(n)) / 2;
+    moment += here * (layers.bottom(n) + layers.top(n)) / 2;
   }
   return 2 * moment / mass;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::size_t> layers_inside(const MomentumBalance<D>& window, const Layers& layers,
+                                       double large_diameter)
+{
+  const double margin = 2 * large_diameter, rounding = 1e-9 * margin;
+  const double highest = surface(window, layers) - margin;
+  std::vector<std::size_t> inside;
+  for (std::size_t n = 0; n < window.layers(); ++n)
+    if (layers.bottom(n) >= margin - rounding && layers.top(n) <= highest + rounding)
+      inside.push_back(n);
+  return inside;
+}
+
+template <int D>
+BalanceSummary<D>::BalanceSummary(const Layers& layers, double large_diameter)
+    : layers_(layers), large_diameter_(large_diameter)
+{
 }
 
 template <int D>
@@ -56,13 +70,12 @@ void BalanceSummary<D>::add_residual(const SpeciesMomentum<D>& own)
 template <int D>
 void BalanceSummary<D>::add(const MomentumBalance<D>& window)
 {
-  const double rounding = 1e-9 * margin_, highest = surface(window) - margin_;
-  double push = 0, push_kinetic = 0, drag = 0, weight = 0;
-  for (std::size_t n = 0; n < window.layers(); ++n) {
+  for (std::size_t n = 0; n < window.layers(); ++n)
     for (std::size_t k = 0; k < window.species(); ++k)
       add_residual(window.mean(n, static_cast<Species>(k)));
-    if (window.species() != 2) continue;
-    if (layers_.bottom(n) < margin_ - rounding || layers_.top(n) > highest + rounding) continue;
+  if (window.species() != 2) return;
+  double push = 0, push_kinetic = 0, drag = 0, weight = 0;
+  for (const auto n : layers_inside(window, layers_, large_diameter_)) {
     const auto forces = driving_forces(window, n);
     if (std::isnan(forces.drag)) continue;
     push += forces.push;
@@ -88,6 +101,8 @@ std::string BalanceSummary<D>::sentence() const
       direction(push_), direction(push_kinetic_), direction(drag_), push_.size(), closed);
 }
 
+template std::vector<std::size_t> layers_inside(const MomentumBalance<2>&, const Layers&, double);
+template std::vector<std::size_t> layers_inside(const MomentumBalance<3>&, const Layers&, double);
 template class BalanceSummary<2>;
 template class BalanceSummary<3>;
 

@@ -78,8 +78,10 @@ void add_species(std::vector<Cell>& cells, const SpeciesPart<D>& part)
   add_force("change", part.change);
 }
 
-void add_forces(std::vector<Cell>& cells, const DrivingForces& forces, const std::string& unit)
+void add_forces(std::vector<Cell>& cells, const DrivingForces& forces,
+                const Units& units_of_columns)
 {
+  const std::string unit = units_of_columns.force;
   cells.insert(cells.end(), {{"phi_L", forces.phi},
                              {"psi_L", forces.psi},
                              {"psik_L", forces.psi_kinetic},
@@ -91,7 +93,7 @@ void add_forces(std::vector<Cell>& cells, const DrivingForces& forces, const std
                              {"spread_kinetic" + unit, forces.spread_kinetic},
                              {"drag" + unit, forces.drag},
                              {"scatter" + unit, forces.scatter},
-                             {"drift[kg/(m^2 s)]", forces.drift},
+                             {fmt::format("drift{}", units_of_columns.momentum), forces.drift},
                              {"drag_rate[1/s]", forces.drag_rate()}});
 }
 
@@ -100,11 +102,83 @@ std::vector<Cell> cells_of(const std::vector<SpeciesPart<D>>& parts, const Drivi
 {
   std::vector<Cell> cells;
   for (const auto& part : parts) add_species(cells, part);
-  if (parts.size() == 2) add_forces(cells, forces, units<D>.force);
+  if (parts.size() == 2) add_forces(cells, forces, units<D>);
   return cells;
 }
 
+/// "contact_L_y@half[N/m^2]" and the others of this vector.
+template <int D>
+void add_vector(std::vector<Cell>& cells, const std::string& name, const std::string& rule,
+                const Vector<D>& value)
+{
+  for (Eigen::Index a = 0; a < D; ++a)
+    cells.push_back({fmt::format("{}_{}{}{}", name, axes[static_cast<std::size_t>(a)],
+                                 rule.empty() ? "" : "@" + rule, units<D>.force),
+                     value[a]});
+}
+
+/// What one rule makes of one layer, of all species and, of two, of the forces that drive them.
+template <int D>
+struct RulePart {
+  std::string rule;
+  std::vector<PartitionedForces<D>> of_species;
+  RuleForces forces{};
+};
+
+template <int D>
+void add_rule(std::vector<Cell>& cells, const std::vector<std::string>& words,
+              const RulePart<D>& part)
+{
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    add_vector<D>(cells, "contact_" + words[k], part.rule, part.of_species[k].contact);
+    add_vector<D>(cells, "interaction_" + words[k], part.rule, part.of_species[k].interaction);
+  }
+  if (words.size() != 2) return;
+  const auto add = [&](const char* name, const char* unit, double value) {
+    cells.push_back({fmt::format("{}@{}{}", name, part.rule, unit), value});
+  };
+  add("psi_L", "", part.forces.psi);
+  add("B", "", part.forces.b);
+  add("push", units<D>.force, part.forces.push);
+  add("spread", units<D>.force, part.forces.spread);
+  add("drag", units<D>.force, part.forces.drag);
+}
+
 }  // namespace
+
+template <int D>
+std::vector<std::string> partition_columns(const SpeciesList& species,
+                                           const std::vector<PartitionRule>& rules)
+{
+  const auto words = column_words(species);
+  std::vector<Cell> cells;
+  for (const auto& rule : rules)
+    add_rule<D>(cells, words,
+                {rule.name(), std::vector<PartitionedForces<D>>(words.size()), RuleForces{}});
+  for (const auto& word : words) add_vector<D>(cells, "N_" + word, "", Vector<D>::Zero());
+  if (words.size() == 2) cells.push_back({"p_zero", 0});
+  return columns_of(cells);
+}
+
+template <int D>
+std::vector<double> partition_row(const MomentumBalance<D>& balance,
+                                  const PartitionedBalance<D>& contacts, std::size_t layer)
+{
+  const std::vector<std::string> words(contacts.species());
+  const bool two = words.size() == 2;
+  const auto forces = two ? driving_forces(balance, layer) : DrivingForces{};
+  std::vector<Cell> cells;
+  for (std::size_t rule = 0; rule < contacts.rules().size(); ++rule) {
+    RulePart<D> part{"", {}, two ? rule_forces(forces, contacts, layer, rule) : RuleForces{}};
+    for (std::size_t k = 0; k < words.size(); ++k)
+      part.of_species.push_back(contacts.mean(layer, static_cast<Species>(k), rule));
+    add_rule(cells, words, part);
+  }
+  for (std::size_t k = 0; k < words.size(); ++k)
+    add_vector<D>(cells, "N", "", contacts.contact_force(layer, static_cast<Species>(k)));
+  if (two) cells.push_back({"p_zero", push_over_share(forces, contacts, layer).zero()});
+  return values_of(cells);
+}
 
 template <int D>
 std::vector<std::string> balance_columns(const SpeciesList& species)
@@ -132,6 +206,14 @@ std::vector<double> balance_row(const MomentumBalance<D>& balance, std::size_t l
   return values_of(cells_of(parts, two ? driving_forces(balance, layer) : DrivingForces{}));
 }
 
+template std::vector<std::string> partition_columns<2>(const SpeciesList&,
+                                                       const std::vector<PartitionRule>&);
+template std::vector<std::string> partition_columns<3>(const SpeciesList&,
+                                                       const std::vector<PartitionRule>&);
+template std::vector<double> partition_row(const MomentumBalance<2>&, const PartitionedBalance<2>&,
+                                           std::size_t);
+template std::vector<double> partition_row(const MomentumBalance<3>&, const PartitionedBalance<3>&,
+                                           std::size_t);
 template std::vector<std::string> balance_columns<2>(const SpeciesList&);
 template std::vector<std::string> balance_columns<3>(const SpeciesList&);
 template std::vector<double> balance_row(const MomentumBalance<2>&, std::size_t);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/balance/momentum_balance.hpp"
+#include "analysis/balance/partitioned_balance.hpp"
 #include "formats/core/species.hpp"
 
 #include <string>
@@ -23,5 +24,19 @@ std::vector<std::string> balance_columns(const SpeciesList& species);
 /// The values of a layer under these columns.
 template <int D>
 std::vector<double> balance_row(const MomentumBalance<D>& balance, std::size_t layer);
+
+/// The columns that --partition adds behind them. For each RULE, as it is typed, and X, a as above
+///   contact_X_a@RULE, interaction_X_a@RULE            C and beta (partitioned_balance.hpp)
+///   psi_L@RULE, B@RULE, push@RULE, spread@RULE, drag@RULE   of two species (driving_forces.hpp)
+/// and once
+///   N_X_a        the contact force on the grains of X, which is C + beta + base under every rule
+///   p_zero       of two species: p*, the share at which the contact push changes its sign
+template <int D>
+std::vector<std::string> partition_columns(const SpeciesList& species,
+                                           const std::vector<PartitionRule>& rules);
+/// The values of a layer under these columns.
+template <int D>
+std::vector<double> partition_row(const MomentumBalance<D>& balance,
+                                  const PartitionedBalance<D>& contacts, std::size_t layer);
 
 }  // namespace grseg

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/force_balance.hpp"
 
-#include "analysis/frames/contact_force.hpp"
+#include "analysis/frames/torques.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -21,15 +20,6 @@ double largest_force(const Grains& grains, const Frame<D>& frame, const Gravity<
   return largest;
 }
 
-template <int D>
-Spin<D> no_spin()
-{
-  if constexpr (D == 2)
-    return 0;
-  else
-    return Vec3::Zero();
-}
-
 double size_of(double spin)
 {
   return std::abs(spin);
@@ -37,37 +27,6 @@ double size_of(double spin)
 double size_of(const Vec3& spin)
 {
   return spin.norm();
-}
-
-/// n x f, N, about z in two dimensions.
-template <int D>
-Spin<D> moment(const Vector<D>& n, const Vector<D>& f)
-{
-  if constexpr (D == 2)
-    return f.y() * n.x() - f.x() * n.y();
-  else
-    return n.cross(f);
-}
-
-/// Torques of the contacts on all grains, N m.
-template <int D>
-std::vector<Spin<D>> torques_of(const Grains& grains, const ContactList<D>& contacts)
-{
-  std::vector<Spin<D>> torque(grains.size(), no_spin<D>());
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto i = static_cast<std::size_t>(contacts.i[c]);
-    const Spin<D> turning = moment<D>(contacts.branch[c].normalized(), contacts.force[c]);
-    if (contacts.j[c] < 0) {
-      torque[i] -= grains.radius[i] * turning;
-      continue;
-    }
-    const auto j = static_cast<std::size_t>(contacts.j[c]);
-    const double r_i = grains.radius[i], r_j = grains.radius[j];
-    const double kappa = contacts.branch[c].norm() / (r_i + r_j);
-    torque[i] -= kappa * r_i * turning;
-    torque[j] -= kappa * r_j * turning;
-  }
-  return torque;
 }
 
 }  // namespace

@@ -61,9 +61,10 @@ CheckLine Judge::statistical(const Check& check, double deviation, double error,
 {
   const double tail = tolerances_.false_alarm / 2 / static_cast<double>(together);
   const double quantile = gsl_cdf_tdist_Qinv(tail, static_cast<double>(windows) - 1);
-  auto line = line_of(check, std::abs(deviation),
-                      std::max(tolerances_.*check.tolerance, quantile * error), "");
+  const double stated = tolerances_.*check.tolerance, chance = quantile * error;
+  auto line = line_of(check, std::abs(deviation), std::max(stated, chance), "");
   line.error = error;
+  if (line.verdict == Verdict::passed && chance > stated) line.verdict = Verdict::undecided;
   return line;
 }
 

@@ -18,8 +18,17 @@ using Json = nlohmann::ordered_json;
 
 const char* word(Verdict verdict)
 {
-  if (verdict == Verdict::passed) return "passed";
-  return verdict == Verdict::failed ? "failed" : "skipped";
+  switch (verdict) {
+    case Verdict::passed:
+      return "passed";
+    case Verdict::failed:
+      return "failed";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::skipped:
+      break;
+  }
+  return "skipped";
 }
 
 bool is_layer(const CheckLine& line)
@@ -44,6 +53,25 @@ std::string CheckReport::failures() const
   for (const auto& line : lines)
     if (line.verdict == Verdict::failed) failed.push_back(description(line));
   return failed.empty() ? "" : fmt::format("beyond tolerance: {}", fmt::join(failed, ", "));
+}
+
+std::string CheckReport::undecided() const
+{
+  std::vector<std::pair<std::string, int>> counts;
+  for (const auto& line : lines) {
+    if (line.verdict != Verdict::undecided) continue;
+    if (counts.empty() || counts.back().first != line.quantity)
+      counts.emplace_back(line.quantity, 0);
+    ++counts.back().second;
+  }
+  if (counts.empty()) return "";
+  std::vector<std::string> names;
+  names.reserve(counts.size());
+  for (const auto& [name, count] : counts)
+    names.push_back(count > 1 ? fmt::format("{} ({} layers)", name, count) : name);
+  return fmt::format(
+      "undecided, since chance alone explains more than the tolerance: {}; a longer run decides",
+      fmt::join(names, ", "));
 }
 
 std::string to_tsv(const CheckReport& report)
@@ -73,6 +101,9 @@ std::string to_json(const CheckReport& report)
     all["lines"].push_back(object);
   }
   all["passed"] = report.failures().empty();
+  all["undecided"] =
+      std::count_if(report.lines.begin(), report.lines.end(),
+                    [](const CheckLine& line) { return line.verdict == Verdict::undecided; });
   all["history"] = Json::array();
   for (const auto& [key, value] : report.header) {
     if (key == "history" || key == "verified" || key == "incomplete")

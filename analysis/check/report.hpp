@@ -9,7 +9,9 @@
 
 namespace grseg {
 
-enum class Verdict { passed, failed, skipped };
+/// Undecided is a statistical line within what chance alone explains, where that is more than the
+/// tolerance: a deviation that the tolerance does not allow would not have been seen.
+enum class Verdict { passed, failed, undecided, skipped };
 
 /// A quantity that was held against a tolerance.
 struct CheckLine {
@@ -18,8 +20,8 @@ struct CheckLine {
   std::string quantity;         // "force_balance", or the path inside the file that departs
   double y0 = none, y1 = none;  // m, of a layer
   double measured = none;
-  double error = none;  // standard error of `measured`, where it is statistical
-  double tolerance = none;
+  double error = none;      // standard error of `measured`, where it is statistical
+  double tolerance = none;  // or what chance alone explains, where that is more
   Verdict verdict = Verdict::skipped;
   std::string remark;  // where the largest value is, or why the check was skipped
 };
@@ -29,13 +31,15 @@ struct CheckReport {
   Header header;  // provenance and settings
   std::vector<CheckLine> lines;
 
-  /// One sentence that names every line that failed, or "" if all passed.
+  /// One sentence that names every line that failed, or "" if none did.
   std::string failures() const;
+  /// One sentence that names the undecided quantities with their number, or "" if there are none.
+  std::string undecided() const;
 };
 
 /// `#` lines, a line of column names, one row per line. Numbers have 17 significant digits.
 std::string to_tsv(const CheckReport& report);
-/// {"lines": [{"quantity", "layer", "measured", ...}, ...], "passed", "settings", "history"}
+/// {"lines": [{"quantity", "layer", "measured", ...}, ...], "passed", "undecided", "settings", "history"}
 std::string to_json(const CheckReport& report);
 
 }  // namespace grseg

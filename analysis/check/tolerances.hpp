@@ -8,7 +8,8 @@ namespace grseg {
 /// How far a run may be from the laws of mechanics. There are three kinds: tolerances of round-off,
 /// of the solver, and of statistics. A statistical check fails only where the deviation is beyond
 /// both the number given here and what chance explains, i.e. the quantile of Student's t at
-/// `false_alarm`, over all layers together, times the standard error.
+/// `false_alarm`, over all layers together, times the standard error. It passes only where chance
+/// explains no more than the number given here: else it is undecided, and a longer run decides.
 struct CheckTolerances {
   double round_off = 1e-10, single_precision = 1e-5;     // relative
   double mean_overlap = 5e-3, largest_overlap = 0.1;     // d_S

@@ -32,10 +32,21 @@ double direct_b(const std::vector<FitPoint>& points)
   return b;
 }
 
+double b_of_sums(const std::vector<FitPoint>& points)
+{
+  double excess = 0, product = 0;
+  for (const auto& point : points) {
+    if (!(point.total > 0)) continue;
+    excess += point.frames * point.excess();
+    product += point.frames * point.product();
+  }
+  return excess / product;
+}
+
 }  // namespace
 
 Estimators estimators_from_slopes(double log_slope, double slope_linear, double prefactor,
-                                  double exponent, double direct)
+                                  double exponent, double direct, double sums)
 {
   const double s = std::exp(log_slope);
   Estimators all;
@@ -51,6 +62,7 @@ Estimators estimators_from_slopes(double log_slope, double slope_linear, double 
   all.exponent = exponent;
   all.B_power = at_half(prefactor);
   all.B_direct = direct;
+  all.B_sums = sums;
   return all;
 }
 
@@ -66,11 +78,11 @@ Estimators estimators_of(const std::vector<FitPoint>& points)
     ln_s.push_back(ln_y.back() - ln_x.back());
     weight.push_back(point.weight);
   }
-  const double direct = direct_b(points);
+  const double direct = direct_b(points), sums = b_of_sums(points);
   const std::size_t n = x.size();
   if (n == 0)
     return estimators_from_slopes(Estimators::nan, Estimators::nan, Estimators::nan,
-                                  Estimators::nan, direct);
+                                  Estimators::nan, direct, sums);
 
   double linear = 0, intercept = Estimators::nan, exponent = Estimators::nan;
   double c00 = 0, c01 = 0, c11 = 0, chi = 0;
@@ -79,7 +91,7 @@ Estimators estimators_of(const std::vector<FitPoint>& points)
     gsl_fit_wlinear(ln_x.data(), 1, weight.data(), 1, ln_y.data(), 1, n, &intercept, &exponent,
                     &c00, &c01, &c11, &chi);
   return estimators_from_slopes(gsl_stats_wmean(weight.data(), 1, ln_s.data(), 1, n), linear,
-                                std::exp(intercept), exponent, direct);
+                                std::exp(intercept), exponent, direct, sums);
 }
 
 double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& rule)

@@ -14,6 +14,10 @@
 /// 2 (1 - s)/(1 + s) at phi_L = 1/2 and -ln s on average over phi_L.
 namespace grseg {
 
+/// B_sums is the mean of B over layers and frames with the weight phi_L phi_S, as a ratio of sums
+/// that are linear in the large grains' stress: it takes no mean of ratios, and so does not suffer
+/// where a window holds few grains of a species, as means of ln(y/x) do.
+///
 /// The estimators side by side; NaN where one is not defined. The first three describe the same
 /// slope, that of the weighted mean of ln(y/x); it is what the printed B stands for.
 struct Estimators {
@@ -31,6 +35,7 @@ struct Estimators {
   double exponent = nan;         //
   double B_power = nan;          // at phi_L = 1/2
   double B_direct = nan;         // sum w (psi_L - phi_L) phi_L phi_S / sum w (phi_L phi_S)^2
+  double B_sums = nan;           // sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
 };
 
 /// Name and place of every estimator, in the order in which they are printed.
@@ -38,7 +43,7 @@ struct EstimatorColumn {
   const char* name;
   double Estimators::*value;
 };
-inline constexpr std::array<EstimatorColumn, 12> estimator_columns{{
+inline constexpr std::array<EstimatorColumn, 13> estimator_columns{{
     {"slope", &Estimators::slope},
     {"B_half", &Estimators::B_half},
     {"B_mean", &Estimators::B_mean},
@@ -51,14 +56,15 @@ inline constexpr std::array<EstimatorColumn, 12> estimator_columns{{
     {"exponent", &Estimators::exponent},
     {"B_power", &Estimators::B_power},
     {"B_direct", &Estimators::B_direct},
+    {"B_sums", &Estimators::B_sums},
 }};
 
-/// All estimators, from the five numbers that they follow from.
+/// All estimators, from the six numbers that they follow from.
 Estimators estimators_from_slopes(double log_slope, double slope_linear, double prefactor,
-                                  double exponent, double direct);
+                                  double exponent, double direct, double sums);
 
 /// By GSL's fits of the points themselves. Points with a stress that is not positive take part in
-/// B_direct only.
+/// B_direct and B_sums only.
 Estimators estimators_of(const std::vector<FitPoint>& points);
 
 /// The neutral B averaged with the weights of B_direct: what B_direct would be if contacts ignored

@@ -17,6 +17,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace grseg {
@@ -147,6 +148,7 @@ LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesL
   const double rarer = std::min(small / size(d_small), large / size(d_large));
   return {.phi_large = large / (small + large),
           .weight = row.key.frames * rarer,
+          .frames = row.key.frames,
           .size_ratio = d_large / d_small,
           .pair = pair};
 }
@@ -169,12 +171,16 @@ void add_run(const FitTable& run, const FitFilters& filters, const std::vector<S
   std::size_t window = 0;
   for (const auto length : data.runs) window += length;
   for (auto& [time, number] : window_at) number = window++;
-  if (!window_at.empty()) data.runs.push_back(window_at.size());
+  if (!window_at.empty()) {
+    data.runs.push_back(window_at.size());
+    data.mixtures.push_back(run.mixture);
+  }
 
   data.tables.push_back(table.name);
   const FitRow* last = nullptr;
   for (const auto& [row, pair] : used) {
     if (row != last) data.rows.push_back(row->sums);
+    if (data.samples.empty()) data.window = row->key.end - row->key.begin;
     last = row;
     auto& sample = data.samples.emplace_back(sample_of(*row, pair, run.species, data.dimension));
     sample.window = window_at.at(row->key.begin);
@@ -216,6 +222,11 @@ double FitRow::solid() const
   return std::accumulate(sums.content.begin(), sums.content.end(), 0.0) / sums.volume;
 }
 
+std::size_t FitData::number_of_mixtures() const
+{
+  return std::max<std::size_t>(1, std::set(mixtures.begin(), mixtures.end()).size());
+}
+
 std::string FilterCount::sentence() const
 {
   std::string text = fmt::format("{} rows", rows);
@@ -241,7 +252,7 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
     const auto species = species_of(table);
     auto rows = read_rows(table, species, quantity, rules);
     const double median = median_solid_fraction(rows);
-    all.push_back({&table, species, std::move(rows), median});
+    all.push_back({&table, species, std::move(rows), median, 0});
     require_alike(all.front(), all.back());
   }
   require_distinct_runs(tables);

@@ -31,7 +31,8 @@ struct FitFilters {
   double min_solid = 0.5;                     // of the run's median solid fraction
   // Of the rarer species of the two in a layer, mean over the window. With one or two of them the
   // mean of ln(y/x) is off: half the relative variance of a species' stress goes into it.
-  double min_grains = 3;
+  // Off unless asked for: a choice by the grains of each window selects by chance, too.
+  double min_grains = 0;
   double begin = -std::numeric_limits<double>::infinity();  // s, windows lie in [begin, end]
   double end = std::numeric_limits<double>::infinity();
   std::string heights{};  // between which layers lie, as on the command line: "4dS:56dS"; "": all
@@ -51,6 +52,7 @@ struct LayerSample {
   std::size_t window = 0;  // in the series of all windows, run after run
   double phi_large = 0;    // the larger species' part of the two: phi_L + phi_S = 1
   double weight = 0;       // frames x grains of the rarer species, up to a constant factor
+  double frames = 1;       // of its window
   double size_ratio = 0;   // of the nominal diameters in its run
   std::size_t table = 0;   // among FitData::tables
   std::size_t row = 0;     // among FitData::rows
@@ -70,14 +72,19 @@ struct FilterCount {
 struct FitData {
   Quantity quantity = Quantity::contact;
   int dimension = 2;
-  RunLengths runs;                  // windows with samples, per table
-  std::vector<std::string> tables;  // their names
-  SpeciesList species;              // of the first; those of the others have the same names
+  RunLengths runs;                    // windows with samples, per table
+  std::vector<std::size_t> mixtures;  // of each run (mixtures.hpp); empty: all are of one
+  std::vector<std::string> tables;    // their names
+  SpeciesList species;                // of the first; those of the others have the same names
+  double window = 0;                  // s, the first one's length
   std::vector<ContactSums<3>>
       rows;  // kinetic: species alone, nothing mixed, so every rule gives the
              // same
   std::vector<LayerSample> samples;
   FilterCount count;
+
+  std::size_t mixture_of(std::size_t run) const { return mixtures.empty() ? 0 : mixtures[run]; }
+  std::size_t number_of_mixtures() const;  // that have runs
 };
 
 /// A row of a table and the window and layer it belongs to.
@@ -98,6 +105,7 @@ struct FitTable {
   SpeciesList species;
   std::vector<FitRow> rows;
   double median_solid = 0;
+  std::size_t mixture = 0;
 };
 
 /// Reads tables of grseg-stress (contact) or grseg-kinetic; the latter's "contents" are masses.

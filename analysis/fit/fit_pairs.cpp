@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -44,21 +45,18 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
   std::vector<RuleFit> fits;
   for (const auto& rule : rules) {
     const auto first = fits.size();
-    const auto add_fit = [&](const FitData& of_pair, const Bootstrap& drawn) {
-      fits.push_back(fit_rule(of_pair, rule, settings, drawn));
-      add_components(fits.back(), of_pair, settings, drawn);
-    };
     for (const auto& pair : pairs) {
-      if (pairs.size() == 1) {
-        add_fit(data, bootstrap);
-        continue;
-      }
-      const auto of_pair = select_fit_data(tables, quantity, filters, {pair});
-      add_fit(of_pair, Bootstrap(of_pair.runs, resampling.samples, resampling.seed));
+      auto of_pair = fit_mixtures(
+          pairs.size() == 1 ? data : select_fit_data(tables, quantity, filters, {pair}), rule,
+          settings, resampling);
+      if (settings.over == Over::automatic)
+        fits.insert(fits.end(), of_pair.of_each.begin(), of_pair.of_each.end());
+      fits.push_back(std::move(of_pair.all));
     }
     if (!with_exponent || !rule.adds_up()) continue;
     const auto exponent = size_exponent(data, rule, settings, bootstrap);
-    for (auto fit = first; fit < fits.size(); ++fit) fits[fit].size_exponent = exponent;
+    for (auto fit = first; fit < fits.size(); ++fit)
+      if (!fits[fit].mixture) fits[fit].size_exponent = exponent;
   }
   return fits;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
+#include "analysis/fit/fit_mixtures.hpp"
 #include "analysis/fit/rule_fit.hpp"
 
 #include <string>
@@ -13,14 +14,10 @@ namespace grseg {
 /// UsageError where it does not name two of `species`.
 SpeciesPair parse_pair(const std::string& text, const SpeciesList& species);
 
-/// How samples are drawn (Bootstrap).
-struct Resampling {
-  std::size_t samples = 0;
-  unsigned long seed = 1;
-};
-
 /// Every rule for every pair, rule by rule, each pair over its own layers and windows; and, if
-/// asked for, the exponent of sizes of each rule over all of these pairs.
+/// asked for, the exponent of sizes of each rule over all of these pairs. Where there are several
+/// mixtures and `settings` leaves open what intervals are over, each mixture has its own fit before
+/// that of all.
 std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity quantity,
                                const FitFilters& filters, const std::vector<SpeciesPair>& pairs,
                                const std::vector<PartitionRule>& rules, const FitSettings& settings,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
+#include "analysis/fit/over.hpp"
 #include "analysis/stress/partial_stress.hpp"
 
 #include <cstddef>
@@ -14,6 +15,7 @@ struct FitPoint {
   std::size_t window = 0;
   double phi_large = 0;
   double weight = 0;
+  double frames = 1;
   double size_ratio = 0;  // nominal d_L/d_S
   double small = 0, large = 0, total = 0;
 
@@ -27,6 +29,7 @@ struct FitPoint {
 struct FitSettings {
   Component component = Component::yy;
   BasePart base = BasePart::contact_point;
+  Over over = Over::automatic;  // what intervals are over
 };
 
 /// Whether every sum that the rule and the component need was kept.

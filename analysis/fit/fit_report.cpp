@@ -8,6 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 namespace grseg {
 namespace {
 
@@ -38,7 +42,33 @@ constexpr RuleColumn rule_columns[] = {
     {"B_pressure", [](const RuleFit& fit) { return fit.B_pressure.value; }},
     {"B_pressure_low", [](const RuleFit& fit) { return fit.B_pressure.low; }},
     {"B_pressure_high", [](const RuleFit& fit) { return fit.B_pressure.high; }},
+    {"p_zero_sums", [](const RuleFit& fit) { return fit.p_zero_sums.value; }},
+    {"p_zero_sums_low", [](const RuleFit& fit) { return fit.p_zero_sums.low; }},
+    {"p_zero_sums_high", [](const RuleFit& fit) { return fit.p_zero_sums.high; }},
+    {"B_sums_windows_low", [](const RuleFit& fit) { return fit.sums_at(Over::windows).low; }},
+    {"B_sums_windows_high", [](const RuleFit& fit) { return fit.sums_at(Over::windows).high; }},
 };
+
+/// "Phi_L = 0.06, 4 tables, 1.7 % of the weight of B_half, 3.1 % of that of B_sums: a.tsv b.tsv"
+std::string mixture_line(const FitReport& report, std::size_t m)
+{
+  const auto& mixture = report.mixtures[m];
+  const auto tables = mixture.tables.size();
+  std::string line = fmt::format("{}, {} table{}, {}:", mixture.name, tables,
+                                 tables == 1 ? "" : "s", share_words(report, m));
+  for (const auto table : mixture.tables)
+    line += ' ' + (table < report.table_names.size() ? printable(report.table_names[table]) : "-");
+  return line;
+}
+
+/// B_half of a population, its columns "B_equal_mixtures", "B_equal_mixtures_low" ...; of B_sums
+/// with `stem` "B_sums_".
+std::string column_of_population(const char* stem, Over over)
+{
+  std::string name = std::string(stem) + word_of(over, overs);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
 
 Header header_of(const FitReport& report)
 {
@@ -46,13 +76,35 @@ Header header_of(const FitReport& report)
   for (const auto& input : report.inputs) lines.emplace_back("input", input);
   lines.insert(lines.end(), report.trust.begin(), report.trust.end());
   for (const auto& line : report.history) lines.emplace_back("history", line);
+  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
+    lines.emplace_back("mixture", mixture_line(report, m));
+  for (const auto& [over, words] : estimands(report))
+    lines.emplace_back("estimand", fmt::format("{}: {}", word_of(over, overs), words));
   for (const auto& doubt : doubts(report)) lines.emplace_back("doubt", doubt);
   return lines;
+}
+
+/// Those that have columns of their own; of windows there is B_half_windows_low and _high.
+constexpr Over populations[] = {Over::runs, Over::mixtures, Over::equal_mixtures,
+                                Over::random_mixtures, Over::compositions};
+
+/// Of all tables together that of all their grains is not known: not a number, unless there is one
+/// mixture.
+double phi_large_of(const FitReport& report, const RuleFit& fit)
+{
+  if (!fit.mixture && report.mixtures.size() != 1) return Estimators::nan;
+  return report.mixtures[fit.mixture.value_or(0)].phi_large();
+}
+
+double share_of(const FitReport& report, const RuleFit& fit)
+{
+  return fit.mixture ? report.shares.half[*fit.mixture] : 1;
 }
 
 std::string rule_table(const FitReport& report)
 {
   std::vector<std::string> columns{"rule"};
+  if (report.is_by_mixture()) columns.emplace_back("mixture");
   if (report.names_pairs()) columns.insert(columns.end(), {"smaller", "larger"});
   columns.emplace_back("points");
   for (const auto& [name, place] : estimator_columns)
@@ -61,12 +113,18 @@ std::string rule_table(const FitReport& report)
   const bool has_exponent = report.has_exponent();
   if (has_exponent)
     columns.insert(columns.end(), {"size_exponent", "size_exponent_low", "size_exponent_high"});
+  columns.insert(columns.end(), {"over", "runs", "degrees_of_freedom", "Phi_L", "weight_share"});
+  for (const char* stem : {"B_", "B_sums_"})
+    for (const auto& population : populations)
+      for (const char* suffix : {"", "_low", "_high"})
+        columns.push_back(column_of_population(stem, population) + suffix);
   columns.emplace_back("used_by");
 
   std::vector<std::vector<std::string>> rows;
   for (const auto& fit : report.rules) {
     auto& row = rows.emplace_back();
     row = {rule_name(report, fit)};
+    if (report.is_by_mixture()) row.push_back(mixture_name(report, fit));
     if (report.names_pairs())
       row.insert(row.end(),
                  {report.species[fit.pair.smaller].name, report.species[fit.pair.larger].name});
@@ -80,6 +138,15 @@ std::string rule_table(const FitReport& report)
       for (const double number : {exponent.value, exponent.low, exponent.high})
         row.push_back(format_number(number));
     }
+    row.emplace_back(word_of(fit.over, overs));
+    row.push_back(format_number(static_cast<double>(fit.runs)));
+    for (const double number : {fit.degrees, phi_large_of(report, fit), share_of(report, fit)})
+      row.push_back(format_number(number));
+    for (const auto* over : {&fit.B_over, &fit.B_sums_over})
+      for (const auto& population : populations) {
+        const auto& b = (*over)[static_cast<std::size_t>(population)];
+        for (const double number : {b.value, b.low, b.high}) row.push_back(format_number(number));
+      }
     row.push_back(used_by(report, fit));
   }
   return table_text(header_of(report), columns, rows);
@@ -96,13 +163,19 @@ std::string scan_table(const FitReport& report)
                                    {"dB_dp", scan.dB_dp},
                                    {"dB_dp_low", scan.dB_dp_interval.low},
                                    {"dB_dp_high", scan.dB_dp_interval.high},
+                                   {"p_zero_sums", report.rules.back().p_zero_sums.value},
+                                   {"p_zero_sums_low", report.rules.back().p_zero_sums.low},
+                                   {"p_zero_sums_high", report.rules.back().p_zero_sums.high},
                                    {"autocorrelation_time", scan.dependence.time},
                                    {"block_length", static_cast<double>(scan.dependence.block)}})
     table.header.emplace_back(key, format_number(value));
-  table.columns = {"p", "B", "low", "high", "B_direct", "B_direct_low", "B_direct_high", "neutral"};
+  table.columns = {
+      "p",       "B",      "low",        "high",       "B_direct", "B_direct_low", "B_direct_high",
+      "neutral", "B_sums", "B_sums_low", "B_sums_high"};
   for (const auto& fit : scan.fits)
     table.rows.push_back({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half,
-                          fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral});
+                          fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral,
+                          fit.value.B_sums, fit.low.B_sums, fit.high.B_sums});
   return table.to_text();
 }
 
@@ -146,6 +219,19 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
               {"block_length", fit.dependence.block},
               {"effective_windows", fit.dependence.effective_windows},
               {"estimators", estimators}};
+  object["over"] = word_of(fit.over, overs);
+  object["mixture"] = mixture_name(report, fit);
+  object["runs"] = fit.runs;
+  object["degrees_of_freedom"] = fit.degrees;
+  object["weight_share"] = share_of(report, fit);
+  object["populations"]["windows"] = of_estimate(fit.at(Over::windows));
+  for (const auto& population : populations)
+    object["populations"][word_of(population, overs)] = of_estimate(fit.at(population));
+  object["populations_of_B_sums"]["windows"] = of_estimate(fit.sums_at(Over::windows));
+  for (const auto& population : populations)
+    object["populations_of_B_sums"][word_of(population, overs)] =
+        of_estimate(fit.sums_at(population));
+  object["p_zero_sums"] = of_estimate(fit.p_zero_sums);
   if (report.names_pairs())
     object["species"] = {report.species[fit.pair.smaller].name,
                          report.species[fit.pair.larger].name};
@@ -162,9 +248,41 @@ std::string rule_name(const FitReport& report, const RuleFit& fit)
 
 std::string row_name(const FitReport& report, const RuleFit& fit)
 {
-  if (!report.names_pairs()) return rule_name(report, fit);
-  return fmt::format("{} {}+{}", rule_name(report, fit), report.species[fit.pair.smaller].name,
-                     report.species[fit.pair.larger].name);
+  auto name = rule_name(report, fit);
+  if (report.names_pairs())
+    name += fmt::format(" {}+{}", report.species[fit.pair.smaller].name,
+                        report.species[fit.pair.larger].name);
+  if (report.is_by_mixture()) name += ", " + mixture_name(report, fit);
+  return name;
+}
+
+std::string share_words(const FitReport& report, std::size_t mixture)
+{
+  if (mixture >= report.shares.half.size()) return "weight unknown";
+  return fmt::format("{:.3g} % of the weight of B_half, {:.3g} % of that of B_sums",
+                     100 * report.shares.half[mixture], 100 * report.shares.sums[mixture]);
+}
+
+std::string mixture_name(const FitReport& report, const RuleFit& fit)
+{
+  if (fit.mixture) return report.mixtures[*fit.mixture].name;
+  return report.mixtures.size() == 1 ? report.mixtures.front().name : "all";
+}
+
+std::vector<std::pair<Over, std::string>> estimands(const FitReport& report)
+{
+  std::set<Over> used;
+  for (const auto& fit : report.rules) {
+    used.insert(fit.over);
+    for (const auto& [word, population, meaning] : overs)
+      if (std::isfinite(fit.at(population).low)) used.insert(population);
+  }
+  if (report.scan) used = {report.scan->fits.front().over};
+  const auto mixtures = static_cast<std::size_t>(std::count_if(
+      report.shares.half.begin(), report.shares.half.end(), [](double s) { return s > 0; }));
+  std::vector<std::pair<Over, std::string>> words;
+  for (const auto over : used) words.emplace_back(over, estimand_words(over, mixtures));
+  return words;
 }
 
 std::string used_by(const FitReport& report, const RuleFit& fit)
@@ -203,9 +321,19 @@ std::string to_json(const FitReport& report)
     all["dB_dp"] = report.scan->dB_dp;
     all["dB_dp_interval"] = pair(report.scan->dB_dp_interval);
     all["autocorrelation_time"] = report.scan->dependence.time;
+    all["p_zero_sums"] = of_estimate(report.rules.back().p_zero_sums);
     all["block_length"] = report.scan->dependence.block;
   }
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
+  all["mixtures"] = Json::array();
+  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
+    all["mixtures"].push_back({{"name", report.mixtures[m].name},
+                               {"Phi_L", report.mixtures[m].phi_large()},
+                               {"weight_share", report.shares.half[m]},
+                               {"weight_share_sums", report.shares.sums[m]},
+                               {"tables", mixture_line(report, m)}});
+  for (const auto& [over, words] : estimands(report))
+    all["estimands"][word_of(over, overs)] = words;
   all["inputs"] = report.inputs;
   for (const auto& [key, value] : report.trust) all[key].push_back(value);
   all["history"] = Json::array();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/partition_scan.hpp"
 
+#include "analysis/fit/run_errors.hpp"
 #include "analysis/statistics/composition_noise.hpp"
 #include "formats/core/errors.hpp"
 
@@ -23,11 +24,19 @@ struct LogSlopes {
   std::vector<std::size_t> window;
 
   double mean(const Eigen::VectorXd& quantity) const { return weight.dot(quantity) / weight.sum(); }
-  /// What each window adds to the noise of that mean.
+  /// What each window adds to the deviation of that mean, and what of it is noise.
+  Eigen::VectorXd deviation(const Eigen::VectorXd& quantity, std::size_t windows) const
+  {
+    return by_window((quantity.array() - mean(quantity)) * weight.array() / weight.sum(), windows);
+  }
   Eigen::VectorXd noise(const Eigen::VectorXd& quantity, std::size_t windows) const
   {
-    const Eigen::VectorXd part =
-        composition_noise(phi_large, quantity, weight).cwiseProduct(weight) / weight.sum();
+    return by_window(
+        composition_noise(phi_large, quantity, weight).cwiseProduct(weight) / weight.sum(),
+        windows);
+  }
+  Eigen::VectorXd by_window(const Eigen::VectorXd& part, std::size_t windows) const
+  {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(windows));
     for (std::size_t k = 0; k < window.size(); ++k)
       sums[static_cast<Eigen::Index>(window[k])] += part[static_cast<Eigen::Index>(k)];
@@ -99,6 +108,22 @@ Nearest nearest_to_zero(const FitData& data, const std::vector<double>& shares,
   return {shares[least], mean[least] == 0};
 }
 
+/// Whole runs within their mixtures: what windows add to the zero, a Newton step away, and to the
+/// slope there.
+void add_intervals_of_runs(ZeroOfB& zero, const LogSlopes& at, const FitData& data)
+{
+  const double first = at.mean(at.first), second = at.mean(at.second);
+  const auto windows = number_of_windows(data.runs);
+  const RunErrors errors(data, at.by_window(at.weight, windows));
+  const auto step = [&](const Eigen::VectorXd& value) -> Eigen::VectorXd { return -value / first; };
+  const Eigen::VectorXd sums = step(at.deviation(at.value, windows)),
+                        noise = step(at.noise(at.value, windows));
+  zero.p_zero_interval = students_interval(zero.p_zero, errors.within_mixtures(sums, noise));
+  zero.dB_dp_interval = students_interval(
+      zero.dB_dp, errors.within_mixtures(-at.deviation(at.first, windows) - second * sums,
+                                         -at.noise(at.first, windows) - second * noise));
+}
+
 /// The slope at the zero and both intervals. B_half = 2 (1 - s)/(1 + s) and s = 1, hence
 /// dB/dp = -d ln s/dp; a sample has its zero a Newton step away and its slope there.
 ZeroOfB zero_at(double share, const FitData& data, const FitSettings& settings,
@@ -110,12 +135,22 @@ ZeroOfB zero_at(double share, const FitData& data, const FitSettings& settings,
   zero.p_zero = share;
   zero.dB_dp = -first;
   if (bootstrap.count() == 0) return zero;
-  const Eigen::MatrixXd& times = bootstrap.samples(dependence);
+  const auto over = resolved(settings.over, data.runs.size(), data.number_of_mixtures());
+  if (over == Over::runs || over == Over::mixtures) {
+    add_intervals_of_runs(zero, at, data);
+    return zero;
+  }
+  const bool windows = over == Over::windows;
+  const auto& times = windows ? bootstrap.blocks(dependence.block) : bootstrap.whole_runs();
+  const auto interval = [&](double estimate, const Eigen::VectorXd& samples) {
+    return windows ? bootstrap.over_windows(estimate, samples, dependence)
+                   : bootstrap.over_runs(estimate, samples, dependence);
+  };
   const Eigen::ArrayXd value = times * at.noise(at.value, bootstrap.windows());
   const Eigen::ArrayXd slope = first + (times * at.noise(at.first, bootstrap.windows())).array();
   const Eigen::ArrayXd step = -value / slope;
-  zero.p_zero_interval = bootstrap.interval(share, share + step, dependence);
-  zero.dB_dp_interval = bootstrap.interval(zero.dB_dp, -slope - second * step, dependence);
+  zero.p_zero_interval = interval(share, share + step);
+  zero.dB_dp_interval = interval(zero.dB_dp, -slope - second * step);
   return zero;
 }
 

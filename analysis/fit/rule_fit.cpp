@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/rule_fit.hpp"
 
+#include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/window_sums.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace grseg {
 namespace {
@@ -13,10 +15,12 @@ namespace {
 /// Removes what has no meaning where the partial stresses do not add up.
 void remove_b(RuleFit& fit)
 {
-  for (auto* all : {&fit.value, &fit.low, &fit.high})
+  for (auto* all : {&fit.value, &fit.low, &fit.high, &fit.error})
     for (const auto& [name, place] : estimator_columns)
       if (name[0] == 'B') all->*place = Estimators::nan;
   fit.B_half_windows = {Estimators::nan, Estimators::nan};
+  fit.B_over.fill({});
+  fit.B_sums_over.fill({});
 }
 
 /// Weighted mean of what a rule gives to the large grains, over that of all mixed stress.
@@ -51,48 +55,145 @@ Eigen::VectorXd column_of(const std::vector<Estimators>& replicates, double Esti
   return values;
 }
 
-void add_intervals(RuleFit& fit, const WindowSums& windows, const Bootstrap& bootstrap)
+StandardError window_error(const std::vector<Estimators>& of_blocks, double Estimators::*place,
+                           const RuleFit& fit, const Bootstrap& bootstrap)
 {
-  const auto replicates = replicate(bootstrap.samples(fit.dependence), windows);
-  for (const auto& [name, place] : estimator_columns) {
-    const auto interval =
-        bootstrap.interval(fit.value.*place, column_of(replicates, place), fit.dependence);
-    fit.low.*place = interval.low;
-    fit.high.*place = interval.high;
-  }
-  const auto inside = replicate(bootstrap.blocks(fit.dependence.block), windows);
-  fit.B_half_windows = bootstrap.over_windows(
-      fit.value.B_half, column_of(inside, &Estimators::B_half), fit.dependence);
+  return bootstrap.window_error(column_of(of_blocks, place), fit.dependence);
 }
 
-void add_minus_size(RuleFit& fit, const WindowSums& windows,
+Estimate estimate_with(double value, const StandardError& error)
+{
+  const auto interval = students_interval(value, error);
+  return {value, interval.low, interval.high};
+}
+
+/// Errors over windows, over runs within mixtures and over runs about one function of composition;
+/// those that the fit is over become its intervals.
+void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
+                   const Bootstrap& bootstrap)
+{
+  const auto of_blocks = replicate(bootstrap.blocks(fit.dependence.block), windows);
+  const auto of_runs = replicate(bootstrap.whole_runs(), windows);
+  const auto influences = influences_of(windows);
+  const RunErrors run_errors(data, windows.weight());
+  for (const auto& [name, place] : estimator_columns) {
+    const auto column = column_of_estimator(place);
+    const auto over_windows = window_error(of_blocks, place, fit, bootstrap);
+    const auto about_one_function = bootstrap.run_error(column_of(of_runs, place), fit.dependence);
+    const auto within =
+        run_errors.within_mixtures(influences.sums.col(column), influences.noise.col(column));
+    set_error(fit, place,
+              fit.over == Over::windows        ? over_windows
+              : fit.over == Over::compositions ? about_one_function
+                                               : within);
+    if (place != &Estimators::B_half && place != &Estimators::B_sums) continue;
+    auto& over = place == &Estimators::B_half ? fit.B_over : fit.B_sums_over;
+    const auto set = [&](Over population, const StandardError& error) {
+      over[static_cast<std::size_t>(population)] = estimate_with(fit.value.*place, error);
+    };
+    set(Over::windows, over_windows);
+    if (fit.runs < 2) continue;
+    set(Over::compositions, about_one_function);
+    set(data.number_of_mixtures() > 1 ? Over::mixtures : Over::runs, within);
+  }
+  fit.B_half_windows = {fit.at(Over::windows).low, fit.at(Over::windows).high};
+}
+
+void add_minus_size(RuleFit& fit, const FitData& data, const WindowSums& windows,
                     const std::vector<FitPoint>& size_points, const Bootstrap& bootstrap)
 {
   fit.minus_size = fit.value.B_direct - estimators_of(size_points).B_direct;
   if (bootstrap.count() == 0) return;
   const auto by_size = window_sums(size_points, bootstrap.runs());
-  const auto& times = bootstrap.samples(fit.dependence);
-  fit.minus_size_interval =
-      bootstrap.interval(fit.minus_size,
-                         column_of(replicate(times, windows), &Estimators::B_direct) -
-                             column_of(replicate(times, by_size), &Estimators::B_direct),
-                         fit.dependence);
+  if (fit.over == Over::windows || fit.over == Over::compositions) {
+    const auto& times =
+        fit.over == Over::windows ? bootstrap.blocks(fit.dependence.block) : bootstrap.whole_runs();
+    const Eigen::VectorXd samples = column_of(replicate(times, windows), &Estimators::B_direct) -
+                                    column_of(replicate(times, by_size), &Estimators::B_direct);
+    fit.minus_size_interval = fit.over == Over::windows
+                                  ? bootstrap.over_windows(fit.minus_size, samples, fit.dependence)
+                                  : bootstrap.over_runs(fit.minus_size, samples, fit.dependence);
+    return;
+  }
+  const auto direct = column_of_estimator(&Estimators::B_direct);
+  const auto own = influences_of(windows), others = influences_of(by_size);
+  fit.minus_size_interval = students_interval(
+      fit.minus_size, RunErrors(data, windows.weight())
+                          .within_mixtures(own.sums.col(direct) - others.sums.col(direct),
+                                           own.noise.col(direct) - others.noise.col(direct)));
+}
+
+/// p* of the sums. sigma^L is linear in the share p, so that the sum over frames of psi_L - phi_L is
+/// zero at p* = -D(0)/(D(1) - D(0)); what a window adds to p* is its D(p*) over that slope.
+void add_zero_of_sums(RuleFit& fit, const FitData& data, const FitSettings& settings,
+                      const Bootstrap& bootstrap)
+{
+  const auto sum_at = [&](double share) {
+    double sum = 0;
+    for (const auto& point : fit_points(data, {PartitionRule::Kind::uniform, share}, settings))
+      if (point.total > 0) sum += point.frames * point.excess();
+    return sum;
+  };
+  const double none = sum_at(0), slope = sum_at(1) - none, zero = -none / slope;
+  fit.p_zero_sums = {zero};
+  if (bootstrap.count() == 0 || !std::isfinite(zero)) return;
+  const auto windows = window_sums(fit_points(data, {PartitionRule::Kind::uniform, zero}, settings),
+                                   bootstrap.runs());
+  const Eigen::VectorXd sums = windows.excess() / -slope, noise = windows.excess_noise() / -slope;
+  fit.p_zero_sums_error =
+      fit.over == Over::windows
+          ? bootstrap.window_error(bootstrap.blocks(fit.dependence.block) * noise, fit.dependence)
+      : fit.over == Over::compositions
+          ? bootstrap.run_error(bootstrap.whole_runs() * noise, fit.dependence)
+          : RunErrors(data, windows.weight()).within_mixtures(sums, noise);
+  fit.p_zero_sums = estimate_with(zero, fit.p_zero_sums_error);
+}
+
+/// Where the mean of ln(y/x) and the ratio of sums cannot both be right. Only under rules whose
+/// neutral B is 0 at all compositions: by others B_half and B_sums may well differ.
+std::string doubt_of_few_grains(const RuleFit& fit, double window)
+{
+  const double apart = std::abs(fit.value.B_half - fit.value.B_sums);
+  const double reach = (fit.high.B_half - fit.low.B_half + fit.high.B_sums - fit.low.B_sums) / 2;
+  if (!(std::abs(fit.neutral) < 1e-3) || !(apart > reach)) return {};
+  return fmt::format(
+      "B_half = {:.4f} and B_sums = {:.4f} differ by more than their intervals: in windows of {:g} s "
+      "the mean of ln(y/x) suffers from few grains; B_sums does not",
+      fit.value.B_half, fit.value.B_sums, window);
+}
+
+/// What limits the interval, mostly nothing.
+std::string doubt_of(const RuleFit& fit, const FitData& data, const Bootstrap& bootstrap)
+{
+  if (bootstrap.count() == 0) return {};
+  if (fit.over == Over::windows) return bootstrap.doubt_of_windows(fit.dependence);
+  const auto mixtures = data.number_of_mixtures();
+  if (mixtures == 1 || fit.over == Over::compositions)
+    return bootstrap.doubt_of_runs(fit.dependence);
+  const auto single =
+      RunErrors(data, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(bootstrap.windows())))
+          .single_runs();
+  if (single > 0)
+    return fmt::format(
+        "{} of {} mixtures have one run: the scatter of its windows stands for that of runs, which "
+        "is too narrow where runs differ",
+        single, mixtures);
+  if (fit.degrees > 3.5) return {};
+  return fmt::format(
+      "{} runs of {} mixtures leave {:.2g} degrees of freedom; more runs of each "
+      "give a narrower interval",
+      fit.runs, mixtures, fit.degrees);
 }
 
 }  // namespace
 
-void add_components(RuleFit& fit, const FitData& data, const FitSettings& settings,
-                    const Bootstrap& bootstrap)
+void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error)
 {
-  const auto is_yy = settings.component == Component::yy;
-  auto &own = is_yy ? fit.B_yy : fit.B_pressure, &other = is_yy ? fit.B_pressure : fit.B_yy;
-  const auto b_half_of = [](const RuleFit& of) {
-    return Estimate{of.value.B_half, of.low.B_half, of.high.B_half};
-  };
-  own = b_half_of(fit);
-  const FitSettings swapped{is_yy ? Component::pressure : Component::yy, settings.base};
-  if (fit.rule.adds_up() && has_stresses(data, fit.rule, swapped))
-    other = b_half_of(fit_rule(data, fit.rule, swapped, bootstrap));
+  const auto interval = students_interval(fit.value.*place, error);
+  fit.low.*place = interval.low;
+  fit.high.*place = interval.high;
+  fit.error.*place = error.error;
+  if (place == &Estimators::B_half) fit.degrees = error.degrees;
 }
 
 Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
@@ -114,20 +215,24 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   fit.not_positive = points.size() - fit.points;
   fit.value = estimators_of(points);
   fit.dependence = common ? *common : dependence(windows, data.runs, rule.adds_up());
-  fit.doubt = fit.points > 0 ? bootstrap.doubt(fit.dependence)
+  fit.runs = data.runs.size();
+  fit.over = resolved(settings.over, fit.runs, data.number_of_mixtures());
+  if (bootstrap.count() > 0) add_intervals(fit, data, windows, bootstrap);
+  fit.doubt = fit.points > 0 ? doubt_of(fit, data, bootstrap)
                              : fmt::format(
                                    "in none of {} layers and windows do both species bear a "
                                    "positive stress, so that their ratio has no value",
                                    points.size());
-  if (bootstrap.count() > 0) add_intervals(fit, windows, bootstrap);
   if (!rule.adds_up()) {
     remove_b(fit);
   } else if (data.quantity == Quantity::contact) {
     if (data.species.size() <= 2) {
       fit.share = share_of_large(data, points, settings);
       fit.neutral = neutral_mean(points, rule);
+      if (!common) add_zero_of_sums(fit, data, settings, bootstrap);
     }
-    add_minus_size(fit, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
+    if (fit.doubt.empty()) fit.doubt = doubt_of_few_grains(fit, data.window);
+    add_minus_size(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
   }
   return fit;
 }

@@ -59,8 +59,8 @@ struct OtherComponent {
 std::optional<OtherComponent> other_component(const FitReport& report)
 {
   const OtherComponent other = report.component == Component::yy
-                                   ? OtherComponent{"B, pressure", &RuleFit::B_pressure}
-                                   : OtherComponent{"B, yy", &RuleFit::B_yy};
+                                   ? OtherComponent{"B_half, pressure", &RuleFit::B_pressure}
+                                   : OtherComponent{"B_half, yy", &RuleFit::B_yy};
   const bool any = std::any_of(report.rules.begin(), report.rules.end(), [&](const RuleFit& fit) {
     return std::isfinite((fit.*other.b).value);
   });
@@ -70,12 +70,15 @@ std::optional<OtherComponent> other_component(const FitReport& report)
 std::string rules_text(const FitReport& report)
 {
   const auto other = other_component(report);
-  std::vector<Line> lines{{"rule", "B", "95 % interval"}};
+  const bool by_mixture = report.is_by_mixture();
+  std::vector<Line> lines{{by_mixture ? "rule, mixture" : "rule", "B_half", "95 % interval",
+                           "B_sums", "95 % interval"}};
   if (other) lines.back().insert(lines.back().end(), {other->title, "95 % interval"});
   lines.back().insert(lines.back().end(), {"share", "points", "used by"});
   for (const auto& fit : report.rules) {
     Line line{row_name(report, fit), rounded(fit.value.B_half),
-              interval_text(fit.low.B_half, fit.high.B_half)};
+              interval_text(fit.low.B_half, fit.high.B_half), rounded(fit.value.B_sums),
+              interval_text(fit.low.B_sums, fit.high.B_sums)};
     if (other) {
       const Estimate& b = fit.*other->b;
       line.insert(line.end(), {rounded(b.value), interval_text(b.low, b.high)});
@@ -100,10 +103,49 @@ std::string matrix_text(const FitReport& report, const std::string& rule)
   for (std::size_t b = 1; b < species.size(); ++b) {
     text += fmt::format("\n{:<{}}", species[b].name, width);
     for (const auto& fit : report.rules)
-      if (rule_name(report, fit) == rule && fit.pair.larger == b)
+      if (rule_name(report, fit) == rule && fit.pair.larger == b && !fit.mixture)
         text += fmt::format("{:>{}}", rounded(fit.value.B_half), width);
   }
   return text + '\n';
+}
+
+/// The numbers for all mixtures together under the rules that have B, and what each of them is.
+std::string populations_text(const FitReport& report)
+{
+  std::string text;
+  std::vector<Line> lines;
+  for (const auto& fit : report.rules)
+    for (const auto& [word, population, meaning] : overs) {
+      const auto& b = fit.at(population);
+      if (report.shares.half.size() < 2 || fit.mixture || !std::isfinite(b.value)) continue;
+      const auto& sums = fit.sums_at(population);
+      lines.push_back({row_name(report, fit), rounded(b.value), interval_text(b.low, b.high),
+                       rounded(sums.value), interval_text(sums.low, sums.high), word});
+    }
+  if (!lines.empty()) {
+    lines.insert(lines.begin(),
+                 {"all together", "B_half", "95 % interval", "B_sums", "95 % interval", "over"});
+    text += '\n' + aligned(lines);
+  }
+  const auto words = estimands(report);
+  if (!words.empty() && !report.mixtures.empty()) text += '\n';
+  if (!report.mixtures.empty())
+    for (const auto& [over, sentence] : words)
+      text += fmt::format("over {}: {}\n", word_of(over, overs), sentence);
+  if (report.mixtures.size() < 2) return text;
+  text += '\n';
+  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
+    text += fmt::format("{}: {} tables, {}\n", report.mixtures[m].name,
+                        report.mixtures[m].tables.size(), share_words(report, m));
+  return text;
+}
+
+bool has_several_pairs(const FitReport& report)
+{
+  const auto& first = report.rules.front().pair;
+  return std::any_of(report.rules.begin(), report.rules.end(), [&first](const RuleFit& fit) {
+    return fit.pair.smaller != first.smaller || fit.pair.larger != first.larger;
+  });
 }
 
 /// What is known of all pairs together, each rule once.
@@ -114,11 +156,12 @@ std::string pairs_text(const FitReport& report)
     const auto rule = rule_name(report, fit);
     if (rule == last) continue;
     last = rule;
-    const auto pairs =
-        std::count_if(report.rules.begin(), report.rules.end(),
-                      [&](const auto& other) { return rule_name(report, other) == rule; });
-    if (pairs > 1) text += matrix_text(report, rule);
-    if (const auto& a = fit.size_exponent)
+    if (report.names_pairs() && has_several_pairs(report)) text += matrix_text(report, rule);
+    const auto of_all = std::find_if(
+        report.rules.begin(), report.rules.end(),
+        [&](const auto& other) { return rule_name(report, other) == rule && other.size_exponent; });
+    if (of_all == report.rules.end()) continue;
+    if (const auto& a = of_all->size_exponent)
       text += fmt::format("{}: a = {}: sigma^nu/sigma = phi^nu s^a/sum(phi s^a)\n", rule,
                           with_interval(a->value, {a->low, a->high}));
   }
@@ -139,6 +182,20 @@ std::string zero_text(const ZeroOfB& zero)
   return fmt::format("p* = {}: with this share of every mixed contact B = 0; dB/dp = {} there\n",
                      with_interval(zero.p_zero, zero.p_zero_interval),
                      with_interval(zero.dB_dp, zero.dB_dp_interval));
+}
+
+/// p* of the sums, of each mixture and of all, which no rule changes.
+std::string zeros_of_sums_text(const FitReport& report)
+{
+  std::string text;
+  const auto name = report.rules.empty() ? "" : rule_name(report, report.rules.front());
+  for (const auto& fit : report.rules)
+    if (rule_name(report, fit) == name && std::isfinite(fit.p_zero_sums.value))
+      text += fmt::format(
+          "p* by sums = {}: with this share B_sums = 0{}\n",
+          with_interval(fit.p_zero_sums.value, {fit.p_zero_sums.low, fit.p_zero_sums.high}),
+          report.is_by_mixture() ? "; " + mixture_name(report, fit) : "");
+  return text;
 }
 
 /// Each doubt once, with the rules that it is about.
@@ -168,10 +225,12 @@ std::string short_table(const FitReport& report)
   const auto plural = [](std::size_t n, const char* word) {
     return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
   };
-  std::string text =
-      fmt::format("B of the {} stress ({}) at phi_L = 1/2, from {} of {}\n\n",
-                  word_of(report.quantity, quantities), word_of(report.component, components),
-                  plural(report.number_of_windows, "window"), plural(report.number_of_runs, "run"));
+  std::string text = fmt::format(
+      "B of the {} stress ({}), B_half: at phi_L = 1/2, B_sums: mean with weight phi_L phi_S, from {} "
+      "of {}{}\n\n",
+      word_of(report.quantity, quantities), word_of(report.component, components),
+      plural(report.number_of_windows, "window"), plural(report.number_of_runs, "run"),
+      report.mixtures.size() > 1 ? fmt::format(" of {} mixtures", report.mixtures.size()) : "");
   text += rules_text(report);
   text += pairs_text(report);
   if (report.scan || report.zero) text += '\n';
@@ -180,6 +239,8 @@ std::string short_table(const FitReport& report)
     text += zero_text(*report.scan);
   else if (report.zero)
     text += zero_text(*report.zero);
+  text += zeros_of_sums_text(report);
+  text += populations_text(report);
   return text + doubts_text(report);
 }
 

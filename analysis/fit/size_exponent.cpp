@@ -3,6 +3,7 @@
 
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/rule_fit.hpp"
+#include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/window_sums.hpp"
 
 #include <cmath>
@@ -37,12 +38,25 @@ Estimate size_exponent(const FitData& data, const PartitionRule& rule, const Fit
   Estimate a{estimators_of(points).B_mean};
   if (points.empty() || bootstrap.count() == 0) return a;
   const auto windows = window_sums(points, data.runs);
-  const Dependence how_dependent = dependence(data, rule, settings);
-  const Eigen::MatrixXd totals = windows.totals(bootstrap.samples(how_dependent));
-  Eigen::VectorXd samples(totals.rows());
-  for (Eigen::Index k = 0; k < samples.size(); ++k)
-    samples[k] = estimators_from_sums(totals.row(k)).B_mean;
-  const auto interval = bootstrap.interval(a.value, samples, how_dependent);
+  const auto over = resolved(settings.over, data.runs.size(), data.number_of_mixtures());
+  Interval interval{a.low, a.high};
+  if (over == Over::runs || over == Over::mixtures) {
+    const auto influences = influences_of(windows);
+    const auto column = column_of_estimator(&Estimators::B_mean);
+    interval = students_interval(
+        a.value, RunErrors(data, windows.weight())
+                     .within_mixtures(influences.sums.col(column), influences.noise.col(column)));
+  } else if (over == Over::windows || over == Over::compositions) {
+    const Dependence how_dependent = dependence(data, rule, settings);
+    const auto& times =
+        over == Over::windows ? bootstrap.blocks(how_dependent.block) : bootstrap.whole_runs();
+    const Eigen::MatrixXd totals = windows.totals(times);
+    Eigen::VectorXd samples(totals.rows());
+    for (Eigen::Index k = 0; k < samples.size(); ++k)
+      samples[k] = estimators_from_sums(totals.row(k)).B_mean;
+    interval = over == Over::windows ? bootstrap.over_windows(a.value, samples, how_dependent)
+                                     : bootstrap.over_runs(a.value, samples, how_dependent);
+  }
   return {a.value, interval.low, interval.high};
 }
 

@@ -10,7 +10,7 @@
 namespace grseg {
 namespace {
 
-/// The additive sums of a window: w = weight, X = ln x, Y = ln y, D = psi_L - phi_L and
+/// The additive sums of a window: w = weight, f = frames, X = ln x, Y = ln y, D = psi_L - phi_L and
 /// Q = phi_L phi_S.
 enum Sum : Eigen::Index {
   sum_w,
@@ -22,6 +22,8 @@ enum Sum : Eigen::Index {
   sum_xy,
   sum_wQD,
   sum_wQQ,
+  sum_fD,
+  sum_fQ,
   number_of_sums
 };
 
@@ -32,7 +34,8 @@ bool spread_out(double w, double wX, double wXX)
 }
 
 /// One statistic as a weighted mean over points: of ln(y/x), of y/x with weight x^2 (the line
-/// through the origin) or of (psi_L - phi_L)/(phi_L phi_S) with weight w (phi_L phi_S)^2.
+/// through the origin) or of (psi_L - phi_L)/(phi_L phi_S) with weight w (phi_L phi_S)^2 or, of the
+/// sums, f phi_L phi_S.
 struct WeightedMean {
   std::vector<const FitPoint*> points;
   std::vector<double> phi_large, value, weight;
@@ -66,7 +69,7 @@ Eigen::Index window_of(const FitPoint& point)
 
 Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index windows)
 {
-  WeightedMean logarithm, linear, direct;
+  WeightedMean logarithm, linear, direct, of_sums;
   for (const auto& point : points) {
     if (point.has_logarithm()) {
       const double x = point.ratio(), slope = point.small / point.large / x;
@@ -74,7 +77,9 @@ Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index w
       linear.add(point, slope, x * x);
     }
     const double q = point.product();
-    if (point.total > 0) direct.add(point, point.excess() / q, point.weight * q * q);
+    if (!(point.total > 0)) continue;
+    direct.add(point, point.excess() / q, point.weight * q * q);
+    of_sums.add(point, point.excess() / q, point.frames * q);
   }
   Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(windows, number_of_sums);
   logarithm.for_noise([&](const FitPoint& point, double part) {
@@ -85,6 +90,8 @@ Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index w
       [&](const FitPoint& point, double part) { noise(window_of(point), sum_xy) += part; });
   direct.for_noise(
       [&](const FitPoint& point, double part) { noise(window_of(point), sum_wQD) += part; });
+  of_sums.for_noise(
+      [&](const FitPoint& point, double part) { noise(window_of(point), sum_fD) += part; });
   return noise;
 }
 
@@ -111,9 +118,26 @@ WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& ru
     if (point.total > 0) {
       row[sum_wQD] += w * point.product() * point.excess();
       row[sum_wQQ] += w * point.product() * point.product();
+      row[sum_fD] += point.frames * point.excess();
+      row[sum_fQ] += point.frames * point.product();
     }
   }
   return {std::move(sums), window_noise(points, windows)};
+}
+
+Eigen::VectorXd WindowSums::weight() const
+{
+  return sums.col(sums.col(sum_w).any() ? sum_w : sum_wQQ);
+}
+
+Eigen::VectorXd WindowSums::excess() const
+{
+  return sums.col(sum_fD);
+}
+
+Eigen::VectorXd WindowSums::excess_noise() const
+{
+  return noise.col(sum_fD);
 }
 
 Eigen::MatrixXd WindowSums::totals(const Eigen::MatrixXd& times) const
@@ -131,7 +155,7 @@ Estimators estimators_from_sums(const Eigen::RowVectorXd& total)
     prefactor = std::exp((w_y - exponent * w_x) / w);
   }
   return estimators_from_slopes((w_y - w_x) / w, total[sum_xy] / total[sum_xx], prefactor, exponent,
-                                total[sum_wQD] / total[sum_wQQ]);
+                                total[sum_wQD] / total[sum_wQQ], total[sum_fD] / total[sum_fQ]);
 }
 
 Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up)

@@ -16,6 +16,11 @@ struct WindowSums {
 
   /// The sums of all windows, and of samples that count window k times(sample, k) times.
   Eigen::RowVectorXd total() const { return sums.colwise().sum(); }
+  /// Of each window in the mean of ln(y/x), or in B_direct where no ratio has a value.
+  Eigen::VectorXd weight() const;
+  /// Of each window the sum over its layers of frames x (psi_L - phi_L), and what of it is noise.
+  Eigen::VectorXd excess() const;
+  Eigen::VectorXd excess_noise() const;
   Eigen::MatrixXd totals(const Eigen::MatrixXd& times) const;
 };
 WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs);

@@ -29,9 +29,7 @@ void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
     if (!is_mobile(grains, frame, g)) continue;
     const auto& position = frame.position[g];
     const double y = layers_.height<D>(position), mass = grains.mass[g];
-    const Sum own{mass,
-                  mass * motion_of<D>(layers_.turned<D>(frame.velocity[g], position),
-                                      layers_.turned_spin<D>(frame.angular_velocity[g], position))};
+    const Sum own{mass, mass * motion_of<D>(layers_, frame, g)};
     if (profile) of_bin_[bins_.at(y)] += {own, mass * y};
     of_layer_[layers_.holding<D>(position, y)][static_cast<std::size_t>(grains.species[g])] += own;
   }

@@ -15,14 +15,18 @@ enum class MeanFlow {
   layer,    ///< the layer's mean over all frames; leaves the mean shear inside the layer in K_xx,
             ///< nu rho (du/dy h)^2/12
   instant,  ///< the layer's mean in each frame; leaves the same shear, takes away what the whole
-            ///< layer does together and, of n grains, 1/n of the fluctuations
-  species,  ///< the layer's mean of each species over all frames
+            ///< layer does together and, of n equal grains, 1/n of the fluctuations
+  instant_unbiased,  ///< the same without that 1/n: unbiased_fluctuations.hpp
+  species,           ///< the layer's mean of each species over all frames
 };
 inline constexpr Choice<MeanFlow> mean_flows[] = {
     {"profile", MeanFlow::profile,
      "over the window, in bins of at most half a dS, at the grain's own height"},
     {"layer", MeanFlow::layer, "over the window"},
     {"instant", MeanFlow::instant, "of the layer in each frame"},
+    {"instant-unbiased", MeanFlow::instant_unbiased,
+     "the same, with each grain compared with two others at a time, so that it is not in the mean "
+     "from which it is counted"},
     {"species", MeanFlow::species, "of the species in the layer, over the window"}};
 
 /// Components of a velocity, m/s, then those of a spin, rad/s: 3 or 6.
@@ -35,6 +39,14 @@ Motion<D> motion_of(const Vector<D>& velocity, const Spin<D>& spin)
   Motion<D> motion;
   motion << velocity, spin;
   return motion;
+}
+/// Of grain g, with components along and across its layer.
+template <int D>
+Motion<D> motion_of(const Layers& layers, const Frame<D>& frame, std::size_t g)
+{
+  const auto& position = frame.position[g];
+  return motion_of<D>(layers.turned<D>(frame.velocity[g], position),
+                      layers.turned_spin<D>(frame.angular_velocity[g], position));
 }
 
 /// Mass-weighted mean motion of the mobile grains over the frames that were added: as a profile

@@ -52,14 +52,6 @@ double variance(const Eigen::VectorXd& replicates)
   return n > 1 && n >= 0.95 * static_cast<double>(replicates.size()) ? squares / (n - 1) : nan;
 }
 
-Interval students_interval(double estimate, double variance, double degrees)
-{
-  if (!(degrees >= least_degrees) || !std::isfinite(estimate) || !std::isfinite(variance))
-    return {nan, nan};
-  const double reach = gsl_cdf_tdist_Pinv(0.975, degrees) * std::sqrt(variance);
-  return {estimate - reach, estimate + reach};
-}
-
 /// Variance of the mean over blocks of `length` windows of an AR(1) series, relative to what it
 /// would be if what lies on both sides of a cut were correlated, too.
 double kept_in_blocks(double time, std::size_t length)
@@ -69,6 +61,14 @@ double kept_in_blocks(double time, std::size_t length)
 }
 
 }  // namespace
+
+Interval students_interval(double estimate, const StandardError& error)
+{
+  if (!(error.degrees >= least_degrees) || !std::isfinite(estimate) || !std::isfinite(error.error))
+    return {nan, nan};
+  const double reach = gsl_cdf_tdist_Pinv(0.975, error.degrees) * error.error;
+  return {estimate - reach, estimate + reach};
+}
 
 Bootstrap::Bootstrap(RunLengths runs, std::size_t samples, unsigned long seed)
     : runs_(std::move(runs)), samples_(samples), seed_(seed)
@@ -104,6 +104,7 @@ const Eigen::MatrixXd& Bootstrap::blocks(std::size_t length) const
 
 const Eigen::MatrixXd& Bootstrap::whole_runs() const
 {
+  if (runs_.size() < 2) whole_runs_.resize(0, index(number_of_windows(runs_)));
   if (runs_.size() < 2 || whole_runs_.size() > 0) return whole_runs_;
   std::vector<std::size_t> first(runs_.size(), 0);
   std::exclusive_scan(runs_.begin(), runs_.end(), first.begin(), std::size_t{0});
@@ -135,35 +136,52 @@ double Bootstrap::window_degrees(const Dependence& dependence) const
          static_cast<double>(runs_.size());
 }
 
-Interval Bootstrap::over_windows(double estimate, const Eigen::VectorXd& samples,
-                                 const Dependence& dependence) const
+StandardError Bootstrap::window_error(const Eigen::VectorXd& samples,
+                                      const Dependence& dependence) const
 {
   const double degrees = window_degrees(dependence);
   const double fitted = (degrees + static_cast<double>(runs_.size())) / degrees;
-  return students_interval(
-      estimate, variance(samples) * fitted / kept_in_blocks(dependence.time, dependence.block),
-      degrees);
+  return {std::sqrt(variance(samples) * fitted / kept_in_blocks(dependence.time, dependence.block)),
+          degrees};
+}
+
+Interval Bootstrap::over_windows(double estimate, const Eigen::VectorXd& samples,
+                                 const Dependence& dependence) const
+{
+  return students_interval(estimate, window_error(samples, dependence));
+}
+
+StandardError Bootstrap::run_error(const Eigen::VectorXd& samples,
+                                   const Dependence& dependence) const
+{
+  const double degrees = dependence.effective_runs - 1;
+  return {std::sqrt(variance(samples) * dependence.effective_runs / degrees), degrees};
 }
 
 Interval Bootstrap::over_runs(double estimate, const Eigen::VectorXd& samples,
                               const Dependence& dependence) const
 {
-  const double degrees = dependence.effective_runs - 1;
-  return students_interval(estimate, variance(samples) * dependence.effective_runs / degrees,
-                           degrees);
+  return students_interval(estimate, run_error(samples, dependence));
 }
 
 std::string Bootstrap::doubt(const Dependence& dependence) const
 {
+  return runs_.size() > 1 ? doubt_of_runs(dependence) : doubt_of_windows(dependence);
+}
+
+std::string Bootstrap::doubt_of_runs(const Dependence& dependence) const
+{
+  if (samples_ == 0 || dependence.effective_runs > 3.5) return {};
+  return fmt::format(
+      "{} runs, worth {:.3g} of equal weight, tell {} how runs differ; more runs give a narrower "
+      "interval",
+      runs_.size(), dependence.effective_runs,
+      dependence.effective_runs < 1 + least_degrees ? "nothing of" : "little of");
+}
+
+std::string Bootstrap::doubt_of_windows(const Dependence& dependence) const
+{
   if (samples_ == 0) return {};
-  if (runs_.size() > 1) {
-    if (dependence.effective_runs > 3.5) return {};
-    return fmt::format(
-        "{} runs, worth {:.3g} of equal weight, tell {} how runs differ; four or "
-        "more give a narrower interval",
-        runs_.size(), dependence.effective_runs,
-        dependence.effective_runs < 1 + least_degrees ? "nothing of" : "little of");
-  }
   if (dependence.independent_windows() > 8) return {};
   return fmt::format(
       "{:.3g} windows with an autocorrelation time of {:.3g} windows are worth "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/statistics/confidence.hpp"
 #include "analysis/statistics/dependence.hpp"
 
 #include <Eigen/Core>
@@ -19,6 +20,10 @@ namespace grseg {
 struct Interval {
   double low, high;
 };
+
+/// estimate -+ t error, t Student's 97.5 % quantile; NaN where the degrees of freedom are less than
+/// one half.
+Interval students_interval(double estimate, const StandardError& error);
 
 class Bootstrap {
  public:
@@ -49,14 +54,18 @@ class Bootstrap {
   /// if runs do not differ.
   Interval over_windows(double estimate, const Eigen::VectorXd& samples,
                         const Dependence& dependence) const;
+  StandardError window_error(const Eigen::VectorXd& samples, const Dependence& dependence) const;
   /// What several runs tell: the same with samples of whole_runs(), m = effective runs and m - 1
   /// degrees of freedom. Each run is one observation, whatever goes on inside it.
   Interval over_runs(double estimate, const Eigen::VectorXd& samples,
                      const Dependence& dependence) const;
+  StandardError run_error(const Eigen::VectorXd& samples, const Dependence& dependence) const;
 
   /// A sentence where an interval may say more than it knows, or far less: too few windows for
   /// their correlation, two or three runs. Empty otherwise and for samples = 0.
   std::string doubt(const Dependence& dependence) const;
+  std::string doubt_of_windows(const Dependence& dependence) const;
+  std::string doubt_of_runs(const Dependence& dependence) const;
 
  private:
   double window_degrees(const Dependence& dependence) const;

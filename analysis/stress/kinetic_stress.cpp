@@ -3,6 +3,7 @@
 
 #include "analysis/frames/accumulate.hpp"
 #include "analysis/stress/contact_sums.hpp"
+#include "analysis/stress/unbiased_fluctuations.hpp"
 
 #include <fmt/format.h>
 
@@ -14,13 +15,18 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+template <int D>
+double moment_of_inertia(double mass, double radius)
+{
+  return D == 2 ? mass * radius * radius / 2 : inertia_factor<D> * mass * radius * radius;
+}
+
 /// Of one grain that moves by `excess` more than the mean.
 template <int D>
 Fluctuations<D> fluctuations(double mass, double radius, const Motion<D>& excess)
 {
   const Vector<D> velocity = excess.template head<D>();
-  const double moment =
-      D == 2 ? mass * radius * radius / 2 : inertia_factor<D> * mass * radius * radius;
+  const double moment = moment_of_inertia<D>(mass, radius);
   double rotational = moment * excess[D] * excess[D];
   for (Eigen::Index axis = D + 1; axis < excess.size(); ++axis)
     rotational += moment * excess[axis] * excess[axis];
@@ -76,6 +82,7 @@ typename KineticStress<D>::Mean& KineticStress<D>::Mean::operator+=(const Mean& 
 {
   mass += other.mass;
   grains += other.grains;
+  left_out += other.left_out;
   about_mean += other.about_mean;
   layer_bias += other.layer_bias;
   return *this;
@@ -103,7 +110,8 @@ Motion<D> KineticStress<D>::mean_in(std::size_t layer, Species species,
 {
   switch (flow_) {
     case MeanFlow::profile:
-      break;  // has no mean by layer
+    case MeanFlow::instant_unbiased:
+      break;  // have no mean by layer
     case MeanFlow::layer:
       return mean_velocity_.of_layer(layer);
     case MeanFlow::instant:
@@ -123,31 +131,39 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
   const bool has_profile = !layers_.map();
   MeanVelocity<D> now(layers_, layers_.thickness(), species_);
   if (flow_ == MeanFlow::instant) now.add(grains, frame);
+  std::optional<UnbiasedFluctuations<D>> unbiased;
+  if (flow_ == MeanFlow::instant_unbiased) unbiased.emplace(layers_, grains, frame);
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
     const double mass = grains.mass[g], radius = grains.radius[g];
     const auto& position = frame.position[g];
     const double y = layers_.height<D>(position);
-    const Vector<D> velocity = layers_.turned<D>(frame.velocity[g], position);
-    const auto motion =
-        motion_of<D>(velocity, layers_.turned_spin<D>(frame.angular_velocity[g], position));
+    const Motion<D> motion = motion_of<D>(layers_, frame, g);
     const auto species = grains.species[g];
     const std::size_t layer = layers_.holding<D>(position, y);
     const auto about = [&](const Motion<D>& mean) {
       return fluctuations<D>(mass, radius, motion - mean);
     };
+    sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer),
+                                      motion.template head<D>());
     auto& own = sums_[layer].species[static_cast<std::size_t>(species)];
+    if (unbiased && !unbiased->has(layer)) {
+      own.left_out += 1;
+      continue;
+    }
     own.mass += mass;
     own.grains += 1;
-    if (!has_profile) {
-      own.about_mean += about(mean_in(layer, species, now));
-    } else {
-      const auto about_profile = about(mean_velocity_.on_profile(y));
+    if (unbiased) {
+      const auto product = unbiased->of(layer, mass, motion);
       own.about_mean +=
-          flow_ == MeanFlow::profile ? about_profile : about(mean_in(layer, species, now));
-      own.layer_bias += about(mean_velocity_.of_layer(layer)) - about_profile;
+          {mass * product.velocities, moment_of_inertia<D>(mass, radius) * product.spins};
+    } else if (flow_ != MeanFlow::profile) {
+      own.about_mean += about(mean_in(layer, species, now));
     }
-    sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer), velocity);
+    if (!has_profile) continue;
+    const auto about_profile = about(mean_velocity_.on_profile(y));
+    if (flow_ == MeanFlow::profile) own.about_mean += about_profile;
+    own.layer_bias += about(mean_velocity_.of_layer(layer)) - about_profile;
   }
 }
 
@@ -163,7 +179,8 @@ typename KineticStress<D>::Mean KineticStress<D>::mean(std::size_t layer, Specie
 {
   const auto& sum = sums_[layer].species[static_cast<std::size_t>(species)];
   const auto frames = static_cast<double>(frames_);
-  return {sum.mass / frames, sum.grains / frames, sum.about_mean / frames, sum.layer_bias / frames};
+  return {sum.mass / frames, sum.grains / frames, sum.left_out / frames, sum.about_mean / frames,
+          sum.layer_bias / frames};
 }
 
 template <int D>
@@ -227,6 +244,8 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
       cells.push_back({fmt::format("equipartition_{}", all_freedoms[f]),
                        quotient[static_cast<Eigen::Index>(f)]});
   }
+  if (flow_ == MeanFlow::instant_unbiased)
+    each("left_out_{}", [](const Mean& own) { return own.left_out; });
   if (layers_.map()) return cells;
   for (std::size_t k = 0; k < words.size(); ++k) {
     for (const auto& [suffix, row, column] : components)

@@ -35,6 +35,10 @@ struct Fluctuations {
 /// profile, by definition and exactly. Of a linear shear it is mass (du/dy h)^2/12 in xx, h the
 /// thickness of the layer, and nothing elsewhere. A map has neither profile nor bias.
 ///
+/// About MeanFlow::instant_unbiased a grain needs two others in its layer or cell and frame. Where
+/// there are fewer it counts in the mean flow but not in the sums, its mass and its number included,
+/// so that temperatures and ratios are those of the grains that count; `left_out` has the others.
+///
 /// The frames of a window are read twice: first for the mean flow, then for the fluctuations.
 template <int D>
 class KineticStress {
@@ -42,8 +46,9 @@ class KineticStress {
   using Temperatures = Vector<D + 1>;
   /// Of one species in one layer.
   struct Mean {
-    double mass = 0;    // kg
-    double grains = 0;  // number
+    double mass = 0;      // kg
+    double grains = 0;    // number
+    double left_out = 0;  // number: those that are too few for the mean; not among `grains`
     Fluctuations<D> about_mean;
     Fluctuations<D> layer_bias;
 

@@ -134,5 +134,7 @@ int main(int argc, char** argv)
     std::cout.flush();
     if (const auto failures = report.failures(); !failures.empty())
       throw CheckError(fmt::format("{}: {}", run.path(), failures));
+    if (const auto undecided = report.undecided(); !undecided.empty() && !settings.quiet)
+      fmt::print(stderr, "{}: {}: {}\n", name, run.path(), undecided);
   });
 }

@@ -2,6 +2,8 @@
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/fit_report.hpp"
+#include "analysis/fit/mixtures.hpp"
+#include "analysis/fit/over.hpp"
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/rule_fit.hpp"
 #include "analysis/fit/short_table.hpp"
@@ -38,6 +40,8 @@ constexpr ToolInfo info{
     "  grseg-fit sums.tsv --partition stock             B by the rules of published codes\n"
     "  grseg-fit sums.tsv --short -o fit.tsv            a table to read, and all columns in a file\n"
     "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
+    "  grseg-fit phi*/*.tsv                             B of each mixture, then of all\n"
+    "  grseg-fit phi*/*.tsv --over equal-mixtures       one number, each mixture counting the same\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
     "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n",
@@ -45,7 +49,7 @@ constexpr ToolInfo info{
 
 struct Settings {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range, pair;
+  std::string component, quantity, base, scan, ratio_range, pair, over, mixtures;
   OutputOptions output;
   int bootstrap = 0;
   long seed = 0;
@@ -89,6 +93,14 @@ po::options_description options_into(Settings& s)
       "also a of sigma^nu/sigma = phi^nu s^a/sum(phi s^a), s the diameters; of more than two "
       "species always");
   add("scan", text(s.scan, "p0:p1:dp"), "print B over the share p instead of the rules");
+  add("over", text(s.over, "NAME"),
+      ("what intervals are over, in one row per rule: " + list_of(overs) +
+       " (default: windows of one run, runs of one mixture; of several mixtures a row of each over "
+       "its runs, then one of all over mixtures)")
+          .c_str());
+  add("mixtures", text(s.mixtures, "N,N,...")->default_value("auto"),
+      "how many of the tables, in their order, are runs of each mixture; auto: those that agree in "
+      "what they record of the flow and in overall composition");
   add("bootstrap", number(s.bootstrap, "N")->default_value(1000),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", number(s.seed, "N")->default_value(1), "seed of the samples");
@@ -98,8 +110,9 @@ po::options_description options_into(Settings& s)
       "layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
   add("min-solid", number(s.filters.min_solid, "X")->default_value(0.5, "0.5"),
       "least solid fraction of a layer, in units of the run's median");
-  add("min-grains", number(s.filters.min_grains, "N")->default_value(3),
-      "least grains of the rarer species in a layer, mean over the window");
+  add("min-grains", number(s.filters.min_grains, "N")->default_value(0),
+      "least grains of the rarer species in a layer, mean over the window; 0: off, because choosing "
+      "by a number that fluctuates is a bias of its own (B_sums needs no such choice)");
   add("begin", number(s.filters.begin, "s"), "first time of the windows that take part");
   add("end", number(s.filters.end, "s"), "last time of the windows that take part");
   add("short", po::bool_switch(&s.short_form),
@@ -135,6 +148,7 @@ void check(const Settings& s, const po::variables_map& values)
   if (!(s.filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
   if (!(s.filters.min_grains >= 0)) throw UsageError("--min-grains must not be negative");
   if (s.json && s.short_form) throw UsageError("--short and --json exclude each other");
+  if (!s.over.empty()) choose(s.over, "--over", overs);
   parse_rules(s.partition);
   parse_heights(s.filters.heights, {1, 1});
   if (!s.scan.empty()) parse_scan(s.scan);
@@ -187,6 +201,7 @@ void add_for_short_table(FitReport& report, const FitData& data, const FitSettin
 {
   report.number_of_runs = data.runs.size();
   report.number_of_windows = bootstrap.windows();
+  if (settings.over == Over::equal_mixtures || settings.over == Over::random_mixtures) return;
   if (report.quantity == Quantity::contact && !report.scan && !report.names_pairs())
     report.zero = find_zero_of_b(data, {0, 1, 0.05}, settings, bootstrap);
 }
@@ -218,30 +233,48 @@ std::string grains_words(const std::vector<FitTable>& tables, const FitData& dat
   return counted ? "as counted" : "areas or volumes over those of a grain of nominal diameter";
 }
 
-FitReport make_report(const Settings& s, const std::string& preset,
-                      const std::vector<Table>& tables)
+/// UsageError where the runs and mixtures at hand cannot be the population asked for.
+void require_population(const Settings& s, const FitData& data)
 {
-  const auto base = s.base.empty() ? header_or(tables[0], "base", "contact-point") : s.base;
-  FitReport report;
-  report.quantity = choose(s.quantity, "--quantity", quantities);
-  report.component = choose(s.component, "--component", components);
-  const FitSettings settings{report.component, choose(base, "--base", base_parts)};
-  const auto rules = rules_of(s, tables[0]);
-  auto read = rules;
-  if (!s.scan.empty()) read.push_back({PartitionRule::Kind::uniform});
-  const auto all = read_fit_tables(tables, report.quantity, read);
-  report.species = all.front().species;
-  const auto pairs = pairs_of(s, report.species);
-  const auto data = select_fit_data(all, report.quantity, s.filters, pairs);
-  const Resampling resampling{static_cast<std::size_t>(s.bootstrap),
-                              static_cast<unsigned long>(s.seed)};
-  const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
-  report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings, resampling,
-                           s.exponent || report.names_pairs());
-  if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
-  if (prints_short(s)) add_for_short_table(report, data, settings, bootstrap);
+  if (s.over.empty()) return;
+  const auto over = choose(s.over, "--over", overs);
+  const auto mixtures = data.number_of_mixtures();
+  if (over == Over::runs && mixtures > 1)
+    throw UsageError(
+        fmt::format("--over runs: the tables hold runs of {} mixtures; without --over each has its "
+                    "own interval, --over mixtures gives one number for all, and --mixtures tells "
+                    "which tables belong together",
+                    mixtures));
+  if (over == Over::runs && data.runs.size() < 2)
+    throw UsageError(
+        "--over runs: there is one run; give the tables of several, or --over windows");
+  const bool of_mixtures =
+      over == Over::mixtures || over == Over::equal_mixtures || over == Over::random_mixtures;
+  if (of_mixtures && mixtures < 2)
+    throw UsageError(fmt::format(
+        "--over {}: all tables are of one mixture; leave the option out, or tell with --mixtures "
+        "which tables belong together",
+        s.over));
+  if (!s.scan.empty() && (over == Over::equal_mixtures || over == Over::random_mixtures))
+    throw UsageError(
+        fmt::format("--scan: B(p) has no intervals over {}; choose --over mixtures or windows, or "
+                    "scan each mixture by itself",
+                    s.over));
+}
 
-  report.header = {
+/// What the rows' intervals are over: "runs", or "runs, then mixtures" of mixtures one by one.
+std::string over_words(const FitReport& report)
+{
+  const auto of = [](const RuleFit& fit) { return std::string(word_of(fit.over, overs)); };
+  const auto& rows = report.scan ? report.scan->fits : report.rules;
+  return rows.front().mixture ? of(rows.front()) + ", then " + of(rows.back()) : of(rows.back());
+}
+
+/// The lines that say how the fit was made.
+Header header_of(const Settings& s, const std::string& preset, const FitReport& report,
+                 const FitData& data, const std::string& grains)
+{
+  return {
       program_line(info),
       {"preset", preset},
       {"quantity", s.quantity},
@@ -252,13 +285,46 @@ FitReport make_report(const Settings& s, const std::string& preset,
        s.filters.all_times() ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
       {"min_solid", format_number(s.filters.min_solid)},
       {"min_grains", format_number(s.filters.min_grains)},
-      {"grains", grains_words(all, data)},
+      {"grains", grains},
       {"rows", data.count.sentence()},
       {"runs", fmt::format("{}", data.runs.size())},
-      {"windows", fmt::format("{}", bootstrap.windows())},
+      {"windows", fmt::format("{}", number_of_windows(data.runs))},
       {"bootstrap", fmt::format("{}", s.bootstrap)},
       {"seed", fmt::format("{}", s.seed)},
-      {"interval", "95 %"}};
+      {"interval", "95 %"},
+      {"over", over_words(report)},
+      {"mixtures", grouping_words(s.mixtures)}};
+}
+
+FitReport make_report(const Settings& s, const std::string& preset,
+                      const std::vector<Table>& tables)
+{
+  const auto base = s.base.empty() ? header_or(tables[0], "base", "contact-point") : s.base;
+  FitReport report;
+  report.quantity = choose(s.quantity, "--quantity", quantities);
+  report.component = choose(s.component, "--component", components);
+  const FitSettings settings{report.component, choose(base, "--base", base_parts),
+                             s.over.empty() ? Over::automatic : choose(s.over, "--over", overs)};
+  const auto rules = rules_of(s, tables[0]);
+  auto read = rules;
+  if (!s.scan.empty()) read.push_back({PartitionRule::Kind::uniform});
+  auto all = read_fit_tables(tables, report.quantity, read);
+  report.mixtures = find_mixtures(all, s.mixtures);
+  for (const auto& table : tables) report.table_names.push_back(table.name);
+  report.species = all.front().species;
+  const auto pairs = pairs_of(s, report.species);
+  const auto data = select_fit_data(all, report.quantity, s.filters, pairs);
+  require_population(s, data);
+  report.shares = weight_shares(data, report.mixtures.size());
+  const Resampling resampling{static_cast<std::size_t>(s.bootstrap),
+                              static_cast<unsigned long>(s.seed)};
+  const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
+  report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings, resampling,
+                           s.exponent || report.names_pairs());
+  if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
+  if (prints_short(s)) add_for_short_table(report, data, settings, bootstrap);
+
+  report.header = header_of(s, preset, report, data, grains_words(all, data));
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
   if (names_species(report.species))
     report.header.emplace_back("species", species_text(report.species));

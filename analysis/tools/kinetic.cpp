@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
+#include "analysis/frames/velocity_in_step.hpp"
 #include "analysis/maps/fields.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "formats/cli/words.hpp"
@@ -21,14 +22,15 @@ constexpr ToolInfo info{
     "grseg-kinetic run.h5 [options] > kinetic.tsv",
     "  grseg-kinetic run.h5 -o kinetic.tsv              about a fine profile of mean velocity\n"
     "  grseg-kinetic run.h5 --mean layer                about the mean of each layer\n"
-    "  grseg-kinetic run.h5 --mean instant              about the layer's mean in each frame\n"
+    "  grseg-kinetic run.h5 --mean instant-unbiased     about the layer's mean in each frame\n"
+    "  grseg-kinetic run.h5 --velocity middle           of the middle of each step\n"
     "  grseg-kinetic drum.h5 --bins xy --layer 2dS -o flow.pvd        a map, for ParaView\n"
     "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n",
     presets::kinetic};
 
 struct Settings {
   FrameOptions frames;
-  std::string mean = "profile";
+  std::string mean = "profile", velocity = "after";
 };
 
 po::options_description options_into(Settings& s)
@@ -37,6 +39,12 @@ po::options_description options_into(Settings& s)
   const auto means = "mean velocity that fluctuations are counted from: " + list_of(mean_flows);
   options.add_options()("mean", po::value(&s.mean)->default_value(s.mean)->value_name("WORD"),
                         means.c_str());
+  const auto velocities =
+      "which velocity of the step that a frame is: " + list_of(velocities_in_step) +
+      "; imported frames have one only";
+  options.add_options()("velocity",
+                        po::value(&s.velocity)->default_value(s.velocity)->value_name("WORD"),
+                        velocities.c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
   s.frames.add_parts_to(options);
@@ -71,6 +79,76 @@ struct LayerBias {
   }
 };
 
+/// Grains that are too few in their layer and frame for the mean that was asked for; reports them.
+struct LeftOut {
+  double grains = 0, of = 0;  // number, over all frames
+
+  template <int D>
+  void add(const KineticStress<D>& stress, std::size_t number_of_species, std::size_t frames)
+  {
+    for (std::size_t layer = 0; layer < stress.layers(); ++layer)
+      for (std::size_t k = 0; k < number_of_species; ++k) {
+        const auto mean = stress.mean(layer, static_cast<Species>(k));
+        grains += mean.left_out * static_cast<double>(frames);
+        of += (mean.left_out + mean.grains) * static_cast<double>(frames);
+      }
+  }
+  void report() const
+  {
+    fmt::print(stderr,
+               "{}: {:.0f} of {:.0f} grains (summed over frames) have fewer than two others in "
+               "their layer or cell and do not count; the columns left_out have their number\n",
+               info.name, grains, of);
+  }
+};
+
+/// Sums over frames whose velocities are those that --velocity names.
+template <int D, class Sums>
+struct OfVelocity {
+  Sums sums;
+  VelocityInStep which;
+  double step;  // s
+  bool turning;
+
+  void add(const Grains& grains, const Frame<D>& frame)
+  {
+    if (which == VelocityInStep::after) return sums.add(grains, frame);
+    Frame<D> middle = frame;
+    to_middle_of_step(grains, step, turning, middle);
+    sums.add(grains, middle);
+  }
+  void merge(const OfVelocity& others) { sums.merge(others.sums); }
+};
+
+/// The sums of a window about its mean.
+template <int D>
+KineticStress<D> sum(FrameLoop& loop, const Window& window, MeanFlow flow, VelocityInStep which,
+                     const MeanVelocity<D>& no_grains)
+{
+  const bool middle = which == VelocityInStep::middle;
+  const TrajectoryReader::Fields fields{.velocity = true, .contacts = middle, .force = middle};
+  const auto& run = loop.run();
+  const bool turning = run.parameters().find_number("rotation") != 0.0;
+  const auto add_up = [&](const auto& nothing) {
+    const OfVelocity<D, std::decay_t<decltype(nothing)>> none{nothing, which, run.step(), turning};
+    return std::get<0>(loop.sum<D>(window, fields, none)).sums;
+  };
+  const auto mean = add_up(no_grains);
+  return add_up(KineticStress<D>(loop.layers(), flow, mean, loop.species().size()));
+}
+
+/// What the header says of --velocity. UsageError where one was chosen of a run that leaves no choice.
+std::string velocity_line(const TrajectoryReader& run, const Settings& s, bool chosen)
+{
+  if (run.parameters().text("import_format").empty()) return s.velocity;
+  if (chosen)
+    throw UsageError(fmt::format(
+        "--velocity {}: {} was imported, so that a frame is an instant, not a step, and has one "
+        "velocity; leave --velocity out",
+        s.velocity, run.path()));
+  return "instant";
+}
+
 /// Of a layer or cell, or their names without one.
 template <int D>
 std::vector<Cell> cells(const FrameLoop& loop, const KineticStress<D>& stress,
@@ -90,26 +168,26 @@ std::vector<Cell> cells(const FrameLoop& loop, const KineticStress<D>& stress,
 }
 
 template <int D>
-void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, const std::string& command)
+void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, VelocityInStep which,
+              const Header& settings, const std::string& command)
 {
   const auto& species = loop.species();
   const MeanVelocity<D> no_grains(loop.layers(), loop.run().small_diameter() / 2, species.size());
   const KineticStress<D> nothing(loop.layers(), flow, no_grains, species.size());
-  auto table =
-      loop.make_table(command, {{"mean", s.mean}}, columns_of(cells(loop, nothing, std::nullopt)));
+  auto table = loop.make_table(command, settings, columns_of(cells(loop, nothing, std::nullopt)));
 
   LayerBias bias;
+  LeftOut left_out;
   for (const auto& window : loop.windows()) {
-    const TrajectoryReader::Fields fields{.velocity = true, .contacts = false};
-    const auto [mean] = loop.sum<D>(window, fields, no_grains);
-    const auto [stress] =
-        loop.sum<D>(window, fields, KineticStress<D>(loop.layers(), flow, mean, species.size()));
+    const auto stress = sum(loop, window, flow, which, no_grains);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
       table.rows.push_back(loop.row(window, layer, values_of(cells(loop, stress, layer))));
     bias.add(stress, species.size());
+    left_out.add(stress, species.size(), window.frames.size());
   }
   loop.write(table);
   if (flow == MeanFlow::layer && !loop.layers().map() && !s.frames.quiet) bias.report();
+  if (left_out.grains > 0 && !s.frames.quiet) left_out.report();
 }
 
 /// Maps have no profile: unless it was asked for, the mean is that of the cell.
@@ -127,8 +205,13 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
 {
   choose_mean_of_map(s, values);
   const auto flow = choose(s.mean, "--mean", mean_flows);
+  const auto which = choose(s.velocity, "--velocity", velocities_in_step);
   FrameLoop loop(info, values, s.frames);
-  with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, flow, command); });
+  const Header settings{
+      {"mean", s.mean},
+      {"velocity", velocity_line(loop.run(), s, !values["velocity"].defaulted())}};
+  with_dimension(loop.dimension(),
+                 [&](auto d) { tabulate<d>(loop, s, flow, which, settings, command); });
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ figures: $(pictures)
 $(names:%=figures/%.png): figures/%.png: $(work)/%.png
 
 inside := --heights 4dS:56dS --quiet
-fit = $(bin)/grseg-fit --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
+# One number for all mixtures, as published (docs/studies/uncertainty.md).
+fit = $(bin)/grseg-fit --over compositions --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
 micro = $(bin)/grseg-micro --derived --overwrite -o $@
 scripts := $(CURDIR)/tables.py $(CURDIR)/profiles.py
 every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
@@ -94,7 +95,7 @@ $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
 # The tables behind the choices are not kept, only their result.
 $(work)/choices.tsv: $(every) choices $(scripts) | $(work)
 	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
-$(work)/numbers.tsv: $(every) numbers $(scripts) | $(work)
+$(work)/numbers.tsv: $(every) numbers rise.py $(scripts) | $(work)
 	./numbers $(tables) -o $@ --bin $(bin)
 
 # Each figure and its tables.

@@ -56,7 +56,7 @@ def contact_stress(m):
     yield number("2b: slope of σ^S/σ^L over φ_S/φ_L", paper.SLOPE, m.fit("mixtures", "s"), 3,
                  f"with the lowest layer and the surface {m.fit('mixtures', 's', heights='all').text(3)}")
     yield number("2b: B by size", paper.B, b, 3,
-                 f"these 24 runs together; {m.range_over_mixtures(3)} by mixture; all heights "
+                 f"these 24 runs together; {m.range_over_mixtures(3)} by mixture, by sums {by_sums(m)}; all heights "
                  f"{m.fit('mixtures', heights='all').text(3)}; nominal 2/3 instead of actual radii "
                  f"{m.fit('mixtures', rule='uniform:0.66667').text(3)}")
     yield sign_of_b(m)
@@ -69,6 +69,12 @@ def contact_stress(m):
     yield from other_rules(m)
     yield slopes(m)
     yield from stages(m)
+
+
+def by_sums(m):
+    """Range of B over the mixtures, by sums."""
+    found = [m.fit(row["flow"], "B_sums").value for row in m.mixtures()] or [math.nan]
+    return f"{plain(min(found), 3)} to {plain(max(found), 3)}"
 
 
 def separated(m):
@@ -135,7 +141,8 @@ def stages(m):
     each = [(row, m.number(row["flow"], "early_less_late")) for row in m.mixtures()]
     yield Target("... in every mixture", paper.STAGES,
                  ", ".join(f"{value.text(3)} at {row['phi']:g}" for row, value in each),
-                 [(value, paper.STAGES) for _, value in each], "later stages have other compositions at other heights")
+                 [(value, paper.STAGES) for _, value in each], "later stages have other compositions at other heights; by sums "
+                 f"{m.number('phi0.45-s23', 'rise_early_less_late').text(3)} at 0.45")
 
 
 def kinetic_stress(m):

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/fit_mixtures.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ namespace {
 using namespace synthetic;
 
 constexpr int trials = 1000;
-constexpr std::size_t samples = 1000;
+constexpr std::size_t samples = 1000, mixture_samples = 300;
 
 /// Shares of the trials, and the half-width in units of what 95 % of the estimates stay within.
 class Tally {
@@ -133,6 +134,90 @@ void print_drift(double rho, std::size_t windows)
   std::fflush(stdout);
 }
 
+/// Of one population: B_half and B_sums for their own truth.
+struct PopulationTally {
+  Over over;
+  Tally half{0}, sums{0};
+};
+
+void add_to(Tally& tally, const Estimate& b, double truth)
+{
+  tally.add(b.value - truth, {b.low - truth, b.high - truth});
+}
+
+double truth_of(Over over, const RunsOfMixtures::Draw::Truth& truth)
+{
+  switch (over) {
+    case Over::windows:
+      return truth.of_runs;
+    case Over::runs:
+      return truth.of_each[0];
+    case Over::equal_mixtures:
+      return truth.of_equal;
+    case Over::random_mixtures:
+      return truth.of_all;
+    default:
+      return truth.of_mixtures;
+  }
+}
+
+bool is_defined(Over over, std::size_t mixtures)
+{
+  return mixtures > 1 || over == Over::windows || over == Over::runs || over == Over::compositions;
+}
+
+void print_mixtures(const MixtureDesign& design)
+{
+  RunsOfMixtures source(design);
+  std::vector<PopulationTally> tallies;
+  for (const auto& [word, over, meaning] : overs) tallies.push_back({over});
+  int doubted = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const auto drawn = source.draw();
+    const auto fits =
+        fit_mixtures(drawn.data, {}, {}, {mixture_samples, static_cast<unsigned long>(trial) + 1});
+    doubted += !fits.all.doubt.empty();
+    for (auto& [over, half, sums] : tallies) {
+      if (over == Over::runs && !fits.of_each.empty()) {
+        for (std::size_t m = 0; m < fits.of_each.size(); ++m) {
+          add_to(half, fits.of_each[m].at(over), drawn.half.of_each[m]);
+          add_to(sums, fits.of_each[m].sums_at(over), drawn.sums.of_each[m]);
+        }
+        continue;
+      }
+      add_to(half, fits.all.at(over), truth_of(over, drawn.half));
+      add_to(sums, fits.all.sums_at(over), truth_of(over, drawn.sums));
+    }
+  }
+  fmt::print("{} x {} {:5} {:5}", design.mixtures, design.runs, design.mixture_scatter,
+             design.run_variance);
+  for (const auto& [over, half, sums] : tallies)
+    if (is_defined(over, design.mixtures))
+      fmt::print(" | {:.3f} {:.3f} {:4.2f}", half.coverage(), sums.coverage(), half.width());
+    else
+      fmt::print(" | - - -");
+  fmt::print(" | {:.3f}\n", static_cast<double>(doubted) / trials);
+  std::fflush(stdout);
+}
+
+void print_all_mixtures()
+{
+  fmt::print(
+      "# {} trials of {} samples: runs of {} windows, rho = {}; scatter between mixtures in standard\n"
+      "# errors of a mixture, variance between runs in that of a run's mean. Of each population the\n"
+      "# coverage of B_half and of B_sums and the width for B_half; doubt: share of the trials\n"
+      "# design scatter variance",
+      trials, mixture_samples, RunsOfMixtures::windows, RunsOfMixtures::rho);
+  for (const auto& [word, over, meaning] : overs) fmt::print(" | {}", word);
+  fmt::print(" | doubt\n");
+  std::fflush(stdout);
+  for (const auto& [mixtures, runs] :
+       {std::pair<std::size_t, std::size_t>{6, 4}, {6, 2}, {1, 4}, {1, 8}})
+    for (const double variance : {0.0, 1.0, 3.0})
+      for (const double scatter : {0.0, 0.5, 1.0, 2.0, 4.0})
+        print_mixtures({mixtures, runs, scatter, variance});
+}
+
 void print_all()
 {
   fmt::print(
@@ -159,7 +244,9 @@ void print_all()
 }  // namespace
 }  // namespace grseg
 
-int main()
+/// "mixtures": only the last table.
+int main(int argc, char** argv)
 {
-  grseg::print_all();
+  if (argc < 2 || std::string(argv[1]) != "mixtures") grseg::print_all();
+  grseg::print_all_mixtures();
 }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 /// Beds that rest, flow, stop or jam: statistical cases.
 namespace grseg::hard_cases {
@@ -116,7 +117,7 @@ TEST(SteadyFlow, BalancesGravityAtEveryLevelAndHasBagnoldsProfile)
   // Momentum of what is above a level: force of the contacts across it, flux of grains through it
   // and weight. Followed exactly, it needs no volume: the mean force on the base is M (g - a).
   // Bagnold: du/dy ~ sqrt(p/rho) since the inertial number is uniform; u(y) = u_H (1 - (1 -
-  // y/H)^(3/2)) but for slip at the base and a few diameters at the top.
+  // y/H)^(3/2)) but for the layers next to the base and to the surface.
   const auto scene = small_chute::paper_scene(
       {"--depth", "30dS", "--length", "20dS", "--phi-large", "0", "--slope", "22"});
   auto flow = small_chute::bed(scene);
@@ -158,20 +159,34 @@ TEST(SteadyFlow, BalancesGravityAtEveryLevelAndHasBagnoldsProfile)
     u.push_back(sum[bin] / count[bin]);
   }
   const Line bagnold(x, u);
-  Case shape("H33", "u(y) less its fit by Bagnold's profile, over u(H)");
-  for (std::size_t k = 0; k < x.size(); ++k)
-    shape.at_most(std::abs(u[k] - bagnold.intercept - bagnold.slope * x[k]) /
-                      (bagnold.intercept + bagnold.slope),
-                  0.05);
-  // I = d (du/dy)/sqrt(p/rho) follows from the slope, and tan(theta) = mu(I) = 0.25 + 1.1 I of
-  // discs with friction 0.4 and more (da Cruz et al. 2005).
-  const double nu = 0.8;
-  const double inertial =
-      1.5 * d * bagnold.slope / (std::sqrt(nu * g * std::cos(slope)) * std::pow(height, 1.5));
-  Case("H33", "inertial number of the flow, over that of da Cruz' law at tan 22°")
-      .near(inertial / ((std::tan(slope) - 0.25) / 1.1), 1, 0.25);
-  Case("H33", "slip at the base, over u(H)")
-      .between(bagnold.intercept / (bagnold.intercept + bagnold.slope), -0.15, 0.15);
+  // A viscous fluid has the exponent 2 in place of 3/2, a uniform shear rate 1. The bound is half of
+  // what the nearer of these misses its best fit of Bagnold's form by, 0.035/2. (It was 0.05, which
+  // a viscous profile passes. 0.0127 was known when this one was chosen.)
+  const auto worst_fit = [&x](const std::vector<double>& profile) {
+    const Line line(x, profile);
+    double worst = 0;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      worst = std::max(worst, std::abs(profile[k] - line.intercept - line.slope * x[k]));
+    return worst / (line.intercept + line.slope);
+  };
+  std::vector<double> viscous, uniform;
+  for (const double of_bagnold : x) {
+    const double below_top = std::pow(1 - of_bagnold, 2.0 / 3);  // 1 - y/H
+    viscous.push_back(1 - below_top * below_top);
+    uniform.push_back(1 - below_top);
+  }
+  Case("H33", "u(y) less its fit by Bagnold's profile, over u(H)")
+      .at_most(worst_fit(u), std::min(worst_fit(viscous), worst_fit(uniform)) / 2);
+  // I = d (du/dy)/sqrt(p/rho) follows from the slope of the line and the pressure that the bed's own
+  // mass M makes on the length L, p = M g cos (1 - y/H)/L. tan(theta) = mu(I) = 0.25 + 1.1
+  // sqrt(pi/4) I (da Cruz et al. 2005, whose I has the mass of a disc where ours has rho d^2).
+  // Their discs have friction 0.4 and restitution 0.1, so that no theory gives the bound: it was
+  // chosen when 0.024 was known, and replaces 25 % of I about 1.1 I with a solid fraction of 0.8,
+  // which is 0.0385 here.
+  const double pressure = mass * g * std::cos(slope) / flow.world().box.length_x;
+  const double inertial = 1.5 * d / height * bagnold.slope / std::sqrt(pressure / scene.density);
+  Case("H33", "tan 22° less da Cruz' μ(I) of the flow's inertial number")
+      .near(std::tan(slope) - 0.25 - 1.1 * std::sqrt(pi / 4) * inertial, 0, 0.03);
 }
 
 TEST(StoppedBed, BelowReposeComesToRestAndDoesNotCreep)
@@ -256,10 +271,11 @@ TEST(JammedHopper, HoldsItsLoadForAHundredThousandSteps)
 
 /// Discs of diameter 1 +- 10 % poured into a box of this width between straight walls, in `rows`
 /// rows; the bottom is a row of fixed discs with a hole `outlet` wide in the middle, 0 for none.
-Simulation silo(double width, int rows, double outlet, double friction)
+Simulation silo(double width, int rows, double outlet, double friction, unsigned long seed = 0)
 {
   const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random{gsl_rng_alloc(gsl_rng_mt19937),
                                                                  gsl_rng_free};
+  gsl_rng_set(random.get(), seed);
   std::vector<Disc> discs;
   const int columns = static_cast<int>((width - 0.2) / 1.15);
   const double pitch = width / columns;
@@ -368,11 +384,14 @@ TEST(Silo, WhoseFillingSlidesSaturatesAsJanssenSays)
 {
   // Where walls hold the part 1/L of what a level carries, per height, the load of the base is
   // w L (1 - exp(-H/L)) with the weight w per height. L comes from walls and levels of the high
-  // filling, so nothing is fitted. Discs roll along the walls as well as they slide; Coulomb's
-  // law allows them to hold mu times what pushes on them.
-  const double width = 10.3, mu = 0.5;
+  // filling, so nothing is fitted. Without hold at the walls the base of the high filling would
+  // carry several times that. What pushes on the walls is K times what presses on a level, and
+  // the filling, which yields, is between Rankine's states: (1 - sin)/(1 + sin) <= K <= (1 +
+  // sin)/(1 - sin) of the angle of internal friction, the sine of which is 0.25 in slow shear (da Cruz
+  // et al. 2005; 0.253 of these discs, docs/studies/scenes.md).
+  const double width = 10.3;
   Case total("H32", "load of walls and base at rest over the weight, difference from 1"),
-      mobilised("H32", "what the walls hold over mu times what pushes on them"),
+      rankine("H32", "K, push on the walls over pressure on a level"),
       janssen("H32", "load of the base, filled 1, 3 and 9 widths high, over Janssen's");
   std::vector<SlidingSilo> silos;
   for (const int rows : {10, 30, 90}) {
@@ -380,46 +399,59 @@ TEST(Silo, WhoseFillingSlidesSaturatesAsJanssenSays)
     total.at_most(silos.back().balance, 1e-6);
   }
   const auto& high = silos.back();
-  mobilised.between(high.walls_hold / (mu * high.walls_push), 0, 1);
+  const double yield = (1 + 0.25) / (1 - 0.25);
+  rankine.between(high.walls_push / 2 / (high.level / width), 1 / yield, yield);
   const double length = high.level / high.walls_hold * 0.8 * width * g;
   for (const auto& s : silos) janssen.near(s.base / janssen_load(s.weight, length), 1, 0.15);
 }
 
+/// Mass per time through an outlet while 15 to 50 % of the grains leave, kg/s.
+double discharge(const Simulation& closed, double width, double outlet)
+{
+  auto open = opened(closed, width, outlet);
+  const auto passed = [&] {
+    double mass = 0;
+    for (std::size_t k = 0; k < open.world().grains.size(); ++k)
+      if (open.position(k).y() < -1) mass += open.world().grains.mass[k];
+    return mass;
+  };
+  const double all = mobile_mass(open.world());
+  double begin = 0, start = 0;
+  for (int k = 0; k < 1000 && passed() < 0.5 * all; ++k) {
+    run(open, 50);
+    if (begin == 0 && passed() > 0.15 * all) begin = open.time(), start = passed();
+  }
+  return (passed() - start) / (open.time() - begin);
+}
+
 TEST(Hopper, FlowsByBeverloosLawThroughWideOutlets)
 {
+  // Q^(2/3) is a line in the outlet W, which vanishes at the empty margin k d, k between 1 and 2
+  // (Beverloo et al. 1961, Mankoc et al. 2007). Were Q as W or as W^2 such a line would vanish at
+  // -6.0 d or 3.0 d. The bed's bottom is open between discs of diameter 1/2, half a d more than
+  // what `outlet` asks for. The standard error is that of four packings; the law's prefactor has no
+  // agreed value in two dimensions. (k was between 0 and 2 of one packing, with W half a d too
+  // small and from 5 to 35 %.)
   const double width = 40.3;
-  auto closed = silo(width, 45, 0, 0.5);
-  run(closed, 9000);
-  std::vector<double> outlets{7, 10, 14, 18}, flow;
-  for (const double outlet : outlets) {
-    auto open = opened(closed, width, outlet);
-    const auto passed = [&] {
-      double mass = 0;
-      for (std::size_t k = 0; k < open.world().grains.size(); ++k)
-        if (open.position(k).y() < -1) mass += open.world().grains.mass[k];
-      return mass;
-    };
-    const double all = mobile_mass(open.world());
-    double begin = 0, start = 0;
-    for (int k = 0; k < 400 && passed() < 0.35 * all; ++k) {
-      run(open, 50);
-      if (begin == 0 && passed() > 0.05 * all) begin = open.time(), start = passed();
+  const std::vector<double> outlets{7, 10, 14, 18};
+  std::vector<double> margins;
+  for (const unsigned long seed : {1, 2, 3, 4}) {
+    auto closed = silo(width, 45, 0, 0.5, seed);
+    run(closed, 9000);
+    std::vector<double> open, powers;
+    for (const double outlet : outlets) {
+      open.push_back(outlet + 0.5);
+      powers.push_back(std::pow(discharge(closed, width, outlet), 2.0 / 3));
     }
-    flow.push_back((passed() - start) / (open.time() - begin));
+    const Line beverloo(open, powers);
+    margins.push_back(-beverloo.intercept / beverloo.slope);
   }
-  std::vector<double> powers;
-  for (const double q : flow) powers.push_back(std::pow(q, 2.0 / 3));
-  const Line beverloo(outlets, powers);
-  Case fit("H35", "flow^(2/3) over its straight line in the outlet, 7 to 18 d");
-  for (std::size_t k = 0; k < outlets.size(); ++k)
-    fit.near(powers[k] / (beverloo.intercept + beverloo.slope * outlets[k]), 1, 0.06);
-  // Grains that fall freely from a half circle over the outlet, at the density of the bulk, make
-  // C = pi/4 (Hagen's and Brown's arch; in two dimensions Janda et al. 2012), the empty margin one
-  // or two radii on either side.
-  Case("H35", "k of Beverloo's law").between(-beverloo.intercept / beverloo.slope, 0, 2);
-  const double bulk = 0.8;  // mass per area
-  Case("H35", "C of Beverloo's law over π/4")
-      .near(std::pow(beverloo.slope, 1.5) / (bulk * std::sqrt(g)) / (pi / 4), 1, 0.35);
+  const auto count = static_cast<double>(margins.size());
+  const double k = std::accumulate(margins.begin(), margins.end(), 0.0) / count;
+  double squares = 0;
+  for (const double margin : margins) squares += (margin - k) * (margin - k);
+  Case("H35", "k of Beverloo's law").between(k, 1, 2);
+  Case("H35", "its standard error").at_most(std::sqrt(squares / (count - 1) / count), 0.25);
 }
 
 }  // namespace

@@ -11,7 +11,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numbers>
 #include <numeric>
+#include <random>
 #include <tuple>
 
 /// The paper's chute for 1e6 steps: what grows without bound, however slowly, shows here.
@@ -28,7 +30,9 @@ struct Sample {
 
 struct History {
   std::vector<Sample> samples;
-  double d_s = 0, depth = 0, lowest = 0, highest = 0;  // m
+  double d_s = 0, lowest = 0;                    // m
+  double lowest_pocket = 0, highest_pocket = 0;  // m, centre of a grain between two of the base
+  double solid_fraction = 0;
   // J: gravity's work is the change of the potential energy to round-off, so the rest is contacts'.
   double work_of_all_steps = 0;
   std::int64_t missed = 0;
@@ -54,14 +58,39 @@ Sample sample_of(const Simulation& simulation, const Frame<2>& frame)
           bed_height(simulation)};
 }
 
+/// Height of the centre of a grain that lies on two touching base grains, over their tops.
+double pocket(double base, double radius)
+{
+  return std::sqrt((base + radius) * (base + radius) - base * base) - base;
+}
+
+void look_at_the_bed(const Simulation& simulation, History& history)
+{
+  const auto& world = simulation.world();
+  double volume = 0, base = 0, smallest = 1e300, largest = 0;
+  history.lowest = 1e300;
+  for (std::size_t g = 0; g < world.grains.size(); ++g) {
+    const double radius = world.grains.radius[g];
+    if (world.grains.fixed[g]) {
+      base = radius;
+      continue;
+    }
+    smallest = std::min(smallest, radius);
+    largest = std::max(largest, radius);
+    volume += grain_volume<2>(radius);
+    history.lowest = std::min(history.lowest, simulation.position(g).y());
+  }
+  history.lowest_pocket = pocket(base, smallest);
+  history.highest_pocket = pocket(base, largest);
+  history.solid_fraction = volume / (world.box.length_x * bed_height(simulation));
+}
+
 History flow_at(const char* slope)
 {
-  // The bound at equal speed was chosen when two flows of seed 1 were known; this one is another.
   const auto scene = small_chute::paper_scene({"--slope", slope, "--seed", "2"});
   auto simulation = small_chute::bed(scene);
   History history;
   history.d_s = scene.small_diameter;
-  history.depth = scene.depth;
   const double start = total_energy(simulation);
   Frame<2> frame;
   double overlap = 0, touching = 0, sweeps = 0;
@@ -81,31 +110,27 @@ History flow_at(const char* slope)
     history.finite = history.finite && std::isfinite(sample.kinetic + sample.height);
   }
   history.work_of_all_steps = total_energy(simulation) - start;
-  history.lowest = 1e300;
-  for (std::size_t g = 0; g < simulation.world().grains.size(); ++g) {
-    if (simulation.world().grains.fixed[g]) continue;
-    history.lowest = std::min(history.lowest, simulation.position(g).y());
-    history.highest = std::max(history.highest, simulation.position(g).y());
-  }
+  look_at_the_bed(simulation, history);
   return history;
 }
 
 /// Trend of the mean overlap over the second half of the run, in twenty blocks of 25,000 steps,
 /// which forget one another. Impacts overlap by their speed times the step, and the speed of the
 /// flow still rises as the large grains come up, so what the scheme piles up is what the overlap
-/// gains on the speed, the root of the kinetic energy: the trend of their quotient, and the slope
-/// in time of a fit in time and speed together. Per 10^6 steps and over the mean; standard errors
-/// from the scatter of the blocks.
+/// gains on the speed, the root of the kinetic energy: the slope in time of a fit in time and speed
+/// together. Per 10^6 steps and over the mean; the standard error is from the scatter of the blocks.
 struct Drift {
   static constexpr std::size_t blocks = 20;
   double mean = 0;
-  double slope = 0, error = 0;          // of overlap over speed, in time alone
-  double own_slope = 0, own_error = 0;  // at equal speed of the flow
+  double slope = 0, error = 0;  // at equal speed of the flow
+
+  /// The end of the 99.7 % interval that is farther from 0 (17 degrees of freedom: 3.45 errors).
+  double at_most() const { return std::abs(slope) + 3.45 * error; }
 
   explicit Drift(const std::vector<Sample>& samples)
   {
     const std::size_t first = samples.size() / 2, size = (samples.size() - first) / blocks;
-    std::vector<double> time, overlap, speed, quotient;
+    std::vector<double> time, overlap, speed;
     for (std::size_t b = 0; b < blocks; ++b) {
       double t = 0, o = 0, k = 0;
       for (std::size_t s = first + b * size; s < first + (b + 1) * size; ++s) {
@@ -116,14 +141,9 @@ struct Drift {
       time.push_back(t / samples.back().time);
       overlap.push_back(o);
       speed.push_back(std::sqrt(k));
-      quotient.push_back(o / speed.back());
     }
-    const auto mean_of = [](const std::vector<double>& values) {
-      return std::accumulate(values.begin(), values.end(), 0.0) / blocks;
-    };
-    mean = mean_of(overlap);
-    std::tie(slope, error) = fit(quotient, mean_of(quotient), {time});
-    std::tie(own_slope, own_error) = fit(overlap, mean, {time, speed});
+    mean = std::accumulate(overlap.begin(), overlap.end(), 0.0) / blocks;
+    std::tie(slope, error) = fit(overlap, mean, {time, speed});
   }
 
  private:
@@ -179,12 +199,15 @@ void check(const std::string& slope)
   const auto case_of = [&](const char* what) { return fmt::format("{} at {}°", what, slope); };
 
   const Drift overlap(history.samples);
+  // Above that a run stops.
   Case(name, case_of("mean overlap, d_S")).at_most(overlap.mean, 0.01);
-  Case(name, case_of("growth of overlap over speed in 1e6 steps, over its standard error"))
-      .at_most(std::max(0.0, overlap.slope) / overlap.error, 3);
-  Case(name, case_of("change of the mean overlap at equal speed in 1e6 steps, over the mean"))
-      .near(overlap.own_slope, 0, 3 * overlap.own_error);
-  Case(name, case_of("standard error of this, over the mean")).at_most(overlap.own_error, 0.02);
+  // B rises by 0.0043 from one overlap to one ten times as large (a line through the table of
+  // docs/studies/accuracy-cost.md), by 0.0002 for a tenth more, which no campaign resolves: its
+  // error of B is 0.002. (The bound was three of the slope's own standard errors, which the noisier
+  // run passes more easily, and 0.02 for these; 0.070 and 0.016 were known.)
+  Case(name, case_of("change of the mean overlap at equal speed in 1e6 steps, over the mean, "
+                     "farther end of its 99.7 % interval"))
+      .at_most(overlap.at_most(), 0.1);
 
   double defect = 0, mean = 0, squares = 0;
   const auto count = static_cast<double>(history.samples.size());
@@ -198,13 +221,41 @@ void check(const std::string& slope)
   Case(name, case_of("work of contacts per step, sampled, less change of energy, over its error"))
       .at_most(std::abs(mean - history.work_of_all_steps / all_steps) / error, 4);
 
+  // Nothing sinks below the pockets of the base, but for an overlap as large as a run allows in the
+  // mean, and some grain lies in one.
   Case(name, case_of("lowest centre above the tops of the base, d_S"))
-      .between(history.lowest / history.d_s, -1, 1);
-  Case(name, case_of("height of the bed, H0"))
-      .between(history.samples.back().height / history.depth, 0.95, 1.25);
-  Case(name, case_of("highest centre, H0")).between(history.highest / history.depth, 0.95, 1.5);
+      .between(history.lowest / history.d_s, history.lowest_pocket / history.d_s - 0.01,
+               history.highest_pocket / history.d_s + 0.01);
+  // No packing of discs is denser than hexagons on average, were it not for the overlap; a flow of
+  // discs at I = 0.2, steeper than these, has 0.737 (docs/studies/scenes.md).
+  Case(name, case_of("solid fraction of the bed"))
+      .between(history.solid_fraction, 0.737, std::numbers::pi / std::sqrt(12));
   Case(name, case_of("part of the steps above the tolerance"))
       .at_most(static_cast<double>(history.missed) / all_steps, 1e-3);
+}
+
+// Samples of a flow that speeds up by half, whose overlap follows the speed and scatters by 2 % from
+// sample to sample, as at 21 degrees, with or without a drift of its own.
+TEST(Drift, OfAFifthInAMillionStepsIsFoundAndASpeedThatRisesIsNone)
+{
+  for (const double drift : {0.0, 0.2}) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> scatter(0, 0.02);
+    std::vector<Sample> samples;
+    const int count = all_steps / between_samples;
+    for (int k = 1; k <= count; ++k) {
+      const double t = static_cast<double>(k) / count;
+      const double speed = 1 + 0.5 * t + 0.05 * std::sin(40 * t);
+      Sample sample{};
+      sample.time = 200 * t;
+      sample.kinetic = speed * speed;
+      sample.overlap = 1e-3 * (speed + 1.4 * drift * t) * (1 + scatter(random));
+      samples.push_back(sample);
+    }
+    const Drift found(samples);
+    EXPECT_NEAR(found.slope, drift, 0.03);
+    EXPECT_EQ(found.at_most() <= 0.1, drift == 0) << found.at_most();
+  }
 }
 
 TEST(MillionSteps, At21DegreesNothingDrifts)

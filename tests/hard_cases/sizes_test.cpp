@@ -92,7 +92,7 @@ TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheSuggestedStepKeepsIts
   // The large discs are 10^4 times as heavy as those on which they come down.
   Case defects("G3", "energy defect of a step, size ratio 100"),
       momenta("G3", "impulse of the floor less that of weight and change of momentum, relative"),
-      lowest("G3", "lowest centre above the floor, of d_S");
+      lowest("G3", "overlap with the floor over the radius, 1 where a centre is below it");
   const auto c = large_and_small(100);
   auto simulation = c.simulation();
   const auto& grains = c.world.grains;
@@ -116,7 +116,7 @@ TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheSuggestedStepKeepsIts
   const Vec2 weight = steps * c.world.step * mass * c.world.gravity;
   momenta.at_most((floor + weight - momentum() + start).norm() / weight.norm(), 1e-12);
   for (std::size_t k = 0; k < grains.size(); ++k)
-    lowest.between(simulation.position(k).y() / 0.01, 0.3, 1000);
+    lowest.at_most(std::max(0.0, 1 - simulation.position(k).y() / grains.radius[k]), 1);
 
   // They land with 0.03 d_S per step. That is too fast for a run, and a quarter of it is not.
   const auto words = words_of_a_run(c.simulation(), 0.01, steps, 10);

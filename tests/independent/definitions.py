@@ -135,6 +135,59 @@ def volumes(run, frames, h, layers):
     return content
 
 
+def parts_of_kernel(y, h, layers, width):
+    """Of a Gaussian about a height, what lies in each layer; the outer ones take what is beyond them."""
+    below = [0.5 * math.erfc((y - n * h) / width / math.sqrt(2)) for n in range(1, layers)]
+    return np.diff([0.0, *below, 1.0])
+
+
+def share_of_larger(rule, run, c):
+    """Of a mixed contact, by the words of the rule; `drop` has none."""
+    i, j, part = c["i"], c["j"], c["part_i"]
+    r_large, r_small = run.radius[i], run.radius[j]
+    if run.species[i] < run.species[j]:
+        r_large, r_small, part = r_small, r_large, 1 - part
+    return {"size": r_large / (r_large + r_small), "contact-point": part, "half": 0.5, "drop": None,
+            f"power:{POWER:g}": r_large**POWER / (r_large**POWER + r_small**POWER)}[rule]
+
+
+def forces_by_rule(run, frames, h, layers, rule, width):
+    """By species and layer, sums of force per frame: C = sum f [S(y) - S(cut)], beta = sum f S(cut) and
+    N = sum f S(y) of the contacts, as the rule cuts mixed ones; those with the base where they touch."""
+    shape = (run.species_count, layers, run.dimension)
+    contact, interaction, at_centre = (np.zeros(shape) for _ in range(3))
+    for f in frames:
+        count = layers_of(run, [f], h)
+
+        def booked(y, force):
+            parts = np.zeros(layers)
+            parts[:count] = parts_of_kernel(y, h, count, width)
+            return np.outer(parts, force) / len(frames)
+
+        for c in contacts_of(run, f):
+            mobile = run.is_mobile(c["j"])
+            mixed = mobile and run.species[c["i"]] != run.species[c["j"]]
+            ends = [(c["i"], c["y_i"], c["force"])]
+            if mobile:
+                ends.append((c["j"], f["position"][c["j"]][1], -c["force"]))
+            for g, y, force in ends:
+                s, cut = run.species[g], c["y_contact"]
+                if mixed:
+                    p = share_of_larger(rule, run, c)
+                    if p is None:
+                        cut = y
+                    else:
+                        part = p if run.species[c["i"]] > run.species[c["j"]] else 1 - p
+                        cut = c["y_i"] + part * (c["y_j"] - c["y_i"])
+                at_centre[s] += booked(y, force)
+                if mixed:
+                    interaction[s] += booked(cut, force)
+                if mixed or not mobile:
+                    contact[s] -= booked(cut, force)
+                contact[s] += booked(y, force)
+    return contact, interaction, at_centre
+
+
 def mobile_grains(run, frames):
     """Number, height, and velocity and spin in one."""
     for f in frames:
@@ -178,6 +231,26 @@ def layer_mean(run, frames, h):
     return lambda y: means[layer_of(y, h)][2:]
 
 
+def in_mid_step(run, frames):
+    """Velocities and spins half a step before: less half of what the step's forces and torques gave."""
+    middle = []
+    for f in frames:
+        torque = np.zeros_like(f["spin"])
+        for force, branch, i, j in zip(f["force"], f["branch"], f["i"], f["j"]):
+            length = np.linalg.norm(branch)
+            arm = -branch / length * run.radius[i]  # from the centre of i to the contact
+            if j >= 0:
+                arm *= length / (run.radius[i] + run.radius[j])
+                torque[j] += np.cross(arm * run.radius[j] / run.radius[i], force)
+            torque[i] += np.cross(arm, force)
+        one = dict(f, velocity=f["velocity"].copy(), spin=f["spin"].copy())
+        for g in np.flatnonzero(run.mobile & f["present"]):
+            one["velocity"][g] -= f["total_force"][g] / run.mass[g] * run.step / 2
+            one["spin"][g] -= torque[g] / run.inertia(g) * run.step / 2
+        middle.append(one)
+    return middle
+
+
 def fluctuations(run, frames, h, layers, mean_at):
     """sum m dv (x) dv and sum I dw^2, J; grains where their centres are."""
     d = run.dimension
@@ -189,6 +262,47 @@ def fluctuations(run, frames, h, layers, mean_at):
         kinetic[run.species[g]][n] += run.mass[g] * np.outer(dv, dv) / len(frames)
         rotational[run.species[g]][n] += run.inertia(g) * dw @ dw / len(frames)
     return kinetic, rotational
+
+
+def about_each_frame(run, frames, h, layers):
+    """About the mean of the layer in each frame."""
+    kinetic, rotational = by_layer(layers, run.dimension, run.dimension), by_layer(layers)
+    for f in frames:
+        of_frame = fluctuations(run, [f], h, layers, layer_mean(run, [f], h))
+        for sums, more in zip((kinetic, rotational), of_frame):
+            for s in more:
+                sums[s] += more[s] / len(frames)
+    return kinetic, rotational
+
+
+def unbiased_fluctuations(run, frames, h, layers):
+    """Of each grain the mean of (v - v_j) (x) (v - v_k), weight m_j m_k, over all pairs of two others
+    of its layer and frame; sums of m and of I times that, masses, and the number of grains without
+    two others."""
+    d = run.dimension
+    kinetic, rotational = by_layer(layers, d, d), by_layer(layers)
+    mass, left_out = by_layer(layers), by_layer(layers)
+    for f in frames:
+        members = collections.defaultdict(list)
+        for g, y, motion in mobile_grains(run, [f]):
+            members[layer_of(y, h)].append((g, motion))
+        for n, grains in members.items():
+            for g, motion in grains:
+                s = run.species[g]
+                others = [(run.mass[j], motion - theirs) for j, theirs in grains if j != g]
+                if len(others) < 2:
+                    left_out[s][n] += 1 / len(frames)
+                    continue
+                m = np.array([one for one, _ in others])
+                away = np.array([one for _, one in others])
+                mean = m @ away
+                # All pairs j, k less those with j = k.
+                products = np.outer(mean, mean) - np.einsum("j,ja,jb->ab", m**2, away, away)
+                products /= m.sum()**2 - (m**2).sum()
+                kinetic[s][n] += run.mass[g] * products[:d, :d] / len(frames)
+                rotational[s][n] += run.inertia(g) * np.trace(products[d:, d:]) / len(frames)
+                mass[s][n] += run.mass[g] / len(frames)
+    return kinetic, rotational, mass, left_out
 
 
 def coordination_and_force(run, frames, h, layers):

@@ -25,6 +25,7 @@ class Run:
             self.mobile = (self.species != self.species_count) & (grains["fixed"][:] == 0)
             self.small_diameter = float(f["parameters/small_diameter"][()])
             self.interval = float(f["parameters/frame_interval"][()])
+            self.step = float(f["parameters/step"][()])
             offset = f["grseg/contacts/offset"][:]
             self.begin = int(grains["position/step"][frames.start]) * float(f["parameters/step"][()])
             self.frames = [self.read_frame(f, k, slice(int(offset[k]), int(offset[k + 1])))
@@ -37,6 +38,7 @@ class Run:
         frame["i"], frame["j"] = contacts["i"][rows], contacts["j"][rows]
         for name in ("position", "velocity"):
             frame[name] = f[f"particles/grains/{name}/value"][k].astype(float)
+        frame["total_force"] = f["particles/grains/force/value"][k].astype(float)
         spin = f["particles/grains/angular_velocity/value"][k].astype(float)
         frame["spin"] = spin.reshape(len(spin), -1)  # one component about z, or three
         frame["present"] = ~np.isnan(frame["position"]).any(axis=1)
@@ -119,6 +121,7 @@ FAULTS = {
     "x and y of branches exchanged": exchanged("branch", 0, 1),
     "x and y of velocities exchanged": exchanged("velocity", 0, 1),
     "x and y of positions exchanged": exchanged("position", 0, 1),
+    "x and y of the forces on grains exchanged": exchanged("total_force", 0, 1),
     "force and branch exchanged": transposed,
     "the largest species first": renumbered(lambda s, k: k - 1 - s),
 }

@@ -4,19 +4,23 @@
 Usage: recompute.py BIN RUN.h5 SCENE.ini
 
 For a few frames of RUN.h5, of a short fresh run of SCENE.ini, and of runs without symmetries in two
-and three dimensions and of two and three species, in some of which grains come and go: sums of force (x) branch by pair of species under
-three assignments, partial stresses by three rules, volumes of grains, kinetic stresses about the
-profile and about the layer's mean, coordination z and mean force f, by layer; then BIN/grseg-stress,
-grseg-kinetic and grseg-micro on the same frames. Every number must agree to 1e-10 of the largest
+and three dimensions and of two and three species, in some of which grains come and go: sums of force
+(x) branch by pair of species under three assignments, partial stresses by three rules, volumes of
+grains, kinetic stresses about four means of the velocities after a step and in its middle,
+coordination z and mean force f, divergence of stress and interaction of each species by five rules,
+by layer; then BIN/grseg-stress, grseg-kinetic, grseg-micro and grseg-balance on the same frames.
+Every number must agree to 1e-10 of the largest
 component of its tensor. Then faults are put into what is read here (raw_run.py), each of which must
 make a difference.
 """
+import itertools
 import math
 import os
 import subprocess
 import sys
 import tempfile
 
+import h5py
 import numpy as np
 
 import definitions as by_definition
@@ -27,7 +31,9 @@ TOLERANCE = 1e-10
 SYNTHETIC = ((2, "small,large"), (2, "fine,middle,coarse"), (3, "small,large"),
              (3, "fine,middle,coarse"), (2, "small,large", "changing"),
              (3, "fine,middle,coarse", "changing"))
+RULES = ("size", "contact-point", "half", "drop", f"power:{by_definition.POWER:g}")
 ASSIGNMENTS = ("contact-point", "branch", "grain")
+MEANS = ("profile", "layer", "instant", "instant-unbiased")
 compared = 0
 
 
@@ -109,17 +115,35 @@ class Window:
                     compare(f"{self.place(n)}: sigma^{name} by {rule}", mine[s][n], tools[s], terms)
                 compare(f"{self.place(n)}: sigma", sum(mine)[n], sum(tools), terms)
 
-    def check_kinetic(self, rows, mean):
-        run, columns = self.run, self.columns
-        self.require_rows(rows, self.layers)
+    def fluctuations(self, mean, frames):
+        """By the definition: K and Kr; about an unbiased mean also masses and grains left out."""
+        of = (self.run, frames, self.h, self.layers)
+        if mean == "instant-unbiased":
+            return by_definition.unbiased_fluctuations(*of)
+        if mean == "instant":
+            return by_definition.about_each_frame(*of)
         mean_at = {"profile": by_definition.profile, "layer": by_definition.layer_mean}[mean]
-        kinetic, rotational = self.definition(by_definition.fluctuations,
-                                              mean_at(run, self.frames, self.h))
+        return by_definition.fluctuations(*of, mean_at(self.run, frames, self.h))
+
+    def check_kinetic(self, rows, mean, velocity):
+        columns = self.columns
+        self.require_rows(rows, self.layers)
+        frames = self.frames
+        if velocity == "middle":
+            frames = by_definition.in_mid_step(self.run, frames)
+        kinetic, rotational, *more = self.fluctuations(mean, frames)
+        # Where a grain is its own mean both have the square of round-off.
+        of_rest, of_no_spin = by_definition.fluctuations(self.run, frames, self.h, self.layers,
+                                                         lambda y: 0)
         for n, row in enumerate(rows):
             for s, name in enumerate(columns.names):
-                where = f"{self.place(n)}, about the {mean}"
-                compare(f"{where}: K_{name}", kinetic[s][n], columns.tensor(row, f"K_{name}"))
-                compare(f"{where}: Kr_{name}", rotational[s][n], row[f"Kr_{name}"])
+                where = f"{self.place(n)}, about the {mean}, {velocity}"
+                compare(f"{where}: K_{name}", kinetic[s][n], columns.tensor(row, f"K_{name}"),
+                        1e-12 * of_rest[s][n])
+                compare(f"{where}: Kr_{name}", rotational[s][n], row[f"Kr_{name}"],
+                        1e-12 * of_no_spin[s][n])
+                for column, mine in zip(("mass", "left_out"), more):
+                    compare(f"{where}: {column}_{name}", mine[s][n], row[f"{column}_{name}"])
 
     def check_micro(self, rows):
         columns = self.columns
@@ -133,6 +157,21 @@ class Window:
                 compare(f"{self.place(n)}: f_{name}", f[s][n],
                         quotient(sum(row[f"sum_f_{p}"] for p in pairs),
                                  sum(row[f"n_{p}"] for p in pairs)))
+
+    def check_balance(self, rows):
+        run, columns = self.run, self.columns
+        self.require_rows(rows, self.layers)
+        volume = run.volume_of_layer(self.h)
+        for rule in RULES:
+            of_rule = self.definition(by_definition.forces_by_rule, rule, run.small_diameter)
+            names = (f"contact_{{}}_{{}}@{rule}", f"interaction_{{}}_{{}}@{rule}", "N_{}_{}")
+            for n, row in enumerate(rows):
+                terms = max(abs(of_all[:, n]).max() for of_all in of_rule) / volume
+                for name, of_all in zip(names, of_rule):
+                    for s, species in enumerate(columns.names):
+                        tools = [row[name.format(species, axis)] for axis in columns.axes]
+                        compare(f"{self.place(n)}: {name.format(species, '*')}",
+                                of_all[s][n] / volume, tools, terms)
 
 
 def check(bin_folder, path, frames, layer, fault=None):
@@ -155,10 +194,30 @@ def check(bin_folder, path, frames, layer, fault=None):
             rows = rows_of("stress", "--assign", assignment, "--composition", "clipped",
                            "--partition", f"power:{by_definition.POWER:g}")
             window.check_stress(rows[number], assignment)
-        for mean in ("profile", "layer"):
-            window.check_kinetic(rows_of("kinetic", "--mean", mean)[number], mean)
+        for mean, velocity in itertools.product(MEANS, ("after", "middle")):
+            rows = rows_of("kinetic", "--mean", mean, "--velocity", velocity)
+            window.check_kinetic(rows[number], mean, velocity)
+        window.check_balance(rows_of("balance", "--partition", ",".join(RULES))[number])
         if window.columns.two:
             window.check_micro(rows_of("micro")[number])
+
+
+def check_mid_step(path):
+    """In consecutive frames the velocity in the middle of a step is the mean of that stored before it and
+    after it, and so is the spin."""
+    with h5py.File(path, "r") as f:
+        steps = f["particles/grains/position/step"][:]
+    pairs = [k for k in range(1, len(steps)) if steps[k] == steps[k - 1] + 1]
+    if len(pairs) < 5:
+        raise Difference(f"{path}: {len(pairs)} pairs of consecutive steps")
+    for k in pairs[-5:]:
+        run = Run(path, range(k - 1, k + 1))
+        before, after = run.frames
+        middle = by_definition.in_mid_step(run, [after])[0]
+        for name in ("velocity", "spin"):
+            mean = (before[name] + after[name]) / 2
+            compare(f"{path}, frame {k}: {name} in the middle of the step", mean[run.mobile],
+                    middle[name][run.mobile])
 
 
 def require_that_faults_show(bin_folder, path, frames, layer):
@@ -182,11 +241,18 @@ def main():
         check(bin_folder, sample, range(60, 62), 1.5)
         with tempfile.TemporaryDirectory() as folder:
             fresh = os.path.join(folder, "fresh.h5")
-            subprocess.run([os.path.join(bin_folder, "grseg-sim"), scene, "--depth", "12dS", "--length",
-                            "10dL", "--phi-large", "0.4", "--duration", "1.5", "--accuracy", "draft",
-                            "--quiet", "-o", fresh], check=True)
+
+            def simulate(path, *options):
+                subprocess.run([os.path.join(bin_folder, "grseg-sim"), scene, "--depth", "12dS",
+                                "--length", "10dL", "--phi-large", "0.4", "--accuracy", "draft",
+                                "--quiet", "-o", path, *options], check=True)
+
+            simulate(fresh, "--duration", "1.5")
             check(bin_folder, fresh, range(24, 28), 4)
             check(bin_folder, fresh, range(20, 22), 1.5)
+            bursts = os.path.join(folder, "bursts.h5")
+            simulate(bursts, "--duration", "0.4", "--burst", "2")
+            check_mid_step(bursts)
             for dimension, *words in SYNTHETIC:
                 run = os.path.join(folder, f"{dimension}-{'-'.join(words)}.h5")
                 subprocess.run([os.path.join(bin_folder, "synthetic_run"), run, str(dimension), *words],

@@ -15,6 +15,7 @@ scripts = sys.argv.pop(1)
 sys.path.insert(0, os.path.join(scripts, "reproduce"))
 import measured  # noqa: E402
 import profiles  # noqa: E402
+import rise  # noqa: E402
 import statements  # noqa: E402
 import tables  # noqa: E402
 import targets  # noqa: E402
@@ -48,6 +49,33 @@ def at_rest(path, frames=(1, 1)):
                 row = [window, window + 1, k * D, (k + 1) * D, n, volume, NU * volume * 0.75,
                        NU * volume * 0.25, *sums]
                 table.write("\t".join(f"{x:.17g}" for x in row) + "\n")
+
+
+def contacts(y, phi, beyond=0.0, more_ends=1.0, t=0, frames=10):
+    """A row of grseg-micro: neutral contacts of discs of 1 d and 2 d in a layer of 4 d, isotropic. Of the stress of mixed
+    contacts the large grains get `beyond` more than 2/3; there are `more_ends` times the SS contacts at forces as
+    much weaker."""
+    r, area, number, force, pressure = 2, 100.0, 1000.0, 3.0, 1.0
+    x = phi / (phi + r * (1 - phi))  # fraction of ends on large grains
+    n = {"SS": (1 - x) ** 2 * number, "LS": 2 * x * (1 - x) * number, "LL": x ** 2 * number, "Sb": 0.0, "Lb": 0.0}
+    whole = pressure * area
+    m = (1 + r) * phi * (1 - phi) / (phi + r * (1 - phi)) * whole
+    large = phi * whole - m * r / (1 + r)
+    row = {"t0": t, "y0": y, "y1": y + 4 * D, "frames": frames, "area_S": area * (1 - phi), "area_L": area * phi, "grains_S": 99, "grains_L": 99}
+    row.update({f"{name}_{c}": value for c in ("xx", "yy") for name, value in (
+        ("A_LL", large), ("M", m), ("Msize", m * (r / (1 + r) + beyond)), ("A_SS", whole - large - m), ("A_Sb", 0.0), ("A_Lb", 0.0))})
+    n["SS"] *= more_ends
+    row.update({f"n_{pair}": value for pair, value in n.items()})
+    row.update({f"sum_fn_{pair}": value * force / (more_ends if pair == "SS" else 1) for pair, value in n.items()})
+    return row
+
+
+def layers_of(path, rows):
+    with open(path, "w") as table:
+        table.write(f"# small_diameter: {D}\n# large_diameter: {2 * D}\n" + "\t".join(rows[0]) + "\n")
+        for row in rows:
+            table.write("\t".join(f"{x:.17g}" for x in row.values()) + "\n")
+    return rise.layers_of(path)
 
 
 class Reproduction(unittest.TestCase):
@@ -181,6 +209,67 @@ class Reproduction(unittest.TestCase):
         self.assertEqual(next(targets.shear_rate(Flows())).verdict(), "agrees")
         Flows.lift = 0.065  # two points lie 0.035 below the line, with intervals of 0.01
         self.assertEqual(next(targets.shear_rate(Flows())).verdict(), "undecided")
+
+    def test_neutral_contacts_have_no_B_and_what_large_grains_get_beyond_is_its_cause(self):
+        mixed = [contacts(4 * k * D, phi) for k, phi in enumerate((0.3, 0.1, 0.4, 0.7))]
+        # The lowest layer is not inside.
+        layers = layers_of(self.table, mixed)
+        self.assertEqual([round(layer.phi, 9) for layer in layers], [0.1, 0.4, 0.7])
+        found, terms = rise.factors(layers), rise.terms(layers)
+        self.assertAlmostEqual(found["B"], 0, 12)
+        self.assertAlmostEqual(found["mixed"], 1, 12)
+        # Of one composition the geometry is 3/(1 + phi_S).
+        self.assertAlmostEqual(rise.factors(layers[:1])["geometry"], 3 / 1.9, 12)
+        for name in ("ends", "forces", "pairing", "normal", "log"):
+            self.assertAlmostEqual(terms[name], 0, 12)
+        self.assertAlmostEqual(terms["LS/neutral"], 1, 12)
+        self.assertAlmostEqual(terms["LS/random"], 1, 12)
+        # 0.02 beyond 2/3: B = 0.02 * 3/(1 + phi_S) at each composition.
+        for phi in (0.1, 0.4, 0.7):
+            found = rise.factors(layers_of(self.table, [contacts(4 * D, phi, 0.02)]))
+            self.assertAlmostEqual(found["beyond"], 0.02, 12)
+            # The share by size is 2/3 and 0.02, and with 2/3 B would be 0.
+            self.assertAlmostEqual(found["p_star"], 2 / 3, 12)
+            self.assertAlmostEqual(found["B"], 0.02 * 3 / (2 - phi), 12)
+
+    def test_contacts_and_forces_take_apart_what_the_stress_says(self):
+        # Twice the SS contacts at half the force carry the same stress: s is 1, ends and forces cancel.
+        phi = 0.5
+        terms = rise.terms(layers_of(self.table, [contacts(4 * D, phi, more_ends=2)]))
+        # Ends: SS 4/9, LS 4/9, LL 1/9 of the contacts; on small grains 2 * 8/9 + 4/9 instead of 2 * 4/9 + 4/9.
+        self.assertAlmostEqual(terms["ends"], -math.log((16 + 4) / (8 + 4)), 12)
+        self.assertAlmostEqual(terms["forces"] + terms["pairing"], math.log((16 + 4) / (8 + 4)), 12)
+        # Paired at random, the 20 ends of small grains meet 6 of large ones: mean forces 3/2 and 3.
+        at_random = (20 * 1.5 + 6 * 3) / (20 * 3 + 6 * 3)
+        self.assertAlmostEqual(terms["forces"], -math.log(at_random), 12)
+        self.assertAlmostEqual(terms["log"], 0, 12)
+        self.assertAlmostEqual(terms["LS/random"], 4 / (13 * 2 * (20 / 26) * (6 / 26)), 12)
+        # A layer of two large grains has no part in the logarithms.
+        few = {**contacts(8 * D, phi), "grains_L": 2}
+        self.assertAlmostEqual(rise.terms(layers_of(self.table, [contacts(4 * D, phi, more_ends=2), few]))["ends"], terms["ends"], 12)
+
+    def test_windows_merge_by_frames_and_composition_that_grows_upward_has_a_positive_gradient(self):
+        rows = [contacts(4 * k * D, 0.2 + 0.1 * k, t=t, frames=frames) for t, frames in ((0, 10), (2.5, 30)) for k in range(4)]
+        for row in rows[:4]:  # in the first 2.5 s there is no large grain
+            row.update({name: 0.0 for name in row if name in ("area_L", "grains_L") or "_LL" in name or "_LS" in name or name[0] == "M"})
+        layers = layers_of(self.table, rows)
+        for layer, phi in zip(layers, (0.3, 0.4)):
+            small = 0.25 * (1 - phi) + 0.75 * (1 - phi)
+            self.assertAlmostEqual(layer.phi, 0.75 * phi / (small + 0.75 * phi), 12)
+            self.assertEqual((layer.frames, layer.grains), (40, 0.75 * 99))
+        one = [contacts(4 * k * D, 0.2 + 0.1 * k) for k in range(4)]
+        self.assertAlmostEqual(layers_of(self.table, one)[0].gradient, 0.1 / 4, 12)
+
+    def test_a_trend_that_is_composition_is_gone_where_composition_is_equal(self):
+        low, high = [0.15, 0.3, 0.5], [0.3, 0.5, 0.7]
+        bed = lambda phis, beyond: layers_of(self.table, [contacts(4 * k * D, phi, beyond(phi))
+                                                          for k, phi in enumerate([0.5] + phis + [0.5], 0)])
+        by_layer = [(0.3, bed(low, lambda phi: 0.02 * phi)), (0.5, bed(high, lambda phi: 0.02 * phi))]
+        self.assertGreater(rise.trend_where_alike(by_layer, ()), 0.01)
+        self.assertAlmostEqual(rise.trend_where_alike(by_layer, ("phi",)), 0, 12)
+        # A trend of the mixture itself stays: 0.01 more on a difference of 0.2, times 3/(1 + phi_S).
+        of_mixture = [(0.3, bed([0.3, 0.3], lambda _: 0.01)), (0.5, bed([0.3, 0.3], lambda _: 0.02))]
+        self.assertAlmostEqual(rise.trend_where_alike(of_mixture, ("phi",)), 0.05 * 3 / 1.7, 12)
 
     def test_separated_species_have_gone_all_the_way_and_mixed_ones_half_of_it(self):
         numbers = program("numbers")

@@ -100,17 +100,41 @@ TEST(Judge, AllowsMoreRoundOffInSinglePrecisionAndOnlyRoundOff)
 }
 
 // t of 2 degrees of freedom beyond which lies 0.0005 on either side: 31.599.
-TEST(Judge, AllowsAMeanTheDeviationThatChanceExplains)
+// Within that, a deviation of the tolerance would not have been seen: nothing has passed.
+TEST(Judge, LeavesOpenWhatChanceAloneExplainsAndFailsWhatItDoesNot)
 {
   const Judge judge({}, false);
   const auto line = judge.statistical(named("weight"), -0.3, 0.01, 3, 1);
   EXPECT_NEAR(line.tolerance, 31.599 * 0.01, 1e-5);
   EXPECT_EQ(line.measured, 0.3);
   EXPECT_EQ(line.error, 0.01);
-  EXPECT_EQ(line.verdict, Verdict::passed);
+  EXPECT_EQ(line.verdict, Verdict::undecided);
   EXPECT_EQ(judge.statistical(named("weight"), -0.32, 0.01, 3, 1).verdict, Verdict::failed);
-  EXPECT_EQ(judge.statistical(named("weight"), -0.32, 0.01, 3, 2).verdict, Verdict::passed);
-  EXPECT_EQ(judge.statistical(named("weight"), 0.009, 0, 3, 1).tolerance, 0.01);
+  EXPECT_EQ(judge.statistical(named("weight"), -0.32, 0.01, 3, 2).verdict, Verdict::undecided);
+  // An error of a hundredth of that: 0.00316 by chance, less than the tolerance of 0.01.
+  const auto precise = judge.statistical(named("weight"), 0.009, 0.0001, 3, 1);
+  EXPECT_EQ(precise.tolerance, 0.01);
+  EXPECT_EQ(precise.verdict, Verdict::passed);
+  EXPECT_EQ(judge.statistical(named("weight"), 0.011, 0.0001, 3, 1).verdict, Verdict::failed);
+  // Whether the deviation is small makes no difference where chance is not.
+  EXPECT_EQ(judge.statistical(named("weight"), 0.001, 0.01, 3, 1).verdict, Verdict::undecided);
+}
+
+TEST(CheckReport, NamesWhatIsUndecidedWithTheNumberOfItsLayersAndCountsIt)
+{
+  CheckReport report;
+  EXPECT_EQ(report.undecided(), "");
+  const Judge judge({}, false);
+  for (int layer = 0; layer < 3; ++layer)
+    report.lines.push_back(judge.statistical(named("weight"), 0, 0.01, 3, 1));
+  report.lines.push_back(judge.statistical(named("x_drift"), 0, 0.01, 3, 1));
+  report.lines.push_back(judge.statistical(named("slope"), 0, 0, 3, 1));
+  EXPECT_EQ(report.undecided(),
+            "undecided, since chance alone explains more than the tolerance: weight (3 layers), "
+            "x_drift; a longer run decides");
+  EXPECT_EQ(report.failures(), "");
+  EXPECT_NE(to_json(report).find("\"undecided\": 4"), std::string::npos);
+  EXPECT_NE(to_tsv(report).find("\tundecided\t"), std::string::npos);
 }
 
 TEST(Drift, OfALineIsItsSlopeTimesItsLengthWithoutError)

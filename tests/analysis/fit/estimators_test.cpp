@@ -3,9 +3,11 @@
 #include "analysis/fit/window_sums.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
+#include <gsl/gsl_sf_psi.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -93,6 +95,44 @@ TEST(Estimators, TwoLayersByHand)
   EXPECT_NEAR(b.B_direct, (3 * (2. / 3 - 0.8) + (1. / 3 - 0.2)) / (4 * 0.16), 1e-14);
 }
 
+// Of 10 and 30 frames: (10 (2/3 - 4/5) + 30 (1/3 - 1/5))/(40 x 4/25).
+TEST(Estimators, BOfSumsCountsFramesAndNothingElse)
+{
+  std::vector<FitPoint> points{{.phi_large = 0.8, .weight = 3, .frames = 10, .size_ratio = 2},
+                               {.phi_large = 0.2, .weight = 1, .frames = 30, .size_ratio = 2}};
+  points[0].small = points[1].large = 1;
+  points[0].large = points[1].small = 2;
+  points[0].total = points[1].total = 3;
+  EXPECT_NEAR(estimators_of(points).B_sums, (10 * (2. / 3 - 0.8) + 30 * (1. / 3 - 0.2)) / 6.4,
+              1e-14);
+}
+
+// Three large grains per layer, each bearing its share of the stress times an exponential variate,
+// whose mean is 1: sorting is nil. The mean of the logarithm of the mean of n such variates is
+// psi(n) - ln n, with psi the digamma function: -0.176 for n = 3. B_sums has no logarithm.
+TEST(Estimators, FewGrainsSpoilTheMeanOfLogarithmsAndNotTheRatioOfSums)
+{
+  constexpr std::size_t layers = 20000, grains = 3;
+  constexpr double phi = 0.02;
+  std::mt19937 random(5);
+  std::exponential_distribution<double> variate;
+  std::vector<FitPoint> points;
+  for (std::size_t k = 0; k < layers; ++k) {
+    double mean = 0;
+    for (std::size_t grain = 0; grain < grains; ++grain) mean += variate(random) / grains;
+    FitPoint point{.window = k, .phi_large = phi, .weight = 1, .size_ratio = 2};
+    point.large = phi * mean;
+    point.small = 1 - point.large;
+    point.total = 1;
+    points.push_back(point);
+  }
+  const auto b = estimators_of(points);
+  // Standard errors: of the logarithm the root of psi'(3) = 0.395 over the layers, 0.0044; of the
+  // sums the root of 1/3, 0.0041.
+  EXPECT_NEAR(b.B_mean, gsl_sf_psi_int(grains) - std::log(grains), 4 * 0.0044);
+  EXPECT_NEAR(b.B_sums, 0, 4 * 0.0041);
+}
+
 TEST(Estimators, SumsOverWindowsSayTheSameAsGslsFitsOfThePoints)
 {
   std::vector<FitPoint> points;
@@ -110,7 +150,7 @@ TEST(Estimators, SumsOverWindowsSayTheSameAsGslsFitsOfThePoints)
     EXPECT_NEAR(by_sums.*place, by_points.*place, 1e-12) << name;
 }
 
-TEST(Estimators, AStressThatIsNotPositiveCountsForTheDirectEstimateOnly)
+TEST(Estimators, AStressThatIsNotPositiveCountsWhereNoLogarithmIsTaken)
 {
   auto points = power_law(0.9, 1);
   const auto before = estimators_of(points);
@@ -120,6 +160,7 @@ TEST(Estimators, AStressThatIsNotPositiveCountsForTheDirectEstimateOnly)
   EXPECT_EQ(after.slope, before.slope);
   EXPECT_EQ(after.slope_linear, before.slope_linear);
   EXPECT_LT(after.B_direct, before.B_direct);
+  EXPECT_LT(after.B_sums, before.B_sums);
 }
 
 TEST(Estimators, OneCompositionHasASlopeButNoExponent)
@@ -155,6 +196,37 @@ TEST(NeutralContacts, SharedOtherwiseShowExactlyTheClosedForm)
   }
   EXPECT_EQ(fit(data, "size").neutral, 0);
   EXPECT_EQ(fit(data, "half").neutral, fit(data, "uniform:0.5").neutral);
+}
+
+// By size sigma^L = phi_L sigma exactly in all layers, so that no sum can move p* from r/(1 + r).
+TEST(NeutralContacts, HaveNoBOfSumsAtTheShareBySize)
+{
+  for (const double r : {1.3, 2.0, 4.0}) {
+    const auto data = read({stress_table(synthetic::neutral_rows(0, r), 0.005, 0.005 * r)});
+    for (const char* rule : {"size", "half"}) {
+      const auto result = fit(data, rule);
+      EXPECT_NEAR(result.p_zero_sums.value, r / (1 + r), 1e-13);
+    }
+    EXPECT_NEAR(fit(data, "size").value.B_sums, 0, 1e-13);
+  }
+}
+
+// Disturbed, B_sums by the share p_zero_sums of every contact is zero all the same.
+TEST(NeutralContacts, TheZeroOfTheSumsIsOneAndItsIntervalHoldsIt)
+{
+  const auto data = neutral_data(0.3);
+  const auto by_size = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
+  const double zero = by_size.p_zero_sums.value;
+  EXPECT_NE(zero, 2. / 3);
+  const PartitionRule at_zero{PartitionRule::Kind::uniform, zero};
+  EXPECT_NEAR(fit_rule(data, at_zero, {}, Bootstrap(data.runs, 0, 1)).value.B_sums, 0, 1e-13);
+  EXPECT_LT(by_size.p_zero_sums.low, 2. / 3);
+  EXPECT_GT(by_size.p_zero_sums.high, 2. / 3);
+  // dB/dp = -B_sums/(p* - 2/3), as B_sums is linear in p: both intervals tell the same.
+  const double slope = by_size.value.B_sums / (2. / 3 - zero);
+  EXPECT_NEAR((by_size.p_zero_sums.high - by_size.p_zero_sums.low) * slope,
+              by_size.high.B_sums - by_size.low.B_sums,
+              0.05 * (by_size.high.B_sums - by_size.low.B_sums));
 }
 
 TEST(NeutralContacts, GiveLargeGrainsTheShareOfTheRule)

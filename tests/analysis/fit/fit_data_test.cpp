@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
+#include "analysis/fit/fit_mixtures.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
@@ -83,12 +84,13 @@ TEST(FitData, LayersWithFewGrainsOfTheRarerSpeciesAreLeftOutAndCounted)
   const auto used = [&](double grains) {
     return read({table}, {.ratio_high = 1e6, .min_grains = grains}).count.used;
   };
-  const auto usual = read({table}, {.ratio_high = 1e6});
+  const auto usual = read({table}, {.ratio_high = 1e6, .min_grains = 3});
   EXPECT_EQ(usual.count.sentence(),
             "4 rows, 2 with fewer grains of the rarer species than --min-grains");
   EXPECT_EQ(usual.count.used, 2u);
   EXPECT_EQ(usual.count.uncounted, 0u);
   EXPECT_EQ(used(0), 4u);
+  EXPECT_EQ(read({table}, {.ratio_high = 1e6}).count.used, 4u);  // off unless asked for
   EXPECT_EQ(used(2), 3u);
   EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.ratio_high = 1e6, .min_grains = 9}),
                     "4 with fewer grains"));
@@ -244,7 +246,7 @@ TEST(FitData, GrainsOfAKineticTableAreCountedOrUnknown)
     table.rows[row].push_back(row < 2 ? 40 : 3);
     table.rows[row].push_back(row < 3 ? 2 : 40);
   }
-  const auto counted = read({table}, {}, Quantity::kinetic);
+  const auto counted = read({table}, {.min_grains = 3}, Quantity::kinetic);
   EXPECT_EQ(counted.count.uncounted, 0u);
   EXPECT_EQ(counted.count.few_grains, 3u);
 }
@@ -255,8 +257,7 @@ TEST(FitData, TheOtherComponentStandsBesideTheOneAskedFor)
   const auto data = read({kinetic_table(1.44)}, {}, Quantity::kinetic);
   const auto b_of = [](double slope) { return 2 * (1 - slope) / (1 + slope); };
   for (const auto component : {Component::yy, Component::pressure}) {
-    auto both = fit(data, "size", {.component = component});
-    add_components(both, data, {.component = component}, synthetic::no_bootstrap(data));
+    const auto both = fit_mixtures(data, {}, {.component = component}, {}).all;
     EXPECT_NEAR(both.B_yy.value, b_of(1.44), 1e-13);
     EXPECT_NEAR(both.B_pressure.value, b_of((9 + 1.44) / 2), 1e-13);
   }
@@ -270,8 +271,7 @@ TEST(FitData, WithoutTheSumsOfAComponentItHasNoB)
   for (auto& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
   table.header.emplace_back("not kept", "M_xx");
   const auto data = read({table});
-  auto of_yy = fit(data, "half");
-  add_components(of_yy, data, {}, synthetic::no_bootstrap(data));
+  const auto of_yy = fit_mixtures(data, parse_rule("half"), {}, {}).all;
   EXPECT_EQ(of_yy.B_yy.value, of_yy.value.B_half);
   EXPECT_TRUE(std::isnan(of_yy.B_pressure.value));
 }

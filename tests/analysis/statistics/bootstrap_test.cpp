@@ -290,7 +290,7 @@ TEST(Bootstrap, DoubtIsVoicedWhereWindowsAreTooFewForTheirCorrelation)
 TEST(Bootstrap, DoubtIsVoicedWhereRunsAreTooFew)
 {
   EXPECT_EQ(Bootstrap({48, 48}, 200, 1).doubt({1, 1, 96, 2}),
-            "2 runs, worth 2 of equal weight, tell little of how runs differ; four or more give a "
+            "2 runs, worth 2 of equal weight, tell little of how runs differ; more runs give a "
             "narrower interval");
   EXPECT_EQ(Bootstrap(RunLengths(4, 48), 200, 1).doubt({1, 1, 192, 4}), "");
 }

@@ -18,7 +18,7 @@ using std::numbers::pi;
 const Layers unit_layers(1, 10);
 constexpr double bin = 0.125;
 constexpr std::array all_means{MeanFlow::profile, MeanFlow::layer, MeanFlow::instant,
-                               MeanFlow::species};
+                               MeanFlow::instant_unbiased, MeanFlow::species};
 
 KineticStress<2> kinetic(const std::vector<Packing>& frames, MeanFlow flow)
 {
@@ -124,6 +124,7 @@ TEST(KineticStress, TwoGrainsThatPartCarryTheirFluctuations)
   packing.grain(Species::small, 0.1, {2, 0.5}, {2 - 0.3, -0.4}, 3);
   const double mass = pi * 0.01;
   for (const auto flow : all_means) {
+    if (flow == MeanFlow::instant_unbiased) continue;  // asks for three
     const auto stress = kinetic({packing}, flow);
     const auto mean = stress.mean(0, Species::small);
     Tensor2 expected;

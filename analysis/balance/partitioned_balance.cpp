@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/balance/partitioned_balance.hpp"
+
+#include "analysis/frames/contact_force.hpp"
+#include "formats/core/pair_type.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+std::size_t number(Species species)
+{
+  return static_cast<std::size_t>(species);
+}
+
+template <int D>
+void add_to(PartitionedForces<D>& sums, const PartitionedForces<D>& others)
+{
+  sums.stress += others.stress;
+  sums.contact += others.contact;
+  sums.interaction += others.interaction;
+  sums.base += others.base;
+}
+
+}  // namespace
+
+template <int D>
+PartitionedBalance<D>::PartitionedBalance(const Layers& layers, const Kernel& kernel,
+                                          std::vector<PartitionRule> rules, std::size_t species)
+    : layers_(layers), kernel_(kernel), rules_(std::move(rules)), species_(species)
+{
+}
+
+template <int D>
+void PartitionedBalance<D>::grow_to(std::size_t layers)
+{
+  if (layers <= sums_.size()) return;
+  LayerSums empty;
+  empty.unmixed.resize(species_);
+  empty.at_centre.resize(species_, Vector<D>::Zero());
+  empty.mixed.resize(rules_.size() * species_);
+  sums_.resize(layers, empty);
+}
+
+template <int D>
+void PartitionedBalance<D>::add(const Grains& grains, const Frame<D>& frame)
+{
+  ++frames_;
+  count_ = layers_.count(grains, frame);
+  grow_to(count_);
+  const auto& list = frame.contacts;
+  const auto at_height = [&](double y, const auto& book) {
+    share_kernel(layers_, kernel_, y, y, count_, book);
+  };
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (!bears_force(list, k)) continue;
+    const Vector<D>& f = list.force[k];
+    const auto [i, j] = partners(grains, frame, k);
+    const std::size_t own = number(grains.species[i]);
+    const double y_i = frame.position[i].y(), share_i = share_of_first(grains, list, k);
+    const double rise = list.branch[k].y(), y_contact = y_i - share_i * rise;
+    const Tensor<D> stress = f * list.branch[k].transpose();
+    const bool equal = j && number(grains.species[*j]) == own;
+    const auto add_unmixed = [&](double to, const Tensor<D>& part) {
+      share_kernel(layers_, kernel_, y_i, to, count_, [&](std::size_t n, double share) {
+        sums_[n].unmixed[own].stress += share * part;
+      });
+    };
+
+    at_height(y_i, [&](std::size_t n, double share) {
+      sums_[n].at_centre[own] += share * f;
+      if (!j || equal) sums_[n].unmixed[own].contact += share * f;
+    });
+    if (!j) {
+      add_unmixed(y_contact, share_i * stress);
+      at_height(y_contact, [&](std::size_t n, double share) {
+        sums_[n].unmixed[own].contact -= share * f;
+        sums_[n].unmixed[own].base += share * f;
+      });
+      continue;
+    }
+    const std::size_t other = number(grains.species[*j]);
+    const double y_j = frame.position[*j].y();
+    at_height(y_j, [&](std::size_t n, double share) {
+      sums_[n].at_centre[other] -= share * f;
+      if (equal) sums_[n].unmixed[own].contact -= share * f;
+    });
+    if (equal) {
+      add_unmixed(y_j, stress);
+    } else {
+      const bool i_large = own > other;
+      const double r_i = grains.radius[i], r_j = grains.radius[*j];
+      const MixedContact radii{i_large ? r_i : r_j, i_large ? r_j : r_i,
+                               i_large ? share_i : 1 - share_i};
+      if (i_large)
+        add_mixed({radii, f, stress, own, other, y_i, y_j, rise});
+      else
+        add_mixed({radii, -f, stress, other, own, y_j, y_i, -rise});
+    }
+  }
+}
+
+template <int D>
+void PartitionedBalance<D>::add_mixed(const Mixed& contact)
+{
+  const auto& [radii, force, stress, large, small, y_large, y_small, rise] = contact;
+  const auto at_centre = [&, this](double y, std::size_t species, const Vector<D>& on) {
+    share_kernel(layers_, kernel_, y, y, count_, [&](std::size_t n, double share) {
+      for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
+        auto& sums = sums_[n].mixed[rule * species_ + species];
+        (rules_[rule].adds_up() ? sums.contact : sums.interaction) += share * on;
+      }
+    });
+  };
+  at_centre(y_large, large, force);
+  at_centre(y_small, small, -force);
+  const auto stretch = [&, this](double y, double cut, std::size_t place, double part) {
+    share_kernel(layers_, kernel_, y, cut, count_, [&](std::size_t n, double share) {
+      sums_[n].mixed[place].stress += share * part * stress;
+    });
+  };
+  share_kernel(layers_, kernel_, y_large, y_small, count_,
+               [&](std::size_t n, double share) { sums_[n].whole += share * stress; });
+  for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
+    if (!rules_[rule].adds_up()) continue;
+    const double p = rules_[rule].definition().share(radii, rules_[rule].value);
+    const double cut = y_large - p * rise;
+    const std::size_t of_large = rule * species_ + large, of_small = rule * species_ + small;
+    stretch(y_large, cut, of_large, p);
+    stretch(y_small, cut, of_small, 1 - p);
+    share_kernel(layers_, kernel_, cut, cut, count_, [&](std::size_t n, double share) {
+      auto &to_large = sums_[n].mixed[of_large], &to_small = sums_[n].mixed[of_small];
+      to_large.contact -= share * force;
+      to_large.interaction += share * force;
+      to_small.contact += share * force;
+      to_small.interaction -= share * force;
+    });
+  }
+}
+
+template <int D>
+void PartitionedBalance<D>::merge(const PartitionedBalance& others)
+{
+  frames_ += others.frames_;
+  grow_to(others.layers());
+  for (std::size_t n = 0; n < others.layers(); ++n) {
+    auto& own = sums_[n];
+    const auto& more = others.sums_[n];
+    for (std::size_t k = 0; k < species_; ++k) {
+      add_to(own.unmixed[k], more.unmixed[k]);
+      own.at_centre[k] += more.at_centre[k];
+    }
+    for (std::size_t k = 0; k < own.mixed.size(); ++k) add_to(own.mixed[k], more.mixed[k]);
+    own.whole += more.whole;
+  }
+}
+
+template <int D>
+double PartitionedBalance<D>::per_frame_and_volume(std::size_t layer) const
+{
+  return 1 / (static_cast<double>(frames_) * layers_.volume(layer));
+}
+
+template <int D>
+PartitionedForces<D> PartitionedBalance<D>::mean(std::size_t layer, Species species,
+                                                 std::size_t rule) const
+{
+  const auto& sums = sums_[layer];
+  auto mean = sums.unmixed[number(species)];
+  add_to(mean, sums.mixed[rule * species_ + number(species)]);
+  const double factor = per_frame_and_volume(layer);
+  mean.stress *= factor;
+  for (auto* force : {&mean.contact, &mean.interaction, &mean.base}) *force *= factor;
+  return mean;
+}
+
+template <int D>
+Vector<D> PartitionedBalance<D>::contact_force(std::size_t layer, Species species) const
+{
+  return per_frame_and_volume(layer) * sums_[layer].at_centre[number(species)];
+}
+
+template <int D>
+Tensor<D> PartitionedBalance<D>::unmixed_stress(std::size_t layer, Species species) const
+{
+  return per_frame_and_volume(layer) * sums_[layer].unmixed[number(species)].stress;
+}
+
+template <int D>
+Tensor<D> PartitionedBalance<D>::mixed_stress(std::size_t layer) const
+{
+  return per_frame_and_volume(layer) * sums_[layer].whole;
+}
+
+template struct PartitionedForces<2>;
+template struct PartitionedForces<3>;
+template class PartitionedBalance<2>;
+template class PartitionedBalance<3>;
+
+}  // namespace grseg

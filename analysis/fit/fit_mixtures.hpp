@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit/rule_fit.hpp"
+
+#include <vector>
+
+namespace grseg {
+
+/// How samples are drawn (Bootstrap).
+struct Resampling {
+  std::size_t samples = 0;
+  unsigned long seed = 1;
+};
+
+/// One rule for all mixtures together and for each of them; the latter is empty where there is one.
+struct MixtureFits {
+  RuleFit all;
+  std::vector<RuleFit> of_each;
+};
+
+/// Fits data of one pair of species, with B_yy and B_pressure. A mixture's interval is over its
+/// runs, of a single one over its windows, or over windows throughout where `settings` says so.
+///
+/// Over equal mixtures each estimator of all is the unweighted mean of those of the mixtures, whose
+/// errors add up (run_scatter.hpp); over random mixtures the same mean with the scatter of the
+/// mixtures' values, n - 1 degrees of freedom for n mixtures. Both stand in RuleFit::at() always.
+MixtureFits fit_mixtures(const FitData& data, const PartitionRule& rule,
+                         const FitSettings& settings, const Resampling& resampling);
+
+}  // namespace grseg

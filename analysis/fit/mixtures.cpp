@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/mixtures.hpp"
+
+#include "analysis/frames/layer_table.hpp"
+#include "formats/cli/provenance.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+/// The lines of a table's header that are about the flow.
+constexpr const char* flow_keys[] = {"dimension", "species",   "small_diameter", "large_diameter",
+                                     "gravity_x", "gravity_y", "gravity_z",      "step",
+                                     "length",    "density",   "friction"};
+
+bool same_value(const std::string& a, const std::string& b)
+{
+  if (a == b) return true;
+  try {
+    const double x = std::stod(a), y = std::stod(b);
+    return std::abs(x - y) <= 1e-6 * std::max(std::abs(x), std::abs(y));
+  } catch (const std::logic_error&) {
+    return false;
+  }
+}
+
+bool agree(const Table& a, const Table& b, const char* key)
+{
+  return same_value(header_or(a, key, ""), header_or(b, key, ""));
+}
+
+/// Each species' part of all rows' contents, weighted by frames.
+std::vector<double> composition_of(const FitTable& table)
+{
+  std::vector<double> content(table.species.size());
+  for (const auto& row : table.rows)
+    for (std::size_t k = 0; k < content.size(); ++k)
+      content[k] += row.key.frames * row.sums.content[k];
+  const double all = std::accumulate(content.begin(), content.end(), 0.0);
+  for (double& part : content) part = all > 0 ? part / all : 0;
+  return content;
+}
+
+bool same_composition(const std::vector<double>& a, const std::vector<double>& b)
+{
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (std::abs(a[k] - b[k]) > composition_tolerance) return false;
+  return true;
+}
+
+/// How many tables each mixture has, of "4,4,2".
+std::vector<std::size_t> counts_of(const std::string& grouping, std::size_t tables)
+{
+  std::vector<std::size_t> counts;
+  std::istringstream words(grouping);
+  for (std::string word; std::getline(words, word, ',');) {
+    const bool number =
+        !word.empty() && word.size() < 7 &&
+        std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+    counts.push_back(number ? std::stoul(word) : 0);
+  }
+  const auto sum = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  if (std::count(counts.begin(), counts.end(), 0) > 0 || sum != tables)
+    throw UsageError(
+        fmt::format("--mixtures {}: write auto, or how many of the {} tables each mixture has, in "
+                    "their order, as in 4,4,2",
+                    grouping, tables));
+  return counts;
+}
+
+std::vector<Mixture> by_count(const std::vector<FitTable>& tables, const std::string& grouping)
+{
+  std::vector<Mixture> mixtures;
+  std::size_t table = 0;
+  for (const auto count : counts_of(grouping, tables.size())) {
+    auto& mixture = mixtures.emplace_back();
+    mixture.composition = composition_of(tables[table]);
+    for (std::size_t k = 0; k < count; ++k) mixture.tables.push_back(table++);
+  }
+  return mixtures;
+}
+
+std::vector<Mixture> by_likeness(const std::vector<FitTable>& tables)
+{
+  std::vector<Mixture> mixtures;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const auto composition = composition_of(tables[k]);
+    const auto is_own = [&](const Mixture& mixture) {
+      const auto& first = *tables[mixture.tables.front()].table;
+      return same_composition(mixture.composition, composition) &&
+             std::all_of(std::begin(flow_keys), std::end(flow_keys),
+                         [&](const char* key) { return agree(first, *tables[k].table, key); });
+    };
+    const auto own = std::find_if(mixtures.begin(), mixtures.end(), is_own);
+    if (own != mixtures.end())
+      own->tables.push_back(k);
+    else
+      mixtures.push_back({{}, composition, {k}});
+  }
+  return mixtures;
+}
+
+/// Of gravity to the normal of the base, degrees.
+double slope_of(const Table& table)
+{
+  return std::atan2(table.header_number("gravity_x"), -table.header_number("gravity_y")) * 180 /
+         std::numbers::pi;
+}
+
+/// The composition, and the lines of the header in which mixtures differ.
+std::string name_of(const Mixture& mixture, const std::vector<Mixture>& all,
+                    const std::vector<FitTable>& tables)
+{
+  std::string name = fmt::format("Phi_L = {:.2f}", mixture.phi_large());
+  if (mixture.composition.size() > 2) {
+    name = "Phi = ";
+    for (std::size_t k = 0; k < mixture.composition.size(); ++k)
+      name += fmt::format("{}{:.2f}", k == 0 ? "" : "/", mixture.composition[k]);
+  }
+  const auto& own = *tables[mixture.tables.front()].table;
+  const auto differ = [&](const char* key) {
+    return std::any_of(all.begin(), all.end(), [&](const Mixture& other) {
+      return !agree(own, *tables[other.tables.front()].table, key);
+    });
+  };
+  const bool inclined = dimension_of(own) == 2 && own.has_header("gravity_x") &&
+                        own.has_header("gravity_y") && differ("gravity_x") && differ("gravity_y");
+  if (inclined) name += fmt::format(", slope = {:.4g} degrees", slope_of(own));
+  for (const char* key : flow_keys) {
+    if (!differ(key) || (inclined && std::string(key).starts_with("gravity"))) continue;
+    const auto value = header_or(own, key, "not given");
+    const bool number = own.has_header(key) && std::string(key) != "species";
+    name += fmt::format(", {} = {}", key,
+                        number ? fmt::format("{:.4g}", own.header_number(key)) : value);
+  }
+  return name;
+}
+
+}  // namespace
+
+std::string grouping_words(const std::string& grouping)
+{
+  if (grouping != "auto") return "as given: " + grouping + " tables";
+  return fmt::format(
+      "runs of one mixture agree in what their tables record of the flow (diameters, gravity, "
+      "step, length of the cell, density, friction) and in overall composition, to {:g}",
+      composition_tolerance);
+}
+
+std::vector<Mixture> find_mixtures(std::vector<FitTable>& tables, const std::string& grouping)
+{
+  auto mixtures = grouping == "auto" ? by_likeness(tables) : by_count(tables, grouping);
+  std::stable_sort(mixtures.begin(), mixtures.end(), [](const Mixture& a, const Mixture& b) {
+    return std::round(100 * a.phi_large()) < std::round(100 * b.phi_large());
+  });
+  for (std::size_t m = 0; m < mixtures.size(); ++m) {
+    mixtures[m].name = name_of(mixtures[m], mixtures, tables);
+    for (const auto table : mixtures[m].tables) tables[table].mixture = m;
+  }
+  return mixtures;
+}
+
+FitData of_mixture(const FitData& data, std::size_t mixture)
+{
+  FitData part;
+  part.quantity = data.quantity;
+  part.dimension = data.dimension;
+  part.tables = data.tables;
+  part.species = data.species;
+  part.window = data.window;
+  part.count = data.count;
+  std::vector<std::size_t> run_of, window_of;  // of each window: its run, its number in the part
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    const bool own = data.mixture_of(run) == mixture;
+    const auto first = number_of_windows(part.runs);
+    for (std::size_t k = 0; k < data.runs[run]; ++k) {
+      run_of.push_back(run);
+      window_of.push_back(first + k);
+    }
+    if (!own) continue;
+    part.runs.push_back(data.runs[run]);
+    part.mixtures.push_back(mixture);
+  }
+  std::map<std::size_t, std::size_t> row_of;
+  for (auto sample : data.samples) {
+    if (data.mixture_of(run_of[sample.window]) != mixture) continue;
+    const auto [entry, fresh] = row_of.try_emplace(sample.row, part.rows.size());
+    if (fresh) part.rows.push_back(data.rows[sample.row]);
+    sample.window = window_of[sample.window];
+    sample.row = entry->second;
+    part.samples.push_back(sample);
+  }
+  return part;
+}
+
+WeightShares weight_shares(const FitData& data, std::size_t mixtures)
+{
+  std::vector<std::size_t> mixture_of;  // of each window
+  for (std::size_t run = 0; run < data.runs.size(); ++run)
+    mixture_of.insert(mixture_of.end(), data.runs[run], data.mixture_of(run));
+  WeightShares shares{std::vector<double>(mixtures), std::vector<double>(mixtures)};
+  for (const auto& sample : data.samples) {
+    const auto mixture = mixture_of[sample.window];
+    shares.half[mixture] += sample.weight;
+    shares.sums[mixture] += sample.frames * sample.phi_large * (1 - sample.phi_large);
+  }
+  for (auto* parts : {&shares.half, &shares.sums}) {
+    const double all = std::accumulate(parts->begin(), parts->end(), 0.0);
+    for (double& part : *parts) part /= all;
+  }
+  return shares;
+}
+
+}  // namespace grseg

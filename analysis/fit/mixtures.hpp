@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit/fit_data.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// Tables whose runs differ in nothing that is recorded but their seed.
+struct Mixture {
+  std::string name;                 // "Phi_L = 0.06, gravity_x = 3.51": what tells it from others
+  std::vector<double> composition;  // each species' part of the grains' area, volume or mass
+  std::vector<std::size_t> tables;  // numbers in the list of tables
+
+  double phi_large() const { return composition.back(); }
+};
+
+/// How far the overall compositions of runs of one mixture may lie apart. Seeds change them by some
+/// 0.001, because radii are drawn, and in cells of few hundred grains by a large one more or less.
+inline constexpr double composition_tolerance = 0.02;
+
+/// How tables are told apart, for the header of the fit.
+std::string grouping_words(const std::string& grouping);
+
+/// The mixtures of all tables, in order of Phi_L, and in each table which of them is its own.
+///
+/// grouping "auto": tables are of one mixture where the lines of their headers agree that are about
+/// the flow (diameters, gravity, step, length of the cell, density, friction, species; numbers to
+/// 1e-6) and so do their overall compositions, to composition_tolerance. What tables do not record
+/// cannot tell runs apart, e.g. their restitution. "4,4,2": the first four tables are of one
+/// mixture, and so on; UsageError where these numbers do not add up to that of the tables.
+std::vector<Mixture> find_mixtures(std::vector<FitTable>& tables, const std::string& grouping);
+
+/// The part of `data` that is of one mixture, as if it had been selected alone.
+FitData of_mixture(const FitData& data, std::size_t mixture);
+
+/// Each mixture's part of the weight of all samples: in B_half and in B_sums.
+struct WeightShares {
+  std::vector<double> half, sums;
+};
+WeightShares weight_shares(const FitData& data, std::size_t mixtures);
+
+}  // namespace grseg

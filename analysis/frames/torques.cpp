@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frames/torques.hpp"
+
+#include <Eigen/Geometry>
+
+namespace grseg {
+namespace {
+
+/// n x f, N, about z in two dimensions.
+template <int D>
+Spin<D> moment(const Vector<D>& n, const Vector<D>& f)
+{
+  if constexpr (D == 2)
+    return f.y() * n.x() - f.x() * n.y();
+  else
+    return n.cross(f);
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Spin<D>> torques_of(const Grains& grains, const ContactList<D>& contacts)
+{
+  std::vector<Spin<D>> torque(grains.size(), no_spin<D>());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = static_cast<std::size_t>(contacts.i[c]);
+    const Spin<D> turning = moment<D>(contacts.branch[c].normalized(), contacts.force[c]);
+    if (contacts.j[c] < 0) {
+      torque[i] -= grains.radius[i] * turning;
+      continue;
+    }
+    const auto j = static_cast<std::size_t>(contacts.j[c]);
+    const double r_i = grains.radius[i], r_j = grains.radius[j];
+    const double kappa = contacts.branch[c].norm() / (r_i + r_j);
+    torque[i] -= kappa * r_i * turning;
+    torque[j] -= kappa * r_j * turning;
+  }
+  return torque;
+}
+
+template std::vector<Spin<2>> torques_of(const Grains&, const ContactList<2>&);
+template std::vector<Spin<3>> torques_of(const Grains&, const ContactList<3>&);
+
+}  // namespace grseg

@@ -1,0 +1,118 @@
+"""Faults in sim/ and what may notice them: hard cases and unit tests, each a program of its own."""
+import concurrent.futures
+import os
+
+# What is broken, where, what stands there, what takes its place.
+FAULTS = [
+    ("sign: the partner is pushed the same way", "sim/contact/contact_law-inl.hpp",
+     "b.vy = hn::Sub(b.vy, hn::Mul(b.inverse_mass, py));",
+     "b.vy = hn::Add(b.vy, hn::Mul(b.inverse_mass, py));"),
+    ("sign: both grains are turned opposite ways", "sim/contact/contact_law-inl.hpp",
+     "b.rim_speed = hn::Sub(b.rim_speed, hn::Mul(b.inverse_mass, spin));",
+     "b.rim_speed = hn::Add(b.rim_speed, hn::Mul(b.inverse_mass, spin));"),
+    ("clamp: contacts may pull", "sim/contact/contact_law-inl.hpp",
+     "hn::Max(hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess)), hn::Zero(d));",
+     "hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess));"),
+    ("clamp: friction is limited to one side only", "sim/contact/contact_law-inl.hpp",
+     "hn::Min(hn::Max(sticking, hn::Neg(limit)), limit)", "hn::Min(sticking, limit)"),
+    ("clamp: friction is limited by the impulse of the sweep before", "sim/contact/contact_law-inl.hpp",
+     "const auto limit = hn::Mul(friction, impulse_n);",
+     "const auto limit = hn::Mul(friction, before_n);"),
+    ("lever arm: radius instead of its part of the distance", "sim/contact/contact_law-inl.hpp",
+     "    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), kappa);",
+     "    const auto lever = hn::Set(d, disc_rim_factor);"),
+    ("lever arm: spins do not count in the sliding velocity", "sim/contact/contact_law-inl.hpp",
+     "sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));",
+     "sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Sub(a.rim_speed, a.rim_speed)));"),
+    ("effective mass: the tangent's is the normal's", "sim/contact/contact_law-inl.hpp",
+     "return hn::Div(normal_mass, hn::Add(hn::Set(d, 1.0), lever));",
+     "return hn::Div(normal_mass, hn::Add(hn::Set(d, 1.0), hn::Sub(lever, lever)));"),
+    ("restitution: added on parting too", "sim/contact/contact_law-inl.hpp",
+     "  auto approach = approach_of(separation);", "  auto approach = hn::Abs(separation);"),
+    ("restitution: its square", "sim/contact/contact_law-inl.hpp",
+     "hn::Mul(hn::Set(d, restitution), approach)",
+     "hn::Mul(hn::Set(d, restitution * restitution), approach)"),
+    ("restitution: gravity of the step is in the approach", "sim/step/simulation.cpp",
+     "  find_contacts(report);\n  accelerate(h * world_.gravity, state_, threads_);",
+     "  accelerate(h * world_.gravity, state_, threads_);\n  find_contacts(report);"),
+    ("colours: a body's second contact gets the colour of its first", "sim/neighbours/pair_colours.cpp",
+     "    taken_[b].among_grains |= bit(free);", "    taken_[b].among_grains |= 0;"),
+    ("warm start: lost", "sim/neighbours/detection.cpp",
+     "    hn::Store(n, d, &block.impulse_n[lane]);\n    hn::Store(t, d, &block.impulse_t[lane]);",
+     "    hn::Store(hn::Zero(d), d, &block.impulse_n[lane]);\n"
+     "    hn::Store(hn::Zero(d), d, &block.impulse_t[lane]);"),
+    ("warm start: impulses of contacts that have ended are kept", "sim/step/simulation.cpp",
+     "    forget_impulses(contacts_, pairs_.impulses(), memories(), threads_);", "    (void)0;"),
+    ("warm start: guessed but not applied", "sim/solver/solver.cpp",
+     "    apply_impulses(strips[s].blocks, motion.data(), effects);", "    (void)s;"),
+    ("mid-point: contacts are looked for at the end of the step", "sim/step/simulation.cpp",
+     "move_bodies(h / 2, world_.law.forecast * h,", "move_bodies(h, world_.law.forecast * h,"),
+    ("gravity: boundary grains fall, too", "sim/step/free_flight.cpp",
+     "      if (!(motion[b].inverse_mass > 0)) continue;\n", ""),
+    ("stop: when the quadratic mean is small", "sim/solver/solver.cpp",
+     "report.converged = report.residual <= settings.tolerance;",
+     "report.converged = report.residual_rms <= settings.tolerance;"),
+    ("stop: friction is not looked at", "sim/contact/contact_law-inl.hpp",
+     "    results.add(lane, hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt));",
+     "    (void)w_tt;"),
+    ("period: pairs across it are shifted the wrong way", "sim/neighbours/detection.cpp",
+     "  if constexpr (periodic) x = hn::Add(x, shift);\n  const auto normals",
+     "  if constexpr (periodic) x = hn::Sub(x, shift);\n  const auto normals"),
+    ("list: renewed too late", "sim/step/simulation.cpp",
+     "const bool renew = !pairs_.complete(ahead_);",
+     "const bool renew = !pairs_.complete(ahead_) && (steps_done_ % 64 == 0 || pairs_.pairs().size() == 0);"),
+    ("stop: round-off does not count", "sim/solver/solver.cpp",
+     "report.converged = result.largest <= round_off;", "report.converged = false;"),
+    ("slope: gravity of the step's beginning, not of its middle", "sim/step/simulation.cpp",
+     "gravity_.at(time() + h / 2)", "gravity_.at(time())"),
+    ("slope: stands still after the tilt", "sim/step/simulation.cpp",
+     "if (gravity_.turns()) world_.gravity", "if (false) world_.gravity"),
+    ("moving boundaries: along the tangent instead of the chord", "sim/solver/boundary_body.cpp",
+     "velocity += (std::sin(angle) * across - 2 * half * half * arm) / step;",
+     "velocity += body.spin * across + 0 * half * arm;"),
+    ("moving boundaries: their rims do not turn", "sim/step/moving_boundaries.cpp",
+     "time + world.step > 0 ? body.spin * world.grains.radius[row] : 0",
+     "0 * body.spin"),
+    ("moving boundaries: a free body feels no contact", "sim/solver/boundary_body.cpp",
+     "impulse -= block->impulse_n[lane] * ny + block->impulse_t[lane] * nx;", "impulse -= 0 * ny;"),
+    ("moving boundaries: a free body feels no load", "sim/step/moving_boundaries.cpp",
+     "duration * body.load / body.mass", "0 * duration * body.load / body.mass"),
+    ("effects: friction is never left out", "sim/step/simulation.cpp",
+     "world.general || world.material.friction > 0,", "true,"),
+    ("effects: restitution is never left out", "sim/step/simulation.cpp",
+     "world.general || world.material.restitution > 0 || world.law.horizon > 0};", "true};"),
+    ("effects: sweeps without friction see to it all the same", "sim/solver/sweep.cpp",
+     "return table[e.friction][e.rotation][e.restitution];",
+     "return table[true][e.rotation][e.restitution];"),
+]
+
+LIBRARY = "grseg_simulator"
+OUTPUT = "docs/studies/hard-cases.md"
+HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",
+        "invariances", "newcomer", "extremes", "slopes"]
+UNIT = ["contact_law", "sweep", "solver", "detection", "pair_list", "simulation", "restart",
+        "effects", "energy_balance", "boundary_body", "left_out"]
+OPTIONS = []
+TARGETS = [f"{name}_test" for name in HARD + UNIT]
+
+
+def noticed(copy, _=None):
+    """Names of the tests that fail, of the hard cases and of the others."""
+    with concurrent.futures.ThreadPoolExecutor(copy.jobs) as pool:
+        found = dict(zip(TARGETS, pool.map(copy.failures, TARGETS)))
+    of = lambda names: sum((found[f"{name}_test"] for name in names), [])
+    return {"hard": of(HARD), "unit": of(UNIT)}
+
+
+def sound(copy):
+    """Tests that fail without a fault."""
+    return sum(noticed(copy).values(), [])
+
+
+def table(results):
+    yield "| what is broken | file | hard cases that fail | among them | other tests that fail |"
+    yield "|---|---|---|---|---|"
+    for r in results:
+        shown = ", ".join(f"`{name}`" for name in r["hard"][:3]) or "–"
+        others = f"{len(r['unit'])}" + (f": `{r['unit'][0]}`" if r["unit"] and not r["hard"] else "")
+        yield f"| {r['what']} | {os.path.basename(r['file'])} | {len(r['hard'])} | {shown} | {others} |"

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/mixtures.hpp"
+
+#include "analysis/fit/fit_mixtures.hpp"
+#include "formats/core/errors.hpp"
+#include "tests/analysis/synthetic_fits.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+using synthetic::neutral_sums;
+using synthetic::stress_table;
+
+/// A run of two windows and one layer, of this composition.
+Table run_of(double phi_large, const std::string& gravity = "3.83", double scatter = 0)
+{
+  auto table = stress_table({{0, 1, 10, neutral_sums(phi_large, 2 + scatter)},
+                             {1, 2, 10, neutral_sums(phi_large, 2 - scatter / 2)}});
+  table.header.emplace_back("gravity_x", gravity);
+  table.header.emplace_back("gravity_y", "-9.02");
+  return table;
+}
+
+std::vector<FitTable> read_all(const std::vector<Table>& tables)
+{
+  return read_fit_tables(tables, Quantity::contact, {{}});
+}
+
+using Numbers = std::vector<std::size_t>;
+
+TEST(Mixtures, TablesThatDifferInTheirSeedAloneAreRunsOfOne)
+{
+  const std::vector<Table> tables{run_of(0.45), run_of(0.301), run_of(0.3), run_of(0.452)};
+  auto read = read_all(tables);
+  const auto mixtures = find_mixtures(read, "auto");
+  ASSERT_EQ(mixtures.size(), 2u);
+  EXPECT_EQ(mixtures[0].tables, (Numbers{1, 2}));
+  EXPECT_EQ(mixtures[1].tables, (Numbers{0, 3}));
+  EXPECT_EQ(mixtures[0].name, "Phi_L = 0.30");
+  EXPECT_NEAR(mixtures[1].phi_large(), 0.45, 1e-12);
+  EXPECT_EQ(read[3].mixture, 1u);
+}
+
+TEST(Mixtures, AreToldApartByAllThatTablesRecordOfTheFlow)
+{
+  const std::vector<Table> tables{run_of(0.3), run_of(0.301, "4.3"), run_of(0.302, "3.8300001")};
+  auto read = read_all(tables);
+  const auto mixtures = find_mixtures(read, "auto");
+  ASSERT_EQ(mixtures.size(), 2u);
+  EXPECT_EQ(mixtures[0].tables, (Numbers{0, 2}));
+  EXPECT_EQ(mixtures[0].name, "Phi_L = 0.30, gravity_x = 3.83");
+  EXPECT_EQ(mixtures[1].name, "Phi_L = 0.30, gravity_x = 4.3");
+}
+
+TEST(Mixtures, OrAsTheUserSays)
+{
+  const std::vector<Table> tables{run_of(0.3), run_of(0.301), run_of(0.5)};
+  auto read = read_all(tables);
+  const auto mixtures = find_mixtures(read, "1,2");
+  ASSERT_EQ(mixtures.size(), 2u);
+  EXPECT_EQ(mixtures[1].tables, (Numbers{1, 2}));
+  for (const char* wrong : {"2", "4", "1,2,0", "", "1,-1", "x", "1;2", "99999999999999999999"})
+    EXPECT_THROW(find_mixtures(read, wrong), UsageError) << wrong;
+}
+
+TEST(Mixtures, ThePartOfOneIsWhatItsTablesGiveAlone)
+{
+  const std::vector<Table> tables{run_of(0.3, "1", 0.2), run_of(0.5, "1", 0.4),
+                                  run_of(0.31, "1", -0.1)};
+  auto read = read_all(tables);
+  find_mixtures(read, "auto");
+  const auto both = select_fit_data(read, Quantity::contact, {}, {{0, 1}});
+  const auto alone = select_fit_data({read[0], read[2]}, Quantity::contact, {}, {{0, 1}});
+  const auto part = of_mixture(both, 0);
+  EXPECT_EQ(part.runs, alone.runs);
+  EXPECT_EQ(part.rows.size(), alone.rows.size());
+  const PartitionRule half = parse_rule("half");
+  EXPECT_EQ(fit_rule(part, half, {}, {part.runs, 0, 1}).value.B_half,
+            fit_rule(alone, half, {}, {alone.runs, 0, 1}).value.B_half);
+  const auto shares = weight_shares(both, 2).half;
+  // The rarer species are large grains: 0.3, 0.5 and 0.31 of the same area, each in two windows.
+  EXPECT_NEAR(shares[0], 0.61 / 1.11, 1e-12);
+  EXPECT_NEAR(shares[1], 0.5 / 1.11, 1e-12);
+  const double products = 0.3 * 0.7 + 0.31 * 0.69;
+  EXPECT_NEAR(weight_shares(both, 2).sums[0], products / (products + 0.25), 1e-12);
+}
+
+/// Runs of one window and one layer, each with its own -ln s, that of its mixture plus -d, 0, d.
+struct Flow {
+  double b, d, weight;
+};
+FitData three_runs_of_each(const std::vector<Flow>& flows)
+{
+  FitData data;
+  data.quantity = Quantity::kinetic;
+  data.tables = {"runs.tsv"};
+  for (std::size_t mixture = 0; mixture < flows.size(); ++mixture)
+    for (const double step : {-1, 0, 1}) {
+      const auto& flow = flows[mixture];
+      const double slope = std::exp(-flow.b - step * flow.d);
+      ContactSums<3> sums;
+      sums.volume = 1;
+      sums.of(OwnSum::inside, 0)(1, 1) = slope;
+      sums.of(OwnSum::inside, 1)(1, 1) = 1;
+      data.samples.push_back({.window = data.runs.size(),
+                              .phi_large = 0.5,
+                              .weight = flow.weight,
+                              .size_ratio = 2,
+                              .row = data.rows.size()});
+      data.rows.push_back(sums);
+      data.runs.push_back(1);
+      data.mixtures.push_back(mixture);
+    }
+  return data;
+}
+
+RuleFit fit_over(const FitData& data, Over over)
+{
+  return fit_mixtures(data, {}, {.over = over}, {200, 1}).all;
+}
+
+double reach(const RuleFit& fit)
+{
+  return (fit.high.B_mean - fit.low.B_mean) / 2;
+}
+
+// Three runs -d, 0, d about their mixture: the standard error of its mean is d/sqrt(3), with two
+// degrees of freedom. B_mean = -ln s is linear in the runs.
+TEST(Populations, OfOneMixtureAreItsRuns)
+{
+  const auto fit = fit_over(three_runs_of_each({{0.04, 0.003, 2}}), Over::automatic);
+  EXPECT_EQ(fit.over, Over::runs);
+  EXPECT_NEAR(fit.value.B_mean, 0.04, 1e-15);
+  EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 2) * 0.003 / std::sqrt(3), 1e-10);
+  EXPECT_NEAR(fit.degrees, 2, 1e-12);
+  EXPECT_NEAR(fit.at(Over::runs).low, fit.low.B_half, 1e-15);
+}
+
+TEST(Populations, MixturesAsTheyAreCountByTheirWeights)
+{
+  const auto fit =
+      fit_over(three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}}), Over::automatic);
+  EXPECT_EQ(fit.over, Over::mixtures);
+  EXPECT_NEAR(fit.value.B_mean, (0.03 + 3 * 0.05) / 4, 1e-15);
+  // Both mixtures contribute the same error: 0.003/4 and 3 x 0.001/4, over sqrt(3).
+  const double error = std::sqrt(2.0 / 3) * 0.003 / 4;
+  EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 4) * error, 1e-10);
+}
+
+TEST(Populations, EqualMixturesAreTheMeanOfTheirBs)
+{
+  const auto data = three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}, {0.07, 0.002, 9}});
+  const auto fit = fit_over(data, Over::equal_mixtures);
+  EXPECT_NEAR(fit.value.B_mean, 0.05, 1e-15);
+  // Squares of 0.003, 0.001 and 0.002 over 27, with two degrees of freedom each.
+  const double sum = 14e-6, fourths = (81e-12 + 1e-12 + 16e-12) / (2 + 2);
+  const double degrees = sum * sum / fourths - 2;
+  EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, degrees) * std::sqrt(sum / 27), 1e-10);
+  EXPECT_NEAR(fit.degrees, degrees, 0.01);  // those of B_half, which is not quite linear
+  // How mixtures differ is not in it.
+  const auto apart = three_runs_of_each({{-0.53, 0.003, 1}, {0.05, 0.001, 3}, {0.63, 0.002, 9}});
+  EXPECT_NEAR(reach(fit_over(apart, Over::equal_mixtures)), reach(fit), 1e-10);
+}
+
+// Student's interval of the mean of 0.03, 0.05 and 0.07.
+TEST(Populations, RandomMixturesScatterLikeTheirBs)
+{
+  const auto data = three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}, {0.07, 0.002, 9}});
+  const auto fit = fit_over(data, Over::random_mixtures);
+  EXPECT_NEAR(fit.value.B_mean, 0.05, 1e-15);
+  EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 2) * 0.02 / std::sqrt(3), 1e-12);
+  EXPECT_NE(fit.doubt.find("3 mixtures tell little of how mixtures differ"), std::string::npos);
+  EXPECT_TRUE(std::isfinite(fit.at(Over::equal_mixtures).low));
+  EXPECT_NEAR(fit.at(Over::mixtures).value, fit_over(data, Over::mixtures).value.B_half, 1e-15);
+}
+
+TEST(Populations, EachIsNamedInWordsWithItsWeights)
+{
+  EXPECT_NE(
+      estimand_words(Over::mixtures, 6)
+          .find("these 6 mixtures, weighted as they are (B_half by frames x grains of the rarer "
+                "species, B_sums by frames x phi_L phi_S)"),
+      std::string::npos);
+  EXPECT_NE(estimand_words(Over::equal_mixtures, 6).find("each counting the same"),
+            std::string::npos);
+  for (const auto& [word, over, meaning] : overs)
+    EXPECT_GT(estimand_words(over, 2).size(), 40u) << word;
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Weights, filters and intervals of fits whose answer is worked out on paper.
+#include "analysis/fit/partition_scan.hpp"
+#include "analysis/fit/size_exponent.hpp"
+#include "tests/analysis/synthetic_fits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+using synthetic::any_tensor;
+using synthetic::neutral_sums;
+using synthetic::read;
+using synthetic::separate_sums;
+using synthetic::stress_table;
+using synthetic::TableRow;
+
+/// +1 or -1: 40 windows in an order in which correlations of neighbours cancel to a few per cent.
+double sign(int window)
+{
+  constexpr std::string_view order = "+-++---+-+--+++-";
+  return order[static_cast<std::size_t>(window) % 16] == '+' ? 1 : -1;
+}
+
+double half_width(const Interval& interval)
+{
+  return (interval.high - interval.low) / 2;
+}
+
+// Neutral contacts of r = 2 at phi_L = 0.2: mixed contacts carry m = 3 phi_L phi_S/(phi_L + 2 phi_S) of
+// the stress, m/psi_S = 1/3 and m/psi_L = 4/3, so that dB/dp = 5/3. Where sigma^L is larger by a
+// small part e, ln s is smaller by e, p* larger by e/(5/3), and dB/dp there smaller by e/3: the
+// large grains' part of the slope, m/sigma^L, is as before, since p* grows with sigma^L, and
+// that of the small ones falls.
+TEST(IntervalByHand, TheSlopeOfBIsThatAtTheZeroOfEachSample)
+{
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 40; ++k) {
+    auto sums = neutral_sums(0.2, 2);
+    sums.of(OwnSum::inside, 1) *= 1 + 0.001 * sign(k);
+    rows.push_back({1.0 * k, k + 1.0, 10, sums});
+  }
+  const auto data = read({stress_table(rows)});
+  const auto scan =
+      scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 500, 1));
+  EXPECT_NEAR(scan.dB_dp, 5. / 3, 1e-4);
+  EXPECT_NEAR(half_width(scan.dB_dp_interval) / half_width(scan.p_zero_interval), 1. / 3 * 5. / 3,
+              1e-3);
+}
+
+// Windows of one composition, y/x = s (1 +- 0.1): the line through the origin is the mean of s, with
+// Student's interval of 40 independent windows, t = 2.0227 for 39 degrees of freedom.
+TEST(IntervalByHand, OfTheLineThroughTheOriginIsThatOfTheMeanSlope)
+{
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 40; ++k)
+    rows.push_back({1.0 * k, k + 1.0, 10,
+                    separate_sums(0.2, 4 * (1 + 0.1 * sign(k)) * any_tensor(), any_tensor())});
+  const auto data = read({stress_table(rows)}, {.min_grains = 0});
+  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
+  EXPECT_NEAR(fit.value.slope_linear, 1, 1e-12);
+  const double expected = 2.0227 * 0.1 / std::sqrt(39.);
+  EXPECT_NEAR((fit.high.slope_linear - fit.low.slope_linear) / 2 / expected, 1, 0.05);
+}
+
+/// Up for eight windows, down for eight.
+double slow(int window)
+{
+  return window / 8 % 2 == 0 ? 1 : -1;
+}
+
+// Of one run there is nothing but windows, and both intervals are drawn in the same blocks.
+TEST(IntervalByHand, OfOneRunIsThatOfItsWindows)
+{
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 96; ++k)
+    rows.push_back({1.0 * k, k + 1.0, 10,
+                    separate_sums(0.5, std::exp(0.1 * slow(k)) * any_tensor(), any_tensor())});
+  const auto data = read({stress_table(rows)}, {.min_grains = 0});
+  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
+  ASSERT_GT(fit.dependence.block, 3u);
+  EXPECT_NEAR(fit.B_half_windows.low, fit.low.B_half, 1e-14);
+  EXPECT_NEAR(fit.B_half_windows.high, fit.high.B_half, 1e-14);
+}
+
+// The direct estimate hears the even layer, which changes slowly; the logarithms hear the layer of
+// nearly pure small grains, whose ratio jumps by e^4 from window to window.
+TEST(IntervalByHand, TheSlowerOfTwoEstimatesSaysHowDependentWindowsAre)
+{
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 96; ++k) {
+    rows.push_back({1.0 * k, k + 1.0, 10,
+                    separate_sums(0.5, std::exp(0.01 * slow(k)) * any_tensor(), any_tensor())});
+    rows.push_back({1.0 * k, k + 1.0, 10,
+                    separate_sums(0.02, 49 * std::exp(2 * sign(k)) * any_tensor(), any_tensor())});
+  }
+  const auto data = read({stress_table(rows)}, {.min_grains = 0});
+  const auto of_layer = [&](double low, double high) {
+    const auto only =
+        read({stress_table(rows)}, {.ratio_low = low, .ratio_high = high, .min_grains = 0});
+    return dependence(only, {}, {}).time;
+  };
+  ASSERT_GT(of_layer(0.5, 2), 5);
+  ASSERT_LT(of_layer(20, 80), 2);
+  EXPECT_GT(dependence(data, {}, {}).time, 5);
+}
+
+ContactSums<2> with_contents(double small, double large, double volume)
+{
+  auto sums = separate_sums(0.5, any_tensor(), any_tensor());
+  sums.volume = volume;
+  sums.content = {small, large};
+  return sums;
+}
+
+TEST(FilterByHand, CompositionsAtBothEndsOfTheRangeAreUsed)
+{
+  const auto data = read({stress_table({{0, 1, 9, with_contents(100, 1, 200)},
+                                        {0, 1, 9, with_contents(1, 100, 200)},
+                                        {0, 1, 9, with_contents(101, 1, 200)}})});
+  EXPECT_EQ(data.count.used, 2u);
+  EXPECT_EQ(data.count.outside_ratio, 1u);
+}
+
+// Most layers of a tall cell are empty; the bed's own solid fraction is the measure.
+TEST(FilterByHand, ThinLayersAreLeftOutHoweverManyAreEmpty)
+{
+  std::vector<TableRow> rows(3, {0, 1, 9, with_contents(4, 4, 10)});
+  rows.push_back({0, 1, 9, with_contents(1.5, 1.5, 10)});
+  ContactSums<2> nothing;
+  nothing.volume = 10;
+  for (int k = 0; k < 9; ++k) rows.push_back({0, 1, 9, nothing});
+  const auto data = read({stress_table(rows)});
+  EXPECT_EQ(data.count.used, 3u);
+  EXPECT_EQ(data.count.below_solid, 1u);
+}
+
+// Three species of sizes 1, 2 and 4 whose stresses over phi are as 1 : e^0.1 : e^0.4. The least-squares
+// line through the origin of b = 0.1, 0.4 and 0.3 over ln 2, ln 4 and ln 2, with weights 4, 1 and 1.
+TEST(WeightByHand, TheSizeExponentIsALineThroughTheOriginOverTheLogarithmOfSizes)
+{
+  FitData data;
+  data.runs = {1};
+  data.tables = {"sums.tsv"};
+  data.species = {{"a", 1}, {"b", 2}, {"c", 4}};
+  ContactSums<3> sums(3);
+  sums.volume = 1;
+  for (std::size_t k = 0; k < 3; ++k)
+    sums.of(OwnSum::inside, k)(1, 1) = std::exp(std::vector{0.0, 0.1, 0.4}[k]);
+  data.rows = {sums};
+  data.samples = {{.phi_large = 0.5, .weight = 4, .size_ratio = 2, .pair = {0, 1}},
+                  {.phi_large = 0.5, .weight = 1, .size_ratio = 4, .pair = {0, 2}},
+                  {.phi_large = 0.5, .weight = 1, .size_ratio = 2, .pair = {1, 2}}};
+  const double unit = std::log(2.);
+  const double above = 4 * 0.1 * unit + 0.4 * 2 * unit + 0.3 * unit;
+  const double below = 4 * unit * unit + 4 * unit * unit + unit * unit;
+  EXPECT_NEAR(size_exponent(data, {}, {}, Bootstrap(data.runs, 0, 1)).value, above / below, 1e-13);
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Autocorrelation times, blocks and standard errors of series short enough to be worked out on paper.
+#include "analysis/statistics/bootstrap.hpp"
+#include "analysis/statistics/confidence.hpp"
+#include "analysis/statistics/dependence.hpp"
+#include "analysis/statistics/exponential_approach.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <random>
+
+namespace grseg {
+namespace {
+
+/// Three up, three down, twice. Correlations 5/12 at lag 1, -2/12 at lag 2, -9/12 at lag 3.
+Eigen::VectorXd in_threes()
+{
+  Eigen::VectorXd series(12);
+  series << 1, 1, 1, -1, -1, -1, 1, 1, 1, -1, -1, -1;
+  return series;
+}
+
+// Kendall: rho = (12 x 5/12 + 1)/(12 - 3) = 2/3, and (1 + 2/3)/(1 - 2/3) = 5. The sum breaks off at
+// lag 3 with 1 + 2 (5 - 2 - 9)/12 = 0.
+TEST(AutocorrelationByHand, TheTimeFromNeighboursIsFreedOfItsBias)
+{
+  EXPECT_NEAR(autocorrelation_time(in_threes(), {12}), 5, 1e-12);
+}
+
+// x_k = e_k + e_(k-2): nothing between neighbours, 1/2 at lag 2, hence 1 + 2/2. An AR(1) series of
+// the same neighbours would be independent.
+TEST(AutocorrelationByHand, WhatNeighboursDoNotTellIsSummedOnBothSides)
+{
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  constexpr Eigen::Index n = 20000;
+  Eigen::VectorXd kick(n + 2);
+  for (auto& value : kick) value = normal(random);
+  EXPECT_NEAR(autocorrelation_time(kick.head(n) + kick.tail(n), {n}), 2, 0.15);
+}
+
+// Correlations 3/6 at lag 2, 0 at lag 4, -3/6 at lag 6, where 6 is no less than five times
+// 1 + 2 (3 + 0 - 3)/6 = 1; times 1 + (2 x 6 + 1)/12. From neighbours alone it would be 1.25.
+TEST(AutocorrelationByHand, TheSumIsFreedOfWhatSubtractingTheMeanTakes)
+{
+  Eigen::VectorXd series(12);
+  series << 1, 0, 1, 0, 1, 0, -1, 0, -1, 0, -1, 0;
+  EXPECT_NEAR(autocorrelation_time(series, {12}), 25. / 12, 1e-12);
+}
+
+TEST(DependenceByHand, OfTwoTheWiderIntervalCounts)
+{
+  const auto of = worse({2, 3, 10, 1.5}, {4, 5, 20, 1.2});
+  EXPECT_EQ(of.time, 4);
+  EXPECT_EQ(of.block, 5u);
+  EXPECT_EQ(of.effective_windows, 10);
+  EXPECT_EQ(of.effective_runs, 1.2);
+}
+
+// Blocks of 3 out of 10 windows begin at 0 to 7 with equal chance; three of them, and one window of a
+// fourth, make a sample. Window 0 is in a block that begins at 0 (and is a window of the fourth): 4/8.
+// Window 9 is in one that begins at 7, and never in the fourth: 3/8.
+TEST(BootstrapByHand, TheLastBlockIsDrawnAsOftenAsTheFirst)
+{
+  const Bootstrap bootstrap({10}, 8000, 1);
+  const auto& times = bootstrap.blocks(3);
+  EXPECT_NEAR(times.col(0).mean(), 4. / 8, 0.04);
+  EXPECT_NEAR(times.col(9).mean(), 3. / 8, 0.04);
+}
+
+// How often the two runs' windows with the same number are drawn is not correlated: of 20 x 2000 pairs of
+// counts of variance near 1 the mean product is 0 to 1/200.
+TEST(BootstrapByHand, RunsAreDrawnIndependentlyOfEachOther)
+{
+  const Bootstrap bootstrap({20, 20}, 2000, 1);
+  const Eigen::ArrayXXd excess = bootstrap.blocks(1).array() - 1;
+  EXPECT_NEAR((excess.leftCols(20) * excess.rightCols(20)).mean(), 0, 0.03);
+  EXPECT_NEAR(excess.square().mean(), 1 - 1. / 20, 0.05);  // binomial
+}
+
+// As AnIntervalOfWindowsByHand, but of two runs: 40 effective windows in blocks of 4 are 10 blocks, two
+// means have been fitted, 8 degrees of freedom are left; rho = 1/2, hence 11/16 at the cuts.
+TEST(BootstrapByHand, EveryRunCostsTheWindowsOneDegreeOfFreedom)
+{
+  Eigen::VectorXd samples(100);  // of variance 100/99
+  for (Eigen::Index k = 0; k < 100; ++k) samples[k] = k % 2 == 0 ? 1 : -1;
+  const auto interval = Bootstrap({20, 20}, 100, 1).over_windows(5, samples, {3, 4, 40, 2});
+  const double expected = 2.306004 * std::sqrt(100. / 99 * 10 / 8 * 16 / 11);
+  EXPECT_NEAR(interval.high - 5, expected, 1e-5);
+  EXPECT_NEAR(5 - interval.low, expected, 1e-5);
+}
+
+// 12 windows worth 12/5, less one fitted mean: 1.4 degrees; variance 12 x 5 x 2.4/1.4.
+TEST(StandardErrorByHand, IsThatOfIndependentWindowsTimesTheRootOfTheTime)
+{
+  const auto error = standard_error(in_threes(), 1);
+  EXPECT_NEAR(error.degrees, 1.4, 1e-12);
+  EXPECT_NEAR(error.error, std::sqrt(12 * 5 * 2.4 / 1.4), 1e-12);
+}
+
+// Differences of neighbours 2, 2, 2; half of their squares 6; 4/3 of it, and 2/3 x 3 degrees, for which
+// Student's quantile is 4.302653.
+TEST(StandardErrorByHand, AboutATrendIsFromHalfTheSquaredDifferencesOfNeighbours)
+{
+  const auto error = error_about_trend(Eigen::Vector4d(1, -1, 1, -1));
+  EXPECT_NEAR(error.degrees, 2, 1e-12);
+  EXPECT_NEAR(error.error, std::sqrt(8.), 1e-12);
+  const auto around = error.around(5);
+  EXPECT_NEAR(around.high - 5, 4.302653 * std::sqrt(8.), 1e-5);
+  EXPECT_NEAR(5 - around.low, 4.302653 * std::sqrt(8.), 1e-5);
+}
+
+// Eleven points on an exponential, and off it by what no change of its three parameters can
+// imitate: the scatter is the root of the squares over 11 - 3.
+TEST(ExponentialApproachByHand, ItsScatterCountsThreeFittedNumbers)
+{
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(11, 0, 3);
+  const Eigen::ArrayXd decay = (-x.array()).exp();
+  Eigen::MatrixX3d tangents(11, 3);
+  tangents.col(0) = decay;
+  tangents.col(1) = 1 - decay;
+  tangents.col(2) = x.array() * decay;
+  Eigen::VectorXd off(11);
+  for (Eigen::Index k = 0; k < 11; ++k) off[k] = k % 2 == 0 ? 1e-4 : -1e-4;
+  off -= tangents * (tangents.transpose() * tangents).ldlt().solve(tangents.transpose() * off);
+  const auto fit = fit_approach(x, 1 - decay.matrix().array() + off.array());
+  ASSERT_EQ(fit.trouble, "");
+  EXPECT_NEAR(fit.scatter / std::sqrt(off.squaredNorm() / 8), 1, 1e-3);
+}
+
+}  // namespace
+}  // namespace grseg

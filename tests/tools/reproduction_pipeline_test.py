@@ -1,0 +1,456 @@
+#!/usr/bin/python3
+"""numbers, fits, flows and choices as whole programs, on runs whose results are known in advance.
+
+Usage: reproduction_pipeline_test.py SCRIPTS
+
+grseg-fit and grseg-micro are stood in for by a script that prints what the test put down for its arguments, so
+that what is asked of them, and what is made of their answers, is tested and not they.
+"""
+import importlib.machinery
+import importlib.util
+import json
+import math
+import os
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+scripts = sys.argv.pop(1)
+sys.path.insert(0, os.path.join(scripts, "reproduce"))
+import measured  # noqa: E402
+import profiles  # noqa: E402
+import statements  # noqa: E402
+import tables  # noqa: E402
+import targets  # noqa: E402
+import verdicts  # noqa: E402
+
+
+def program(name):
+    """A script without .py as a module, not run."""
+    loader = importlib.machinery.SourceFileLoader(name, os.path.join(scripts, "reproduce", name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+numbers = program("numbers")
+NAN = math.nan
+D, G, SLOPE, RHO = 0.005, 9.8, math.radians(23), 1.0
+UNIT = RHO * G * D  # of stress, N/m
+
+# Prints the first answer in answers.json all of whose words are among the arguments, and logs the arguments.
+STAND_IN = """#!/usr/bin/python3
+import json, os, sys
+here = os.path.dirname(os.path.abspath(__file__))
+words = [os.path.basename(sys.argv[0])] + sys.argv[1:]
+with open(os.path.join(here, "asked"), "a") as asked:
+    asked.write(json.dumps(words) + "\\n")
+for wanted, table in json.load(open(os.path.join(here, "answers.json"))):
+    if all(any(each == word or each.endswith(word) for each in words) for word in wanted):
+        sys.stdout.write(table)
+        break
+else:
+    sys.exit("no answer to " + " ".join(words))
+"""
+
+
+def text_of(rows, head=()):
+    names = list(rows[0])
+    cell = lambda value: value if isinstance(value, str) else f"{value:.17g}"
+    lines = [f"# {key}: {value}" for key, value in head] + ["\t".join(names)]
+    return "\n".join(lines + ["\t".join(cell(row[name]) for name in names) for row in rows]) + "\n"
+
+
+HEAD = (("small_diameter", D), ("large_diameter", 2 * D), ("gravity_x", G * math.sin(SLOPE)),
+        ("gravity_y", -G * math.cos(SLOPE)), ("length", 70 * D), ("step", 2.5e-4), ("window", 1))
+
+
+class Campaign:
+    """A folder of finished runs, and one of programs that know their answers."""
+
+    def __init__(self, folder):
+        self.tables, self.bin = os.path.join(folder, "tables"), os.path.join(folder, "bin")
+        os.makedirs(self.tables)
+        os.makedirs(self.bin)
+        self.folder, self.answers = folder, []
+        for name in ("grseg-fit", "grseg-micro"):
+            path = os.path.join(self.bin, name)
+            with open(path, "w") as program:
+                program.write(STAND_IN)
+            os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
+
+    def run(self, name, **quantities):
+        """A finished run with these tables, each a list of rows."""
+        folder = os.path.join(self.tables, name)
+        os.makedirs(folder)
+        for quantity, rows in {**quantities, "checksums": None}.items():
+            path = os.path.join(folder, quantity if rows is None else quantity.replace("_", "-") + ".tsv")
+            with open(path, "w") as table:
+                table.write("" if rows is None else text_of(rows, HEAD))
+
+    def answer(self, *words, rows, head=()):
+        self.answers.append([list(words), text_of(rows, head)])
+
+    def made_by(self, script, *words):
+        """Rows of the table that the script makes."""
+        with open(os.path.join(self.bin, "answers.json"), "w") as file:
+            json.dump(self.answers, file)
+        made = os.path.join(self.folder, "made.tsv")
+        done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", script), self.tables,
+                               *words, "-o", made, "--bin", self.bin], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+        return tables.read(made)[1]
+
+    def asked(self):
+        with open(os.path.join(self.bin, "asked")) as file:
+            return [json.loads(line) for line in file]
+
+
+def layer(n, t=0, small=0.5, large=0.5, frames=1, **sums):
+    """A row of layer n, 4 d_S high, of a cell of 70 d_S, filled to 0.8 by both species in these proportions."""
+    height, volume = 4 * D, 70 * D * 4 * D
+    row = {"t0": t, "t1": t + 1, "y0": n * height, "y1": (n + 1) * height, "frames": frames, "V": volume,
+           "area_S": 0.8 * volume * small, "area_L": 0.8 * volume * large}
+    for part in profiles.CONTACTS:
+        row.update({f"{part}_{c}": sums.get(f"{part}_{c}", 0.0) for c in ("xx", "yy")})
+    return row
+
+
+def moving(n, t=0, energy=0.0, bias=0.0):
+    """Of the kinetic table: energy to each species in xx and yy, and what the layer's mean adds to xx."""
+    row = {"t0": t, "t1": t + 1, "y0": n * 4 * D, "y1": (n + 1) * 4 * D, "frames": 1}
+    for s in "SL":
+        row.update({f"K_{s}_xx": energy / 2, f"K_{s}_yy": energy / 2, f"layer_bias_{s}_xx": bias, f"layer_bias_{s}_yy": 0})
+    return row
+
+
+class Pipeline(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.campaign = Campaign(self.temporary.name)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+
+class Numbers(Pipeline):
+    """The measurements of scripts/reproduce/numbers one by one, on a run and on answers known by heart."""
+
+    def part(self, **quantities):
+        self.campaign.run("phi0.30-s23-seed1", **quantities)
+        return numbers.Part(tables.runs_in(self.campaign.tables))
+
+    def with_answers(self, answer, measure, part):
+        """`answer(words)` gives the rows that a program prints."""
+        told, numbers.tables.program = numbers.tables.program, \
+            lambda options, name, *words, columns=None: ({}, answer([name, *map(str, words)]))
+        try:
+            return measure(None, part)
+        finally:
+            numbers.tables.program = told
+
+    def bed(self, layers=15, prefactor=0.5, decay=7.5):
+        """A bed at rest whose mixed contacts carry the weight above, and that is hot as
+        prefactor exp(-y/(decay d_L)) rho g d_S, per bulk volume."""
+        stress, kinetic = [], []
+        for n in range(layers):
+            y = (n + 0.5) * 4 * D
+            volume = layer(n)["V"]
+            above = 0.8 * G * math.cos(SLOPE) * (layers * 4 * D - y)
+            hot = prefactor * math.exp(-y / (decay * 2 * D)) * UNIT
+            stress.append(layer(n, M_xx=above * volume, M_yy=(above - hot) * volume))
+            kinetic.append(moving(n, energy=hot * volume, bias=0.25 * hot * volume))
+        return numbers.pressures(None, self.part(stress=stress, kinetic=kinetic))
+
+    def test_kinetic_pressure_that_falls_exponentially_has_its_prefactor_at_the_base_and_its_length_in_large_diameters(self):
+        found = self.bed()
+        self.assertAlmostEqual(found["K_prefactor"], 0.5, 9)
+        self.assertAlmostEqual(found["K_decay"], 7.5, 9)
+        self.assertAlmostEqual(found["K_solid_prefactor"], 0.5 / 0.8, 9)
+        # 4 to 56 d_S: the lowest of the layers 4 d_S high lies around 6 d_S.
+        self.assertAlmostEqual(found["K_lowest"], 0.5 * math.exp(-6 / 15), 9)
+        # About the layer's mean two biases of a quarter are added to xx, half of which is pressure.
+        self.assertAlmostEqual(found["shear_share"], 0.25, 9)
+
+    def test_mixed_contacts_alone_may_carry_the_whole_bed(self):
+        self.assertAlmostEqual(self.bed()["weight"], 1, 9)
+
+    def test_b_of_the_micro_structure_weighs_by_frames_and_grains_of_the_rarer_species_within_a_hundred_to_one(self):
+        # ln s is -0.1 with weight 2 x 30 and -0.4 with 1 x 20; a layer of nearly pure small grains is left out.
+        frames, weights, phis = (2, 1, 5), (30, 20, 1), (0.5, 0.3, 0.001)
+        slopes = (math.exp(-0.1), math.exp(-0.4), 5.0)
+        part = self.part(micro=[{"t0": 0.0, "y0": float(k), "grains_S": w, "grains_L": w + 7} for k, w in enumerate(weights)])
+        rows = [{"t0": 0.0, "y0": float(k), "frames": frames[k], "phi_L": phis[k], "s_Pi": slopes[k]} for k in range(3)]
+        s = math.exp((60 * -0.1 + 20 * -0.4) / 80)
+        found = self.with_answers(lambda _: rows, lambda options, part: numbers.b_of_structure(options, part.runs, []), part)
+        self.assertAlmostEqual(found, 2 * (1 - s) / (1 + s), 9)
+
+    def test_errors_of_pi_are_sizes_and_the_mixed_share_lies_above_neutral_contacts_where_it_is_larger(self):
+        bins = [{"phi_L": 0.6, "mixed_share": 0.49, "neutral_share": 0.50, "error": -0.02, "error_S": 0.05,
+                 "error_L": -0.01, "error_printed": 0.96, "error_S_printed": 1.1, "error_L_printed": 0.98},
+                {"phi_L": 0.1, "mixed_share": 0.13, "neutral_share": 0.10, "error": 0.04, "error_S": 0.07,
+                 "error_L": 0.01, "error_printed": 1.08, "error_S_printed": 1.14, "error_L_printed": 1.02}]
+        layers = [{"t0": 0.0, "y0": 0.0, "frames": 1, "phi_L": 0.5, "s_Pi": 1.0}]
+        part = self.part(micro=[{"t0": 0.0, "y0": 0.0, "grains_S": 1, "grains_L": 1}])
+        answer = lambda words: bins if "composition" in words else layers
+        found = self.with_answers(answer, numbers.estimates, part)
+        self.assertAlmostEqual(found["contacts_error_mean"], 3)
+        self.assertAlmostEqual(found["contacts_error_most"], 4)
+        self.assertAlmostEqual(found["contacts_error_S_signed"], 6)
+        self.assertAlmostEqual(found["contacts_error_printed_most"], 108)
+        found = self.with_answers(answer, numbers.mixed_share, part)
+        self.assertAlmostEqual(found["mixed_off_least"], -0.01)
+        self.assertAlmostEqual(found["mixed_off_most"], 0.03)
+        self.assertEqual((found["mixed_most"], found["mixed_most_at"]), (0.49, 0.6))
+
+    def test_the_end_of_figure_6_is_the_mean_of_its_last_twelve_and_a_half_seconds(self):
+        rows = []
+        for k in range(20):  # windows of 2.5 s: five of them are the end
+            late = k >= 15
+            rows.append({"t0": 2.5 * k, "t1": 2.5 * (k + 1), "y0": NAN, "yL/H": 0.02 * k, "z_S": 2.0,
+                         "z_L": 2.0 + (0.5 + 0.1 * (k - 17) if late else 1.0 if k == 4 else 0), "f_S": 1.0,
+                         "f_L": 3.0 if late else 2.0, "f_depth_S": 1.0, "f_depth_L": 4.0,
+                         "f_weight_neutral_S": 1.0, "f_weight_neutral_L": 2.5})
+        found = self.with_answers(lambda _: rows, numbers.over_time, self.part(micro=[{"t0": 0}]))
+        self.assertAlmostEqual(found["yL_last"], 0.02 * 17)
+        self.assertAlmostEqual(found["z_last"], 1.25)
+        self.assertEqual((found["z_most"], found["z_most_at"], found["f_below_neutral"]), (1.5, 10, 15))
+
+    def test_a_push_in_the_direction_of_the_weight_is_negative_and_outside_of_the_middle_none_counts(self):
+        rows = [{"t0": 0, "t1": 1, "y0": n * 4 * D, "y1": (n + 1) * 4 * D, "gravity_L_y": -2.0, "push": push,
+                 "push_kinetic": -0.01, "drag": 0.0} for n, push in ((0, 9.0), (1, 0.05), (2, 0.03), (14, 9.0))]
+        found = numbers.pushes(None, self.part(balance=rows))
+        self.assertAlmostEqual(found["push"], 1000 * 0.08 / 4)
+        self.assertAlmostEqual(found["push_kinetic"], -1000 * 0.02 / 4)
+
+    def test_large_grains_have_gone_the_whole_way_where_they_fill_the_upper_part_of_the_bed(self):
+        # 30 % of large grains: their centre lies at 0.15 of the height below, at 0.85 above the small ones.
+        def way(height):
+            micro = [{"t1": 1.0, "y0": 0.0, "area_S": 0.7, "area_L": 0.0, "grains_L": 0},
+                     {"t1": 1.0, "y0": 1.0, "area_S": 0.0, "area_L": 0.3, "grains_L": 9}]
+            with tempfile.TemporaryDirectory() as folder:
+                self.campaign = Campaign(folder)
+                return self.with_answers(lambda _: [{"t1": 1.0, "y0": NAN, "yL/H": height}], numbers.separation,
+                                         self.part(micro=micro))["way"]
+        self.assertAlmostEqual(way(0.15), 0)
+        self.assertAlmostEqual(way(0.85), 1)
+
+    def test_differences_are_early_minus_late_pressure_minus_yy_and_kinetic_over_contact(self):
+        b = {"early": 0.05, "late": 0.03, "pressure": 0.045, "kinetic": -0.4, "all": 0.04}
+
+        def answer(words):
+            which = "early" if "--end" in words else "late" if "--begin" in words else \
+                "pressure" if "pressure" in words else "kinetic" if "kinetic" in words else "all"
+            self.assertEqual([words[words.index(name) + 1] for name in ("--end", "--begin") if name in words],
+                             {"early": ["60"], "late": ["100"]}.get(which, []))
+            return [{"B_half": b[which]}]
+
+        found = self.with_answers(answer, numbers.differences, self.part())
+        self.assertAlmostEqual(found["early_less_late"], 0.02)
+        self.assertAlmostEqual(found["pressure_less_yy"], 0.005)
+        self.assertAlmostEqual(found["B_kappa/B"], 10)
+
+    def test_the_interval_of_a_number_is_students_t_times_its_standard_error_over_seeds(self):
+        answers = iter([{"n": 1.0}, {"n": 2.0}, {"n": 3.0}])
+        [line] = numbers.collected(None, "mixtures", [numbers.Part([]) for _ in range(3)], lambda *_: next(answers))
+        self.assertAlmostEqual(line["error"], math.sqrt(1 / 3), 3)
+        self.assertAlmostEqual(line["high"] - line["value"], 4.3026527 * math.sqrt(1 / 3), 3)
+
+
+class Fits(Pipeline):
+    def test_each_set_has_its_runs_and_each_stage_its_times(self):
+        for name in ("phi0.30-s23-seed1", "phi0.30-s23-seed2", "phi0.45-s23-seed1", "phi0.45-s21-seed1",
+                     "phi0.45-s23-e0.5-seed1", "phi0.45-s23-ratio1-seed1"):
+            self.campaign.run(name)
+        self.campaign.answer("grseg-fit", rows=[{"rule": "size", "slope": 0.9, "slope_low": 0.8, "slope_high": 1.0}])
+        rows = self.campaign.made_by("fits")
+        seeds = {row["set"]: row["seeds"] for row in rows}
+        self.assertEqual(seeds, {"mixtures": 3, "slopes": 2, "control": 1, "phi0.30-s23": 2, "phi0.45-s23": 1,
+                                 "phi0.45-s21": 1})
+        self.assertEqual({row["s"] for row in rows}, {0.9})
+        asked = self.campaign.asked()
+        runs = lambda words: sorted(os.path.basename(os.path.dirname(word)) for word in words if word.endswith(".tsv"))
+        slopes = [words for words in asked if runs(words) == ["phi0.45-s21-seed1", "phi0.45-s23-seed1"]]
+        self.assertTrue(slopes)
+        early = [words for words in slopes if "--end" in words]
+        late = [words for words in slopes if "--begin" in words]
+        self.assertTrue(early and late)
+        for words in early:
+            self.assertEqual(words[words.index("--end") + 1], "60")
+            self.assertNotIn("--begin", words)
+        for words in late:
+            self.assertEqual(words[words.index("--begin") + 1], "100")
+            self.assertNotIn("--end", words)
+        control = [words for words in asked if runs(words) == ["phi0.45-s23-ratio1-seed1"]]
+        self.assertTrue(control and all(words[1].endswith("stress-random.tsv") for words in control))
+        # Without the lowest layer and the surface, except where all heights are asked for.
+        self.assertEqual({words[words.index("--heights") + 1] for words in asked if "--heights" in words}, {"4dS:56dS"})
+
+
+class Flows(Pipeline):
+    def flow(self, fits):
+        rows = [{"t0": t, "t1": t + 5.0, "y0": NAN, "frames": frames, "height": 60 * D, "yL": 15 * D, "shear_rate": rate,
+                 "strain": 100.0} for t, frames, rate in ((0.0, 1, 900.0), (5.0, 1, 500.0), (10.0, 1, 10.0), (15.0, 3, 30.0))]
+        record = [{"name": "program", "value": "grseg"}, {"name": "grains_small", "value": "4"},
+                  {"name": "grains_large", "value": "2"}]
+        summary = [{"quantity": "t50[s]", "value": 7.0}, {"quantity": "tau[s]", "value": 9.0}]
+        contacts = [layer(n, small=0.5, large=0.5) for n in range(15)]
+        self.campaign.run("phi0.45-s23-seed1", segregation=rows, record=record, segregation_summary=summary,
+                          stress=contacts)
+        self.campaign.answer("--pool", "windows", rows=[{"z_S": 1.0, "z_L": 1.0, "f_weight_S": 1.0, "f_weight_L": 1.0},
+                                                        {"z_S": 2.0, "z_L": 3.0, "f_weight_S": 5.0, "f_weight_L": 7.0}])
+        self.campaign.answer("--scan", rows=[{"p": 0.6, "B": 0.0}], head=(("p_zero", 0.65),))
+        path = os.path.join(self.temporary.name, "fits.tsv")
+        with open(path, "w") as table:
+            table.write(text_of(fits))
+        return self.campaign.made_by("flows", path)[0]
+
+    def fit(self, value, heights="inside", stage="all", component="yy", quantity="contact", rule="size"):
+        return {"set": "phi0.45-s23", "quantity": quantity, "stage": stage, "component": component, "heights": heights,
+                "rule": rule, "B_half": value, "B_half_low": value - 1, "B_half_high": value + 2}
+
+    def test_the_mean_shear_rate_leaves_out_the_spin_up_and_is_in_units_of_the_root_of_g_over_d(self):
+        row = self.flow([self.fit(1.0)])
+        self.assertAlmostEqual(row["rate"], (10 + 3 * 30) / 4 * math.sqrt(D / G), 7)
+        self.assertAlmostEqual(row["H0"], 60, 7)
+        self.assertAlmostEqual(row["yL0"], 0.25, 7)
+        self.assertEqual((row["zf_S"], row["zf_L"]), (10, 21))
+
+    def test_a_flow_weighs_in_a_fit_by_frames_times_the_grains_of_its_rarer_species_inside(self):
+        # 13 of 15 layers of 4 d_S x 70 d_S, 0.4 of each filled by large grains of area pi d_S^2.
+        self.assertAlmostEqual(self.flow([self.fit(1.0)])["weight"], 13 * 0.4 * 280 / math.pi, 4)
+
+    def test_b_of_a_flow_is_that_by_size_of_yy_inside_whatever_else_was_fitted(self):
+        row = self.flow([self.fit(1.0, heights="all"), self.fit(2.0, component="pressure"), self.fit(3.0, rule="half"),
+                         self.fit(4.0, stage="early"), self.fit(5.0), self.fit(6.0, quantity="kinetic", rule="kinetic")])
+        self.assertEqual([row[name] for name in ("B", "B_low", "B_high", "B60", "K")], [5, 4, 7, 4, 6])
+
+
+class Choices(Pipeline):
+    def test_a_choice_is_compared_with_the_same_times_of_its_own_flow(self):
+        for name in ("phi0.45-s23-seed1", "phi0.45-s23-e0.5-seed1"):
+            self.campaign.run(name, stress=[layer(0)], kinetic=[moving(0)], stress_branch=[layer(0)])
+        at = lambda b: [{"B_half": b, "B_half_windows_low": b - 1, "B_half_windows_high": b + 1}] * 2
+        self.campaign.answer("e0.5-seed1/stress.tsv", rows=at(0.5))
+        self.campaign.answer("e0.5-seed1/kinetic.tsv", rows=at(-0.5))
+        self.campaign.answer("stress-branch.tsv", rows=at(0.35))
+        self.campaign.answer("stress.tsv", "--end", rows=at(0.1))
+        self.campaign.answer("stress.tsv", rows=at(0.3))
+        self.campaign.answer("kinetic.tsv", "--end", rows=at(-0.1))
+        self.campaign.answer("kinetic.tsv", rows=at(-0.3))
+        rows = {row["choice"]: row for row in self.campaign.made_by("choices")}
+        # Another simulation with the first 60 s of the flow, another booking of the same frames with all of them.
+        self.assertAlmostEqual(rows["restitution 0.5 instead of 0.25"]["less"], 0.4)
+        self.assertAlmostEqual(rows["restitution 0.5 instead of 0.25"]["K_less"], -0.4)
+        self.assertAlmostEqual(rows["contacts booked along the branch"]["less"], 0.05)
+        self.assertEqual(rows["all times"]["less"], 0)
+
+
+class Statistics(unittest.TestCase):
+    def test_the_listed_quantiles_are_those_of_students_distribution(self):
+        for freedom, t in tables.STUDENT.items():
+            if freedom > 1000:
+                continue
+            # The density of t, integrated by Simpson's rule, from 0 to the quantile: 0.475.
+            log = math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2) - math.log(freedom * math.pi) / 2
+            density = lambda x: math.exp(log - (freedom + 1) / 2 * math.log1p(x * x / freedom))
+            n = 2000
+            h = t / n
+            area = h / 3 * (density(0) + density(t) + sum((4 if k % 2 else 2) * density(k * h) for k in range(1, n)))
+            self.assertAlmostEqual(area, 0.475, 4, f"{freedom} degrees of freedom")
+        self.assertEqual(tables.student(12), tables.STUDENT[10])  # the wider of the two neighbours
+
+    def test_the_error_of_a_ratio_with_equal_denominators_is_that_of_a_mean(self):
+        value, error = profiles.ratio([1.0, 2.0, 3.0, 6.0], lambda x: 5 * x, lambda _: 5.0)
+        self.assertAlmostEqual(value, 3)
+        self.assertAlmostEqual(error, math.sqrt((4 + 1 + 0 + 9) / 3 / 4))
+
+    def test_the_level_of_a_line_at_0_is_less_certain_the_farther_off_the_points_are(self):
+        x, off = [9.0, 10.0, 11.0], [0.1, -0.2, 0.1]
+        _, level = measured.line_fit(x, off)
+        # Variance of a residual 0.06 over one degree of freedom; at x = 0, 10 from the mean: 1/3 + 100/2 of it.
+        self.assertAlmostEqual(level.high - level.value, 12.706 * math.sqrt(0.06 * (1 / 3 + 50)), 9)
+
+    def test_the_negative_of_an_interval_is_turned_round(self):
+        value = -measured.Value(-0.3, -0.4, -0.1)
+        self.assertEqual((value.value, value.low, value.high), (0.3, 0.1, 0.4))
+
+    def test_the_last_third_of_150_seconds_begins_at_100(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "stress.tsv")
+            with open(path, "w") as table:
+                table.write(text_of([{"t1": 75.0}, {"t1": 150.0}]))
+            self.assertAlmostEqual(profiles.last_third(path), 100)
+
+
+class Verdicts(unittest.TestCase):
+    def test_b_is_positive_only_where_that_of_every_mixture_is_however_sure_all_together_are(self):
+        value = measured.Value
+
+        class Mixtures:
+            of = {"phi0.06-s23": value(0.03, -0.01, 0.07), "phi0.45-s23": value(0.04, 0.03, 0.05),
+                  "mixtures": value(0.04, 0.035, 0.045)}
+
+            def mixtures(self):
+                return [{"flow": flow, "B": self.of[flow].value} for flow in self.of if flow != "mixtures"]
+
+            def fit(self, which, *_, **__):
+                return self.of[which]
+
+            def range_over_mixtures(self, _):
+                return ""
+
+            def of_scan(self, _):
+                return value(0.65)
+
+        m = Mixtures()
+        self.assertEqual(targets.sign_of_b(m).verdict(), verdicts.UNDECIDED)
+        m.of["phi0.06-s23"] = value(0.03, 0.01, 0.05)
+        self.assertEqual(targets.sign_of_b(m).verdict(), verdicts.AGREES)
+        m.of["phi0.06-s23"] = value(-0.03, -0.05, -0.01)
+        self.assertEqual(targets.sign_of_b(m).verdict(), verdicts.DIFFERS)
+
+    def test_a_number_rounded_to_hundredths_is_as_uncertain_as_one_drawn_evenly_between_its_neighbours(self):
+        # Variance of an even distribution of width w: w^2/12.
+        self.assertAlmostEqual(statements.number("0.98", 0.98, 0.1, "", unit=0.01).error, 0.01 / math.sqrt(12), 12)
+
+    def test_the_difference_is_in_standard_errors_of_both(self):
+        statement = statements.number("1 ± 0.3", 1.0, 0.5, "", error=0.3)
+        self.assertAlmostEqual(verdicts.difference(measured.Value(2.0, 1.0, 3.0, 0.4), statement), 2)
+
+    def test_the_standard_error_of_four_seeds_is_half_of_their_interval_over_students_t_for_three_degrees(self):
+        self.assertAlmostEqual(measured.of_runs(1.0, 0.0, 2.0, 4).error, 1 / 3.1824463, 4)
+
+
+class Tables(unittest.TestCase):
+    def measured(self, fits, flows):
+        with tempfile.TemporaryDirectory() as folder:
+            numbers = [{"of": "mixtures", "name": "n", "value": 1.0, "low": 0.5, "high": 2.0, "error": 0.1, "runs": 4}]
+            for name, rows in (("fits", fits), ("flows", flows), ("numbers", numbers), ("scan", [{"p": 0.5}]),
+                               ("choices", [{"choice": "all times"}])):
+                with open(os.path.join(folder, name + ".tsv"), "w") as table:
+                    table.write(text_of(rows))
+            return measured.Measured(folder)
+
+    def test_a_mean_over_seeds_reaches_its_half_width_to_either_side(self):
+        m = self.measured([{"set": "none"}], [{"flow": "phi0.30-s23", "rate": 0.5, "hw_rate": 0.125, "seeds": 4}])
+        value = m.of_flow("phi0.30-s23", "rate")
+        self.assertEqual((value.value, value.low, value.high), (0.5, 0.375, 0.625))
+
+    def test_a_fit_is_that_of_all_times_by_size_of_yy_inside_unless_said_otherwise(self):
+        usual = {"set": "mixtures", "rule": "size", "component": "yy", "heights": "inside", "stage": "all",
+                 "quantity": "contact", "seeds": 4}
+        others = ({"stage": "early"}, {"stage": "late"}, {"heights": "all"}, {"component": "pressure"}, {"rule": "half"},
+                  {"rule": "kinetic", "quantity": "kinetic"}, {})
+        fits = [{**usual, **other, "B_half": float(k), "B_half_low": k - 0.5, "B_half_high": k + 0.5}
+                for k, other in enumerate(others)]
+        m = self.measured(fits, [{"flow": "none"}])
+        self.assertEqual(m.fit("mixtures").value, 6)
+        self.assertEqual(m.fit("mixtures", stage="late").value, 1)
+        self.assertEqual(m.fit("mixtures", quantity="kinetic").value, 5)
+
+
+unittest.main()
