@@ -319,6 +319,10 @@ class Flows(Pipeline):
         self.assertAlmostEqual(row["yL0"], 0.25, 7)
         self.assertEqual((row["zf_S"], row["zf_L"]), (10, 21))
 
+    def test_a_flow_weighs_in_a_fit_by_frames_times_the_grains_of_its_rarer_species_inside(self):
+        # 13 of 15 layers of 4 d_S x 70 d_S, 0.4 of each filled by large grains of area pi d_S^2.
+        self.assertAlmostEqual(self.flow([self.fit(1.0)])["weight"], 13 * 0.4 * 280 / math.pi, 4)
+
     def test_b_of_a_flow_is_that_by_size_of_yy_inside_whatever_else_was_fitted(self):
         row = self.flow([self.fit(1.0, heights="all"), self.fit(2.0, component="pressure"), self.fit(3.0, rule="half"),
                          self.fit(4.0, stage="early"), self.fit(5.0), self.fit(6.0, quantity="kinetic", rule="kinetic")])
