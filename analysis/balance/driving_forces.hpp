@@ -63,8 +63,10 @@ template <int D>
 RuleForces rule_forces(const DrivingForces& forces, const PartitionedBalance<D>& contacts,
                        std::size_t layer, std::size_t rule);
 
-/// The contact push on the large grains where they get the share p of every mixed contact is linear
-/// in p: `none` at p = 0, `all` at p = 1; N/m^2 or N/m^3.
+/// The contact push on the large grains where they get the share p of the stress that every mixed
+/// contact has in the layer: linear in p, push = (all - none) (p - p*), from `none` at p = 0 to `all`
+/// at p = 1; N/m^2 or N/m^3. RuleForces give each grain the stress along its own stretch of the
+/// branch, which is the same at 0 and 1 and hardly another in between.
 struct PushOverShare {
   double none = 0, all = 0;
 

@@ -41,6 +41,15 @@ MeanOfWindows zero_of(const std::vector<PushOverShare>& windows)
   return {zero, mean_of(left).error};
 }
 
+/// d(push)/dp (PushOverShare).
+std::vector<double> slopes_of(const std::vector<PushOverShare>& windows)
+{
+  std::vector<double> slopes;
+  slopes.reserve(windows.size());
+  for (const auto& [none, all] : windows) slopes.push_back(all - none);
+  return slopes;
+}
+
 /// In 1/1000, "21.9 +- 1.9".
 std::string thousandths(const std::vector<double>& values)
 {
@@ -153,9 +162,10 @@ std::string PartitionSummary<D>::text() const
   return text +
          fmt::format(
              "under every rule: N = -div sigma + beta + base = {} (1000, minus the weight, where the "
-             "flow is steady), kinetic push {}; the contact push is 0 at the share p* = {:.3f} +- "
-             "{:.3f}; {}",
-             thousandths(contact_force_), thousandths(push_kinetic_), p.mean, p.error, agreement);
+             "flow is steady), kinetic push {}; where large grains get the share p of every "
+             "mixed contact, the contact push is ({}) (p - p*), p* = {:.3f} +- {:.3f}; {}",
+             thousandths(contact_force_), thousandths(push_kinetic_),
+             thousandths(slopes_of(over_share_)), p.mean, p.error, agreement);
 }
 
 template <int D>
@@ -169,6 +179,7 @@ std::string PartitionSummary<D>::to_json() const
   if (push_kinetic_.empty()) return all.dump();
   all["N"] = json_of(mean_of(contact_force_));
   all["push_kinetic"] = json_of(mean_of(push_kinetic_));
+  all["dpush_dp"] = json_of(mean_of(slopes_of(over_share_)));
   all["p_zero"] = json_of(zero_of(over_share_));
   all["rules"] = Json::array();
   for (std::size_t rule = 0; rule < rules_.size(); ++rule) {

@@ -59,6 +59,7 @@ typename SegregationFlux<D>::Sums& SegregationFlux<D>::Sums::operator+=(const Su
 {
   accumulate(content, others.content);
   accumulate(mass, others.mass);
+  accumulate(mvv, others.mvv);
   excess += others.excess;
   flow += others.flow;
   accumulate(squares, others.squares);
@@ -83,7 +84,7 @@ void SegregationFlux<D>::add(const Grains& grains, const Frame<D>& frame)
   const double passed = (frame.time - begin_) / length_ * static_cast<double>(parts);
   const auto part = static_cast<std::size_t>(std::clamp(passed, 0.0, parts - 1.0));
   Profile now(layers_.count(grains, frame));
-  std::vector<double> large_momentum(now.size());
+  Instant instant{frame.time, std::vector<std::array<double, 2>>(now.size())};
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
     const auto species = static_cast<std::size_t>(grains.species[g]);
@@ -92,12 +93,16 @@ void SegregationFlux<D>::add(const Grains& grains, const Frame<D>& frame)
     now[layer].content[species] += grain_volume<D>(radius);
     now[layer].mass[species] += mass;
     now[layer].flow.add(mass, y - layers_.bottom(layer), frame.velocity[g]);
-    if (grains.species[g] == Species::large) large_momentum[layer] += mass * frame.velocity[g].y();
+    const double v = frame.velocity[g].y();
+    now[layer].mvv[species] += mass * v * v;
+    instant.momentum[layer][species] += mass * v;
   }
   for (std::size_t n = 0; n < now.size(); ++n)
     if (now[n].mass[0] > 0 && now[n].mass[1] > 0)
-      now[n].excess = large_momentum[n] - now[n].mass[1] * now[n].flow.mv / now[n].flow.mass;
+      now[n].excess = instant.momentum[n][1] - now[n].mass[1] * now[n].flow.mv / now[n].flow.mass;
   accumulate(profile_[part], now);
+  if (first_.momentum.empty() || frame.time < first_.time) first_ = instant;
+  if (last_.momentum.empty() || frame.time > last_.time) last_ = instant;
 
   auto& [time, heights] = snapshot_[part];
   if (!heights.empty() && time <= frame.time) return;
@@ -115,6 +120,9 @@ void SegregationFlux<D>::merge(const SegregationFlux& others)
     const auto &own = snapshot_[part], &other = others.snapshot_[part];
     if (!other.y.empty() && (own.y.empty() || other.time < own.time)) snapshot_[part] = other;
   }
+  if (others.first_.momentum.empty()) return;
+  if (first_.momentum.empty() || others.first_.time < first_.time) first_ = others.first_;
+  if (last_.momentum.empty() || others.last_.time > last_.time) last_ = others.last_;
 }
 
 template <int D>
@@ -227,9 +235,13 @@ std::vector<SegregationResult> SegregationFlux<D>::results(const Grains& grains,
     for (const auto& others : left_out) values.push_back(evaluate(others, n, bed));
     const auto frames = static_cast<double>(frames_);
     const auto& sums = all[n];
+    std::array<LayerMomentum, 2> momentum;
+    for (std::size_t k = 0; k < 2; ++k)
+      momentum[k] = {sums.mass[k] / frames, sums.mvv[k] / frames,
+                     (last_.at(n, k) - first_.at(n, k)) / (last_.time - first_.time)};
     results.push_back({sums.content[0] / frames, sums.content[1] / frames, sums.flow.mass / frames,
                        sums.flow.mean(layers_.thickness()), sums.number[0], evaluate(all, n, bed),
-                       jackknife(values)});
+                       jackknife(values), momentum});
   }
   return results;
 }
@@ -248,6 +260,11 @@ std::vector<Cell> SegregationResult::cells(int dimension) const
     cells.push_back({fmt::format("{}{}", name, unit), value.*place});
     cells.push_back({fmt::format("{}_error{}", name, unit), error.*place});
   }
+  for (const auto& [name, place] : {std::pair{"mass_{}[kg]", &LayerMomentum::mass},
+                                    {"mvv_{}_yy[J]", &LayerMomentum::flux},
+                                    {"gain_{}_y[N]", &LayerMomentum::gain}})
+    for (std::size_t k = 0; k < 2; ++k)
+      cells.push_back({fmt::format(fmt::runtime(name), k == 0 ? "S" : "L"), momentum[k].*place});
   return cells;
 }
 

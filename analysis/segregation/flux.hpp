@@ -31,14 +31,24 @@ struct LayerSegregation {
   double peclet;  // S H/D, H the height of the bed
 };
 
+/// Sums over the grains of one species with their centre in the layer, means over the frames of a
+/// window: what the closure of grseg-segregation --closure needs beside the fluxes.
+struct LayerMomentum {
+  double mass = 0;  // kg
+  double flux = 0;  // J, m v_y^2 in the frame of the base
+  double gain = 0;  // N, change of sum m v_y from the first frame of the window to the last over
+                    // the time in between; NaN of a single frame
+};
+
 /// What one window has to tell of one layer.
 struct SegregationResult {
   double content_small, content_large, mass;  // m^2 or m^3, kg, per frame; of grains by centre
   LayerFlow flow;
   std::array<double, 2> displacements;  // behind D_S and D_L, less one per drift
   LayerSegregation value, error;
+  std::array<LayerMomentum, 2> momentum = {};  // of small and of large grains
 
-  /// The columns from area_S or volume_S to Pe_error, in 2 or 3 dimensions.
+  /// The columns from area_S or volume_S to gain_L_y, in 2 or 3 dimensions.
   std::vector<Cell> cells(int dimension) const;
 };
 
@@ -71,8 +81,8 @@ class SegregationFlux {
  private:
   /// One layer over the frames of one part.
   struct Sums {
-    std::array<double, 2> content{}, mass{};
-    double excess = 0;  // kg m/s, sum of m (v_y - w) over large grains
+    std::array<double, 2> content{}, mass{}, mvv{};  // mvv: J, sum of m v_y^2
+    double excess = 0;                               // kg m/s, sum of m (v_y - w) over large grains
     LayerFlowSums flow;
     // By lag and species: sums of squares over twice the lag, and their number less one per drift.
     std::array<std::array<double, 2>, 2> squares{}, number{};
@@ -81,6 +91,15 @@ class SegregationFlux {
     double phi_large() const { return content[1] / (content[0] + content[1]); }
   };
   using Profile = std::vector<Sums>;  // by layer
+  /// Momentum along y by layer and species in the first or last frame, kg m/s.
+  struct Instant {
+    double time = 0;
+    std::vector<std::array<double, 2>> momentum;  // empty: no frame yet
+    double at(std::size_t layer, std::size_t species) const
+    {
+      return layer < momentum.size() ? momentum[layer][species] : 0;
+    }
+  };
   struct Snapshot {
     double time = 0;
     std::vector<double> y;  // NaN of absent grains; empty: no frame yet
@@ -97,6 +116,7 @@ class SegregationFlux {
   std::size_t frames_ = 0;
   std::array<Profile, parts> profile_;
   std::array<Snapshot, parts> snapshot_;
+  Instant first_, last_;
 };
 
 }  // namespace grseg

@@ -104,6 +104,7 @@ const Eigen::MatrixXd& Bootstrap::blocks(std::size_t length) const
 
 const Eigen::MatrixXd& Bootstrap::whole_runs() const
 {
+  if (runs_.size() < 2) whole_runs_.resize(0, index(number_of_windows(runs_)));
   if (runs_.size() < 2 || whole_runs_.size() > 0) return whole_runs_;
   std::vector<std::size_t> first(runs_.size(), 0);
   std::exclusive_scan(runs_.begin(), runs_.end(), first.begin(), std::size_t{0});
@@ -181,7 +182,14 @@ std::string Bootstrap::doubt_of_runs(const Dependence& dependence) const
 std::string Bootstrap::doubt_of_windows(const Dependence& dependence) const
 {
   if (samples_ == 0) return {};
-  if (dependence.independent_windows() > 8) return {};
+  const double per_run = dependence.independent_windows() / static_cast<double>(runs_.size());
+  if (dependence.independent_windows() > 8) {
+    if (runs_.size() == 1 || per_run > 5) return {};
+    return fmt::format(
+        "the windows of each run are worth {:.2g} independent ones; with fewer than 5 an interval of "
+        "95 % over windows holds the truth less often",
+        per_run);
+  }
   return fmt::format(
       "{:.3g} windows with an autocorrelation time of {:.3g} windows are worth "
       "{:.2g} independent ones; {}",

@@ -146,7 +146,9 @@ def segregation():
     for k, part in (("S", 1 - phi), ("L", phi)):
         w = V[k][1] - v
         row |= {f"w_{k}[m/s]": w, f"q_{k}[m/s]": part * w, f"w_{k}_error[m/s]": 0,
-                f"q_{k}_error[m/s]": 0, f"displacements_{k}": 0}
+                f"q_{k}_error[m/s]": 0, f"displacements_{k}": 0,
+                # The frames of a window are the same: no momentum is gained.
+                f"mass_{k}[kg]": MASS[k], f"mvv_{k}_yy[J]": MASS[k] * V[k][1]**2, f"gain_{k}_y[N]": 0}
     layers = windows(2, row)
     # One layer, so that its composition is that of the bed: s = 0. s_r^2/s_0^2 of one grain each.
     total = sum(MASS.values())

@@ -275,6 +275,26 @@ TEST(SegregationFlux, OfASingleFrameDiffusivitiesAndErrorsAreUnknown)
   EXPECT_TRUE(std::isnan(result.error.phi_large));
 }
 
+// Large grains that fall freely, small ones at rest; 15 of the 16 intervals lie between two frames.
+TEST(SegregationFlux, TheMomentumGainedIsTheForceOverTheWindowAlsoOfItsParts)
+{
+  const Packing scene = mixture();
+  const auto frames = film(scene, 16, [](Packing& s, double time) {
+    s.frame.velocity.assign(6, {1, 0});
+    s.frame.velocity[2].y() = 0.5 - 9 * time;
+  });
+  auto merged = seen({frames.begin() + 9, frames.end()});
+  merged.merge(seen({frames.begin(), frames.begin() + 9}));
+  for (const auto& flux : {seen(frames), merged}) {
+    const auto result = flux.results(scene.grains, 2);
+    EXPECT_NEAR(result[1].momentum[1].gain, -9 * std::numbers::pi * 4e-4, 1e-15);
+    EXPECT_EQ(result[1].momentum[0].gain, 0);
+    EXPECT_EQ(result[0].momentum[1].gain, 0);
+  }
+  const auto single = seen(scene, 1, [](Packing&, double) {}).results(scene.grains, 2);
+  EXPECT_TRUE(std::isnan(single[1].momentum[1].gain));
+}
+
 TEST(SegregationFlux, EveryNumberStandsUnderItsColumn)
 {
   const Packing scene = mixture();
@@ -284,7 +304,13 @@ TEST(SegregationFlux, EveryNumberStandsUnderItsColumn)
   const auto result = flux.results(scene.grains, 2)[1];
   std::map<std::string, double> cells;
   for (const auto& cell : result.cells(2)) cells[cell.column] = cell.value;
-  EXPECT_EQ(cells.size(), 7 + 2 * 15u);
+  EXPECT_EQ(cells.size(), 7 + 2 * 15u + 6);
+  const double mass = std::numbers::pi * 4e-4;  // of the large grain
+  EXPECT_NEAR(cells.at("mass_L[kg]"), mass, 1e-15);
+  EXPECT_NEAR(cells.at("mass_S[kg]"), mass / 2, 1e-15);
+  EXPECT_NEAR(cells.at("mvv_L_yy[J]"), mass * 0.16, 1e-15);
+  EXPECT_NEAR(cells.at("mvv_S_yy[J]"), mass / 2 * 0.01, 1e-15);
+  EXPECT_NEAR(cells.at("gain_L_y[N]"), 0, 1e-15);
   EXPECT_NEAR(cells.at("area_L[m^2]"), std::numbers::pi * 4e-4, 1e-15);
   EXPECT_NEAR(cells.at("v[m/s]"), 0.3, 1e-14);
   EXPECT_NEAR(cells.at("w_S[m/s]"), -0.2, 1e-14);

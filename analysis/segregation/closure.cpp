@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/segregation/closure.hpp"
+
+#include "analysis/statistics/bootstrap.hpp"
+#include "analysis/statistics/composition_noise.hpp"
+#include "analysis/statistics/confidence.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+constexpr double unknown = ClosurePoint::nan;
+// Beyond it the errors of both coefficients are over three times those of one alone.
+constexpr double collinear = 0.95;
+
+Eigen::Index index_of(std::size_t n)
+{
+  return static_cast<Eigen::Index>(n);
+}
+
+/// A number and what each window's noise adds to it.
+struct Linear {
+  double value = unknown;
+  Eigen::VectorXd influence;
+  Eigen::VectorXd weight;  // of the windows in it
+};
+
+/// df of a function f of such numbers, with its derivatives by them.
+Linear combined(double value, const std::vector<std::pair<double, const Linear*>>& parts)
+{
+  Linear of{value, Eigen::VectorXd::Zero(parts.front().second->influence.size()),
+            parts.front().second->weight};
+  for (const auto& [derivative, part] : parts) of.influence += derivative * part->influence;
+  return of;
+}
+
+Linear quotient(const Linear& above, const Linear& below)
+{
+  const double value = above.value / below.value;
+  return combined(value, {{1 / below.value, &above}, {-value / below.value, &below}});
+}
+
+Linear sum(const Linear& a, const Linear& b)
+{
+  return combined(a.value + b.value, {{1, &a}, {1, &b}});
+}
+
+/// The point's regressors: X and -G.
+Eigen::Vector2d regressors(const ClosurePoint& point)
+{
+  return {point.driving, -point.gradient};
+}
+
+class Regressions {
+ public:
+  explicit Regressions(const ClosureData& data)
+      : data_(data), windows_(index_of(number_of_windows(data.runs)))
+  {
+    for (const auto& point : data.points) {
+      const Eigen::Vector2d x = regressors(point), z = instruments(point);
+      squares_ += point.weight * x * x.transpose();
+      matrix_ += point.weight * z * x.transpose();
+      of_instruments_ += point.weight * z * z.transpose();
+    }
+    inverse_ = matrix_.inverse();
+  }
+
+  /// Cosine of the angle between X and G as vectors over all points, weighted.
+  double correlation() const
+  {
+    return -squares_(0, 1) / std::sqrt(squares_(0, 0) * squares_(1, 1));
+  }
+  bool is_singular() const { return !(1 - std::abs(correlation()) > 1e-10); }
+  /// Error of a coefficient over what it were with the other known, for noise of one size; the
+  /// larger of the two. 1/sqrt(1 - r^2) in least squares.
+  double error_factor() const
+  {
+    const Eigen::Matrix2d variance = inverse_ * of_instruments_ * inverse_.transpose();
+    double most = 0;
+    for (const Eigen::Index k : {0, 1})
+      most = std::max(most,
+                      std::abs(matrix_(k, k)) * std::sqrt(variance(k, k) / of_instruments_(k, k)));
+    return most;
+  }
+
+  /// Coefficients of X and of -G in what `of` takes of the points.
+  template <class Of>
+  std::array<Linear, 2> on_both(const Of& of) const
+  {
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (const auto& point : data_.points) right += point.weight * of(point) * instruments(point);
+    const Eigen::Vector2d value = inverse_ * right;
+    std::array<Linear, 2> both{none(value[0]), none(value[1])};
+    for (const auto& point : data_.points) {
+      const Eigen::Vector2d x = regressors(point);
+      const Eigen::Vector2d influence =
+          point.weight * (of(point) - x.dot(value)) * (inverse_ * instruments(point));
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        auto& coefficient = both[static_cast<std::size_t>(k)];
+        coefficient.influence[index_of(point.window)] += influence[k];
+        coefficient.weight[index_of(point.window)] += point.weight * x[k] * x[k];
+      }
+    }
+    return both;
+  }
+
+  /// sum of weight x value/sum of weight, over the points that have both. What composition explains
+  /// of it is not noise (composition_noise.hpp).
+  template <class Value, class Weight>
+  Linear mean(const Value& value, const Weight& weight) const
+  {
+    std::vector<const ClosurePoint*> used;
+    for (const auto& point : data_.points)
+      if (weight(point) > 0 && std::isfinite(value(point))) used.push_back(&point);
+    const auto list = [&](const auto& of) {
+      Eigen::VectorXd all(index_of(used.size()));
+      for (std::size_t k = 0; k < used.size(); ++k) all[index_of(k)] = of(*used[k]);
+      return all;
+    };
+    if (used.empty()) return none(unknown);
+    const Eigen::VectorXd values = list(value), weights = list(weight);
+    const Eigen::VectorXd noise =
+        composition_noise(list([](const ClosurePoint& p) { return p.phi_large; }), values, weights);
+    auto all = none(weights.dot(values) / weights.sum());
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      const auto point = index_of(k), window = index_of(used[k]->window);
+      all.influence[window] += weights[point] * noise[point] / weights.sum();
+      all.weight[window] += weights[point];
+    }
+    return all;
+  }
+
+ private:
+  Linear none(double value) const
+  {
+    return {value, Eigen::VectorXd::Zero(windows_), Eigen::VectorXd::Zero(windows_)};
+  }
+
+  Eigen::Vector2d instruments(const ClosurePoint& point) const
+  {
+    if (data_.instruments == Instruments::same) return regressors(point);
+    return {point.driving_before, -point.gradient_before};
+  }
+
+  const ClosureData& data_;
+  Eigen::Index windows_;
+  Eigen::Matrix2d squares_ = Eigen::Matrix2d::Zero(), matrix_ = Eigen::Matrix2d::Zero(),
+                  of_instruments_ = Eigen::Matrix2d::Zero(), inverse_;
+};
+
+/// The numbers as they are printed, with their intervals.
+class Report {
+ public:
+  Report(const ClosureData& data, const ClosureResampling& resampling)
+      : bootstrap_(data.runs, resampling.samples, resampling.seed)
+  {
+  }
+
+  Estimate estimate(const Linear& of) const
+  {
+    if (bootstrap_.count() == 0 || !std::isfinite(of.value)) return {of.value};
+    const auto how = dependence(of.influence, of.weight, bootstrap_.runs());
+    const auto interval = bootstrap_.interval(of.value, sampled(of, how), how);
+    return {of.value, interval.low, interval.high};
+  }
+  void add(const std::string& name, const Linear& of)
+  {
+    summary.numbers.emplace_back(name, estimate(of));
+  }
+  void add(const std::string& name, double value)
+  {
+    summary.numbers.emplace_back(name, Estimate{value});
+  }
+  /// Of the errors of two numbers.
+  double correlation(const Linear& a, const Linear& b) const
+  {
+    if (bootstrap_.count() == 0) return unknown;
+    const auto how = dependence(a.influence, a.weight, bootstrap_.runs());
+    const auto centred = [&](const Linear& of) -> Eigen::VectorXd {
+      const Eigen::VectorXd samples = sampled(of, how);
+      return samples.array() - samples.mean();
+    };
+    const Eigen::VectorXd x = centred(a), y = centred(b);
+    return x.dot(y) / std::sqrt(x.squaredNorm() * y.squaredNorm());
+  }
+  void add_doubt(const Linear& of)
+  {
+    const auto doubt = bootstrap_.doubt(dependence(of.influence, of.weight, bootstrap_.runs()));
+    if (!doubt.empty()) summary.remarks.push_back(doubt);
+  }
+
+  SegregationSummary summary;
+
+ private:
+  Eigen::VectorXd sampled(const Linear& of, const Dependence& how) const
+  {
+    return (bootstrap_.samples(how) * of.influence).array() + of.value;
+  }
+
+  Bootstrap bootstrap_;
+};
+
+void add_collinearity(Report& report, const Regressions& regressions,
+                      const std::array<Linear, 2>& flux)
+{
+  const double r = regressions.correlation(), factor = regressions.error_factor();
+  report.add("regressor_correlation", r);
+  report.add("condition_number", std::sqrt((1 + std::abs(r)) / (1 - std::abs(r))));
+  report.add("error_factor", factor);
+  report.add("estimate_correlation", report.correlation(flux[0], flux[1]));
+  if (std::abs(r) > collinear)
+    report.summary.remarks.push_back(fmt::format(
+        "driving and gradient are collinear over these rows (correlation {:.3f}): the errors of B/c "
+        "and d/c are {:.1f} times what either would have with the other known; add windows or runs "
+        "of other stages of segregation",
+        r, factor));
+}
+
+/// What the kinetic terms and inertia add to B and d, and their sum.
+std::array<Linear, 2> add_taus(Report& report, const Regressions& regressions)
+{
+  struct Part {
+    const char* name;
+    double (*of)(const ClosurePoint&);
+  };
+  constexpr Part parts[] = {
+      {"", [](const ClosurePoint& p) { return p.kinetic_push + p.kinetic_spread - p.inertia; }},
+      {"_of_kinetic_push", [](const ClosurePoint& p) { return p.kinetic_push; }},
+      {"_of_kinetic_spread", [](const ClosurePoint& p) { return p.kinetic_spread; }},
+      {"_of_inertia", [](const ClosurePoint& p) { return -p.inertia; }}};
+  for (const auto& [name, of] : parts) {
+    const auto tau = regressions.on_both(of);
+    report.add(fmt::format("tau_X{}", name), tau[0]);
+    report.add(fmt::format("tau_G{}[m^2/s^2]", name), tau[1]);
+  }
+  return regressions.on_both(parts[0].of);
+}
+
+/// B of the rule number `rule`, by sums.
+Linear b_of(const Regressions& regressions, std::size_t rule)
+{
+  return regressions.mean([rule](const ClosurePoint& p) { return p.excess[rule] / p.product; },
+                          [](const ClosurePoint& p) { return p.frames * p.product; });
+}
+
+/// "+", "-" or "not known".
+const char* sign_of(const Estimate& estimate)
+{
+  if (estimate.low > 0) return "+";
+  if (estimate.high < 0) return "-";
+  return "not known";
+}
+
+/// The share at which B(p) plus `more` is 0.
+Linear zero_of(const Linear& none, const Linear& all, const Linear* more)
+{
+  const double reach = none.value - all.value;
+  const double value = (none.value + (more ? more->value : 0)) / reach;
+  std::vector<std::pair<double, const Linear*>> parts{{(1 - value) / reach, &none},
+                                                      {value / reach, &all}};
+  if (more) parts.emplace_back(1 / reach, more);
+  return combined(value, parts);
+}
+
+void add_rules(Report& report, const Regressions& regressions,
+               const std::vector<PartitionRule>& rules, const std::array<Linear, 2>& flux,
+               const std::array<Linear, 2>* tau)
+{
+  const auto none = b_of(regressions, rules.size()), all = b_of(regressions, rules.size() + 1);
+  const auto b_over_c = report.estimate(flux[0]);
+  if (b_over_c.low <= 0 && b_over_c.high >= 0)
+    report.summary.remarks.emplace_back(
+        "the interval of B/c contains 0: c(p) = B(p)/(B/c) may be anything");
+  report.add("p_zero", zero_of(none, all, nullptr));
+  if (tau) report.add("p_zero_kept", zero_of(none, all, &(*tau)[0]));
+  report.add("dc_dp[1/s]",
+             quotient(combined(all.value - none.value, {{1, &all}, {-1, &none}}), flux[0]));
+  std::string signs;
+  for (std::size_t rule = 0; rule < rules.size(); ++rule) {
+    const auto name = rules[rule].name();
+    const auto b = b_of(regressions, rule), c = quotient(b, flux[0]);
+    const auto d = combined(c.value * flux[1].value, {{flux[1].value, &c}, {c.value, &flux[1]}});
+    report.add("B@" + name, b);
+    report.add(fmt::format("c@{}[1/s]", name), c);
+    report.add(fmt::format("d@{}[m^2/s^2]", name), d);
+    signs += fmt::format("{}{} {}", signs.empty() ? "" : ", ", name, sign_of(report.estimate(c)));
+    if (!tau) continue;
+    const auto kept = quotient(sum(b, (*tau)[0]), flux[0]);
+    report.add(fmt::format("c_kept@{}[1/s]", name), kept);
+    report.add(fmt::format("d_kept@{}[m^2/s^2]", name),
+               combined(kept.value * flux[1].value - (*tau)[1].value,
+                        {{flux[1].value, &kept}, {kept.value, &flux[1]}, {-1, &(*tau)[1]}}));
+  }
+  report.summary.remarks.push_back(fmt::format(
+      "sign of c by rule: {}; it changes at p* = {:.3f}; where c < 0 the closure's drag "
+      "pushes grains the way they move",
+      signs, zero_of(none, all, nullptr).value));
+}
+
+}  // namespace
+
+SegregationSummary closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
+                                   const ClosureResampling& resampling)
+{
+  Report report(data, resampling);
+  const Regressions regressions(data);
+  if (regressions.is_singular()) {
+    report.add("B_over_c[s]", unknown);
+    report.add("d_over_c[m^2/s]", unknown);
+    report.add("regressor_correlation", regressions.correlation());
+    report.summary.remarks.emplace_back(
+        "driving and gradient are the same up to a factor in all rows, so that B/c and d/c cannot be "
+        "told apart; add windows or runs of other stages of segregation");
+    return report.summary;
+  }
+  const auto flux = regressions.on_both([](const ClosurePoint& p) { return p.flux; });
+  report.add("B_over_c[s]", flux[0]);
+  report.add("d_over_c[m^2/s]", flux[1]);
+  add_collinearity(report, regressions, flux);
+  report.add(
+      "D_displacements[m^2/s]",
+      regressions.mean([](const ClosurePoint& p) { return p.diffusivity; },
+                       [](const ClosurePoint& p) { return p.weight * p.gradient * p.gradient; }));
+  report.add_doubt(flux[0]);
+  if (data.has_kinetic) {
+    report.add("stress_slope_over_weight",
+               regressions.mean([](const ClosurePoint& p) { return p.weight_above; },
+                                [](const ClosurePoint& p) { return p.weight; }));
+    const auto tau = add_taus(report, regressions);
+    add_rules(report, regressions, rules, flux, &tau);
+  } else {
+    report.summary.remarks.emplace_back(
+        "kinetic terms and inertia are left out: the tables of grseg-segregation lack mass, mvv and "
+        "gain; make them anew with this version");
+    add_rules(report, regressions, rules, flux, nullptr);
+  }
+  return report.summary;
+}
+
+}  // namespace grseg

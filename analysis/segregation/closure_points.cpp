@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/segregation/closure_points.hpp"
+
+#include "analysis/frames/distinct_runs.hpp"
+#include "analysis/frames/layer_table.hpp"
+#include "analysis/stress/contact_sums_reader.hpp"
+#include "analysis/stress/partial_stress.hpp"
+#include "formats/cli/provenance.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_statistics.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+constexpr double missing = ClosurePoint::nan;
+
+/// The two tables of one run.
+struct RunTables {
+  const Table* segregation = nullptr;
+  const Table* stress = nullptr;
+};
+
+std::string inputs_of(const Table& table)
+{
+  std::string all;
+  for (const auto& input : header_values(table, "input")) all += (all.empty() ? "" : ", ") + input;
+  return all;
+}
+
+void take(const Table*& place, const Table& table, const char* tool)
+{
+  if (place != nullptr)
+    throw UsageError(fmt::format("{} and {} are both tables of {} of the same run ({}); give one",
+                                 place->name, table.name, tool, inputs_of(table)));
+  place = &table;
+}
+
+/// In the order of their tables of grseg-segregation.
+std::vector<RunTables> runs_of(const std::vector<Table>& tables)
+{
+  std::map<std::string, RunTables> by_input;
+  for (const auto& table : tables) {
+    auto& run = by_input[inputs_of(table)];
+    if (table.has_column("q_L"))
+      take(run.segregation, table, "grseg-segregation");
+    else if (table.has_column("Mcp_yy"))
+      take(run.stress, table, "grseg-stress");
+    else
+      throw FormatError(fmt::format(
+          "{}: neither q_L of grseg-segregation nor Mcp_yy of grseg-stress is among its columns; "
+          "--closure needs such tables of each run",
+          table.name));
+  }
+  std::vector<RunTables> runs;
+  for (const auto& table : tables) {
+    const auto& run = by_input[inputs_of(table)];
+    if (run.segregation != nullptr && run.stress != nullptr) {
+      if (run.segregation == &table) runs.push_back(run);
+      continue;
+    }
+    const char* other = run.stress == nullptr ? "grseg-stress" : "grseg-segregation";
+    throw UsageError(
+        fmt::format("{}: the table of {} of the same run ({}) is not given; make it with the same "
+                    "--layer and --window",
+                    table.name, other, inputs_of(table)));
+  }
+  return runs;
+}
+
+/// Names a layer in a window; kept tables have fewer digits.
+using Place = std::tuple<long long, long long, long long, long long>;
+Place place_of(const LayerKey& key)
+{
+  const auto rounded = [](double value) { return std::llround(value * 1e6); };
+  return {rounded(key.begin), rounded(key.end), rounded(key.bottom), rounded(key.top)};
+}
+
+/// What a row of grseg-segregation says of a layer; NaN where the table lacks it.
+struct Motion {
+  LayerKey key;
+  double small = 0, large = 0;  // m^2 or m^3
+  double phi = missing, flux = missing, gradient = missing, diffusivity = missing;
+  double mass = missing, flux_small = missing, flux_large = missing;  // kg, J
+  double gain_small = missing, gain_large = missing;                  // N
+
+  double solid() const { return (small + large) / key.volume; }
+  double density() const { return mass / key.volume; }
+  double k_large() const { return flux_large / key.volume; }
+  double k_total() const { return (flux_small + flux_large) / key.volume; }
+};
+
+/// The layers of a table, in order, without the rows of the whole bed.
+std::vector<Motion> motions_of(const Table& table, bool& has_kinetic)
+{
+  const char* remedy = "a table of grseg-segregation has it";
+  const auto keys = read_layer_keys(table, remedy);
+  const auto contents = content_columns(species_of(table), dimension_of(table));
+  const auto column = [&](const std::string& name) { return find_column(table, name, remedy); };
+  const std::size_t small = column(contents[0]), large = column(contents[1]);
+  const std::size_t phi = column("phi_L"), flux = column("q_L[m/s]");
+  const std::size_t gradient = column("dphi_dy[1/m]"), diffusivity = column("D[m^2/s]");
+  std::vector<std::size_t> kinetic;
+  for (const char* name :
+       {"mass_S[kg]", "mass_L[kg]", "mvv_S_yy[J]", "mvv_L_yy[J]", "gain_S_y[N]", "gain_L_y[N]"})
+    if (table.has_column(without_unit(name))) kinetic.push_back(column(name));
+  has_kinetic = has_kinetic && kinetic.size() == 6;
+
+  std::vector<Motion> motions;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (std::isnan(keys[row].bottom)) continue;
+    const auto& cells = table.rows[row];
+    Motion motion;
+    motion.key = keys[row];
+    motion.small = non_negative_cell(table, row, small);
+    motion.large = non_negative_cell(table, row, large);
+    motion.phi = cells[phi];
+    motion.flux = cells[flux];
+    motion.gradient = cells[gradient];
+    motion.diffusivity = cells[diffusivity];
+    if (kinetic.size() == 6) {
+      motion.mass = cells[kinetic[0]] + cells[kinetic[1]];
+      motion.flux_small = cells[kinetic[2]];
+      motion.flux_large = cells[kinetic[3]];
+      motion.gain_small = cells[kinetic[4]];
+      motion.gain_large = cells[kinetic[5]];
+    }
+    motions.push_back(motion);
+  }
+  return motions;
+}
+
+/// d/dy between the neighbours of a layer, of what `of` takes of them.
+template <class Row, class Of>
+double slope(const Row* below, const Row* above, const Of& of)
+{
+  if (below == nullptr || above == nullptr) return missing;
+  const auto height = [](const Row& row) { return (row.key.bottom + row.key.top) / 2; };
+  return (of(*above) - of(*below)) / (height(*above) - height(*below));
+}
+
+/// The row whose layer ends where another begins, in the same window; null where there is none.
+template <class Row>
+const Row* neighbour(const std::map<Place, Row>& rows, const LayerKey& key, int step)
+{
+  LayerKey other = key;
+  const double thickness = key.top - key.bottom;
+  other.bottom += step * thickness;
+  other.top += step * thickness;
+  const auto found = rows.find(place_of(other));
+  return found == rows.end() ? nullptr : &found->second;
+}
+
+/// The forces per mass of a layer, from its neighbours; returns -sigma'/rho, m/s^2.
+double add_forces(ClosurePoint& point, const Motion& here, const Motion* below, const Motion* above,
+                  double gravity)
+{
+  point.driving = here.phi * (1 - here.phi) * -gravity;
+  const double k = here.k_total(), density = here.density();
+  const double k_slope = slope(below, above, [](const Motion& m) { return m.k_total(); });
+  const double k_large_slope = slope(below, above, [](const Motion& m) { return m.k_large(); });
+  const double rate = (here.gain_small + here.gain_large) / here.key.volume;
+  if (std::isnan(k_slope + rate)) return -gravity;
+  const double share = k > 0 ? here.k_large() / k : here.phi;
+  const double fall = -gravity + (k_slope + rate) / density;
+  point.driving = here.phi * (1 - here.phi) * fall;
+  point.kinetic_push = -(share - here.phi) * k_slope / density;
+  point.kinetic_spread = -(k_large_slope - share * k_slope) / density;
+  point.inertia = (here.gain_large / here.key.volume - here.phi * rate) / density;
+  return fall;
+}
+
+/// Of the window before, that follows on this one without a gap.
+void add_window_before(ClosurePoint& point, const Motion& here,
+                       const std::map<Place, Motion>& motions, double gravity)
+{
+  LayerKey before = here.key;
+  before.end = here.key.begin;
+  before.begin -= here.key.end - here.key.begin;
+  const auto found = motions.find(place_of(before));
+  if (found == motions.end()) return;
+  ClosurePoint earlier;
+  add_forces(earlier, found->second, neighbour(motions, before, -1), neighbour(motions, before, 1),
+             gravity);
+  point.driving_before = earlier.driving;
+  point.gradient_before = found->second.gradient;
+}
+
+/// What a row of grseg-stress says of the same layer.
+struct Stress {
+  LayerKey key;
+  ContactSums<3> sums;
+  double total = 0;  // yy, N/m or Pa
+};
+
+std::map<Place, Stress> stresses_of(const Table& table, const std::vector<PartitionRule>& rules)
+{
+  const ContactSumsReader reader(table, rules);
+  const auto keys = read_layer_keys(table, "a table of grseg-stress has it");
+  std::map<Place, Stress> all;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    Stress stress{keys[row], reader.read(row)};
+    stress.sums.volume = keys[row].volume;
+    stress.total = partial_stress(stress.sums, PartitionRule{}).total(1, 1);
+    all.emplace(place_of(keys[row]), std::move(stress));
+  }
+  return all;
+}
+
+void add_stress(ClosurePoint& point, const Stress& stress, const std::vector<PartitionRule>& rules)
+{
+  const double small = stress.sums.content[0], large = stress.sums.content[1];
+  const double phi = large / (small + large);
+  point.phi_large = phi;
+  point.product = phi * (1 - phi);
+  for (const auto& rule : rules) {
+    const auto parts = partial_stress(stress.sums, rule);
+    point.excess.push_back(rule.adds_up() ? parts.large()(1, 1) / parts.total(1, 1) - phi
+                                          : missing);
+  }
+}
+
+bool is_usable(const ClosurePoint& point)
+{
+  return point.weight > 0 && std::isfinite(point.flux + point.driving + point.gradient) &&
+         point.product > 0 && std::isfinite(point.excess.back());
+}
+
+double median_solid(const std::vector<Motion>& motions)
+{
+  std::vector<double> solid;
+  for (const auto& motion : motions)
+    if (motion.solid() > 0) solid.push_back(motion.solid());
+  return solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
+}
+
+class RunReader {
+ public:
+  RunReader(const RunTables& tables, const std::vector<PartitionRule>& rules,
+            const ClosureFilter& filter, ClosureData& data)
+      : tables_(tables),
+        rules_(rules),
+        filter_(filter),
+        before_(filter.instruments == Instruments::previous),
+        data_(data)
+  {
+    for (const char* key : {"layer", "window"})
+      if (header_or(*tables.segregation, key, "") != header_or(*tables.stress, key, ""))
+        throw UsageError(fmt::format(
+            "{} and {} differ in '{}'; make both tables of the run with the same --layer and "
+            "--window",
+            tables.segregation->name, tables.stress->name, key));
+    gravity_ = tables.segregation->header_number("gravity_y");
+    if (!(gravity_ < 0))
+      throw FormatError(fmt::format(
+          "{}: '# gravity_y: {}' should be negative; the driving force is the weight above",
+          tables.segregation->name, tables.segregation->header_text("gravity_y")));
+  }
+
+  void read();
+
+ private:
+  std::optional<ClosurePoint> point_of(const Motion& motion, const std::map<Place, Motion>& motions,
+                                       const std::map<Place, Stress>& stresses) const;
+
+  RunTables tables_;
+  const std::vector<PartitionRule>& rules_;
+  const ClosureFilter& filter_;
+  bool before_;  // points need the window before
+  ClosureData& data_;
+  double gravity_ = 0;  // along y, m/s^2
+};
+
+std::optional<ClosurePoint> RunReader::point_of(const Motion& motion,
+                                                const std::map<Place, Motion>& motions,
+                                                const std::map<Place, Stress>& stresses) const
+{
+  const auto& key = motion.key;
+  const auto stress = stresses.find(place_of(key));
+  if (stress == stresses.end())
+    throw UsageError(fmt::format(
+        "{}: has no row for the layer from {:g} to {:g} m from {:g} to {:g} s, which "
+        "{} has; make both tables of the run with the same --begin and --end",
+        tables_.stress->name, key.bottom, key.top, key.begin, key.end, tables_.segregation->name));
+  ClosurePoint point;
+  point.frames = key.frames;
+  point.weight = key.frames * (motion.small + motion.large);
+  point.flux = motion.flux;
+  point.gradient = motion.gradient;
+  point.diffusivity = motion.diffusivity;
+  const double fall =
+      add_forces(point, motion, neighbour(motions, key, -1), neighbour(motions, key, 1), gravity_);
+  add_window_before(point, motion, motions, gravity_);
+  add_stress(point, stress->second, rules_);
+  const double lost = -slope(neighbour(stresses, key, -1), neighbour(stresses, key, 1),
+                             [](const Stress& s) { return s.total; });
+  point.weight_above = lost / (motion.density() * fall);
+  const bool lacks_neighbour = !std::isnan(motion.mass) && std::isnan(point.kinetic_push);
+  const bool lacks_before = std::isnan(point.driving_before + point.gradient_before);
+  if (lacks_neighbour || (before_ && lacks_before) || !is_usable(point)) return {};
+  return point;
+}
+
+void RunReader::read()
+{
+  const LengthUnits units{tables_.segregation->header_positive("small_diameter"),
+                          tables_.segregation->header_positive("large_diameter")};
+  RowRange range = filter_.range;
+  range.heights = parse_heights(filter_.heights, units);
+  const auto list = motions_of(*tables_.segregation, data_.has_kinetic);
+  const double least_solid = filter_.min_solid * median_solid(list);
+  std::map<Place, Motion> motions;
+  for (const auto& motion : list) motions.emplace(place_of(motion.key), motion);
+  const auto stresses = stresses_of(*tables_.stress, rules_);
+
+  const std::size_t first = number_of_windows(data_.runs);
+  std::map<double, std::size_t> window_at;
+  data_.rows += list.size();
+  for (const auto& motion : list) {
+    if (!range.holds_window(motion.key) || !range.holds_layer(motion.key) ||
+        !(motion.solid() >= least_solid))
+      continue;
+    auto point = point_of(motion, motions, stresses);
+    if (!point) continue;
+    point->window = first + window_at.emplace(motion.key.begin, window_at.size()).first->second;
+    data_.points.push_back(std::move(*point));
+  }
+  if (window_at.empty()) return;
+  data_.runs.push_back(window_at.size());
+  data_.names.push_back(tables_.segregation->name);
+}
+
+}  // namespace
+
+ClosureData read_closure(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
+                         const ClosureFilter& filter)
+{
+  const auto runs = runs_of(tables);
+  std::vector<Table> segregation;
+  for (const auto& run : runs) segregation.push_back(*run.segregation);
+  require_distinct_runs(segregation);
+  auto read = rules;
+  for (const double share : {0.0, 1.0}) read.push_back({PartitionRule::Kind::uniform, share});
+  ClosureData data;
+  data.instruments = filter.instruments;
+  for (const auto& run : runs) RunReader(run, read, filter, data).read();
+  if (data.points.empty())
+    throw RunError(
+        fmt::format("none of {} rows is left; the closure needs layers that hold both species and "
+                    "have neighbours; choose other --begin, --end, --heights or --min-solid",
+                    data.rows));
+  return data;
+}
+
+}  // namespace grseg

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/layer_key.hpp"
+#include "analysis/statistics/dependence.hpp"
+#include "analysis/stress/partition_rule.hpp"
+#include "formats/cli/table.hpp"
+#include "formats/cli/words.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// One layer in one window, as the closure of Gray & Thornton (2005) sees it. With f^L = sigma^L/sigma
+/// = phi_L (1 + B phi_S) and the interaction
+///
+///   beta^L = sigma df^L/dy - rho^L c (w_L - w) - rho d dphi_L/dy,     rho^L = phi_L rho
+///
+/// the momentum balance of the large grains along y less phi_L times that of the mixture, over rho,
+/// is solved for the flux q_L = phi_L (w_L - w):
+///
+///   c q_L = B X - d G + k_push + k_spread - a
+///
+///   X         phi_L phi_S (-sigma')/rho, driving, m/s^2, > 0 where stress falls upward
+///   G         dphi_L/dy, gradient, 1/m
+///   k_push    -(psi_K - phi_L) K'/rho, kinetic push, m/s^2, upward positive
+///   k_spread  -(K_L' - psi_K K')/rho, kinetic spread, m/s^2: large grains carry their momentum from
+///             where they are many to where they are few, as diffusion does
+///   a         (rate^L - phi_L rate)/rho, inertia, m/s^2
+///
+/// K and K_L: sum m v_y^2 over V of all and of large grains, in the frame of the base, psi_K = K_L/K;
+/// rate: change of momentum density over the window; ' = d/dy, from the two neighbouring layers. The
+/// balance of the mixture gives -sigma'/rho = -g_y + (K' + rate)/rho, with less noise than a
+/// difference of stresses. All terms hold inside the bed, where the base does not act. One density.
+struct ClosurePoint {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+  std::size_t window = 0;            // in the series of all windows, run after run
+  double frames = 0;                 // of the window
+  double weight = 0;                 // frames x area or volume of the grains
+  double flux = 0;                   // q_L, m/s
+  double driving = 0, gradient = 0;  // X and G
+  // X and G of the same layer in the window before, NaN where there is none.
+  double driving_before = nan, gradient_before = nan;
+  double kinetic_push = nan, kinetic_spread = nan, inertia = nan;  // m/s^2; NaN: not in the table
+  double diffusivity = nan;                                        // m^2/s, from displacements
+  double weight_above = nan;  // -sigma' of the table of stress over that of the balance
+  // Of the table of stress: phi_L, phi_L phi_S, and psi_L - phi_L by rule; behind those of the rules stand
+  // the ones where large grains get nothing and all of mixed contacts.
+  double phi_large = 0;
+  double product = 0;
+  std::vector<double> excess;
+};
+
+/// What the noise of the flux is weighed with in the regression (closure.hpp).
+enum class Instruments {
+  previous,  ///< driving and gradient of the window before, on which this window's noise does not act
+  same,      ///< those of the same window: least squares
+};
+inline constexpr Choice<Instruments> instrument_choices[] = {
+    {"previous", Instruments::previous, "X and G of the window before"},
+    {"same", Instruments::same, "of the same window: least squares"}};
+
+/// Which layers and windows take part.
+struct ClosureFilter {
+  RowRange range = {};
+  std::string heights{};   // as on the command line; "": all
+  double min_solid = 0.5;  // least solid fraction over the median of the run
+  Instruments instruments = Instruments::previous;
+};
+
+struct ClosureData {
+  RunLengths runs;                 // windows with points, by run
+  std::vector<std::string> names;  // of the tables of grseg-segregation
+  std::vector<ClosurePoint> points;
+  std::size_t rows = 0;  // layers and windows of these tables
+  Instruments instruments = Instruments::previous;
+  bool has_kinetic = true;  // all tables have what the kinetic terms and inertia need
+};
+
+/// Joins tables of grseg-segregation and grseg-stress, in any order, on the digest of their run and
+/// (t0, t1, y0, y1). FormatError where a column is missing or a number cannot be; UsageError, naming
+/// table and remedy, where a run lacks one of the two, has one twice, or where layers or windows of
+/// the two differ; RunError where no point is left.
+ClosureData read_closure(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
+                         const ClosureFilter& filter);
+
+}  // namespace grseg
