@@ -104,6 +104,7 @@ const Eigen::MatrixXd& Bootstrap::blocks(std::size_t length) const
 
 const Eigen::MatrixXd& Bootstrap::whole_runs() const
 {
+  if (runs_.size() < 2) whole_runs_.resize(0, index(number_of_windows(runs_)));
   if (runs_.size() < 2 || whole_runs_.size() > 0) return whole_runs_;
   std::vector<std::size_t> first(runs_.size(), 0);
   std::exclusive_scan(runs_.begin(), runs_.end(), first.begin(), std::size_t{0});

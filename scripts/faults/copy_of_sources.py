@@ -74,25 +74,29 @@ class Copy:
         if done.returncode != 0:
             raise SystemExit(f"{what}: {done.stdout}")
 
-    def failures(self, name, seconds=20):
+    def failures(self, name, seconds=20, only="*"):
         """Names of the tests of one program that fail; the program itself where it crashes or hangs."""
+        results = self.results(name, seconds, only)
+        if isinstance(results, str):
+            return [results]
+        return sorted({test for test, failed, _ in results if failed})
+
+    def results(self, name, seconds, only):
+        """Triples of test, whether it fails, and its time in s; what the program does instead of ending well."""
         report = f"{self.work}/{name}.json"
         if os.path.exists(report):
             os.remove(report)
-        done = run_quietly([f"{self.bin}/{name}", "--gtest_brief=1", f"--gtest_output=json:{report}"],
+        done = run_quietly([f"{self.bin}/{name}", "--gtest_brief=1", f"--gtest_output=json:{report}",
+                            f"--gtest_filter={only}"],
                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1)))
         if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-            return [f"{name} does not end"]
+            return f"{name} does not end"
         if not os.path.exists(report):
-            return [f"{name} crashes"]
+            return f"{name} crashes"
         with open(report, encoding="utf-8") as file:
-            results = json.load(file)
-        names = []
-        for suite in results["testsuites"]:
-            for test in suite["testsuite"]:
-                if test.get("failures"):
-                    names.append(f"{suite['name'].split('/')[-1]}.{test['name'].split('/')[0]}")
-        return sorted(set(names))
+            suites = json.load(file)["testsuites"]
+        return [(f"{suite['name'].split('/')[-1]}.{test['name'].split('/')[0]}", bool(test.get("failures")),
+                 float(test["time"].rstrip("s"))) for suite in suites for test in suite["testsuite"]]
 
 
 def kept_result(path, fault):

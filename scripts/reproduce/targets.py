@@ -73,7 +73,7 @@ def contact_stress(m):
 
 def by_sums(m):
     """Range of B over the mixtures, by sums."""
-    found = [m.number(row["flow"], "rise_B").value for row in m.mixtures()] or [math.nan]
+    found = [m.fit(row["flow"], "B_sums").value for row in m.mixtures()] or [math.nan]
     return f"{plain(min(found), 3)} to {plain(max(found), 3)}"
 
 

@@ -179,11 +179,11 @@ class Numbers(Pipeline):
         self.assertAlmostEqual(self.bed()["weight"], 1, 9)
 
     def test_b_of_the_micro_structure_weighs_by_frames_and_grains_of_the_rarer_species_within_a_hundred_to_one(self):
-        # ln s is -0.1 with weight 2 x 30 and -0.4 with 1 x 20; a layer of nearly pure small grains is left out, and one of two.
-        frames, weights, phis = (2, 1, 5, 5), (30, 20, 4, 2), (0.5, 0.3, 0.001, 0.5)
-        slopes = (math.exp(-0.1), math.exp(-0.4), 5.0, 5.0)
+        # ln s is -0.1 with weight 2 x 30 and -0.4 with 1 x 20; a layer of nearly pure small grains is left out.
+        frames, weights, phis = (2, 1, 5), (30, 20, 1), (0.5, 0.3, 0.001)
+        slopes = (math.exp(-0.1), math.exp(-0.4), 5.0)
         part = self.part(micro=[{"t0": 0.0, "y0": float(k), "grains_S": w, "grains_L": w + 7} for k, w in enumerate(weights)])
-        rows = [{"t0": 0.0, "y0": float(k), "frames": frames[k], "phi_L": phis[k], "s_Pi": slopes[k]} for k in range(4)]
+        rows = [{"t0": 0.0, "y0": float(k), "frames": frames[k], "phi_L": phis[k], "s_Pi": slopes[k]} for k in range(3)]
         s = math.exp((60 * -0.1 + 20 * -0.4) / 80)
         found = self.with_answers(lambda _: rows, lambda options, part: numbers.b_of_structure(options, part.runs, []), part)
         self.assertAlmostEqual(found, 2 * (1 - s) / (1 + s), 9)
@@ -194,7 +194,7 @@ class Numbers(Pipeline):
                 {"phi_L": 0.1, "mixed_share": 0.13, "neutral_share": 0.10, "error": 0.04, "error_S": 0.07,
                  "error_L": 0.01, "error_printed": 1.08, "error_S_printed": 1.14, "error_L_printed": 1.02}]
         layers = [{"t0": 0.0, "y0": 0.0, "frames": 1, "phi_L": 0.5, "s_Pi": 1.0}]
-        part = self.part(micro=[{"t0": 0.0, "y0": 0.0, "grains_S": 3, "grains_L": 3}])
+        part = self.part(micro=[{"t0": 0.0, "y0": 0.0, "grains_S": 1, "grains_L": 1}])
         answer = lambda words: bins if "composition" in words else layers
         found = self.with_answers(answer, numbers.estimates, part)
         self.assertAlmostEqual(found["contacts_error_mean"], 3)
@@ -318,6 +318,10 @@ class Flows(Pipeline):
         self.assertAlmostEqual(row["H0"], 60, 7)
         self.assertAlmostEqual(row["yL0"], 0.25, 7)
         self.assertEqual((row["zf_S"], row["zf_L"]), (10, 21))
+
+    def test_a_flow_weighs_in_a_fit_by_frames_times_the_grains_of_its_rarer_species_inside(self):
+        # 13 of 15 layers of 4 d_S x 70 d_S, 0.4 of each filled by large grains of area pi d_S^2.
+        self.assertAlmostEqual(self.flow([self.fit(1.0)])["weight"], 13 * 0.4 * 280 / math.pi, 4)
 
     def test_b_of_a_flow_is_that_by_size_of_yy_inside_whatever_else_was_fitted(self):
         row = self.flow([self.fit(1.0, heights="all"), self.fit(2.0, component="pressure"), self.fit(3.0, rule="half"),
