@@ -49,10 +49,11 @@ Linear combined(double value, const std::vector<std::pair<double, const Linear*>
 {
   Linear of{value, Eigen::VectorXd::Zero(parts.front().second->influence.size()),
             parts.front().second->weight};
-  for (const auto& [derivative, part] : parts) {
-    of.influence += derivative * part->influence;
-    of.parts.push_back(*part);
-  }
+  for (const auto& [derivative, part] : parts) of.influence += derivative * part->influence;
+  constexpr double none = 1e-6;  // a part of the noise that is as good as none
+  for (const auto& [derivative, part] : parts)
+    if (std::abs(derivative) * part->influence.norm() > none * of.influence.norm())
+      of.parts.push_back(*part);
   return of;
 }
 
