@@ -163,16 +163,25 @@ std::string doubt_of_few_grains(const RuleFit& fit, double window)
 }
 
 /// What limits the interval, mostly nothing.
-std::string doubt_of(const RuleFit& fit, const FitData& data, const Bootstrap& bootstrap)
+std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& windows,
+                     const Bootstrap& bootstrap)
 {
   if (bootstrap.count() == 0) return {};
   if (fit.over == Over::windows) return bootstrap.doubt_of_windows(fit.dependence);
   const auto mixtures = data.number_of_mixtures();
-  if (mixtures == 1 || fit.over == Over::compositions)
-    return bootstrap.doubt_of_runs(fit.dependence);
-  const auto single =
-      RunErrors(data, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(bootstrap.windows())))
-          .single_runs();
+  if (mixtures == 1) return bootstrap.doubt_of_runs(fit.dependence);
+  const RunErrors errors(data, windows.weight());
+  if (fit.over == Over::compositions) {
+    const auto column = column_of_estimator(&Estimators::B_half);
+    const double chance = errors.chance_of_likeness(influences_of(windows).noise.col(column));
+    if (chance >= 0.05) return bootstrap.doubt_of_runs(fit.dependence);
+    return fmt::format(
+        "mixtures differ by more than one function of composition explains (Fisher's test: {:.2g}): "
+        "over compositions the interval is too wide for these mixtures and too narrow for others; "
+        "see those over mixtures, equal-mixtures and random-mixtures",
+        chance);
+  }
+  const auto single = errors.single_runs();
   if (single > 0)
     return fmt::format(
         "{} of {} mixtures have one run: the scatter of its windows stands for that of runs, which "
@@ -218,7 +227,7 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   fit.runs = data.runs.size();
   fit.over = resolved(settings.over, fit.runs, data.number_of_mixtures());
   if (bootstrap.count() > 0) add_intervals(fit, data, windows, bootstrap);
-  fit.doubt = fit.points > 0 ? doubt_of(fit, data, bootstrap)
+  fit.doubt = fit.points > 0 ? doubt_of(fit, data, windows, bootstrap)
                              : fmt::format(
                                    "in none of {} layers and windows do both species bear a "
                                    "positive stress, so that their ratio has no value",

@@ -3,6 +3,8 @@
 
 #include "analysis/statistics/run_scatter.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <map>
 
@@ -90,6 +92,35 @@ StandardError RunErrors::within_mixtures(const Eigen::VectorXd& sums,
     parts.push_back(scatter_of_runs(of_runs, group.weight));
   }
   return added(parts);
+}
+
+double RunErrors::chance_of_likeness(const Eigen::VectorXd& influence) const
+{
+  double sum = 0, all = 0, within = 0, of_means = 0;
+  std::size_t runs = 0;
+  for (const auto& group : groups_) {
+    Eigen::VectorXd value(group.weight.size());
+    for (std::size_t k = 0; k < group.first.size(); ++k) {
+      const auto place = static_cast<Eigen::Index>(k);
+      value[place] = influence
+                         .segment(static_cast<Eigen::Index>(group.first[k]),
+                                  static_cast<Eigen::Index>(group.length[k]))
+                         .sum() /
+                     group.weight[place];
+    }
+    const double weight = group.weight.sum(), mean = group.weight.dot(value) / weight;
+    within += group.weight.dot((value.array() - mean).square().matrix());
+    of_means += weight * mean * mean;
+    sum += weight * mean;
+    all += weight;
+    runs += group.first.size();
+  }
+  const auto between_degrees = static_cast<double>(groups_.size()) - 1,
+             within_degrees = static_cast<double>(runs - groups_.size());
+  if (!(between_degrees > 0) || !(within_degrees > 0) || !(within > 0)) return 1;
+  const double between = of_means - sum * sum / all;
+  return gsl_cdf_fdist_Q(between / between_degrees / (within / within_degrees), between_degrees,
+                         within_degrees);
 }
 
 std::size_t RunErrors::single_runs() const

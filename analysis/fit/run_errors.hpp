@@ -30,6 +30,10 @@ class RunErrors {
 
   /// Of a statistic whose deviation is the sum of the windows' influences.
   StandardError within_mixtures(const Eigen::VectorXd& sums, const Eigen::VectorXd& noise) const;
+  /// The chance that runs of like mixtures differ between mixtures as much as these do, by Fisher's
+  /// test of the mean squares of influence over weight between and within mixtures; 1 where it cannot
+  /// be told.
+  double chance_of_likeness(const Eigen::VectorXd& influence) const;
   /// Mixtures with a single run.
   std::size_t single_runs() const;
 

@@ -182,7 +182,14 @@ std::string Bootstrap::doubt_of_runs(const Dependence& dependence) const
 std::string Bootstrap::doubt_of_windows(const Dependence& dependence) const
 {
   if (samples_ == 0) return {};
-  if (dependence.independent_windows() > 8) return {};
+  const double per_run = dependence.independent_windows() / static_cast<double>(runs_.size());
+  if (dependence.independent_windows() > 8) {
+    if (runs_.size() == 1 || per_run > 5) return {};
+    return fmt::format(
+        "the windows of each run are worth {:.2g} independent ones; with fewer than 5 an interval of "
+        "95 % over windows holds the truth less often",
+        per_run);
+  }
   return fmt::format(
       "{:.3g} windows with an autocorrelation time of {:.3g} windows are worth "
       "{:.2g} independent ones; {}",

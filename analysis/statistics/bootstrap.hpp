@@ -62,7 +62,7 @@ class Bootstrap {
   StandardError run_error(const Eigen::VectorXd& samples, const Dependence& dependence) const;
 
   /// A sentence where an interval may say more than it knows, or far less: too few windows for
-  /// their correlation, two or three runs. Empty otherwise and for samples = 0.
+  /// their correlation, in all or in each of several runs, two or three runs. Empty otherwise and for samples = 0.
   std::string doubt(const Dependence& dependence) const;
   std::string doubt_of_windows(const Dependence& dependence) const;
   std::string doubt_of_runs(const Dependence& dependence) const;

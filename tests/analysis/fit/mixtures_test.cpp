@@ -3,6 +3,7 @@
 
 #include "analysis/fit/fit_mixtures.hpp"
 #include "formats/core/errors.hpp"
+#include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -179,6 +180,96 @@ TEST(Populations, RandomMixturesScatterLikeTheirBs)
   EXPECT_NE(fit.doubt.find("3 mixtures tell little of how mixtures differ"), std::string::npos);
   EXPECT_TRUE(std::isfinite(fit.at(Over::equal_mixtures).low));
   EXPECT_NEAR(fit.at(Over::mixtures).value, fit_over(data, Over::mixtures).value.B_half, 1e-15);
+}
+
+/// Shares of trials in which an interval of B_half and of B_sums holds a number.
+struct Held {
+  int trials = 0, half = 0, sums = 0;
+
+  void add(const Estimate& of_half, double half_truth, const Estimate& of_sums, double sums_truth)
+  {
+    ++trials;
+    half += of_half.low <= half_truth && half_truth <= of_half.high;
+    sums += of_sums.low <= sums_truth && sums_truth <= of_sums.high;
+  }
+  double share(int held) const { return static_cast<double>(held) / trials; }
+  /// 95 % as far as so many trials can tell: 3.5 standard deviations of a binomial share.
+  void expect_95_percent(const char* what) const
+  {
+    const double reach = 3.5 * std::sqrt(0.95 * 0.05 / trials);
+    EXPECT_NEAR(share(half), 0.95, reach) << "B_half over " << what;
+    EXPECT_NEAR(share(sums), 0.95, reach) << "B_sums over " << what;
+  }
+};
+
+// Mixtures that differ by twice the error of one, runs by as much as their windows make them.
+TEST(Coverage, OfEachPopulationIsThatOfItsOwnNumberAndNotOfAnother)
+{
+  synthetic::RunsOfMixtures source({6, 4, 2, 1});
+  Held windows, runs, mixtures, equal, random, equal_for_all;
+  for (unsigned long trial = 1; trial <= 300; ++trial) {
+    const auto drawn = source.draw();
+    const auto fits = fit_mixtures(drawn.data, {}, {}, {100, trial});
+    const auto &half = drawn.half, &sums = drawn.sums;
+    const auto add = [&all = fits.all](Held& held, Over over, double of_half, double of_sums) {
+      held.add(all.at(over), of_half, all.sums_at(over), of_sums);
+    };
+    add(windows, Over::windows, half.of_runs, sums.of_runs);
+    add(mixtures, Over::mixtures, half.of_mixtures, sums.of_mixtures);
+    add(equal, Over::equal_mixtures, half.of_equal, sums.of_equal);
+    add(random, Over::random_mixtures, half.of_all, sums.of_all);
+    add(equal_for_all, Over::equal_mixtures, half.of_all, sums.of_all);
+    for (std::size_t m = 0; m < fits.of_each.size(); ++m)
+      runs.add(fits.of_each[m].at(Over::runs), half.of_each[m], fits.of_each[m].sums_at(Over::runs),
+               sums.of_each[m]);
+  }
+  windows.expect_95_percent("windows");
+  runs.expect_95_percent("runs");
+  mixtures.expect_95_percent("mixtures");
+  equal.expect_95_percent("equal mixtures");
+  random.expect_95_percent("random mixtures");
+  // The mean of six is off by twice the error of one over sqrt(6), its own error by the root of 5 less:
+  // it holds the mean of all with the chance of |Z| < 2.1/sqrt(5).
+  EXPECT_LT(equal_for_all.share(equal_for_all.half), 0.8);
+}
+
+TEST(Coverage, OfTwoRunsOfEachMixtureIsThatOfMore)
+{
+  synthetic::RunsOfMixtures source({6, 2, 0, 0});
+  Held mixtures, equal;
+  for (unsigned long trial = 1; trial <= 300; ++trial) {
+    const auto drawn = source.draw();
+    const auto all = fit_mixtures(drawn.data, {}, {}, {100, trial}).all;
+    mixtures.add(all.at(Over::mixtures), drawn.half.of_mixtures, all.sums_at(Over::mixtures),
+                 drawn.sums.of_mixtures);
+    equal.add(all.at(Over::equal_mixtures), drawn.half.of_equal, all.sums_at(Over::equal_mixtures),
+              drawn.sums.of_equal);
+  }
+  mixtures.expect_95_percent("mixtures");
+  equal.expect_95_percent("equal mixtures");
+}
+
+/// In how many of so many trials the doubt is voiced that one function of composition is not enough.
+int doubts_of_one_function(double mixture_scatter, unsigned long trials)
+{
+  synthetic::RunsOfMixtures source({6, 4, mixture_scatter, 1});
+  int doubts = 0;
+  for (unsigned long trial = 1; trial <= trials; ++trial) {
+    const auto data = source.draw().data;
+    const auto fit =
+        fit_rule(data, {}, {.over = Over::compositions}, Bootstrap(data.runs, 100, trial));
+    doubts += fit.doubt.starts_with("mixtures differ by more");
+  }
+  return doubts;
+}
+
+// Fisher's test at 5 %: more often it is not wrong, and mixtures that differ by four times the error
+// of one, for which the ratio of mean squares is 17 on average, it misses in few of a hundred.
+TEST(Populations, OneFunctionOfCompositionIsDoubtedWhereMixturesDiffer)
+{
+  constexpr double by_chance = 0.05 * 200;
+  EXPECT_LT(doubts_of_one_function(0, 200), by_chance + 3.5 * std::sqrt(by_chance * 0.95));
+  EXPECT_GT(doubts_of_one_function(4, 100), 90);
 }
 
 TEST(Populations, EachIsNamedInWordsWithItsWeights)

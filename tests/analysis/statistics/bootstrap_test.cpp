@@ -287,6 +287,15 @@ TEST(Bootstrap, DoubtIsVoicedWhereWindowsAreTooFewForTheirCorrelation)
   EXPECT_EQ(Bootstrap({48}, 0, 1).doubt({12, 10, 48, 1}), "");
 }
 
+// Eight runs of ten windows, three of which tell as much as one.
+TEST(Bootstrap, DoubtIsVoicedWhereEachRunIsTooShortForItsCorrelation)
+{
+  const Bootstrap bootstrap(RunLengths(8, 10), 200, 1);
+  EXPECT_TRUE(bootstrap.doubt_of_windows({3, 2, 80, 8})
+                  .starts_with("the windows of each run are worth 3.3 independent ones"));
+  EXPECT_EQ(bootstrap.doubt_of_windows({1.5, 1, 80, 8}), "");
+}
+
 TEST(Bootstrap, DoubtIsVoicedWhereRunsAreTooFew)
 {
   EXPECT_EQ(Bootstrap({48, 48}, 200, 1).doubt({1, 1, 96, 2}),

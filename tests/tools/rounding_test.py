@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""B of a real run from sums with all their digits and from the same sums as scripts/reproduce/keep rounds them: they
+differ by no more than rounding can do, with both bounds computed from the digits alone (scripts/reproduce/rounding).
+Usage: rounding_test.py SOURCE BIN"""
+import importlib.machinery
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+source, programs = sys.argv[1:]
+folder = os.path.join(source, "scripts", "reproduce")
+sys.path.insert(0, folder)
+HEIGHTS = (0.02, 0.12)  # m, without the lowest layer
+DIGITS = 2
+
+
+def script(name):
+    loader = importlib.machinery.SourceFileLoader(name, os.path.join(folder, name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+class Run:
+    """One finished run, as keep knows them."""
+    flow = "sample"
+
+    def __init__(self, path):
+        self.stress = path
+
+    def path(self, _):
+        return self.stress
+
+
+def b_of(table):
+    fit = subprocess.run([os.path.join(programs, "grseg-fit"), table, "--heights", f"{HEIGHTS[0]}:{HEIGHTS[1]}",
+                          "--bootstrap", "0", "--json", "--quiet"], check=True, capture_output=True, text=True)
+    rule = json.loads(fit.stdout)["rules"][0]
+    return {"half": rule["B_half"], "sums": rule["estimators"]["B_sums"]["value"]}
+
+
+def kept(keep, whole, path, digits):
+    keep.STRESS_DIGITS = {"stress": digits}
+    with open(path, "w") as out:
+        out.write(keep.small_table(Run(whole), "stress"))
+    return path
+
+
+def main():
+    keep, rounding = script("keep"), script("rounding")
+    assert keep.STRESS_DIGITS["stress"] == DIGITS and keep.DIGITS == rounding.AREA_DIGITS
+    with tempfile.TemporaryDirectory() as work:
+        whole = os.path.join(work, "stress.tsv")
+        subprocess.run([os.path.join(programs, "grseg-stress"), os.path.join(source, "data", "sample", "chute.h5"),
+                        "--window", "0.5", "--quiet", "-o", whole], check=True)
+        exact = b_of(whole)
+        rounded = b_of(kept(keep, whole, os.path.join(work, "kept.tsv"), DIGITS))
+        coarse = b_of(kept(keep, whole, os.path.join(work, "coarse.tsv"), 1))
+        bound = rounding.of_tables([os.path.join(work, "kept.tsv")], heights=HEIGHTS)
+        for name in ("half", "sums"):
+            change, rms = rounded[name] - exact[name], bound[f"{name}_rms"]
+            print(f"B_{name} {exact[name]:.5f} rounded {rounded[name]:.5f}: {change:+.5f}, rms {rms:.5f}, worst "
+                  f"{bound[f'{name}_worst']:.5f}; one digit {coarse[name] - exact[name]:+.5f}")
+            assert change != 0, "nothing was rounded"
+            assert abs(rounded[name] - bound[name]) < 1e-6, "the points of grseg-fit are others"
+            # Errors uniform within half a unit: beyond four standard deviations once in 16,000.
+            assert abs(change) < 4 * rms, name
+            assert abs(change) < bound[f"{name}_worst"], name
+        # Half the digits are ten times as coarse: the bound of two digits does not hold for one.
+        assert any(abs(coarse[name] - exact[name]) > 4 * bound[f"{name}_rms"] for name in exact)
+
+
+main()
