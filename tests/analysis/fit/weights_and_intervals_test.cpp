@@ -98,6 +98,37 @@ TEST(WeightByHand, TheOverallCompositionOfARunIsThatOfItsFrames)
   EXPECT_NEAR(find_mixtures(read_tables, "auto")[0].phi_large(), 0.3, 1e-12);
 }
 
+// While a layer becomes richer in large grains ln s grows with phi_L, at the share 0.65 from below 0 to
+// above. That follows from the composition and is no noise of the zero, nor of B there, of all windows together,
+// whose weights are phi_L.
+TEST(IntervalByHand, WhatFollowsFromTheCompositionIsNotNoise)
+{
+  const auto phi_at = [](int k) { return 0.3 + 0.4 * k / 47; };
+  double weight = 0, moment = 0;
+  for (int k = 0; k < 48; ++k) {
+    weight += phi_at(k);
+    moment += phi_at(k) * phi_at(k);
+  }
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 48; ++k) {
+    const double phi = phi_at(k), mixed = 0.1;
+    const double ratio = (1 - phi) / phi * std::exp(0.1 * (phi - moment / weight));
+    const double large = 1 / (1 + ratio), small = ratio / (1 + ratio);
+    auto sums = separate_sums(phi, (small - 0.35 * mixed) * any_tensor(),
+                              (large - 0.65 * mixed) * any_tensor());
+    sums.of(PairSum::whole, 0) = mixed * any_tensor();
+    rows.push_back({1.0 * k, k + 1.0, 10, sums});
+  }
+  const auto data = read({stress_table(rows)});
+  const auto scan =
+      scan_partition(data, parse_scan("0.4:0.9:0.1"), {}, Bootstrap(data.runs, 500, 1));
+  EXPECT_NEAR(scan.p_zero, 0.65, 1e-9);
+  EXPECT_LT(half_width(scan.p_zero_interval), 1e-9);
+  const auto fit =
+      fit_rule(data, {PartitionRule::Kind::uniform, 0.65}, {}, Bootstrap(data.runs, 500, 1));
+  EXPECT_LT(fit.high.B_half - fit.low.B_half, 1e-9);
+}
+
 // Windows of one composition, y/x = s (1 +- 0.1): the line through the origin is the mean of s, with
 // Student's interval of 40 independent windows, t = 2.0227 for 39 degrees of freedom.
 TEST(IntervalByHand, OfTheLineThroughTheOriginIsThatOfTheMeanSlope)
