@@ -95,7 +95,8 @@ std::string BalanceSummary<D>::sentence() const
   auto closed = fmt::format("the balances close to {:.1e} of the largest term of each", residual_);
   if (push_.size() < 2) return closed;
   return fmt::format(
-      "in units of their weight, large grains are pushed {} by contact stress, {} by kinetic "
+      "in units of their weight, with mixed contacts cut at the contact point, large grains are "
+      "pushed {} by contact stress, {} by kinetic "
       "stress and {} by drag (at least two large diameters from base and surface, standard errors "
       "over {} windows); {}",
       direction(push_), direction(push_kinetic_), direction(drag_), push_.size(), closed);

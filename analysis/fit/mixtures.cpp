@@ -71,10 +71,10 @@ std::vector<std::size_t> counts_of(const std::string& grouping, std::size_t tabl
   }
   const auto sum = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   if (std::count(counts.begin(), counts.end(), 0) > 0 || sum != tables)
-    throw UsageError(
-        fmt::format("--mixtures {}: write auto, or how many of the {} tables each mixture has, in "
-                    "their order, as in 4,4,2",
-                    grouping, tables));
+    throw UsageError(fmt::format(
+        "--mixtures {}: write auto, or how many of the tables ({} here) each mixture has, in "
+        "their order, as in 4,4,2",
+        grouping, tables));
   return counts;
 }
 

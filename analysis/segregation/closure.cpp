@@ -4,6 +4,7 @@
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/composition_noise.hpp"
 #include "analysis/statistics/confidence.hpp"
+#include "analysis/statistics/dependence.hpp"
 
 #include <fmt/format.h>
 
@@ -31,8 +32,17 @@ Eigen::Index index_of(std::size_t n)
 struct Linear {
   double value = unknown;
   Eigen::VectorXd influence;
-  Eigen::VectorXd weight;  // of the windows in it
+  Eigen::VectorXd weight;          // of the windows in it
+  std::vector<Linear> parts = {};  // of what it was combined
 };
+
+/// The worst of its own and of those of its parts, whose noises may hide each other's correlation.
+Dependence dependence_of(const Linear& of, const RunLengths& runs)
+{
+  auto how = dependence(of.influence, of.weight, runs);
+  for (const auto& part : of.parts) how = worse(how, dependence_of(part, runs));
+  return how;
+}
 
 /// df of a function f of such numbers, with its derivatives by them.
 Linear combined(double value, const std::vector<std::pair<double, const Linear*>>& parts)
@@ -40,6 +50,10 @@ Linear combined(double value, const std::vector<std::pair<double, const Linear*>
   Linear of{value, Eigen::VectorXd::Zero(parts.front().second->influence.size()),
             parts.front().second->weight};
   for (const auto& [derivative, part] : parts) of.influence += derivative * part->influence;
+  constexpr double none = 1e-6;  // a part of the noise that is as good as none
+  for (const auto& [derivative, part] : parts)
+    if (std::abs(derivative) * part->influence.norm() > none * of.influence.norm())
+      of.parts.push_back(*part);
   return of;
 }
 
@@ -168,7 +182,7 @@ class Report {
   Estimate estimate(const Linear& of) const
   {
     if (bootstrap_.count() == 0 || !std::isfinite(of.value)) return {of.value};
-    const auto how = dependence(of.influence, of.weight, bootstrap_.runs());
+    const auto how = dependence_of(of, bootstrap_.runs());
     const auto interval = bootstrap_.interval(of.value, sampled(of, how), how);
     return {of.value, interval.low, interval.high};
   }
@@ -184,7 +198,8 @@ class Report {
   double correlation(const Linear& a, const Linear& b) const
   {
     if (bootstrap_.count() == 0) return unknown;
-    const auto how = dependence(a.influence, a.weight, bootstrap_.runs());
+    const auto how =
+        worse(dependence_of(a, bootstrap_.runs()), dependence_of(b, bootstrap_.runs()));
     const auto centred = [&](const Linear& of) -> Eigen::VectorXd {
       const Eigen::VectorXd samples = sampled(of, how);
       return samples.array() - samples.mean();
@@ -194,7 +209,7 @@ class Report {
   }
   void add_doubt(const Linear& of)
   {
-    const auto doubt = bootstrap_.doubt(dependence(of.influence, of.weight, bootstrap_.runs()));
+    const auto doubt = bootstrap_.doubt(dependence_of(of, bootstrap_.runs()));
     if (!doubt.empty()) summary.remarks.push_back(doubt);
   }
 

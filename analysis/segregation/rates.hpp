@@ -35,7 +35,9 @@ std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter&
 ///   Shat            the same with both sides over |du/dy| d
 ///   D               the mean of that D with weights mass (phi_L phi_S)^2
 ///   Pe, lambda      S H/D and D/S
-///   S_flux, D_flux  both from the law by least squares, without the displacements
+///   S_flux, D_flux  both from the law by least squares, without the displacements. The noise of the
+///                   flux makes the gradient of its own window larger, which biases them: of equal
+///                   grains S_flux is not 0 (docs/studies/segregation.md); closure.hpp is free of it
 /// Intervals come from how windows differ from their neighbours in time (error_about_trend), so
 /// that what changes as the bed segregates is part of the mean and not of its error.
 SegregationSummary segregation_rates(const std::vector<RatePoint>& points);

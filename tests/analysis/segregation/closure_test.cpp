@@ -415,8 +415,9 @@ TEST(SegregationClosure, IntervalsOfCAndPStarFollowFromThoseOfWhatTheyAreMadeOf)
   synthetic::Ar1 noise(0);
   auto data = noisy({60}, 0.1, noise);
   const auto sure = closure_summary(data, parse_rules({"size"}), {});
-  EXPECT_NEAR(width_of(sure, "c@size[1/s]") / number_of(sure, "c@size[1/s]").value,
-              width_of(sure, "B_over_c[s]") / number_of(sure, "B_over_c[s]").value, 1e-5);
+  const double of_c = width_of(sure, "c@size[1/s]") / number_of(sure, "c@size[1/s]").value;
+  const double of_b = width_of(sure, "B_over_c[s]") / number_of(sure, "B_over_c[s]").value;
+  EXPECT_NEAR(of_c, of_b, 0.1 * of_b);  // blocks may be longer by one
   EXPECT_NEAR(number_of(sure, "p_zero").value, 0.5 / 0.8, 1e-12);
   EXPECT_NEAR(width_of(sure, "p_zero"), 0, 1e-12);
   EXPECT_NEAR(number_of(sure, "dc_dp[1/s]").value, 0.8 / number_of(sure, "B_over_c[s]").value,
