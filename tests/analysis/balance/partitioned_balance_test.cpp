@@ -4,10 +4,12 @@
 
 #include "analysis/balance/driving_forces.hpp"
 #include "analysis/balance/partition_summary.hpp"
+#include "analysis/balance/summary.hpp"
 #include "analysis/balance/table.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -508,6 +510,42 @@ TEST(PartitionTable, TheDriftHasTheUnitOfAMomentumDensity)
   };
   EXPECT_TRUE(has(balance_columns<2>(two_sizes(1, 2)), "drift[kg/(m s)]"));
   EXPECT_TRUE(has(balance_columns<3>(two_sizes(1, 2)), "drift[kg/(m^2 s)]"));
+}
+
+// A ratio of sums a/b over n windows of which each adds a_k - p* b_k: variance of that over n, over the
+// mean of b.
+TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
+{
+  const auto layers = thin_layers<2>();
+  const double large_diameter = 0.01;
+  PartitionSummary<2> summary(layers, large_diameter, all_rules);
+  std::vector<double> above, below;
+  for (unsigned seed = 21; seed < 26; ++seed) {
+    const auto frames = two_moments(seed);
+    const auto window = momentum_of<2>(frames);
+    const auto contacts = contacts_of<2>(frames);
+    summary.add(window, contacts);
+    double none = 0, all = 0, weight = 0;
+    for (const auto n : layers_inside(window, layers, large_diameter)) {
+      const auto over = push_over_share(driving_forces(window, n), contacts, n);
+      none += over.none;
+      all += over.all;
+      weight += std::abs(window.mean(n, Species::large).gravity.y());
+    }
+    above.push_back(none / weight);
+    below.push_back((none - all) / weight);
+  }
+  const double n = 5;
+  double a = 0, b = 0, squares = 0;
+  for (std::size_t k = 0; k < 5; ++k) {
+    a += above[k] / n;
+    b += below[k] / n;
+  }
+  for (std::size_t k = 0; k < 5; ++k) squares += std::pow(above[k] - a / b * below[k], 2);
+  const auto zero = nlohmann::json::parse(summary.to_json())["p_zero"];
+  EXPECT_NEAR(zero["mean"].get<double>(), a / b, 1e-12);
+  EXPECT_NEAR(zero["standard_error"].get<double>(), std::sqrt(squares / (n - 1) / n) / std::abs(b),
+              1e-12);
 }
 
 }  // namespace

@@ -272,6 +272,24 @@ TEST(Populations, OneFunctionOfCompositionIsDoubtedWhereMixturesDiffer)
   EXPECT_GT(doubts_of_one_function(4, 100), 90);
 }
 
+// A single run does not tell how runs differ; what its windows tell is an interval with a doubt, or
+// none where they are too few for their correlation, as ten of rho = 1/2 often are.
+TEST(Populations, WindowsStandForRunsOfAMixtureThatHasOne)
+{
+  synthetic::RunsOfMixtures source({2, 1, 0, 0});
+  int with_interval = 0;
+  for (unsigned long trial = 1; trial <= 30; ++trial) {
+    const auto fits = fit_mixtures(source.draw().data, {}, {}, {100, trial});
+    ASSERT_EQ(fits.of_each.size(), 2u);
+    EXPECT_EQ(fits.of_each[0].over, Over::windows);
+    EXPECT_EQ(fits.all.over, Over::mixtures);
+    EXPECT_TRUE(fits.all.doubt.starts_with("2 of 2 mixtures have one run")) << fits.all.doubt;
+    with_interval += fits.all.low.B_half < fits.all.value.B_half;
+  }
+  EXPECT_GT(with_interval, 0);
+  EXPECT_LT(with_interval, 30);
+}
+
 TEST(Populations, EachIsNamedInWordsWithItsWeights)
 {
   EXPECT_NE(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Weights, filters and intervals of fits whose answer is worked out on paper.
+#include "analysis/fit/mixtures.hpp"
 #include "analysis/fit/partition_scan.hpp"
+#include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/size_exponent.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
@@ -51,6 +53,80 @@ TEST(IntervalByHand, TheSlopeOfBIsThatAtTheZeroOfEachSample)
   EXPECT_NEAR(scan.dB_dp, 5. / 3, 1e-4);
   EXPECT_NEAR(half_width(scan.dB_dp_interval) / half_width(scan.p_zero_interval), 1. / 3 * 5. / 3,
               1e-3);
+}
+
+// The same of four runs, in each of which sigma^L is larger or smaller throughout.
+TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatAtTheZeroOfEachRun)
+{
+  std::vector<Table> tables;
+  for (int run = 0; run < 4; ++run) {
+    std::vector<TableRow> rows;
+    for (int k = 0; k < 10; ++k) {
+      auto sums = neutral_sums(0.2, 2);
+      sums.of(OwnSum::inside, 1) *= 1 + 0.001 * (run % 2 == 0 ? 1 : -1) + 1e-6 * run;
+      rows.push_back({1.0 * k, k + 1.0, 10, sums});
+    }
+    tables.push_back(stress_table(rows));
+  }
+  const auto data = read(tables);
+  const auto scan =
+      scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 500, 1));
+  EXPECT_NEAR(half_width(scan.dB_dp_interval) / half_width(scan.p_zero_interval), 1. / 3 * 5. / 3,
+              2e-3);
+}
+
+// Four runs of one mixture and one of another. The first add 3, 1, -1 and -3 (their mean is 0): 4/3 of
+// 20. Of the other only the noise of its twelve windows counts, whatever it adds: they are worth 12/5 (up
+// three, down three: an autocorrelation time of 5), less one fitted mean, 12 x 5 x 2.4/1.4.
+TEST(IntervalByHand, RunsOfAMixtureCountByWhatTheyAddAndASingleOneByTheNoiseOfItsWindows)
+{
+  FitData data;
+  data.runs = {1, 1, 1, 1, 12};
+  data.mixtures = {0, 0, 0, 0, 1};
+  Eigen::VectorXd sums = Eigen::VectorXd::LinSpaced(16, 100, 200), noise = sums;
+  sums.head(4) << 3, 1, -1, -3;
+  for (Eigen::Index k = 0; k < 12; ++k) noise[4 + k] = k / 3 % 2 == 0 ? 1 : -1;
+  const auto error = RunErrors(data, Eigen::VectorXd::Ones(16)).within_mixtures(sums, noise);
+  EXPECT_NEAR(error.error, std::sqrt(4. / 3 * 20 + 12 * 5 * 2.4 / 1.4), 1e-12);
+}
+
+TEST(WeightByHand, TheOverallCompositionOfARunIsThatOfItsFrames)
+{
+  std::vector<Table> tables{
+      stress_table({{0, 1, 30, neutral_sums(0.2, 2)}, {1, 2, 10, neutral_sums(0.6, 2)}})};
+  auto read_tables = read_fit_tables(tables, Quantity::contact, {{}});
+  EXPECT_NEAR(find_mixtures(read_tables, "auto")[0].phi_large(), 0.3, 1e-12);
+}
+
+// While a layer becomes richer in large grains ln s grows with phi_L, at the share 0.65 from below 0 to
+// above. That follows from the composition and is no noise of the zero, nor of B there, of all windows together,
+// whose weights are phi_L.
+TEST(IntervalByHand, WhatFollowsFromTheCompositionIsNotNoise)
+{
+  const auto phi_at = [](int k) { return 0.3 + 0.4 * k / 47; };
+  double weight = 0, moment = 0;
+  for (int k = 0; k < 48; ++k) {
+    weight += phi_at(k);
+    moment += phi_at(k) * phi_at(k);
+  }
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 48; ++k) {
+    const double phi = phi_at(k), mixed = 0.1;
+    const double ratio = (1 - phi) / phi * std::exp(0.1 * (phi - moment / weight));
+    const double large = 1 / (1 + ratio), small = ratio / (1 + ratio);
+    auto sums = separate_sums(phi, (small - 0.35 * mixed) * any_tensor(),
+                              (large - 0.65 * mixed) * any_tensor());
+    sums.of(PairSum::whole, 0) = mixed * any_tensor();
+    rows.push_back({1.0 * k, k + 1.0, 10, sums});
+  }
+  const auto data = read({stress_table(rows)});
+  const auto scan =
+      scan_partition(data, parse_scan("0.4:0.9:0.1"), {}, Bootstrap(data.runs, 500, 1));
+  EXPECT_NEAR(scan.p_zero, 0.65, 1e-9);
+  EXPECT_LT(half_width(scan.p_zero_interval), 1e-9);
+  const auto fit =
+      fit_rule(data, {PartitionRule::Kind::uniform, 0.65}, {}, Bootstrap(data.runs, 500, 1));
+  EXPECT_LT(fit.high.B_half - fit.low.B_half, 1e-9);
 }
 
 // Windows of one composition, y/x = s (1 +- 0.1): the line through the origin is the mean of s, with
