@@ -144,6 +144,25 @@ TEST(IntervalByHand, OfTheLineThroughTheOriginIsThatOfTheMeanSlope)
   EXPECT_NEAR((fit.high.slope_linear - fit.low.slope_linear) / 2 / expected, 1, 0.05);
 }
 
+// Layers of one composition and one number of frames: psi_L - phi_L over phi_L phi_S is the same number
+// whether sums are divided or lines fitted, and as uncertain: (psi_L - 0.2)/0.16 +- d, t = 2.0227.
+TEST(IntervalByHand, OfTheRatioOfSumsIsThatOfTheDirectFitWhereAllLayersAreAlike)
+{
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 40; ++k) {
+    const double large = 0.25 + 0.01 * sign(k);
+    rows.push_back({1.0 * k, k + 1.0, 10,
+                    separate_sums(0.2, (1 - large) * any_tensor(), large * any_tensor())});
+  }
+  const auto data = read({stress_table(rows)});
+  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
+  EXPECT_NEAR(fit.value.B_sums, 0.05 / 0.16, 1e-12);
+  EXPECT_NEAR(fit.value.B_direct, 0.05 / 0.16, 1e-12);
+  const double expected = 2.0227 * 0.01 / 0.16 / std::sqrt(39.);
+  EXPECT_NEAR((fit.high.B_sums - fit.low.B_sums) / 2 / expected, 1, 0.05);
+  EXPECT_NEAR((fit.high.B_direct - fit.low.B_direct) / 2 / expected, 1, 0.05);
+}
+
 /// Up for eight windows, down for eight.
 double slow(int window)
 {
