@@ -66,6 +66,6 @@ set ylabel "B by size"
 unset key
 set label "dashed: Staron \\& Phillips,\nall mixtures" at 0.8,0.0238 right tc rgb "black"
 plot 0.0345 with lines dt 2 lc rgb "black", \
-     fits using (mixture("size") ? column("phi") : NaN):"B_half":"B_half_low":"B_half_high" \
+     fits using (mixture("size") ? column("phi") : NaN):"B_sums":"B_sums_low":"B_sums_high" \
        with yerrorbars pt 7 ps 1.1 lw 1.5 lc rgb blue
 unset multiplot

@@ -27,10 +27,16 @@ options_stress-gauss := --assign gauss
 options_stress-centre := --composition centre
 options_stress-2dS := --layer 2dS
 options_stress-8dS := --layer 8dS
+# Its labels were drawn anew, so the seal of the trajectory does not hold.
+options_stress-random := --trust
 options_stress-stride2 := --stride 2
 options_stress-stride5 := --stride 5
 options_kinetic-layer := --mean layer
 options_kinetic-instant := --mean instant
+options_balance-rules := --partition size,half,drop
+options_kinetic-unbiased := --mean instant-unbiased
+options_kinetic-middle := --velocity middle
+options_kinetic-unbiased-middle := --mean instant-unbiased --velocity middle
 options_check := --physics
 options_segregation-summary := --summary --heights 4dS:56dS
 

@@ -151,8 +151,7 @@ TEST(Slope, ThatChangesDuringTheRunKeepsTheEnergyBudgetOfEveryStep)
   for (const auto& x : c.position) top = std::max(top, x.y());
   const double fall = c.world.step * std::sqrt(1 + 2 * g * top);  // at first 1 m/s at most
   for (std::size_t k = 0; k < c.position.size(); ++k)
-    floor.at_most(
-        std::max(0.0, c.world.grains.radius[k] - simulation.position(k).y()) / fall, 1);
+    floor.at_most(std::max(0.0, c.world.grains.radius[k] - simulation.position(k).y()) / fall, 1);
 }
 
 }  // namespace

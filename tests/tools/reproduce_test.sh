@@ -81,3 +81,8 @@ make -C "$source/scripts/reproduce" run NAME=phi0.45-s23-seed9 BIN="$bin" OUT="$
 { [ $code = 2 ] && grep -q "phi0.45-s23-seed9: unknown run; make names lists the runs" log; } || fail "an unknown run: $(cat log)"
 "$source/scripts/reproduce/scene" phi0.45-x3 1 1 1 1 1 >log 2>&1 && fail "an unknown word in a name: $(cat log)"
 grep -q "scene: phi0.45-x3: 'x3' is not a part of a run's name" log || fail "$(cat log)"
+
+# A run of the control, whose labels are drawn anew after it, has all tables of a question.
+PWD=$folder make --no-print-directory -C "$source/scripts/reproduce" run NAME=phi0.45-s23-ratio1-t60-seed1 BIN="$bin" OUT=control \
+  DEPTH=12dS LENGTH=16dS ACCURACY=draft >log 2>&1 || fail "the control was not reduced: $(cat log)"
+grep -q '^# verified: no (--trust)' control/phi0.45-s23-ratio1-t60-seed1/stress-random.tsv || fail "drawn labels break the seal"
