@@ -86,6 +86,7 @@ FAULTS = [
      "return table[true][e.rotation][e.restitution];"),
 ]
 
+ARGUED = set()
 LIBRARY = "grseg_simulator"
 OUTPUT = "docs/studies/hard-cases.md"
 HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",

@@ -144,24 +144,51 @@ TEST(IntervalByHand, OfTheLineThroughTheOriginIsThatOfTheMeanSlope)
   EXPECT_NEAR((fit.high.slope_linear - fit.low.slope_linear) / 2 / expected, 1, 0.05);
 }
 
+// Layers of one composition and one number of frames: psi_L - phi_L over phi_L phi_S is the same number
+// whether sums are divided or lines fitted, and as uncertain: (psi_L - 0.2)/0.16 +- d, t = 2.0227.
+TEST(IntervalByHand, OfTheRatioOfSumsIsThatOfTheDirectFitWhereAllLayersAreAlike)
+{
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 40; ++k) {
+    const double large = 0.25 + 0.01 * sign(k);
+    rows.push_back({1.0 * k, k + 1.0, 10,
+                    separate_sums(0.2, (1 - large) * any_tensor(), large * any_tensor())});
+  }
+  const auto data = read({stress_table(rows)});
+  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
+  EXPECT_NEAR(fit.value.B_sums, 0.05 / 0.16, 1e-12);
+  EXPECT_NEAR(fit.value.B_direct, 0.05 / 0.16, 1e-12);
+  const double expected = 2.0227 * 0.01 / 0.16 / std::sqrt(39.);
+  EXPECT_NEAR((fit.high.B_sums - fit.low.B_sums) / 2 / expected, 1, 0.05);
+  EXPECT_NEAR((fit.high.B_direct - fit.low.B_direct) / 2 / expected, 1, 0.05);
+}
+
 /// Up for eight windows, down for eight.
 double slow(int window)
 {
   return window / 8 % 2 == 0 ? 1 : -1;
 }
 
-// Of one run there is nothing but windows, and both intervals are drawn in the same blocks.
-TEST(IntervalByHand, OfOneRunIsThatOfItsWindows)
+// B_mean of windows of one composition and weight is a plain mean, of -0.1 and 0.1 in turn for eight windows
+// each: drawn in blocks as a series would be.
+TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
 {
   std::vector<TableRow> rows;
-  for (int k = 0; k < 96; ++k)
+  Eigen::VectorXd series(96);
+  for (int k = 0; k < 96; ++k) {
+    series[k] = -0.1 * slow(k);
     rows.push_back({1.0 * k, k + 1.0, 10,
-                    separate_sums(0.5, std::exp(0.1 * slow(k)) * any_tensor(), any_tensor())});
+                    separate_sums(0.5, std::exp(-series[k]) * any_tensor(), any_tensor())});
+  }
   const auto data = read({stress_table(rows)}, {.min_grains = 0});
-  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
+  const Bootstrap bootstrap(data.runs, 500, 1);
+  const auto fit = fit_rule(data, {}, {}, bootstrap);
   ASSERT_GT(fit.dependence.block, 3u);
+  const auto expected = bootstrap.over_windows(
+      series.mean(), bootstrap.blocks(fit.dependence.block) * series / 96, fit.dependence);
+  EXPECT_NEAR(fit.low.B_mean, expected.low, 1e-10);
+  EXPECT_NEAR(fit.high.B_mean, expected.high, 1e-10);
   EXPECT_NEAR(fit.B_half_windows.low, fit.low.B_half, 1e-14);
-  EXPECT_NEAR(fit.B_half_windows.high, fit.high.B_half, 1e-14);
 }
 
 // The direct estimate hears the even layer, which changes slowly; the logarithms hear the layer of
