@@ -35,6 +35,7 @@ MeanOfWindows zero_of(const std::vector<PushOverShare>& windows)
     sum.all += window.all;
   }
   std::vector<double> left;  // of each window, in the mean of which p* is taken
+  left.reserve(windows.size());
   const double zero = sum.zero(),
                per_window = (sum.none - sum.all) / static_cast<double>(windows.size());
   for (const auto& [none, all] : windows) left.push_back((none - zero * (none - all)) / per_window);
@@ -142,7 +143,7 @@ void PartitionSummary<D>::add(const MomentumBalance<D>& window,
 template <int D>
 std::string PartitionSummary<D>::text() const
 {
-  const auto agreement = fmt::format(
+  auto agreement = fmt::format(
       "N is the same under all rules to {:.1e} of its largest term, and that of the stored forces "
       "to {:.1e}",
       difference_, from_forces_);

@@ -57,7 +57,9 @@ void PartitionedBalance<D>::add(const Grains& grains, const Frame<D>& frame)
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (!bears_force(list, k)) continue;
     const Vector<D>& f = list.force[k];
-    const auto [i, j] = partners(grains, frame, k);
+    const auto pair = partners(grains, frame, k);
+    const auto i = pair.i;
+    const auto j = pair.j;
     const std::size_t own = number(grains.species[i]);
     const double y_i = frame.position[i].y(), share_i = share_of_first(grains, list, k);
     const double rise = list.branch[k].y(), y_contact = y_i - share_i * rise;
@@ -105,7 +107,10 @@ void PartitionedBalance<D>::add(const Grains& grains, const Frame<D>& frame)
 template <int D>
 void PartitionedBalance<D>::add_mixed(const Mixed& contact)
 {
-  const auto& [radii, force, stress, large, small, y_large, y_small, rise] = contact;
+  const auto& [radii, on_large, whole, large, small, y_large, y_small, rise] = contact;
+  // Lambdas take variables, not bindings (C++20 as clang 14 has it).
+  const Vector<D> force = on_large;
+  const Tensor<D> stress = whole;
   const auto at_centre = [&, this](double y, std::size_t species, const Vector<D>& on) {
     share_kernel(layers_, kernel_, y, y, count_, [&](std::size_t n, double share) {
       for (std::size_t rule = 0; rule < rules_.size(); ++rule) {

@@ -87,6 +87,7 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
   const auto counts = grain_columns(table, species);
   const auto grains_in = [&](std::size_t row, const std::vector<double>& content) {
     std::vector<double> grains;
+    grains.reserve(species.size());
     for (const auto column : counts) grains.push_back(non_negative_cell(table, row, column));
     if (!counts.empty() || quantity == Quantity::kinetic) return grains;
     for (std::size_t k = 0; k < species.size(); ++k)

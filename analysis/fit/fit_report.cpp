@@ -281,6 +281,7 @@ std::vector<std::pair<Over, std::string>> estimands(const FitReport& report)
   const auto mixtures = static_cast<std::size_t>(std::count_if(
       report.shares.half.begin(), report.shares.half.end(), [](double s) { return s > 0; }));
   std::vector<std::pair<Over, std::string>> words;
+  words.reserve(used.size());
   for (const auto over : used) words.emplace_back(over, estimand_words(over, mixtures));
   return words;
 }

@@ -88,8 +88,9 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
                                                : within);
     if (place != &Estimators::B_half && place != &Estimators::B_sums) continue;
     auto& over = place == &Estimators::B_half ? fit.B_over : fit.B_sums_over;
+    const double value = fit.value.*place;
     const auto set = [&](Over population, const StandardError& error) {
-      over[static_cast<std::size_t>(population)] = estimate_with(fit.value.*place, error);
+      over[static_cast<std::size_t>(population)] = estimate_with(value, error);
     };
     set(Over::windows, over_windows);
     if (fit.runs < 2) continue;

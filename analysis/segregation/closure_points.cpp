@@ -344,6 +344,7 @@ ClosureData read_closure(const std::vector<Table>& tables, const std::vector<Par
 {
   const auto runs = runs_of(tables);
   std::vector<Table> segregation;
+  segregation.reserve(runs.size());
   for (const auto& run : runs) segregation.push_back(*run.segregation);
   require_distinct_runs(segregation);
   auto read = rules;

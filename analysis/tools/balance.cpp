@@ -68,6 +68,7 @@ Header settings_of(const Settings& s, const Kernel& kernel, const std::vector<Pa
   Header settings{{"kernel", s.kernel}, {"width", format_number(kernel.width())}};
   if (rules.empty()) return settings;
   std::vector<std::string> names;
+  names.reserve(rules.size());
   for (const auto& rule : rules) names.push_back(rule.name());
   settings.emplace_back("partition", fmt::format("{}", fmt::join(names, ",")));
   return settings;

@@ -173,6 +173,7 @@ void close(const Settings& s, const po::variables_map& values, const std::string
   for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
   for (auto& line : trust_of(tables)) header.push_back(std::move(line));
   std::vector<std::string> names;
+  names.reserve(rules.size());
   for (const auto& rule : rules) names.push_back(rule.name());
   header.insert(header.end(), {{"closure", "q_L = (B/c) driving - (d/c) gradient"},
                                {"partition", fmt::format("{}", fmt::join(names, ","))},

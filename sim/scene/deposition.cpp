@@ -77,7 +77,8 @@ void fill_cell(Shower& shower, const Scene& scene, const Row& row, long place, c
   const double slack = row.spacing / per_side - largest;
   for (long k = 0; k < cell.grains; ++k) {
     const double along = (static_cast<double>(k % cell.per_side) + 0.5) / per_side;
-    const double up = (static_cast<double>(k / cell.per_side) + 0.5) / per_side;
+    const long above = k / cell.per_side;  // whole rows
+    const double up = (static_cast<double>(above) + 0.5) / per_side;
     const double diameter = nominal * (1 + scene.spread * (random.uniform() - 0.5));
     const double x = row.left + (static_cast<double>(place) + along) * row.spacing +
                      slack * (random.uniform() - 0.5);
