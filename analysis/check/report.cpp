@@ -16,21 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* word(Verdict verdict)
-{
-  switch (verdict) {
-    case Verdict::passed:
-      return "passed";
-    case Verdict::failed:
-      return "failed";
-    case Verdict::undecided:
-      return "undecided";
-    case Verdict::skipped:
-      break;
-  }
-  return "skipped";
-}
-
 bool is_layer(const CheckLine& line)
 {
   return !std::isnan(line.y0);
@@ -80,7 +65,7 @@ std::string to_tsv(const CheckReport& report)
   for (const auto& line : report.lines)
     rows.push_back({line.quantity, format_number(line.y0), format_number(line.y1),
                     format_number(line.measured), format_number(line.error),
-                    format_number(line.tolerance), word(line.verdict), line.remark});
+                    format_number(line.tolerance), to_text(line.verdict), line.remark});
   return table_text(
       report.header,
       {"quantity", "y0[m]", "y1[m]", "measured", "error", "tolerance", "verdict", "remark"}, rows);
@@ -96,7 +81,7 @@ std::string to_json(const CheckReport& report)
     object["measured"] = line.measured;
     object["error"] = line.error;
     object["tolerance"] = line.tolerance;
-    object["verdict"] = word(line.verdict);
+    object["verdict"] = to_text(line.verdict);
     object["remark"] = printable(line.remark);
     all["lines"].push_back(object);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/cli/provenance.hpp"
+#include "formats/core/verdict.hpp"
 
 #include <limits>
 #include <string>
@@ -9,11 +10,9 @@
 
 namespace grseg {
 
-/// Undecided is a statistical line within what chance alone explains, where that is more than the
-/// tolerance: a deviation that the tolerance does not allow would not have been seen.
-enum class Verdict { passed, failed, undecided, skipped };
-
-/// A quantity that was held against a tolerance.
+/// A quantity that was held against a tolerance. It is undecided if it is statistical and within what
+/// chance alone explains, where that is more than the tolerance: a deviation that the tolerance does
+/// not allow would not have been seen.
 struct CheckLine {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 

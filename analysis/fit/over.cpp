@@ -35,7 +35,7 @@ std::string estimand_words(Over over, std::size_t mixtures)
     case Over::random_mixtures:
       return fmt::format(
           "mean B of all mixtures of which these {} are a random sample, each counting the same; "
-          "from the scatter between mixtures. Mixtures that were chosen are no such sample",
+          "from the scatter between mixtures. Mixtures that were chosen are not a sample of that kind",
           mixtures);
     case Over::compositions:
       return fmt::format(

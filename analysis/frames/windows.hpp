@@ -30,7 +30,7 @@ struct RunTimes {
 };
 
 /// Window n holds the frames with n W <= t - begin < (n+1) W. Times are compared in whole steps, so
-/// that no rounding moves a frame into the next window; a length W that is no whole number of steps
+/// that no rounding moves a frame into the next window; a length W that is not a whole number of steps
 /// is rounded to one. Windows that the run does not fill, mostly the last, are dropped: frame k
 /// stands for the time up to frame k+1. RunError where nothing is left, UsageError where a window
 /// would be shorter than the time between the frames that are used.

@@ -29,7 +29,7 @@ SpeciesList two_sizes(double small_diameter, double large_diameter);
 /// Whether tables must name the species: they are other than small and large.
 bool names_species(const SpeciesList& species);
 
-/// "small 0.005, large 0.01", and what such a line stands for; empty where it is no such line.
+/// "small 0.005, large 0.01", and the list that such a text stands for; empty for any other text.
 std::string species_text(const SpeciesList& species);
 SpeciesList parse_species(const std::string& text);
 

@@ -8,7 +8,7 @@
 /// fit for a terminal or for a line of a table.
 namespace grseg {
 
-/// The text with every byte as \xNN that is no printable character of UTF-8: control characters
+/// The text with every byte as \xNN that is not a printable character of UTF-8: control characters
 /// (also newline, tab and those from U+0080 on) and what is not UTF-8. It is then one line.
 std::string printable(std::string_view text);
 

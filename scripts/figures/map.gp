@@ -7,7 +7,7 @@ table = named(ARG1)
 line(pattern) = system("sed -n '/".pattern."/{p;q}' ".quoted(table))
 header = line("^[^#]")
 cells = line("^# cells: ")
-if (cells eq "") { print ARG1.": is no table of a map; make it with --bins xy"; exit status 1 }
+if (cells eq "") { print ARG1.": is not a table of a map; make one with --bins xy"; exit status 1 }
 
 column_name(k) = system("printf '%s' ".quoted(header)." | cut -f ".sprintf("%d", k))
 plain(name) = strstrt(name, "[") ? name[:strstrt(name, "[") - 1] : name

@@ -5,8 +5,8 @@ Usage: tidy.py [--all] BUILD-FOLDER SOURCE.cpp ...
 
 A file whose fingerprint is in tests/lint/passed.txt, or in BUILD-FOLDER/lint/passed.txt, is not
 checked again. A fingerprint is a hash of all that decides the result: the file, our headers that it
-includes, the rules, the compiler options and the version of clang-tidy, but not where the checkout
-lies. What passes is added to BUILD-FOLDER/lint/passed.txt; scripts/lint makes tests/lint/passed.txt
+includes, both without lines of comment, the rules, the compiler options and the version of clang-tidy,
+but not where the checkout lies. What passes is added to BUILD-FOLDER/lint/passed.txt; scripts/lint makes tests/lint/passed.txt
 of it. --all checks every file, listed or not.
 
 Most of the time that clang-tidy spends on one file goes into the standard library and Eigen. Files
@@ -30,6 +30,8 @@ MOST_LINES = 2000  # of a text: with several texts all processors stay busy to t
 # Output, what is gcc's own (precompiled headers, a warning), a compiler cache, and what is decided by
 # .clang-tidy alone.
 NOT_FOR_CLANG = re.compile(r"^\S*ccache | -Wno-subobject-linkage| -fpch-preprocess| -o \S+ -c \S+| -Winvalid-pch| -include \S+/cmake_pch\.hxx| -Werror(?=\s|$)")
+# A line of comment, unless it speaks to clang-tidy.
+COMMENT = re.compile(r"^[ \t]*//(?!.*NOLINT).*\n", re.MULTILINE)
 CONSTANT = re.compile(r"^constexpr \S+ \w+ = .*;$", re.MULTILINE)
 
 
@@ -98,7 +100,7 @@ def together(files):
 def fingerprint(file, command, version):
     seen = {".clang-tidy"}
     closure(file, seen)
-    texts = [version, command] + [name + "\0" + pathlib.Path(name).read_text() for name in sorted(seen)]
+    texts = [version, command] + [name + "\0" + COMMENT.sub("", pathlib.Path(name).read_text()) for name in sorted(seen)]
     return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:32]
 
 

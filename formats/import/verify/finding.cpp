@@ -14,21 +14,6 @@
 
 namespace grseg {
 
-std::string to_text(Verdict verdict)
-{
-  switch (verdict) {
-    case Verdict::passed:
-      return "passed";
-    case Verdict::failed:
-      return "failed";
-    case Verdict::undecided:
-      return "undecided";
-    case Verdict::waived:
-      return "waived";
-  }
-  return "";
-}
-
 Waivers::Waivers(const std::vector<std::string>& texts)
 {
   for (const auto& text : texts) {

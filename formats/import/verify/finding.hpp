@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/core/verdict.hpp"
+
 #include <map>
 #include <optional>
 #include <string>
@@ -20,14 +22,6 @@ namespace grseg {
 
 inline constexpr const char* check_names[] = {"contacts", "overlap", "pull",  "balance",
                                               "gravity",  "masses",  "sizes", "time"};
-
-enum class Verdict {
-  passed,
-  failed,     // refuses the import
-  undecided,  // cannot be told from this archive
-  waived,     // would have failed or be undecided, but --accept-residual accepts it
-};
-std::string to_text(Verdict verdict);
 
 /// The answer of one check.
 struct Finding {

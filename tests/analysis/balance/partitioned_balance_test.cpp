@@ -3,105 +3,19 @@
 #include "analysis/balance/partitioned_balance.hpp"
 
 #include "analysis/balance/driving_forces.hpp"
-#include "analysis/balance/partition_summary.hpp"
-#include "analysis/balance/summary.hpp"
-#include "analysis/balance/table.hpp"
-#include "tests/analysis/grain_builder.hpp"
+#include "tests/analysis/balance/random_balance.hpp"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace grseg {
 namespace {
-
-constexpr double gauge_step = 1e-3, kernel_width = 0.2;
-const Kernel bell(KernelShape::gauss, kernel_width);
-const std::vector<PartitionRule> all_rules = parse_rules(
-    {"size", "contact-point", "half", "drop", "uniform:0", "uniform:0.3", "uniform:1", "power:2"});
-
-template <int D>
-Layers thin_layers()
-{
-  if constexpr (D == 2)
-    return {1, 10};
-  else
-    return {1, 10, 7};
-}
-
-template <int D>
-Vector<D> some_gravity()
-{
-  Vector<D> g = Vector<D>::Zero();
-  g.x() = 3;
-  g.y() = -9;
-  return g;
-}
-
-/// Grains of several species and the base with overlaps and gaps, joined by contacts of random force,
-/// and their stored forces. Radii of one species differ, so that rules by size differ from contact to
-/// contact.
-template <int D>
-PackingOf<D> random_contacts(unsigned seed, int species = 2)
-{
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(0, 3), any(-1, 1);
-  const auto vector = [&] {
-    Vector<D> v;
-    for (auto& component : v) component = any(random);
-    return v;
-  };
-  PackingOf<D> scene;
-  for (int g = 0; g < 70; ++g) {
-    const bool base = g < 5;
-    Vector<D> position = Vector<D>::Zero();
-    for (auto& component : position) component = place(random);
-    if (base) position.y() = -0.1;
-    scene.grain(base ? Species::boundary : static_cast<Species>(g % species),
-                0.1 * (1 + g % species) * (1 + 0.1 * any(random)), position, vector());
-  }
-  std::uniform_int_distribution<std::int32_t> mobile(5, 69), either(0, 69);
-  for (int k = 0; k < 200; ++k) {
-    const auto i = mobile(random), j = either(random);
-    if (i != j) scene.contact(i, j, vector());
-  }
-  Vector<D> arm = Vector<D>::Constant(0.05);
-  scene.wall_contact(7, 0, vector(), arm);
-  auto& stored = scene.frame.force;
-  for (const double mass : scene.grains.mass) stored.emplace_back(mass * some_gravity<D>());
-  const auto& list = scene.frame.contacts;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    stored[static_cast<std::size_t>(list.i[k])] += list.force[k];
-    if (list.j[k] >= 0) stored[static_cast<std::size_t>(list.j[k])] -= list.force[k];
-  }
-  return scene;
-}
-
-template <int D>
-PartitionedBalance<D> contacts_of(const std::vector<PackingOf<D>>& frames,
-                                  const std::vector<PartitionRule>& rules = all_rules,
-                                  std::size_t species = 2, const Kernel& kernel = bell)
-{
-  PartitionedBalance<D> contacts(thin_layers<D>(), kernel, rules, species);
-  for (const auto& scene : frames) contacts.add(scene.grains, scene.frame);
-  return contacts;
-}
-
-template <int D>
-MomentumBalance<D> momentum_of(const std::vector<PackingOf<D>>& frames, std::size_t species = 2,
-                               const Kernel& kernel = bell)
-{
-  MomentumBalance<D> balance(thin_layers<D>(), kernel, some_gravity<D>(), gauge_step, species);
-  for (const auto& scene : frames) balance.add(scene.grains, scene.frame);
-  return balance;
-}
 
 /// The larger grain's share of a contact by the words of the rule, worked out once more.
 double share_by_words(const std::string& rule, double r_large, double r_small, double gap)
@@ -365,24 +279,6 @@ TEST(PartitionGauge, PartsMergeIntoTheWhole)
     }
 }
 
-/// Two frames, half a second apart, in which grains have moved on.
-std::vector<Packing> two_moments(unsigned seed)
-{
-  auto scene = random_contacts<2>(seed);
-  // Contacts that mostly push, so that there is a stress to share.
-  auto& list = scene.frame.contacts;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const Vec2 push = 2 * list.branch[k].normalized();
-    scene.frame.force[static_cast<std::size_t>(list.i[k])] += push;
-    if (list.j[k] >= 0) scene.frame.force[static_cast<std::size_t>(list.j[k])] -= push;
-    list.force[k] += push;
-  }
-  auto later = scene;
-  later.frame.time = 0.5;
-  for (auto& velocity : later.frame.velocity) velocity *= 1.5;
-  return {scene, later};
-}
-
 // Push and spread follow from the rule's stress, beta from its cuts, drag closes the balance: only
 // together do they say nothing of the rule.
 TEST(PartitionGauge, UnderEveryRuleTheInteractionIsSpreadDragAndScatter)
@@ -455,97 +351,6 @@ TEST(PartitionGauge, OfGrainsAtRestNIsMinusTheirWeightUnderEveryRule)
   EXPECT_GT(std::abs(contacts.mean(1, Species::large, 0).contact.y() -
                      contacts.mean(1, Species::large, 2).contact.y()),
             0.01);
-}
-
-double number_under(const std::vector<std::string>& columns, const std::vector<double>& row,
-                    const std::string& column)
-{
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    if (columns[c] == column) return row[c];
-  ADD_FAILURE() << "no column " << column;
-  return 0;
-}
-
-TEST(PartitionTable, EveryNumberStandsUnderItsRuleAndUnit)
-{
-  const auto frames = two_moments(12);
-  const auto balance = momentum_of<2>(frames);
-  const auto contacts = contacts_of<2>(frames);
-  const auto columns = partition_columns<2>(two_sizes(0.2, 0.4), all_rules);
-  const auto row = partition_row(balance, contacts, 1);
-  ASSERT_EQ(columns.size(), row.size());
-  const auto forces = driving_forces(balance, 1);
-  const auto half = rule_forces(forces, contacts, 1, 2);
-  const auto small = contacts.mean(1, Species::small, 7);
-  EXPECT_EQ(number_under(columns, row, "push@half[N/m^2]"), half.push);
-  EXPECT_EQ(number_under(columns, row, "drag@half[N/m^2]"), half.drag);
-  EXPECT_EQ(number_under(columns, row, "psi_L@half"), half.psi);
-  EXPECT_EQ(number_under(columns, row, "contact_S_x@power:2[N/m^2]"), small.contact.x());
-  EXPECT_EQ(number_under(columns, row, "interaction_S_y@power:2[N/m^2]"), small.interaction.y());
-  EXPECT_EQ(number_under(columns, row, "N_L_y[N/m^2]"),
-            contacts.contact_force(1, Species::large).y());
-  EXPECT_EQ(number_under(columns, row, "p_zero"), push_over_share(forces, contacts, 1).zero());
-}
-
-TEST(PartitionTable, OfThreeSpeciesOfSpheresThereAreTheTermsOfEach)
-{
-  const SpeciesList species{{"SE", 0.2}, {"AM", 0.4}, {"CB", 0.6}};
-  const std::vector frames{random_contacts<3>(13, 3)};
-  const auto contacts = contacts_of<3>(frames, parse_rules({"half"}), 3);
-  const auto columns = partition_columns<3>(species, contacts.rules());
-  const auto row = partition_row(momentum_of<3>(frames, 3), contacts, 1);
-  ASSERT_EQ(columns.size(), row.size());
-  EXPECT_EQ(columns.size(), 3u * 2 * 3 + 3 * 3);
-  EXPECT_EQ(number_under(columns, row, "interaction_CB_z@half[N/m^3]"),
-            contacts.mean(1, static_cast<Species>(2), 0).interaction.z());
-  EXPECT_EQ(number_under(columns, row, "N_SE_z[N/m^3]"),
-            contacts.contact_force(1, Species::small).z());
-}
-
-// A momentum density: kg m/s over m^2 or m^3.
-TEST(PartitionTable, TheDriftHasTheUnitOfAMomentumDensity)
-{
-  const auto has = [](const std::vector<std::string>& columns, const std::string& name) {
-    return std::find(columns.begin(), columns.end(), name) != columns.end();
-  };
-  EXPECT_TRUE(has(balance_columns<2>(two_sizes(1, 2)), "drift[kg/(m s)]"));
-  EXPECT_TRUE(has(balance_columns<3>(two_sizes(1, 2)), "drift[kg/(m^2 s)]"));
-}
-
-// A ratio of sums a/b over n windows of which each adds a_k - p* b_k: variance of that over n, over the
-// mean of b.
-TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
-{
-  const auto layers = thin_layers<2>();
-  const double large_diameter = 0.01;
-  PartitionSummary<2> summary(layers, large_diameter, all_rules);
-  std::vector<double> above, below;
-  for (unsigned seed = 21; seed < 26; ++seed) {
-    const auto frames = two_moments(seed);
-    const auto window = momentum_of<2>(frames);
-    const auto contacts = contacts_of<2>(frames);
-    summary.add(window, contacts);
-    double none = 0, all = 0, weight = 0;
-    for (const auto n : layers_inside(window, layers, large_diameter)) {
-      const auto over = push_over_share(driving_forces(window, n), contacts, n);
-      none += over.none;
-      all += over.all;
-      weight += std::abs(window.mean(n, Species::large).gravity.y());
-    }
-    above.push_back(none / weight);
-    below.push_back((none - all) / weight);
-  }
-  const double n = 5;
-  double a = 0, b = 0, squares = 0;
-  for (std::size_t k = 0; k < 5; ++k) {
-    a += above[k] / n;
-    b += below[k] / n;
-  }
-  for (std::size_t k = 0; k < 5; ++k) squares += std::pow(above[k] - a / b * below[k], 2);
-  const auto zero = nlohmann::json::parse(summary.to_json())["p_zero"];
-  EXPECT_NEAR(zero["mean"].get<double>(), a / b, 1e-12);
-  EXPECT_NEAR(zero["standard_error"].get<double>(), std::sqrt(squares / (n - 1) / n) / std::abs(b),
-              1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table and the summary of the balance under several rules.
+#include "analysis/balance/driving_forces.hpp"
+#include "analysis/balance/partition_summary.hpp"
+#include "analysis/balance/summary.hpp"
+#include "analysis/balance/table.hpp"
+#include "tests/analysis/balance/random_balance.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+double number_under(const std::vector<std::string>& columns, const std::vector<double>& row,
+                    const std::string& column)
+{
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (columns[c] == column) return row[c];
+  ADD_FAILURE() << "no column " << column;
+  return 0;
+}
+
+TEST(PartitionTable, EveryNumberStandsUnderItsRuleAndUnit)
+{
+  const auto frames = two_moments(12);
+  const auto balance = momentum_of<2>(frames);
+  const auto contacts = contacts_of<2>(frames);
+  const auto columns = partition_columns<2>(two_sizes(0.2, 0.4), all_rules);
+  const auto row = partition_row(balance, contacts, 1);
+  ASSERT_EQ(columns.size(), row.size());
+  const auto forces = driving_forces(balance, 1);
+  const auto half = rule_forces(forces, contacts, 1, 2);
+  const auto small = contacts.mean(1, Species::small, 7);
+  EXPECT_EQ(number_under(columns, row, "push@half[N/m^2]"), half.push);
+  EXPECT_EQ(number_under(columns, row, "drag@half[N/m^2]"), half.drag);
+  EXPECT_EQ(number_under(columns, row, "psi_L@half"), half.psi);
+  EXPECT_EQ(number_under(columns, row, "contact_S_x@power:2[N/m^2]"), small.contact.x());
+  EXPECT_EQ(number_under(columns, row, "interaction_S_y@power:2[N/m^2]"), small.interaction.y());
+  EXPECT_EQ(number_under(columns, row, "N_L_y[N/m^2]"),
+            contacts.contact_force(1, Species::large).y());
+  EXPECT_EQ(number_under(columns, row, "p_zero"), push_over_share(forces, contacts, 1).zero());
+}
+
+TEST(PartitionTable, OfThreeSpeciesOfSpheresThereAreTheTermsOfEach)
+{
+  const SpeciesList species{{"SE", 0.2}, {"AM", 0.4}, {"CB", 0.6}};
+  const std::vector frames{random_contacts<3>(13, 3)};
+  const auto contacts = contacts_of<3>(frames, parse_rules({"half"}), 3);
+  const auto columns = partition_columns<3>(species, contacts.rules());
+  const auto row = partition_row(momentum_of<3>(frames, 3), contacts, 1);
+  ASSERT_EQ(columns.size(), row.size());
+  EXPECT_EQ(columns.size(), 3u * 2 * 3 + 3 * 3);
+  EXPECT_EQ(number_under(columns, row, "interaction_CB_z@half[N/m^3]"),
+            contacts.mean(1, static_cast<Species>(2), 0).interaction.z());
+  EXPECT_EQ(number_under(columns, row, "N_SE_z[N/m^3]"),
+            contacts.contact_force(1, Species::small).z());
+}
+
+// A momentum density: kg m/s over m^2 or m^3.
+TEST(PartitionTable, TheDriftHasTheUnitOfAMomentumDensity)
+{
+  const auto has = [](const std::vector<std::string>& columns, const std::string& name) {
+    return std::find(columns.begin(), columns.end(), name) != columns.end();
+  };
+  EXPECT_TRUE(has(balance_columns<2>(two_sizes(1, 2)), "drift[kg/(m s)]"));
+  EXPECT_TRUE(has(balance_columns<3>(two_sizes(1, 2)), "drift[kg/(m^2 s)]"));
+}
+
+// A ratio of sums a/b over n windows of which each adds a_k - p* b_k: variance of that over n, over the
+// mean of b.
+TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
+{
+  const auto layers = thin_layers<2>();
+  const double large_diameter = 0.01;
+  PartitionSummary<2> summary(layers, large_diameter, all_rules);
+  std::vector<double> above, below;
+  for (unsigned seed = 21; seed < 26; ++seed) {
+    const auto frames = two_moments(seed);
+    const auto window = momentum_of<2>(frames);
+    const auto contacts = contacts_of<2>(frames);
+    summary.add(window, contacts);
+    double none = 0, all = 0, weight = 0;
+    for (const auto n : layers_inside(window, layers, large_diameter)) {
+      const auto over = push_over_share(driving_forces(window, n), contacts, n);
+      none += over.none;
+      all += over.all;
+      weight += std::abs(window.mean(n, Species::large).gravity.y());
+    }
+    above.push_back(none / weight);
+    below.push_back((none - all) / weight);
+  }
+  const double n = 5;
+  double a = 0, b = 0, squares = 0;
+  for (std::size_t k = 0; k < 5; ++k) {
+    a += above[k] / n;
+    b += below[k] / n;
+  }
+  for (std::size_t k = 0; k < 5; ++k) squares += std::pow(above[k] - a / b * below[k], 2);
+  const auto zero = nlohmann::json::parse(summary.to_json())["p_zero"];
+  EXPECT_NEAR(zero["mean"].get<double>(), a / b, 1e-12);
+  EXPECT_NEAR(zero["standard_error"].get<double>(), std::sqrt(squares / (n - 1) / n) / std::abs(b),
+              1e-12);
+}
+
+}  // namespace
+}  // namespace grseg

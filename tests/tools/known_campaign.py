@@ -1,0 +1,108 @@
+"""A campaign of runs whose tables are known in advance, beside programs that know their answers.
+
+grseg-fit and grseg-micro are stood in for by a script that prints what the test put down for its arguments, so
+that what is asked of them, and what is made of their answers, is tested and not they.
+"""
+import importlib.machinery
+import importlib.util
+import json
+import math
+import os
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+scripts = sys.argv.pop(1)
+sys.path.insert(0, os.path.join(scripts, "reproduce"))
+import tables  # noqa: E402
+
+D, G, SLOPE, RHO = 0.005, 9.8, math.radians(23), 1.0
+UNIT = RHO * G * D  # of stress, N/m
+
+
+def program(name):
+    """A script without .py as a module, not run."""
+    loader = importlib.machinery.SourceFileLoader(name, os.path.join(scripts, "reproduce", name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+# Prints the first answer in answers.json all of whose words are among the arguments, and logs the arguments.
+STAND_IN = """#!/usr/bin/python3
+import json, os, sys
+here = os.path.dirname(os.path.abspath(__file__))
+words = [os.path.basename(sys.argv[0])] + sys.argv[1:]
+with open(os.path.join(here, "asked"), "a") as asked:
+    asked.write(json.dumps(words) + "\\n")
+for wanted, table in json.load(open(os.path.join(here, "answers.json"))):
+    if all(any(each == word or each.endswith(word) for each in words) for word in wanted):
+        sys.stdout.write(table)
+        break
+else:
+    sys.exit("no answer to " + " ".join(words))
+"""
+
+
+def text_of(rows, head=()):
+    names = list(rows[0])
+    cell = lambda value: value if isinstance(value, str) else f"{value:.17g}"
+    lines = [f"# {key}: {value}" for key, value in head] + ["\t".join(names)]
+    return "\n".join(lines + ["\t".join(cell(row[name]) for name in names) for row in rows]) + "\n"
+
+
+HEAD = (("small_diameter", D), ("large_diameter", 2 * D), ("gravity_x", G * math.sin(SLOPE)),
+        ("gravity_y", -G * math.cos(SLOPE)), ("length", 70 * D), ("step", 2.5e-4), ("window", 1))
+
+
+class Campaign:
+    """A folder of finished runs, and one of programs that know their answers."""
+
+    def __init__(self, folder):
+        self.tables, self.bin = os.path.join(folder, "tables"), os.path.join(folder, "bin")
+        os.makedirs(self.tables)
+        os.makedirs(self.bin)
+        self.folder, self.answers = folder, []
+        for name in ("grseg-fit", "grseg-micro"):
+            path = os.path.join(self.bin, name)
+            with open(path, "w") as program:
+                program.write(STAND_IN)
+            os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
+
+    def run(self, name, **quantities):
+        """A finished run with these tables, each a list of rows."""
+        folder = os.path.join(self.tables, name)
+        os.makedirs(folder)
+        for quantity, rows in {**quantities, "checksums": None}.items():
+            path = os.path.join(folder, quantity if rows is None else quantity.replace("_", "-") + ".tsv")
+            with open(path, "w") as table:
+                table.write("" if rows is None else text_of(rows, HEAD))
+
+    def answer(self, *words, rows, head=()):
+        self.answers.append([list(words), text_of(rows, head)])
+
+    def made_by(self, script, *words):
+        """Rows of the table that the script makes."""
+        with open(os.path.join(self.bin, "answers.json"), "w") as file:
+            json.dump(self.answers, file)
+        made = os.path.join(self.folder, "made.tsv")
+        done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", script), self.tables,
+                               *words, "-o", made, "--bin", self.bin], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise AssertionError(done.stderr)
+        return tables.read(made)[1]
+
+    def asked(self):
+        with open(os.path.join(self.bin, "asked")) as file:
+            return [json.loads(line) for line in file]
+
+
+class Pipeline(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.campaign = Campaign(self.temporary.name)
+
+    def tearDown(self):
+        self.temporary.cleanup()

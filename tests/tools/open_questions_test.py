@@ -1,0 +1,283 @@
+#!/usr/bin/python3
+"""questions, stages, rigid-limit and answers, on runs and rows whose results are known in advance; and how
+second-program cuts an archive back.
+
+Usage: open_questions_test.py SCRIPTS
+"""
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+from known_campaign import D, G, Pipeline, program, scripts  # noqa: E402
+import numpy as np  # noqa: E402
+import tables  # noqa: E402
+
+questions, stages, rigid_limit, answers = map(program, ("questions", "stages", "rigid-limit", "answers"))
+SPEED = math.sqrt(G * D)
+BEADS = math.pi / 4 * (2 * D) ** 2  # area of a large grain
+
+
+def rows_of_bed(t, large_below=0.0, y_large=0.5, rate=0.0):
+    """A window of 1 s of stress and of segregation, a layer of 4 d_S and the bed."""
+    key = {"t0": t, "t1": t + 1, "frames": 20}
+    layer = {**key, "y0": 0.0, "y1": 4 * D}
+    stress = {**layer, "area_S": 1.0, "area_L": large_below * BEADS}
+    segregation = [{**layer, "yL": math.nan, "height": math.nan, "shear_rate": math.nan},
+                   {**key, "y0": math.nan, "y1": math.nan, "yL": y_large * 60 * D, "height": 60 * D, "shear_rate": rate}]
+    return stress, segregation
+
+
+class Questions(Pipeline):
+    """One row per flow, with what grseg-fit says of it and of the paper's choice."""
+
+    def run_of(self, name, **bed):
+        windows = [rows_of_bed(0, large_below=100, y_large=0.1, rate=1000), rows_of_bed(10, **bed)]
+        self.campaign.run(name, stress=[stress for stress, _ in windows], segregation=[row for _, both in windows for row in both],
+                          micro=[{"t1": t, **{f"n_{pair}": 1.0 for pair in ("SS", "LS", "LL", "Sb", "Lb")}, "sum_f_SS": 1.0, "sum_f_LS": 2.0,
+                                  "sum_f_LL": 3.0, "sum_f_Sb": 4.0, "sum_f_Lb": late} for t, late in ((10, 900.0), (30, 7.0))],
+                          record=[{"name": "small_diameter", "value": D}, {"name": "summary_mean_overlap", "value": 1e-3 * D}])
+
+    def answer(self, flow, value, *words, half=0.01):
+        column = {"name": "x"}
+        for name in ("B_sums", "B_half", "p_zero_sums", "B_paper"):
+            column.update({name: value, name + "_low": value - half, name + "_high": value + half})
+        self.campaign.answer("grseg-fit", f"{flow}-seed1/stress.tsv", *words, rows=[column])
+
+    def asked_of(self, flow):
+        return [words for words in self.campaign.asked() if any(f"/{flow}-seed1/" in word for word in words)]
+
+    def test_a_flow_is_compared_with_the_paper_s_choice_over_its_own_time(self):
+        for flow in ("phi0.30-s23", "phi0.30-s23-irregular"):
+            for seed in (1, 2):
+                self.run_of(f"{flow}-seed{seed}")
+        self.answer("phi0.30-s23-irregular", 0.05, half=0.003)
+        self.answer("phi0.30-s23", 0.03, half=0.004)
+        rows = {row["flow"]: row for row in self.campaign.made_by("questions")}
+        row = rows["phi0.30-s23-irregular"]
+        self.assertEqual((row["runs"], row["end"]), (2, 11))
+        self.assertAlmostEqual(row["less_B"], 0.02)
+        self.assertAlmostEqual(row["less_B_reach"], 0.005)  # 3, 4, 5
+        self.assertTrue(math.isnan(rows["phi0.30-s23"]["less_B"]))
+        for words in self.asked_of("phi0.30-s23"):
+            self.assertEqual(words[words.index("--end") + 1], "11.0")
+
+    def test_layers_keep_their_distance_from_base_and_surface_in_a_deeper_bed(self):
+        deep = "phi0.45-s23-cell140dS-depth120dS-t60"
+        self.run_of(deep + "-seed1")
+        self.answer(deep, 0.03)
+        self.campaign.made_by("questions")
+        heights = {words[words.index("--heights") + 1] for words in self.asked_of(deep) if "--heights" in words}
+        self.assertEqual(heights, {"4dS:116dS"})
+
+    def test_grains_that_are_alike_are_fitted_with_random_labels(self):
+        alike = "phi0.45-s23-ratio1-t60"
+        self.run_of(alike + "-seed1")
+        os.link(os.path.join(self.campaign.tables, alike + "-seed1", "stress.tsv"), os.path.join(self.campaign.tables, alike + "-seed1", "stress-random.tsv"))
+        self.campaign.answer("grseg-fit", "stress-random.tsv", rows=[{"B_sums": 0.001, "B_sums_low": 0.0, "B_sums_high": 0.002}])
+        row, = self.campaign.made_by("questions")
+        self.assertEqual((row["B"], row["B_high"]), (0.001, 0.002))
+
+    def test_a_ratio_of_1_5_is_not_the_control(self):
+        flow = "phi0.45-s23-ratio1.5-t60"
+        self.run_of(flow + "-seed1")
+        self.answer(flow, 0.03)
+        row, = self.campaign.made_by("questions")
+        self.assertEqual(row["B"], 0.03)
+
+    def test_the_bed_at_the_end_is_that_of_the_last_window(self):
+        flow = "phi0.30-s23"
+        self.run_of(flow + "-seed1", large_below=7, y_large=0.7, rate=11)
+        self.run_of(flow + "-seed2", large_below=9, y_large=0.8, rate=13)
+        self.answer(flow, 0.03)
+        row, = self.campaign.made_by("questions")
+        self.assertAlmostEqual(row["trapped"], 8, 6)
+        self.assertAlmostEqual(row["yL_end"], 0.75)
+        self.assertAlmostEqual(row["rate"], 12 * math.sqrt(D / G), 6)
+        self.assertAlmostEqual(row["overlap"], 1e-3)
+        self.assertAlmostEqual(row["f_ratio"], (3 + 2 + 7) / (1 + 2 + 4))  # of the last 15 s alone
+        self.assertAlmostEqual(row["trapped_reach"], 12.706 * math.sqrt(2) / math.sqrt(2), 4)
+
+    def test_all_mixtures_of_one_restitution_make_a_row(self):
+        for phi in ("0.30", "0.60"):
+            self.run_of(f"phi{phi}-s23-e0.5-seed1")
+            self.answer(f"phi{phi}-s23-e0.5", 0.04)
+        rows = self.campaign.made_by("questions")
+        every = rows[-1]
+        self.assertEqual((every["flow"], every["runs"]), ("mixtures-e0.5", 2))
+        self.assertTrue(math.isnan(every["phi"]))
+
+
+def points(j, k, shape, n=400, seed=1):
+    """Points whose large grains get phi_L phi_S P + j q + k G more than their share, of any flux and gradient."""
+    random = np.random.default_rng(seed)
+    t, y, phi = random.uniform(0, 600, n), random.uniform(0.1, 0.9, n), random.uniform(0.1, 0.9, n)
+    q, gradient = random.normal(0, 1e-3, n), random.normal(0, 0.02, n)
+    p = shape[0] + shape[1] * phi + shape[2] * y + shape[3] * phi * y
+    return np.stack([t, y, phi, phi * (1 - phi) * p + j * q + k * gradient, random.uniform(1, 9, n), q, gradient, np.full(n, 1e-8)], 1)
+
+
+class Stages(Pipeline):
+    """What contacts give beyond the share: of composition and height, of the flux, of the gradient."""
+
+    SHAPE = (0.03, 0.01, -0.02, 0.05)
+
+    def test_a_contribution_of_flux_and_gradient_is_found_beside_any_quadratic_of_composition_and_height(self):
+        found = stages.fit(points(1.7, -0.3, self.SHAPE))
+        self.assertAlmostEqual(found["both", "j"], 1.7, 9)
+        self.assertAlmostEqual(found["both", "k"], -0.3, 10)
+        self.assertAlmostEqual(found["both", "r2"], 1, 12)
+        self.assertLess(found["+q", "r2"], 1 - 1e-3)
+        self.assertLess(found["+gradient", "r2"], 1 - 1e-3)
+
+    def test_a_flux_measured_with_noise_is_corrected_by_its_reliability(self):
+        exact = points(1.7, 0, self.SHAPE, n=20000)
+        noise = 5e-4
+        exact[:, 5] += np.random.default_rng(2).normal(0, noise, len(exact))
+        exact[:, 7] = noise**2
+        found = stages.fit(exact)
+        self.assertAlmostEqual(found["q", "reliability"], 1 / 1.25, 1)
+        self.assertLess(found["+q", "j"], 1.45)
+        self.assertAlmostEqual(found["+q", "j_true"], 1.7, 1)
+
+    def test_leaving_out_runs_tells_how_runs_differ(self):
+        starts = {"a": [points(j, 0, self.SHAPE, seed=n) for n, j in enumerate((1.0, 2.0, 3.0))]}
+        found = {row[:2]: row[2:] for row in stages.jackknife(starts)}
+        value, low, high = found["both", "j"]
+        self.assertAlmostEqual(value, 2, 0)
+        self.assertAlmostEqual((high - low) / 2, 4.303 / math.sqrt(3), delta=0.4)  # Student's t of three, 1 apart
+        alike = {row[:2]: row[2:] for row in stages.jackknife({"a": [points(1, 0, self.SHAPE, seed=n) for n in range(3)]})}
+        self.assertAlmostEqual(alike["both", "j"][1], alike["both", "j"][2], 9)
+
+    def test_b_at_equal_composition_and_height_does_not_see_where_a_start_has_its_points(self):
+        whole = points(0, 0, (0.02, 0.0, 0.04, 0.0), n=4000)
+        low = whole[(whole[:, 1] < 0.35) | ((np.arange(len(whole)) % 5 == 0) & (whole[:, 1] < 0.66))]
+        found = {row[0]: row[2] for row in stages.equal_parts({"all": [whole], "low": [low]})}
+        self.assertAlmostEqual(found["all 300-600 s"], found["low 300-600 s"], 2)
+        of = lambda p: (p[:, 4] * p[:, 3]).sum() / (p[:, 4] * p[:, 2] * (1 - p[:, 2])).sum()
+        self.assertGreater(of(whole) - of(low), 0.005)
+
+    def test_a_point_is_a_layer_inside_over_ten_seconds(self):
+        content = dict(A_SS_yy=2.0, A_LL_yy=3.0, M_yy=6.0, Msize_yy=4.0, A_Sb_yy=0.0, A_Lb_yy=0.0)
+        stress, flux = [], []
+        for t, frames, q in ((0.0, 10, 1e-3), (5.0, 30, 5e-3)):
+            for n in (0, 1, 14):
+                key = {"t0": t, "t1": t + 5, "y0": 4 * n * D, "y1": 4 * (n + 1) * D, "frames": frames}
+                stress.append({**key, "area_S": 3.0, "area_L": 1.0, **content})
+                flux.append({**key, "q_L": q, "q_L_error": 1e-4, "dphi_dy": 2.0})
+            flux.append({"t0": t, "t1": t + 5, "y0": math.nan, "y1": math.nan, "frames": frames, "q_L": math.nan, "q_L_error": math.nan, "dphi_dy": math.nan})
+        self.campaign.run("phi0.45-s23-t600-seed1", stress=stress, segregation=flux)
+        run, = tables.runs_in(self.campaign.tables)
+
+        class Options:
+            window = 10
+        point, = stages.points_of(run, Options)
+        share = (3 + 4) / (3 + 4 + 2 + 2)
+        expected = [5, 6 / 60, 0.25, share - 0.25, 40, 4e-3 / SPEED, 2 * D, (1e-4 * math.hypot(10, 30) / 40 / SPEED) ** 2]
+        np.testing.assert_allclose(point, expected, rtol=1e-12)
+
+
+class RigidLimit(unittest.TestCase):
+    """B of discs that do not overlap, from those that do."""
+
+    def test_of_equal_errors_the_line_is_that_of_the_text_book(self):
+        x, y, e = [1.0, 2.0, 3.0, 4.0], [1.0, 2.0, 2.0, 4.0], 0.5
+        level, of_level, slope, of_slope, chi2 = rigid_limit.line(x, y, [e] * 4)
+        self.assertAlmostEqual(slope, 0.9)  # sxy/sxx = 4.5/5
+        self.assertAlmostEqual(level, 0.0)
+        self.assertAlmostEqual(of_slope, e / math.sqrt(5))
+        self.assertAlmostEqual(of_level, e * math.sqrt(1 / 4 + 2.5**2 / 5))
+        self.assertAlmostEqual(chi2, (0.1**2 + 0.2**2 + 0.7**2 + 0.4**2) / e**2)
+
+    def test_a_power_law_is_extrapolated_to_its_limit(self):
+        names = ("phi0.45-s23-draft-t150", "phi0.45-s23", "phi0.45-s23-reference-t150", "phi0.45-s23-finer-t150", "phi0.45-s22")
+        rows = []
+        for name, overlap in zip(names, (2e-3, 8e-4, 1e-4, 2e-5, 1e-1)):
+            row = {"flow": name, "overlap": overlap}
+            for of, value in {"B": 0.034 + 3 * overlap, "p_star": 0.65 - 0.2 * math.sqrt(overlap), "K": -0.3}.items():
+                row.update({of: value, of + "_low": value - 0.004, of + "_high": value + 0.004})
+            rows.append(row)
+        with tempfile.TemporaryDirectory() as work:
+            path, out = os.path.join(work, "questions.tsv"), os.path.join(work, "limit.tsv")
+            tables.write(path, "rows", list(rows[0]), rows)
+            subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", "rigid-limit"), path, "-o", out], check=True)
+            found = {(row["of"], row["power"]): row for row in tables.read(out)[1]}
+            self.assertAlmostEqual(found["B", 1]["limit"], 0.034, 7)
+            self.assertAlmostEqual(found["B", 1]["k"], 3, 4)
+            self.assertLess(found["B", 1]["chi2"], 1e-6)
+            self.assertGreater(found["B", 0.5]["chi2"], 1e-3)
+            self.assertAlmostEqual(found["p_star", 0.5]["limit"], 0.65, 6)
+            self.assertEqual(found["K", 1]["rows"], 4)
+            tables.write(path, "rows", list(rows[0]), rows[:2])
+            refused = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", "rigid-limit"), path, "-o", out],
+                                     capture_output=True, text=True)
+            self.assertNotEqual(refused.returncode, 0)
+            self.assertIn("three are needed", refused.stderr)
+
+
+class Answers(unittest.TestCase):
+    """The document's tables between markers."""
+
+    def rewritten(self, text, **of_folder):
+        with tempfile.TemporaryDirectory() as work:
+            for name, rows in of_folder.items():
+                tables.write(os.path.join(work, name.replace("_", "-") + ".tsv"), name, list(rows[0]), rows)
+            path = os.path.join(work, "page.md")
+            with open(path, "w") as page:
+                page.write(text)
+            done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", "answers"), work, path], capture_output=True, text=True)
+            with open(path) as page:
+                return done, page.read()
+
+    def test_only_the_part_between_markers_changes(self):
+        stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2}
+        before = "one\n<!-- stages -->\nold\n<!-- /stages -->\ntwo\n"
+        _, after = self.rewritten(before, stages=[stage])
+        self.assertEqual(after, "one\n<!-- stages -->\n| of |  | value |\n|---|---|---|\n| both | k | 0.123 [0.100, 0.200] |\n<!-- /stages -->\ntwo\n")
+
+    def test_runs_without_a_place_in_the_document_are_refused(self):
+        stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2}
+        done, after = self.rewritten("nothing\n", stages=[stage])
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("<!-- stages -->", done.stderr)
+        self.assertEqual(after, "nothing\n")
+
+    def test_each_flow_stands_under_its_question(self):
+        flows = {"control": "phi0.45-s23-ratio1-t60", "grains": "phi0.45-s23-ratio1.5-t60", "starts": "phi0.45-s23-mixed-t600",
+                 "second-program": "phi0.45-s23-lammps100000"}
+        row = lambda flow: {"flow": flow, "runs": 4, "end": 60, **{name + end: 0.03 for name in ("B", "p_star", "B_half_rule", "K")
+                                                                   for end in ("", "_low", "_high")},
+                            "less_B": 0.0, "less_B_reach": 0.1, "less_K": 0.0, "less_K_reach": 0.1}
+        page = "".join(f"<!-- {name} -->\n<!-- /{name} -->\n" for name in flows)
+        done, after = self.rewritten(page, questions=[row(flow) for flow in flows.values()])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name, flow in flows.items():
+            part = after.split(f"<!-- {name} -->")[1].split(f"<!-- /{name} -->")[0]
+            self.assertEqual([line.split("|")[1].strip() for line in part.strip().splitlines()[2:]], [flow])
+
+
+class SecondProgram(unittest.TestCase):
+    """What an interrupted LAMMPS has written from its last restart on is cut off, since it writes that again."""
+
+    def test_frames_from_the_restart_on_are_cut_off(self):
+        second_program = program("../second-program")
+        frame = lambda step: f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x\n1 {step / 7!r}\n"
+        with tempfile.TemporaryDirectory() as work:
+            for name in ("atoms.dump", "contacts.dump"):
+                with open(os.path.join(work, name), "w") as dump:
+                    dump.write("".join(map(frame, (0, 100, 200, 300))) + "ITEM: TIMESTEP\n400\nITEM: NUM")
+            for name in ("flow.100.restart", "flow.200.restart", "flow.1000.restart.part"):
+                open(os.path.join(work, name), "w").close()
+            last = second_program.restart_file(work)
+            self.assertEqual(last, ("flow.200.restart", 200))
+            second_program.frames_until(work, last[1])
+            for name in ("atoms.dump", "contacts.dump"):
+                with open(os.path.join(work, name)) as dump:
+                    self.assertEqual(dump.read(), frame(0) + frame(100))
+
+
+if __name__ == "__main__":
+    unittest.main()
