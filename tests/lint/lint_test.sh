@@ -40,8 +40,8 @@ $tidy "$folder" "$folder/clean.cpp" $mistakes >/dev/null 2>"$folder/words" || co
 [ "$code $(cat "$folder/words")" = "1 lint: clang-tidy checks 1 of 2 files" ] || wrong "the second time: $code $(cat "$folder/words")"
 case $($tidy --all "$folder" "$folder/clean.cpp" 2>&1) in *"checks 1 of 1 files"*) ;; *) wrong "--all skips files" ;; esac
 
-# Fingerprints are those of the content: the same in two checkouts, others where a header, a rule or
-# a compiler option is another.
+# Fingerprints are those of the content: the same in two checkouts and with other lines of comment,
+# others where a header, a rule or a compiler option is another.
 # checkout FOLDER OPTION: one of a source and its header.
 checkout() {
   mkdir -p "$folder/$1/formats" "$folder/$1/build"
@@ -62,6 +62,10 @@ checkout two '-O3 -Werror' '/usr/bin/ccache '
 [ "$(fingerprint two)" = "$first" ] || wrong "another checkout has other fingerprints"
 checkout three -O0 ''
 [ "$(fingerprint three)" != "$first" ] || wrong "a compiler option is not noticed"
+printf '// A line of comment decides nothing.\nint none();\n' >"$folder/one/formats/clean.hpp"
+[ "$(fingerprint one)" = "$first" ] || wrong "a line of comment is noticed"
+printf '// NOLINTNEXTLINE\nint none();\n' >"$folder/one/formats/clean.hpp"
+[ "$(fingerprint one)" != "$first" ] || wrong "a comment that silences a rule is not noticed"
 echo 'int none(); // none' >"$folder/one/formats/clean.hpp"
 [ "$(fingerprint one)" != "$first" ] || wrong "a changed header is not noticed"
 echo '# a rule' >>"$folder/two/.clang-tidy"
