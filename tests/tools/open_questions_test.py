@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""questions, stages, rigid-limit and answers, on runs and rows whose results are known in advance; and how
+"""questions, stages, closures, rigid-limit and answers, on runs and rows whose results are known in advance; and how
 second-program cuts an archive back.
 
 Usage: open_questions_test.py SCRIPTS
@@ -109,6 +109,25 @@ class Questions(Pipeline):
         every = rows[-1]
         self.assertEqual((every["flow"], every["runs"]), ("mixtures-e0.5", 2))
         self.assertTrue(math.isnan(every["phi"]))
+
+
+class Closures(Pipeline):
+    """Gray & Thornton's coefficients of each mixture, from the runs that kept the flux of every layer."""
+
+    def test_a_mixture_is_closed_by_all_its_runs_inside(self):
+        for name in ("phi0.30-s23-seed1", "phi0.30-s23-e0.25-seed1", "phi0.30-s23-e0.25-seed2", "phi0.60-s23-e0.25-seed1", "phi0.60-s22-e0.25-seed1"):
+            self.campaign.run(name)
+        numbers = ("B_over_c[s]", "d_over_c[m^2/s]", "p_zero", "dc_dp[1/s]", "c@size[1/s]", "c@half[1/s]", "d@size[m^2/s^2]", "error_factor")
+        for phi, first in (("0.30", 1.0), ("0.60", 101.0)):
+            self.campaign.answer("grseg-segregation", f"phi{phi}-s23-e0.25-seed1/stress.tsv",
+                                 rows=[{"quantity": name, "value": first + n, "low": first + n - 0.5, "high": math.nan} for n, name in enumerate(numbers)])
+        thirty, sixty = self.campaign.made_by("closures")
+        self.assertEqual((thirty["flow"], thirty["runs"], sixty["phi"], sixty["runs"]), ("phi0.30-s23-e0.25", 2, 0.6, 1))
+        self.assertEqual([thirty[name] for name in ("B_over_c", "d_over_c", "p_star", "dc_dp", "c_size", "c_half")], [1, 2, 3, 4, 5, 6])
+        self.assertEqual((sixty["c_size"], sixty["c_size_low"]), (105, 104.5))
+        asked = self.campaign.asked()[0]
+        self.assertEqual(sum(word.endswith("/segregation.tsv") for word in asked), 2)
+        self.assertEqual(asked[asked.index("--heights") + 1], "4dS:56dS")
 
 
 def points(j, k, shape, n=400, seed=1):
