@@ -179,8 +179,10 @@ Packing loose_packing(const Scene& scene, double area, RandomNumbers& random)
     throw UsageError("the bed holds no grain; choose a larger depth or length, or smaller grains");
   const auto boundaries = scene.geometry->boundaries(scene);
   const auto shower = shower_of(scene, large, small, boundaries.top, random);
+  const double of_large_grains = scene.density * scene.density_ratio;
   for (const auto& grain : shower.grains)
-    add_grain(packing, grain.species, grain.radius, scene.density, grain.at);
+    add_grain(packing, grain.species, grain.radius,
+              grain.species == Species::large ? of_large_grains : scene.density, grain.at);
   add_boundaries(packing, scene, boundaries);
 
   world.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};

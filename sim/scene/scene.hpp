@@ -22,7 +22,8 @@ struct Scene {
   double size_ratio = 0;             // nominal d_L/d_S
   double large_diameter = 0;         // m, nominal d_L: no key, size_ratio times d_S
   double spread = 0;                 // (d_max - d_min)/d of each species, uniform
-  double density = 0;                // kg/m^2, of the grains
+  double density = 0;                // kg/m^2, of the small grains and of the boundary
+  double density_ratio = 0;          // of the large grains over that
   double phi_large = 0;              // share of the large grains in the area of all grains
   std::optional<long> large_grains;  // their number, where it is given instead
   enum class Initial { large_below, mixed, large_above } initial{};

@@ -270,6 +270,7 @@ TEST(Restart, KeysOfTheBedCannotChange)
                                                         {"size-ratio", "1.9"},
                                                         {"spread", "0.1"},
                                                         {"density", "2"},
+                                                        {"density-ratio", "2"},
                                                         {"phi-large", "0.4"},
                                                         {"depth", "9dS"},
                                                         {"length", "9dL"},

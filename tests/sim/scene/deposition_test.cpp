@@ -148,6 +148,22 @@ TEST(Deposition, GivesTheWorldTheConditionsOfTheScene)
   }
 }
 
+TEST(Deposition, LargeGrainsAreDenserByTheDensityRatio)
+{
+  const auto scene = scene_from({"--depth", "6dS", "--length", "6dL", "--density", "3",
+                                 "--density-ratio", "1.5", "--phi-large", "0.5"});
+  const auto simulation = deposit(scene);
+  const auto& grains = simulation.world().grains;
+  int large = 0;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    const bool denser = grains.species[k] == Species::large;
+    const double r = grains.radius[k];
+    EXPECT_DOUBLE_EQ(grains.mass[k], (denser ? 4.5 : 3) * std::numbers::pi * r * r);
+    large += denser ? 1 : 0;
+  }
+  EXPECT_GT(large, 2);
+}
+
 TEST(Deposition, IsRecordedBeforeTheTiltWithoutChangingTheBed)
 {
   const auto scene = scene_from({"--depth", "6dS", "--length", "6dL", "--accuracy", "draft"});
