@@ -37,9 +37,9 @@ def plain(value, digits):
     return text.replace("-", "−")
 
 
-def of_runs(value, low, high, runs):
-    """A value whose interval was made by Student's t over so many runs (at least two)."""
-    return Value(value, low, high, (high - low) / 2 / tables.student(max(1, runs - 1)))
+def of_student(value, low, high, freedom):
+    """A value whose interval was made by Student's t with so many degrees of freedom; nan: a normal one."""
+    return Value(value, low, high, (high - low) / 2 / tables.student(1e9 if math.isnan(freedom) else freedom))
 
 
 class Measured:
@@ -72,7 +72,7 @@ class Measured:
         row = self.row(which, **how)
         if row is None:
             return Value(math.nan)
-        return of_runs(row[name], row.get(f"{name}_low", math.nan), row.get(f"{name}_high", math.nan), row["seeds"])
+        return of_student(row[name], row.get(f"{name}_low", math.nan), row.get(f"{name}_high", math.nan), row["degrees_of_freedom"])
 
     def flow(self, name):
         return next((row for row in self.flows if row["flow"] == name), None)
@@ -86,7 +86,7 @@ class Measured:
         if row is None:
             return Value(math.nan)
         value, half = row[quantity], row.get(f"hw_{quantity}", math.nan)
-        return of_runs(value, value - half, value + half, row["seeds"])
+        return of_student(value, value - half, value + half, max(1, row["seeds"] - 1))
 
     def flows_with(self, name):
         """What a number of this name was measured of, in order."""

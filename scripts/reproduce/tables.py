@@ -19,8 +19,21 @@ STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365
 
 
 def student(freedom):
-    """Student's 97.5 % quantile for the largest listed number of degrees of freedom up to `freedom`."""
-    return STUDENT[max(n for n in STUDENT if n <= freedom)]
+    """Student's 97.5 % quantile; between the listed degrees of freedom linear in their inverse, off by 3 % at most."""
+    above = min((n for n in STUDENT if n >= freedom), default=max(STUDENT))
+    below = max((n for n in STUDENT if n <= freedom), default=min(STUDENT))
+    if above == below:
+        return STUDENT[below]
+    part = (1 / freedom - 1 / above) / (1 / below - 1 / above)
+    return STUDENT[above] + part * (STUDENT[below] - STUDENT[above])
+
+
+def welch(*estimates):
+    """Standard error and degrees of freedom of a sum or difference of independent (error, degrees of freedom)."""
+    variance = sum(error**2 for error, _ in estimates)
+    if not variance > 0:
+        return math.sqrt(variance), 1e9
+    return math.sqrt(variance), variance**2 / sum(error**4 / freedom for error, freedom in estimates)
 
 
 class Run:

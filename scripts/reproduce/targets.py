@@ -56,7 +56,7 @@ def contact_stress(m):
     yield number("2b: slope of σ^S/σ^L over φ_S/φ_L", paper.SLOPE, m.fit("mixtures", "s"), 3,
                  f"with the lowest layer and the surface {m.fit('mixtures', 's', heights='all').text(3)}")
     yield number("2b: B by size", paper.B, b, 3,
-                 f"these 24 runs together; {m.range_over_mixtures(3)} by mixture, by sums {by_sums(m)}; all heights "
+                 f"these {m.row('mixtures')['seeds']:.0f} runs together; {m.range_over_mixtures(3)} by mixture, by sums {by_sums(m)}; all heights "
                  f"{m.fit('mixtures', heights='all').text(3)}; nominal 2/3 instead of actual radii "
                  f"{m.fit('mixtures', rule='uniform:0.66667').text(3)}")
     yield sign_of_b(m)
@@ -83,7 +83,7 @@ def separated(m):
     others = [flow for flow in m.flows_with("way") if flow != "phi0.30-s23"]
     others = "".join(f"; {flow}: {m.number(flow, 'way').text(2)}" for flow in others)
     yield number("1: way of y_L/H from 0.15 (all large grains below) to 0.85 (above)", paper.FIGURE_1_END, at("way"), 2,
-                 f"{at('lowest_large').text(0)} large grains stay in the lowest layer: all 35 or hardly any, seed by seed{others}")
+                 f"{at('lowest_large').text(0)} large grains stay in the lowest layer{others}")
     yield number("1: mean of φ_L φ_S over that of the mixed bed", paper.FIGURE_1_MIXED, at("mixed"), 2,
                  "1 where the bed is mixed, 0 where species are separated; that a fifth is little enough is our reading")
 

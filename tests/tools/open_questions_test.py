@@ -41,8 +41,8 @@ class Questions(Pipeline):
                                   "sum_f_LL": 3.0, "sum_f_Sb": 4.0, "sum_f_Lb": late} for t, late in ((10, 900.0), (30, 7.0))],
                           record=[{"name": "small_diameter", "value": D}, {"name": "summary_mean_overlap", "value": 1e-3 * D}])
 
-    def answer(self, flow, value, *words, half=0.01):
-        column = {"name": "x"}
+    def answer(self, flow, value, *words, half=0.01, freedom=1.0):
+        column = {"degrees_of_freedom": freedom}
         for name in ("B_sums", "B_half", "p_zero_sums", "B_paper"):
             column.update({name: value, name + "_low": value - half, name + "_high": value + half})
         self.campaign.answer("grseg-fit", f"{flow}-seed1/stress.tsv", *words, rows=[column])
@@ -54,16 +54,31 @@ class Questions(Pipeline):
         for flow in ("phi0.30-s23", "phi0.30-s23-irregular"):
             for seed in (1, 2):
                 self.run_of(f"{flow}-seed{seed}")
-        self.answer("phi0.30-s23-irregular", 0.05, half=0.003)
-        self.answer("phi0.30-s23", 0.03, half=0.004)
+        self.answer("phi0.30-s23-irregular", 0.05, half=0.003 * 4.303, freedom=2)
+        self.answer("phi0.30-s23", 0.03, half=0.004 * 12.706, freedom=1)
         rows = {row["flow"]: row for row in self.campaign.made_by("questions")}
         row = rows["phi0.30-s23-irregular"]
         self.assertEqual((row["runs"], row["end"]), (2, 11))
         self.assertAlmostEqual(row["less_B"], 0.02)
-        self.assertAlmostEqual(row["less_B_reach"], 0.005)  # 3, 4, 5
+        # Standard errors of 0.003 and 0.004 make one of 0.005, with 5^4/(3^4/2 + 4^4/1) = 2.11 degrees of freedom.
+        self.assertAlmostEqual(row["less_B_reach"], 0.005 * 4.13, delta=0.005 * 0.1)
         self.assertTrue(math.isnan(rows["phi0.30-s23"]["less_B"]))
         for words in self.asked_of("phi0.30-s23"):
             self.assertEqual(words[words.index("--end") + 1], "11.0")
+
+    def test_more_rows_than_one_are_refused(self):
+        self.run_of("phi0.30-s23-seed1")
+        self.campaign.answer("grseg-fit", "phi0.30-s23-seed1/stress.tsv", rows=[{"B_sums": 0.1}, {"B_sums": 0.2}])
+        with self.assertRaisesRegex(AssertionError, "printed 2 rows"):
+            self.campaign.made_by("questions")
+
+    def test_another_program_is_compared_with_the_time_from_its_start_on(self):
+        for flow in ("phi0.45-s23", "phi0.45-s23-lammps100000"):
+            self.run_of(f"{flow}-seed1")
+            self.answer(flow, 0.03)
+        self.campaign.made_by("questions")
+        between = {(words[words.index("--begin") + 1], words[words.index("--end") + 1]) for words in self.asked_of("phi0.45-s23")}
+        self.assertIn(("10", "21.0"), between)
 
     def test_layers_keep_their_distance_from_base_and_surface_in_a_deeper_bed(self):
         deep = "phi0.45-s23-cell140dS-depth120dS-t60"
@@ -77,7 +92,7 @@ class Questions(Pipeline):
         alike = "phi0.45-s23-ratio1-t60"
         self.run_of(alike + "-seed1")
         os.link(os.path.join(self.campaign.tables, alike + "-seed1", "stress.tsv"), os.path.join(self.campaign.tables, alike + "-seed1", "stress-random.tsv"))
-        self.campaign.answer("grseg-fit", "stress-random.tsv", rows=[{"B_sums": 0.001, "B_sums_low": 0.0, "B_sums_high": 0.002}])
+        self.campaign.answer("grseg-fit", "stress-random.tsv", rows=[{"B_sums": 0.001, "B_sums_low": 0.0, "B_sums_high": 0.002, "degrees_of_freedom": 3.0}])
         row, = self.campaign.made_by("questions")
         self.assertEqual((row["B"], row["B_high"]), (0.001, 0.002))
 
@@ -102,12 +117,16 @@ class Questions(Pipeline):
         self.assertAlmostEqual(row["trapped_reach"], 12.706 * math.sqrt(2) / math.sqrt(2), 4)
 
     def test_all_mixtures_of_one_restitution_make_a_row(self):
+        self.answer("phi0.60-s23-e0.5", 0.05, "--over", "mixtures")
         for phi in ("0.30", "0.60"):
             self.run_of(f"phi{phi}-s23-e0.5-seed1")
             self.answer(f"phi{phi}-s23-e0.5", 0.04)
+        self.run_of("phi0.60-s23-e0.5-seed2")
         rows = self.campaign.made_by("questions")
         every = rows[-1]
-        self.assertEqual((every["flow"], every["runs"]), ("mixtures-e0.5", 2))
+        self.assertEqual((every["flow"], every["runs"], every["B"]), ("mixtures-e0.5", 3, 0.05))
+        asked = [words for words in self.campaign.asked() if "--over" in words][0]
+        self.assertEqual(asked[asked.index("--mixtures") + 1], "1,2")
         self.assertTrue(math.isnan(every["phi"]))
 
 
@@ -168,16 +187,29 @@ class Stages(Pipeline):
         value, low, high = found["both", "j"]
         self.assertAlmostEqual(value, 2, 0)
         self.assertAlmostEqual((high - low) / 2, 4.303 / math.sqrt(3), delta=0.4)  # Student's t of three, 1 apart
+        # A second start, of two runs that agree, halves the weight of the first and adds no variance.
+        starts["b"] = [points(2, 0, self.SHAPE, seed=n) for n in (7, 7)]
+        found = {row[:2]: row[2:] for row in stages.jackknife(starts)}
+        self.assertAlmostEqual((found["both", "j"][2] - found["both", "j"][1]) / 2, 3 / 5 * 4.303 / math.sqrt(3), delta=0.4)
+        lonely = {row[:2]: row[2:] for row in stages.jackknife({"a": starts["a"], "c": starts["b"][:1]})}
+        self.assertTrue(math.isnan(lonely["both", "j"][1]))
         alike = {row[:2]: row[2:] for row in stages.jackknife({"a": [points(1, 0, self.SHAPE, seed=n) for n in range(3)]})}
         self.assertAlmostEqual(alike["both", "j"][1], alike["both", "j"][2], 9)
 
     def test_b_at_equal_composition_and_height_does_not_see_where_a_start_has_its_points(self):
         whole = points(0, 0, (0.02, 0.0, 0.04, 0.0), n=4000)
         low = whole[(whole[:, 1] < 0.35) | ((np.arange(len(whole)) % 5 == 0) & (whole[:, 1] < 0.66))]
-        found = {row[0]: row[2] for row in stages.equal_parts({"all": [whole], "low": [low]})}
+        found = {row[0]: row[2] for row in stages.equal_parts({"all": [whole], "low": [low]}, 0)}
         self.assertAlmostEqual(found["all 300-600 s"], found["low 300-600 s"], 2)
         of = lambda p: (p[:, 4] * p[:, 3]).sum() / (p[:, 4] * p[:, 2] * (1 - p[:, 2])).sum()
         self.assertGreater(of(whole) - of(low), 0.005)
+
+    def test_a_window_counts_where_all_of_it_lies(self):
+        # From 0 to 10 s, when the flow begins, and from 10 to 20 s: the first is not of 5 to 20 s.
+        points = np.array([[t, 0.5, 0.5, excess, 1, 0, 0, 0] for t, excess in ((5, 0.01), (15, 0.03))])
+        row, = stages.equal_parts({"a": [points]}, 10)
+        self.assertEqual(row[:2], ("a 5-20 s", "B over 1 classes"))
+        self.assertAlmostEqual(row[2], 0.03 / 0.25)
 
     def test_a_point_is_a_layer_inside_over_ten_seconds(self):
         content = dict(A_SS_yy=2.0, A_LL_yy=3.0, M_yy=6.0, Msize_yy=4.0, A_Sb_yy=0.0, A_Lb_yy=0.0)
@@ -217,7 +249,7 @@ class RigidLimit(unittest.TestCase):
         for name, overlap in zip(names, (2e-3, 8e-4, 1e-4, 2e-5, 1e-1)):
             row = {"flow": name, "overlap": overlap}
             for of, value in {"B": 0.034 + 3 * overlap, "p_star": 0.65 - 0.2 * math.sqrt(overlap), "K": -0.3}.items():
-                row.update({of: value, of + "_low": value - 0.004, of + "_high": value + 0.004})
+                row.update({of: value, of + "_error": 0.002, of + "_freedom": 3})
             rows.append(row)
         with tempfile.TemporaryDirectory() as work:
             path, out = os.path.join(work, "questions.tsv"), os.path.join(work, "limit.tsv")
@@ -226,6 +258,8 @@ class RigidLimit(unittest.TestCase):
             found = {(row["of"], row["power"]): row for row in tables.read(out)[1]}
             self.assertAlmostEqual(found["B", 1]["limit"], 0.034, 7)
             self.assertAlmostEqual(found["B", 1]["k"], 3, 4)
+            _, of_limit, _, _, _ = rigid_limit.line([row["overlap"] for row in rows[:4]], [row["B"] for row in rows[:4]], [0.002] * 4)
+            self.assertAlmostEqual(found["B", 1]["limit_high"] - 0.034, 3.182 * of_limit, 6)
             self.assertLess(found["B", 1]["chi2"], 1e-6)
             self.assertGreater(found["B", 0.5]["chi2"], 1e-3)
             self.assertAlmostEqual(found["p_star", 0.5]["limit"], 0.65, 6)

@@ -118,6 +118,9 @@ class Reproduction(unittest.TestCase):
         # The upper layer is not there in the second window: empty in one frame of four.
         self.assertEqual(keep.coarse(rows, 2, names.index),
                          [[0, 2, 0, 1, 4, 7, 8], [0, 2, 1, 2, 4, 7, 3]])
+        # A composition is that of the frames that have the layer.
+        self.assertEqual(keep.coarse(rows, 2, names.index, of_present=[6]),
+                         [[0, 2, 0, 1, 4, 7, 8], [0, 2, 1, 2, 4, 7, 4]])
 
     def test_a_straight_line_has_its_slope_and_level_and_no_error(self):
         slope, level = measured.line_fit([0, 1, 2, 3], [1, 3, 5, 7])
@@ -162,8 +165,8 @@ class Reproduction(unittest.TestCase):
         self.assertTrue(math.isnan(verdicts.difference(measured.Value(3), rounded.__class__("", 0, 1, "", 0))))
 
     def test_the_standard_error_of_four_runs_is_that_of_three_degrees_of_freedom(self):
-        self.assertAlmostEqual(measured.of_runs(1, 1 - 3.182, 1 + 3.182, 4).error, 1)
-        self.assertAlmostEqual(measured.of_runs(1, 1 - 12.706, 1 + 12.706, 2).error, 1)
+        self.assertAlmostEqual(measured.of_student(1, 1 - 3.182, 1 + 3.182, 3).error, 1)
+        self.assertAlmostEqual(measured.of_student(1, 1 - 12.706, 1 + 12.706, 1).error, 1)
 
     def test_several_points_are_judged_by_the_worst(self):
         value, about = measured.Value, statements.number("0", 0, 1, "")
