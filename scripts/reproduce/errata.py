@@ -53,10 +53,6 @@ def rows(m):
          f"with runs as the independent units B = {m.fit('mixtures').text(3)} for these six mixtures together, "
          f"{m.range_over_mixtures(3)} by mixture; unweighted line through the origin "
          f"{m.fit('mixtures', 'B_linear').text(3)}, dominated by layers of nearly pure small grains"],
-        ["large sensitivity to the mixed contacts as a feature of the flow",
-         "it is geometry: contacts that ignore grain size shift B by as much",
-         "B_direct minus B_direct by size, here and for neutral contacts: "
-         + "; ".join(shift(m, rule) for rule in ("uniform:0.8", "uniform:0.6", "half"))],
         ["f/(ρ g (H₀ − y))", "has the dimension of a length in 2D, and lacks cosθ",
          "f/(ρ g cosθ (H − y) d_S) is used here"],
         ["\"the inequality [f_S < f_L] remains true\" as a property of large grains",
@@ -94,10 +90,3 @@ def volume(m):
 
 def listed(words):
     return " and ".join([", ".join(words[:-1])] * (len(words) > 1) + words[-1:]) or "none of the figures"
-
-
-def shift(m, rule):
-    row = m.row("mixtures", rule=rule)
-    if row is None:
-        return f"{rule} none"
-    return f"{rule} {plain(row['minus_size'], 3)} and {plain(row['neutral'], 3)}"
