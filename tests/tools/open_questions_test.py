@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""questions, stages, closures, rigid-limit and answers, on runs and rows whose results are known in advance; and how
+"""questions, stages, closures, denser, rigid-limit and answers, on runs and rows whose results are known in advance; and how
 second-program cuts an archive back.
 
 Usage: open_questions_test.py SCRIPTS
@@ -16,7 +16,7 @@ from known_campaign import D, G, Pipeline, program, scripts  # noqa: E402
 import numpy as np  # noqa: E402
 import tables  # noqa: E402
 
-questions, stages, rigid_limit, answers = map(program, ("questions", "stages", "rigid-limit", "answers"))
+questions, stages, rigid_limit, answers, denser = map(program, ("questions", "stages", "rigid-limit", "answers", "denser"))
 SPEED = math.sqrt(G * D)
 BEADS = math.pi / 4 * (2 * D) ** 2  # area of a large grain
 
@@ -231,6 +231,42 @@ class Stages(Pipeline):
         np.testing.assert_allclose(point, expected, rtol=1e-12)
 
 
+class Denser(Pipeline):
+    """c of the closure, from a weight that the large grains alone have."""
+
+    def row(self, excess, value, half=1e-5):
+        return {"of": f"D = {excess:g}", "runs": 2, "D": excess, "value": value, "value_low": value - half, "value_high": value + half, "p_zero": 0.65, "dc_dp": 5000.0}
+
+    def test_a_flux_that_falls_by_a_thousandth_of_the_driving_has_a_c_of_a_thousand(self):
+        rows = [self.row(excess, 3e-4 - 1e-3 * excess) for excess in (-0.2, 0, 0.2, 1)]
+        found = {row["of"]: row for row in denser.conclusions(rows)}
+        for name, value in {"slope": -1e-3, "c": 1000, "at_zero": 3e-4, "B": 0.3, "share": 0.65 + 1000 / 5000, "chi2": 0}.items():
+            self.assertAlmostEqual(found[name]["value"] / (value or 1), 1 if value else 0, 9, name)
+        # The slope of equal errors e is known to e over the root of the sum of squares about the mean, 0.25.
+        error = 1e-5 / 1.96 / math.sqrt(0.45**2 + 0.25**2 + 0.05**2 + 0.75**2)
+        self.assertAlmostEqual((found["slope"]["value_high"] - found["slope"]["value"]) / (1.96 * error), 1, 6)
+        self.assertAlmostEqual((found["c"]["value_high"] - 1000) / (1.96 * error * 1e6), 1, 6)
+
+    def test_scatter_beyond_the_rows_errors_widens_the_interval(self):
+        rows = [self.row(excess, 3e-4 - 1e-3 * excess + off) for excess, off in ((-1, 1e-4), (0, -2e-4), (1, 1e-4))]
+        found = {row["of"]: row for row in denser.conclusions(rows)}
+        # Residuals of 1, -2, 1 about the line, over one degree of freedom: 6e-8; the slope's sum of squares is 2.
+        self.assertAlmostEqual(found["slope"]["value_high"] - found["slope"]["value"], 12.706 * math.sqrt(6e-8 / 2), 9)
+
+    def test_ratios_of_one_flow_are_put_on_a_line(self):
+        for ratio in ("1", "1.5", "0.5"):
+            self.campaign.run(f"phi0.50-s23-mixed-density{ratio}-t60-seed1")
+        numbers = ("d_over_c[m^2/s]", "p_zero", "dc_dp[1/s]", "c@size[1/s]", "c@half[1/s]", "d@size[m^2/s^2]", "error_factor")
+        for ratio, factor in (("1.5", 2e-4 / 1.25), ("0.5", 6e-4 / 0.75), ("1", 4e-4)):
+            rows = [{"quantity": name, "value": 1.0, "low": 1.0, "high": 1.0} for name in numbers]
+            self.campaign.answer("grseg-segregation", f"density{ratio}-t60-seed1/stress.tsv",
+                                 rows=[{"quantity": "B_over_c[s]", "value": factor, "low": factor - 1e-5, "high": factor + 1e-5}, *rows])
+        rows = {row["of"]: row for row in self.campaign.made_by("denser", "--flow", "phi0.50-s23-mixed")}
+        self.assertAlmostEqual(rows["D = -0.5"]["value"], 6e-4)  # by volume instead of mass
+        self.assertEqual(rows["D = 0"]["value"], 4e-4)
+        self.assertAlmostEqual(rows["c"]["value"], 2500, 3)
+
+
 class RigidLimit(unittest.TestCase):
     """B of discs that do not overlap, from those that do."""
 
@@ -290,6 +326,23 @@ class Answers(unittest.TestCase):
         before = "one\n<!-- stages -->\nold\n<!-- /stages -->\ntwo\n"
         _, after = self.rewritten(before, stages=[stage])
         self.assertEqual(after, "one\n<!-- stages -->\n| of |  | value |\n|---|---|---|\n| both | k | 0.123 [0.100, 0.200] |\n<!-- /stages -->\ntwo\n")
+
+    def test_each_table_stands_in_one_of_several_documents(self):
+        with tempfile.TemporaryDirectory() as work:
+            stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2}
+            tables.write(os.path.join(work, "stages.tsv"), "stages", list(stage), [stage])
+            pages = [os.path.join(work, name) for name in ("a.md", "b.md")]
+            for page, text in zip(pages, ("one\n", "two\n<!-- stages -->\n<!-- /stages -->\n")):
+                with open(page, "w") as out:
+                    out.write(text)
+            words = ["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", "answers"), work, *pages]
+            subprocess.run(words, check=True)
+            with open(pages[0]) as a, open(pages[1]) as b:
+                self.assertEqual(a.read(), "one\n")
+                self.assertIn("| both | k | 0.123 [0.100, 0.200] |", b.read())
+            with open(pages[0], "a") as out:
+                out.write("<!-- stages -->\n<!-- /stages -->\n")
+            self.assertIn("once", subprocess.run(words, capture_output=True, text=True).stderr)
 
     def test_runs_without_a_place_in_the_document_are_refused(self):
         stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2}
