@@ -45,12 +45,6 @@ Mean mean_of_zeros(const std::vector<RuleFit>& mixtures)
       [](const RuleFit& fit) { return fit.p_zero_sums_error.error; });
 }
 
-Estimate with(double value, const StandardError& error)
-{
-  const auto interval = students_interval(value, error);
-  return {value, interval.low, interval.high};
-}
-
 std::string doubt_of_random(std::size_t mixtures)
 {
   if (mixtures > 3) return {};
@@ -65,11 +59,11 @@ void combine(RuleFit& all, const std::vector<RuleFit>& mixtures)
 {
   const bool equal = all.over == Over::equal_mixtures, random = all.over == Over::random_mixtures;
   const auto b = mean_of(mixtures, &Estimators::B_half);
-  all.at(Over::equal_mixtures) = with(b.value, b.equal);
-  all.at(Over::random_mixtures) = with(b.value, b.random);
+  all.at(Over::equal_mixtures) = b.equal.around(b.value);
+  all.at(Over::random_mixtures) = b.random.around(b.value);
   const auto sums = mean_of(mixtures, &Estimators::B_sums);
-  all.sums_at(Over::equal_mixtures) = with(sums.value, sums.equal);
-  all.sums_at(Over::random_mixtures) = with(sums.value, sums.random);
+  all.sums_at(Over::equal_mixtures) = sums.equal.around(sums.value);
+  all.sums_at(Over::random_mixtures) = sums.random.around(sums.value);
   if (!equal && !random) return;
   for (const auto& [name, place] : estimator_columns) {
     const auto mean = mean_of(mixtures, place);
@@ -78,7 +72,7 @@ void combine(RuleFit& all, const std::vector<RuleFit>& mixtures)
   }
   const auto zero = mean_of_zeros(mixtures);
   all.p_zero_sums_error = equal ? zero.equal : zero.random;
-  all.p_zero_sums = with(zero.value, all.p_zero_sums_error);
+  all.p_zero_sums = all.p_zero_sums_error.around(zero.value);
   if (random) all.doubt = doubt_of_random(mixtures.size());
 }
 

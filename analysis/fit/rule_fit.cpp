@@ -61,12 +61,6 @@ StandardError window_error(const std::vector<Estimators>& of_blocks, double Esti
   return bootstrap.window_error(column_of(of_blocks, place), fit.dependence);
 }
 
-Estimate estimate_with(double value, const StandardError& error)
-{
-  const auto interval = students_interval(value, error);
-  return {value, interval.low, interval.high};
-}
-
 /// Errors over windows, over runs within mixtures and over runs about one function of composition;
 /// those that the fit is over become its intervals.
 void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
@@ -90,7 +84,7 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
     auto& over = place == &Estimators::B_half ? fit.B_over : fit.B_sums_over;
     const double value = fit.value.*place;
     const auto set = [&](Over population, const StandardError& error) {
-      over[static_cast<std::size_t>(population)] = estimate_with(value, error);
+      over[static_cast<std::size_t>(population)] = error.around(value);
     };
     set(Over::windows, over_windows);
     if (fit.runs < 2) continue;
@@ -118,10 +112,10 @@ void add_minus_size(RuleFit& fit, const FitData& data, const WindowSums& windows
   }
   const auto direct = column_of_estimator(&Estimators::B_direct);
   const auto own = influences_of(windows), others = influences_of(by_size);
-  fit.minus_size_interval = students_interval(
-      fit.minus_size, RunErrors(data, windows.weight())
-                          .within_mixtures(own.sums.col(direct) - others.sums.col(direct),
-                                           own.noise.col(direct) - others.noise.col(direct)));
+  fit.minus_size_interval = RunErrors(data, windows.weight())
+                                .within_mixtures(own.sums.col(direct) - others.sums.col(direct),
+                                                 own.noise.col(direct) - others.noise.col(direct))
+                                .interval_around(fit.minus_size);
 }
 
 /// p* of the sums. sigma^L is linear in the share p, so that the sum over frames of psi_L - phi_L is
@@ -147,7 +141,7 @@ void add_zero_of_sums(RuleFit& fit, const FitData& data, const FitSettings& sett
       : fit.over == Over::compositions
           ? bootstrap.run_error(bootstrap.whole_runs() * noise, fit.dependence)
           : RunErrors(data, windows.weight()).within_mixtures(sums, noise);
-  fit.p_zero_sums = estimate_with(zero, fit.p_zero_sums_error);
+  fit.p_zero_sums = fit.p_zero_sums_error.around(zero);
 }
 
 /// Where the mean of ln(y/x) and the ratio of sums cannot both be right. Only under rules whose
@@ -199,7 +193,7 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
 
 void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error)
 {
-  const auto interval = students_interval(fit.value.*place, error);
+  const auto interval = error.interval_around(fit.value.*place);
   fit.low.*place = interval.low;
   fit.high.*place = interval.high;
   fit.error.*place = error.error;

@@ -43,9 +43,9 @@ Estimate size_exponent(const FitData& data, const PartitionRule& rule, const Fit
   if (over == Over::runs || over == Over::mixtures) {
     const auto influences = influences_of(windows);
     const auto column = column_of_estimator(&Estimators::B_mean);
-    interval = students_interval(
-        a.value, RunErrors(data, windows.weight())
-                     .within_mixtures(influences.sums.col(column), influences.noise.col(column)));
+    interval = RunErrors(data, windows.weight())
+                   .within_mixtures(influences.sums.col(column), influences.noise.col(column))
+                   .interval_around(a.value);
   } else if (over == Over::windows || over == Over::compositions) {
     const Dependence how_dependent = dependence(data, rule, settings);
     const auto& times =
