@@ -199,6 +199,7 @@ PartitionScan scan_partition(const FitData& data, const ScanRange& range,
   scan.dependence.block = at_nearest.block;
   for (const double share : shares)
     scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
+  scan.p_zero_sums = zero_of_sums(data, settings, bootstrap, scan.fits.front().over, at_nearest);
   if (nearest.crosses)
     static_cast<ZeroOfB&>(scan) = zero_at(nearest.share, data, settings, bootstrap, at_nearest);
   return scan;

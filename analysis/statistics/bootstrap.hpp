@@ -31,8 +31,8 @@ class Bootstrap {
   /// The same where whole runs are drawn; no rows for a single run.
   const Eigen::MatrixXd& whole_runs() const;
 
-  /// The samples and the interval that grseg reports: of several runs those of runs, of a single
-  /// one those of windows.
+  /// Of several runs the samples and the interval of runs, drawn as one population, of a single one
+  /// those of windows: for the closure of segregation. grseg-fit tells mixtures apart (RunErrors).
   const Eigen::MatrixXd& samples(const Dependence& dependence) const;
   Interval interval(double estimate, const Eigen::VectorXd& samples,
                     const Dependence& dependence) const;

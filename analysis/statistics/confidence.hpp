@@ -32,6 +32,15 @@ struct StandardError {
   Interval interval_around(double value) const;
 };
 
+/// A number with its standard error; NaN and 0 degrees where it is not known.
+struct Measured {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  StandardError error{std::numeric_limits<double>::quiet_NaN(), 0};
+
+  Estimate estimate() const { return error.around(value); }
+  Interval interval() const { return error.interval_around(value); }
+};
+
 /// Of a statistic whose deviation is the sum of `influence`, one entry per observation of one run
 /// in order of time, where `fitted` parameters were taken from the same n observations:
 ///   error^2 = tau sum influence^2 / (1 - fitted tau/n),  degrees = n/tau - fitted,
