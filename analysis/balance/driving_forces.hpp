@@ -66,7 +66,7 @@ RuleForces rule_forces(const DrivingForces& forces, const PartitionedBalance<D>&
 /// The contact push on the large grains where they get the share p of the stress that every mixed
 /// contact has in the layer: linear in p, push = (all - none) (p - p*), from `none` at p = 0 to `all`
 /// at p = 1; N/m^2 or N/m^3. RuleForces give each grain the stress along its own stretch of the
-/// branch, which is the same at 0 and 1 and hardly another in between.
+/// branch, which is the same at 0 and 1 and differs little in between.
 struct PushOverShare {
   double none = 0, all = 0;
 

@@ -1,30 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/balance/partition_summary.hpp"
 
+#include "analysis/balance/mean_of_windows.hpp"
 #include "analysis/balance/summary.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_statistics.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace grseg {
 namespace {
-
-constexpr double nan_number = std::numeric_limits<double>::quiet_NaN();
-
-MeanOfWindows mean_of(const std::vector<double>& values)
-{
-  const std::size_t n = values.size();
-  if (n == 0) return {nan_number, nan_number};
-  const double mean = gsl_stats_mean(values.data(), 1, n);
-  if (n == 1) return {mean, nan_number};
-  return {mean, gsl_stats_sd_m(values.data(), 1, n, mean) / std::sqrt(static_cast<double>(n))};
-}
 
 /// Of p* = sum of none/sum of (none - all) over windows.
 MeanOfWindows zero_of(const std::vector<PushOverShare>& windows)
@@ -39,7 +27,7 @@ MeanOfWindows zero_of(const std::vector<PushOverShare>& windows)
   const double zero = sum.zero(),
                per_window = (sum.none - sum.all) / static_cast<double>(windows.size());
   for (const auto& [none, all] : windows) left.push_back((none - zero * (none - all)) / per_window);
-  return {zero, mean_of(left).error};
+  return {zero, mean_of_windows(left).error};
 }
 
 /// d(push)/dp (PushOverShare).
@@ -51,11 +39,18 @@ std::vector<double> slopes_of(const std::vector<PushOverShare>& windows)
   return slopes;
 }
 
-/// In 1/1000, "21.9 +- 1.9".
+/// "21.9 +- 1.9", or "21.9" where there is no error.
+std::string with_error(const MeanOfWindows& value, double unit, int digits)
+{
+  auto text = fmt::format("{:.{}f}", value.mean / unit, digits);
+  if (std::isfinite(value.error)) text += fmt::format(" +- {:.{}f}", value.error / unit, digits);
+  return text;
+}
+
+/// In 1/1000.
 std::string thousandths(const std::vector<double>& values)
 {
-  const auto [mean, error] = mean_of(values);
-  return fmt::format("{:.1f} +- {:.1f}", 1000 * mean, 1000 * error);
+  return with_error(mean_of_windows(values), 1e-3, 1);
 }
 
 nlohmann::ordered_json json_of(const MeanOfWindows& value)
@@ -144,29 +139,31 @@ template <int D>
 std::string PartitionSummary<D>::text() const
 {
   auto agreement = fmt::format(
-      "N is the same under all rules to {:.1e} of its largest term, and that of the stored forces "
-      "to {:.1e}",
+      "N is the same under all rules to {:.1e} of its largest term, and equals the stored forces "
+      "less the weight to {:.1e}",
       difference_, from_forces_);
   if (push_kinetic_.empty()) return agreement;
+  const auto windows = push_kinetic_.size();
   auto text = fmt::format(
       "forces on the large grains in 1/1000 of their weight, upward positive (at least two large "
-      "diameters from base and surface, standard errors over {} windows); drag is what closes the "
+      "diameters from base and surface, {}); drag is what closes the "
       "balance\n  {:<14} {:>18} {:>18} {:>18} {:>18}\n",
-      push_kinetic_.size(), "rule", "-div sigma", "beta", "contact push", "drag");
+      windows > 1 ? fmt::format("standard errors over {} windows", windows) : "of one window",
+      "rule", "-div sigma", "beta", "contact push", "drag");
   for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
     const auto& own = of_rules_[rule];
     text += fmt::format("  {:<14} {:>18} {:>18} {:>18} {:>18}\n", rules_[rule].name(),
                         thousandths(own.contact), thousandths(own.interaction),
                         thousandths(own.push), thousandths(own.drag));
   }
-  const auto p = zero_of(over_share_);
   return text +
          fmt::format(
-             "under every rule: N = -div sigma + beta + base = {} (1000, minus the weight, where the "
-             "flow is steady), kinetic push {}; where large grains get the share p of every "
-             "mixed contact, the contact push is ({}) (p - p*), p* = {:.3f} +- {:.3f}; {}",
+             "under every rule: N = -div sigma + beta + base = {} (in a steady flow 1000, against the "
+             "weight, plus the divergence of the kinetic stress), kinetic push {}; where large grains "
+             "get the share p of every mixed contact, the contact push is ({}) (p - p*), p* = {}; {}",
              thousandths(contact_force_), thousandths(push_kinetic_),
-             thousandths(slopes_of(over_share_)), p.mean, p.error, agreement);
+             thousandths(slopes_of(over_share_)), with_error(zero_of(over_share_), 1, 3),
+             agreement);
 }
 
 template <int D>
@@ -178,18 +175,18 @@ std::string PartitionSummary<D>::to_json() const
            {"difference_of_N_between_rules", difference_},
            {"difference_of_N_from_stored_forces", from_forces_}};
   if (push_kinetic_.empty()) return all.dump();
-  all["N"] = json_of(mean_of(contact_force_));
-  all["push_kinetic"] = json_of(mean_of(push_kinetic_));
-  all["dpush_dp"] = json_of(mean_of(slopes_of(over_share_)));
+  all["N"] = json_of(mean_of_windows(contact_force_));
+  all["push_kinetic"] = json_of(mean_of_windows(push_kinetic_));
+  all["dpush_dp"] = json_of(mean_of_windows(slopes_of(over_share_)));
   all["p_zero"] = json_of(zero_of(over_share_));
   all["rules"] = Json::array();
   for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
     const auto& own = of_rules_[rule];
     all["rules"].push_back({{"rule", rules_[rule].name()},
-                            {"contact", json_of(mean_of(own.contact))},
-                            {"interaction", json_of(mean_of(own.interaction))},
-                            {"push", json_of(mean_of(own.push))},
-                            {"drag", json_of(mean_of(own.drag))}});
+                            {"contact", json_of(mean_of_windows(own.contact))},
+                            {"interaction", json_of(mean_of_windows(own.interaction))},
+                            {"push", json_of(mean_of_windows(own.push))},
+                            {"drag", json_of(mean_of_windows(own.drag))}});
   }
   return all.dump();
 }

@@ -10,12 +10,6 @@
 
 namespace grseg {
 
-/// A mean over windows with its standard error, windows taken as independent; NaN where there are
-/// too few.
-struct MeanOfWindows {
-  double mean, error;
-};
-
 /// What each partition rule says of the forces on large grains, beside what it cannot change. Forces
 /// along y in units of the large grains' weight, upward positive, from the layers inside the bed
 /// (layers_inside); summed over layers before they are divided. Of other than two species only how

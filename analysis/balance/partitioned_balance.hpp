@@ -36,7 +36,8 @@ struct PartitionedForces {
 ///                                                  touch, under any rule
 ///   C + beta + base   = N = sum f_ij S(y_i)
 ///
-/// N is the contact force on the species' grains, each booked at its own centre. The rule is not in
+/// N is the contact force on the species' grains, each booked at its own centre; in a steady flow minus
+/// their weight plus the divergence d/dy K of their kinetic stress. The rule is not in
 /// it: a rule is a gauge, which moves stress into interaction and back. Under `drop` both grains are
 /// cut at their own centres, so that mixed contacts are interaction alone.
 template <int D>

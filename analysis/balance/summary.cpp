@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/balance/summary.hpp"
 
+#include "analysis/balance/mean_of_windows.hpp"
+
 #include <fmt/format.h>
-#include <gsl/gsl_statistics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,7 @@ namespace {
 /// "up by 0.012 +- 0.003", or "neither way" where zero lies within two standard errors.
 std::string direction(const std::vector<double>& push)
 {
-  const std::size_t n = push.size();
-  const double mean = gsl_stats_mean(push.data(), 1, n);
-  const double error = gsl_stats_sd_m(push.data(), 1, n, mean) / std::sqrt(static_cast<double>(n));
+  const auto [mean, error] = mean_of_windows(push);
   if (std::abs(mean) <= 2 * error)
     return fmt::format("neither way ({:.2g} +- {:.1g})", mean, error);
   return fmt::format("{} by {:.2g} +- {:.1g}", mean > 0 ? "up" : "down", std::abs(mean), error);

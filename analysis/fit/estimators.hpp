@@ -15,8 +15,9 @@
 namespace grseg {
 
 /// B_sums is the mean of B over layers and frames with the weight phi_L phi_S, as a ratio of sums
-/// that are linear in the large grains' stress: it takes no mean of ratios, and so does not suffer
-/// where a window holds few grains of a species, as means of ln(y/x) do.
+/// that are linear in the large grains' share psi_L of the stress: it takes no logarithm and divides
+/// nothing by the rarer species, and so does not suffer where a window holds few of its grains, as
+/// means of ln(y/x) do.
 ///
 /// The estimators side by side; NaN where one is not defined. The first three describe the same
 /// slope, that of the weighted mean of ln(y/x); it is what the printed B stands for.

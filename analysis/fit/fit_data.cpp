@@ -3,6 +3,7 @@
 
 #include "analysis/frames/distinct_runs.hpp"
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/statistics/median_of_positive.hpp"
 #include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "formats/cli/provenance.hpp"
@@ -10,7 +11,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gsl/gsl_statistics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -108,9 +108,9 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
 double median_solid_fraction(const std::vector<FitRow>& rows)
 {
   std::vector<double> solid;
-  for (const auto& row : rows)
-    if (row.solid() > 0) solid.push_back(row.solid());
-  return solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
+  solid.reserve(rows.size());
+  for (const auto& row : rows) solid.push_back(row.solid());
+  return median_of_positive(std::move(solid));
 }
 
 /// Counts a row under the reason why it is left out, or as used; true if it becomes a point.
@@ -226,6 +226,14 @@ double FitRow::solid() const
 std::size_t FitData::number_of_mixtures() const
 {
   return std::max<std::size_t>(1, std::set(mixtures.begin(), mixtures.end()).size());
+}
+
+std::vector<std::size_t> FitData::mixtures_of_windows() const
+{
+  std::vector<std::size_t> all;
+  for (std::size_t run = 0; run < runs.size(); ++run)
+    all.insert(all.end(), runs[run], mixture_of(run));
+  return all;
 }
 
 std::string FilterCount::sentence() const

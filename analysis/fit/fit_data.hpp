@@ -85,6 +85,7 @@ struct FitData {
 
   std::size_t mixture_of(std::size_t run) const { return mixtures.empty() ? 0 : mixtures[run]; }
   std::size_t number_of_mixtures() const;  // that have runs
+  std::vector<std::size_t> mixtures_of_windows() const;
 };
 
 /// A row of a table and the window and layer it belongs to.

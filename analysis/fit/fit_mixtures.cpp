@@ -6,49 +6,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace grseg {
 namespace {
 
-struct Mean {
-  double value;
-  StandardError equal, random;
-};
-
-/// The unweighted mean over mixtures with its errors over equal and over random mixtures, of numbers
-/// that value(fit) and error(fit) give.
-template <class Value, class Error>
-Mean mean_of(const std::vector<RuleFit>& mixtures, const Value& value, const Error& error)
+/// The unweighted mean over mixtures of what of(fit) gives.
+template <class Of>
+MeanOfEquals mean_of(const std::vector<RuleFit>& mixtures, const Of& of)
 {
-  const auto count = static_cast<double>(mixtures.size());
-  Eigen::VectorXd values(static_cast<Eigen::Index>(mixtures.size()));
-  std::vector<StandardError> parts;
-  for (std::size_t k = 0; k < mixtures.size(); ++k) {
-    values[static_cast<Eigen::Index>(k)] = value(mixtures[k]);
-    parts.push_back({error(mixtures[k]) / count, mixtures[k].degrees});
-  }
-  return {values.mean(), added(parts), scatter_of_values(values)};
+  std::vector<Measured> numbers;
+  numbers.reserve(mixtures.size());
+  for (const auto& fit : mixtures) numbers.push_back(of(fit));
+  return mean_of_equals(numbers);
 }
 
-Mean mean_of(const std::vector<RuleFit>& mixtures, double Estimators::*place)
+MeanOfEquals mean_of(const std::vector<RuleFit>& mixtures, double Estimators::*place)
 {
-  return mean_of(
-      mixtures, [place](const RuleFit& fit) { return fit.value.*place; },
-      [place](const RuleFit& fit) { return fit.error.*place; });
-}
-
-Mean mean_of_zeros(const std::vector<RuleFit>& mixtures)
-{
-  return mean_of(
-      mixtures, [](const RuleFit& fit) { return fit.p_zero_sums.value; },
-      [](const RuleFit& fit) { return fit.p_zero_sums_error.error; });
-}
-
-Estimate with(double value, const StandardError& error)
-{
-  const auto interval = students_interval(value, error);
-  return {value, interval.low, interval.high};
+  return mean_of(mixtures, [place](const RuleFit& fit) {
+    return Measured{fit.value.*place, {fit.error.*place, fit.degrees}};
+  });
 }
 
 std::string doubt_of_random(std::size_t mixtures)
@@ -60,26 +38,52 @@ std::string doubt_of_random(std::size_t mixtures)
       mixtures);
 }
 
-/// Adds what rests on the mixtures one by one, and makes it the result where it was asked for.
-void combine(RuleFit& all, const std::vector<RuleFit>& mixtures)
+/// Makes the mean over mixtures the result. Whatever stands beside it is such a mean, too.
+void take_mean(RuleFit& all, const std::vector<RuleFit>& mixtures)
 {
-  const bool equal = all.over == Over::equal_mixtures, random = all.over == Over::random_mixtures;
-  const auto b = mean_of(mixtures, &Estimators::B_half);
-  all.at(Over::equal_mixtures) = with(b.value, b.equal);
-  all.at(Over::random_mixtures) = with(b.value, b.random);
-  const auto sums = mean_of(mixtures, &Estimators::B_sums);
-  all.sums_at(Over::equal_mixtures) = with(sums.value, sums.equal);
-  all.sums_at(Over::random_mixtures) = with(sums.value, sums.random);
-  if (!equal && !random) return;
+  const bool random = all.over == Over::random_mixtures;
+  const auto error_of = [random](const MeanOfEquals& mean) {
+    return random ? mean.by_scatter : mean.by_errors;
+  };
   for (const auto& [name, place] : estimator_columns) {
     const auto mean = mean_of(mixtures, place);
     all.value.*place = mean.value;
-    set_error(all, place, equal ? mean.equal : mean.random);
+    set_error(all, place, error_of(mean));
   }
-  const auto zero = mean_of_zeros(mixtures);
-  all.p_zero_sums_error = equal ? zero.equal : zero.random;
-  all.p_zero_sums = with(zero.value, all.p_zero_sums_error);
-  if (random) all.doubt = doubt_of_random(mixtures.size());
+  for (const auto place : {&RuleFit::p_zero_sums, &RuleFit::minus_size}) {
+    const auto mean = mean_of(mixtures, [place](const RuleFit& fit) { return fit.*place; });
+    all.*place = {mean.value, error_of(mean)};
+  }
+  for (const auto place : {&RuleFit::neutral, &RuleFit::share})
+    all.*place =
+        mean_of(mixtures, [place](const RuleFit& fit) { return Measured{fit.*place}; }).value;
+  all.B_half_windows = all.B_sums_windows = {Estimators::nan, Estimators::nan};
+}
+
+/// What limits the intervals of such means.
+void doubt_mean(RuleFit& all, const std::vector<RuleFit>& mixtures, double window)
+{
+  if (all.points == 0) return;
+  const auto single = std::count_if(mixtures.begin(), mixtures.end(),
+                                    [](const RuleFit& fit) { return fit.runs == 1; });
+  all.doubt = all.over == Over::random_mixtures
+                  ? doubt_of_random(mixtures.size())
+                  : doubt_of_mixtures(all, static_cast<std::size_t>(single), mixtures.size());
+  add_doubt(all, doubt_of_logarithms(all, window));
+}
+
+/// Adds what rests on the mixtures one by one, and makes it the result where it was asked for.
+void combine(RuleFit& all, const std::vector<RuleFit>& mixtures, double window)
+{
+  const auto b = mean_of(mixtures, &Estimators::B_half);
+  all.at(Over::equal_mixtures) = b.by_errors.around(b.value);
+  all.at(Over::random_mixtures) = b.by_scatter.around(b.value);
+  const auto sums = mean_of(mixtures, &Estimators::B_sums);
+  all.sums_at(Over::equal_mixtures) = sums.by_errors.around(sums.value);
+  all.sums_at(Over::random_mixtures) = sums.by_scatter.around(sums.value);
+  if (all.over != Over::equal_mixtures && all.over != Over::random_mixtures) return;
+  take_mean(all, mixtures);
+  doubt_mean(all, mixtures, window);
 }
 
 MixtureFits fit_component(const FitData& data, const PartitionRule& rule,
@@ -91,12 +95,12 @@ MixtureFits fit_component(const FitData& data, const PartitionRule& rule,
   MixtureFits fits{fit(data, settings), {}};
   if (data.number_of_mixtures() == 1) return fits;
   auto of_one = settings;
-  if (settings.over != Over::windows) of_one.over = Over::automatic;
+  of_one.over = Over::automatic;
   for (const auto mixture : std::set(data.mixtures.begin(), data.mixtures.end())) {
     fits.of_each.push_back(fit(of_mixture(data, mixture), of_one));
     fits.of_each.back().mixture = mixture;
   }
-  combine(fits.all, fits.of_each);
+  combine(fits.all, fits.of_each, data.window);
   return fits;
 }
 

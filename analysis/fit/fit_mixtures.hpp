@@ -20,11 +20,12 @@ struct MixtureFits {
 };
 
 /// Fits data of one pair of species, with B_yy and B_pressure. A mixture's interval is over its
-/// runs, of a single one over its windows, or over windows throughout where `settings` says so.
+/// runs, of a single one over its windows, whatever the intervals of all are over.
 ///
-/// Over equal mixtures each estimator of all is the unweighted mean of those of the mixtures, whose
+/// Over equal mixtures each number of all is the unweighted mean of those of the mixtures, whose
 /// errors add up (run_scatter.hpp); over random mixtures the same mean with the scatter of the
-/// mixtures' values, n - 1 degrees of freedom for n mixtures. Both stand in RuleFit::at() always.
+/// mixtures' values, n - 1 degrees of freedom for n mixtures. Those of B_half and B_sums stand in
+/// RuleFit::at() and sums_at() always.
 MixtureFits fit_mixtures(const FitData& data, const PartitionRule& rule,
                          const FitSettings& settings, const Resampling& resampling);
 

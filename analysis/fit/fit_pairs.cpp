@@ -41,7 +41,6 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
                                const Resampling& resampling, bool with_exponent)
 {
   const auto data = select_fit_data(tables, quantity, filters, pairs);
-  const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
   std::vector<RuleFit> fits;
   for (const auto& rule : rules) {
     const auto first = fits.size();
@@ -54,7 +53,7 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
       fits.push_back(std::move(of_pair.all));
     }
     if (!with_exponent || !rule.adds_up()) continue;
-    const auto exponent = size_exponent(data, rule, settings, bootstrap);
+    const auto exponent = size_exponent(data, rule, settings, resampling);
     for (auto fit = first; fit < fits.size(); ++fit)
       if (!fits[fit].mixture) fits[fit].size_exponent = exponent;
   }

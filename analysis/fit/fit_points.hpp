@@ -10,7 +10,8 @@
 
 namespace grseg {
 
-/// A point of the fit under one partition rule; stresses in N/m, the chosen component.
+/// A point of the fit under one partition rule; stresses in N/m, in three dimensions Pa, the
+/// chosen component.
 struct FitPoint {
   std::size_t window = 0;
   double phi_large = 0;

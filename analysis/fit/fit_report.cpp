@@ -6,10 +6,12 @@
 #include "formats/core/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 
 namespace grseg {
@@ -25,9 +27,9 @@ struct RuleColumn {
 };
 constexpr RuleColumn rule_columns[] = {
     {"neutral", [](const RuleFit& fit) { return fit.neutral; }},
-    {"minus_size", [](const RuleFit& fit) { return fit.minus_size; }},
-    {"minus_size_low", [](const RuleFit& fit) { return fit.minus_size_interval.low; }},
-    {"minus_size_high", [](const RuleFit& fit) { return fit.minus_size_interval.high; }},
+    {"minus_size", [](const RuleFit& fit) { return fit.minus_size.value; }},
+    {"minus_size_low", [](const RuleFit& fit) { return fit.minus_size.interval().low; }},
+    {"minus_size_high", [](const RuleFit& fit) { return fit.minus_size.interval().high; }},
     {"not_positive", [](const RuleFit& fit) { return static_cast<double>(fit.not_positive); }},
     {"autocorrelation_time[windows]", [](const RuleFit& fit) { return fit.dependence.time; }},
     {"block_length[windows]",
@@ -43,22 +45,29 @@ constexpr RuleColumn rule_columns[] = {
     {"B_pressure_low", [](const RuleFit& fit) { return fit.B_pressure.low; }},
     {"B_pressure_high", [](const RuleFit& fit) { return fit.B_pressure.high; }},
     {"p_zero_sums", [](const RuleFit& fit) { return fit.p_zero_sums.value; }},
-    {"p_zero_sums_low", [](const RuleFit& fit) { return fit.p_zero_sums.low; }},
-    {"p_zero_sums_high", [](const RuleFit& fit) { return fit.p_zero_sums.high; }},
-    {"B_sums_windows_low", [](const RuleFit& fit) { return fit.sums_at(Over::windows).low; }},
-    {"B_sums_windows_high", [](const RuleFit& fit) { return fit.sums_at(Over::windows).high; }},
+    {"p_zero_sums_low", [](const RuleFit& fit) { return fit.p_zero_sums.interval().low; }},
+    {"p_zero_sums_high", [](const RuleFit& fit) { return fit.p_zero_sums.interval().high; }},
+    {"B_sums_windows_low", [](const RuleFit& fit) { return fit.B_sums_windows.low; }},
+    {"B_sums_windows_high", [](const RuleFit& fit) { return fit.B_sums_windows.high; }},
 };
+
+/// The names of a mixture's tables; "-" where one is not known.
+std::vector<std::string> tables_of(const FitReport& report, const Mixture& mixture)
+{
+  std::vector<std::string> names;
+  names.reserve(mixture.tables.size());
+  for (const auto table : mixture.tables)
+    names.push_back(table < report.table_names.size() ? printable(report.table_names[table]) : "-");
+  return names;
+}
 
 /// "Phi_L = 0.06, 4 tables, 1.7 % of the weight of B_half, 3.1 % of that of B_sums: a.tsv b.tsv"
 std::string mixture_line(const FitReport& report, std::size_t m)
 {
   const auto& mixture = report.mixtures[m];
   const auto tables = mixture.tables.size();
-  std::string line = fmt::format("{}, {} table{}, {}:", mixture.name, tables,
-                                 tables == 1 ? "" : "s", share_words(report, m));
-  for (const auto table : mixture.tables)
-    line += ' ' + (table < report.table_names.size() ? printable(report.table_names[table]) : "-");
-  return line;
+  return fmt::format("{}, {} table{}, {}: {}", mixture.name, tables, tables == 1 ? "" : "s",
+                     share_words(report, m), fmt::join(tables_of(report, mixture), " "));
 }
 
 /// B_half of a population, its columns "B_equal_mixtures", "B_equal_mixtures_low" ...; of B_sums
@@ -101,55 +110,63 @@ double share_of(const FitReport& report, const RuleFit& fit)
   return fit.mixture ? report.shares.half[*fit.mixture] : 1;
 }
 
-std::string rule_table(const FitReport& report)
+std::vector<std::string> rule_table_columns(const FitReport& report)
 {
   std::vector<std::string> columns{"rule"};
+  const auto add_with_interval = [&columns](const std::string& name) {
+    columns.insert(columns.end(), {name, name + "_low", name + "_high"});
+  };
   if (report.is_by_mixture()) columns.emplace_back("mixture");
   if (report.names_pairs()) columns.insert(columns.end(), {"smaller", "larger"});
   columns.emplace_back("points");
-  for (const auto& [name, place] : estimator_columns)
-    for (const char* suffix : {"", "_low", "_high"}) columns.push_back(name + std::string(suffix));
+  for (const auto& [name, place] : estimator_columns) add_with_interval(name);
   for (const auto& column : rule_columns) columns.emplace_back(column.name);
-  const bool has_exponent = report.has_exponent();
-  if (has_exponent)
-    columns.insert(columns.end(), {"size_exponent", "size_exponent_low", "size_exponent_high"});
+  if (report.has_exponent()) add_with_interval("size_exponent");
   columns.insert(columns.end(), {"over", "runs", "degrees_of_freedom", "Phi_L", "weight_share"});
   for (const char* stem : {"B_", "B_sums_"})
     for (const auto& population : populations)
-      for (const char* suffix : {"", "_low", "_high"})
-        columns.push_back(column_of_population(stem, population) + suffix);
+      add_with_interval(column_of_population(stem, population));
   columns.emplace_back("used_by");
+  return columns;
+}
 
-  std::vector<std::vector<std::string>> rows;
-  for (const auto& fit : report.rules) {
-    auto& row = rows.emplace_back();
-    row = {rule_name(report, fit)};
-    if (report.is_by_mixture()) row.push_back(mixture_name(report, fit));
-    if (report.names_pairs())
-      row.insert(row.end(),
-                 {report.species[fit.pair.smaller].name, report.species[fit.pair.larger].name});
-    row.push_back(format_number(static_cast<double>(fit.points)));
-    for (const auto& [name, place] : estimator_columns)
-      for (const auto* numbers : {&fit.value, &fit.low, &fit.high})
-        row.push_back(format_number(numbers->*place));
-    for (const auto& column : rule_columns) row.push_back(format_number(column.of(fit)));
-    if (has_exponent) {
-      const auto exponent = fit.size_exponent.value_or(Estimate{Estimators::nan});
-      for (const double number : {exponent.value, exponent.low, exponent.high})
-        row.push_back(format_number(number));
-    }
-    row.emplace_back(word_of(fit.over, overs));
-    row.push_back(format_number(static_cast<double>(fit.runs)));
-    for (const double number : {fit.degrees, phi_large_of(report, fit), share_of(report, fit)})
-      row.push_back(format_number(number));
-    for (const auto* over : {&fit.B_over, &fit.B_sums_over})
-      for (const auto& population : populations) {
-        const auto& b = (*over)[static_cast<std::size_t>(population)];
-        for (const double number : {b.value, b.low, b.high}) row.push_back(format_number(number));
-      }
-    row.push_back(used_by(report, fit));
+/// The cells of one fit, in the order of those columns.
+std::vector<std::string> rule_table_row(const FitReport& report, const RuleFit& fit)
+{
+  std::vector<std::string> row{rule_name(report, fit)};
+  const auto add = [&row](std::initializer_list<double> numbers) {
+    for (const double number : numbers) row.push_back(format_number(number));
+  };
+  if (report.is_by_mixture()) row.push_back(mixture_name(report, fit));
+  if (report.names_pairs())
+    row.insert(row.end(),
+               {report.species[fit.pair.smaller].name, report.species[fit.pair.larger].name});
+  add({static_cast<double>(fit.points)});
+  for (const auto& [name, place] : estimator_columns)
+    add({fit.value.*place, fit.low.*place, fit.high.*place});
+  for (const auto& column : rule_columns) add({column.of(fit)});
+  if (report.has_exponent()) {
+    const auto exponent = fit.size_exponent.value_or(Estimate{});
+    add({exponent.value, exponent.low, exponent.high});
   }
-  return table_text(header_of(report), columns, rows);
+  row.emplace_back(word_of(fit.over, overs));
+  add({static_cast<double>(fit.runs), fit.degrees, phi_large_of(report, fit),
+       share_of(report, fit)});
+  for (const auto* over : {&fit.B_over, &fit.B_sums_over})
+    for (const auto& population : populations) {
+      const auto& b = (*over)[static_cast<std::size_t>(population)];
+      add({b.value, b.low, b.high});
+    }
+  row.push_back(used_by(report, fit));
+  return row;
+}
+
+std::string rule_table(const FitReport& report)
+{
+  std::vector<std::vector<std::string>> rows;
+  rows.reserve(report.rules.size());
+  for (const auto& fit : report.rules) rows.push_back(rule_table_row(report, fit));
+  return table_text(header_of(report), rule_table_columns(report), rows);
 }
 
 std::string scan_table(const FitReport& report)
@@ -157,15 +174,16 @@ std::string scan_table(const FitReport& report)
   const auto& scan = *report.scan;
   Table table;
   table.header = header_of(report);
+  const auto zero_of_sums = scan.p_zero_sums.estimate();
   for (const auto& [key, value] : {std::pair{"p_zero", scan.p_zero},
                                    {"p_zero_low", scan.p_zero_interval.low},
                                    {"p_zero_high", scan.p_zero_interval.high},
                                    {"dB_dp", scan.dB_dp},
                                    {"dB_dp_low", scan.dB_dp_interval.low},
                                    {"dB_dp_high", scan.dB_dp_interval.high},
-                                   {"p_zero_sums", report.rules.back().p_zero_sums.value},
-                                   {"p_zero_sums_low", report.rules.back().p_zero_sums.low},
-                                   {"p_zero_sums_high", report.rules.back().p_zero_sums.high},
+                                   {"p_zero_sums", zero_of_sums.value},
+                                   {"p_zero_sums_low", zero_of_sums.low},
+                                   {"p_zero_sums_high", zero_of_sums.high},
                                    {"autocorrelation_time", scan.dependence.time},
                                    {"block_length", static_cast<double>(scan.dependence.block)}})
     table.header.emplace_back(key, format_number(value));
@@ -211,8 +229,8 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
               {"B_pressure", of_estimate(fit.B_pressure)},
               {"share", fit.share},
               {"neutral", fit.neutral},
-              {"minus_size", fit.minus_size},
-              {"minus_size_interval", pair(fit.minus_size_interval)},
+              {"minus_size", fit.minus_size.value},
+              {"minus_size_interval", pair(fit.minus_size.interval())},
               {"points", fit.points},
               {"not_positive", fit.not_positive},
               {"autocorrelation_time", fit.dependence.time},
@@ -231,7 +249,7 @@ Json rule_object(const FitReport& report, const RuleFit& fit)
   for (const auto& population : populations)
     object["populations_of_B_sums"][word_of(population, overs)] =
         of_estimate(fit.sums_at(population));
-  object["p_zero_sums"] = of_estimate(fit.p_zero_sums);
+  object["p_zero_sums"] = of_estimate(fit.p_zero_sums.estimate());
   if (report.names_pairs())
     object["species"] = {report.species[fit.pair.smaller].name,
                          report.species[fit.pair.larger].name};
@@ -322,7 +340,7 @@ std::string to_json(const FitReport& report)
     all["dB_dp"] = report.scan->dB_dp;
     all["dB_dp_interval"] = pair(report.scan->dB_dp_interval);
     all["autocorrelation_time"] = report.scan->dependence.time;
-    all["p_zero_sums"] = of_estimate(report.rules.back().p_zero_sums);
+    all["p_zero_sums"] = of_estimate(report.scan->p_zero_sums.estimate());
     all["block_length"] = report.scan->dependence.block;
   }
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
@@ -332,7 +350,7 @@ std::string to_json(const FitReport& report)
                                {"Phi_L", report.mixtures[m].phi_large()},
                                {"weight_share", report.shares.half[m]},
                                {"weight_share_sums", report.shares.sums[m]},
-                               {"tables", mixture_line(report, m)}});
+                               {"tables", tables_of(report, report.mixtures[m])}});
   for (const auto& [over, words] : estimands(report))
     all["estimands"][word_of(over, overs)] = words;
   all["inputs"] = report.inputs;

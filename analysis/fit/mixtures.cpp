@@ -2,10 +2,12 @@
 #include "analysis/fit/mixtures.hpp"
 
 #include "analysis/frames/layer_table.hpp"
+#include "formats/cli/numbers.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,25 +20,33 @@
 namespace grseg {
 namespace {
 
-/// The lines of a table's header that are about the flow.
-constexpr const char* flow_keys[] = {"dimension", "species",   "small_diameter", "large_diameter",
-                                     "gravity_x", "gravity_y", "gravity_z",      "step",
-                                     "length",    "density",   "friction"};
+/// A line of a table's header that is about the flow, and what it says.
+struct FlowLine {
+  const char *key, *what;
+};
+constexpr FlowLine flow_lines[] = {
+    {"dimension", "dimension"},        {"species", "species"},   {"small_diameter", "diameters"},
+    {"large_diameter", "diameters"},   {"density", "density"},   {"friction", "friction"},
+    {"restitution", "restitution"},    {"gravity_x", "gravity"}, {"gravity_y", "gravity"},
+    {"gravity_z", "gravity"},          {"step", "step"},         {"length", "length of the cell"},
+    {"length_z", "length of the cell"}};
+
+/// "unknown" where the table has no such line.
+std::string value_of(const Table& table, const char* key)
+{
+  return header_or(table, key, "unknown");
+}
 
 bool same_value(const std::string& a, const std::string& b)
 {
   if (a == b) return true;
-  try {
-    const double x = std::stod(a), y = std::stod(b);
-    return std::abs(x - y) <= 1e-6 * std::max(std::abs(x), std::abs(y));
-  } catch (const std::logic_error&) {
-    return false;
-  }
+  const auto x = parse_number(a), y = parse_number(b);
+  return x && y && std::abs(*x - *y) <= 1e-6 * std::max(std::abs(*x), std::abs(*y));
 }
 
 bool agree(const Table& a, const Table& b, const char* key)
 {
-  return same_value(header_or(a, key, ""), header_or(b, key, ""));
+  return same_value(value_of(a, key), value_of(b, key));
 }
 
 /// Each species' part of all rows' contents, weighted by frames.
@@ -98,8 +108,9 @@ std::vector<Mixture> by_likeness(const std::vector<FitTable>& tables)
     const auto is_own = [&](const Mixture& mixture) {
       const auto& first = *tables[mixture.tables.front()].table;
       return same_composition(mixture.composition, composition) &&
-             std::all_of(std::begin(flow_keys), std::end(flow_keys),
-                         [&](const char* key) { return agree(first, *tables[k].table, key); });
+             std::all_of(std::begin(flow_lines), std::end(flow_lines), [&](const FlowLine& line) {
+               return agree(first, *tables[k].table, line.key);
+             });
     };
     const auto own = std::find_if(mixtures.begin(), mixtures.end(), is_own);
     if (own != mixtures.end())
@@ -136,25 +147,31 @@ std::string name_of(const Mixture& mixture, const std::vector<Mixture>& all,
   const bool inclined = dimension_of(own) == 2 && own.has_header("gravity_x") &&
                         own.has_header("gravity_y") && differ("gravity_x") && differ("gravity_y");
   if (inclined) name += fmt::format(", slope = {:.4g} degrees", slope_of(own));
-  for (const char* key : flow_keys) {
+  for (const auto& [key, what] : flow_lines) {
     if (!differ(key) || (inclined && std::string(key).starts_with("gravity"))) continue;
-    const auto value = header_or(own, key, "not given");
-    const bool number = own.has_header(key) && std::string(key) != "species";
-    name += fmt::format(", {} = {}", key,
-                        number ? fmt::format("{:.4g}", own.header_number(key)) : value);
+    const auto value = value_of(own, key);
+    const auto number = parse_number(value);
+    name += fmt::format(", {} = {}", key, number ? fmt::format("{:.4g}", *number) : value);
   }
   return name;
 }
 
 }  // namespace
 
-std::string grouping_words(const std::string& grouping)
+std::string grouping_words(const std::string& grouping, const std::vector<Table>& tables)
 {
   if (grouping != "auto") return "as given: " + grouping + " tables";
+  std::vector<std::string> recorded;
+  for (const auto& [key, what] : flow_lines) {
+    const bool known = std::any_of(tables.begin(), tables.end(), [&key = key](const Table& table) {
+      return value_of(table, key) != "unknown";
+    });
+    if (known && (recorded.empty() || recorded.back() != what)) recorded.emplace_back(what);
+  }
   return fmt::format(
-      "runs of one mixture agree in what their tables record of the flow (diameters, gravity, "
-      "step, length of the cell, density, friction) and in overall composition, to {:g}",
-      composition_tolerance);
+      "runs of one mixture agree in what their tables record of the flow ({}) and in overall "
+      "composition, to {:g}",
+      fmt::join(recorded, ", "), composition_tolerance);
 }
 
 std::vector<Mixture> find_mixtures(std::vector<FitTable>& tables, const std::string& grouping)
@@ -205,9 +222,7 @@ FitData of_mixture(const FitData& data, std::size_t mixture)
 
 WeightShares weight_shares(const FitData& data, std::size_t mixtures)
 {
-  std::vector<std::size_t> mixture_of;  // of each window
-  for (std::size_t run = 0; run < data.runs.size(); ++run)
-    mixture_of.insert(mixture_of.end(), data.runs[run], data.mixture_of(run));
+  const auto mixture_of = data.mixtures_of_windows();
   WeightShares shares{std::vector<double>(mixtures), std::vector<double>(mixtures)};
   for (const auto& sample : data.samples) {
     const auto mixture = mixture_of[sample.window];

@@ -22,16 +22,18 @@ struct Mixture {
 /// 0.001, because radii are drawn, and in cells of few hundred grains by a large one more or less.
 inline constexpr double composition_tolerance = 0.02;
 
-/// How tables are told apart, for the header of the fit.
-std::string grouping_words(const std::string& grouping);
+/// How these tables are told apart, for the header of the fit; names what they record.
+std::string grouping_words(const std::string& grouping, const std::vector<Table>& tables);
 
 /// The mixtures of all tables, in order of Phi_L, and in each table which of them is its own.
 ///
 /// grouping "auto": tables are of one mixture where the lines of their headers agree that are about
-/// the flow (diameters, gravity, step, length of the cell, density, friction, species; numbers to
-/// 1e-6) and so do their overall compositions, to composition_tolerance. What tables do not record
-/// cannot tell runs apart, e.g. their restitution. "4,4,2": the first four tables are of one
-/// mixture, and so on; UsageError where these numbers do not add up to that of the tables.
+/// the flow (diameters, density, friction, restitution, gravity, step, length of the cell, species;
+/// numbers to 1e-6) and so do their overall compositions, to composition_tolerance. A line that one
+/// table has and another lacks tells them apart. What tables do not record cannot: the spread of
+/// radii, the base, and in older tables density, friction and restitution. "4,4,2": the first four
+/// tables are of one mixture, and so on; UsageError where these numbers do not add up to that of the
+/// tables.
 std::vector<Mixture> find_mixtures(std::vector<FitTable>& tables, const std::string& grouping);
 
 /// The part of `data` that is of one mixture, as if it had been selected alone.

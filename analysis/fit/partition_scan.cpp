@@ -118,10 +118,11 @@ void add_intervals_of_runs(ZeroOfB& zero, const LogSlopes& at, const FitData& da
   const auto step = [&](const Eigen::VectorXd& value) -> Eigen::VectorXd { return -value / first; };
   const Eigen::VectorXd sums = step(at.deviation(at.value, windows)),
                         noise = step(at.noise(at.value, windows));
-  zero.p_zero_interval = students_interval(zero.p_zero, errors.within_mixtures(sums, noise));
-  zero.dB_dp_interval = students_interval(
-      zero.dB_dp, errors.within_mixtures(-at.deviation(at.first, windows) - second * sums,
-                                         -at.noise(at.first, windows) - second * noise));
+  zero.p_zero_interval = errors.within_mixtures(sums, noise).interval_around(zero.p_zero);
+  zero.dB_dp_interval = errors
+                            .within_mixtures(-at.deviation(at.first, windows) - second * sums,
+                                             -at.noise(at.first, windows) - second * noise)
+                            .interval_around(zero.dB_dp);
 }
 
 /// The slope at the zero and both intervals. B_half = 2 (1 - s)/(1 + s) and s = 1, hence
@@ -198,6 +199,7 @@ PartitionScan scan_partition(const FitData& data, const ScanRange& range,
   scan.dependence.block = at_nearest.block;
   for (const double share : shares)
     scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
+  scan.p_zero_sums = zero_of_sums(data, settings, bootstrap, scan.fits.front().over, at_nearest);
   if (nearest.crosses)
     static_cast<ZeroOfB&>(scan) = zero_at(nearest.share, data, settings, bootstrap, at_nearest);
   return scan;

@@ -29,6 +29,7 @@ struct ZeroOfB {
 struct PartitionScan : ZeroOfB {
   std::vector<RuleFit> fits;  // uniform:p, one per share
   Dependence dependence;      // common to all fits, see scan_partition
+  Measured p_zero_sums;       // where B_sums = 0, with the dependence at the share nearest to B = 0
 };
 
 /// p* and what B does there, looked for between the shares of `range`.

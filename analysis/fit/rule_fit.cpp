@@ -3,6 +3,7 @@
 
 #include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/window_sums.hpp"
+#include "analysis/statistics/composition_noise.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ void remove_b(RuleFit& fit)
   for (auto* all : {&fit.value, &fit.low, &fit.high, &fit.error})
     for (const auto& [name, place] : estimator_columns)
       if (name[0] == 'B') all->*place = Estimators::nan;
-  fit.B_half_windows = {Estimators::nan, Estimators::nan};
+  fit.B_half_windows = fit.B_sums_windows = {Estimators::nan, Estimators::nan};
   fit.B_over.fill({});
   fit.B_sums_over.fill({});
 }
@@ -61,12 +62,6 @@ StandardError window_error(const std::vector<Estimators>& of_blocks, double Esti
   return bootstrap.window_error(column_of(of_blocks, place), fit.dependence);
 }
 
-Estimate estimate_with(double value, const StandardError& error)
-{
-  const auto interval = students_interval(value, error);
-  return {value, interval.low, interval.high};
-}
-
 /// Errors over windows, over runs within mixtures and over runs about one function of composition;
 /// those that the fit is over become its intervals.
 void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
@@ -90,7 +85,7 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
     auto& over = place == &Estimators::B_half ? fit.B_over : fit.B_sums_over;
     const double value = fit.value.*place;
     const auto set = [&](Over population, const StandardError& error) {
-      over[static_cast<std::size_t>(population)] = estimate_with(value, error);
+      over[static_cast<std::size_t>(population)] = error.around(value);
     };
     set(Over::windows, over_windows);
     if (fit.runs < 2) continue;
@@ -98,69 +93,52 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
     set(data.number_of_mixtures() > 1 ? Over::mixtures : Over::runs, within);
   }
   fit.B_half_windows = {fit.at(Over::windows).low, fit.at(Over::windows).high};
+  fit.B_sums_windows = {fit.sums_at(Over::windows).low, fit.sums_at(Over::windows).high};
 }
 
-void add_minus_size(RuleFit& fit, const FitData& data, const WindowSums& windows,
-                    const std::vector<FitPoint>& size_points, const Bootstrap& bootstrap)
+StandardError error_of_minus_size(const RuleFit& fit, const FitData& data,
+                                  const WindowSums& windows, const WindowSums& by_size,
+                                  const Bootstrap& bootstrap)
 {
-  fit.minus_size = fit.value.B_direct - estimators_of(size_points).B_direct;
-  if (bootstrap.count() == 0) return;
-  const auto by_size = window_sums(size_points, bootstrap.runs());
   if (fit.over == Over::windows || fit.over == Over::compositions) {
     const auto& times =
         fit.over == Over::windows ? bootstrap.blocks(fit.dependence.block) : bootstrap.whole_runs();
     const Eigen::VectorXd samples = column_of(replicate(times, windows), &Estimators::B_direct) -
                                     column_of(replicate(times, by_size), &Estimators::B_direct);
-    fit.minus_size_interval = fit.over == Over::windows
-                                  ? bootstrap.over_windows(fit.minus_size, samples, fit.dependence)
-                                  : bootstrap.over_runs(fit.minus_size, samples, fit.dependence);
-    return;
+    return fit.over == Over::windows ? bootstrap.window_error(samples, fit.dependence)
+                                     : bootstrap.run_error(samples, fit.dependence);
   }
   const auto direct = column_of_estimator(&Estimators::B_direct);
   const auto own = influences_of(windows), others = influences_of(by_size);
-  fit.minus_size_interval = students_interval(
-      fit.minus_size, RunErrors(data, windows.weight())
-                          .within_mixtures(own.sums.col(direct) - others.sums.col(direct),
-                                           own.noise.col(direct) - others.noise.col(direct)));
+  return RunErrors(data, windows.weight())
+      .within_mixtures(own.sums.col(direct) - others.sums.col(direct),
+                       own.noise.col(direct) - others.noise.col(direct));
 }
 
-/// p* of the sums. sigma^L is linear in the share p, so that the sum over frames of psi_L - phi_L is
-/// zero at p* = -D(0)/(D(1) - D(0)); what a window adds to p* is its D(p*) over that slope.
-void add_zero_of_sums(RuleFit& fit, const FitData& data, const FitSettings& settings,
-                      const Bootstrap& bootstrap)
+Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& windows,
+                    const std::vector<FitPoint>& size_points, const Bootstrap& bootstrap)
 {
-  const auto sum_at = [&](double share) {
-    double sum = 0;
-    for (const auto& point : fit_points(data, {PartitionRule::Kind::uniform, share}, settings))
-      if (point.total > 0) sum += point.frames * point.excess();
-    return sum;
-  };
-  const double none = sum_at(0), slope = sum_at(1) - none, zero = -none / slope;
-  fit.p_zero_sums = {zero};
-  if (bootstrap.count() == 0 || !std::isfinite(zero)) return;
-  const auto windows = window_sums(fit_points(data, {PartitionRule::Kind::uniform, zero}, settings),
-                                   bootstrap.runs());
-  const Eigen::VectorXd sums = windows.excess() / -slope, noise = windows.excess_noise() / -slope;
-  fit.p_zero_sums_error =
-      fit.over == Over::windows
-          ? bootstrap.window_error(bootstrap.blocks(fit.dependence.block) * noise, fit.dependence)
-      : fit.over == Over::compositions
-          ? bootstrap.run_error(bootstrap.whole_runs() * noise, fit.dependence)
-          : RunErrors(data, windows.weight()).within_mixtures(sums, noise);
-  fit.p_zero_sums = estimate_with(zero, fit.p_zero_sums_error);
+  const double difference = fit.value.B_direct - estimators_of(size_points).B_direct;
+  if (bootstrap.count() == 0) return {difference};
+  return {difference, error_of_minus_size(fit, data, windows,
+                                          window_sums(size_points, bootstrap.runs()), bootstrap)};
 }
 
-/// Where the mean of ln(y/x) and the ratio of sums cannot both be right. Only under rules whose
-/// neutral B is 0 at all compositions: by others B_half and B_sums may well differ.
-std::string doubt_of_few_grains(const RuleFit& fit, double window)
+/// Of the differences between mixtures, how many degrees of freedom the noise lacks.
+double degrees_taken_by_composition(const FitData& data)
 {
-  const double apart = std::abs(fit.value.B_half - fit.value.B_sums);
-  const double reach = (fit.high.B_half - fit.low.B_half + fit.high.B_sums - fit.low.B_sums) / 2;
-  if (!(std::abs(fit.neutral) < 1e-3) || !(apart > reach)) return {};
-  return fmt::format(
-      "B_half = {:.4f} and B_sums = {:.4f} differ by more than their intervals: in windows of {:g} s "
-      "the mean of ln(y/x) suffers from few grains; B_sums does not",
-      fit.value.B_half, fit.value.B_sums, window);
+  const auto size = static_cast<Eigen::Index>(data.samples.size());
+  const auto mixture_of_window = data.mixtures_of_windows();
+  Eigen::VectorXd phi_large(size), weight(size);
+  std::vector<std::size_t> mixture;
+  mixture.reserve(data.samples.size());
+  for (const auto& sample : data.samples) {
+    const auto place = static_cast<Eigen::Index>(mixture.size());
+    phi_large[place] = sample.phi_large;
+    weight[place] = sample.weight;
+    mixture.push_back(mixture_of_window[sample.window]);
+  }
+  return degrees_of_composition(phi_large, weight, mixture);
 }
 
 /// What limits the interval, mostly nothing.
@@ -174,7 +152,8 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
   const RunErrors errors(data, windows.weight());
   if (fit.over == Over::compositions) {
     const auto column = column_of_estimator(&Estimators::B_half);
-    const double chance = errors.chance_of_likeness(influences_of(windows).noise.col(column));
+    const double chance = errors.chance_of_likeness(influences_of(windows).noise.col(column),
+                                                    degrees_taken_by_composition(data));
     if (chance >= 0.05) return bootstrap.doubt_of_runs(fit.dependence);
     return fmt::format(
         "mixtures differ by more than one function of composition explains (Fisher's test: {:.2g}): "
@@ -182,28 +161,75 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
         "see those over mixtures, equal-mixtures and random-mixtures",
         chance);
   }
-  const auto single = errors.single_runs();
-  if (single > 0)
-    return fmt::format(
-        "{} of {} mixtures have one run: the scatter of its windows stands for that of runs, which "
-        "is too narrow where runs differ",
-        single, mixtures);
-  if (fit.degrees > 3.5) return {};
-  return fmt::format(
-      "{} runs of {} mixtures leave {:.2g} degrees of freedom; more runs of each "
-      "give a narrower interval",
-      fit.runs, mixtures, fit.degrees);
+  return doubt_of_mixtures(fit, errors.single_runs(), mixtures);
 }
 
 }  // namespace
 
 void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error)
 {
-  const auto interval = students_interval(fit.value.*place, error);
+  const auto interval = error.interval_around(fit.value.*place);
   fit.low.*place = interval.low;
   fit.high.*place = interval.high;
   fit.error.*place = error.error;
   if (place == &Estimators::B_half) fit.degrees = error.degrees;
+}
+
+// sigma^L is linear in the share p, so that the sum over frames of psi_L - phi_L is zero at
+// p* = -D(0)/(D(1) - D(0)); what a window adds to p* is its D(p*) over that slope.
+Measured zero_of_sums(const FitData& data, const FitSettings& settings, const Bootstrap& bootstrap,
+                      Over over, const Dependence& how_dependent)
+{
+  if (data.quantity != Quantity::contact || data.species.size() > 2) return {};
+  const auto sum_at = [&](double share) {
+    double sum = 0;
+    for (const auto& point : fit_points(data, {PartitionRule::Kind::uniform, share}, settings))
+      if (point.total > 0) sum += point.frames * point.excess();
+    return sum;
+  };
+  const double none = sum_at(0), slope = sum_at(1) - none, zero = -none / slope;
+  if (bootstrap.count() == 0 || !std::isfinite(zero)) return {zero};
+  const auto windows = window_sums(fit_points(data, {PartitionRule::Kind::uniform, zero}, settings),
+                                   bootstrap.runs());
+  const Eigen::VectorXd sums = windows.excess() / -slope, noise = windows.excess_noise() / -slope;
+  return {zero,
+          over == Over::windows
+              ? bootstrap.window_error(bootstrap.blocks(how_dependent.block) * noise, how_dependent)
+          : over == Over::compositions
+              ? bootstrap.run_error(bootstrap.whole_runs() * noise, how_dependent)
+              : RunErrors(data, windows.weight()).within_mixtures(sums, noise)};
+}
+
+std::string doubt_of_mixtures(const RuleFit& fit, std::size_t single_runs, std::size_t mixtures)
+{
+  if (single_runs > 0)
+    return fmt::format(
+        "{} of {} mixtures have one run: the scatter of its windows stands for that of runs, which "
+        "is too narrow where runs differ",
+        single_runs, mixtures);
+  if (!(fit.degrees <= 3.5)) return {};
+  return fmt::format(
+      "{} runs of {} mixtures leave {:.2g} degrees of freedom; more runs of each "
+      "give a narrower interval",
+      fit.runs, mixtures, fit.degrees);
+}
+
+std::string doubt_of_logarithms(const RuleFit& fit, double window)
+{
+  const double apart = std::abs(fit.value.B_half - fit.value.B_sums);
+  const double reach = (fit.high.B_half - fit.low.B_half + fit.high.B_sums - fit.low.B_sums) / 2;
+  if (!(std::abs(fit.neutral) < 1e-3) || !(apart > reach)) return {};
+  return fmt::format(
+      "B_half = {:.4f} and B_sums = {:.4f} differ by more than their intervals: in windows of {:g} s "
+      "the mean of ln(y/x) suffers from few grains, or B differs between layers or mixtures, which "
+      "the two weigh differently",
+      fit.value.B_half, fit.value.B_sums, window);
+}
+
+void add_doubt(RuleFit& fit, const std::string& doubt)
+{
+  if (!fit.doubt.empty() && !doubt.empty()) fit.doubt += "; ";
+  fit.doubt += doubt;
 }
 
 Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
@@ -239,10 +265,12 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
     if (data.species.size() <= 2) {
       fit.share = share_of_large(data, points, settings);
       fit.neutral = neutral_mean(points, rule);
-      if (!common) add_zero_of_sums(fit, data, settings, bootstrap);
+      if (!common)
+        fit.p_zero_sums = zero_of_sums(data, settings, bootstrap, fit.over, fit.dependence);
     }
-    if (fit.doubt.empty()) fit.doubt = doubt_of_few_grains(fit, data.window);
-    add_minus_size(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
+    add_doubt(fit, doubt_of_logarithms(fit, data.window));
+    fit.minus_size =
+        minus_size(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
   }
   return fit;
 }

@@ -23,7 +23,9 @@ struct RuleFit {
   std::size_t runs = 0;
   Estimators value, low, high, error;
   double degrees = Estimators::nan;  // of freedom of the interval of B_half
-  Interval B_half_windows{Estimators::nan, Estimators::nan};  // by the windows' scatter inside runs
+  // Of `value` by the windows' scatter inside runs; none of means over mixtures.
+  Interval B_half_windows{Estimators::nan, Estimators::nan},
+      B_sums_windows{Estimators::nan, Estimators::nan};
   // B_half and B_sums over each population, as far as they are known: see at() and sums_at().
   using Populations = std::array<Estimate, std::size(overs) + 1>;
   Populations B_over = {}, B_sums_over = {};
@@ -36,13 +38,11 @@ struct RuleFit {
   }
   // The share of every mixed contact at which B_sums = 0, whatever the fit's rule; of contact stress
   // and two species.
-  Estimate p_zero_sums = {};
-  StandardError p_zero_sums_error{Estimators::nan, 0};
+  Measured p_zero_sums = {};
   // B_half of the normal stress sigma_yy and of the pressure; not a number where a sum was not kept.
   Estimate B_yy = {}, B_pressure = {};
   double neutral = Estimators::nan;
-  double minus_size = Estimators::nan;  // B_direct less that of rule size, same samples
-  Interval minus_size_interval{Estimators::nan, Estimators::nan};
+  Measured minus_size = {};  // B_direct less that of rule size, same samples
   Dependence dependence;
   std::string doubt;  // a sentence on the intervals, mostly empty
   SpeciesPair pair = {};
@@ -54,6 +54,19 @@ Dependence dependence(const FitData& data, const PartitionRule& rule, const FitS
 
 /// Gives an estimator its error and interval.
 void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error);
+
+/// p* of the sums, with its error over `over`; of contact stress and two species, NaN of others.
+Measured zero_of_sums(const FitData& data, const FitSettings& settings, const Bootstrap& bootstrap,
+                      Over over, const Dependence& how_dependent);
+
+/// What limits an interval over runs of several mixtures, of which some have a single one; mostly
+/// nothing.
+std::string doubt_of_mixtures(const RuleFit& fit, std::size_t single_runs, std::size_t mixtures);
+/// Where the mean of ln(y/x) and the ratio of sums cannot both be B at all compositions, with windows
+/// of so many s. Only under rules whose neutral B is 0 there: by others the two may well differ.
+std::string doubt_of_logarithms(const RuleFit& fit, double window);
+/// Adds a sentence to the fit's doubt.
+void add_doubt(RuleFit& fit, const std::string& doubt);
 
 /// For `drop` every B is NaN: its partial stresses do not add up to the whole. `common`: where
 /// several fits are to share it; otherwise the dependence is that of the fit. Over equal or random

@@ -51,7 +51,7 @@ Influences influences_of(const WindowSums& windows)
   return {windows.sums * slope, windows.noise * slope};
 }
 
-RunErrors::RunErrors(const FitData& data, const Eigen::VectorXd& weight)
+RunErrors::RunErrors(const FitData& data, const Eigen::VectorXd& weight) : weight_(weight)
 {
   std::map<std::size_t, Group> groups;
   std::size_t first = 0;
@@ -83,7 +83,8 @@ StandardError RunErrors::within_mixtures(const Eigen::VectorXd& sums,
                                 static_cast<Eigen::Index>(group.length[k]));
     };
     if (group.first.size() == 1) {
-      parts.push_back(standard_error(run(noise, 0), 1));
+      const Eigen::VectorXd own = run(noise, 0);
+      parts.push_back(standard_error(own - own.sum() / group.weight[0] * run(weight_, 0), 1));
       continue;
     }
     Eigen::VectorXd of_runs(group.weight.size());
@@ -94,7 +95,7 @@ StandardError RunErrors::within_mixtures(const Eigen::VectorXd& sums,
   return added(parts);
 }
 
-double RunErrors::chance_of_likeness(const Eigen::VectorXd& influence) const
+double RunErrors::chance_of_likeness(const Eigen::VectorXd& influence, double fitted) const
 {
   double sum = 0, all = 0, within = 0, of_means = 0;
   std::size_t runs = 0;
@@ -115,9 +116,9 @@ double RunErrors::chance_of_likeness(const Eigen::VectorXd& influence) const
     all += weight;
     runs += group.first.size();
   }
-  const auto between_degrees = static_cast<double>(groups_.size()) - 1,
-             within_degrees = static_cast<double>(runs - groups_.size());
-  if (!(between_degrees > 0) || !(within_degrees > 0) || !(within > 0)) return 1;
+  const auto within_degrees = static_cast<double>(runs - groups_.size());
+  if (groups_.size() < 2 || !(within_degrees > 0) || !(within > 0)) return 1;
+  const double between_degrees = std::max(1.0, static_cast<double>(groups_.size()) - fitted);
   const double between = of_means - sum * sum / all;
   return gsl_cdf_fdist_Q(between / between_degrees / (within / within_degrees), between_degrees,
                          within_degrees);

@@ -22,7 +22,8 @@ Influences influences_of(const WindowSums& windows);
 Eigen::Index column_of_estimator(double Estimators::*place);
 
 /// Errors of statistics over whole runs, the mixtures being fixed: those of the mixtures added. Of a
-/// mixture with a single run the scatter of its windows stands for that of runs.
+/// mixture with a single run the scatter of its windows stands for that of runs, about what each
+/// window would add if it were like the run, which goes by its weight.
 class RunErrors {
  public:
   /// weight: of each window.
@@ -32,8 +33,9 @@ class RunErrors {
   StandardError within_mixtures(const Eigen::VectorXd& sums, const Eigen::VectorXd& noise) const;
   /// The chance that runs of like mixtures differ between mixtures as much as these do, by Fisher's
   /// test of the mean squares of influence over weight between and within mixtures; 1 where it cannot
-  /// be told.
-  double chance_of_likeness(const Eigen::VectorXd& influence) const;
+  /// be told. `fitted`: of the differences between mixtures, how many degrees of freedom were taken
+  /// out of the influence beforehand; at least one counts as left.
+  double chance_of_likeness(const Eigen::VectorXd& influence, double fitted) const;
   /// Mixtures with a single run.
   std::size_t single_runs() const;
 
@@ -42,6 +44,7 @@ class RunErrors {
     std::vector<std::size_t> first, length;  // of each run: its first window, how many
     Eigen::VectorXd weight;                  // of each run
   };
+  Eigen::VectorXd weight_;  // of each window
   std::vector<Group> groups_;
 };
 

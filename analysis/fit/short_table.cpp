@@ -32,6 +32,12 @@ std::string with_interval(double value, const Interval& interval)
                      rounded(interval.high));
 }
 
+/// "1 table", "2 tables".
+std::string counted(std::size_t n, const char* word)
+{
+  return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
+}
+
 using Line = std::vector<std::string>;  // all of the same length
 
 /// Words to the left in the first and last column, numbers to the right between them, columns as
@@ -135,8 +141,8 @@ std::string populations_text(const FitReport& report)
   if (report.mixtures.size() < 2) return text;
   text += '\n';
   for (std::size_t m = 0; m < report.mixtures.size(); ++m)
-    text += fmt::format("{}: {} tables, {}\n", report.mixtures[m].name,
-                        report.mixtures[m].tables.size(), share_words(report, m));
+    text += fmt::format("{}: {}, {}\n", report.mixtures[m].name,
+                        counted(report.mixtures[m].tables.size(), "table"), share_words(report, m));
   return text;
 }
 
@@ -191,10 +197,9 @@ std::string zeros_of_sums_text(const FitReport& report)
   const auto name = report.rules.empty() ? "" : rule_name(report, report.rules.front());
   for (const auto& fit : report.rules)
     if (rule_name(report, fit) == name && std::isfinite(fit.p_zero_sums.value))
-      text += fmt::format(
-          "p* by sums = {}: with this share B_sums = 0{}\n",
-          with_interval(fit.p_zero_sums.value, {fit.p_zero_sums.low, fit.p_zero_sums.high}),
-          report.is_by_mixture() ? "; " + mixture_name(report, fit) : "");
+      text += fmt::format("p* by sums = {}: with this share B_sums = 0{}\n",
+                          with_interval(fit.p_zero_sums.value, fit.p_zero_sums.interval()),
+                          report.is_by_mixture() ? "; " + mixture_name(report, fit) : "");
   return text;
 }
 
@@ -222,14 +227,11 @@ std::string doubts_text(const FitReport& report)
 
 std::string short_table(const FitReport& report)
 {
-  const auto plural = [](std::size_t n, const char* word) {
-    return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
-  };
   std::string text = fmt::format(
       "B of the {} stress ({}), B_half: at phi_L = 1/2, B_sums: mean with weight phi_L phi_S, from {} "
       "of {}{}\n\n",
       word_of(report.quantity, quantities), word_of(report.component, components),
-      plural(report.number_of_windows, "window"), plural(report.number_of_runs, "run"),
+      counted(report.number_of_windows, "window"), counted(report.number_of_runs, "run"),
       report.mixtures.size() > 1 ? fmt::format(" of {} mixtures", report.mixtures.size()) : "");
   text += rules_text(report);
   text += pairs_text(report);

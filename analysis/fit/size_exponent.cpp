@@ -2,11 +2,15 @@
 #include "analysis/fit/size_exponent.hpp"
 
 #include "analysis/fit/estimators.hpp"
+#include "analysis/fit/mixtures.hpp"
 #include "analysis/fit/rule_fit.hpp"
 #include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/window_sums.hpp"
+#include "analysis/statistics/run_scatter.hpp"
 
 #include <cmath>
+#include <set>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -29,35 +33,53 @@ std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
   return scaled;
 }
 
+StandardError error_of(const WindowSums& windows, const FitData& data, Over over,
+                       const Dependence& how_dependent, const Bootstrap& bootstrap)
+{
+  if (over != Over::windows && over != Over::compositions) {
+    const auto influences = influences_of(windows);
+    const auto column = column_of_estimator(&Estimators::B_mean);
+    return RunErrors(data, windows.weight())
+        .within_mixtures(influences.sums.col(column), influences.noise.col(column));
+  }
+  const auto& times =
+      over == Over::windows ? bootstrap.blocks(how_dependent.block) : bootstrap.whole_runs();
+  const Eigen::MatrixXd totals = windows.totals(times);
+  Eigen::VectorXd samples(totals.rows());
+  for (Eigen::Index k = 0; k < samples.size(); ++k)
+    samples[k] = estimators_from_sums(totals.row(k)).B_mean;
+  return over == Over::windows ? bootstrap.window_error(samples, how_dependent)
+                               : bootstrap.run_error(samples, how_dependent);
+}
+
+/// Of all points together.
+Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
+                         const FitSettings& settings, const Resampling& resampling)
+{
+  const auto points = points_per_size(fit_points(data, rule, settings));
+  const double a = estimators_of(points).B_mean;
+  if (points.empty() || resampling.samples == 0) return {a};
+  const auto over = resolved(settings.over, data.runs.size(), data.number_of_mixtures());
+  return {a, error_of(window_sums(points, data.runs), data, over, dependence(data, rule, settings),
+                      Bootstrap(data.runs, resampling.samples, resampling.seed))};
+}
+
 }  // namespace
 
 Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                       const Bootstrap& bootstrap)
+                       const Resampling& resampling)
 {
-  const auto points = points_per_size(fit_points(data, rule, settings));
-  Estimate a{estimators_of(points).B_mean};
-  if (points.empty() || bootstrap.count() == 0) return a;
-  const auto windows = window_sums(points, data.runs);
-  const auto over = resolved(settings.over, data.runs.size(), data.number_of_mixtures());
-  Interval interval{a.low, a.high};
-  if (over == Over::runs || over == Over::mixtures) {
-    const auto influences = influences_of(windows);
-    const auto column = column_of_estimator(&Estimators::B_mean);
-    interval = students_interval(
-        a.value, RunErrors(data, windows.weight())
-                     .within_mixtures(influences.sums.col(column), influences.noise.col(column)));
-  } else if (over == Over::windows || over == Over::compositions) {
-    const Dependence how_dependent = dependence(data, rule, settings);
-    const auto& times =
-        over == Over::windows ? bootstrap.blocks(how_dependent.block) : bootstrap.whole_runs();
-    const Eigen::MatrixXd totals = windows.totals(times);
-    Eigen::VectorXd samples(totals.rows());
-    for (Eigen::Index k = 0; k < samples.size(); ++k)
-      samples[k] = estimators_from_sums(totals.row(k)).B_mean;
-    interval = over == Over::windows ? bootstrap.over_windows(a.value, samples, how_dependent)
-                                     : bootstrap.over_runs(a.value, samples, how_dependent);
-  }
-  return {a.value, interval.low, interval.high};
+  const bool equal = settings.over == Over::equal_mixtures,
+             random = settings.over == Over::random_mixtures;
+  if (data.number_of_mixtures() == 1 || (!equal && !random))
+    return pooled_exponent(data, rule, settings, resampling).estimate();
+  auto of_one = settings;
+  of_one.over = Over::automatic;
+  std::vector<Measured> of_each;
+  for (const auto mixture : std::set(data.mixtures.begin(), data.mixtures.end()))
+    of_each.push_back(pooled_exponent(of_mixture(data, mixture), rule, of_one, resampling));
+  const auto mean = mean_of_equals(of_each);
+  return (equal ? mean.by_errors : mean.by_scatter).around(mean.value);
 }
 
 }  // namespace grseg

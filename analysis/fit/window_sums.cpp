@@ -162,8 +162,9 @@ Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool ad
 {
   const auto of_log = dependence(windows.noise.col(sum_wY), windows.sums.col(sum_w), runs);
   if (!adds_up) return of_log;
-  const auto of_direct = dependence(windows.noise.col(sum_wQD), windows.sums.col(sum_wQQ), runs);
-  return windows.sums.col(sum_w).any() ? worse(of_log, of_direct) : of_direct;
+  const auto of_psi = worse(dependence(windows.noise.col(sum_wQD), windows.sums.col(sum_wQQ), runs),
+                            dependence(windows.noise.col(sum_fD), windows.sums.col(sum_fQ), runs));
+  return windows.sums.col(sum_w).any() ? worse(of_log, of_psi) : of_psi;
 }
 
 }  // namespace grseg

@@ -10,23 +10,28 @@
 namespace grseg {
 
 /// Additive sums from which every estimator follows, one row per window, and what of them is noise:
-/// the part that the layers' compositions do not explain, which is what resampling varies.
+/// the part that the layers' compositions do not explain, which is what resampling varies. With w the
+/// weight of a point, f its frames, x = phi_S/phi_L, y = sigma^S/sigma^L, D = psi_L - phi_L and
+/// Q = phi_L phi_S, the columns are the sums over a window's points of w, w ln x, w ln y, w (ln x)^2,
+/// w ln x ln y, x^2, x y (of points with a logarithm), w Q D, w Q^2, f D and f Q (of those whose whole
+/// stress is positive).
 struct WindowSums {
   Eigen::MatrixXd sums, noise;
 
-  /// The sums of all windows, and of samples that count window k times(sample, k) times.
+  /// The sums of all windows.
   Eigen::RowVectorXd total() const { return sums.colwise().sum(); }
   /// Of each window in the mean of ln(y/x), or in B_direct where no ratio has a value.
   Eigen::VectorXd weight() const;
   /// Of each window the sum over its layers of frames x (psi_L - phi_L), and what of it is noise.
   Eigen::VectorXd excess() const;
   Eigen::VectorXd excess_noise() const;
+  /// The sums of samples that count window k times(sample, k) times, a row per sample.
   Eigen::MatrixXd totals(const Eigen::MatrixXd& times) const;
 };
 WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs);
 
-/// How far the windows are from independent, for the worse of the mean of ln(y/x) and, where
-/// stresses add up, B_direct.
+/// How far the windows are from independent, for the worst of the mean of ln(y/x) and, where
+/// stresses add up, B_direct and B_sums.
 Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up);
 
 /// The same estimates as from the points, from totals of those sums.

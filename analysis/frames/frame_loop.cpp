@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -218,6 +219,12 @@ void FrameLoop::report_progress(const Window& window)
 
 namespace {
 
+std::string number_or_unknown(const Parameters& parameters, const char* key)
+{
+  const auto number = parameters.find_number(key);
+  return number && !std::isnan(*number) ? format_number(*number) : "unknown";
+}
+
 /// What the header says of annuli and maps.
 Header bins_lines(const Layers& layers)
 {
@@ -256,6 +263,11 @@ Table FrameLoop::make_table(const std::string& command,
   add("small_diameter", run_.small_diameter());
   add("large_diameter", run_.large_diameter());
   if (names_species(species())) header.emplace_back("species", species_text(species()));
+  for (const char* key : {"density", "friction", "restitution"}) {
+    const bool set_by_tool = std::any_of(settings.begin(), settings.end(),
+                                         [&](const HeaderLine& line) { return line.first == key; });
+    if (!set_by_tool) header.emplace_back(key, number_or_unknown(run_.parameters(), key));
+  }
   with_dimension(dimension(), [&](auto d) {
     const auto gravity = run_.gravity<d>();
     constexpr std::array keys{"gravity_x", "gravity_y", "gravity_z"};

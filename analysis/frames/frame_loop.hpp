@@ -83,7 +83,9 @@ class FrameLoop {
                           const Sums&... empty);
 
   /// A table without rows: header with program, preset, history, content digest of the run, what
-  /// of it was verified, the numbers that later tools need and `settings` of the tool; key columns, then `columns`.
+  /// of it was verified, the numbers that later tools need ("unknown" where the run does not have its
+  /// density, friction or restitution) and `settings` of the tool, which stand for what the run says of
+  /// the same; key columns, then `columns`.
   Table make_table(const std::string& command,
                    const std::vector<std::pair<std::string, std::string>>& settings,
                    const std::vector<std::string>& columns) const;

@@ -7,6 +7,7 @@
 
 namespace grseg {
 
+/// The angular velocity, or the torque, that is zero.
 template <int D>
 Spin<D> no_spin()
 {

@@ -12,7 +12,7 @@ void to_middle_of_step(const Grains& grains, double step, bool turning, Frame<D>
   if (frame.force.size() != grains.size())
     throw FormatError(
         "the frame has no forces of grains (/particles/grains/force), from which the velocity in "
-        "the middle of a step follows; take that after the step");
+        "the middle of a step follows");
   const auto torque = torques_of(grains, frame.contacts);
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;

@@ -361,4 +361,12 @@ SegregationSummary closure_summary(const ClosureData& data, const std::vector<Pa
   return report.summary;
 }
 
+std::string closure_population(std::size_t runs)
+{
+  return runs > 1
+             ? "runs: all that are like these, taken as one population; of several mixtures, how "
+               "they differ counts as scatter of runs"
+             : "windows: this very run, had it lasted longer";
+}
+
 }  // namespace grseg

@@ -5,6 +5,8 @@
 #include "analysis/segregation/summary.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace grseg {
@@ -42,9 +44,13 @@ struct ClosureResampling {
 /// D_displacements[m^2/s] of the same rows, to compare with d/c; stress_slope_over_weight, 1 where
 /// the two tables agree; tau_X and tau_G[m^2/s^2] with their parts; p_zero and dc_dp[1/s], and for
 /// each rule B@RULE, c@RULE[1/s], d@RULE[m^2/s^2] and those with kinetic terms kept. Intervals of
-/// 95 % as in grseg-fit: of one run moving blocks of windows are drawn, of several whole runs. They
-/// are linear in the noise of the flux at fixed regressors. NaN where there is no interval.
+/// 95 %: of one run moving blocks of windows are drawn, of several whole runs, all from one population,
+/// whatever their mixtures, unlike grseg-fit. They are linear in the noise of the flux at fixed
+/// regressors. NaN where there is no interval.
 SegregationSummary closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
                                    const ClosureResampling& resampling);
+
+/// What the intervals are over, of so many runs, as a sentence without its full stop.
+std::string closure_population(std::size_t runs);
 
 }  // namespace grseg

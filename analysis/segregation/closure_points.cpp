@@ -3,14 +3,15 @@
 
 #include "analysis/frames/distinct_runs.hpp"
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/statistics/median_of_positive.hpp"
 #include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_statistics.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -75,12 +76,18 @@ std::vector<RunTables> runs_of(const std::vector<Table>& tables)
   return runs;
 }
 
-/// Names a layer in a window; kept tables have fewer digits.
+/// Names a layer in a window. Kept tables have fewer digits, so that places are told apart to a power of
+/// ten of the order of 1/10000 of the window and the layer, 1e-6 s and m at most.
 using Place = std::tuple<long long, long long, long long, long long>;
 Place place_of(const LayerKey& key)
 {
-  const auto rounded = [](double value) { return std::llround(value * 1e6); };
-  return {rounded(key.begin), rounded(key.end), rounded(key.bottom), rounded(key.top)};
+  const auto rounded = [](double value, double extent) {
+    const double power = std::min(-6.0, std::round(std::log10(extent)) - 4);
+    return std::llround(value * std::pow(10, -power));
+  };
+  const double window = key.end - key.begin, thickness = key.top - key.bottom;
+  return {rounded(key.begin, window), rounded(key.end, window), rounded(key.bottom, thickness),
+          rounded(key.top, thickness)};
 }
 
 /// What a row of grseg-segregation says of a layer; NaN where the table lacks it.
@@ -222,8 +229,9 @@ void add_stress(ClosurePoint& point, const Stress& stress, const std::vector<Par
   point.product = phi * (1 - phi);
   for (const auto& rule : rules) {
     const auto parts = partial_stress(stress.sums, rule);
-    point.excess.push_back(rule.adds_up() ? parts.large()(1, 1) / parts.total(1, 1) - phi
-                                          : missing);
+    const double total = parts.total(1, 1);
+    const bool has_share = rule.adds_up() && total > 0;
+    point.excess.push_back(has_share ? parts.large()(1, 1) / total - phi : missing);
   }
 }
 
@@ -236,9 +244,9 @@ bool is_usable(const ClosurePoint& point)
 double median_solid(const std::vector<Motion>& motions)
 {
   std::vector<double> solid;
-  for (const auto& motion : motions)
-    if (motion.solid() > 0) solid.push_back(motion.solid());
-  return solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
+  solid.reserve(motions.size());
+  for (const auto& motion : motions) solid.push_back(motion.solid());
+  return median_of_positive(std::move(solid));
 }
 
 class RunReader {

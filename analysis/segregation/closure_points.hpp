@@ -55,7 +55,7 @@ struct ClosurePoint {
   std::vector<double> excess;
 };
 
-/// What the noise of the flux is weighed with in the regression (closure.hpp).
+/// Instrumental variables of the regression (closure.hpp).
 enum class Instruments {
   previous,  ///< driving and gradient of the window before, on which this window's noise does not act
   same,      ///< those of the same window: least squares

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/rates.hpp"
 
-#include <gsl/gsl_statistics.h>
+#include "analysis/statistics/median_of_positive.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -98,9 +98,9 @@ Estimate quotient(const Regression& a, const Regression& b, double factor)
 std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter)
 {
   std::vector<double> solid;
-  for (const auto& point : points)
-    if (point.solid > 0) solid.push_back(point.solid);
-  const double median = solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
+  solid.reserve(points.size());
+  for (const auto& point : points) solid.push_back(point.solid);
+  const double median = median_of_positive(std::move(solid));
   std::erase_if(points, [&](const RatePoint& point) {
     return !filter.heights.holds(point.bottom, point.top) ||
            !(point.solid >= filter.min_solid * median);

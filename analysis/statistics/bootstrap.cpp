@@ -2,7 +2,6 @@
 #include "analysis/statistics/bootstrap.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_rng.h>
 
 #include <algorithm>
@@ -15,9 +14,6 @@ namespace grseg {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// Degrees of freedom below which there is no interval.
-constexpr double least_degrees = 0.5;
 
 using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
 
@@ -61,14 +57,6 @@ double kept_in_blocks(double time, std::size_t length)
 }
 
 }  // namespace
-
-Interval students_interval(double estimate, const StandardError& error)
-{
-  if (!(error.degrees >= least_degrees) || !std::isfinite(estimate) || !std::isfinite(error.error))
-    return {nan, nan};
-  const double reach = gsl_cdf_tdist_Pinv(0.975, error.degrees) * error.error;
-  return {estimate - reach, estimate + reach};
-}
 
 Bootstrap::Bootstrap(RunLengths runs, std::size_t samples, unsigned long seed)
     : runs_(std::move(runs)), samples_(samples), seed_(seed)
@@ -148,7 +136,7 @@ StandardError Bootstrap::window_error(const Eigen::VectorXd& samples,
 Interval Bootstrap::over_windows(double estimate, const Eigen::VectorXd& samples,
                                  const Dependence& dependence) const
 {
-  return students_interval(estimate, window_error(samples, dependence));
+  return window_error(samples, dependence).interval_around(estimate);
 }
 
 StandardError Bootstrap::run_error(const Eigen::VectorXd& samples,
@@ -161,7 +149,7 @@ StandardError Bootstrap::run_error(const Eigen::VectorXd& samples,
 Interval Bootstrap::over_runs(double estimate, const Eigen::VectorXd& samples,
                               const Dependence& dependence) const
 {
-  return students_interval(estimate, run_error(samples, dependence));
+  return run_error(samples, dependence).interval_around(estimate);
 }
 
 std::string Bootstrap::doubt(const Dependence& dependence) const

@@ -16,15 +16,6 @@
 /// How often the intervals hold the truth: docs/studies/uncertainty.md.
 namespace grseg {
 
-/// 95 % interval; NaN where there are too few windows to tell.
-struct Interval {
-  double low, high;
-};
-
-/// estimate -+ t error, t Student's 97.5 % quantile; NaN where the degrees of freedom are less than
-/// one half.
-Interval students_interval(double estimate, const StandardError& error);
-
 class Bootstrap {
  public:
   /// samples = 0: no intervals. The same seed draws the same samples in any order of calls.
@@ -40,8 +31,8 @@ class Bootstrap {
   /// The same where whole runs are drawn; no rows for a single run.
   const Eigen::MatrixXd& whole_runs() const;
 
-  /// The samples and the interval that grseg reports: of several runs those of runs, of a single
-  /// one those of windows.
+  /// Of several runs the samples and the interval of runs, drawn as one population, of a single one
+  /// those of windows: for the closure of segregation. grseg-fit tells mixtures apart (RunErrors).
   const Eigen::MatrixXd& samples(const Dependence& dependence) const;
   Interval interval(double estimate, const Eigen::VectorXd& samples,
                     const Dependence& dependence) const;
@@ -50,8 +41,8 @@ class Bootstrap {
   /// samples of blocks(), times m/(m - R) for the means of R runs that were fitted (m = effective
   /// windows/block), over the share of the variance that blocks of b windows of an AR(1) series
   /// keep at their cuts, 1 - 2 rho (1 - rho^b)/(b (1 - rho^2)); t is Student's quantile of m - R
-  /// degrees of freedom. NaN where these are less than one half. With several runs it holds only
-  /// if runs do not differ.
+  /// degrees of freedom. NaN below least_degrees. With several runs it holds only if runs do not
+  /// differ.
   Interval over_windows(double estimate, const Eigen::VectorXd& samples,
                         const Dependence& dependence) const;
   StandardError window_error(const Eigen::VectorXd& samples, const Dependence& dependence) const;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
 namespace grseg {
 
@@ -13,5 +15,11 @@ namespace grseg {
 /// known, not chance: left in the noise, it would make all windows depend on each other for ever.
 Eigen::VectorXd composition_noise(const Eigen::VectorXd& phi_large, const Eigen::VectorXd& value,
                                   const Eigen::VectorXd& weight);
+
+/// How much of the differences between groups of points that fit takes, in degrees of freedom: the sum
+/// of the squared canonical correlations between its terms and the groups. 1, the mean, where all
+/// groups have the same compositions; 3 where each has but one of its own.
+double degrees_of_composition(const Eigen::VectorXd& phi_large, const Eigen::VectorXd& weight,
+                              const std::vector<std::size_t>& group);
 
 }  // namespace grseg

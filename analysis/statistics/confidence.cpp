@@ -11,13 +11,21 @@ namespace grseg {
 
 double StandardError::reach() const
 {
-  return degrees >= 1 ? gsl_cdf_tdist_Pinv(0.975, degrees) * error
-                      : std::numeric_limits<double>::quiet_NaN();
+  return degrees >= least_degrees && std::isfinite(error)
+             ? gsl_cdf_tdist_Pinv(0.975, degrees) * error
+             : std::numeric_limits<double>::quiet_NaN();
 }
 
 Estimate StandardError::around(double value) const
 {
+  if (!std::isfinite(value)) return {value};
   return {value, value - reach(), value + reach()};
+}
+
+Interval StandardError::interval_around(double value) const
+{
+  const auto estimate = around(value);
+  return {estimate.low, estimate.high};
 }
 
 StandardError standard_error(const Eigen::VectorXd& influence, int fitted)
@@ -27,7 +35,7 @@ StandardError standard_error(const Eigen::VectorXd& influence, int fitted)
   if (n < 2 || !influence.allFinite()) return {nan, 0};
   const double time = autocorrelation_time(influence, {static_cast<std::size_t>(influence.size())});
   const double degrees = n / time - fitted;
-  if (!(degrees >= 1)) return {nan, 0};
+  if (!(degrees >= least_degrees)) return {nan, 0};
   return {std::sqrt(influence.squaredNorm() * time * (degrees + fitted) / degrees), degrees};
 }
 

@@ -43,4 +43,17 @@ StandardError scatter_of_values(const Eigen::VectorXd& values)
                          Eigen::VectorXd::Ones(values.size()));
 }
 
+MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers)
+{
+  const auto count = static_cast<double>(numbers.size());
+  Eigen::VectorXd values(static_cast<Eigen::Index>(numbers.size()));
+  std::vector<StandardError> parts;
+  parts.reserve(numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    values[static_cast<Eigen::Index>(k)] = numbers[k].value;
+    parts.push_back({numbers[k].error.error / count, numbers[k].error.degrees});
+  }
+  return {values.mean(), added(parts), scatter_of_values(values)};
+}
+
 }  // namespace grseg

@@ -25,4 +25,12 @@ StandardError added(const std::vector<StandardError>& parts);
 /// Of the unweighted mean of values that were drawn independently (Student 1908); n - 1 degrees.
 StandardError scatter_of_values(const Eigen::VectorXd& values);
 
+/// The unweighted mean of independent numbers: its error by theirs (`added`), the numbers being these
+/// very ones, and by their scatter (`scatter_of_values`), these being drawn from all.
+struct MeanOfEquals {
+  double value;
+  StandardError by_errors, by_scatter;
+};
+MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers);
+
 }  // namespace grseg

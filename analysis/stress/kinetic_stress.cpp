@@ -18,7 +18,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 template <int D>
 double moment_of_inertia(double mass, double radius)
 {
-  return D == 2 ? mass * radius * radius / 2 : inertia_factor<D> * mass * radius * radius;
+  return inertia_factor<D> * mass * radius * radius;
 }
 
 /// Of one grain that moves by `excess` more than the mean.

@@ -170,7 +170,8 @@ std::vector<PartitionRule> rules_of(const Settings& s, const Table& first)
 /// are part of what is printed.
 void remark(const std::vector<Table>& tables, const FitReport& report, bool with_doubts)
 {
-  for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step"})
+  for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step", "mean",
+                          "velocity", "composition", "volume", "origin"})
     for (const auto& table : tables)
       if (header_or(table, key, "") != header_or(tables[0], key, ""))
         std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name,
@@ -245,9 +246,9 @@ void require_population(const Settings& s, const FitData& data)
                     "own interval, --over mixtures gives one number for all, and --mixtures tells "
                     "which tables belong together",
                     mixtures));
-  if (over == Over::runs && data.runs.size() < 2)
-    throw UsageError(
-        "--over runs: there is one run; give the tables of several, or --over windows");
+  if ((over == Over::runs || over == Over::compositions) && data.runs.size() < 2)
+    throw UsageError(fmt::format(
+        "--over {}: there is one run; give the tables of several, or --over windows", s.over));
   const bool of_mixtures =
       over == Over::mixtures || over == Over::equal_mixtures || over == Over::random_mixtures;
   if (of_mixtures && mixtures < 2)
@@ -271,8 +272,8 @@ std::string over_words(const FitReport& report)
 }
 
 /// The lines that say how the fit was made.
-Header header_of(const Settings& s, const std::string& preset, const FitReport& report,
-                 const FitData& data, const std::string& grains)
+Header header_of(const Settings& s, const std::string& preset, const std::vector<Table>& tables,
+                 const FitReport& report, const FitData& data, const std::string& grains)
 {
   return {
       program_line(info),
@@ -293,7 +294,7 @@ Header header_of(const Settings& s, const std::string& preset, const FitReport& 
       {"seed", fmt::format("{}", s.seed)},
       {"interval", "95 %"},
       {"over", over_words(report)},
-      {"mixtures", grouping_words(s.mixtures)}};
+      {"mixtures", grouping_words(s.mixtures, tables)}};
 }
 
 FitReport make_report(const Settings& s, const std::string& preset,
@@ -324,7 +325,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
   if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
   if (prints_short(s)) add_for_short_table(report, data, settings, bootstrap);
 
-  report.header = header_of(s, preset, report, data, grains_words(all, data));
+  report.header = header_of(s, preset, tables, report, data, grains_words(all, data));
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
   if (names_species(report.species))
     report.header.emplace_back("species", species_text(report.species));

@@ -149,6 +149,16 @@ std::string velocity_line(const TrajectoryReader& run, const Settings& s, bool c
   return "instant";
 }
 
+/// FormatError where the run lacks what the middle of a step follows from.
+void require_forces(const TrajectoryReader& run)
+{
+  if (!run.has_force())
+    throw FormatError(
+        fmt::format("{}: /particles/grains/force, from which the velocity in the middle of a step "
+                    "follows, is missing; leave --velocity middle out",
+                    run.path()));
+}
+
 /// Of a layer or cell, or their names without one.
 template <int D>
 std::vector<Cell> cells(const FrameLoop& loop, const KineticStress<D>& stress,
@@ -196,8 +206,8 @@ void choose_mean_of_map(Settings& s, const po::variables_map& values)
   if (!s.frames.map() || s.mean != "profile") return;
   if (!values["mean"].defaulted())
     throw UsageError(
-        "--mean profile is a profile over height, which a map has not; take layer or instant, the "
-        "mean of the cell");
+        "--mean profile is a profile over height, which a map does not have; take layer, instant or "
+        "instant-unbiased, the mean of the cell");
   s.mean = word_of(MeanFlow::layer, mean_flows);
 }
 
@@ -210,6 +220,7 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
   const Header settings{
       {"mean", s.mean},
       {"velocity", velocity_line(loop.run(), s, !values["velocity"].defaulted())}};
+  if (which == VelocityInStep::middle) require_forces(loop.run());
   with_dimension(loop.dimension(),
                  [&](auto d) { tabulate<d>(loop, s, flow, which, settings, command); });
 }

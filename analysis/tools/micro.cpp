@@ -72,11 +72,6 @@ double friction_of(const Settings& s, const Parameters& parameters)
   return s.friction;
 }
 
-std::string number_or_unknown(std::optional<double> number)
-{
-  return !number || std::isnan(*number) ? "unknown" : format_number(*number);
-}
-
 /// Components are those along x, y and z, so that annuli are left out.
 GrainArea area_of(Settings& s, const po::variables_map& values)
 {
@@ -115,15 +110,13 @@ std::vector<Cell> map_cells(const StructureSums<D>& sums)
 template <int D>
 void tabulate(FrameLoop& loop, const Settings& s, GrainArea area, const std::string& command)
 {
-  const auto& parameters = loop.run().parameters();
-  const double friction = friction_of(s, parameters);
+  const double friction = friction_of(s, loop.run().parameters());
   const bool map = loop.layers().map().has_value();
+  Header settings{{"composition", s.composition},
+                  {"sliding_tolerance", format_number(sliding_tolerance)}};
+  if (!std::isnan(s.friction)) settings.emplace_back("friction", format_number(s.friction));
   auto table = loop.make_table(
-      command,
-      {{"composition", s.composition},
-       {"density", number_or_unknown(parameters.find_number("density"))},
-       {"friction", number_or_unknown(friction)},
-       {"sliding_tolerance", format_number(sliding_tolerance)}},
+      command, settings,
       map ? columns_of(map_cells(StructureSums<D>{})) : StructureByLayer<D>::columns());
 
   for (const auto& window : loop.windows()) {

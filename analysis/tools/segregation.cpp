@@ -57,7 +57,7 @@ po::options_description options_into(Settings& s)
                         "and regress the flux of large grains on driving and gradient: B/c, d/c, "
                         "and c under each rule");
   options.add_options()("heights", po::value(&s.heights)->value_name("y0:y1"),
-                        "with --summary and --closure: take part layers between these heights, "
+                        "with --summary and --closure: use only layers between these heights, "
                         "e.g. 4dS:56dS or 4dS: (default: all)");
   options.add_options()(
       "min-solid", po::value(&s.min_solid)->default_value(0.5, "0.5")->value_name("X"),
@@ -67,7 +67,7 @@ po::options_description options_into(Settings& s)
   options.add_options()("partition", po::value(&s.partition)->composing()->value_name("RULE,..."),
                         rules.c_str());
   const auto instruments =
-      "with --closure: what the flux's noise is weighed with: " + list_of(instrument_choices);
+      "with --closure: instrumental variables of the regression: " + list_of(instrument_choices);
   options.add_options()("instruments",
                         po::value(&s.instruments)->default_value(s.instruments)->value_name("WORD"),
                         instruments.c_str());
@@ -182,6 +182,7 @@ void close(const Settings& s, const po::variables_map& values, const std::string
                                {"rows", fmt::format("{} of {}", data.points.size(), data.rows)},
                                {"runs", fmt::format("{}", data.runs.size())},
                                {"windows", fmt::format("{}", number_of_windows(data.runs))},
+                               {"over", closure_population(data.runs.size())},
                                {"bootstrap", fmt::format("{}", s.bootstrap)},
                                {"seed", fmt::format("{}", s.seed)}});
   write_summary(s, closure_summary(data, rules, resampling), header);

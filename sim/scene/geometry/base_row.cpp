@@ -22,11 +22,6 @@ constexpr double round_off = 1e-9;  // of a number of beads
 constexpr std::uint64_t own_stream = 1U
                                      << 31;  // a seed of the base differs from that of grains here
 
-long beads_at_spacing(const Scene& scene, double spacing)
-{
-  return std::lround(std::floor(scene.length / spacing + round_off));
-}
-
 double mean_spacing(const Scene& scene, double at_least)
 {
   return scene.length / static_cast<double>(beads_at_spacing(scene, at_least));
@@ -67,14 +62,21 @@ void check_room(const Scene& scene)
 void check_that_it_holds(const Scene& scene, const char* key)
 {
   const double gap = widest_gap(scene), most = widest_gap_that_holds * smallest_grain(scene);
-  require(gap <= most, key,
-          fmt::format("{}: grains would fall through the base, whose keys allow gaps of {:.4g} m; "
-                      "the smallest grains are held up to {:.4g} m: choose a smaller base-spacing "
-                      "or smaller spreads",
-                      key, gap, most));
+  require(
+      gap <= most, key,
+      fmt::format(
+          "{}: grains would fall through the base, whose keys allow gaps of {:.4g} m; "
+          "the smallest grains fall through those wider than {:.4g} m: choose a smaller base-spacing "
+          "or smaller spreads",
+          key, gap, most));
 }
 
 }  // namespace
+
+long beads_at_spacing(const Scene& scene, double spacing)
+{
+  return std::lround(std::floor(scene.length / spacing + round_off));
+}
 
 double widest_gap(const Scene& scene)
 {

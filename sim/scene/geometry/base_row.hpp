@@ -22,6 +22,9 @@ namespace grseg {
 /// does not hold, or that lets the smallest grain through.
 void resolve_base_row(Scene& scene, const KeyGiven& given);
 
+/// How many beads fill the cell with a mean spacing that is not below `spacing`, m.
+long beads_at_spacing(const Scene& scene, double spacing);
+
 /// Largest gap between neighbours, beads or a wall, that the keys allow, m; below 0 where all overlap.
 double widest_gap(const Scene& scene);
 

@@ -26,7 +26,7 @@ double height_of_base_centres(const Scene& scene)
 
 std::vector<double> row_of_beads(const Scene& scene)
 {
-  const long beads = std::lround(std::floor(scene.length / scene.large_diameter + 1e-9));
+  const long beads = beads_at_spacing(scene, scene.large_diameter);
   const double spacing = scene.length / static_cast<double>(beads);
   std::vector<double> x;
   for (long k = 0; k < beads; ++k) x.push_back((static_cast<double>(k) + 0.5) * spacing);

@@ -108,5 +108,22 @@ TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
               1e-12);
 }
 
+// One window has no standard error: numbers stand alone, and the two of several beside theirs.
+TEST(PartitionSummary, OfOneWindowHasNoErrors)
+{
+  PartitionSummary<2> summary(thin_layers<2>(), 0.01, all_rules);
+  const auto add = [&](unsigned seed) {
+    const auto frames = two_moments(seed);
+    summary.add(momentum_of<2>(frames), contacts_of<2>(frames));
+  };
+  add(21);
+  EXPECT_EQ(summary.text().find("nan"), std::string::npos) << summary.text();
+  EXPECT_EQ(summary.text().find("+-"), std::string::npos) << summary.text();
+  EXPECT_NE(summary.text().find("surface, of one window)"), std::string::npos);
+  add(22);
+  EXPECT_NE(summary.text().find("standard errors over 2 windows"), std::string::npos);
+  EXPECT_NE(summary.text().find(" +- "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace grseg

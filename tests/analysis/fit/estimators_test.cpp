@@ -192,7 +192,7 @@ TEST(NeutralContacts, SharedOtherwiseShowExactlyTheClosedForm)
   for (const char* rule : {"uniform:0.8", "uniform:0.6", "uniform:0.5", "half"}) {
     const auto result = fit(data, rule);
     EXPECT_NEAR(result.value.B_direct, result.neutral, 1e-12) << rule;
-    EXPECT_NEAR(result.minus_size, result.neutral, 1e-12) << rule;
+    EXPECT_NEAR(result.minus_size.value, result.neutral, 1e-12) << rule;
   }
   EXPECT_EQ(fit(data, "size").neutral, 0);
   EXPECT_EQ(fit(data, "half").neutral, fit(data, "uniform:0.5").neutral);
@@ -220,11 +220,11 @@ TEST(NeutralContacts, TheZeroOfTheSumsIsOneAndItsIntervalHoldsIt)
   EXPECT_NE(zero, 2. / 3);
   const PartitionRule at_zero{PartitionRule::Kind::uniform, zero};
   EXPECT_NEAR(fit_rule(data, at_zero, {}, Bootstrap(data.runs, 0, 1)).value.B_sums, 0, 1e-13);
-  EXPECT_LT(by_size.p_zero_sums.low, 2. / 3);
-  EXPECT_GT(by_size.p_zero_sums.high, 2. / 3);
+  EXPECT_LT(by_size.p_zero_sums.interval().low, 2. / 3);
+  EXPECT_GT(by_size.p_zero_sums.interval().high, 2. / 3);
   // dB/dp = -B_sums/(p* - 2/3), as B_sums is linear in p: both intervals tell the same.
   const double slope = by_size.value.B_sums / (2. / 3 - zero);
-  EXPECT_NEAR((by_size.p_zero_sums.high - by_size.p_zero_sums.low) * slope,
+  EXPECT_NEAR((by_size.p_zero_sums.interval().high - by_size.p_zero_sums.interval().low) * slope,
               by_size.high.B_sums - by_size.low.B_sums,
               0.05 * (by_size.high.B_sums - by_size.low.B_sums));
 }
@@ -243,8 +243,8 @@ TEST(NeutralContacts, DisturbedOnesShowInTheDifferenceToSizeWhatTheRuleAdds)
   const auto data = neutral_data(0.1);
   const auto size = fit(data, "size"), other = fit(data, "uniform:0.8");
   EXPECT_GT(std::abs(size.value.B_direct), 1e-4);
-  EXPECT_NEAR(other.minus_size, other.value.B_direct - size.value.B_direct, 1e-15);
-  EXPECT_EQ(size.minus_size, 0);
+  EXPECT_NEAR(other.minus_size.value, other.value.B_direct - size.value.B_direct, 1e-15);
+  EXPECT_EQ(size.minus_size.value, 0);
 }
 
 // r = 2: (0.8 - 2/3) 3/(1 + phi_S) with the weights w (phi_L phi_S)^2 of two layers, where w is the
@@ -268,7 +268,7 @@ TEST(NeutralContacts, DroppedMixedContactsLeaveAParabolaAndNoB)
   for (const auto& [name, place] : estimator_columns)
     EXPECT_EQ(std::isnan(result.value.*place), name[0] == 'B') << name;
   EXPECT_TRUE(std::isnan(result.neutral));
-  EXPECT_TRUE(std::isnan(result.minus_size));
+  EXPECT_TRUE(std::isnan(result.minus_size.value));
 }
 
 // ---- intervals ----------------------------------------------------------------------------------
@@ -302,9 +302,9 @@ TEST(Intervals, HoldEachEstimateAndExistForAll)
     EXPECT_LT(result.low.*place, result.value.*place) << name;
     EXPECT_GT(result.high.*place, result.value.*place) << name;
   }
-  EXPECT_LT(result.minus_size_interval.low, result.minus_size);
+  EXPECT_LT(result.minus_size.interval().low, result.minus_size.value);
   // The same samples for both rules: the difference is known better than either.
-  EXPECT_LT(result.minus_size_interval.high - result.minus_size_interval.low,
+  EXPECT_LT(result.minus_size.interval().high - result.minus_size.interval().low,
             result.high.B_direct - result.low.B_direct);
 }
 

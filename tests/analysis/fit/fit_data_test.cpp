@@ -230,7 +230,7 @@ TEST(FitData, KineticStressesAreFittedWithMassesForComposition)
   EXPECT_NEAR(yy.value.slope, 1.44, 1e-13);
   EXPECT_NEAR(yy.value.B_half, 2 * (1 - 1.44) / 2.44, 1e-13);
   EXPECT_TRUE(std::isnan(yy.neutral));
-  EXPECT_TRUE(std::isnan(yy.minus_size));
+  EXPECT_TRUE(std::isnan(yy.minus_size.value));
   EXPECT_NEAR(fit(data, "size", {.component = Component::pressure}).value.slope, (9 + 1.44) / 2,
               1e-13);
 }

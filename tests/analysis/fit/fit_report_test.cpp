@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace grseg {
@@ -64,6 +65,34 @@ TEST(FitReport, JsonSaysNullWhereThereIsNoNumber)
   EXPECT_TRUE(json["doubts"].empty());
   EXPECT_EQ(json["inputs"][0], "run.h5 0123456789abcdef");
   EXPECT_EQ(json["history"].size(), 2u);
+}
+
+TEST(FitReport, TheTablesOfAMixtureAreAListInJsonAndALineInTheTable)
+{
+  auto report = report_with_seed(1);
+  report.table_names = {"a.tsv", "b c.tsv", "d\n.tsv"};
+  report.mixtures = {{"Phi_L = 0.30", {0.7, 0.3}, {0, 2}}, {"Phi_L = 0.60", {0.4, 0.6}, {1}}};
+  report.shares = {{0.25, 0.75}, {0.5, 0.5}};
+  const auto json = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(json["mixtures"][0]["tables"], nlohmann::json({"a.tsv", "d\\x0A.tsv"}));
+  EXPECT_EQ(json["mixtures"][1]["tables"], nlohmann::json({"b c.tsv"}));
+  EXPECT_TRUE(
+      holds(to_tsv(report),
+            "# mixture: Phi_L = 0.60, 1 table, 75 % of the weight of B_half, 50 % of that of "
+            "B_sums: b c.tsv\n"));
+}
+
+// p* of the sums is that of the data, whatever the rules beside the scan.
+TEST(FitReport, AScanHasTheZeroOfTheSumsAlsoWhereTheLastRuleDoesNotAddUp)
+{
+  auto report = report_with_seed(1);
+  const double zero = report.rules[0].p_zero_sums.value;
+  ASSERT_TRUE(std::isfinite(zero));
+  report.rules = {report.rules[1]};  // drop
+  EXPECT_EQ(Table::parse(to_tsv(report), "scan").header_number("p_zero_sums"), zero);
+  const auto json = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(json["p_zero_sums"]["value"], zero);
+  EXPECT_LT(json["p_zero_sums"]["interval"][0], zero);
 }
 
 TEST(FitReport, WhatLimitsTheIntervalsIsAmongTheLinesOfTheTableAndInJson)

@@ -2,6 +2,8 @@
 #include "analysis/fit/mixtures.hpp"
 
 #include "analysis/fit/fit_mixtures.hpp"
+#include "analysis/fit/run_errors.hpp"
+#include "analysis/fit/size_exponent.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
@@ -18,6 +20,7 @@ namespace {
 
 using synthetic::neutral_sums;
 using synthetic::stress_table;
+using synthetic::TableRow;
 
 /// A run of two windows and one layer, of this composition.
 Table run_of(double phi_large, const std::string& gravity = "3.83", double scatter = 0)
@@ -58,6 +61,51 @@ TEST(Mixtures, AreToldApartByAllThatTablesRecordOfTheFlow)
   EXPECT_EQ(mixtures[0].tables, (Numbers{0, 2}));
   EXPECT_EQ(mixtures[0].name, "Phi_L = 0.30, gravity_x = 3.83");
   EXPECT_EQ(mixtures[1].name, "Phi_L = 0.30, gravity_x = 4.3");
+}
+
+// Of spheres the cell has a width, too. What only one of two tables records tells them apart as well.
+TEST(Mixtures, AreToldApartByTheirMaterialAndTheWidthOfTheCell)
+{
+  const auto with = [](std::vector<HeaderLine> lines) {
+    auto table = run_of(0.3);
+    table.header.insert(table.header.end(), lines.begin(), lines.end());
+    return table;
+  };
+  for (const char* key : {"density", "friction", "restitution", "length_z"}) {
+    const std::vector<Table> tables{with({{key, "0.3"}}), with({{key, "0.8"}}), with({}),
+                                    with({{key, "0.3"}}), with({{key, "unknown"}})};
+    auto read = read_all(tables);
+    const auto mixtures = find_mixtures(read, "auto");
+    ASSERT_EQ(mixtures.size(), 3u) << key;
+    EXPECT_EQ(mixtures[0].tables, (Numbers{0, 3}));
+    EXPECT_EQ(mixtures[0].name, std::string("Phi_L = 0.30, ") + key + " = 0.3");
+    EXPECT_EQ(mixtures[2].name, std::string("Phi_L = 0.30, ") + key + " = unknown");
+    EXPECT_EQ(mixtures[2].tables, (Numbers{2, 4}));
+  }
+}
+
+TEST(Mixtures, TheWordsNameWhatTheTablesRecord)
+{
+  EXPECT_EQ(
+      grouping_words("auto", {run_of(0.3)}),
+      "runs of one mixture agree in what their tables record of the flow (diameters, gravity) "
+      "and in overall composition, to 0.02");
+  auto with_friction = run_of(0.3);
+  with_friction.header.insert(with_friction.header.end(),
+                              {{"density", "unknown"}, {"friction", "0.5"}});
+  EXPECT_NE(
+      grouping_words("auto", {run_of(0.3), with_friction}).find("(diameters, friction, gravity)"),
+      std::string::npos);
+}
+
+// What begins with the same number need not be the same.
+TEST(Mixtures, AListIsNotItsFirstNumber)
+{
+  std::vector<Table> tables{run_of(0.3), run_of(0.3)};
+  tables[0].header.emplace_back("friction", "0.5, 0.3");
+  tables[1].header.emplace_back("friction", "0.5, 0.4");
+  auto read = read_all(tables);
+  EXPECT_EQ(find_mixtures(read, "auto").size(), 2u);
 }
 
 TEST(Mixtures, OrAsTheUserSays)
@@ -168,6 +216,60 @@ TEST(Populations, EqualMixturesAreTheMeanOfTheirBs)
   // How mixtures differ is not in it.
   const auto apart = three_runs_of_each({{-0.53, 0.003, 1}, {0.05, 0.001, 3}, {0.63, 0.002, 9}});
   EXPECT_NEAR(reach(fit_over(apart, Over::equal_mixtures)), reach(fit), 1e-10);
+}
+
+/// Two mixtures, of two runs each, that scatter by `scatter`; large grains are twice as large.
+FitData four_runs(double scatter)
+{
+  const std::vector<Table> tables{run_of(0.3, "1", scatter), run_of(0.3, "1", 2 * scatter),
+                                  run_of(0.6, "1", -scatter), run_of(0.6, "1", 3 * scatter)};
+  auto read = read_all(tables);
+  find_mixtures(read, "auto");
+  return select_fit_data(read, Quantity::contact, {}, {{0, 1}});
+}
+
+// Beside B_direct stands how far it is from that by size: with either each mixture counts the same.
+TEST(Populations, AllNumbersOfARowAreOfTheSameOnes)
+{
+  const auto data = four_runs(0.2);
+  for (const auto over : {Over::equal_mixtures, Over::random_mixtures}) {
+    const auto fits = fit_mixtures(data, parse_rule("half"), {.over = over}, {200, 1});
+    const auto &half = fits.all, &first = fits.of_each.at(0), &second = fits.of_each.at(1);
+    const auto size = fit_over(data, over);
+    EXPECT_NEAR(half.minus_size.value, half.value.B_direct - size.value.B_direct, 1e-14);
+    EXPECT_LT(half.minus_size.interval().low, half.minus_size.value);
+    EXPECT_NEAR(half.neutral, (first.neutral + second.neutral) / 2, 1e-15);
+    EXPECT_NEAR(half.share, 0.5, 1e-14);
+    const auto a = size_exponent(data, parse_rule("half"), {.over = over}, {200, 1});
+    EXPECT_NEAR(a.value, half.value.B_mean / std::log(2), 1e-13);
+    EXPECT_NEAR(a.low, half.low.B_mean / std::log(2), 1e-9 * (a.high - a.low));
+    for (const auto& pooled : {half.B_half_windows, half.B_sums_windows})
+      EXPECT_TRUE(std::isnan(pooled.low));
+  }
+}
+
+// Errors of the difference half - size of two mixtures of which each is known add up: 1/2 of the root of
+// the sum of their squares.
+TEST(Populations, TheDifferenceToSizeHasTheErrorsOfTheMixturesDifferences)
+{
+  const auto fits =
+      fit_mixtures(four_runs(0.2), parse_rule("half"), {.over = Over::equal_mixtures}, {200, 1});
+  const double sum = std::hypot(fits.of_each.at(0).minus_size.error.error,
+                                fits.of_each.at(1).minus_size.error.error);
+  EXPECT_GT(sum, 0);
+  EXPECT_NEAR(fits.all.minus_size.error.error, sum / 2, 1e-15);
+}
+
+// Whatever the intervals of all are over, mixtures are known as well as their runs tell.
+TEST(Populations, EqualMixturesAreByTheirRunsAlsoBesideIntervalsOverWindows)
+{
+  synthetic::RunsOfMixtures source({3, 4, 2, 3});
+  const auto data = source.draw().data;
+  const auto by_windows = fit_over(data, Over::windows), by_runs = fit_over(data, Over::mixtures);
+  ASSERT_TRUE(std::isfinite(by_runs.at(Over::equal_mixtures).low));
+  EXPECT_EQ(by_windows.at(Over::equal_mixtures).low, by_runs.at(Over::equal_mixtures).low);
+  EXPECT_EQ(by_windows.sums_at(Over::equal_mixtures).high,
+            by_runs.sums_at(Over::equal_mixtures).high);
 }
 
 // Student's interval of the mean of 0.03, 0.05 and 0.07.
@@ -288,6 +390,69 @@ TEST(Populations, WindowsStandForRunsOfAMixtureThatHasOne)
   }
   EXPECT_GT(with_interval, 0);
   EXPECT_LT(with_interval, 30);
+}
+
+// Windows of a single run that differ among themselves by +-1; that all of them are off by 7, since the
+// mixture is, is no scatter. Nor is it in proportion to unequal weights. Eight values +-1/8 in an order
+// without correlation have the error of their mean, sqrt(8/7)/sqrt(8), with seven degrees of freedom.
+TEST(Populations, OfASingleRunHowItsMixtureDiffersIsNoScatterOfItsWindows)
+{
+  FitData data;
+  data.runs = {8};
+  data.mixtures = {0};
+  Eigen::VectorXd scatter(8), weight = Eigen::VectorXd::Ones(8);
+  scatter << 1, -1, 1, 1, -1, -1, -1, 1;
+  const auto error_of = [&](const Eigen::VectorXd& noise) {
+    return RunErrors(data, weight).within_mixtures(noise, noise);
+  };
+  const auto alone = error_of(scatter / 8), shifted = error_of((scatter.array() + 7) / 8);
+  EXPECT_NEAR(alone.error, std::sqrt(1. / 7), 1e-14);
+  EXPECT_NEAR(alone.degrees, 7, 1e-12);
+  EXPECT_NEAR(shifted.error, alone.error, 1e-13);
+  EXPECT_NEAR(shifted.degrees, alone.degrees, 1e-12);
+  weight << 1, 2, 3, 4, 4, 3, 2, 1;
+  EXPECT_NEAR(error_of(0.3 * weight).error, 0, 1e-15);
+}
+
+// Two runs of each of four mixtures; their values are -3, -1, 1, 3 times `apart`, plus and minus 1 within
+// a mixture: mean squares 2 x 20 apart^2/f between and 8/4 within. Where composition has taken two of the
+// three degrees, one is left, and Fisher's quantile of 5 % with 1 and 4 degrees is 7.7086, not 6.5914.
+TEST(Populations, FishersTestCountsTheDegreesThatCompositionHasTaken)
+{
+  FitData data;
+  data.runs = RunLengths(8, 1);
+  data.mixtures = {0, 0, 1, 1, 2, 2, 3, 3};
+  const RunErrors errors(data, Eigen::VectorXd::Ones(8));
+  const auto chance = [&](double ratio, double fitted) {
+    const double apart = std::sqrt(ratio * 2 * (4 - fitted) / 40);
+    Eigen::VectorXd value(8);
+    for (Eigen::Index k = 0; k < 8; ++k)
+      value[k] = apart * static_cast<double>(2 * (k / 2) - 3) + (k % 2 == 0 ? 1 : -1);
+    return errors.chance_of_likeness(value, fitted);
+  };
+  EXPECT_NEAR(chance(6.5914, 1), 0.05, 1e-5);
+  EXPECT_NEAR(chance(7.7086, 3), 0.05, 1e-5);
+}
+
+// B = 0.1 in the even layer and 0 where large grains are few, in 40 windows that hardly scatter: with
+// weights 0.5 and 0.1 of B_half, 0.25 and 0.09 of B_sums the two differ without any bias.
+TEST(Populations, ThatBHalfAndBSumsDifferMayBeDueToThoseTheyWeigh)
+{
+  std::vector<TableRow> rows;
+  for (int k = 0; k < 40; ++k)
+    for (const auto& [phi, b] : {std::pair{0.5, 0.1}, {0.1, 0.0}}) {
+      const double psi = phi * (1 + b * (1 - phi)) + 1e-6 * synthetic::scatter(rows.size());
+      rows.push_back({1.0 * k, k + 1.0, 10,
+                      synthetic::separate_sums(phi, (1 - psi) * synthetic::any_tensor(),
+                                               psi * synthetic::any_tensor())});
+    }
+  const auto data = synthetic::read({stress_table(rows)});
+  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 200, 1));
+  EXPECT_NE(
+      fit.doubt.find("suffers from few grains, or B differs between layers or mixtures, which "
+                     "the two weigh differently"),
+      std::string::npos)
+      << fit.doubt;
 }
 
 TEST(Populations, EachIsNamedInWordsWithItsWeights)

@@ -33,7 +33,7 @@ FitReport report()
   report.rules[0].value.B_sums = 0.0411;
   report.rules[0].low.B_sums = 0.0401;
   report.rules[0].high.B_sums = 0.0421;
-  report.rules[0].p_zero_sums = {0.6481, 0.6471, 0.6491};
+  report.rules[0].p_zero_sums = {0.6481, {0.001 / 3.182446, 3}};  // -+ 0.001
   report.number_of_runs = 2;
   report.number_of_windows = 1;
   ZeroOfB zero;
@@ -119,6 +119,16 @@ TEST(ShortTable, AScanIsSummedUpByItsEnds)
                                       "p*: B has no zero at any share looked at\n"),
             std::string::npos)
       << short_table(scanned);
+}
+
+TEST(ShortTable, CountsTheTablesOfEachMixture)
+{
+  auto of_two = report();
+  of_two.mixtures = {{"Phi_L = 0.30", {0.7, 0.3}, {0, 2}}, {"Phi_L = 0.60", {0.4, 0.6}, {1}}};
+  of_two.shares = {{0.25, 0.75}, {0.5, 0.5}};
+  const auto text = short_table(of_two);
+  EXPECT_NE(text.find("\nPhi_L = 0.30: 2 tables, 25 % of the weight"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nPhi_L = 0.60: 1 table, 75 % of the weight"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -237,5 +237,27 @@ TEST(SegregationClosure, RegressorsThatAreTheSameUpToAFactorGiveNoNumber)
   EXPECT_TRUE(remarks_hold(summary, "cannot be told apart"));
 }
 
+/// Two runs of each of two mixtures whose B/c are 1/2 and 3/2 of the mean.
+ClosureData two_mixtures()
+{
+  synthetic::Ar1 noise(0, 5);
+  auto data = noisy({30, 30, 30, 30}, 0.01, noise);
+  for (auto& point : data.points)
+    point.flux += (point.window < 60 ? -0.5 : 0.5) * b_over_c * point.driving;
+  return data;
+}
+
+// Drawn as one population, four values of which two are lower and two higher by half of B/c have the standard
+// error B/c/2 sqrt(1/3), and Student's quantile of three degrees of freedom is 3.182. It says so.
+TEST(SegregationClosure, RunsAreOnePopulationWhateverTheirMixtures)
+{
+  const auto summary = closure_summary(two_mixtures(), parse_rules({"size"}), {4000, 1});
+  const double expected = 2 * 3.182 * b_over_c / 2 * std::sqrt(1. / 3);
+  EXPECT_NEAR(width_of(summary, "B_over_c[s]") / expected, 1, 0.1);
+  EXPECT_NE(closure_population(4).find("how they differ counts as scatter of runs"),
+            std::string::npos);
+  EXPECT_TRUE(closure_population(1).starts_with("windows: this very run"));
+}
+
 }  // namespace
 }  // namespace grseg

@@ -246,6 +246,35 @@ TEST(SegregationClosure, LayersAndWindowsAreChosenByHeightAndTime)
   EXPECT_EQ(data.runs, RunLengths{6});
 }
 
+/// The same run with all lengths and times divided by `factor`.
+Table shrunk(Table table, double factor)
+{
+  for (auto& row : table.rows)
+    for (std::size_t key = 0; key < 4; ++key) row[key] /= factor;
+  for (auto& [key, value] : table.header)
+    if (key == "layer" || key == "window") value = format_number(std::stod(value) / factor);
+  return table;
+}
+
+// Layers of 0.2 um in windows of 12.5 us are as many as layers of 2 cm in windows of 1.25 s.
+TEST(SegregationClosure, ThinLayersAndShortWindowsAreToldApart)
+{
+  const auto run = tables_of({}, "a");
+  const auto data =
+      read_closure({shrunk(run.segregation, 1e5), shrunk(run.stress, 1e5)}, two_rules, {});
+  EXPECT_EQ(data.points.size(), 8u * 19);
+}
+
+// Where all stress is a pull the large grains' share of it has no meaning, as in grseg-fit.
+TEST(SegregationClosure, LayersUnderTensionDoNotTakePart)
+{
+  auto run = tables_of({}, "a");
+  auto& row = run.stress.rows.at(25);  // layer 5 of the third window
+  for (std::size_t c = 6; c < row.size(); ++c)
+    if (run.stress.columns[c].find("[N m]") != std::string::npos) row[c] *= -1;
+  EXPECT_EQ(read_closure({run.segregation, run.stress}, two_rules, {}).points.size(), 8u * 19 - 1);
+}
+
 void expect_refusal(const std::vector<Table>& tables, const std::string& words)
 {
   try {

@@ -112,6 +112,20 @@ TEST(StandardErrorByHand, AboutATrendIsFromHalfTheSquaredDifferencesOfNeighbours
   EXPECT_NEAR(5 - around.low, 4.302653 * std::sqrt(8.), 1e-5);
 }
 
+// The density of Student's t with 0.5 degrees of freedom is Gamma(3/4)/(sqrt(pi/2) Gamma(1/4)) (1 + 2 t^2)^(-3/4):
+// far out the tail is that constant times 2^(-3/4) t^(-1/2) 2, from which 0.025 at t = 164.56.
+TEST(StandardErrorByHand, WithHalfADegreeThereIsAnIntervalAndWithLessThereIsNone)
+{
+  constexpr double pi = 3.14159265358979324;
+  const double density = std::tgamma(0.75) / (std::sqrt(pi / 2) * std::tgamma(0.25));
+  const double quantile = std::pow(density * 2 * std::pow(2, -0.75) / 0.025, 2);
+  EXPECT_NEAR((StandardError{1, 0.5}).reach() / quantile, 1, 1e-4);
+  EXPECT_TRUE(std::isnan((StandardError{1, 0.49}).reach()));
+  EXPECT_TRUE(std::isnan((StandardError{1, 0.49}).interval_around(5).low));
+  EXPECT_EQ((StandardError{2, 0.5}).interval_around(5).high,
+            (StandardError{2, 0.5}).around(5).high);
+}
+
 // Eleven points on an exponential, and off it by what no change of its three parameters can
 // imitate: the scatter is the root of the squares over 11 - 3.
 TEST(ExponentialApproachByHand, ItsScatterCountsThreeFittedNumbers)
