@@ -926,7 +926,8 @@ class Table:
 
     def __getitem__(self, column):
         if column not in self._place:
-            raise Error(f"{self.name}: no column {column!r}; it has {', '.join(self.columns[6:12])} ...")
+            raise Error(f"{self.name}: no column {column!r}; it has {', '.join(self.columns[6:10])} ...; grseg-stress "
+                        "makes tables of contacts, grseg-kinetic those of fluctuations")
         return self.values[:, self._place[column]]
 
     def tensor(self, stem):

@@ -186,6 +186,10 @@ def wrong_tables():
             read(head + "0\n# end: 1 rows, xxh3 0\n"))
     require("three-grains-1.1.h5: is an HDF5 file, not a table; open a run with grseg.Run", lambda: grseg.read_table(RUN))
     require("nowhere.tsv: No such file or directory", lambda: grseg.read_table("nowhere.tsv"))
+    neutral = grseg.read_table(os.path.join(inputs, "neutral-sums.tsv"))
+    require("neutral-sums.tsv: no column 'mass_S'; it has area_S, .*; grseg-stress makes tables of contacts",
+            lambda: grseg.Points(neutral, quantity="kinetic"))
+    require("neutral-sums.tsv: no column 'Mpower_xx'|was not made with power:2", lambda: grseg.Points(neutral).fit("power:2"))
     require("only-small-sums.tsv: no layer and window passes the filters",
             lambda: grseg.Points(grseg.read_table(os.path.join(inputs, "only-small-sums.tsv"))))
 
