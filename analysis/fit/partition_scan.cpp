@@ -57,8 +57,9 @@ LogSlopes log_slopes(const FitData& data, double share, const FitSettings& setti
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto& point = points[k];
     if (!point.has_logarithm()) continue;
-    const double mixed = all[k].large - none[k].large;
-    const double to_small = mixed / point.small, to_large = mixed / point.large;
+    // Counted at the grains' centres, what the small grain loses is in another layer.
+    const double to_small = (none[k].small - all[k].small) / point.small;
+    const double to_large = (all[k].large - none[k].large) / point.large;
     at.window.push_back(point.window);
     at.phi_large[used] = point.phi_large;
     at.weight[used] = point.weight;

@@ -8,7 +8,7 @@ source=$1 build=$2 page=$3 least=${4:-1}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/build"
-ln -s "$source/data" "$source/scripts" "$source/sim" "$source/tests" "$folder"
+for name in analysis data docs scripts sim tests; do ln -s "$source/$name" "$folder"; done
 ln -s "$build/bin" "$folder/build/bin"
 awk '/^<!-- these commands are a test/ { marked = 1; next }
      marked && /^```sh$/ { marked = 0; inside = 1; ++blocks; next }
@@ -20,7 +20,7 @@ blocks=$(cat "$folder/blocks")
 [ "$blocks" -ge "$least" ] || { echo "$page: $blocks blocks of commands, expected $least" >&2; exit 1; }
 cd "$folder"
 # BIN: for make, a build folder elsewhere; PATH: the Python whose packages scripts/setup installs
-BIN="$build/bin" PATH="/usr/bin:$PATH" sh -eu commands >said 2>&1 || {
+BIN="$build/bin" PATH="/usr/bin:$PATH" PYTHONDONTWRITEBYTECODE=1 sh -eu commands >said 2>&1 || {
   cat said >&2
   echo "$page: a command fails" >&2
   exit 1

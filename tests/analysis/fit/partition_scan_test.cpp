@@ -97,6 +97,27 @@ TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
   }
 }
 
+// Counted at the grains' centres (--assign grain), a layer's small grains lose other contacts than its
+// large ones win.
+TEST(PartitionScan, TheSlopeAtTheZeroIsThatOfBOfPartsAtTheGrainsToo)
+{
+  auto data = neutral_data(0.1);
+  for (auto& sums : data.rows) {
+    sums.at_centres = true;
+    for (std::size_t k = 0; k < 2; ++k) sums.of(OwnSum::halves, k) = sums.of(OwnSum::inside, k);
+    sums.of(PairSum::at_larger, 0) = 1.1 * sums.of(PairSum::whole, 0);
+    sums.of(PairSum::at_smaller, 0) = 0.8 * sums.of(PairSum::whole, 0);
+  }
+  const auto bootstrap = no_bootstrap(data);
+  const auto b_at = [&](double share) {
+    return fit_rule(data, uniform(share), {}, bootstrap).value.B_half;
+  };
+  const auto zero = find_zero_of_b(data, parse_scan("0:1:0.1"), {}, bootstrap);
+  constexpr double step = 1e-5;
+  EXPECT_NEAR(b_at(zero.p_zero), 0, 1e-12);
+  EXPECT_NEAR(zero.dB_dp, (b_at(zero.p_zero + step) - b_at(zero.p_zero - step)) / (2 * step), 1e-7);
+}
+
 TEST(PartitionScan, TheIntervalOfTheZeroHoldsIt)
 {
   const auto data = neutral_data(0.2);

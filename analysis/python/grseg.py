@@ -1,0 +1,1317 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of grseg in Python: frames, contacts, sums, partial stresses and B(p), on h5py and numpy.
+
+    import grseg
+
+    with grseg.Run("run.h5") as run:
+        for frame in run.frames(begin=5):
+            print(frame.time, frame.contacts.force.shape)
+        sums = run.contact_sums(layer="4dS", window=1.25)
+    print(grseg.Points(sums).fit("size").B_half)
+
+Units are SI; x points down the slope, y up from the base, z across; D is 2 (discs) or 3 (spheres);
+stress is in N/m or Pa, positive in compression (formats/README.md). Sums are those of grseg-stress
+and grseg-kinetic with their default assignment, and estimates those of grseg-fit, all to round-off.
+
+Not here, because the tools do it: digests are NOT verified (grseg-check RUN.h5 does that), nor the
+checksum in the last line of a table; intervals of B (grseg-fit); --assign, --bins, --group.
+
+A file that is damaged, unfinished or none of grseg raises grseg.Error, a wrong argument ValueError.
+"""
+import collections
+import dataclasses
+import functools
+import itertools
+import math
+import pathlib
+import re
+
+import h5py
+import numpy as np
+
+__all__ = ["Run", "Frame", "Contacts", "Species", "Window", "Table", "Points", "Fit", "Error",
+           "read_table", "partial_stress"]
+
+
+class Error(Exception):
+    """What is wrong with a file, where, and the remedy, in one sentence."""
+
+
+Species = collections.namedtuple("Species", "name diameter")
+Species.__doc__ = "Name and nominal diameter (m; 0: unknown) of a mobile species."
+
+Window = collections.namedtuple("Window", "begin end frames")
+Window.__doc__ = "Frames that are averaged together: from begin to end (s), and their numbers."
+
+
+# -------------------------------------------------------------------------------------- reading
+
+_FOREIGN = "not a run of grseg, or damaged; grseg-import makes runs of other programs' archives"
+_UNFINISHED = ("the run has not ended, or its end was lost: give unfinished=True to read the frames that it has "
+               "(grseg-check tells whether they are whole)")
+_OF_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)  # of h5py
+_ROWS_OF_BLOCK = 1 << 16  # contacts or grains that are read at a time
+
+
+class Run:
+    """A trajectory file of version 1.x, open for reading.
+
+    path         its name
+    version      of the file, "1.1"
+    finished     whether its program came to the end and closed it
+    dimension    D, 2 or 3
+    species      the mobile Species in order of size; number k stands for species[k]
+    radius, mass, id [N]    of the grains (m, kg), the same in all frames
+    kind [N]     number of a grain's species, len(species) for those of the boundary
+    mobile [N]   whether a grain belongs to the flow; fixed ones and the boundary do not
+    length, width           of the cell along x and z (m); width is None in two dimensions
+    periodic     whether the cell is periodic along each axis
+    steps, times [F]        of the frames (s)
+    step         length of a time step (s)
+    gravity [D]  at t = 0 (m/s^2); `gravity_at` follows a slope that changes
+    small_diameter, large_diameter    nominal, of the first and last species (m)
+    parameters   all of /parameters by name: float, array or text
+    history      one line per program that touched the data
+    observables  names of what `observable` gives
+    has_force    whether frames have the force on each grain
+    digest       the content digest of the run, as tables give it; not verified here
+
+    A run that goes on, or was killed, is refused unless `unfinished`: then the frames that were
+    committed are read. (Where such a file is damaged, too, HDF5 may wait for ever for its writer: let
+    grseg-check read it first.) Close a run by `with`, or by `close`.
+    """
+
+    def __init__(self, path, unfinished=False):
+        self.path = str(path)
+        self._file = self._open(unfinished)
+        self._datasets = {}
+        try:
+            self._read_head()
+            if not self.finished and not unfinished:
+                self._fail(_UNFINISHED)
+        except BaseException as error:
+            self.close()
+            if isinstance(error, _OF_DAMAGE):
+                self._fail(f"{_FOREIGN} ({error})")
+            raise
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __len__(self):
+        """Number of frames."""
+        return len(self._offset) - 1
+
+    def __iter__(self):
+        return self.frames()
+
+    def __getitem__(self, number):
+        """The Frame of this number; from the end where it is negative."""
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"{self.path}: frame {number} of {len(self)}")
+        number %= len(self)
+        return Frame(_Block(self, number, number + 1), 0)
+
+    def close(self):
+        self._file.close()
+
+    def frames(self, begin=None, end=None, stride=1):
+        """Yields the frames with begin <= t < end (s; None: all), one in `stride`, one by one.
+
+        What of a frame is used is read when it is used, for some frames at a time, so that memory does
+        not grow with the run."""
+        for block in self._blocks(self._numbers(begin, end, stride)):
+            for k in range(block.last - block.first):
+                yield Frame(block, k)
+
+    def gravity_at(self, time):
+        """Gravity [D] at `time` (s), m/s^2: that of t = 0 where the slope is fixed."""
+        angle = math.radians(self.parameters.get("slope_rate", 0.0)) * max(time, 0.0)
+        turned = self.gravity.copy()
+        turned[0] = math.cos(angle) * self.gravity[0] - math.sin(angle) * self.gravity[1]
+        turned[1] = math.sin(angle) * self.gravity[0] + math.cos(angle) * self.gravity[1]
+        return turned
+
+    def observable(self, name):
+        """One number per frame [F], in SI units."""
+        if name not in self.observables:
+            raise KeyError(f"{self.path}: no observable {name}; it has {', '.join(self.observables)}")
+        return self._read(f"observables/{name}/value", 0, len(self))
+
+    def metres(self, text):
+        """0.02 of 0.02, "20mm", "2cm", "4dS" or "2dL", nominal diameters."""
+        return _metres(text, self.small_diameter, self.large_diameter)
+
+    def windows(self, length=1.25, begin=None, end=None, stride=1):
+        """The windows that the tools make, a list of Window: those of `length` (s) from `begin` on
+        (default: t = 0, or the first frame if that is later) that the run fills up to `end`."""
+        return _cut_into_windows(self, length, begin, end, stride)
+
+    def contact_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, power=None):
+        """The sums of force (x) branch by layer, window and pair of species, as a Table with the
+        columns of grseg-stress: areas or volumes of the grains, numbers of contacts and tensors, N m,
+        means per frame. A contact counts where its grains touch. With `power`, the Q of the rule
+        power:Q, also Mpower."""
+        def sums(layers, frames):
+            return _contact_sums(self, layers, frames, power)
+        return self._tabulate(sums, _stress_columns(self, power), layer, (window, begin, end, stride),
+                              _stress_header(power))
+
+    def kinetic_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, mean="profile"):
+        """The sums of m dv (x) dv by layer, window and species, as a Table with columns of
+        grseg-kinetic: masses, mean flow, K (J), Kr of rotation (J), numbers of grains. `mean` is what dv
+        is counted from: "profile", a fine profile over height, or "layer", the mean of the layer; both
+        over the window, whose frames are read twice."""
+        if mean not in ("profile", "layer"):
+            raise ValueError(f"mean = {mean!r}: profile or layer; grseg-kinetic knows more")
+        def sums(layers, frames):
+            return _kinetic_sums(self, layers, frames, mean)
+        return self._tabulate(sums, _kinetic_columns(self), layer, (window, begin, end, stride),
+                              {"mean": mean})
+
+    # What is below is for this file alone.
+
+    def _fail(self, why):
+        raise Error(f"{self.path}: {why}")
+
+    def _open(self, unfinished):
+        try:
+            with open(self.path, "rb") as file:
+                head = file.read(12)
+        except OSError as error:
+            self._fail(error.strerror)
+        # The superblock says whether a writer has the file open in SWMR mode, or was killed while it had.
+        has_writer = head[:9] == b"\x89HDF\r\n\x1a\n\x03" and head[11:] != b"" and head[11] & 5 == 5
+        if has_writer and not unfinished:
+            self._fail(_UNFINISHED)
+        try:
+            return h5py.File(self.path, "r", swmr=has_writer)
+        except _OF_DAMAGE as error:
+            if "unable to lock" in str(error):
+                self._fail("is being written by a run; wait until it has ended, or read a copy")
+            return self._fail("is not an HDF5 file, or is truncated or damaged; take a copy that is whole")
+
+    def _dataset(self, path, rank, kinds="f"):
+        """A dataset of this number of dimensions, whose numbers or texts are of one of these kinds."""
+        try:
+            dataset = self._file[path]
+        except _OF_DAMAGE:
+            dataset = None
+        if not isinstance(dataset, h5py.Dataset):
+            self._fail(f"/{path} is missing: {_FOREIGN}")
+        if dataset.ndim != rank or dataset.dtype.kind not in kinds:
+            self._fail(f"/{path} has {dataset.ndim} dimensions of type {dataset.dtype}, which "
+                       "formats/README.md does not know; grseg-check --deep tells more")
+        return dataset
+
+    def _read(self, path, first, last):
+        """Rows [first, last) of a dataset: reals as float64, integers as int64."""
+        try:
+            if path not in self._datasets:
+                self._datasets[path] = self._file[path]
+            rows = self._datasets[path][first:last]
+        except _OF_DAMAGE:
+            rows = ()
+        if len(rows) != last - first:
+            self._fail(f"/{path}: rows {first} to {last - 1} cannot be read: the file is damaged; take a "
+                       "copy that is whole, or leave their frames out with begin or end")
+        rows = rows.astype(np.float64 if rows.dtype.kind == "f" else np.int64, copy=False)
+        rows.flags.writeable = False
+        return rows
+
+    def _constant(self, path, count, kinds="f"):
+        dataset = self._dataset(path, 1, kinds)
+        if len(dataset) != count:
+            self._fail(f"/{path} has {len(dataset)} entries instead of {count}; the file is damaged")
+        return self._read(path, 0, count)
+
+    def _read_head(self):
+        self.version = self._read_version("h5md/modules/grseg")
+        self._come_and_go = self.version not in ("1.0", "1.1")
+        self._read_version("h5md")
+        self._read_parameters()
+        self._offset = self._read("grseg/contacts/offset", 0,
+                                  len(self._dataset("grseg/contacts/offset", 1, "u")))
+        if len(self._offset) == 0 or self._offset[0] != 0 or (np.diff(self._offset) < 0).any():
+            self._fail("/grseg/contacts/offset does not increase from 0; the file is damaged")
+        self._read_box()
+        self._read_species()
+        self._read_grains()
+        self._require_shapes()
+        self.observables = sorted(self._file.get("observables", ()))
+        self._read_times()
+        self._read_end()
+
+    def _read_version(self, module):
+        try:
+            major, minor = self._file[module].attrs["version"]
+        except _OF_DAMAGE:
+            self._fail(f"/{module} has no version: {_FOREIGN}")
+        if major != 1:
+            self._fail(f"/{module} has version {major}.{minor}, and this grseg.py reads 1.x; take that of "
+                       "the grseg which wrote the file")
+        return f"{major}.{minor}"
+
+    def _read_parameters(self):
+        self.parameters = {}
+        for name in self._file.get("parameters", ()):
+            value = self._file[f"parameters/{name}"]
+            if isinstance(value, h5py.Dataset):
+                value = value[()]
+                self.parameters[name] = _text(value) if isinstance(value, bytes) else (
+                    float(value) if np.ndim(value) == 0 else np.asarray(value, dtype=float))
+        for name in ("small_diameter", "large_diameter", "step", "gravity"):
+            if name not in self.parameters:
+                self._fail(f"/parameters/{name} is missing: {_FOREIGN}")
+        self.small_diameter = self.parameters["small_diameter"]
+        self.large_diameter = self.parameters["large_diameter"]
+        self.step = self.parameters["step"]
+        self.gravity = self.parameters["gravity"]
+        self.history = self.parameters.get("history", "").splitlines()
+        if not 0 < self.step < math.inf:
+            self._fail(f"/parameters/step is {self.step}; it should be positive")
+
+    def _read_box(self):
+        box = self._file.get("particles/grains/box")
+        self.dimension = 3 if box is not None and box.attrs.get("dimension") == 3 else 2
+        edges = self._constant("particles/grains/box/edges", self.dimension)
+        self.length = float(edges[0])
+        self.width = float(edges[2]) if self.dimension == 3 else None
+        self.periodic = tuple(_text(word) == "periodic" for word in box.attrs["boundary"])
+        if len(self.gravity) != self.dimension:
+            self._fail(f"/parameters/gravity should be {self.dimension} numbers; the file is damaged")
+
+    def _read_species(self):
+        if self.version == "1.0":
+            self.species = (Species("small", self.small_diameter), Species("large", self.large_diameter))
+            return
+        names = [_text(name) for name in self._dataset("grseg/species/name", 1, "S")]
+        if len(names) < 2 or names[-1] != "boundary":
+            self._fail("/grseg/species/name should list mobile species and, last, the boundary")
+        diameters = self._constant("grseg/species/diameter", len(names))
+        self.species = tuple(Species(name, float(d)) for name, d in zip(names[:-1], diameters))
+
+    def _read_grains(self):
+        count = len(self._dataset("particles/grains/radius", 1))
+        self.radius = self._constant("particles/grains/radius", count)
+        self.mass = self._constant("particles/grains/mass", count)
+        self.id = self._constant("particles/grains/id", count, "iu")
+        self.kind = self._constant("particles/grains/species", count, "iu")
+        fixed = self._constant("particles/grains/fixed", count, "iu")
+        if not ((self.radius > 0) & (self.mass > 0) & np.isfinite(self.radius * self.mass)).all():
+            self._fail("/particles/grains: a radius or mass is not positive; the file is damaged")
+        if not ((self.kind >= 0) & (self.kind <= len(self.species))).all():
+            self._fail("/particles/grains/species names a species that is not listed; the file is damaged")
+        self.mobile = (self.kind < len(self.species)) & (fixed == 0)
+        # Of the second grain of a contact, where the last entry stands for straight walls.
+        self._partner_kind = np.append(np.where(self.mobile, self.kind, len(self.species)), len(self.species))
+        self._partner_radius = np.append(self.radius, np.nan)
+
+    def _require_shapes(self):
+        d, grains, frames, contacts = self.dimension, len(self.radius), len(self), int(self._offset[-1])
+        spin = (grains,) if d == 2 else (grains, 3)
+        shapes = {"position": (grains, d), "velocity": (grains, d), "angular_velocity": spin, "force": (grains, d),
+                  "image": (grains, d)}
+        rows = {f"particles/grains/{name}/value": (frames, shape) for name, shape in shapes.items()}
+        self.has_force = "force" in self._file["particles/grains"]
+        if not self.has_force:
+            del rows["particles/grains/force/value"]
+        for name, shape in {"i": (), "j": (), "force": (d,), "branch": (d,), "gap": ()}.items():
+            rows[f"grseg/contacts/{name}"] = (contacts, shape)
+        for path, (count, shape) in rows.items():
+            integers = path.rsplit("/")[-1] in "ij" or "image" in path
+            found = self._dataset(path, 1 + len(shape), "iu" if integers else "f").shape
+            if found[0] < count or found[1:] != shape:
+                self._fail(f"/{path} has the shape {found} and should have {(count, *shape)}; the file is damaged")
+
+    def _read_times(self):
+        self.steps = self._read("particles/grains/position/step", 0, len(self))
+        self.times = self._read("particles/grains/position/time", 0, len(self))
+        if (np.diff(self.steps) <= 0).any() or not (np.diff(self.times) > 0).all():
+            self._fail("/particles/grains/position: steps or times do not increase; the file is damaged")
+
+    def _read_end(self):
+        """Whether the run was closed, and of what."""
+        last = self._read_digest(len(self) - 1) if len(self) else 0
+        self.digest = f"{last:016x}"
+        if self.version == "1.0":
+            self.finished = "complete" in self.parameters
+            return
+        seal = [int(number) for number in self._dataset("grseg/seal", 1, "u")[:]]
+        self.finished = any(seal)
+        if self.finished and seal[:3] != [len(self), int(self._offset[-1]), last]:
+            self._fail("/grseg/seal names other frames than the file holds: it is damaged; take a copy that is whole")
+
+    def _read_digest(self, frame):
+        digests = self._dataset("grseg/digest", 1, "u")
+        if len(digests) <= frame:
+            self._fail(f"/grseg/digest has no entry for frame {frame}; the file is damaged")
+        return int(digests[frame])
+
+    def _numbers(self, begin, end, stride):
+        if stride < 1:
+            raise ValueError(f"stride = {stride}: at least 1")
+        first = 0 if begin is None else np.searchsorted(self.steps, _whole_steps(begin, self.step))
+        last = len(self) if end is None else np.searchsorted(self.steps, _whole_steps(end, self.step))
+        return range(int(first), int(last), stride)
+
+    def _blocks(self, numbers):
+        """Consecutive frames together, as many as have _ROWS_OF_BLOCK rows."""
+        numbers = iter(numbers)
+        first = next(numbers, None)
+        while first is not None:
+            last, number = first + 1, next(numbers, None)
+            while number == last and (self._offset[last + 1] - self._offset[first] <= _ROWS_OF_BLOCK) and (
+                    (last + 1 - first) * len(self.radius) <= _ROWS_OF_BLOCK):
+                last, number = last + 1, next(numbers, None)
+            yield _Block(self, first, last)
+            first = number
+
+    def _tabulate(self, sums_of_window, columns, layer, window, settings):
+        np.empty(1 << 21)  # once 16 MB have been freed, glibc keeps what temporaries need: twice as fast
+        layers = _Layers(self.metres(layer), self.length, self.width, self.path)
+        windows = self.windows(*window)
+        rows = []
+        for begin, end, frames in windows:
+            for n, values in enumerate(sums_of_window(layers, frames)):
+                key = (begin, end, layers.bottom(n), layers.bottom(n + 1), len(frames), layers.volume)
+                rows.append((*key, *values))
+        header = _run_header(self, layers, windows[0], window[3]) | settings
+        keys = ("t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames", f"V[m^{self.dimension}]")
+        return Table(self.path, header, self.history, (*keys, *columns), np.array(rows))
+
+
+def _text(value):
+    return value.split(b"\0")[0].decode("utf-8", "replace")
+
+
+def _metres(text, small_diameter, large_diameter):
+    if isinstance(text, (int, float)):
+        return float(text)
+    units = {"": 1, "m": 1, "mm": 1e-3, "cm": 1e-2, "dS": small_diameter, "dL": large_diameter}
+    number = text.rstrip("mcdSL")
+    try:
+        return float(number) * units[text[len(number):]]
+    except (ValueError, KeyError):
+        raise ValueError(f"{text!r} is not a length: give metres, or a text such as 20mm, 4dS or 2dL") from None
+
+
+class _Block:
+    """Frames [first, last) of a run. Fields are read when they are used, checked, and kept; nobody can change them."""
+
+    def __init__(self, run, first, last):
+        self.run, self.first, self.last = run, first, last
+        offset = run._offset[first:last + 1]
+        self.rows = slice(int(offset[0]), int(offset[-1]))
+        self.offset = offset - offset[0]
+        self._kept = {}
+
+    def grains(self, name):
+        """A field of the grains [F, N, ...]."""
+        path = f"particles/grains/{name}/value"
+        if path not in self._kept:
+            if name == "force" and not self.run.has_force:
+                self.run._fail(f"/{path} is missing: this run was imported without it")
+            values = self.run._read(path, self.first, self.last)
+            self._require_finite(values, path, grains=True)
+            self._kept[path] = values
+        return self._kept[path]
+
+    def contacts(self, name):
+        """A field of the contacts [C, ...], those of one frame after those of the other."""
+        path = f"grseg/contacts/{name}"
+        if path not in self._kept:
+            values = self.run._read(path, self.rows.start, self.rows.stop)
+            if name in ("i", "j"):
+                self._require_rows(values, path)
+            else:
+                self._require_finite(values, path)
+            self._kept[path] = values
+        return self._kept[path]
+
+    @functools.cached_property
+    def frame_of_contact(self):
+        """Number, in the block, of the frame of each contact [C]."""
+        return np.repeat(np.arange(self.last - self.first), np.diff(self.offset))
+
+    @functools.cached_property
+    def heights(self):
+        """y of all grains of all frames, one frame after the other [F N]."""
+        return self.grains("position")[..., 1].ravel()
+
+    @functools.cached_property
+    def present(self):
+        """Mobile grains that are there [F, N]."""
+        return self.run.mobile & ~np.isnan(self.grains("position")[..., 1])
+
+    @functools.cached_property
+    def mobile_grains(self):
+        """Of all mobile grains that are there, frame by frame: place in `heights`, and row."""
+        place = np.flatnonzero(self.present)
+        return place, np.tile(np.arange(len(self.run.radius)), self.last - self.first).take(place)
+
+    def _place(self, contact):
+        """Of a contact of the block: "contact 3 of frame 17"."""
+        frame = np.searchsorted(self.offset, contact, side="right") - 1
+        return f"contact {contact - self.offset[frame]} of frame {self.first + frame}"
+
+    def _require_finite(self, values, path, grains=False):
+        """Absent grains, in runs of version 1.2, have NaN in all fields."""
+        good = np.isfinite(values)
+        if good.all():
+            return
+        if grains:
+            good = good.reshape(*values.shape[:2], -1)
+            bad = ~(good.all(axis=2) | (self.run._come_and_go & np.isnan(values).reshape(good.shape).all(axis=2)))
+            if not bad.any():
+                return
+            frame, grain = np.argwhere(bad)[0]
+            place = f"grain {grain} of frame {self.first + frame}"
+        else:
+            place = self._place(np.argwhere(~good)[0][0])
+        self.run._fail(f"/{path} is not a finite number in {place}; the frame is damaged: take a copy that is "
+                       "whole, or leave the frame out with begin or end")
+
+    def _require_rows(self, values, path):
+        grains = len(self.run.radius)
+        bad = values >= grains
+        if path.endswith("i"):
+            bad |= values < 0
+            bad |= ~self.run.mobile[np.where(bad, 0, values)]
+        if self.run._come_and_go:
+            place = self.frame_of_contact * grains + np.where(bad, 0, values)
+            bad |= (values >= 0) & np.isnan(self.heights[place])
+        if bad.any():
+            contact = np.flatnonzero(bad)[0]
+            self.run._fail(f"/{path} is {values[contact]} in {self._place(contact)}, which is not a row of a grain "
+                           "that can stand there; the frame is damaged")
+
+
+class Frame:
+    """One step of a run, frozen (imported runs: an instant). Time, positions and contacts are those in the
+    middle of the step, velocities those at its end. Arrays are read-only.
+
+    number, step, time (s)
+    position [N, D]             m, wrapped into the cell
+    image [N, D]                periods to add to it
+    velocity [N, D]             m/s
+    angular_velocity [N], in three dimensions [N, 3]    1/s, counter-clockwise, right-handed
+    force [N, D]                N, m (v_after - v_before)/h: contact forces and weight; not of all imports
+    present [N]                 mobile grains that are there; all mobile ones, unless grains come and go
+    contacts                    Contacts
+    """
+
+    def __init__(self, block, k):
+        self._block, self._k = block, k
+        self.number = block.first + k
+        self.step = int(block.run.steps[self.number])
+        self.time = float(block.run.times[self.number])
+
+    position = property(lambda self: self._block.grains("position")[self._k])
+    image = property(lambda self: self._block.grains("image")[self._k])
+    velocity = property(lambda self: self._block.grains("velocity")[self._k])
+    angular_velocity = property(lambda self: self._block.grains("angular_velocity")[self._k])
+    force = property(lambda self: self._block.grains("force")[self._k])
+    present = property(lambda self: self._block.present[self._k])
+    contacts = property(lambda self: Contacts(self._block, self._k))
+
+
+class Contacts:
+    """The contacts of a frame. Pairs that touch without force may be among them.
+
+    i [C]            row of the first grain, a mobile one
+    j [C]            row of the second; j < 0: straight wall number -j-1
+    force [C, D]     N, ON i FROM j
+    branch [C, D]    m, x_i - x_j, nearest image; at a wall x_i less the contact point
+    gap [C]          m, negative where the two overlap
+    kind_i, kind_j [C]    numbers of their species; len(species) for base and walls
+    share_i [C]      part of the branch between the centre of i and the contact point; 1 at a wall
+    point [C, D]     m, where they touch: x_i - share_i branch
+
+    sigma = (1/V) sum of force (x) branch is positive in compression.
+    """
+
+    def __init__(self, block, k):
+        self._block, self._k = block, k
+        self._rows = slice(block.offset[k], block.offset[k + 1])
+
+    def __len__(self):
+        return int(self._rows.stop - self._rows.start)
+
+    i = property(lambda self: self._block.contacts("i")[self._rows])
+    j = property(lambda self: self._block.contacts("j")[self._rows])
+    force = property(lambda self: self._block.contacts("force")[self._rows])
+    branch = property(lambda self: self._block.contacts("branch")[self._rows])
+    gap = property(lambda self: self._block.contacts("gap")[self._rows])
+    kind_i = property(lambda self: self._block.run.kind[self.i])
+    kind_j = property(lambda self: self._block.run._partner_kind[np.maximum(self.j, -1)])
+    share_i = property(lambda self: _share_of_first(self._block.run, self.i, self.j, self.gap))
+
+    @property
+    def point(self):
+        return self._block.grains("position")[self._k][self.i] - self.share_i[:, None] * self.branch
+
+
+def _share_of_first(run, i, j, gap):
+    r_i, r_j = run.radius[i], run._partner_radius[np.maximum(j, -1)]
+    return np.where(j < 0, 1.0, (r_i + gap / 2) / (r_i + r_j + gap))
+
+
+# ----------------------------------------------------------------------------- windows and layers
+
+def _whole_steps(time, step):
+    """A time in whole steps, so that no rounding moves a frame across it."""
+    return int(math.copysign(math.floor(abs(time / step) + 0.5), time))
+
+
+def _cut_into_windows(run, length, begin, end, stride):
+    """As cut_into_windows() of analysis/frames/windows.cpp does."""
+    if not (length > 0 and stride >= 1):
+        raise ValueError(f"a window of {length} s, stride {stride}: they should be positive")
+    steps = run.steps
+    if len(steps) == 0:
+        run._fail("the run has no frames")
+    between = int(steps[-1] - steps[-2]) if len(steps) > 1 else max(
+        1, _whole_steps(run.parameters.get("frame_interval", 0.0), run.step))
+    if begin is None:
+        first = int(steps[0]) if steps[-1] < 0 else max(0, int(steps[0]))
+    else:
+        first = _whole_steps(begin, run.step)
+    whole = _whole_steps(length, run.step)
+    if whole < between * stride:
+        raise ValueError(f"a window of {length} s is shorter than the {between * stride * run.step:g} s between the "
+                         f"frames of {run.path} that are used")
+    last = int(steps[-1]) + between
+    if end is not None:
+        last = min(last, _whole_steps(end, run.step))
+    exact = whole * run.step
+    width = length if abs(exact - length) < 1e-9 * exact else exact
+    origin = first * run.step if begin is None else begin
+    frames_of = collections.defaultdict(list)
+    for k in range(int(np.searchsorted(steps, first)), len(steps), stride):
+        n = (int(steps[k]) - first) // whole
+        if first + (n + 1) * whole > last:
+            break
+        if first + n * whole > steps[0] - between:  # otherwise the run begins inside it
+            frames_of[n].append(k)
+    if not frames_of:
+        run._fail(f"no window of {length} s is filled: frames used reach from {origin:g} s to {last * run.step:g} s; "
+                  "choose a shorter window, or another begin and end")
+    return [Window(origin + n * width, origin + (n + 1) * width, frames) for n, frames in frames_of.items()]
+
+
+class _Layers:
+    """Layer n is [n h, (n+1) h); the first also takes all that is below, the last of a frame all that is
+    above (analysis/frames/layers.hpp)."""
+
+    def __init__(self, thickness, length, width, path):
+        if not 0 < thickness < math.inf:
+            raise ValueError(f"a layer of {thickness} m has no thickness; give e.g. 4dS")
+        self.h, self.path = thickness, path
+        self.volume = thickness * length * (1.0 if width is None else width)
+
+    def bottom(self, n):
+        return n * self.h
+
+    def at(self, y):
+        """Numbers of the layers that hold these heights."""
+        y = np.maximum(y, 0)
+        n = np.floor(y * (1 / self.h))
+        # That may be rounded to the wrong side of an edge.
+        n -= y < n * self.h
+        n += y >= (n + 1) * self.h
+        return n.astype(np.int64)
+
+    def counts(self, block):
+        """How many layers the highest mobile grain of each frame reaches, at least 1."""
+        top = block.grains("position")[..., 1] + block.run.radius
+        highest = np.where(block.present, top, 0.0).max(axis=1, initial=0.0)
+        if not (highest < 100000 * self.h).all():
+            frame = np.argmax(highest)
+            raise Error(f"{self.path}: in frame {block.first + frame} a grain is {highest[frame]:.3g} m above the base, "
+                        "more than 100000 layers; is it lost, or are the layers too thin?")
+        n = self.at(highest)
+        return np.where(highest > n * self.h, n + 1, np.maximum(n, 1))
+
+
+def _grow(sums, layers):
+    """An array by layer, with zeros for those that are new."""
+    missing = layers - len(sums)
+    return sums if missing <= 0 else np.concatenate([sums, np.zeros((missing, *sums.shape[1:]))])
+
+
+def _book(sums, place, components):
+    """Adds each component [n] (None: 1) at its places [n] to sums [layers, bins, components]."""
+    for c, values in enumerate(components):
+        added = np.bincount(place, values, minlength=sums[..., c].size)
+        sums[..., c] += added.reshape(sums.shape[:2])
+
+
+# ------------------------------------------------------------------------------------------- sums
+
+class _Names:
+    """What columns call species and pairs: S and L where there are two, otherwise their names."""
+
+    def __init__(self, species, dimension):
+        self.two = len(species) == 2
+        self.words = ("S", "L") if self.two else tuple(one.name for one in species)
+        self.axes = "xyz"[:dimension]
+        self.contents = [("volume_" if dimension == 3 else "area_") + word for word in self.words]
+
+    def inside(self, k):
+        return f"A_{self.words[k]}{self.words[k]}" if self.two else f"A_{self.words[k]}"
+
+    def halves(self, k):
+        return f"H{self.words[k]}{self.words[k]}" if self.two else f"H_{self.words[k]}"
+
+    def base(self, stem, k):
+        return f"{stem}_{self.words[k]}{'' if self.two else '+'}b"
+
+    def pair(self, stem, a, b):
+        return stem if self.two else f"{stem}_{self.words[a]}+{self.words[b]}"
+
+    def numbers(self):
+        """Of contacts, in the order of _code."""
+        count = len(self.words)
+        pairs = [self.words[b] + self.words[a] if self.two else
+                 self.words[a] if a == b else f"{self.words[a]}+{self.words[b]}"
+                 for b in range(count) for a in range(b + 1)]
+        return [f"n_{pair}" for pair in pairs] + [self.base("n", k) for k in range(count)]
+
+
+def _code(a, b):
+    """Number of a pair of species a <= b: SS, LS, LL, ... Behind them come those with the base."""
+    return b * (b + 1) // 2 + a
+
+
+def _pairs(species):
+    return [(a, b) for b in range(species) for a in range(b)]
+
+
+def _with_components(stems, axes, unit):
+    return [f"{stem}_{a}{b}[{unit}]" for stem in stems for a in axes for b in axes]
+
+
+def _stress_columns(run, power):
+    names, count = _Names(run.species, run.dimension), len(run.species)
+    own = range(count)
+    stems = [names.inside(k) for k in own]
+    for stem in ("M", "Msize", "Mcp"):
+        stems += [names.pair(stem, a, b) for a, b in _pairs(count)]
+    stems += [names.base("A", k) for k in own] + [names.base("F", k) for k in own]
+    if power is not None:
+        stems += [names.pair("Mpower", a, b) for a, b in _pairs(count)]
+    contents = [f"{name}[m^{run.dimension}]" for name in names.contents]
+    return contents + names.numbers() + _with_components(stems, names.axes, "N m")
+
+
+def _stress_header(power):
+    header = {"assign": "contact-point", "composition": "clipped", "partition": "size", "base": "contact-point"}
+    return header if power is None else header | {"partition": f"power:{power:g}", "power": f"{power:.17g}"}
+
+
+def _contact_sums(run, layers, frames, power):
+    """By layer the columns of _stress_columns."""
+    species = len(run.species)
+    bins = _code(0, species) + species
+    content, number = np.zeros((0, species, 1)), np.zeros((0, bins, 1))
+    # Of the whole branch; up to the contact point from i at the base, and from the larger grain; by the
+    # larger grain's part.
+    sums = {name: np.zeros((0, bins, run.dimension**2)) for name in ("whole", "cut", "size", "power")}
+    for block in run._blocks(frames):
+        counts = layers.counts(block)
+        most = counts.max(initial=1)
+        content, number = _grow(content, most), _grow(number, most)
+        sums = {name: _grow(values, most) for name, values in sums.items()}
+        _add_contents(run, layers, block, counts, content)
+        _add_contacts(run, layers, block, counts, number, sums, power)
+    own, base = [_code(k, k) for k in range(species)], [_code(k, species) for k in range(species)]
+    mixed = [_code(a, b) for a, b in _pairs(species)]
+    parts = [content, number, sums["whole"][:, own], sums["whole"][:, mixed], sums["size"][:, mixed],
+             sums["cut"][:, mixed], sums["cut"][:, base], sums["whole"][:, base]]
+    if power is not None:
+        parts.append(sums["power"][:, mixed])
+    return np.concatenate([part.reshape(len(part), -1) for part in parts], axis=1) / len(frames)
+
+
+def _part_below(dimension, r, height):
+    """Of a disc (area) or sphere (volume), what lies below a level `height` above its centre."""
+    d = np.clip(height, -r, r)
+    if dimension == 3:
+        return math.pi / 3 * (r + d) * (r + d) * (2 * r - d)
+    return r * r * (math.pi / 2 + np.arcsin(d / r)) + d * np.sqrt(r * r - d * d)
+
+
+def _add_contents(run, layers, block, counts, content):
+    """Areas or volumes of the grains, cut at the edges of layers."""
+    place, grain = block.mobile_grains
+    y, r, kind = block.heights.take(place), run.radius.take(grain), run.kind.take(grain)
+    last = np.repeat(counts - 1, block.present.sum(axis=1))
+    n, last = np.minimum(layers.at(y - r), last), np.minimum(layers.at(y + r), last)
+    whole = math.pi * r * r if run.dimension == 2 else 4 * math.pi / 3 * r * r * r
+    below = np.zeros_like(r)
+    while len(n):
+        cut = np.flatnonzero(n < last)
+        here = whole.copy()
+        here[cut] = _part_below(run.dimension, r.take(cut), layers.bottom(n.take(cut) + 1) - y.take(cut))
+        _book(content, n * len(run.species) + kind, [here - below])
+        n, last, y, r, kind, whole, below = (values.take(cut) for values in (n + 1, last, y, r, kind, whole, here))
+
+
+def _add_contacts(run, layers, block, counts, number, sums, power):
+    """force (x) branch of the contacts that bear a force, where they touch."""
+    force, branch = block.contacts("force"), block.contacts("branch")
+    fields = [*force.T, *branch.T, block.contacts("gap"), block.contacts("i"), block.contacts("j"),
+              block.frame_of_contact]
+    rows = np.flatnonzero(sum(component != 0 for component in force.T))
+    if len(rows) < len(force):
+        fields = [field.take(rows) for field in fields]
+    force, branch, (gap, i, j, frame) = fields[:run.dimension], fields[run.dimension:-4], fields[-4:]
+    share_i = _share_of_first(run, i, j, gap)
+    y = block.heights.take(frame * len(run.radius) + i) - share_i * branch[1]
+    layer = np.minimum(layers.at(y), counts.take(frame) - 1)
+    kind_i, kind_j = run.kind.take(i), run._partner_kind[np.maximum(j, -1)]
+    # The base has the highest number, and so the code of base contacts follows those of pairs.
+    place = layer * number.shape[1] + _code(np.minimum(kind_i, kind_j), np.maximum(kind_i, kind_j))
+    stress = [f * b for f in force for b in branch]
+    _book(number, place, [None])
+    _book(sums["whole"], place, stress)
+
+    unlike = np.flatnonzero(kind_i != kind_j)
+    place, i, j, kind_i, kind_j, share_i, *stress = (
+        values.take(unlike) for values in (place, i, j, kind_i, kind_j, share_i, *stress))
+    base, i_is_larger = kind_j == len(run.species), kind_i > kind_j
+    cut = np.where(i_is_larger | base, share_i, 1 - share_i)
+    _book(sums["cut"], place, [cut * component for component in stress])
+    r_i, r_j = run.radius.take(i), run._partner_radius[np.maximum(j, -1)]
+    ratio = np.where(base, 1.0, np.where(i_is_larger, r_j / r_i, r_i / r_j))  # smaller over larger
+    for name, exponent in (("size", 1), ("power", power)):
+        if exponent is not None:
+            by_rule = 1 / (1 + ratio**exponent)
+            _book(sums[name], place, [by_rule * component for component in stress])
+
+
+def _kinetic_columns(run):
+    names = _Names(run.species, run.dimension)
+    return ([f"mass_{word}[kg]" for word in names.words] + ["u[m/s]", "v[m/s]", "du_dy[1/s]"]
+            + _with_components([f"K_{word}" for word in names.words], names.axes, "J")
+            + [f"Kr_{word}[J]" for word in names.words] + [f"grains_{word}" for word in names.words])
+
+
+def _moving(run, block):
+    """Of the mobile grains of a block: rows, heights, and components of velocity and spin."""
+    place, grain = block.mobile_grains
+    velocity, spin = block.grains("velocity"), block.grains("angular_velocity")
+    fields = [field.reshape(block.heights.size, -1).take(place, axis=0).T for field in (velocity, spin)]
+    return grain, block.heights.take(place), np.concatenate(fields)
+
+
+def _kinetic_sums(run, layers, frames, mean):
+    """By layer the columns of _kinetic_columns."""
+    d, species = run.dimension, len(run.species)
+    mean_at = (_profile if mean == "profile" else _mean_of_layers)(run, layers, frames)
+    sums, flow = np.zeros((0, species, 3 + d * d)), np.zeros((0, 1, 6))
+    for block in run._blocks(frames):
+        most = layers.counts(block).max(initial=1)
+        sums, flow = _grow(sums, most), _grow(flow, most)
+        grain, y, motion = _moving(run, block)
+        n, m = layers.at(y), run.mass[grain]
+        above = y - layers.bottom(n)
+        _book(flow, n, [m, m * above, m * above**2, m * motion[0], m * motion[1], m * motion[0] * above])
+        excess = motion - mean_at(y)
+        inertia = (0.5 if d == 2 else 0.4) * m * run.radius[grain]**2
+        products = [m * excess[a] * excess[b] for a in range(d) for b in range(d)]
+        rotation = inertia * (excess[d:]**2).sum(axis=0)
+        _book(sums, n * species + run.kind[grain], [m, np.ones_like(m), rotation, *products])
+    sums /= len(frames)
+    mass, grains, rotation, kinetic = sums[..., 0], sums[..., 1], sums[..., 2], sums[..., 3:]
+    return np.concatenate([mass, _mean_flow(flow[:, 0], layers.h), kinetic.reshape(len(sums), -1), rotation, grains],
+                          axis=1)
+
+
+def _mean_flow(flow, h):
+    """u, v (m/s) and du/dy (1/s), the slope of the least-squares line; NaN where there is none."""
+    mass, my, myy, mu, mv, muy = flow.T
+    with np.errstate(invalid="ignore", divide="ignore"):
+        y, u = my / mass, mu / mass
+        variance, covariance = myy / mass - y * y, muy / mass - y * u
+        slope = np.where(variance > 1e-12 * h * h, covariance / variance, np.nan)
+        return np.column_stack([u, mv / mass, slope])
+
+
+def _mean_motion(run, layers, frames):
+    """By layer, mass-weighted means of height and motion; NaN without grains."""
+    sums = np.zeros((0, 1, 2 + (3 if run.dimension == 2 else 6)))
+    for block in run._blocks(frames):
+        sums = _grow(sums, layers.counts(block).max(initial=1))
+        grain, y, motion = _moving(run, block)
+        m = run.mass[grain]
+        _book(sums, layers.at(y), [m, m * y, *(m * motion)])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return sums[:, 0, 1:] / sums[:, 0, :1]
+
+
+def _mean_of_layers(run, layers, frames):
+    means = _mean_motion(run, layers, frames)[:, 1:].T
+    return lambda y: means[:, layers.at(y)]
+
+
+def _profile(run, layers, frames):
+    """Straight lines through the mean heights and motions of bins of at most half a small diameter; outside,
+    the line of the outer two bins (analysis/frames/mean_velocity.hpp)."""
+    bins = max(math.ceil(layers.h / (run.small_diameter / 2) - 1e-9), 1)
+    means = _mean_motion(run, _Layers(layers.h / bins, run.length, run.width, run.path), frames)
+    means = means[~np.isnan(means[:, 0])]
+    heights, motion, count = means[:, 0], means[:, 1:].T, len(means)
+
+    def at(y):
+        above = np.searchsorted(heights, y, side="right")
+        a = np.clip(above - 1, 0, count - 1)
+        b = np.where(above == 0, min(2, count - 1), np.where(above == count, max(count - 3, 0), above))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            part = np.where(a == b, 0.0, (y - heights[a]) / (heights[b] - heights[a]))
+        return motion[:, a] + (motion[:, b] - motion[:, a]) * part
+
+    return at
+
+
+# ----------------------------------------------------------------------------------------- tables
+
+def _run_header(run, layers, window, stride):
+    """What later steps need to know of a table, as grseg-stress says it."""
+    numbers = {"small_diameter": run.small_diameter, "large_diameter": run.large_diameter}
+    numbers |= {f"gravity_{axis}": value for axis, value in zip("xyz", run.gravity)}
+    numbers |= {"step": run.step, "length": run.length}
+    if run.width is not None:
+        numbers["length_z"] = run.width
+    numbers |= {"layer": layers.h, "window": window.end - window.begin, "stride": stride}
+    header = {"program": "grseg.py", "input": f"xxh3 {run.digest}", "verified": "no, grseg.py has no digests"}
+    if run.dimension == 3:
+        header["dimension"] = "3"
+    if [one.name for one in run.species] != ["small", "large"]:
+        header["species"] = ", ".join(f"{one.name} {one.diameter!r}" for one in run.species)
+    return header | {key: f"{value:.17g}" for key, value in numbers.items()}
+
+
+class Table:
+    """Sums by layer and window, one row each, means per frame: from t0 to t1 (s), y0 to y1 (m), `frames` of
+    them, V (m^2 or m^3, voids included), then columns of grseg-stress or grseg-kinetic.
+
+    name       where it came from
+    header     what it was made with, text by key
+    history    one line per command that led to it
+    columns    names without units; `units` has these by name
+    values     [rows, columns]
+    dimension, species    of the run
+
+    table["A_SS_yy"] is a column [rows], table.tensor("A_SS") a tensor [rows, D, D].
+    """
+
+    def __init__(self, name, header, history, columns, values):
+        self.name, self.header, self.history, self.values = name, header, list(history), values
+        self.columns = [column.split("[")[0] for column in columns]
+        self.units = {column.split("[")[0]: column.partition("[")[2].rstrip("]") for column in columns}
+        self._place = {column: k for k, column in enumerate(self.columns)}
+        self.dimension = int(header.get("dimension", "2"))
+        self.species = self._species()
+
+    def __len__(self):
+        return len(self.values)
+
+    def __contains__(self, column):
+        return column in self._place
+
+    def __getitem__(self, column):
+        if column not in self._place:
+            raise Error(f"{self.name}: no column {column!r}; it has {', '.join(self.columns[6:10])} ...; grseg-stress "
+                        "makes tables of contacts, grseg-kinetic those of fluctuations")
+        return self.values[:, self._place[column]]
+
+    def tensor(self, stem):
+        axes = "xyz"[:self.dimension]
+        return np.stack([np.stack([self[f"{stem}_{a}{b}"] for b in axes], axis=-1) for a in axes], axis=-2)
+
+    def number(self, key):
+        """A positive number of the header."""
+        try:
+            value = float(self.header[key])
+        except (KeyError, ValueError):
+            value = math.nan
+        if not 0 < value < math.inf:
+            raise Error(f"{self.name}: its header should have a positive number '# {key}: ...'; make the table anew")
+        return value
+
+    def _species(self):
+        text = self.header.get("species")
+        if text is None:
+            if "small_diameter" not in self.header:
+                return ()
+            return Species("small", self.number("small_diameter")), Species("large", self.number("large_diameter"))
+        try:
+            words = [one.split() for one in text.split(",")]
+            return tuple(Species(name, float(diameter)) for name, diameter in words)
+        except ValueError:
+            raise Error(f"{self.name}: '# species: {text}' should list names and diameters") from None
+
+
+def read_table(path):
+    """A Table of grseg-stress, grseg-kinetic or another tool, from its file. The number of its rows is compared
+    with its last line, the checksum there is not."""
+    def fail(why):
+        raise Error(f"{path}: {why}")
+    try:
+        raw = pathlib.Path(path).read_bytes()
+    except OSError as error:
+        fail(error.strerror)
+    if raw.startswith(b"\x89HDF"):
+        fail("is an HDF5 file, not a table; open a run with grseg.Run")
+    try:
+        lines = raw.decode().split("\n")
+    except UnicodeDecodeError:
+        fail("is not plain text, so it is not a table")
+    if lines.pop() != "":
+        fail("the last line is incomplete: the table is truncated; make it anew")
+    head = list(itertools.takewhile(lambda line: line.startswith("#"), lines))
+    rows = lines[len(head) + 1:]
+    pairs = [line[2:].partition(": ")[::2] for line in head]
+    header = dict(reversed(pairs))
+    if rows and rows[-1].startswith("# end: "):
+        if rows.pop().split()[2] != str(len(rows)):
+            fail(f"has {len(rows)} rows, but its last line names another number: it is damaged; make it anew")
+    elif re.search(r"^grseg-\w+ (?!0\.[01]\.)\d", header.get("program", "")):
+        fail("does not end with the line '# end: ...' of every table: it is truncated; make it anew")
+    columns = lines[len(head)].split("\t") if len(lines) > len(head) else []
+    try:
+        values = np.array([[float(cell) for cell in row.split("\t")] for row in rows])
+        values = values.reshape(len(rows), len(columns))
+    except ValueError:
+        fail("has a row that is not as many numbers as there are columns; is it a table of a tool of grseg?")
+    history = [value for key, value in pairs if key == "history"]
+    return Table(str(path), header, history, columns, values)
+
+
+# --------------------------------------------------------------------------- partition and estimates
+
+def _parse_rule(rule):
+    """("power", 2.0) of "power:2"; the number is None for the rules that have none."""
+    word, colon, text = rule.partition(":")
+    try:
+        if word in ("uniform", "power") and colon:
+            number = float(text)
+            if math.isfinite(number) and (word == "power" or 0 <= number <= 1):
+                return word, number
+        elif word in ("size", "contact-point", "half", "drop") and not colon:
+            return word, 0.5 if word == "half" else None
+    except ValueError:
+        pass
+    raise ValueError(f"{rule!r} is not a rule: size, contact-point, half, drop, uniform:P (0 to 1) or power:Q")
+
+
+def _larger_parts(table, names, rule, number):
+    """What the rule gives of mixed contacts to the larger and to the smaller grain, N m, as functions of the pair;
+    None where it gives them to nobody."""
+    if rule == "drop":
+        return None
+    if rule in ("half", "uniform"):
+        if names.pair("ML", 0, 1) + "_xx" in table:  # made with --assign grain: either part at its own grain
+            return (lambda a, b: number * table.tensor(names.pair("ML", a, b)),
+                    lambda a, b: (1 - number) * table.tensor(names.pair("MS", a, b)))
+        return (lambda a, b: number * table.tensor(names.pair("M", a, b)),
+                lambda a, b: (1 - number) * table.tensor(names.pair("M", a, b)))
+    stem = {"size": "Msize", "contact-point": "Mcp", "power": "Mpower"}[rule]
+    if rule == "power" and float(table.header.get("power", "nan")) != number:
+        raise Error(f"{table.name}: its column Mpower_* was not made with power:{number:g}; make the table with "
+                    f"--partition power:{number:g}, or contact_sums(power={number:g})")
+    return (lambda a, b: table.tensor(names.pair(stem, a, b)),
+            lambda a, b: table.tensor(names.pair("M", a, b)) - table.tensor(names.pair(stem, a, b)))
+
+
+def partial_stress(table, rule="size", base=None):
+    """The stress of each species by a rule, (of_species [rows, K, D, D], total [rows, D, D]), N/m or Pa:
+    sigma^nu = (A + its parts of mixed contacts + its part at the base)/V. The species add up to the total for every
+    rule but drop.
+
+    rule    the larger grain's part of a mixed contact: "size", "contact-point", "half", "drop", "uniform:P" or
+            "power:Q", for which the table must have been made
+    base    part of a contact with base or walls: "contact-point", "half" or "none"; default: as in the table
+    """
+    names, count = _Names(table.species, table.dimension), len(table.species)
+    rule, number = _parse_rule(rule)
+    base = base or table.header.get("base", "contact-point")
+    if base not in ("contact-point", "half", "none"):
+        raise ValueError(f"base = {base!r}: contact-point, half or none")
+    parts = _larger_parts(table, names, rule, number)
+    at_centres = rule in ("half", "uniform") and names.pair("ML", 0, 1) + "_xx" in table
+    own = [table.tensor(names.halves(k) if at_centres else names.inside(k)) for k in range(count)]
+    dropped = np.zeros_like(own[0])
+    for a, b in _pairs(count):
+        if parts is None:
+            dropped += table.tensor(names.pair("M", a, b))
+        else:
+            own[b] += parts[0](a, b)
+            own[a] += parts[1](a, b)
+    for k in range(count):
+        if base == "contact-point":
+            own[k] += table.tensor(names.base("A", k))
+        elif base == "half":
+            own[k] += 0.5 * table.tensor(names.base("F", k))
+    volume = table["V"][:, None, None]
+    return np.stack(own, axis=1) / volume[:, None], (sum(own) + dropped) / volume
+
+
+@dataclasses.dataclass
+class Fit:
+    """What a rule makes of two species: y = sigma^S/sigma^L over x = phi_S/phi_L, and the segregation strength B of
+    psi_L = phi_L (1 + B phi_S). Names and definitions are those of grseg-fit; NaN where one is not defined. Values
+    only: intervals are those of grseg-fit.
+
+    B_half is that of the paper's logarithmic fit at phi_L = 1/2, B_sums a ratio of sums, which does not suffer where
+    windows hold few grains; p_zero_sums is the share of all mixed contacts at which B_sums is 0.
+    """
+
+    rule: str
+    points: int             # with both stresses positive
+    not_positive: int       # the others, which take part in B_direct and B_sums
+    slope: float            # s = exp(weighted mean of ln(y/x))
+    B_half: float           # 2 (1 - s)/(1 + s)
+    B_mean: float           # -ln s, the mean over phi_L
+    B_pure_large: float     # 1 - s
+    B_pure_small: float     # (1 - s)/s
+    B_paper: float          # half the sum of these two
+    slope_linear: float     # least squares through the origin, unweighted
+    B_linear: float
+    prefactor_power: float  # y = k x^a, weighted least squares of the logarithms
+    exponent: float
+    B_power: float
+    B_direct: float         # sum w (psi_L - phi_L) phi_L phi_S / sum w (phi_L phi_S)^2
+    B_sums: float           # sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
+    share: float            # of the mixed contacts' stress that the rule gives to large grains
+    p_zero_sums: float
+
+
+Zero = collections.namedtuple("Zero", "share slope")
+Zero.__doc__ = "p*, the share of mixed contacts at which B_half is 0 (NaN: it is nowhere), and dB/dp there."
+
+
+class Points:
+    """The layers and windows that take part in a fit, and what rules make of them: what grseg-fit selects of the
+    same tables with the same options.
+
+    tables         a Table or several, each of one run
+    quantity       "contact", of tables of sums of contacts, or "kinetic"
+    component      "yy" or "pressure", a D-th of the trace
+    base           part of contacts with the base; default: as in the first table
+    pair           names of the two species, where the tables have more
+    ratio_range    of phi_S/phi_L
+    heights        between which layers lie, "4dS:56dS" or "4dS:"
+    min_solid      least solid fraction of a layer, in units of the run's median
+    min_grains     least mean number of grains of the rarer species
+    begin, end     s, between which windows lie
+
+    Of each point [n]: x = phi_S/phi_L, phi_large, weight (frames times grains of the rarer species), frames,
+    size_ratio, run and row (which table, and which row of it).
+    """
+
+    def __init__(self, tables, quantity="contact", component="yy", base=None, pair=None, ratio_range=(0.01, 100.0),
+                 heights=None, min_solid=0.5, min_grains=0.0, begin=-math.inf, end=math.inf):
+        self.tables = [tables] if isinstance(tables, Table) else list(tables)
+        if not self.tables or quantity not in ("contact", "kinetic") or component not in ("yy", "pressure"):
+            raise ValueError("Points wants tables, quantity contact or kinetic, component yy or pressure")
+        self.quantity, self.component = quantity, component
+        self.base = base or self.tables[0].header.get("base", "contact-point")
+        self.pair = self._find_pair(pair)
+        self._ratio_range, self._heights = ratio_range, heights
+        self._least = {"solid": min_solid, "grains": min_grains}
+        self._times = begin, end
+        chosen = [self._select(table) for table in self.tables]
+        self.run = np.repeat(np.arange(len(chosen)), [len(one["row"]) for one in chosen])
+        for name in ("row", "phi_large", "weight", "frames", "size_ratio"):
+            setattr(self, name, np.concatenate([one[name] for one in chosen]))
+        if len(self.run) == 0:
+            raise Error(f"{self.tables[0].name}: no layer and window passes the filters; B needs layers that hold both "
+                        "species, and grseg-fit says what removed them")
+        self.x = (1 - self.phi_large) / self.phi_large
+
+    def __len__(self):
+        return len(self.run)
+
+    def stresses(self, rule="size"):
+        """Of the smaller species, the larger one and, of two species, all contacts [n]; N/m, Pa (kinetic: J)."""
+        small, large, total = (np.empty(len(self)) for _ in range(3))
+        for number, table in enumerate(self.tables):
+            own, rows = self.run == number, self.row[self.run == number]
+            of_species, of_all = self._stresses_of(table, rule)
+            small[own], large[own] = (of_species[rows, species] for species in self.pair)
+            total[own] = of_all[rows] if len(table.species) == 2 else small[own] + large[own]
+        if not np.isfinite(small + large + total).all():
+            raise Error(f"{self.tables[0].name}: a stress by {rule} is not finite; make the table anew")
+        return small, large, total
+
+    def fit(self, rule="size"):
+        """The Fit of a rule; kinetic stress knows none."""
+        small, large, total = self.stresses(rule)
+        ok = (small > 0) & (large > 0)
+        slopes = _log_slopes(self.x[ok], small[ok] / large[ok], self.weight[ok])
+        direct, sums = self._direct(large, total)
+        share, zero = (math.nan, math.nan) if self.quantity == "kinetic" or len(self.tables[0].species) > 2 else (
+            self._share(large), self._zero_of_sums())
+        fit = Fit(rule, int(ok.sum()), int((~ok).sum()), **slopes, B_direct=direct, B_sums=sums, share=share,
+                  p_zero_sums=zero)
+        if self.quantity == "contact" and rule == "drop":  # its stresses do not add up
+            for field in dataclasses.fields(Fit):
+                if field.name.startswith("B_") or field.name in ("share", "p_zero_sums"):
+                    setattr(fit, field.name, math.nan)
+        return fit
+
+    def b_of_p(self, shares):
+        """B_half [n] where the larger grain of every mixed contact gets these shares [n]."""
+        return np.array([self.fit(f"uniform:{share!r}").B_half for share in np.asarray(shares, float).tolist()])
+
+    def zero(self, shares=None):
+        """p* and dB/dp there, a Zero, looked for between `shares` (default: 0, 0.05 ... 1)."""
+        shares = np.arange(21) / 20 if shares is None else np.asarray(shares, dtype=float)
+        means = np.array([self._log_mean(share)[0] for share in shares])
+        crossing = np.flatnonzero(means[:-1] * means[1:] <= 0)
+        if len(crossing) == 0:
+            return Zero(math.nan, math.nan)
+        share = float(shares[crossing[0] + 1])
+        for _ in range(8):  # Newton's method
+            mean, slope = self._log_mean(share)
+            if not math.isfinite(mean / slope):
+                break
+            share -= mean / slope
+            if abs(mean / slope) < 1e-14:
+                break
+        return Zero(share, -self._log_mean(share)[1])
+
+    def _find_pair(self, pair):
+        names = [one.name for one in self.tables[0].species]
+        if pair is None:
+            if len(names) != 2:
+                raise ValueError(f"pair: name two of {', '.join(names)}")
+            return 0, 1
+        try:
+            a, b = sorted(names.index(name) for name in pair)
+        except ValueError:
+            raise ValueError(f"pair = {pair!r}: name two of {', '.join(names)}") from None
+        return a, b
+
+    def _contents(self, table):
+        """Areas, volumes or masses of the species [rows, K], and their mean numbers of grains or None."""
+        names = _Names(table.species, table.dimension)
+        if self.quantity == "kinetic":
+            contents = np.stack([table[f"mass_{word}"] for word in names.words], axis=1)
+        else:
+            contents = np.stack([table[name] for name in names.contents], axis=1)
+        counts = [f"grains_{word}" for word in names.words]
+        if all(name in table for name in counts):
+            return contents, np.stack([table[name] for name in counts], axis=1)
+        if self.quantity == "kinetic":
+            return contents, None
+        r = np.array([one.diameter for one in table.species]) / 2
+        return contents, contents / (math.pi * r**2 if table.dimension == 2 else 4 * math.pi / 3 * r**3)
+
+    def _select(self, table):
+        """The rows of a table that take part, as select_fit_data() of analysis/fit/fit_data.cpp chooses them."""
+        if table.header.get("bins", "layers").split(" ")[0] in ("xy", "xz", "rz"):
+            raise Error(f"{table.name}: a map, whose rows are cells, not layers; make the table without --bins")
+        contents, grains = self._contents(table)
+        small, large = (contents[:, k] for k in self.pair)
+        solid = contents.sum(axis=1) / table["V"]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ratio = small / large
+            use = self._in_range(table) & (small > 0) & (large > 0) & (table["frames"] > 0)
+            use &= (ratio >= self._ratio_range[0]) & (ratio <= self._ratio_range[1])
+        use &= solid >= self._least["solid"] * (np.median(solid[solid > 0]) if (solid > 0).any() else 0)
+        if grains is not None:
+            use &= grains[:, self.pair].min(axis=1) >= self._least["grains"]
+        d_small, d_large = (table.species[k].diameter for k in self.pair)
+        power = table.dimension
+        rarer = np.minimum(small / d_small**power, large / d_large**power)[use]
+        frames = table["frames"][use]
+        return {"row": np.flatnonzero(use), "phi_large": large[use] / (small + large)[use], "weight": frames * rarer,
+                "frames": frames, "size_ratio": np.full(len(frames), d_large / d_small)}
+
+    def _in_range(self, table):
+        t0, t1, y0, y1 = (table[name] for name in ("t0", "t1", "y0", "y1"))
+        slack = 1e-9 * (1 + abs(t0) + abs(t1))
+        good = (t0 >= self._times[0] - slack) & (t1 <= self._times[1] + slack)
+        if self._heights is not None:
+            sizes = table.number("small_diameter"), table.number("large_diameter")
+            low, colon, high = self._heights.partition(":")
+            if not colon:
+                raise ValueError(f"heights = {self._heights!r}: write low:high, e.g. 4dS:56dS or 4dS:")
+            slack = 1e-9 * (y1 - y0)
+            good &= y0 >= (_metres(low, *sizes) if low else -math.inf) - slack
+            good &= y1 <= (_metres(high, *sizes) if high else math.inf) + slack
+        return good
+
+    def _stresses_of(self, table, rule):
+        """The component of each species [rows, K] and of all [rows]."""
+        if self.quantity == "kinetic":
+            words = _Names(table.species, table.dimension).words
+            of_species = np.stack([table.tensor(f"K_{word}") for word in words], axis=1) / table["V"][:, None, None, None]
+            of_all = of_species.sum(axis=1)
+        else:
+            of_species, of_all = partial_stress(table, rule, self.base)
+        if self.component == "yy":
+            return of_species[..., 1, 1], of_all[..., 1, 1]
+        return (np.trace(tensor, axis1=-2, axis2=-1) / table.dimension for tensor in (of_species, of_all))
+
+    def _direct(self, large, total):
+        ok = total > 0
+        if not ok.any():
+            return math.nan, math.nan
+        phi, w, f = self.phi_large[ok], self.weight[ok], self.frames[ok]
+        excess, product = large[ok] / total[ok] - phi, phi * (1 - phi)
+        return (float((w * product * excess).sum() / (w * product**2).sum()),
+                float((f * excess).sum() / (f * product).sum()))
+
+    def _share(self, large):
+        none, everything = self.stresses("uniform:0")[1], self.stresses("uniform:1")[1]
+        return float((self.weight * (large - none)).sum() / (self.weight * (everything - none)).sum())
+
+    def _zero_of_sums(self):
+        """The sum over frames of psi_L - phi_L is linear in the share."""
+        excess = []
+        for rule in ("uniform:0", "uniform:1"):
+            _, large, total = self.stresses(rule)
+            ok = total > 0
+            excess.append((self.frames[ok] * (large[ok] / total[ok] - self.phi_large[ok])).sum())
+        return float(-excess[0] / (excess[1] - excess[0]))
+
+    def _log_mean(self, share):
+        """The weighted mean of ln(y/x) where all mixed contacts have this share, and its derivative."""
+        none, everything = self.stresses("uniform:0"), self.stresses("uniform:1")
+        from_small, to_large = none[0] - everything[0], everything[1] - none[1]
+        small, large = none[0] - share * from_small, none[1] + share * to_large
+        ok = (small > 0) & (large > 0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            weight = self.weight[ok] / self.weight[ok].sum()
+            value = np.log(small[ok] / large[ok] / self.x[ok])
+            slope = -from_small[ok] / small[ok] - to_large[ok] / large[ok]
+        return float((weight * value).sum()), float((weight * slope).sum())
+
+
+def _log_slopes(x, y, weight):
+    """The estimators that follow from y(x), as estimators_of() of analysis/fit/estimators.cpp has them."""
+    log_slope = linear = prefactor = exponent = math.nan
+    if len(x):
+        ln_x, ln_y, w = np.log(x), np.log(y), weight / weight.sum()
+        log_slope = float((w * (ln_y - ln_x)).sum())
+        linear = float((x * y).sum() / (x * x).sum())
+        if len(x) > 1 and ((ln_x - ln_x[0])**2).sum() / (len(x) - 1) > 1e-12:
+            dx, dy = ln_x - (w * ln_x).sum(), ln_y - (w * ln_y).sum()
+            exponent = float((w * dx * dy).sum() / (w * dx * dx).sum())
+            prefactor = math.exp((w * ln_y).sum() - exponent * (w * ln_x).sum())
+    s = math.exp(log_slope)
+    return {"slope": s, "B_half": _at_half(s), "B_mean": -log_slope, "B_pure_large": 1 - s, "B_pure_small": (1 - s) / s,
+            "B_paper": (1 - s + (1 - s) / s) / 2, "slope_linear": linear, "B_linear": _at_half(linear),
+            "prefactor_power": prefactor, "exponent": exponent, "B_power": _at_half(prefactor)}
+
+
+def _at_half(slope):
+    return 2 * (1 - slope) / (1 + slope)

@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+"""grseg.py on a file known by heart: what tests/three_grains.hpp writes, and neutral contacts, with the values
+that follow by hand.
+Usage: three_grains_test.py SOURCE
+"""
+import math
+import os
+import sys
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+source = sys.argv[1]
+sys.path.insert(0, os.path.join(source, "analysis", "python"))
+import grseg
+
+inputs = os.path.join(source, "tests", "inputs")
+
+
+def is_near(value, expected):
+    return np.allclose(value, expected, rtol=1e-14, atol=1e-20)
+
+
+def the_head_says_what_was_written(run, version, finished):
+    assert (run.version, run.finished, run.dimension, len(run)) == (version, finished, 2, 4)
+    assert run.species == (("small", 0.005), ("large", 0.01))
+    assert is_near(run.gravity, [3.8, -9]) and is_near(run.gravity_at(7), [3.8, -9])
+    assert (run.length, run.width, run.periodic) == (0.35, None, (True, False))
+    assert list(run.id) == [7, 8, 9] and list(run.kind) == [1, 0, 2] and list(run.mobile) == [True, True, False]
+    assert is_near(run.mass, math.pi * run.radius**2)
+    assert run.history == ["three grains by hand"] and run.digest == "0b611f173e81fd6a"
+    assert run.observables == ["translational_energy"]
+    assert is_near(run.observable("translational_energy"), [0, 0.5, 1, 1.5])
+    assert is_near(run.times, (np.arange(4) * 500 + 0.5) * 1e-4)
+    assert is_near([run.metres(text) for text in ("4dS", "2dL", "20mm", "2cm", "0.02", 0.02)], 0.02)
+
+
+def a_frame_holds_its_grains_and_contacts(run):
+    frame = run[-2]
+    assert (frame.number, frame.step, round(frame.time, 9)) == (2, 1000, 0.10005)
+    assert is_near(frame.position, [[0.052, 0.005], [0.052, 0.0125], [0.052, -0.005]])
+    assert is_near(frame.velocity, [[0.1, 0.2], [0.3, -0.4], [0, 0]])
+    assert is_near(frame.angular_velocity, [1, -2, 0])
+    assert is_near(frame.force, [[1e-6, 2e-6], [3e-6, 4e-6], [0, 0]])
+    assert list(frame.image[0]) == [1, 0] and list(frame.present) == [True, True, False]
+    contacts = frame.contacts
+    assert len(contacts) == 2 and list(contacts.i) == [0, 0] and list(contacts.j) == [1, 2]
+    assert list(contacts.kind_i) == [1, 1] and list(contacts.kind_j) == [0, 2]
+    assert is_near(contacts.force, [[1e-4, -2e-4], [-3e-4, 1e-3]])
+    assert is_near(contacts.share_i, [2 / 3, 1 / 2])  # 5 mm of 7.5 mm, 5 mm of 10 mm
+    assert is_near(contacts.point, [[0.052, 0.010], [0.052, 0.0]])
+
+
+def frames_begin_at_a_time_and_end_before_one(run):
+    assert [f.number for f in run.frames()] == [0, 1, 2, 3]
+    assert [f.number for f in run.frames(begin=0.05, end=0.15)] == [1, 2]
+    assert [f.number for f in run.frames(stride=3)] == [0, 3]
+    assert [f.position[0, 0] for f in run.frames()] == [f.position[0, 0] for f in (run[k] for k in range(4))]
+    assert [list(w.frames) for w in run.windows(0.1)] == [[0, 1], [2, 3]]
+    assert [list(w.frames) for w in run.windows(0.15)] == [[0, 1, 2]]  # the second is not full
+
+
+def sums_are_force_times_branch(run):
+    sums = run.contact_sums(window=0.1, power=2)
+    assert len(sums) == 2 and is_near(sums["t1"], [0.1, 0.2]) and is_near(sums["V"], 0.02 * 0.35)
+    assert is_near(sums["area_L"], math.pi * 0.005**2) and is_near(sums["area_S"], math.pi * 0.0025**2)
+    assert list(sums["n_LS"]) == [1, 1] and list(sums["n_Lb"]) == [1, 1] and not sums["n_SS"].any()
+    mixed = [[0, -0.75e-6], [0, 1.5e-6]]
+    base = [[0, -3e-6], [0, 1e-5]]
+    assert is_near(sums.tensor("M"), [mixed, mixed]) and not sums.tensor("A_LL").any()
+    for stem, share in (("Msize", 2 / 3), ("Mcp", 2 / 3), ("Mpower", 4 / 5)):
+        assert is_near(sums.tensor(stem)[0], share * np.array(mixed)), stem
+    assert is_near(sums.tensor("F_Lb")[1], base) and is_near(sums.tensor("A_Lb")[1], np.array(base) / 2)
+
+
+def rules_share_the_mixed_contact(run):
+    sums = run.contact_sums(window=0.2, power=2)
+    volume, large_at_base = 0.02 * 0.35, 1e-5 / 2
+    for rule, share in (("size", 2 / 3), ("contact-point", 2 / 3), ("half", 1 / 2), ("uniform:0.9", 0.9),
+                        ("power:2", 4 / 5)):
+        of_species, total = grseg.partial_stress(sums, rule)
+        yy = of_species[0, :, 1, 1] * volume
+        assert is_near(yy, [(1 - share) * 1.5e-6, share * 1.5e-6 + large_at_base]), rule
+        assert is_near(of_species.sum(axis=1), total), rule
+    of_species, total = grseg.partial_stress(sums, "drop", base="none")
+    assert not of_species.any() and is_near(total[0, 1, 1] * volume, 1.5e-6)
+
+
+def fluctuations_are_about_the_mean_of_the_layer(run):
+    """m = pi r^2: the large grain's velocity departs from the mean by 1/5 of the difference, the small one's by 4/5."""
+    kinetic = run.kinetic_sums(window=0.1, mean="layer")
+    m_large, m_small, difference = math.pi * 25e-6, math.pi * 6.25e-6, np.array([0.2, -0.6])
+    square = np.outer(difference, difference)
+    assert is_near(kinetic.tensor("K_L")[0], m_large * square / 25)
+    assert is_near(kinetic.tensor("K_S")[0], m_small * square * 16 / 25)
+    assert is_near(kinetic["Kr_L"], m_large * 0.005**2 / 2 * 0.6**2)  # of spins 1 and -2
+    assert is_near(kinetic["u"], 0.1 + 0.2 / 5) and is_near(kinetic["du_dy"], 0.2 / 0.0075)
+    # About a line through two grains nothing is left.
+    assert abs(run.kinetic_sums(window=0.1).tensor("K_S")).max() < 1e-30
+
+
+def neutral_contacts_have_no_b_by_size():
+    points = grseg.Points(grseg.read_table(os.path.join(inputs, "neutral-sums.tsv")))
+    assert is_near(points.x, [2, 1, 1 / 2])
+    assert abs(points.fit("size").B_half) < 1e-15 and abs(points.fit("size").B_sums) < 1e-15
+    # sigma^S : sigma^L = 16 + 12 (1 - p) : 2 + 12 p, 10 + 15 (1 - p) : 5 + 15 p, 5 + 15 (1 - p) : 10 + 15 p
+    for p in (0.5, 0.8):
+        q = 1 - p
+        logs = [math.log((16 + 12 * q) / (2 + 12 * p) / 2), math.log((10 + 15 * q) / (5 + 15 * p)),
+                math.log((5 + 15 * q) / (10 + 15 * p) * 2)]
+        # Of the large grains 2, 3 and 4 quarters, of the small ones 4, 3 and 2: the rarer are 2, 3 and 4.
+        s = math.exp(np.average(logs, weights=[2, 3, 4]))
+        fit = points.fit(f"uniform:{p}")
+        assert is_near([fit.slope, fit.B_half, fit.share], [s, 2 * (1 - s) / (1 + s), p])
+        assert is_near(points.b_of_p([p]), fit.B_half)
+        of_large = np.array([2 + 12 * p, 5 + 15 * p, 10 + 15 * p]) / 30
+        phi = np.array([1, 1.5, 2]) / 3
+        assert is_near(fit.B_sums, (of_large - phi).sum() / (phi * (1 - phi)).sum())
+    # dB/dp = sum w (1/sigma^S + 1/sigma^L) M/sum w at p = 2/3, where the stresses are 20 : 10, 15 : 15, 10 : 20.
+    slope = np.average([12 / 20 + 12 / 10, 2 * 15 / 15, 15 / 10 + 15 / 20], weights=[2, 3, 4])
+    assert np.allclose(points.zero(), [2 / 3, slope], rtol=1e-14), points.zero()
+    assert is_near(points.fit().p_zero_sums, 2 / 3)
+
+
+with grseg.Run(os.path.join(inputs, "three-grains-1.1.h5")) as new, \
+        grseg.Run(os.path.join(inputs, "three-grains-1.0.h5"), unfinished=True) as old:
+    the_head_says_what_was_written(new, "1.1", True)
+    the_head_says_what_was_written(old, "1.0", False)
+    for one in (new, old):
+        a_frame_holds_its_grains_and_contacts(one)
+        frames_begin_at_a_time_and_end_before_one(one)
+        sums_are_force_times_branch(one)
+        rules_share_the_mixed_contact(one)
+        fluctuations_are_about_the_mean_of_the_layer(one)
+neutral_contacts_have_no_b_by_size()

@@ -1,0 +1,235 @@
+#!/usr/bin/python3
+"""grseg.py against the tools: tables of sums, and what rules make of them, to 1e-12 of the largest number that a
+column is made of. Then faults are put into grseg.py, each of which must show.
+Usage: tools_test.py SOURCE BIN SYNTHETIC_RUN
+
+Runs: the sample of discs; imports of spheres and of discs; three grains as files of version 1.0 and 1.1; runs without
+symmetries in two and three dimensions, of two and three species, in some of which grains come and go.
+"""
+import contextlib
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+from unittest import mock
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+source, programs, synthetic = sys.argv[1:]
+sys.path.insert(0, os.path.join(source, "analysis", "python"))
+import grseg
+
+TOLERANCE = 1e-12
+RULES = ("size", "contact-point", "half", "drop", "uniform:0.7", "power:2")
+compared, largest = 0, 0.0
+
+
+class Difference(Exception):
+    pass
+
+
+def agree(what, mine, tools, scale=0.0):
+    """To TOLERANCE of the largest of these numbers, or of `scale` where they are differences of larger ones."""
+    global compared, largest
+    mine, tools = np.asarray(mine, float), np.asarray(tools, float)
+    if mine.shape != tools.shape or (np.isnan(mine) != np.isnan(tools)).any():
+        raise Difference(f"{what}: {mine} and, by the tool, {tools}")
+    compared += mine.size
+    off, scale = (np.nanmax(np.append(np.abs(a), 0.0)) for a in (mine - tools, np.append(tools, scale)))
+    if off > TOLERANCE * scale:
+        raise Difference(f"{what}: {mine} and, by the tool, {tools}: {off / scale:.2g} apart")
+    largest = max(largest, off / scale if scale else 0.0)
+
+
+def run_tool(tool, *arguments):
+    subprocess.run([os.path.join(programs, f"grseg-{tool}"), *map(str, arguments), "--quiet", "--overwrite"], check=True,
+                   stderr=subprocess.DEVNULL)
+
+
+def table_of(tool, path, window, *options):
+    """Of the tool, with options of grseg.py: {"layer": "3dS"}."""
+    words = [word for name, value in window.items() for word in (f"--{name}", value)]
+    run_tool(tool, path, *words, *options, "-o", f"{tool}.tsv")
+    return grseg.read_table(f"{tool}.tsv")
+
+
+def compare_tables(what, mine, tools, scale_of=lambda column: 0.0):
+    """All columns of `mine`, which the tool's table has under the same names, with the same units."""
+    for column in ("t0", "t1", "y0", "y1", "frames", "V", *mine.columns):
+        if mine.units[column] != tools.units[column]:
+            raise Difference(f"{what}: {column}[{mine.units[column]}], [{tools.units[column]}] by the tool")
+        agree(f"{what}, {column}", mine[column], tools[column], scale_of(column))
+
+
+def check_contact_sums(run, window):
+    tools = table_of("stress", run.path, window, "--partition", "power:1.5")
+    mine = run.contact_sums(power=1.5, **window)
+    if mine.columns != tools.columns:
+        raise Difference(f"{run.path}: columns {mine.columns} and, by the tool, {tools.columns}")
+    largest_of = {column.rsplit("_", 1)[0]: 0.0 for column in mine.columns}
+    for column in tools.columns:  # a tensor has one scale, and grains come by the volume of the layer
+        stem = column.rsplit("_", 1)[0]
+        largest_of[stem] = max(largest_of[stem], abs(tools[column]).max())
+    largest_of |= dict.fromkeys(("area", "volume"), tools["V"].max())
+    compare_tables(run.path, mine, tools, lambda column: largest_of[column.rsplit("_", 1)[0]])
+    for key in ("small_diameter", "large_diameter", "dimension", "species", "step", "length", "length_z", "layer",
+                "window", "gravity_x", "gravity_y", "gravity_z", "input", "partition", "power", "base"):
+        if mine.header.get(key) != tools.header.get(key):
+            raise Difference(f"{run.path}: '{key}: {mine.header.get(key)}', by the tool {tools.header.get(key)}")
+
+
+def check_kinetic_sums(run, window):
+    for mean in ("profile", "layer"):
+        tools, mine = table_of("kinetic", run.path, window, "--mean", mean), run.kinetic_sums(mean=mean, **window)
+        speed = max(abs(frame.velocity[frame.present]).max() for frame in run.frames())
+        spin = max(abs(frame.angular_velocity[frame.present]).max() for frame in run.frames()) * run.radius.max()
+        mass = max(abs(mine[column]).max() for column in mine.columns if column.startswith("mass"))
+        # About a mean little is left of these.
+        compare_tables(f"{run.path} about the {mean}", mine, tools, lambda column: {
+            "K": mass * speed**2, "Kr": mass * spin**2, "u": speed, "v": speed, "du": speed / run.small_diameter,
+        }.get(column.split("_")[0], 0.0))
+
+
+def rows_of(path):
+    """Of a table of grseg-fit, and its header."""
+    with open(path) as file:
+        lines = file.read().splitlines()
+    header = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
+    return list(csv.DictReader((line for line in lines if not line.startswith("#")), delimiter="\t")), header
+
+
+def check_fits(paths, options=None, **filters):
+    """Every estimator of every rule, B(p) and p*; OPTIONS are the filters as grseg-fit calls them."""
+    tables, options = [grseg.read_table(path) for path in paths], options or []
+    points = grseg.Points(tables, **filters)
+    fit = [*paths, "--bootstrap", "0", *options, "-o", "fit.tsv"]
+    run_tool("fit", *fit, "--partition", ",".join(RULES))
+    for row in rows_of("fit.tsv")[0]:
+        if row.get("mixture", "all") != "all" and len(paths) > 1:
+            continue  # of several mixtures grseg-fit also fits each
+        mine, what = points.fit(row["rule"]), f"fit of {paths} {options} by {row['rule']}"
+        for name, value in vars(mine).items():
+            if name not in ("rule", "p_zero_sums") or row["rule"] != "drop" and name != "rule":
+                agree(f"{what}, {name}", value, float(row[name]), 1.0 if name.startswith("B_") else 0.0)
+    if len(tables[0].species) > 2:
+        return
+    run_tool("fit", *fit, "--scan", "0:1:0.125")
+    rows, header = rows_of("fit.tsv")
+    shares = [float(row["p"]) for row in rows]
+    agree(f"B(p) of {paths}", points.b_of_p(shares), [float(row["B"]) for row in rows], 1.0)
+    agree(f"p* of {paths}", points.zero(shares), [float(header["p_zero"]), float(header["dB_dp"])])
+
+
+def check_kinetic_fit(path):
+    run_tool("fit", path, "--bootstrap", "0", "--quantity", "kinetic", "--min-grains", "2", "-o", "fit.tsv")
+    mine = grseg.Points(grseg.read_table(path), quantity="kinetic", min_grains=2).fit()
+    row = rows_of("fit.tsv")[0][0]
+    for name in ("points", "slope", "B_half", "B_sums", "B_direct", "exponent"):
+        agree(f"kinetic fit of {path}, {name}", vars(mine)[name], float(row[name]))
+
+
+def make_imports():
+    sample, inputs = (os.path.join(source, *folder) for folder in (("data", "sample"), ("tests", "inputs")))
+    run_tool("import", "--format", "lammps", "--grains", f"{sample}/spheres/atoms.dump.gz", "--contacts",
+             f"{sample}/spheres/contacts.dump.gz", "--units", "0.005:0.0225762:3.125e-4", "--step", 8.8e-4, "--gravity",
+             "0.4383711467890774,0,-0.898794046299167", "--axes", "xz", "--boundary", 1, "-o", "spheres.h5")
+    run_tool("import", "--format", "lammps", "--grains", f"{inputs}/lammps/elastic-atoms.dump.gz", "--contacts",
+             f"{inputs}/lammps/elastic-contacts.dump.zst", "--step", 1e-5, "--columns",
+             "i=2,j=3,dist=6,force=7,tangential=10", "--units", "si", "--gravity", 9.8, "--slope", 23, "--boundary", 3,
+             "-o", "discs.h5")
+
+
+def make_synthetic():
+    """Their names, those with most traps last."""
+    for number, words in enumerate((("2", "small,large"), ("3", "small,large"), ("2", "fine,middle,coarse"),
+                                    ("3", "fine,middle,coarse", "changing"))):
+        subprocess.run([synthetic, f"synthetic-{number}.h5", *words], check=True)
+    return [f"synthetic-{number}.h5" for number in range(4)]
+
+
+def check_run(path, *windows, unfinished=False):
+    with grseg.Run(path, unfinished=unfinished) as run:
+        for window in windows:
+            check_contact_sums(run, window)
+            check_kinetic_sums(run, window)
+
+
+def check_all_fits(sample):
+    stress = ("--partition", "power:2", "--window", "1")
+    run_tool("stress", sample, *stress, "--end", "10", "-o", "first.tsv")
+    run_tool("stress", sample, *stress, "--begin", "10", "-o", "second.tsv")
+    check_fits(["first.tsv"])
+    check_fits(["first.tsv", "second.tsv"], ["--component", "pressure", "--base", "half"], component="pressure",
+               base="half")
+    check_fits(["second.tsv"], ["--heights", "4dS:16dS", "--ratio-range", "0.2:5", "--min-solid", "0.8", "--begin", "12",
+                                "--min-grains", "5"],
+               heights="4dS:16dS", ratio_range=(0.2, 5), min_solid=0.8, begin=12, min_grains=5)
+    run_tool("stress", sample, *stress, "--assign", "grain", "-o", "grain.tsv")
+    check_fits(["grain.tsv"])
+    run_tool("stress", sample, *stress, "--classes", "3", "-o", "classes.tsv")
+    check_fits(["classes.tsv"], ["--pair", "c1,c3"], pair=("c3", "c1"))
+    run_tool("stress", "synthetic-1.h5", "--partition", "power:2", "--window", "0.04", "--layer", "2dS", "-o", "spheres.tsv")
+    check_fits(["spheres.tsv"])
+    check_kinetic_fit("kinetic.tsv")
+
+
+def no_shares(run, i, j, gap):
+    return np.full(len(i), 0.5)
+
+
+def edges_moved(layers, y, at=grseg._Layers.at):
+    return at(layers, y + 1e-4)
+
+
+def transposed(block, name, contacts=grseg._Block.contacts):
+    return contacts(block, {"force": "branch", "branch": "force"}.get(name, name))
+
+
+def largest_first(run, read_grains=grseg.Run._read_grains):
+    read_grains(run)
+    run.kind = np.where(run.mobile, len(run.species) - 1 - run.kind, run.kind)
+
+
+FAULTS = {
+    "contact points in the middle of the branch": ("_share_of_first", no_shares),
+    "edges of layers moved by a tenth of a millimetre": ("_Layers.at", edges_moved),
+    "force and branch exchanged": ("_Block.contacts", transposed),
+    "the largest species first": ("Run._read_grains", largest_first),
+    "grains not cut by layers": ("_part_below", lambda dimension, r, height: 0 * r),
+    "a profile that is flat beyond its ends": ("_profile", grseg._mean_of_layers),
+}
+
+
+def require_that_faults_show(path):
+    for what, (place, fault) in FAULTS.items():
+        with mock.patch(f"grseg.{place}", fault), contextlib.suppress(Difference):
+            check_run(path, {"layer": "2dS", "window": 0.04})
+            sys.exit(f"{path}: {what}: no number differs")
+
+
+def main():
+    sample = os.path.join(source, "data", "sample", "chute.h5")
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        make_imports()
+        runs = make_synthetic()
+        try:
+            for version in ("1.0", "1.1"):
+                check_run(os.path.join(source, "tests", "inputs", f"three-grains-{version}.h5"), {"window": 0.1},
+                          unfinished=version == "1.0")
+            for path in runs:
+                check_run(path, {"layer": "2dS", "window": 0.04}, {"layer": "7mm", "window": 0.03, "stride": 2})
+            check_run("spheres.h5", {"layer": "3dS", "window": 0.4})
+            check_run("discs.h5", {"layer": "2dS", "window": 0.03})
+            check_run(sample, {"window": 5, "begin": 3.3, "end": 14}, {"layer": "1.5dS", "window": 2.5, "stride": 3})
+            check_all_fits(sample)
+        except (Difference, grseg.Error) as error:
+            sys.exit(str(error))
+        for path in runs[1:3]:
+            require_that_faults_show(path)
+    print(f"{compared} numbers agree to {largest:.2g}, and {len(FAULTS)} faults show")
+
+
+main()
