@@ -159,7 +159,7 @@ def check_refusals():
     refused([micro, run, "--bins", "xy", "--composition", "clipped"], 2, "take centre")
     refused([micro, run, "--bins", "radius:0,0"], 2, "grseg-micro knows layers, xy and xz")
     refused([micro, run, "--bins", "xy", "--distribution"], 2, "has no effect on --distribution")
-    refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "take layer or instant")
+    refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "take layer, instant or instant-unbiased")
     refused([stress, run, "--bins", "xy", "--layer", "1e-6"], 1, "are the cells too small?")
     refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json prints text")
     assert call(stress, run, *MAP, "-o", "map.tsv").returncode == 0

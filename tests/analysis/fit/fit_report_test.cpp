@@ -74,7 +74,7 @@ TEST(FitReport, TheTablesOfAMixtureAreAListInJsonAndALineInTheTable)
   report.mixtures = {{"Phi_L = 0.30", {0.7, 0.3}, {0, 2}}, {"Phi_L = 0.60", {0.4, 0.6}, {1}}};
   report.shares = {{0.25, 0.75}, {0.5, 0.5}};
   const auto json = nlohmann::json::parse(to_json(report));
-  EXPECT_EQ(json["mixtures"][0]["tables"], nlohmann::json({"a.tsv", "d\\x0A.tsv"}));
+  EXPECT_EQ(json["mixtures"][0]["tables"], nlohmann::json({"a.tsv", "d\\x0a.tsv"}));
   EXPECT_EQ(json["mixtures"][1]["tables"], nlohmann::json({"b c.tsv"}));
   EXPECT_TRUE(
       holds(to_tsv(report),

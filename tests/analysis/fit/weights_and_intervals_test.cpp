@@ -216,13 +216,13 @@ TEST(IntervalByHand, TheSlowerOfTwoEstimatesSaysHowDependentWindowsAre)
 }
 
 // A layer with few large grains changes slowly, an even one by half as much from window to window. Weighted
-// by grains the latter counts, by frames psi of both: 0.01 fast + 0.02 slow.
+// by grains the latter counts, by frames psi of both: 0.005 fast + 0.02 slow.
 TEST(IntervalByHand, TheSumsSayHowDependentTheirOwnWindowsAre)
 {
   std::vector<FitPoint> points;
   Eigen::VectorXd sums(96);
   for (int k = 0; k < 96; ++k) {
-    const double fast = "+-++---+-+--+++-"[k % 16] == '+' ? 0.01 : -0.01;
+    const double fast = "+-++---+-+--+++-"[k % 16] == '+' ? 0.005 : -0.005;
     for (const auto& [phi, weight, change] :
          {std::tuple{0.8, 0.2, fast}, {0.05, 0.0125, 0.02 * slow(k)}})
       points.push_back({.window = static_cast<std::size_t>(k),
