@@ -60,8 +60,7 @@ Picture<D>::Picture(const TrajectoryReader& run, const GroupedGrains& grains,
       theme_(theme_of(settings.theme)),
       field_(field_of<D>(settings, run, grains)),
       survey_(survey_frames<D>(run, frames, grains.grains, field_)),
-      view_(settings.plane, run.box()),
-      is_film_(frames.size() > panels)
+      view_(settings.plane, run.box())
 {
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   if (!(survey_.largest_diameter > 0))
@@ -160,7 +159,7 @@ void Picture<D>::lay_out_page(std::size_t panels)
   content.legend = [this](double scale, const Vec2& panel, double width) {
     return legend(scale, panel, width, gravity_);
   };
-  page_ = lay_out(content, settings_.width, settings_.em, is_film_);
+  page_ = lay_out(content, settings_.width, settings_.em, settings_.is_film);
 }
 
 template <int D>
@@ -236,7 +235,7 @@ Drawing Picture<D>::draw(const Frame<D>& frame) const
 template <int D>
 void Picture<D>::paint(cairo_surface_t* surface, std::span<const Drawing> drawings) const
 {
-  Canvas canvas(surface, settings_.em, is_film_);
+  Canvas canvas(surface, settings_.em, settings_.is_film);
   canvas.fill_all(theme_.background);
   for (std::size_t k = 0; k < drawings.size(); ++k) {
     const auto& drawing = drawings[k];

@@ -34,6 +34,7 @@ struct PictureSettings {
   bool tilt = false;     // gravity points down the page
   ThemeName theme = ThemeName::light;
   bool with_time = true, with_scale = true, with_bar = true;
+  bool is_film = false;
   std::optional<double> width;  // px
   double em = 18;               // px
 };
@@ -42,8 +43,7 @@ struct PictureSettings {
 template <int D>
 class Picture {
  public:
-  /// `frames`: numbers of those that will be drawn, of which `panels` go on one page; more than that
-  /// are a film. UsageError where a setting does not fit the run. Both run and grains must outlive
+  /// `frames`: numbers of those that will be drawn, of which `panels` go on one page. UsageError where a setting does not fit the run. Both run and grains must outlive
   /// this.
   Picture(const TrajectoryReader& run, const GroupedGrains& grains,
           const std::vector<std::size_t>& frames, std::size_t panels,
@@ -74,7 +74,6 @@ class Picture {
   std::optional<GrainField<D>> field_;
   Survey<D> survey_;
   View view_;
-  bool is_film_;
   DrawingStyle style_;
   double strong_force_ = 0;  // N
   int decimals_ = 0;         // of times

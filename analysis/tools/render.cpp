@@ -126,7 +126,9 @@ void make_film(const Source& source)
   const auto& s = source.settings;
   const auto ffmpeg = find_ffmpeg();
   const auto frames = film_frames(source.run, s);
-  const Picture<D> picture(source.run, source.grains, frames, 1, s.picture.settings(source.run));
+  auto settings = s.picture.settings(source.run);
+  settings.is_film = true;
+  const Picture<D> picture(source.run, source.grains, frames, 1, settings);
   listen_to_signals();
   Output output(s.output.path, s.output.overwrite, {source.run.path()});
   Film film(ffmpeg, output.temporary(), {source.kind, picture.page().size, s.fps, source.history});
