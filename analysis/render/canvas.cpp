@@ -26,10 +26,9 @@ void fix_font_options(cairo_t* cairo)
 Canvas::Canvas(cairo_surface_t* surface, double em, bool quick)
     : cairo_(cairo_create(surface)), em_(em), quick_(quick)
 {
-  if (quick) {
-    cairo_set_antialias(cairo_.get(), CAIRO_ANTIALIAS_FAST);
-    cairo_set_tolerance(cairo_.get(), 0.25);
-  }
+  // Files that are not pixels may be looked at from near by.
+  cairo_set_tolerance(cairo_.get(), quick ? 0.25 : 0.02);
+  if (quick) cairo_set_antialias(cairo_.get(), CAIRO_ANTIALIAS_FAST);
   fix_font_options(cairo_.get());
   cairo_select_font_face(cairo_.get(), font, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
 }

@@ -25,8 +25,8 @@ std::string force_text(double newtons)
     double unit;
     const char* name;
   };
-  for (const auto& [unit, name] :
-       {Prefix{1e6, "MN"}, Prefix{1e3, "kN"}, Prefix{1, "N"}, Prefix{1e-3, "mN"}})
+  for (const auto& [unit, name] : {Prefix{1e6, "MN"}, Prefix{1e3, "kN"}, Prefix{1, "N"},
+                                   Prefix{1e-3, "mN"}, Prefix{1e-6, "µN"}})
     if (newtons >= unit * 0.9999) return fmt::format("{:.3g} {}", newtons / unit, name);
   return fmt::format("{:.3g} N", newtons);
 }

@@ -75,9 +75,8 @@ Page best_page(const PageContent& content, double width, double em)
     best = std::move(page);
   }
   if (!(least < std::numeric_limits<double>::infinity()))
-    throw UsageError(fmt::format(
-        "a page {:g} pixels wide has no room for the picture; choose another --width or --region",
-        width));
+    throw UsageError(
+        "the picture is too narrow for its height; choose another --width or --region");
   return best;
 }
 
@@ -97,7 +96,7 @@ Page lay_out(const PageContent& content, std::optional<double> width, double em,
   if (even) page.size = (page.size / 2).array().ceil() * 2;
   if (page.size.maxCoeff() > largest_page)
     throw UsageError(
-        fmt::format("the picture would be {:g} x {:g} pixels; choose a smaller --width or another "
+        fmt::format("the picture would be {:.0f} x {:.0f} pixels; choose a smaller --width or another "
                     "--region",
                     page.size.x(), page.size.y()));
   return page;

@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/render/piped_program.hpp"
 
+#include "formats/cli/interruption.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 namespace grseg {
 namespace {
+
+constexpr int patience = 50;  // ms, until an interruption is noticed
 
 /// What posix_spawn is to do between fork and exec.
 class SpawnSettings {
@@ -74,6 +80,8 @@ PipedProgram::PipedProgram(const std::string& path, const std::vector<std::strin
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     throw RunError(fmt::format("cannot make a pipe: {}", reason(errno)));
+  // So that an interruption is noticed while the other end reads nothing.
+  fcntl(ends[1], F_SETFL, O_NONBLOCK);
   std::signal(SIGPIPE, SIG_IGN);
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -95,26 +103,34 @@ PipedProgram::~PipedProgram()
 {
   if (process_ < 0) return;
   kill(process_, SIGKILL);
-  close(pipe_);
-  wait();
+  if (pipe_ >= 0) close(pipe_);
+  ended(true);
 }
 
 bool PipedProgram::write(std::span<const std::uint8_t> bytes)
 {
   while (!bytes.empty()) {
     const auto taken = ::write(pipe_, bytes.data(), bytes.size());
-    if (taken < 0 && errno == EINTR) continue;
-    if (taken < 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(taken));
+    if (taken >= 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(taken));
+    } else if (errno == EAGAIN) {
+      stop_if_interrupted();
+      pollfd room{pipe_, POLLOUT, 0};
+      poll(&room, 1, patience);
+    } else if (errno != EINTR) {
+      return false;
+    }
   }
   return true;
 }
 
-int PipedProgram::wait()
+std::optional<int> PipedProgram::ended(bool wait)
 {
   int status = 0;
-  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-  }
+  pid_t process = 0;
+  do process = waitpid(process_, &status, wait ? 0 : WNOHANG);
+  while (process < 0 && errno == EINTR);
+  if (process == 0) return std::nullopt;
   process_ = -1;
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
@@ -122,7 +138,16 @@ int PipedProgram::wait()
 PipedProgram::End PipedProgram::finish()
 {
   close(pipe_);
-  End end{wait(), ""};
+  pipe_ = -1;
+  End end{};
+  for (auto code = ended(false);; code = ended(false)) {
+    if (code) {
+      end.code = *code;
+      break;
+    }
+    stop_if_interrupted();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   std::rewind(errors_.get());
   char buffer[4096];
   for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, errors_.get())) > 0;)

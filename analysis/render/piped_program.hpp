@@ -28,7 +28,8 @@ class PipedProgram {
   /// Kills it, unless it has been waited for.
   ~PipedProgram();
 
-  /// Whether it has taken all bytes; false where it reads no more.
+  /// Whether it has taken all bytes; false where it reads no more. Interruption as in
+  /// stop_if_interrupted(), also while it does not read.
   bool write(std::span<const std::uint8_t> bytes);
 
   /// Its exit code, or 128 and the number of the signal that ended it, and what it said on standard
@@ -37,14 +38,15 @@ class PipedProgram {
     int code;
     std::string said;
   };
-  /// Ends its input and waits until it ends.
+  /// Ends its input and waits until it ends; Interruption as above.
   End finish();
 
  private:
   struct Closer {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  int wait();
+  /// Its exit code as in End, if it has ended; `wait` until then.
+  std::optional<int> ended(bool wait);
 
   std::unique_ptr<std::FILE, Closer> errors_;  // without a name
   int pipe_ = -1;
