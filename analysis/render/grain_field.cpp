@@ -154,7 +154,7 @@ FieldChoice parse_field(const std::string& text)
   throw UsageError(unknown_word("--color", word, words));
 }
 
-std::size_t frame_nearest(const TrajectoryReader& run, double time, const std::string& option)
+std::size_t frame_nearest(const TrajectoryReader& run, double time, const std::string& asked)
 {
   const auto& times = run.times();
   if (times.empty()) throw RunError(fmt::format("{}: the run has no frames", run.path()));
@@ -162,8 +162,8 @@ std::size_t frame_nearest(const TrajectoryReader& run, double time, const std::s
   const double between =
       times.size() > 1 ? length / static_cast<double>(times.size() - 1) : run.step();
   if (!(time >= times.front() - between && time <= times.back() + between))
-    throw UsageError(fmt::format("{} {:g}: {} goes from {:.6g} s to {:.6g} s", option, time,
-                                 run.path(), times.front(), times.back()));
+    throw UsageError(fmt::format("{}: {} goes from {:.6g} s to {:.6g} s", asked, run.path(),
+                                 times.front(), times.back()));
   const auto after = std::lower_bound(times.begin(), times.end(), time);
   if (after == times.begin()) return 0;
   const auto number = static_cast<std::size_t>(after - times.begin());
@@ -212,10 +212,10 @@ GrainField<D>::GrainField(const FieldChoice& choice, const TrajectoryReader& run
 template <int D>
 void GrainField<D>::begin_at(const std::string& time, const TrajectoryReader& run)
 {
-  const auto option = fmt::format("--color {}:", definition_->word);
+  const auto asked = fmt::format("--color {}:{}", definition_->word, time);
   const auto number = parse_number(time);
-  if (!number) throw UsageError(fmt::format("{}{}: '{}' is not a time", option, time, time));
-  const auto index = frame_nearest(run, *number, option);
+  if (!number) throw UsageError(fmt::format("{}: '{}' is not a time", asked, time));
+  const auto index = frame_nearest(run, *number, asked);
   Frame<D> frame;
   run.read(index, frame, definition_->needs);
   for (std::size_t g = 0; g < grains_.size(); ++g) origin_.push_back(place(frame, g));

@@ -62,14 +62,16 @@ Page page_of(const PageContent& content, double width, std::size_t columns, doub
   return page;
 }
 
-/// The page whose shape is nearest to 3:2.
+/// The page whose shape is nearest to 3:2; empty places count against it.
 Page best_page(const PageContent& content, double width, double em)
 {
   Page best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t columns = 1; columns <= content.panels; ++columns) {
     auto page = page_of(content, width, columns, em);
-    const double off = std::abs(std::log(page.size.x() / page.size.y() / 1.5));
+    const auto empty = static_cast<double>((columns - content.panels % columns) % columns);
+    const double off = std::abs(std::log(page.size.x() / page.size.y() / 1.5)) +
+                       empty / static_cast<double>(content.panels);
     if (!(page.panel_size.x() > 0) || off >= least) continue;
     least = off;
     best = std::move(page);
@@ -95,10 +97,10 @@ Page lay_out(const PageContent& content, std::optional<double> width, double em,
     page = best_page(content, page.size.x() * std::min(0.99, usual_page / page.size.y()), em);
   if (even) page.size = (page.size / 2).array().ceil() * 2;
   if (page.size.maxCoeff() > largest_page)
-    throw UsageError(
-        fmt::format("the picture would be {:.0f} x {:.0f} pixels; choose a smaller --width or another "
-                    "--region",
-                    page.size.x(), page.size.y()));
+    throw UsageError(fmt::format(
+        "the picture would be {:.0f} x {:.0f} pixels; choose a smaller --width or another "
+        "--region",
+        page.size.x(), page.size.y()));
   return page;
 }
 

@@ -31,8 +31,8 @@ struct PageContent {
 };
 
 /// A page of this width; without one, the largest page that is neither wider nor higher than
-/// `usual_page`. Panels stand in as many columns as bring the page nearest to 3:2, the legend stands
-/// under them in as many lines as it needs. `even`: width and height are, as films need it.
+/// `usual_page`. Panels stand in as many columns as bring the page near to 3:2 without leaving many
+/// places empty, the legend stands under them in as many lines as it needs. `even`: width and height are, as films need it.
 /// UsageError where the page would be higher than cairo can paint.
 Page lay_out(const PageContent& content, std::optional<double> width, double em, bool even);
 inline constexpr double usual_page = 1280;  // px

@@ -167,8 +167,7 @@ std::string Picture<D>::slab_text() const
 {
   if (D == 2) return "";
   if (!view_.slab) return fmt::format("all along {}", view_.depth());
-  return fmt::format("{} = {} to {}", view_.depth(), length_text(view_.slab->low),
-                     length_text(view_.slab->high));
+  return fmt::format("{} = {}", view_.depth(), lengths_text(*view_.slab));
 }
 
 template <int D>

@@ -31,7 +31,7 @@ std::size_t frame_at(const TrajectoryReader& run, const std::string& word)
 {
   if (word == "start") return 0;
   if (word == "end") return run.size() - 1;
-  if (const auto time = parse_number(word)) return frame_nearest(run, *time, "--at");
+  if (const auto time = parse_number(word)) return frame_nearest(run, *time, "--at " + word);
   throw UsageError(fmt::format("--at '{}': write a time in s, start or end", word));
 }
 

@@ -27,6 +27,18 @@ long number_below(double value)
   return 3 * static_cast<long>(std::floor(std::log10(value))) - 1;
 }
 
+struct LengthUnit {
+  double metres;
+  const char* name;
+};
+
+LengthUnit unit_of(double metres)
+{
+  if (metres < 0.01 * (1 - round_off)) return {1e-3, "mm"};
+  if (metres < 1 - round_off) return {1e-2, "cm"};
+  return {1, "m"};
+}
+
 }  // namespace
 
 double round_below(double most)
@@ -85,9 +97,14 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks)
 
 std::string length_text(double metres)
 {
-  if (metres < 0.01 * (1 - round_off)) return fmt::format("{:.6g} mm", metres * 1000);
-  if (metres < 1 - round_off) return fmt::format("{:.6g} cm", metres * 100);
-  return fmt::format("{:.6g} m", metres);
+  const auto [unit, name] = unit_of(metres);
+  return fmt::format("{:.3g} {}", metres / unit, name);
+}
+
+std::string lengths_text(const Range& range)
+{
+  const auto [unit, name] = unit_of(std::max(std::abs(range.low), std::abs(range.high)));
+  return fmt::format("{:.3g} to {:.3g} {}", range.low / unit, range.high / unit, name);
 }
 
 }  // namespace grseg

@@ -31,5 +31,7 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks);
 
 /// "5 mm", "2 cm", "1 m".
 std::string length_text(double metres);
+/// "0 to 5 mm", in the unit of the longer one.
+std::string lengths_text(const Range& range);
 
 }  // namespace grseg

@@ -122,17 +122,17 @@ TEST_F(GrainFields, WhatIsNoFieldIsRefusedWithAWord)
   EXPECT_EQ(complaint("rise:x"), "--color rise:x: 'x' is not a time");
   EXPECT_EQ(complaint("velocity:z"), "--color velocity:z: the components of this run are x and y");
   EXPECT_EQ(complaint("displacement:7"),
-            "--color displacement: 7: " + path("run.h5") + " goes from 5e-05 s to 0.10005 s");
+            "--color displacement:7: " + path("run.h5") + " goes from 5e-05 s to 0.10005 s");
 }
 
 TEST_F(GrainFields, AnInstantTakesTheNearestFrame)
 {
   const TrajectoryReader run(path("run.h5"));  // 0.00005, 0.05005, 0.10005 s
-  EXPECT_EQ(frame_nearest(run, 0, "--at"), 0u);
-  EXPECT_EQ(frame_nearest(run, 0.025, "--at"), 0u);
-  EXPECT_EQ(frame_nearest(run, 0.0251, "--at"), 1u);
-  EXPECT_EQ(frame_nearest(run, 0.14, "--at"), 2u);
-  EXPECT_EQ(complaint_of<UsageError>([&] { frame_nearest(run, 0.16, "--at"); }),
+  EXPECT_EQ(frame_nearest(run, 0, ""), 0u);
+  EXPECT_EQ(frame_nearest(run, 0.025, ""), 0u);
+  EXPECT_EQ(frame_nearest(run, 0.0251, ""), 1u);
+  EXPECT_EQ(frame_nearest(run, 0.14, ""), 2u);
+  EXPECT_EQ(complaint_of<UsageError>([&] { frame_nearest(run, 0.16, "--at 0.16"); }),
             "--at 0.16: " + path("run.h5") + " goes from 5e-05 s to 0.10005 s");
 }
 

@@ -59,7 +59,7 @@ TEST(Page, NothingOverlapsAndAllLiesOnThePage)
   }
 }
 
-// 300 + 22 x 1.2 ... : 300, 200 and their gap fill one line of 780.8, 400 and 100 the next.
+// A line has 800 - 2 x 0.8 x 12 = 780.8 px: 300, a gap of 2.2 x 12 and 200 fit, and 400 more do not.
 TEST(Page, TheLegendGoesOnInAnotherLineWhereOneIsFull)
 {
   const auto page = lay_out(content_of(1, {300, 200, 400, 100}), 800, 12, false);
@@ -78,6 +78,16 @@ TEST(Page, TallPanelsStandSideBySideAndWideOnesBelowEachOther)
   content.panel = {1, 1};
   const auto tall = lay_out(content, 800, 12, false);
   EXPECT_EQ(tall.panels[0].y(), tall.panels[1].y());
+}
+
+TEST(Page, FourSquarePanelsAreTwoByTwo)
+{
+  auto content = content_of(4, {});
+  content.panel = {1, 1};
+  const auto page = lay_out(content, 800, 12, false);
+  EXPECT_EQ(page.panels[1].y(), page.panels[0].y());
+  EXPECT_EQ(page.panels[2].x(), page.panels[0].x());
+  EXPECT_EQ(page.panels[3].x(), page.panels[1].x());
 }
 
 TEST(Page, WithoutAWidthATallPictureIsNoHigherThanUsual)

@@ -64,6 +64,8 @@ TEST(RoundNumbers, LengthsHaveTheUnitThatFits)
   EXPECT_EQ(length_text(0.01), "1 cm");
   EXPECT_EQ(length_text(0.5), "50 cm");
   EXPECT_EQ(length_text(2), "2 m");
+  EXPECT_EQ(lengths_text({0, 0.01}), "0 to 1 cm");
+  EXPECT_EQ(lengths_text({-0.002, 0.001}), "-2 to 1 mm");
 }
 
 // 0 to 100: the 99th of a hundred steps.
