@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/render/colours.hpp"
+#include "analysis/stress/partition_rule.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/trajectory/reader.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+/// A number for each grain, to colour it by. Boundary grains have none.
+namespace grseg {
+
+/// How the colours of a field begin and end where nobody says so.
+enum class FieldEnds {
+  zero_to_most,  ///< what is never negative
+  least_to_most,
+  zero_to_one,
+  both_signs,  ///< as far below 0 as above
+};
+
+enum class FieldKind {
+  radius,
+  speed,
+  velocity,
+  spin,
+  pressure,
+  contacts,
+  composition,
+  displacement,
+  rise
+};
+
+struct FieldDefinition {
+  FieldKind kind;
+  const char* word;  // as typed
+  const char* meaning;
+  FieldEnds ends;
+  const char* title;              // beside the colour bar
+  const char *unit_2d, *unit_3d;  // "": a number
+  /// What must be read: `force` stands for how often grains have crossed the cell.
+  TrajectoryReader::Fields needs = {.velocity = false, .contacts = false, .force = false};
+  /// What may follow the word behind a colon, or must; "": nothing.
+  const char* argument = "";
+  bool needs_argument = false;
+};
+
+/// All fields, in the order of --help.
+std::span<const FieldDefinition> field_definitions();
+/// What each means, for --help.
+std::string list_of_fields();
+
+/// A field as typed: "speed", "displacement:12.5". UsageError, naming --color, where it is none, or
+/// has an argument that it does not take.
+struct FieldChoice {
+  const FieldDefinition* definition = nullptr;  // null: --color species
+  std::string argument;
+
+  bool is_species() const { return definition == nullptr; }
+};
+FieldChoice parse_field(const std::string& text);
+
+/// The numbers of one field for the frames of one run.
+template <int D>
+class GrainField {
+ public:
+  /// `grains` and `species` as told apart (analysis/frames/grouping.hpp); `rule` shares out the
+  /// mixed contacts of pressure. UsageError where the argument is not a length, or not a time of the
+  /// run. `grains` must outlive this.
+  GrainField(const FieldChoice& choice, const TrajectoryReader& run, const Grains& grains,
+             const SpeciesList& species, const PartitionRule& rule);
+
+  const FieldDefinition& definition() const { return *definition_; }
+  /// For the colour bar: what it is, with its unit.
+  const std::string& title() const { return title_; }
+  /// A number for each grain; NaN for boundary grains and those that are absent.
+  std::vector<double> values(const Frame<D>& frame) const;
+
+ private:
+  double number(const Frame<D>& frame, std::size_t grain) const;
+  std::vector<double> pressures(const Frame<D>& frame) const;
+  std::vector<double> contact_numbers(const Frame<D>& frame) const;
+  Vector<D> place(const Frame<D>& frame, std::size_t grain) const;
+  void begin_at(const std::string& time, const TrajectoryReader& run);
+
+  const FieldDefinition* definition_;
+  const Grains& grains_;
+  Box box_;
+  PartitionRule rule_;
+  Species largest_;
+  std::string title_;
+  Eigen::Index axis_ = 0;          // of the velocity
+  double radius_ = 0;              // m, of the local composition
+  std::vector<Vector<D>> origin_;  // m, where grains were when displacements begin to count
+};
+
+/// The number of the frame whose time is nearest to `time` (s). UsageError naming `option` where
+/// that is farther away than the run's frames are from each other.
+std::size_t frame_nearest(const TrajectoryReader& run, double time, const std::string& option);
+
+}  // namespace grseg

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/render/legend.hpp"
+
+#include "analysis/render/round_numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+// Within the height of an item, em: the baseline of what stands in the middle, and of two lines.
+constexpr double middle_line = 1.35, upper_line = 0.85, lower_line = 2.45;
+constexpr double small_text = 0.9;
+/// From the middle of a line of text down to its baseline, em.
+constexpr double half_letter = 0.35;
+
+std::string force_text(double newtons)
+{
+  struct Prefix {
+    double unit;
+    const char* name;
+  };
+  for (const auto& [unit, name] : {Prefix{1e6, "MN"}, Prefix{1e3, "kN"}, Prefix{1, "N"},
+                                   Prefix{1e-3, "mN"}, Prefix{1e-6, "µN"}})
+    if (newtons >= unit * 0.9999) return fmt::format("{:.3g} {}", newtons / unit, name);
+  return fmt::format("{:.3g} N", newtons);
+}
+
+}  // namespace
+
+LegendItem scale_bar(const Canvas& canvas, double scale, double most, const Colour& ink)
+{
+  const double em = canvas.em(), metres = round_below(most / scale), bar = metres * scale;
+  const auto text = length_text(metres);
+  const double width = std::max(bar, canvas.text_width(text));
+  return {width, [=](Canvas& page, const Vec2& at) {
+            const double x = at.x() + (width - bar) / 2, y = at.y() + 0.8 * em;
+            const Vec2 left(x, y), right(x + bar, y), tick(0, 0.3 * em);
+            const double line = em / 9;
+            page.line(left, right, line, ink);
+            page.line(left - tick, left + tick, line, ink);
+            page.line(right - tick, right + tick, line, ink);
+            page.centred_text(at + Vec2(width / 2, 2.15 * em), text, ink);
+          }};
+}
+
+LegendItem gravity_arrow(const Canvas& canvas, const Vec2& down, const Colour& ink)
+{
+  const double em = canvas.em(), width = 2.6 * em;
+  return {width, [=](Canvas& page, const Vec2& at) {
+            const Vec2 centre = at + Vec2(0.9 * em, middle_line * em), side(-down.y(), down.x());
+            const Vec2 tail = centre - 1.1 * em * down, tip = centre + 1.1 * em * down;
+            const Vec2 neck = tip - 0.65 * em * down;
+            page.line(tail, neck, em / 9, ink);
+            page.polygon(
+                std::array{tip, Vec2(neck + 0.28 * em * side), Vec2(neck - 0.28 * em * side)}, ink);
+            page.text(at + Vec2(1.75 * em, (middle_line + half_letter) * em), "g", ink);
+          }};
+}
+
+LegendItem species_key(const Canvas& canvas, std::vector<SpeciesMark> marks, const Colour& ink)
+{
+  const double em = canvas.em(), before = 1.3 * em, between = 1.1 * em;
+  double width = -between;
+  for (const auto& mark : marks) width += before + canvas.text_width(mark.name) + between;
+  return {width, [=, marks = std::move(marks)](Canvas& page, const Vec2& at) {
+            Vec2 place = at + Vec2(0.45 * em, middle_line * em);
+            for (const auto& mark : marks) {
+              page.rimmed_disc(place, 0.48 * em, mark.grain, mix(mark.grain, ink, 0.35), em / 18);
+              if (mark.line)
+                page.line(place - Vec2(0.48 * em, 0), place + Vec2(0.48 * em, 0), 0.24 * em,
+                          *mark.line);
+              page.text(place + Vec2(before - 0.45 * em, half_letter * em), mark.name, ink);
+              place.x() += before + page.text_width(mark.name) + between;
+            }
+          }};
+}
+
+LegendItem colour_bar(const Canvas& canvas, const ColourScale& colours, const std::string& title,
+                      double most, const Colour& ink)
+{
+  const double em = canvas.em(), point = 0.6 * em, overhang = 1.2 * em;
+  const double width =
+      std::min(most, std::max(16 * em, canvas.text_width(title, small_text) + 2 * overhang));
+  const double length = width - 2 * overhang;
+  return {width, [=](Canvas& page, const Vec2& at) {
+            const double top = at.y() + 1.05 * em, height = 0.6 * em, left = at.x() + overhang;
+            page.centred_text(at + Vec2(width / 2, upper_line * em - 0.1 * em), title, ink,
+                              small_text);
+            const int steps = 256;
+            for (int k = 0; k < steps; ++k) {
+              // Up to the end, so that no gap shows between two steps.
+              const double from = length * k / steps;
+              page.rectangle({left + from, top}, {length - from, height},
+                             colours.at_place((k + 0.5) / steps));
+            }
+            const auto tip = [&](double x, double direction, double place) {
+              page.polygon(std::array{Vec2(x, top), Vec2(x + direction * point, top + height / 2),
+                                      Vec2(x, top + height)},
+                           colours.at_place(place));
+            };
+            if (colours.below) tip(left, -1, 0);
+            if (colours.above) tip(left + length, 1, 1);
+            const auto at_ticks = ticks(colours.range, length > 10 * em ? 6 : 4);
+            const auto labels = tick_labels(at_ticks);
+            for (std::size_t k = 0; k < at_ticks.size(); ++k) {
+              const double place = (at_ticks[k] - colours.range.low) / colours.range.length();
+              const double x = left + length * place;
+              page.line({x, top + height}, {x, top + height + 0.18 * em}, em / 14, ink);
+              page.centred_text({x, at.y() + (lower_line + 0.15) * em}, labels[k], ink, small_text);
+            }
+          }};
+}
+
+LegendItem force_key(const Canvas& canvas, ForceMarks marks, const Colour& ink)
+{
+  const double em = canvas.em(), gap = 0.4 * em, between = 1.1 * em;
+  struct Mark {
+    double place, length, width;  // px
+    std::string text;
+  };
+  std::vector<Mark> keys;
+  double end = 0;
+  for (const double force : {round_below(marks.strong / 4), round_below(marks.strong)}) {
+    const double width = marks.scale * force, length = 1.6 * em + width;
+    const auto text = force_text(force);
+    keys.push_back({end, length, width, text});
+    end += length + gap + canvas.text_width(text, small_text) + between;
+  }
+  const double width = std::max(end - between, canvas.text_width(marks.title, small_text));
+  return {
+      width, [=, marks = std::move(marks)](Canvas& page, const Vec2& at) {
+        page.text(at + Vec2(0, (upper_line - 0.1) * em), marks.title, ink, small_text);
+        for (const auto& key : keys) {
+          const Vec2 place = at + Vec2(key.place, (lower_line - 0.45) * em);
+          page.capsule(place + Vec2(key.width / 2, 0), place + Vec2(key.length - key.width / 2, 0),
+                       key.width, true, marks.colour);
+          page.text(place + Vec2(key.length + gap, half_letter * em), key.text, ink, small_text);
+        }
+      }};
+}
+
+LegendItem remark(const Canvas& canvas, std::string text, const Colour& ink)
+{
+  const double em = canvas.em(), width = canvas.text_width(text);
+  return {width, [=, text = std::move(text)](Canvas& page, const Vec2& at) {
+            page.text(at + Vec2(0, (middle_line + half_letter) * em), text, ink);
+          }};
+}
+
+}  // namespace grseg

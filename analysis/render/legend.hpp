@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/render/canvas.hpp"
+#include "analysis/render/drawing.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What stands under the panels of a picture and says what they mean.
+namespace grseg {
+
+/// A part of the legend; all parts are `legend_height` em high.
+struct LegendItem {
+  double width;                                        // px
+  std::function<void(Canvas&, const Vec2& at)> paint;  // `at`: its upper left corner, px
+};
+inline constexpr double legend_height = 2.7;  // em
+
+/// A bar of a round length, `scale` px/m, no longer than `most` px; the text under it may be longer.
+LegendItem scale_bar(const Canvas& canvas, double scale, double most, const Colour& ink);
+
+/// An arrow with a g; `down` is the direction on the page, y downwards.
+LegendItem gravity_arrow(const Canvas& canvas, const Vec2& down, const Colour& ink);
+
+/// A disc in each colour, and a name behind it; and the colour of a line over it, where there are
+/// any.
+struct SpeciesMark {
+  std::string name;
+  Colour grain;
+  std::optional<Colour> line;
+};
+LegendItem species_key(const Canvas& canvas, std::vector<SpeciesMark> marks, const Colour& ink);
+
+/// The colours of a field under its title, with numbers; pointed where numbers lie beyond. At most
+/// `most` px wide.
+LegendItem colour_bar(const Canvas& canvas, const ColourScale& colours, const std::string& title,
+                      double most, const Colour& ink);
+
+/// Two lines of a round force, below `strong` N and about a quarter of that, under a title; `scale` in
+/// px/N.
+struct ForceMarks {
+  double strong = 0, scale = 0;
+  std::string title;
+  Colour colour;
+};
+LegendItem force_key(const Canvas& canvas, ForceMarks marks, const Colour& ink);
+
+/// A sentence.
+LegendItem remark(const Canvas& canvas, std::string text, const Colour& ink);
+
+}  // namespace grseg

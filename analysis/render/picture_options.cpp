@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/render/picture_options.hpp"
+
+#include "formats/cli/numbers.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/core/length.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+Range parse_range(const std::string& text)
+{
+  const auto colon = text.find(':');
+  if (colon != std::string::npos) {
+    const auto low = parse_number(text.substr(0, colon)),
+               high = parse_number(text.substr(colon + 1));
+    if (low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high)
+      return {*low, *high};
+  }
+  throw UsageError(fmt::format(
+      "--range '{}': write the numbers of the first and the last colour, as in 0:0.5", text));
+}
+
+/// "start", "end" or a time in s.
+std::size_t frame_at(const TrajectoryReader& run, const std::string& word)
+{
+  if (word == "start") return 0;
+  if (word == "end") return run.size() - 1;
+  if (const auto time = parse_number(word)) return frame_nearest(run, *time, "--at " + word);
+  throw UsageError(fmt::format("--at '{}': write a time in s, start or end", word));
+}
+
+}  // namespace
+
+void PictureOptions::add_to(po::options_description& options)
+{
+  auto add = options.add_options();
+  const auto text = [](std::string& place, const char* name) {
+    auto* value = po::value(&place)->value_name(name);
+    return place.empty() ? value : value->default_value(place);
+  };
+  add("at", po::value(&at)->composing()->value_name("TIME,..."),
+      "times (s) of a picture, start or end; several make panels of one picture (default: end)");
+  add("color", text(color, "FIELD"), list_of_fields().c_str());
+  add("range", text(range, "a:b"),
+      "numbers of the first and the last colour (default: round numbers that leave out the last "
+      "hundredth)");
+  add("forces", po::bool_switch(&forces),
+      "draw contacts as lines between the grains' centres, as wide as their normal force");
+  add("force-width", text(force_width, "LENGTH"),
+      "width that 99 of 100 lines do not exceed, counted over up to 16 of the frames");
+  add("partition", text(partition, "RULE"),
+      ("with --forces: lines have the colours of the species, and mixed contacts are split where "
+       "the rule divides them; with --color pressure: which part of them counts; " +
+       list_of_rules() + " (default of pressure: size)")
+          .c_str());
+  add("region", text(region, "x0:x1,y0:y1"),
+      "what is shown, in lengths such as 10dS; beyond a period the cell is repeated (default: all)");
+  add("plane", text(plane, "WORD"),
+      ("in three dimensions: axis to the right and axis up the page, " + list_of(planes)).c_str());
+  add("slice", text(slice, "z0:z1"),
+      "in three dimensions: only grains whose centres lie there along the third axis (default: one "
+      "large diameter in the middle)");
+  add("project", po::bool_switch(&project),
+      "in three dimensions: all grains, the nearest in front");
+  add("tilt", po::bool_switch(&tilt),
+      "turn the picture so that gravity points down the page (default: x points to the right)");
+  add("theme", text(theme, "WORD"), list_of(theme_names).c_str());
+  add("width", text(width, "N"),
+      "width in pixels, or on paper, 86mm, 8.6cm or 3.4in, with letters of 8 points (default: 1280 "
+      "pixels, less where the picture would be higher than that)");
+  add("no-time", po::bool_switch(&no_time), "leave out the time");
+  add("no-scale", po::bool_switch(&no_scale),
+      "leave out the scale bar, the direction of gravity and the slice");
+  add("no-bar", po::bool_switch(&no_bar), "leave out what colours and lines mean");
+}
+
+PictureSettings PictureOptions::settings(const TrajectoryReader& run) const
+{
+  const LengthUnits units{run.small_diameter(), run.large_diameter()};
+  PictureSettings s;
+  s.field = parse_field(color);
+  if (!range.empty()) {
+    if (s.field.is_species()) throw UsageError("--range: species have no range; choose a --color");
+    s.range = parse_range(range);
+  }
+  s.forces = forces;
+  s.line_width = parse_length(force_width, "--force-width", units);
+  if (!(s.line_width > 0)) throw UsageError("--force-width must be positive");
+  if (!partition.empty()) {
+    s.rule = parse_rule(partition);
+    const bool of_pressure = s.field.definition && s.field.definition->kind == FieldKind::pressure;
+    if (!forces && !of_pressure)
+      throw UsageError("--partition needs --forces, whose lines it splits, or --color pressure");
+    s.split_lines = forces;
+  }
+  s.region = region;
+  s.plane = choose(plane, "--plane", planes);
+  s.slice = slice;
+  s.project = project;
+  if (project && !slice.empty()) throw UsageError("--project and --slice exclude each other");
+  s.tilt = tilt;
+  s.theme = choose(theme, "--theme", theme_names);
+  s.with_time = !no_time;
+  s.with_scale = !no_scale;
+  s.with_bar = !no_bar;
+  const auto page = parse_width(width);
+  s.width = page.pixels;
+  s.em = page.em;
+  return s;
+}
+
+std::vector<std::size_t> PictureOptions::frames_at(const TrajectoryReader& run) const
+{
+  if (run.size() == 0) throw RunError(fmt::format("{}: the run has no frames", run.path()));
+  std::vector<std::size_t> frames;
+  for (const auto& list : at) {
+    std::istringstream words(list);
+    for (std::string word; std::getline(words, word, ',');) frames.push_back(frame_at(run, word));
+  }
+  if (frames.empty()) frames.push_back(run.size() - 1);
+  if (frames.size() > 100)
+    throw UsageError(fmt::format("--at: {} panels; at most 100 fit", frames.size()));
+  return frames;
+}
+
+PageWidth parse_width(const std::string& text)
+{
+  constexpr double per_inch = 300, letters = 8, points_of_inch = 72, least = 64, most = 20000;
+  constexpr double points_of_pixel = 0.75;  // as browsers have it
+  if (text.empty()) return {std::nullopt, usual_em(usual_page), points_of_pixel};
+  struct Unit {
+    const char* name;
+    double inches;
+  };
+  for (const auto& [name, inches] :
+       {Unit{"mm", 1 / 25.4}, Unit{"cm", 1 / 2.54}, Unit{"in", 1}, Unit{"", 0}}) {
+    if (!text.ends_with(name)) continue;
+    const auto number = parse_number(text.substr(0, text.size() - std::string(name).size()));
+    if (!number) continue;
+    const double pixels = std::round(inches > 0 ? *number * inches * per_inch : *number);
+    if (!(pixels >= least && pixels <= most))
+      throw UsageError(fmt::format("--width {}: that is {:g} pixels; choose {:g} to {:g}", text,
+                                   pixels, least, most));
+    if (inches > 0) return {pixels, letters * per_inch / points_of_inch, points_of_inch / per_inch};
+    return {pixels, usual_em(pixels), points_of_pixel};
+  }
+  throw UsageError(fmt::format(
+      "--width '{}': write a number of pixels, or a width on paper as 86mm, 8.6cm or 3.4in", text));
+}
+
+}  // namespace grseg

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/render/round_numbers.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/core/length.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+/// Which part of the cell a picture shows, and from where.
+namespace grseg {
+
+/// The plane of a picture: its first axis points to the right, its second one up the page.
+enum class Plane { xy, zy, zx };
+inline constexpr Choice<Plane> planes[] = {{"xy", Plane::xy, "from the side"},
+                                           {"zy", Plane::zy, "down the slope"},
+                                           {"zx", Plane::zx, "from above"}};
+
+/// A rectangle in the plane of the picture, m.
+struct Region {
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  Vec2 size() const { return high - low; }
+};
+
+/// Looks at the cell along the third axis from far away.
+class View {
+ public:
+  View(Plane plane, const Box& box);
+
+  /// m, along the axes of the plane.
+  template <int D>
+  Vec2 flat(const Vector<D>& vector) const
+  {
+    return {vector[right_], vector[up_]};
+  }
+  /// How near something is to who looks, m; nothing where it lies outside of the slab.
+  template <int D>
+  std::optional<double> nearness(const Vector<D>& position) const;
+
+  /// Names of the axes: "x", "y" and the one looked along.
+  char right() const { return name(right_); }
+  char up() const { return name(up_); }
+  char depth() const { return name(depth_); }
+  /// Period along an axis of the plane, 0 or 1, m; 0: it has none.
+  double period(int axis) const { return period_[static_cast<std::size_t>(axis)]; }
+  double depth_period() const { return depth_period_; }
+
+  /// What is shown, m. Beyond a period the cell is repeated.
+  Region region;
+  /// Of the axis looked along, m; nothing: all of it.
+  std::optional<Range> slab;
+
+  /// Calls place(shift) with every number of periods, m, by which what lies between `low` and `high`
+  /// (m, in the plane) must be moved to appear in the region.
+  template <class Place>
+  void for_images(const Vec2& low, const Vec2& high, const Place& place) const;
+
+ private:
+  static char name(Eigen::Index axis) { return "xyz"[axis]; }
+
+  Eigen::Index right_, up_, depth_;
+  double towards_;  // 1 where the axis looked along points to who looks, else -1
+  std::array<double, 2> period_;
+  double depth_period_;
+};
+
+template <class Place>
+void View::for_images(const Vec2& low, const Vec2& high, const Place& place) const
+{
+  // Multiples of the period; one of them where there is none.
+  std::array<double, 2> first{}, last{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    if (period_[axis] > 0) {
+      first[axis] = std::ceil((region.low[k] - high[k]) / period_[axis]);
+      last[axis] = std::floor((region.high[k] - low[k]) / period_[axis]);
+    } else if (high[k] < region.low[k] || low[k] > region.high[k]) {
+      return;
+    }
+  }
+  for (double a = first[0]; a <= last[0]; ++a)
+    for (double b = first[1]; b <= last[1]; ++b) place(Vec2(a * period_[0], b * period_[1]));
+}
+
+/// A region as typed, "x0:x1,y0:y1", in which what is left out is taken from `whole`; UsageError
+/// where it is none, or repeats a period of the view too often.
+Region parse_region(const std::string& text, const View& view, const Region& whole,
+                    LengthUnits units);
+
+/// A slab as typed, "z0:z1". UsageError where it is none.
+Range parse_slab(const std::string& text, LengthUnits units);
+
+}  // namespace grseg
