@@ -76,6 +76,7 @@ Estimate size_exponent(const FitData& data, const PartitionRule& rule, const Fit
   auto of_one = settings;
   of_one.over = Over::automatic;
   std::vector<Measured> of_each;
+  of_each.reserve(data.number_of_mixtures());
   for (const auto mixture : std::set(data.mixtures.begin(), data.mixtures.end()))
     of_each.push_back(pooled_exponent(of_mixture(data, mixture), rule, of_one, resampling));
   const auto mean = mean_of_equals(of_each);
