@@ -234,24 +234,33 @@ class Stages(Pipeline):
 class Denser(Pipeline):
     """c of the closure, from a weight that the large grains alone have."""
 
-    def row(self, excess, value, half=1e-5):
-        return {"of": f"D = {excess:g}", "runs": 2, "D": excess, "value": value, "value_low": value - half, "value_high": value + half, "p_zero": 0.65, "dc_dp": 5000.0}
+    def point(self, excess, value):
+        return {"D": excess, "value": value, "p_zero": 0.65, "dc_dp": 5000.0}
 
     def test_a_flux_that_falls_by_a_thousandth_of_the_driving_has_a_c_of_a_thousand(self):
-        rows = [self.row(excess, 3e-4 - 1e-3 * excess) for excess in (-0.2, 0, 0.2, 1)]
-        found = {row["of"]: row for row in denser.conclusions(rows)}
-        for name, value in {"slope": -1e-3, "c": 1000, "at_zero": 3e-4, "B": 0.3, "share": 0.65 + 1000 / 5000, "chi2": 0}.items():
-            self.assertAlmostEqual(found[name]["value"] / (value or 1), 1 if value else 0, 9, name)
-        # The slope of equal errors e is known to e over the root of the sum of squares about the mean, 0.25.
-        error = 1e-5 / 1.96 / math.sqrt(0.45**2 + 0.25**2 + 0.05**2 + 0.75**2)
-        self.assertAlmostEqual((found["slope"]["value_high"] - found["slope"]["value"]) / (1.96 * error), 1, 6)
-        self.assertAlmostEqual((found["c"]["value_high"] - 1000) / (1.96 * error * 1e6), 1, 6)
+        points = [self.point(excess, 3e-4 - 1e-3 * excess) for excess in (-0.2, 0, 0.2, 1)]
+        found = {row["of"]: row for row in denser.conclusions(points)}
+        for name, value in {"slope": -1e-3, "c": 1000, "at_zero": 3e-4, "B": 0.3, "share": 0.65 + 1000 / 5000}.items():
+            self.assertAlmostEqual(found[name]["value"] / value, 1, 9, name)
 
-    def test_scatter_beyond_the_rows_errors_widens_the_interval(self):
-        rows = [self.row(excess, 3e-4 - 1e-3 * excess + off) for excess, off in ((-1, 1e-4), (0, -2e-4), (1, 1e-4))]
-        found = {row["of"]: row for row in denser.conclusions(rows)}
-        # Residuals of 1, -2, 1 about the line, over one degree of freedom: 6e-8; the slope's sum of squares is 2.
-        self.assertAlmostEqual(found["slope"]["value_high"] - found["slope"]["value"], 12.706 * math.sqrt(6e-8 / 2), 9)
+    def test_intervals_are_those_of_runs_that_scatter_about_the_line(self):
+        points = [self.point(excess, 3e-4 - 1e-3 * excess + off) for excess, off in ((-1, 1e-5), (0, -2e-5), (1, 1e-5))]
+        found = {row["of"]: row for row in denser.conclusions(points)}
+        # Residuals of 1, -2, 1 over one degree of freedom, t = 12.706: 6e-10; the sum of squares of D is 2.
+        of_slope, of_level = 12.706 * math.sqrt(6e-10 / 2), 12.706 * math.sqrt(6e-10 / 3)
+        reach = {name: row["value_high"] - row["value"] for name, row in found.items()}
+        self.assertAlmostEqual(reach["slope"] / of_slope, 1, 6)
+        self.assertAlmostEqual(reach["c"] / (1e6 * of_slope), 1, 6)
+        self.assertAlmostEqual(reach["share"] / (1e6 * of_slope / 5000), 1, 6)
+        self.assertAlmostEqual(reach["B"] / math.hypot(1000 * of_level, 1e6 * 3e-4 * of_slope), 1, 6)
+
+    def test_a_ratio_is_the_mean_of_its_runs_as_sure_as_their_scatter_about_the_line(self):
+        points = [self.point(excess, 1e-4 * value) for excess, value in ((0, 3), (0, 5), (1, 1), (1, 3))]
+        one, two = denser.ratios(points)
+        self.assertEqual((one["of"], one["runs"], two["of"]), ("D = 0", 2, "D = 1"))
+        self.assertAlmostEqual(one["value"], 4e-4, 12)
+        # Four residuals of 1e-4 over two degrees of freedom, t = 4.303; of the mean of two.
+        self.assertAlmostEqual(one["value_high"] - one["value"], 4.303 * 1e-4 * math.sqrt(4 / 2) / math.sqrt(2), 9)
 
     def test_ratios_of_one_flow_are_put_on_a_line(self):
         for ratio in ("1", "1.5", "0.5"):
