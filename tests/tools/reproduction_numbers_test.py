@@ -118,6 +118,9 @@ class Reproduction(unittest.TestCase):
         # The upper layer is not there in the second window: empty in one frame of four.
         self.assertEqual(keep.coarse(rows, 2, names.index),
                          [[0, 2, 0, 1, 4, 7, 8], [0, 2, 1, 2, 4, 7, 3]])
+        # Windows of another program are a little shorter: 0.999 s each.
+        short = [[0.999 * k, 0.999 * (k + 1), 0, 1, 1, 7, k] for k in range(4)]
+        self.assertEqual([row[:2] for row in keep.coarse(short, 2, names.index)], [[0, 2 * 0.999], [2 * 0.999, 4 * 0.999]])
         # A composition is that of the frames that have the layer.
         self.assertEqual(keep.coarse(rows, 2, names.index, of_present=[6]),
                          [[0, 2, 0, 1, 4, 7, 8], [0, 2, 1, 2, 4, 7, 4]])
