@@ -48,11 +48,12 @@ Page page_of(const PageContent& content, double width, std::size_t columns, doub
   const double panel_width = (width - 2 * margin * em - (across - 1) * gap * em) / across;
   page.scale = panel_width / content.panel.x();
   page.panel_size = page.scale * content.panel;
-  for (std::size_t k = 0; k < content.panels; ++k)
+  for (std::size_t k = 0; k < content.panels; ++k) {
+    const std::size_t column = k % columns, row = k / columns;
     page.panels.emplace_back(
-        margin * em + static_cast<double>(k % columns) * (panel_width + gap * em),
-        margin * em + title +
-            static_cast<double>(k / columns) * (page.panel_size.y() + title + gap * em));
+        margin * em + static_cast<double>(column) * (panel_width + gap * em),
+        margin * em + title + static_cast<double>(row) * (page.panel_size.y() + title + gap * em));
+  }
   const double bottom =
       margin * em - gap * em + static_cast<double>(rows) * (title + page.panel_size.y() + gap * em);
   const auto items = content.legend(page.scale, page.panel_size, width);

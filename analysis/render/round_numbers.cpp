@@ -17,7 +17,7 @@ double round_number(long number)
   constexpr double factors[] = {1, 2, 5};
   const long exponent = number >= 0 ? number / 3 : -((2 - number) / 3);
   const double power = std::pow(10, std::abs(static_cast<double>(exponent)));
-  const double factor = factors[number - 3 * exponent];
+  const double factor = factors[std::clamp(number - 3 * exponent, 0L, 2L)];
   return exponent < 0 ? factor / power : factor * power;
 }
 
@@ -75,7 +75,8 @@ std::vector<double> ticks(const Range& range, int most)
     const double last = std::floor(range.high / step + round_off);
     if (last - first >= most) continue;
     // Multiplying, not adding up; and no negative zero.
-    for (double k = first; k <= last; ++k) all.push_back(k == 0 ? 0.0 : k * step);
+    for (long k = std::lround(first); k <= std::lround(last); ++k)
+      all.push_back(k == 0 ? 0.0 : static_cast<double>(k) * step);
     return all;
   }
 }

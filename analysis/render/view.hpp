@@ -81,8 +81,9 @@ void View::for_images(const Vec2& low, const Vec2& high, const Place& place) con
       return;
     }
   }
-  for (double a = first[0]; a <= last[0]; ++a)
-    for (double b = first[1]; b <= last[1]; ++b) place(Vec2(a * period_[0], b * period_[1]));
+  for (long a = std::lround(first[0]); a <= std::lround(last[0]); ++a)
+    for (long b = std::lround(first[1]); b <= std::lround(last[1]); ++b)
+      place(Vec2(static_cast<double>(a) * period_[0], static_cast<double>(b) * period_[1]));
 }
 
 /// A region as typed, "x0:x1,y0:y1", in which what is left out is taken from `whole`; UsageError

@@ -108,7 +108,7 @@ void make_picture(const Source& source)
 /// Frames at least --every apart, but for half a step.
 std::vector<std::size_t> film_frames(const TrajectoryReader& run, const Settings& s)
 {
-  const auto all = s.range.frames_of(run);
+  auto all = s.range.frames_of(run);
   if (!(s.every >= 0) || !std::isfinite(s.every)) throw UsageError("--every must be positive");
   if (s.every == 0) return all;
   std::vector<std::size_t> frames;

@@ -27,7 +27,7 @@ std::string bar(std::size_t done, std::size_t total)
 std::string progress_text(std::size_t done, std::size_t total, const std::string& things,
                           double seconds)
 {
-  const auto text = fmt::format("{} of {} {}", done, total, things);
+  auto text = fmt::format("{} of {} {}", done, total, things);
   if (done == 0 || !(seconds > 0)) return text;
   const double rate = static_cast<double>(done) / seconds;
   const auto left = std::lround(static_cast<double>(total - done) / rate);
