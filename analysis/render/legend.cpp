@@ -63,21 +63,15 @@ LegendItem gravity_arrow(const Canvas& canvas, const Vec2& down, const Colour& i
           }};
 }
 
-LegendItem species_key(const Canvas& canvas, std::vector<SpeciesMark> marks, const Colour& ink)
+LegendItem species_key(const Canvas& canvas, SpeciesMark mark, const Colour& ink)
 {
-  const double em = canvas.em(), before = 1.3 * em, between = 1.1 * em;
-  double width = -between;
-  for (const auto& mark : marks) width += before + canvas.text_width(mark.name) + between;
-  return {width, [=, marks = std::move(marks)](Canvas& page, const Vec2& at) {
-            Vec2 place = at + Vec2(0.45 * em, middle_line * em);
-            for (const auto& mark : marks) {
-              page.rimmed_disc(place, 0.48 * em, mark.grain, mix(mark.grain, ink, 0.35), em / 18);
-              if (mark.line)
-                page.line(place - Vec2(0.48 * em, 0), place + Vec2(0.48 * em, 0), 0.24 * em,
-                          *mark.line);
-              page.text(place + Vec2(before - 0.45 * em, half_letter * em), mark.name, ink);
-              place.x() += before + page.text_width(mark.name) + between;
-            }
+  const double em = canvas.em(), radius = 0.48 * em, before = 1.35 * em;
+  const double width = before + canvas.text_width(mark.name);
+  return {width, [=, mark = std::move(mark)](Canvas& page, const Vec2& at) {
+            const Vec2 centre = at + Vec2(radius, middle_line * em), side(radius, 0);
+            page.rimmed_disc(centre, radius, mark.grain, mix(mark.grain, ink, 0.35), em / 18);
+            if (mark.line) page.line(centre - side, centre + side, 0.24 * em, *mark.line);
+            page.text({at.x() + before, centre.y() + half_letter * em}, mark.name, ink);
           }};
 }
 

@@ -25,14 +25,14 @@ LegendItem scale_bar(const Canvas& canvas, double scale, double most, const Colo
 /// An arrow with a g; `down` is the direction on the page, y downwards.
 LegendItem gravity_arrow(const Canvas& canvas, const Vec2& down, const Colour& ink);
 
-/// A disc in each colour, and a name behind it; and the colour of a line over it, where there are
-/// any.
+/// A disc in the colour of a species, its name, and over the disc the colour of its lines, where
+/// there are any.
 struct SpeciesMark {
   std::string name;
   Colour grain;
   std::optional<Colour> line;
 };
-LegendItem species_key(const Canvas& canvas, std::vector<SpeciesMark> marks, const Colour& ink);
+LegendItem species_key(const Canvas& canvas, SpeciesMark mark, const Colour& ink);
 
 /// The colours of a field under its title, with numbers; pointed where numbers lie beyond. At most
 /// `most` px wide.

@@ -94,12 +94,10 @@ void Picture<D>::choose_slab(LengthUnits units)
     view_.slab = parse_slab(settings_.slice, units);
     return;
   }
-  // One large diameter in the middle.
-  const auto axis = std::string("xyz").find(view_.depth());
-  const auto depth = static_cast<Eigen::Index>(axis) % D;
+  const auto depth = view_.depth_axis() % D;
   const double middle = view_.depth_period() > 0 ? view_.depth_period() / 2
                                                  : (survey_.low[depth] + survey_.high[depth]) / 2;
-  const double half = units.large_diameter / 2;
+  const double half = survey_.largest_diameter / 2;
   view_.slab = Range{middle - half, middle + half};
 }
 
@@ -192,15 +190,15 @@ std::vector<LegendItem> Picture<D>::legend(double scale, const Vec2& panel, doub
     items.push_back(
         colour_bar(canvas, *style_.grains.scale, field_->title(), width - 2 * settings_.em, ink));
   } else {
-    std::vector<SpeciesMark> marks;
-    for (std::size_t k = 0; k < grains_.species.size(); ++k) {
-      marks.push_back({grains_.species[k].name, style_.grains.of_species[k], std::nullopt});
-      if (settings_.split_lines) marks.back().line = style_.lines->of_species[k];
-    }
+    const auto add = [&](const std::string& name, const Colour& grain, std::optional<Colour> line) {
+      items.push_back(species_key(canvas, {name, grain, line}, ink));
+    };
+    for (std::size_t k = 0; k < grains_.species.size(); ++k)
+      add(grains_.species[k].name, style_.grains.of_species[k],
+          settings_.split_lines ? std::optional(style_.lines->of_species[k]) : std::nullopt);
     const auto& fixed = grains_.grains.fixed;
     if (std::any_of(fixed.begin(), fixed.end(), [](auto each) { return each != 0; }))
-      marks.push_back({name_of_boundary, style_.grains.boundary, std::nullopt});
-    items.push_back(species_key(canvas, marks, ink));
+      add(name_of_boundary, style_.grains.boundary, std::nullopt);
   }
   if (style_.lines && strong_force_ > 0) {
     const std::string title = settings_.split_lines

@@ -64,8 +64,8 @@ void PictureOptions::add_to(po::options_description& options)
   add("plane", text(plane, "WORD"),
       ("in three dimensions: axis to the right and axis up the page, " + list_of(planes)).c_str());
   add("slice", text(slice, "z0:z1"),
-      "in three dimensions: only grains whose centres lie there along the third axis (default: one "
-      "large diameter in the middle)");
+      "in three dimensions: only grains whose centres lie there along the third axis (default: as "
+      "thick as the largest grain, in the middle)");
   add("project", po::bool_switch(&project),
       "in three dimensions: all grains, the nearest in front");
   add("tilt", po::bool_switch(&tilt),
@@ -90,8 +90,8 @@ PictureSettings PictureOptions::settings(const TrajectoryReader& run) const
     s.range = parse_range(range);
   }
   s.forces = forces;
-  s.line_width = parse_length(force_width, "--force-width", units);
-  if (!(s.line_width > 0)) throw UsageError("--force-width must be positive");
+  if (forces) s.line_width = parse_length(force_width, "--force-width", units);
+  if (forces && !(s.line_width > 0)) throw UsageError("--force-width must be positive");
   if (!partition.empty()) {
     s.rule = parse_rule(partition);
     const bool of_pressure = s.field.definition && s.field.definition->kind == FieldKind::pressure;

@@ -40,10 +40,9 @@ class View {
   template <int D>
   std::optional<double> nearness(const Vector<D>& position) const;
 
-  /// Names of the axes: "x", "y" and the one looked along.
-  char right() const { return name(right_); }
-  char up() const { return name(up_); }
-  char depth() const { return name(depth_); }
+  /// The axis looked along: its number and its name.
+  Eigen::Index depth_axis() const { return depth_; }
+  char depth() const { return "xyz"[depth_]; }
   /// Period along an axis of the plane, 0 or 1, m; 0: it has none.
   double period(int axis) const { return period_[static_cast<std::size_t>(axis)]; }
   double depth_period() const { return depth_period_; }
@@ -59,8 +58,6 @@ class View {
   void for_images(const Vec2& low, const Vec2& high, const Place& place) const;
 
  private:
-  static char name(Eigen::Index axis) { return "xyz"[axis]; }
-
   Eigen::Index right_, up_, depth_;
   double towards_;  // 1 where the axis looked along points to who looks, else -1
   std::array<double, 2> period_;

@@ -185,7 +185,7 @@ def check_refusals():
             *output)
     refused(2, "--plane, --slice and --project are for runs in three dimensions", three, "--project", *output)
     refused(2, "unknown --theme 'drak'; choose light or dark", three, "--theme", "drak", *output)
-    refused(2, "--force-width must be positive", three, "--force-width", "0", *output)
+    refused(2, "--force-width must be positive", three, "--forces", "--force-width", "0", *output)
     # 64 - 2 x 8.8 = 46.4 pixels for 0.01 mm, and the two margins.
     refused(2, "the picture would be 64 x 4640018 pixels; choose a smaller --width or another --region", three,
             "--width", "64", "--region", "0:1e-5,0:1", *BARE, *output)
