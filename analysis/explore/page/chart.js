@@ -3,7 +3,9 @@
 
 import {axisBottom, axisLeft, select} from "./d3.js";
 
-const margin = {top: 12, right: 14, bottom: 38, left: 46};
+let charts = 0; // so far, for names
+
+const margin = {top: 22, right: 14, bottom: 38, left: 46};
 
 /** Puts "σ^S/σ_{yy}" into a text, with what follows ^ and _ raised and lowered. */
 function setLabel(text, label) {
@@ -29,7 +31,10 @@ export class Chart {
     this.height = height;
     this.svg = select(host).append("svg").attr("role", "img").attr("aria-label", name);
     this.grid = this.svg.append("g").attr("class", "grid");
-    this.under = this.svg.append("g");
+    // What reaches beyond the axes is cut off.
+    const clip = `clip-${++charts}`;
+    this.clip = this.svg.append("clipPath").attr("id", clip).append("rect");
+    this.under = this.svg.append("g").attr("clip-path", `url(#${clip})`);
     this.marks = this.svg.append("g");
     this.xAxis = this.svg.append("g").attr("class", "axis");
     this.yAxis = this.svg.append("g").attr("class", "axis");
@@ -55,6 +60,7 @@ export class Chart {
     this.width = Math.max(220, Math.floor(this.host.clientWidth));
     this.svg.attr("width", this.width).attr("height", this.height).attr("viewBox", `0 0 ${this.width} ${this.height}`);
     const {left, right, top, bottom} = this.inner;
+    this.clip.attr("x", left).attr("y", top).attr("width", right - left).attr("height", bottom - top);
     this.scales.x.range([left, right]);
     this.scales.y.range([bottom, top]);
     this.axes();

@@ -72,12 +72,16 @@ function isDark() {
 }
 
 function describeColours() {
-  const pair = runs.find((run) => run.fit)?.fit.pair ?? ["small", "large"];
+  const pair = runs.find((run) => run.fit)?.fit.numbers_of_pair ?? [0, 1];
+  const present = new Set(runs.flatMap((run) => [...new Set(run.arrays.species)]));
+  const keys = runs[0].species
+    .map(({name}, k) => [name, ["small", "large"][pair.indexOf(k)] ?? "other", k])
+    .concat([["base", "base", 255]])
+    .filter(([, , k]) => present.has(k))
+    .flatMap(([name, look]) => [element("span", {class: `key ${look}`}), `${name} `]);
   byId("legend").replaceChildren(
-    element("span", {class: "key small"}), `${pair[0]} `,
-    element("span", {class: "key large"}), `${pair[1]} `,
-    element("span", {class: "key base"}), "base. ",
-    "Lines are contacts, their width the force; each counts to the species whose colour it has.",
+    ...keys,
+    "– lines are contacts, their width the force; each counts to the species whose colour it has.",
     runs.some((run) => run.dimension === 3) ? " Spheres are cut by the plane half-way across." : "",
   );
 }
@@ -138,10 +142,8 @@ class Page {
   #hideWhatIsMissing() {
     if (this.share) return;
     for (const card of document.querySelectorAll("#explore .card:not(.flow):not(.heart)")) card.hidden = true;
-    byId("heart").replaceChildren(
-      element("h2", {}, "No B of this run"),
-      element("p", {}, `${runs[0].why_no_fit}.`),
-    );
+    byId("explore").classList.add("flow-only");
+    byId("heart").replaceChildren(element("h2", {}, "No B of this run"), element("p", {}, `Because: ${runs[0].why_no_fit}.`));
   }
 
   layout() {

@@ -22,7 +22,7 @@ export class Scatter {
       labels: {x: "φ_S/φ_L", y: "σ^S/σ^L"},
       logarithmic: true,
       height: 300,
-      name: "Ratio of the stresses of small and large grains over the ratio of their areas, with the fit",
+      name: "Ratio of the stresses of small and large grains over the ratio of their shares, with the fit",
     });
     this.equal = this.chart.under.append("path").attr("class", "neutral");
     this.fitted = this.chart.marks.append("path").attr("class", "curve");
@@ -110,7 +110,7 @@ export class Scatter {
     byId("scatter-note").textContent =
       `${this.ratio.length} layers and windows; dark: the window that plays. ` +
       (state.estimator === "B_half" ? `Line: slope ${fixed(found.slope)}.` : "Line: B the same everywhere.") +
-      ` Dashed: stress in proportion to area.${outside ? ` ${outside} without a positive stress are left out.` : ""}`;
+      ` Dashed: each its share.${outside ? ` ${outside} without a positive stress are left out.` : ""}`;
   }
 
   /** Where the window begins that holds the frame that is shown. */
