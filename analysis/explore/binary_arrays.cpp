@@ -22,8 +22,7 @@ std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes)
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(level), libdeflate_free_compressor);
   if (!compressor) throw RunError("no memory to compress the page; show fewer --frames");
-  std::vector<std::uint8_t> packed(
-      libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+  std::vector<std::uint8_t> packed(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
   packed.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
                                          packed.data(), packed.size()));
   return packed;

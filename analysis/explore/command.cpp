@@ -49,8 +49,7 @@ po::options_description options_into(Settings& s)
   add("partition", po::value(&s.start)->default_value(s.start)->value_name("RULE"), start.c_str());
   add("rules", po::value(&s.rules)->composing()->value_name("RULE,..."),
       "rules that the report compares (default: stock, those of published codes)");
-  add("component",
-      po::value(&s.component)->default_value(s.component)->value_name("NAME"),
+  add("component", po::value(&s.component)->default_value(s.component)->value_name("NAME"),
       list_of(components).c_str());
   add("base", po::value(&s.base)->value_name("NAME"),
       ("part of contacts with base and walls: " + list_of(base_parts) +
@@ -98,7 +97,8 @@ Inputs inputs_of(const po::variables_map& values)
 }
 
 /// As if these inputs had been given alone.
-po::variables_map with_inputs(const po::variables_map& values, const std::vector<std::string>& paths)
+po::variables_map with_inputs(const po::variables_map& values,
+                              const std::vector<std::string>& paths)
 {
   po::variables_map others = values;
   std::map<std::string, po::variable_value>& all = others;
@@ -241,9 +241,8 @@ RunOfPage show(const ToolInfo& info, const po::variables_map& values, const std:
 PartitionInput together(const std::vector<RunOfPage>& runs)
 {
   PartitionInput all;
-  const bool have_powers = std::all_of(runs.begin(), runs.end(), [](const RunOfPage& run) {
-    return !run.sums.of_powers.empty();
-  });
+  const bool have_powers = std::all_of(
+      runs.begin(), runs.end(), [](const RunOfPage& run) { return !run.sums.of_powers.empty(); });
   if (have_powers) all.of_powers.resize(runs.front().sums.of_powers.size());
   for (const auto& run : runs) {
     all.sums.push_back(run.sums.sums.front());
@@ -301,8 +300,7 @@ void write_page(const ToolInfo& info, const po::variables_map& values, Settings 
   check(s, values);
   const auto inputs = inputs_of(values);
   const auto tables = read_tables(info, with_inputs(values, inputs.tables), s.frames.quiet);
-  const auto of_runs =
-      tables_of_runs(tables, digests_of(inputs.runs, s.frames.trust.verify()));
+  const auto of_runs = tables_of_runs(tables, digests_of(inputs.runs, s.frames.trust.verify()));
   std::vector<RunOfPage> runs;
   for (std::size_t k = 0; k < inputs.runs.size(); ++k)
     runs.push_back(show(info, values, inputs.runs[k], of_runs[k], s, command));
@@ -327,8 +325,7 @@ void write_page(const ToolInfo& info, const po::variables_map& values, Settings 
     content["together"]["arrays"] = of_all.directory();
     arrays.push_back(of_all.base64());
   }
-  write_whole(s.frames.output,
-              s.frames.json ? content.dump(1) + '\n' : page_of(content, arrays));
+  write_whole(s.frames.output, s.frames.json ? content.dump(1) + '\n' : page_of(content, arrays));
 }
 
 }  // namespace

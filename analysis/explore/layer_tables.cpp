@@ -69,8 +69,7 @@ std::vector<Cell> partial_cells(const PartialStress<D>& stress, const SpeciesLis
   const auto words = column_words(species);
   for (std::size_t k = 0; k < words.size(); ++k)
     for (const auto& [suffix, row, column] : tensor_components(D))
-      cells.push_back(
-          {"sigma_" + words[k] + suffix + unit, stress.of_species[k](row, column)});
+      cells.push_back({"sigma_" + words[k] + suffix + unit, stress.of_species[k](row, column)});
   return cells;
 }
 
@@ -78,16 +77,16 @@ template <int D>
 Json stress_table(FrameLoop& loop, const Window& window)
 {
   const auto& species = loop.species();
-  const auto [composition, contacts] = loop.sum<D>(
-      window, {.velocity = false, .contacts = true},
-      Composition<D>(loop.layers(), GrainArea::clipped, std::nullopt, species.size()),
-      PartialContactStress<D>(loop.layers(), Assignment::contact_point, std::nullopt, std::nullopt,
-                              species.size()));
+  const auto [composition, contacts] =
+      loop.sum<D>(window, {.velocity = false, .contacts = true},
+                  Composition<D>(loop.layers(), GrainArea::clipped, std::nullopt, species.size()),
+                  PartialContactStress<D>(loop.layers(), Assignment::contact_point, std::nullopt,
+                                          std::nullopt, species.size()));
   const char* unit = D == 3 ? "[Pa]" : "[N/m]";
-  LayerTable table("stress", "grseg-stress", "Contact stress; mixed contacts shared by size.",
-                   {"nu", "phi_L", std::string("sigma_yy") + unit, "stress_ratio",
-                    std::string("sigma_S_yy") + unit, std::string("sigma_L_yy") + unit,
-                    "mixed_share_yy"});
+  LayerTable table(
+      "stress", "grseg-stress", "Contact stress; mixed contacts shared by size.",
+      {"nu", "phi_L", std::string("sigma_yy") + unit, "stress_ratio",
+       std::string("sigma_S_yy") + unit, std::string("sigma_L_yy") + unit, "mixed_share_yy"});
   for (std::size_t layer = 0; layer < contacts.layers(); ++layer) {
     auto sums = contacts.mean(layer).sums;
     sums.content = composition.mean(layer);
@@ -109,12 +108,11 @@ Json kinetic_table(FrameLoop& loop, const Window& window)
 {
   const TrajectoryReader::Fields moving{.velocity = true, .contacts = false};
   const auto& species = loop.species();
-  const auto [mean] = loop.sum<D>(
-      window, moving,
-      MeanVelocity<D>(loop.layers(), loop.run().small_diameter() / 2, species.size()));
-  const auto [stress] =
+  const auto [mean] =
       loop.sum<D>(window, moving,
-                  KineticStress<D>(loop.layers(), MeanFlow::profile, mean, species.size()));
+                  MeanVelocity<D>(loop.layers(), loop.run().small_diameter() / 2, species.size()));
+  const auto [stress] = loop.sum<D>(
+      window, moving, KineticStress<D>(loop.layers(), MeanFlow::profile, mean, species.size()));
   LayerTable table("kinetic", "grseg-kinetic",
                    "Mean flow, and granular temperatures about its profile.",
                    {"u[m/s]", "du_dy[1/s]", "T_S_x[m^2/s^2]", "T_S_y[m^2/s^2]", "T_L_x[m^2/s^2]",
@@ -132,12 +130,9 @@ RunConstants constants_of(const FrameLoop& loop)
     return parameters.find_number(name).value_or(std::numeric_limits<double>::quiet_NaN());
   };
   const auto gravity = loop.run().gravity<D>();
-  RunConstants constants{loop.species()[0].diameter,
-                         loop.species()[1].diameter,
-                         gravity.start.x(),
-                         gravity.start.y(),
-                         number("density"),
-                         number("friction")};
+  RunConstants constants{loop.species()[0].diameter, loop.species()[1].diameter,
+                         gravity.start.x(),          gravity.start.y(),
+                         number("density"),          number("friction")};
   if constexpr (D == 3) constants.gravity_z = gravity.start.z();
   return constants;
 }
@@ -146,9 +141,9 @@ template <int D>
 Json micro_table(FrameLoop& loop, const Window& window)
 {
   const auto constants = constants_of<D>(loop);
-  const auto [micro] = loop.sum<D>(
-      window, {.velocity = false, .contacts = true},
-      StructureByLayer<D>(loop.layers(), GrainArea::clipped, constants.friction));
+  const auto [micro] =
+      loop.sum<D>(window, {.velocity = false, .contacts = true},
+                  StructureByLayer<D>(loop.layers(), GrainArea::clipped, constants.friction));
   LayerTable table("micro", "grseg-micro --derived",
                    "Contacts per grain, mean forces, friction and fabric.",
                    {"z_S", "z_L", "f_S[N]", "f_L[N]", "f_SS[N]", "f_LS[N]", "f_LL[N]",
@@ -174,9 +169,9 @@ Json balance_table(FrameLoop& loop, const Window& window)
   const auto& run = loop.run();
   const auto& species = loop.species();
   const Kernel kernel(KernelShape::gauss, run.small_diameter());
-  const auto [balance] =
-      loop.sum<D>(window, {.velocity = true, .contacts = true, .force = true},
-                  MomentumBalance<D>(loop.layers(), kernel, run.gravity<D>(), run.step(), species.size()));
+  const auto [balance] = loop.sum<D>(
+      window, {.velocity = true, .contacts = true, .force = true},
+      MomentumBalance<D>(loop.layers(), kernel, run.gravity<D>(), run.step(), species.size()));
   const std::string unit = D == 3 ? "[N/m^3]" : "[N/m^2]";
   LayerTable table(
       "balance", "grseg-balance",

@@ -170,7 +170,7 @@ Json with_interval(const Estimate& estimate)
 Json rule_object(const RuleFit& fit, const std::vector<Mixture>& mixtures)
 {
   Json object{{"name", fit.rule.name()},
-              {"mixture", fit.mixture              ? mixtures[*fit.mixture].name
+              {"mixture", fit.mixture            ? mixtures[*fit.mixture].name
                           : mixtures.size() == 1 ? ""
                                                  : "all mixtures"},
               {"used_by", fit.rule.used_by()},
@@ -255,8 +255,7 @@ Json partition_data(const PartitionInput& input, const PartitionSettings& settin
     object["rules"].push_back(rule_object(fit, selected.mixtures));
   const auto over = object["rules"].back()["over"].get<std::string>();
   object["over"] = over;
-  object["over_words"] =
-      estimand_words(choose(over, "over", overs), selected.mixtures.size());
+  object["over_words"] = estimand_words(choose(over, "over", overs), selected.mixtures.size());
   return object;
 }
 

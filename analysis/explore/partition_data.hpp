@@ -44,7 +44,7 @@ struct PartitionSettings {
 ///
 /// and the same of the means over time of all layers, "layer_" before the name. Stress under uniform:p
 /// is linear in p. Returns the rest; errors as select_fit_data and fit_points.
-nlohmann::ordered_json partition_data(const PartitionInput& input, const PartitionSettings& settings,
-                                      BinaryArrays& arrays);
+nlohmann::ordered_json partition_data(const PartitionInput& input,
+                                      const PartitionSettings& settings, BinaryArrays& arrays);
 
 }  // namespace grseg

@@ -41,7 +41,8 @@ Quantisation bounds(const ShownRun& run, std::vector<float> ShownFrame::*list)
 /// Where grains are; along a periodic axis codes fill the cell.
 Json add_positions(const ShownRun& run, const Box& box, BinaryArrays& arrays)
 {
-  const Quantisation x = box.periodic_x ? Quantisation(0, box.length_x) : bounds(run, &ShownFrame::x),
+  const Quantisation x = box.periodic_x ? Quantisation(0, box.length_x)
+                                        : bounds(run, &ShownFrame::x),
                      y = bounds(run, &ShownFrame::y);
   arrays.add("x", codes(run, &ShownFrame::x, x));
   arrays.add("y", codes(run, &ShownFrame::y, y));
@@ -96,8 +97,8 @@ Json add_contacts(const ShownRun& run, BinaryArrays& arrays)
   std::vector<std::uint32_t> offset{0};
   for (const auto& frame : run.frames) {
     for (std::size_t k = 0; k < frame.i.size(); ++k)
-      across.push_back(static_cast<std::int8_t>(
-          step > 0 ? std::lround(across_over_along(frame, k) / step) : 0));
+      across.push_back(
+          static_cast<std::int8_t>(step > 0 ? std::lround(across_over_along(frame, k) / step) : 0));
     offset.push_back(static_cast<std::uint32_t>(across.size()));
   }
   arrays.add("across", across);

@@ -62,7 +62,8 @@ Json observables_of(const TrajectoryReader& run)
     if (values.empty()) continue;
     const double mean =
         std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    all.push_back({printable(name), printable(unit), mean, *std::max_element(values.begin(), values.end())});
+    all.push_back(
+        {printable(name), printable(unit), mean, *std::max_element(values.begin(), values.end())});
   }
   return all;
 }
@@ -86,10 +87,14 @@ std::vector<CheckLine> check_lines(const TrajectoryReader& run)
 const char* word_of(Verdict verdict)
 {
   switch (verdict) {
-    case Verdict::passed: return "passed";
-    case Verdict::failed: return "failed";
-    case Verdict::undecided: return "undecided";
-    case Verdict::skipped: return "skipped";
+    case Verdict::passed:
+      return "passed";
+    case Verdict::failed:
+      return "failed";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::skipped:
+      return "skipped";
   }
   return "";
 }

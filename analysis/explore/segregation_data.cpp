@@ -55,8 +55,7 @@ Json segregation_data(FrameLoop& loop, const std::string& heights)
   if (loop.species().size() != 2) return nullptr;
   const LengthUnits units{loop.run().small_diameter(), loop.run().large_diameter()};
   const RateFilter filter{parse_heights(heights, units)};
-  return with_dimension(loop.dimension(),
-                        [&](auto d) { return segregation_of<d>(loop, filter); });
+  return with_dimension(loop.dimension(), [&](auto d) { return segregation_of<d>(loop, filter); });
 }
 
 }  // namespace grseg

@@ -44,8 +44,7 @@ void show_wall(const Frame<D>& frame, std::size_t contact, const Vec2& normal,
   const auto number = static_cast<std::size_t>(-1 - contacts.j[contact]);
   if (walls.size() <= number) walls.resize(number + 1, {nothing, nothing, nothing});
   const auto i = static_cast<std::size_t>(contacts.i[contact]);
-  const Vec2 point =
-      (frame.position[i] - contacts.branch[contact]).template head<2>();
+  const Vec2 point = (frame.position[i] - contacts.branch[contact]).template head<2>();
   walls[number] = {static_cast<float>(normal.x()), static_cast<float>(normal.y()),
                    static_cast<float>(normal.dot(point))};
 }
@@ -93,7 +92,8 @@ double contact_point_from_size(const Grains& grains, const ContactList<D>& conta
   double largest = 0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     if (contacts.j[k] < 0) continue;
-    const auto i = static_cast<std::size_t>(contacts.i[k]), j = static_cast<std::size_t>(contacts.j[k]);
+    const auto i = static_cast<std::size_t>(contacts.i[k]),
+               j = static_cast<std::size_t>(contacts.j[k]);
     if (grains.species[i] == grains.species[j] || !is_mobile(grains, j)) continue;
     const double by_size = grains.radius[i] / (grains.radius[i] + grains.radius[j]);
     largest = std::max(largest, std::abs(share_of_first(grains, contacts, k) - by_size));
@@ -165,7 +165,8 @@ ShownRun show_run(const TrajectoryReader& run, const Grains& grains,
   }
   all.row = rows_shown(all.frames, grains.size());
   std::vector<std::int32_t> number(grains.size(), -1);
-  for (std::size_t g = 0; g < all.row.size(); ++g) number[all.row[g]] = static_cast<std::int32_t>(g);
+  for (std::size_t g = 0; g < all.row.size(); ++g)
+    number[all.row[g]] = static_cast<std::int32_t>(g);
   for (auto& shown : all.frames) renumber(shown, all.row, number);
   for (const auto row : all.row) {
     all.radius.push_back(static_cast<float>(grains.radius[row]));

@@ -29,9 +29,10 @@ struct ShownFrame {
 };
 
 struct ShownRun {
-  std::vector<std::uint32_t> row;  // of each grain among those of the run: those that are ever shown
-  std::vector<float> radius;       // m, of each grain itself
-  std::vector<Species> species;    // of each grain; boundary of all that are fixed
+  std::vector<std::uint32_t>
+      row;                       // of each grain among those of the run: those that are ever shown
+  std::vector<float> radius;     // m, of each grain itself
+  std::vector<Species> species;  // of each grain; boundary of all that are fixed
   std::vector<ShownFrame> frames;  // whose i, j count grains in the order above
   /// Largest difference between the shares of a mixed contact by `contact-point` and by `size`.
   double contact_point_from_size = 0;

@@ -31,6 +31,7 @@ export class Player {
     this.frames = frames;
     this.canvas = element("canvas", {tabindex: "0", role: "img"});
     this.context = this.canvas.getContext("2d");
+    this.still = document.createElement("canvas"); // what the rule does not change
     this.pair = run.fit ? run.fit.numbers_of_pair : [0, 1];
     this.cached = {frame: -1, contacts: null};
     this.canvas.addEventListener("click", (event) => onPick(this.grainAt(event)));
@@ -53,11 +54,14 @@ export class Player {
     this.height = Math.ceil(this.scale * (y1 - y0));
     this.left = (width - this.scale * (x1 - x0)) / 2;
     const ratio = window.devicePixelRatio || 1;
-    this.canvas.width = Math.round(width * ratio);
-    this.canvas.height = Math.round(this.height * ratio);
+    for (const canvas of [this.canvas, this.still]) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(this.height * ratio);
+      canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
+    }
     this.canvas.style.width = `${width}px`;
     this.canvas.style.height = `${this.height}px`;
-    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.drawn = "";
   }
   px(x) {
     return this.left + (x - this.frames.low[0]) * this.scale;
@@ -71,19 +75,38 @@ export class Player {
     this.colours = Object.fromEntries(
       ["small", "large", "other", "base", "ink", "line"].map((name) => [name, colour(name)]),
     );
+    this.#drawStill();
     c.clearRect(0, 0, this.width, this.height);
+    c.drawImage(this.still, 0, 0, this.width, this.height);
     c.save();
-    const [[x0], [x1]] = [this.frames.low, this.frames.high];
-    c.beginPath();
-    c.rect(this.px(x0), 0, this.px(x1) - this.px(x0), this.height);
-    c.clip();
-    if (state.showLayers || state.layer) this.#drawLayers();
-    this.#drawGrains();
-    this.#drawWalls();
+    this.#clip(c);
     if (state.showForces) this.#drawForces();
     this.#drawChosen();
     c.restore();
     this.#drawGravity();
+  }
+
+  #clip(c) {
+    const [[x0], [x1]] = [this.frames.low, this.frames.high];
+    c.beginPath();
+    c.rect(this.px(x0), 0, this.px(x1) - this.px(x0), this.height);
+    c.clip();
+  }
+
+  /** Grains, walls and layers, if they are not those that were drawn last. */
+  #drawStill() {
+    const {showGrains, showForces, showLayers, layer} = state;
+    const wanted = [this.frame, showGrains, showForces, showLayers, layer, this.colours.ink].join(" ");
+    if (wanted === this.drawn) return;
+    this.drawn = wanted;
+    const c = this.still.getContext("2d");
+    c.clearRect(0, 0, this.width, this.height);
+    c.save();
+    this.#clip(c);
+    if (showLayers || layer) this.#drawLayers(c);
+    this.#drawGrains(c);
+    this.#drawWalls(c);
+    c.restore();
   }
 
   colourOf(species) {
@@ -102,28 +125,28 @@ export class Player {
     if (periodic && x > length - r) at(this.px(x - length), y, r * this.scale);
   }
 
-  #drawGrains() {
-    const {context: c, frames, frame} = this;
+  #drawGrains(c) {
+    const {frames, frame} = this;
     const {species} = frames.arrays;
     for (const one of new Set(species)) {
       if (!state.showGrains && one !== frames.base) continue;
-      c.beginPath();
-      for (let g = 0; g < frames.grains; ++g) {
-        if (species[g] !== one || !frames.isShown(frame, g)) continue;
-        this.#images(g, (x, y, r) => {
-          c.moveTo(x + r, y);
-          c.arc(x, y, Math.max(r - 0.25, 0.3), 0, 2 * Math.PI);
-        });
-      }
       c.fillStyle = this.colourOf(one);
       c.globalAlpha = one === frames.base ? 0.8 : state.showForces ? 0.24 : 0.85;
-      c.fill();
+      for (let g = 0; g < frames.grains; ++g) {
+        if (species[g] !== one || !frames.isShown(frame, g)) continue;
+        // Each by itself: a path of thousands of discs takes a browser longer to fill.
+        this.#images(g, (x, y, r) => {
+          c.beginPath();
+          c.arc(x, y, Math.max(r - 0.25, 0.3), 0, 2 * Math.PI);
+          c.fill();
+        });
+      }
     }
     c.globalAlpha = 1;
   }
 
-  #drawWalls() {
-    const {context: c, frames} = this;
+  #drawWalls(c) {
+    const {frames} = this;
     const far = 2 * (this.width + this.height);
     c.strokeStyle = this.colours.base;
     c.lineWidth = 2;
@@ -136,8 +159,7 @@ export class Player {
     }
   }
 
-  #drawLayers() {
-    const {context: c} = this;
+  #drawLayers(c) {
     if (state.layer) {
       const [bottom, top] = state.layer.map((y) => this.py(y));
       c.fillStyle = this.colours.ink;
