@@ -206,17 +206,21 @@ Json settings_object(const Selected& selected, const PartitionSettings& settings
 {
   const auto& filters = settings.filters;
   const auto& data = selected.samples;
-  return {{"component", word_of(settings.fit.component, components)},
-          {"base", word_of(settings.fit.base, base_parts)},
-          {"ratio_range", fmt::format("{:g}:{:g}", filters.ratio_low, filters.ratio_high)},
-          {"heights", filters.heights.empty() ? "all" : filters.heights},
-          {"min_solid", format_number(filters.min_solid)},
-          {"rows", data.count.sentence()},
-          {"runs", fmt::format("{}", data.runs.size())},
-          {"windows", fmt::format("{}", number_of_windows(data.runs))},
-          {"window", fmt::format("{:g} s", data.window)},
-          {"bootstrap", fmt::format("{}", settings.resampling.samples)},
-          {"seed", fmt::format("{}", settings.resampling.seed)}};
+  Json object{{"component", word_of(settings.fit.component, components)},
+              {"base", word_of(settings.fit.base, base_parts)},
+              {"ratio_range", fmt::format("{:g}:{:g}", filters.ratio_low, filters.ratio_high)},
+              {"heights", filters.heights.empty() ? "all" : filters.heights},
+              {"min_solid", format_number(filters.min_solid)},
+              {"rows", data.count.sentence()},
+              {"runs", fmt::format("{}", data.runs.size())},
+              {"windows", fmt::format("{}", number_of_windows(data.runs))},
+              {"window", fmt::format("{:g} s", data.window)},
+              {"bootstrap", fmt::format("{}", settings.resampling.samples)},
+              {"seed", fmt::format("{}", settings.resampling.seed)}};
+  const auto& pair = data.samples.front().pair;
+  if (data.species.size() > 2)
+    object["pair"] = data.species[pair.smaller].name + ',' + data.species[pair.larger].name;
+  return object;
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ export function listenToKeys(page) {
     l: () => toggle("show-layers"),
     ".": () => page.nextGrain(1),
     ",": () => page.nextGrain(-1),
+    Escape: () => set({grain: -1}),
     n: () => page.nextRun(),
     r: () => page.tab(byId("report").hidden ? "report" : "explore"),
     t: () => page.theme(),

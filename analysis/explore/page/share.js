@@ -14,6 +14,7 @@ import {
   shareOf,
   zeroOfSumsWithInterval,
 } from "./partition.js";
+import {Parts} from "./parts.js";
 import {set, state} from "./state.js";
 
 const uniform = (p) => ({kind: "uniform", value: Math.min(1, Math.max(0, p))});
@@ -50,6 +51,7 @@ export class Share {
     this.codes = marks.append("g").attr("class", "codes");
     this.stem = marks.append("line").attr("class", "stem");
     this.point = marks.append("circle").attr("class", "point").attr("r", 6.5);
+    this.parts = new Parts();
     this.#listen();
     this.#addRules();
   }
@@ -205,7 +207,7 @@ export class Share {
     }
     this.#updateControls(fit, p);
     this.#updateReadout(fit, p, B);
-    this.#updateInk(fit, stress);
+    this.parts.update(fit, stress);
   }
 
   #updateControls(fit, p) {
@@ -246,54 +248,11 @@ export class Share {
       ? "No B: the stresses of the two species do not add up to the whole."
       : `${B > 0 ? "Large grains carry more than their share of the pressure" : "Large grains carry less than their share of the pressure"}, by this rule${Number.isFinite(low) && !sure ? "; but the interval holds 0" : ""}.`;
     const options = [`--partition ${ruleName(rule)}`];
-    const {heights, component, base} = fit.settings;
+    const {heights, component, base, pair, runs} = fit.settings;
+    if (pair) options.push(`--pair ${pair}`);
     if (heights !== "all") options.push(`--heights ${heights}`);
     if (component !== "yy") options.push(`--component ${component}`);
     if (base !== "contact-point") options.push(`--base ${base}`);
-    byId("command").textContent = `grseg-fit sums.tsv ${options.join(" ")}`;
-  }
-
-  /** Whose the pressure is: pairs of small grains, the two parts of mixed contacts, pairs of large ones. */
-  #updateInk(fit, stress) {
-    const {none_large, all_large, all_small, phi_large, frames} = fit.arrays;
-    let ss = 0, ll = 0, mixed = 0, given = 0, phi = 0, all = 0, n = 0;
-    for (let k = 0; k < frames.length; ++k) {
-      ss += frames[k] * all_small[k];
-      ll += frames[k] * none_large[k];
-      mixed += frames[k] * (all_large[k] - none_large[k]);
-      given += frames[k] * (stress.large[k] - none_large[k]);
-      phi += frames[k] * phi_large[k] * stress.total[k];
-      all += frames[k] * stress.total[k];
-      n += frames[k];
-    }
-    const dropped = state.rule.kind === "drop";
-    const parts = [
-      ["ll", "large–large", ll, "large"],
-      ["ml", "mixed", dropped ? 0 : given, "large"],
-      ["mn", "mixed, nobody’s", dropped ? mixed : 0, "nobody"],
-      ["ms", "mixed", dropped ? 0 : mixed - given, "small"],
-      ["ss", "small–small", ss, "small"],
-    ];
-    const whole = ss + ll + mixed;
-    if (!this.ink) {
-      this.ink = parts.map(([key]) => element("span", {class: `part ${key}`}));
-      this.area = element("span", {class: "area"});
-      this.inkWords = element("p", {class: "note"});
-      byId("ink").append(element("div", {class: "parts"}, ...this.ink, this.area), this.inkWords);
-    }
-    parts.forEach(([, name, value, whose], k) => {
-      const part = Math.max(0, value / whole);
-      this.ink[k].style.width = `${100 * part}%`;
-      this.ink[k].classList.toggle("of-large", whose === "large");
-      this.ink[k].textContent = part > 0.13 ? name : "";
-      this.ink[k].title = `${name}: ${percent(value / whole)} of the pressure`;
-    });
-    const ofLarge = dropped ? ll / whole : (ll + given) / whole, share = phi / all;
-    this.area.style.left = `${100 * share}%`;
-    this.inkWords.replaceChildren(
-      "Large grains carry ",
-      element("b", {class: "large"}, percent(ofLarge)),
-      ` of the pressure; the black line is their part of the grains, ${percent(share)}. Hatched: mixed contacts.`,
-    );
+    byId("command").textContent = `grseg-fit ${runs === "1" ? "sums.tsv" : "*.tsv"} ${options.join(" ")}`;
   }
 }
