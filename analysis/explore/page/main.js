@@ -10,7 +10,7 @@ import {listenToKeys} from "./keyboard.js";
 import {estimatorsOf, fitOf, parseRule, shareOf, stressOf} from "./partition.js";
 import {Player} from "./player.js";
 import {Profiles} from "./profiles.js";
-import {layoutReport, writeReport} from "./report.js";
+import {layoutReport, listenToPrinting, writeReport} from "./report.js";
 import {Scatter} from "./scatter.js";
 import {Share} from "./share.js";
 import {flush, listen, set, state} from "./state.js";
@@ -209,7 +209,7 @@ function listenToAll(page) {
   });
   byId("theme").addEventListener("click", theme);
   byId("help-open").addEventListener("click", () => byId("help").showModal());
-  window.addEventListener("beforeprint", () => layoutReport());
+  listenToPrinting();
   listenToKeys({
     fit: () => page.fit,
     zero: () => page.share.zeroOf(page.fit)[0],

@@ -170,7 +170,7 @@ function segregationSection(run) {
           .attr("d", line().defined((row) => row[at] !== null).x((row) => x(middle(row))).y((row) => y(row[at] / d))(rows));
     },
   );
-  const cells = numbers.map(([name, value, low, high]) => [
+  const cells = numbers.filter(([, value]) => value !== null).map(([name, value, low, high]) => [
     name.replace("[", " ["),
     short(value),
     low === null ? "" : `[${short(low)}, ${short(high)}]`,
@@ -278,6 +278,19 @@ export function writeReport(content, together) {
     together?.fit ? element("article", {}, element("h2", {}, "All runs together"), fitSection(together.fit, "B of the contact stress")) : "",
     ...content.runs.map(runSection),
   );
+}
+
+/** On paper nothing can be unfolded. */
+export function listenToPrinting() {
+  let folded = [];
+  window.addEventListener("beforeprint", () => {
+    folded = Array.from(byId("report").querySelectorAll("details:not([open])"));
+    for (const one of folded) one.open = true;
+    layoutReport();
+  });
+  window.addEventListener("afterprint", () => {
+    for (const one of folded) one.open = false;
+  });
 }
 
 /** When widths are known or have changed. */
