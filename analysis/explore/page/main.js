@@ -3,11 +3,11 @@
 
 import {Compare} from "./compare.js";
 import {readArrays, readContent} from "./data.js";
-import {byId, element, fixed, forgetColours} from "./format.js";
+import {byId, element, forgetColours} from "./format.js";
 import {Frames} from "./frames.js";
 import {GrainPanel} from "./grain.js";
 import {listenToKeys} from "./keyboard.js";
-import {estimatorsOf, fitOf, parseRule, shareOf, stressOf} from "./partition.js";
+import {fitOf, parseRule, shareOf, stressOf} from "./partition.js";
 import {Player} from "./player.js";
 import {Profiles} from "./profiles.js";
 import {layoutReport, listenToPrinting, writeReport} from "./report.js";
@@ -252,9 +252,6 @@ async function start() {
     flush,
     page,
     fit: (k, text) => ({...fitOf(page.fits[k], parseRule(text)), share: shareOf(page.fits[k], parseRule(text))}),
-    stress: (k, text) => stressOf(page.fits[k], parseRule(text)),
-    estimators: estimatorsOf,
-    fixed,
   };
   document.documentElement.dataset.ready = "true";
 }
