@@ -151,7 +151,8 @@ LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesL
           .weight = row.key.frames * rarer,
           .frames = row.key.frames,
           .size_ratio = d_large / d_small,
-          .pair = pair};
+          .pair = pair,
+          .key = row.key};
 }
 
 void add_run(const FitTable& run, const FitFilters& filters, const std::vector<SpeciesPair>& pairs,

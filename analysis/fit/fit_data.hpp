@@ -57,6 +57,7 @@ struct LayerSample {
   std::size_t table = 0;   // among FitData::tables
   std::size_t row = 0;     // among FitData::rows
   SpeciesPair pair = {};
+  LayerKey key = {};
 };
 
 /// How many rows were used, and why the others were not.

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/cli/tool.hpp"
+
+namespace grseg {
+
+/// Which part of the page is seen first.
+enum class PageTab { explore, report };
+
+/// grseg-explore and grseg-report: the same page, opened at one of its tabs. Returns the exit code.
+int write_explore_page(int argc, char** argv, const ToolInfo& info, PageTab tab);
+
+}  // namespace grseg

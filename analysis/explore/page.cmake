@@ -1,0 +1,51 @@
+# Makes OUTPUT, the page of SOURCE as C++: its style and its program, bundled by ESBUILD with the d3 of
+# D3_FOLDER, stand inside it, and a policy with their digests lets a browser run these and nothing else.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed ERROR_VARIABLE why OUTPUT_VARIABLE out)
+  if(failed)
+    message(FATAL_ERROR "${why}")
+  endif()
+  set(out "${out}" PARENT_SCOPE)
+endfunction()
+
+foreach(file main.js style.css)
+  run(${CMAKE_COMMAND} -E env NODE_PATH=${D3_FOLDER} ${ESBUILD} ${SOURCE}/${file} --bundle --minify
+      --format=iife --target=es2020 --charset=utf8 --legal-comments=inline --log-level=warning
+      --outfile=${WORK}/${file})
+endforeach()
+
+# 'sha256-...' of what stands between the tags of an element.
+function(digest file result)
+  file(SHA256 ${file} hex)
+  string(TOUPPER ${hex} hex)
+  file(WRITE ${file}.digest ${hex})
+  run(sh -c "basenc --base16 --decode '${file}.digest' | base64")
+  string(STRIP "${out}" base64)
+  set(${result} "'sha256-${base64}'" PARENT_SCOPE)
+endfunction()
+digest(${WORK}/main.js script_digest)
+digest(${WORK}/style.css style_digest)
+
+file(READ ${SOURCE}/index.html page)
+file(READ ${WORK}/main.js script)
+file(READ ${WORK}/style.css style)
+# What is put in last is not searched for marks of others.
+string(REPLACE "{{style_digest}}" "${style_digest}" page "${page}")
+string(REPLACE "{{script_digest}}" "${script_digest}" page "${page}")
+string(REPLACE "{{style}}" "${style}" page "${page}")
+string(FIND "${page}" "{{data}}" data)
+string(SUBSTRING "${page}" 0 ${data} before)
+string(SUBSTRING "${page}" ${data} -1 after)
+string(REPLACE "{{data}}\n" "" after "${after}")
+string(REPLACE "{{script}}" "${script}" after "${after}")
+
+set(begin "R\"page~(")
+set(end ")page~\"")
+file(
+  WRITE ${OUTPUT}
+  "// Made by analysis/explore/page.cmake.\n"
+  "#include \"analysis/explore/page_text.hpp\"\n\n"
+  "namespace grseg {\n"
+  "const std::string_view page_before_data = ${begin}${before}${end};\n"
+  "const std::string_view page_after_data = ${begin}${after}${end};\n"
+  "}  // namespace grseg\n")

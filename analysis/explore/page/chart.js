@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The frame of a plot: an SVG that is as wide as its place, two scales, axes and their names.
+
+import {axisBottom, axisLeft, select} from "./d3.js";
+
+let charts = 0; // so far, for names
+
+const margin = {top: 22, right: 14, bottom: 38, left: 46};
+
+/** Puts "σ^S/σ_{yy}" into a text, with what follows ^ and _ raised and lowered. */
+function setLabel(text, label) {
+  text.selectAll("tspan").remove();
+  let shift = 0;
+  for (const part of label.split(/([_^](?:{[^}]*}|.))/)) {
+    const raised = part[0] === "^" ? -5 : part[0] === "_" ? 3 : 0;
+    const own = text.append("tspan").attr("dy", raised - shift).text(raised ? part.slice(1).replace(/[{}]/g, "") : part);
+    if (raised) own.attr("class", "script");
+    shift = raised;
+  }
+}
+
+const trueMinus = (text) => text.replace(/-/g, "−");
+
+export class Chart {
+  /** `scales`: {x, y} of d3; `labels`: {x, y}; `height` in pixels; `name` for those who do not see it. */
+  constructor(host, {scales, labels, height, name, ticks = {}, logarithmic = false}) {
+    this.host = host;
+    this.logarithmic = logarithmic;
+    this.scales = scales;
+    this.ticks = ticks;
+    this.height = height;
+    this.svg = select(host).append("svg").attr("role", "img").attr("aria-label", name);
+    this.grid = this.svg.append("g").attr("class", "grid");
+    // What reaches beyond the axes is cut off.
+    const clip = `clip-${++charts}`;
+    this.clip = this.svg.append("clipPath").attr("id", clip).append("rect");
+    this.under = this.svg.append("g").attr("clip-path", `url(#${clip})`);
+    this.marks = this.svg.append("g");
+    this.xAxis = this.svg.append("g").attr("class", "axis");
+    this.yAxis = this.svg.append("g").attr("class", "axis");
+    this.xLabel = this.svg.append("text").attr("class", "label").attr("text-anchor", "end");
+    this.yLabel = this.svg.append("text").attr("class", "label");
+    this.setLabels(labels);
+  }
+
+  setLabels({x, y}) {
+    setLabel(this.xLabel, x);
+    setLabel(this.yLabel, y);
+  }
+
+  get margin() {
+    return margin;
+  }
+  get inner() {
+    return {left: margin.left, right: this.width - margin.right, top: margin.top, bottom: this.height - margin.bottom};
+  }
+
+  /** Fits the place, and draws what does not depend on the data. */
+  layout() {
+    this.width = Math.max(220, Math.floor(this.host.clientWidth));
+    this.svg.attr("width", this.width).attr("height", this.height).attr("viewBox", `0 0 ${this.width} ${this.height}`);
+    const {left, right, top, bottom} = this.inner;
+    this.clip.attr("x", left).attr("y", top).attr("width", right - left).attr("height", bottom - top);
+    this.scales.x.range([left, right]);
+    this.scales.y.range([bottom, top]);
+    this.axes();
+  }
+
+  axes() {
+    const {left, right, top, bottom} = this.inner;
+    const {x, y} = this.scales;
+    const ofX = axisBottom(x).ticks(...(this.ticks.x ?? [this.width < 420 ? 5 : 8])).tickSizeOuter(0);
+    const ofY = axisLeft(y).ticks(...(this.ticks.y ?? [6])).tickSizeOuter(0);
+    this.xAxis.attr("transform", `translate(0,${bottom})`).call(ofX);
+    this.yAxis.attr("transform", `translate(${left},0)`).call(ofY);
+    for (const axis of [this.xAxis, this.yAxis])
+      axis.selectAll(".tick text").text(function () {
+        return trueMinus(this.textContent);
+      });
+    this.xLabel.attr("x", right).attr("y", this.height - 5);
+    this.yLabel.attr("x", 4).attr("y", 11);
+    const whole = (value) => !this.logarithmic || Math.log10(value) % 1 === 0;
+    const lines = y.ticks(6).filter(whole).map((value) => ({value, at: y(value)}));
+    this.grid
+      .selectAll("line")
+      .data(lines)
+      .join("line")
+      .attr("x1", left)
+      .attr("x2", right)
+      .attr("y1", (d) => d.at)
+      .attr("y2", (d) => d.at)
+      .classed("zero", (d) => d.value === 0);
+    return {left, right, top, bottom};
+  }
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Several runs: what the rule of the moment makes of each, and of all together.
+
+import {byId, element, fixed, interval} from "./format.js";
+import {fitOf, intervalOf, zeroOfSums} from "./partition.js";
+import {set, state} from "./state.js";
+
+export class Compare {
+  /** `all`: [{name, fit, why}], the last one of all runs together. */
+  constructor(all) {
+    this.all = all;
+    byId("compare").hidden = all.length < 2;
+    if (all.length < 2) return;
+    const heads = ["run", "B", "95 %", "over", "p*"].map((text, k) => element("th", k ? {class: "number"} : {}, text));
+    this.rows = all.map(({name}, k) => {
+      const button = element("button", {class: "link"}, name);
+      button.addEventListener("click", () => set({run: k, grain: -1}));
+      const cells = heads.slice(1).map(() => element("td", {class: "number"}));
+      return {row: element("tr", {}, element("td", {}, button), ...cells), cells, button};
+    });
+    byId("compare-table").append(
+      element("thead", {}, element("tr", {}, ...heads)),
+      element("tbody", {}, ...this.rows.map(({row}) => row)),
+    );
+    const why = all[all.length - 1].why;
+    byId("compare-note").textContent = why
+      ? `The runs are not taken together: ${why}`
+      : "Plots are of the run that is chosen; thin lines in B over p are the others.";
+  }
+
+  update() {
+    if (!this.rows) return;
+    this.all.forEach(({fit}, k) => {
+      const {row, cells, button} = this.rows[k];
+      row.classList.toggle("chosen", k === state.run);
+      button.disabled = !fit;
+      if (!fit) return;
+      const B = fitOf(fit, state.rule)[state.estimator];
+      const p = state.estimator === "B_sums" ? zeroOfSums(fit) : fit.scan.p_zero[0] ?? NaN;
+      const texts = [fixed(B), interval(intervalOf(fit, state.rule, state.estimator)), fit.over, fixed(p)];
+      texts.forEach((text, n) => (cells[n].textContent = text));
+    });
+  }
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the page holds: JSON, and of each run one zlib stream of arrays in base64 (binary_arrays.hpp).
+
+const types = {
+  u8: Uint8Array,
+  i8: Int8Array,
+  u16: Uint16Array,
+  u32: Uint32Array,
+  f32: Float32Array,
+  f64: Float64Array,
+};
+
+export function readContent() {
+  return JSON.parse(document.getElementById("content").textContent);
+}
+
+function fromBase64(text) {
+  const characters = atob(text);
+  const bytes = new Uint8Array(characters.length);
+  for (let k = 0; k < bytes.length; ++k) bytes[k] = characters.charCodeAt(k);
+  return bytes;
+}
+
+async function inflated(bytes) {
+  if (typeof DecompressionStream === "undefined")
+    throw new Error("This browser cannot unpack the page; take one of 2023 or later.");
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** An array whose lowest bytes come first, then the next ones, and so on. */
+function joined(bytes, {type, offset, length}) {
+  const values = new types[type](length);
+  const size = values.BYTES_PER_ELEMENT;
+  const own = new Uint8Array(values.buffer);
+  for (let b = 0; b < size; ++b)
+    for (let k = 0, from = offset + b * length; k < length; ++k) own[k * size + b] = bytes[from + k];
+  return values;
+}
+
+/** {name: typed array} of the arrays of number `k`, which `directory` lists. */
+export async function readArrays(k, directory) {
+  const element = document.getElementById(`arrays-${k}`);
+  const bytes = await inflated(fromBase64(element.textContent));
+  element.remove();
+  const arrays = {};
+  for (const [name, entry] of Object.entries(directory)) arrays[name] = joined(bytes, entry);
+  return arrays;
+}

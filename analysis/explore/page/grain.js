@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A grain that was chosen: its contacts close up, and what each rule gives it of those with the other
+// species.
+
+import {byId, element, fixed, percent, short, table} from "./format.js";
+import {parseRule, ruleName} from "./partition.js";
+import {shareOfContact} from "./player.js";
+import {set, state} from "./state.js";
+
+/** What there is to know about the contacts of a grain in a frame. */
+export function contactsOf(player, grain) {
+  const contacts = player.contacts();
+  const {frames} = player;
+  const {species, radius} = frames.arrays;
+  const own = [];
+  for (let k = 0; k < contacts.i.length; ++k) {
+    const first = contacts.i[k] === grain;
+    if (!first && contacts.j[k] !== grain) continue;
+    const other = first ? contacts.j[k] : contacts.i[k];
+    const side = first ? 1 : -1; // of the branch, from the other grain to this one
+    const bx = side * (contacts.xi[k] - contacts.xj[k]), by = side * (contacts.yi[k] - contacts.yj[k]);
+    const length = Math.hypot(bx, by) || 1;
+    const [ex, ey] = [bx / length, by / length];
+    const fy = contacts.along[k] * ey + contacts.across[k] * ex;
+    const ofOther = other < 0 ? frames.base : species[other];
+    const mixed = ofOther !== frames.base && ofOther !== species[grain];
+    own.push({
+      k,
+      other,
+      species: ofOther,
+      mixed,
+      larger: mixed && species[grain] > ofOther,
+      radii: mixed ? [radius[grain], radius[other]].sort((a, b) => b - a) : null,
+      angle: (Math.atan2(-by, -bx) * 180) / Math.PI,
+      along: contacts.along[k],
+      across: contacts.across[k],
+      stress: fy * by, // N m, force (x) branch, yy
+      dx: -bx,
+      dy: -by,
+    });
+  }
+  return own;
+}
+
+/** The grain's part of the stress of its mixed contacts under a rule; NaN where it is nobody's. */
+export function partOf(contacts, rule) {
+  let part = 0;
+  for (const contact of contacts.filter(({mixed}) => mixed)) {
+    const p = shareOfContact(rule, ...contact.radii);
+    part += contact.stress * (contact.larger ? p : 1 - p);
+  }
+  return part;
+}
+
+export class GrainPanel {
+  constructor(content) {
+    this.rules = content.rules.filter((rule) => rule.stock).map((rule) => parseRule(rule.word));
+    this.host = byId("grain");
+    this.canvas = element("canvas", {role: "img", "aria-label": "The grain and its contacts"});
+    this.contacts = element("div", {class: "facts"});
+    this.rulesOfIt = element("div", {class: "facts"});
+    const close = element("button", {class: "quiet close", "aria-label": "Close"}, "×");
+    close.addEventListener("click", () => set({grain: -1}));
+    this.host.append(this.canvas, this.contacts, this.rulesOfIt, close);
+  }
+
+  update(player) {
+    const {grain} = state;
+    const shown = grain >= 0 && player && player.frames.isShown(player.frame, grain);
+    this.host.hidden = !shown;
+    if (!shown) return;
+    const contacts = contactsOf(player, grain);
+    this.#draw(player, grain, contacts);
+    this.#tell(player, grain, contacts);
+  }
+
+  #draw(player, grain, contacts) {
+    const size = 210, ratio = window.devicePixelRatio || 1;
+    const {frames, frame, colours} = player;
+    const r = frames.radius(frame, grain);
+    const around = contacts.map(({other}) => (other < 0 ? 0 : frames.radius(frame, other)));
+    const reach = r + 2 * Math.max(r, ...around);
+    const scale = size / 2 / reach;
+    this.canvas.width = this.canvas.height = size * ratio;
+    this.canvas.style.width = this.canvas.style.height = `${size}px`;
+    const c = this.canvas.getContext("2d");
+    c.setTransform(ratio, 0, 0, ratio, (size / 2) * ratio, (size / 2) * ratio);
+    c.clearRect(-size, -size, 2 * size, 2 * size);
+    const disc = (x, y, radius, species, alpha) => {
+      c.beginPath();
+      c.arc(x * scale, -y * scale, radius * scale, 0, 2 * Math.PI);
+      c.fillStyle = player.colourOf(species);
+      c.globalAlpha = alpha;
+      c.fill();
+      c.globalAlpha = 1;
+    };
+    contacts.forEach(({other, species, dx, dy}, n) => {
+      if (other >= 0) disc(dx, dy, around[n], species, species === frames.base ? 0.5 : 0.22);
+    });
+    const own = frames.arrays.species[grain];
+    disc(0, 0, r, own, 0.35);
+    const strongest = Math.max(...contacts.map(({along}) => Math.abs(along)), 1e-300);
+    for (const contact of contacts) {
+      const width = Math.max(1.5, (14 * Math.abs(contact.along)) / strongest);
+      const p = contact.mixed ? shareOfContact(state.rule, ...contact.radii) : 1;
+      const cut = !contact.mixed ? 1 : contact.larger ? p : 1 - p;
+      const stretch = (from, to, ink) => {
+        c.beginPath();
+        c.moveTo(contact.dx * from * scale, -contact.dy * from * scale);
+        c.lineTo(contact.dx * to * scale, -contact.dy * to * scale);
+        c.strokeStyle = ink;
+        c.lineWidth = width;
+        c.stroke();
+      };
+      if (Number.isNaN(cut)) {
+        stretch(0, 1, colours.other);
+        continue;
+      }
+      stretch(0, cut, player.colourOf(own));
+      if (cut < 1) stretch(cut, 1, player.colourOf(contact.species));
+    }
+    c.beginPath();
+    c.arc(0, 0, r * scale, 0, 2 * Math.PI);
+    c.strokeStyle = colours.ink;
+    c.lineWidth = 2;
+    c.stroke();
+  }
+
+  #tell(player, grain, contacts) {
+    const {frames, run} = player;
+    const {species, radius, row} = frames.arrays;
+    const name = (s) => (s === frames.base ? "base" : run.species[s].name);
+    const mean = frames.meanForce;
+    const mixed = contacts.filter((contact) => contact.mixed);
+    const whole = mixed.reduce((sum, {stress}) => sum + stress, 0);
+    const heading = element(
+      "h3",
+      {},
+      `Grain ${row[grain]}, ${name(species[grain])}`,
+      element("small", {}, ` radius ${fixed(radius[grain] / run.small_diameter, 2)} dS, ${contacts.length} contacts`),
+    );
+    const rows = contacts.map((contact) => {
+      const p = contact.mixed ? shareOfContact(state.rule, ...contact.radii) : NaN;
+      return [
+        contact.other < 0 ? `wall ${-contact.other}` : name(contact.species),
+        `${Math.round(contact.angle)}°`.replace("-", "−"),
+        fixed(contact.along / mean, 2),
+        fixed(contact.across / contact.along, 2),
+        short(contact.stress, 3),
+        contact.mixed ? fixed(contact.larger ? p : 1 - p) : "",
+      ];
+    });
+    const heads = [["with"], ["towards", "number"], ["fn/⟨fn⟩", "number"], ["ft/fn", "number"], ["fy ℓy (N m)", "number"], ["gets", "number"]];
+    const parts = [...this.rules, state.rule].map((rule, k, all) => {
+      const part = partOf(contacts, rule);
+      return [k === all.length - 1 ? `now, ${ruleName(rule)}` : ruleName(rule), short(part, 3), percent(part / whole)];
+    });
+    const words = mixed.length
+      ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species bear Σ fy ℓy = ${short(whole, 3)} N m. Of these it gets`
+      : "It has no contact with the other species: no rule gives or takes.";
+    const apart = run.player.contact_point_from_size;
+    this.contacts.replaceChildren(heading, element("div", {class: "scroll"}, table(heads, rows)));
+    this.rulesOfIt.replaceChildren(
+      element("p", {}, words),
+      mixed.length ? table([["by"], ["N m", "number"], ["", "number"]], parts) : "",
+      element(
+        "p",
+        {class: "note"},
+        "In the page forces are rounded by up to 0.5 %; contact-point is shown as size, from which it " +
+          `differs by ${short(run.player.contact_point_from_size, 2)} at most.`,
+      ),
+    );
+  }
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Keys; those that a control understands by itself are left to it.
+
+import {byId} from "./format.js";
+import {parseRule, shareOf} from "./partition.js";
+import {set, state} from "./state.js";
+
+function toggle(id) {
+  byId(id).click();
+}
+
+/** `page`: {fit(), zero(), step(by), play(), nextGrain(by), nextRun(), tab(name), theme(), rules}. */
+export function listenToKeys(page) {
+  const move = (by) => {
+    const fit = page.fit();
+    if (!fit) return;
+    const p = shareOf(fit, state.rule);
+    const next = Math.round(1000 * ((Number.isFinite(p) ? p : 0.5) + by)) / 1000;
+    set({rule: {kind: "uniform", value: Math.min(1, Math.max(0, next))}});
+  };
+  const keys = {
+    " ": () => page.play(),
+    ArrowLeft: () => page.step(-1),
+    ArrowRight: () => page.step(1),
+    ArrowUp: (event) => move(event.shiftKey ? 0.05 : 0.005),
+    ArrowDown: (event) => move(event.shiftKey ? -0.05 : -0.005),
+    0: () => page.fit() && set({rule: {kind: "uniform", value: page.zero()}}),
+    g: () => toggle("show-grains"),
+    f: () => toggle("show-forces"),
+    m: () => toggle("only-mixed"),
+    l: () => toggle("show-layers"),
+    ".": () => page.nextGrain(1),
+    ",": () => page.nextGrain(-1),
+    Escape: () => set({grain: -1}),
+    n: () => page.nextRun(),
+    r: () => page.tab(byId("report").hidden ? "report" : "explore"),
+    t: () => page.theme(),
+    "?": () => byId("help").showModal(),
+  };
+  page.rules.forEach((word, k) => (keys[k + 1] = () => page.fit() && set({rule: parseRule(word)})));
+
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
+    const {target} = event;
+    const typing = target.matches("input[type=number], select, textarea");
+    const ownArrows = target.matches("input[type=range], [role=tab], input[type=radio]") && event.key.startsWith("Arrow");
+    const ownSpace = event.key === " " && target.matches("button, summary, input[type=checkbox], input[type=radio], a");
+    const explore = !byId("explore").hidden;
+    if (typing || ownArrows || ownSpace || !keys[event.key]) return;
+    if (!explore && !["r", "t", "?"].includes(event.key)) return;
+    event.preventDefault();
+    keys[event.key](event);
+  });
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads what the page holds, makes its parts, and tells them what the reader has chosen.
+
+import {Compare} from "./compare.js";
+import {readArrays, readContent} from "./data.js";
+import {byId, element, forgetColours} from "./format.js";
+import {Frames} from "./frames.js";
+import {GrainPanel} from "./grain.js";
+import {listenToKeys} from "./keyboard.js";
+import {fitOf, parseRule, shareOf, stressOf} from "./partition.js";
+import {Player} from "./player.js";
+import {Profiles} from "./profiles.js";
+import {layoutReport, listenToPrinting, writeReport} from "./report.js";
+import {Scatter} from "./scatter.js";
+import {Share} from "./share.js";
+import {flush, listen, set, state} from "./state.js";
+import {Transport} from "./transport.js";
+
+const content = readContent();
+const {runs} = content;
+
+function nameThePage() {
+  const names = runs.map((run) => run.name).join(", ");
+  document.title = `${names} – grseg`;
+  byId("title").textContent = names;
+  byId("made-by").textContent = `Made by ${content.program}; it loads nothing from anywhere.`;
+}
+
+/** Fits get their arrays. The last one is of all runs together, where there are several. */
+async function readAll() {
+  const arrays = await Promise.all(
+    [...runs, ...(content.together ? [content.together] : [])].map((one, k) => readArrays(k, one.arrays)),
+  );
+  runs.forEach((run, k) => {
+    run.arrays = arrays[k];
+    if (run.fit) run.fit.arrays = arrays[k];
+  });
+  if (content.together?.fit) content.together.fit.arrays = arrays[runs.length];
+}
+
+function showTab(name) {
+  for (const tab of ["explore", "report"]) {
+    byId(tab).hidden = tab !== name;
+    byId(`tab-${tab}`).setAttribute("aria-selected", String(tab === name));
+    byId(`tab-${tab}`).tabIndex = tab === name ? 0 : -1;
+  }
+  window.scrollTo(0, 0);
+  if (name === "report") layoutReport();
+  else window.dispatchEvent(new Event("resize"));
+}
+
+function listenToTabs() {
+  for (const tab of ["explore", "report"]) {
+    const button = byId(`tab-${tab}`);
+    button.addEventListener("click", () => showTab(tab));
+    button.addEventListener("keydown", (event) => {
+      if (!["ArrowLeft", "ArrowRight"].includes(event.key)) return;
+      const other = byId(`tab-${tab === "explore" ? "report" : "explore"}`);
+      other.click();
+      other.focus();
+    });
+  }
+  byId("to-report").addEventListener("click", (event) => {
+    event.preventDefault();
+    showTab("report");
+  });
+}
+
+function isDark() {
+  const {theme} = document.documentElement.dataset;
+  return theme ? theme === "dark" : window.matchMedia("(prefers-color-scheme: dark)").matches;
+}
+
+function describeColours() {
+  const pair = runs.find((run) => run.fit)?.fit.numbers_of_pair ?? [0, 1];
+  const present = new Set(runs.flatMap((run) => [...new Set(run.arrays.species)]));
+  const keys = runs[0].species
+    .map(({name}, k) => [name, ["small", "large"][pair.indexOf(k)] ?? "other", k])
+    .concat([["base", "base", 255]])
+    .filter(([, , k]) => present.has(k))
+    .flatMap(([name, look]) => [element("span", {class: `key ${look}`}), `${name} `]);
+  byId("legend").replaceChildren(
+    ...keys,
+    "– lines are contacts, their width the force; each counts to the species whose colour it has.",
+    runs.some((run) => run.dimension === 3) ? " Spheres are cut by the plane half-way across." : "",
+  );
+}
+
+/** All that is drawn, with the players of all runs. */
+class Page {
+  constructor() {
+    this.fits = [...runs, ...(content.together ? [content.together] : [])].map((one) => one.fit ?? null);
+    const rule = parseRule(content.start);
+    const first = this.fits.findIndex(Boolean);
+    Object.assign(state, {rule, run: Math.max(0, first)});
+    this.players = runs.map(
+      (run, k) => new Player(run, new Frames(run), (grain) => set({grain: grain === state.grain && k === state.run ? -1 : grain, ...this.chosen(k)})),
+    );
+    this.#placePlayers();
+    this.transport = new Transport(this.players.map((player) => player.frames));
+    this.grain = new GrainPanel(content);
+    this.compare = new Compare([
+      ...runs.map((run) => ({name: run.name, fit: run.fit, why: run.why_no_fit})),
+      ...(content.together ? [{name: "all together", fit: content.together.fit, why: content.together.why_no_fit}] : []),
+    ]);
+    if (first >= 0) this.#makePlots();
+    this.#hideWhatIsMissing();
+    for (const [id, name] of [["show-grains", "showGrains"], ["show-forces", "showForces"], ["only-mixed", "onlyMixed"], ["show-layers", "showLayers"]])
+      byId(id).addEventListener("change", (event) => set({[name]: event.target.checked}));
+    listen((names) => this.#follow(names));
+  }
+
+  get fit() {
+    return this.fits[state.run];
+  }
+  get run() {
+    return runs[state.run] ?? null;
+  }
+  /** A run that has nothing to fit leaves the plots to the one before. */
+  chosen(k) {
+    return this.fits[k] || !this.fits.some(Boolean) ? {run: k} : {};
+  }
+
+  #placePlayers() {
+    this.players.forEach((player, k) => {
+      const several = runs.length > 1;
+      player.canvas.setAttribute("aria-label", `The flow of ${runs[k].name}`);
+      const caption = several ? element("figcaption", {}, runs[k].name) : null;
+      byId("players").append(element("figure", {}, player.canvas, caption));
+    });
+    byId("players").classList.toggle("several", runs.length > 1);
+  }
+
+  #makePlots() {
+    const fit = () => this.fit;
+    this.share = new Share(content, fit);
+    this.scatter = new Scatter(fit, () => this.run);
+    const some = () => this.run ?? runs[0];
+    this.profiles = new Profiles(fit, () => some().small_diameter, () => (some().dimension === 3 ? "Pa" : "N/m"));
+  }
+
+  #hideWhatIsMissing() {
+    if (this.share) return;
+    for (const card of document.querySelectorAll("#explore .card:not(.flow):not(.heart)")) card.hidden = true;
+    byId("explore").classList.add("flow-only");
+    byId("heart").replaceChildren(element("h2", {}, "No B of this run"), element("p", {}, `Because: ${runs[0].why_no_fit}.`));
+  }
+
+  layout() {
+    if (byId("explore").hidden) return;
+    const tallest = Math.max(260, Math.min(0.66 * window.innerHeight, 620)) / (runs.length > 2 ? 1.6 : 1);
+    this.players.forEach((player) => player.resize(Math.floor(player.canvas.parentElement.clientWidth), tallest));
+    if (this.share) {
+      this.share.layout(this.fits.filter((fit, k) => fit && k !== state.run));
+      this.scatter.layout();
+      this.profiles.layout();
+    }
+    this.update();
+  }
+
+  drawPlayers() {
+    this.players.forEach((player, k) => {
+      player.active = k === state.run;
+      player.canvas.parentElement.classList.toggle("chosen", runs.length > 1 && player.active);
+      player.draw();
+    });
+    this.grain.update(this.players[state.run]);
+  }
+
+  update() {
+    this.transport.show();
+    this.drawPlayers();
+    if (!this.share) return;
+    const stress = stressOf(this.fit, state.rule);
+    const found = fitOf(this.fit, state.rule);
+    this.share.update(stress, found);
+    this.scatter.update(stress, found);
+    this.profiles.update(stress, found);
+    this.compare.update();
+  }
+
+  #follow(names) {
+    if (names.has("run") || names.has("estimator")) return this.layout();
+    if (names.has("rule")) return this.update();
+    if (names.has("time")) this.transport.show();
+    this.drawPlayers();
+    if (this.share && (names.has("layer") || names.has("time"))) {
+      const stress = stressOf(this.fit, state.rule);
+      this.scatter.update(stress, fitOf(this.fit, state.rule));
+    }
+  }
+}
+
+function listenToAll(page) {
+  let width = 0, height = 0;
+  window.addEventListener("resize", () => {
+    if (byId("explore").hidden) layoutReport();
+    else if (width !== window.innerWidth || height !== window.innerHeight || page.stale) page.layout();
+    [width, height, page.stale] = [window.innerWidth, window.innerHeight, false];
+  });
+  const theme = () => {
+    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+    forgetColours();
+    page.layout();
+  };
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    forgetColours();
+    page.layout();
+  });
+  byId("theme").addEventListener("click", theme);
+  byId("help-open").addEventListener("click", () => byId("help").showModal());
+  listenToPrinting();
+  listenToKeys({
+    fit: () => page.fit,
+    zero: () => page.share.zeroOf(page.fit)[0],
+    step: (by) => page.transport.step(by),
+    play: () => page.transport.toggle(),
+    nextGrain: (by) => {
+      const n = page.players[state.run]?.frames.grains ?? 0;
+      if (n) set({grain: (Math.max(state.grain, by > 0 ? -1 : 0) + by + n) % n});
+    },
+    nextRun: () => {
+      const n = page.fits.length;
+      let k = state.run;
+      do k = (k + 1) % n;
+      while (!page.fits[k] && k !== state.run);
+      set({run: k, grain: -1});
+    },
+    tab: showTab,
+    theme,
+    rules: content.rules.filter((rule) => rule.stock).map((rule) => rule.word),
+  });
+}
+
+async function start() {
+  nameThePage();
+  listenToTabs();
+  await readAll();
+  describeColours();
+  const page = new Page();
+  page.stale = true;
+  listenToAll(page);
+  writeReport(content, content.together);
+  page.transport.goTo(Math.floor(page.transport.times.length / 2));
+  page.layout();
+  showTab(window.location.hash === "#report" || (content.tab === "report" && window.location.hash !== "#explore") ? "report" : "explore");
+  // For the console, and for tests: fit(0, "uniform:0.65") is what the page shows of the first run.
+  window.grseg = {
+    content,
+    state,
+    set,
+    flush,
+    page,
+    fit: (k, text) => ({...fitOf(page.fits[k], parseRule(text)), share: shareOf(page.fits[k], parseRule(text))}),
+  };
+  document.documentElement.dataset.ready = "true";
+}
+
+start().catch((error) => {
+  byId("trouble").hidden = false;
+  byId("trouble").textContent = error.message;
+  throw error;
+});

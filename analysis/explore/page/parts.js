@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whose the pressure is, as one bar: pairs of large grains, the two parts of mixed contacts, pairs of small
+// ones.
+
+import {byId, element, percent} from "./format.js";
+import {state} from "./state.js";
+
+/** Means over layers and frames of each part's share of the pressure there: what B by sums is made of. */
+function meanParts(fit, stress) {
+  const {none_large, all_large, all_small, phi_large, frames} = fit.arrays;
+  const mean = {small: 0, large: 0, mixed: 0, given: 0, phi: 0};
+  let n = 0;
+  for (let k = 0; k < frames.length; ++k) {
+    if (!(stress.total[k] > 0)) continue;
+    const each = frames[k] / stress.total[k];
+    mean.small += each * all_small[k];
+    mean.large += each * none_large[k];
+    mean.mixed += each * (all_large[k] - none_large[k]);
+    mean.given += each * (stress.large[k] - none_large[k]);
+    mean.phi += frames[k] * phi_large[k];
+    n += frames[k];
+  }
+  for (const name of Object.keys(mean)) mean[name] /= n;
+  return mean;
+}
+
+export class Parts {
+  constructor() {
+    this.spans = ["large", "to-large", "nobody", "to-small", "small"].map((name) => element("span", {class: `part ${name}`}));
+    this.phi = element("span", {class: "phi"});
+    this.words = element("p", {class: "note"});
+    byId("parts").append(element("div", {class: "bar-of-parts"}, ...this.spans, this.phi), this.words);
+  }
+
+  update(fit, stress) {
+    const {small, large, mixed, given, phi} = meanParts(fit, stress);
+    const dropped = state.rule.kind === "drop";
+    const parts = [
+      ["large–large", large],
+      ["mixed, to the large grain", dropped ? 0 : given],
+      ["mixed, nobody’s", dropped ? mixed : 0],
+      ["mixed, to the small grain", dropped ? 0 : mixed - given],
+      ["small–small", small],
+    ];
+    parts.forEach(([name, value], k) => {
+      const part = Math.max(0, value);
+      this.spans[k].style.width = `${100 * part}%`;
+      this.spans[k].textContent = part > 0.16 && !name.startsWith("mixed") ? name : "";
+      this.spans[k].title = `${name}: ${percent(value)} of the pressure`;
+    });
+    this.phi.style.left = `${100 * phi}%`;
+    this.words.replaceChildren(
+      "Large grains carry ",
+      element("b", {class: "large"}, percent(large + (dropped ? 0 : given))),
+      ` of the pressure, in the mean over layers; the black line is their part of the grains, ${percent(phi)}. Hatched: mixed contacts.`,
+    );
+  }
+}

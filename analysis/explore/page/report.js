@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The second tab: what was run, how accurately, with which result; made to be printed.
+
+import {Chart} from "./chart.js";
+import {area, line, scaleLinear} from "./d3.js";
+import {byId, element, fixed, interval, short, table} from "./format.js";
+import {zeroOfSums, zeroOfSumsWithInterval} from "./partition.js";
+
+const charts = [];
+
+/** A figure with a chart; `draw` is called whenever its width is known. */
+function figure(caption, options, draw) {
+  const host = element("div", {class: "plot"});
+  const made = element("figure", {}, host, element("figcaption", {}, caption));
+  const chart = new Chart(host, {height: 240, scales: {x: scaleLinear(), y: scaleLinear()}, name: caption, ...options});
+  charts.push(() => {
+    if (host.clientWidth > 0) draw(chart);
+  });
+  return made;
+}
+
+/** B over the share p with its band. */
+function shareFigure(fit) {
+  const caption = "B by sums over the share p of a mixed contact that goes to its large grain; 95 % band; p*.";
+  return figure(caption, {labels: {x: "share p", y: "B"}}, (chart) => {
+    const grid = fit.scan.p.map((p, k) => [p, ...fit.scan.B_sums[k]]).filter(([, B]) => B !== null);
+    chart.scales.y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
+    chart.layout();
+    const {x, y} = chart.scales;
+    chart.under.selectAll("*").remove();
+    const banded = grid.filter((row) => row[2] !== null);
+    chart.under.append("path").attr("class", "band").attr("d", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(banded));
+    chart.under.append("path").attr("class", "curve").attr("d", line().x((d) => x(d[0])).y((d) => y(d[1]))(grid));
+    const p = zeroOfSums(fit);
+    const {top, bottom} = chart.inner;
+    if (p >= 0 && p <= 1) {
+      const zero = chart.under.append("g").attr("class", "p-zero");
+      zero.append("line").attr("x1", x(p)).attr("x2", x(p)).attr("y1", top).attr("y2", bottom);
+      zero.append("text").attr("x", x(p) + 5).attr("y", bottom - 8).text(`p* = ${fixed(p)}`);
+    }
+  });
+}
+
+/** Columns of a table by layer over the height. `lines`: [[column, class], ...] */
+function profileFigure(layers, name, lines, caption, label, smallDiameter) {
+  const {columns, rows} = layers.tables.find((one) => one.name === name) ?? {columns: [], rows: []};
+  const places = lines.map(([column, look]) => [columns.findIndex((c) => c.replace(/\[.*/, "") === column), look]);
+  if (places.some(([at]) => at < 0)) return null;
+  const middle = (row) => (row[0] + row[1]) / 2 / smallDiameter;
+  return figure(caption, {labels: {x: label, y: "y/d_S"}}, (chart) => {
+    const values = rows.flatMap((row) => places.map(([at]) => row[at])).filter((v) => v !== null);
+    if (!values.length) return;
+    chart.scales.x.domain([Math.min(0, ...values), Math.max(0, ...values)]).nice();
+    chart.scales.y.domain([0, Math.max(...rows.map((row) => row[1])) / smallDiameter]);
+    chart.layout();
+    const {x, y} = chart.scales;
+    chart.under.selectAll("*").remove();
+    for (const [at, look] of places)
+      chart.under
+        .append("path")
+        .attr("class", `profile ${look}`)
+        .attr("d", line().defined((row) => row[at] !== null).x((row) => x(row[at])).y((row) => y(middle(row)))(rows));
+  });
+}
+
+function profileFigures(run) {
+  const d = run.small_diameter;
+  const force = run.dimension === 3 ? "N/m³" : "N/m²";
+  const stress = run.dimension === 3 ? "Pa" : "N/m";
+  const own = (...rest) => profileFigure(run.layers, ...rest, d);
+  return [
+    own("stress", [["sigma_yy", "total"], ["sigma_S_yy", "small"], ["sigma_L_yy", "large"]], "Contact pressure; blue: of small grains, orange: of large ones, by size; dark: of both.", `σ_{yy} (${stress})`),
+    own("kinetic", [["u", "total"]], "Mean velocity down the slope.", "u (m/s)"),
+    own("kinetic", [["T_S_y", "small"], ["T_L_y", "large"]], "Granular temperature along y; blue: small, orange: large grains.", "T (m²/s²)"),
+    own("micro", [["z_S", "small"], ["z_L", "large"]], "Contacts of a grain.", "z"),
+    own("micro", [["mixed_share", "total"], ["neutral_share", "neutral"]], "Share of mixed contacts; dashed: of contacts that ignore grain size.", "share"),
+    own("balance", [["push", "large"], ["push_kinetic", "small"], ["drag", "total"]], "What drives large grains upward: orange: contact push, cut at the contact point; blue: kinetic push; dark: drag.", `force (${force})`),
+  ].filter(Boolean);
+}
+
+/** What a program reads again. */
+function saveButton(name, {columns, rows}) {
+  const button = element("button", {class: "quiet save"}, "Save as TSV");
+  button.addEventListener("click", () => {
+    const lines = [columns, ...rows.map((row) => row.map((v) => v ?? "nan"))].map((row) => row.join("\t"));
+    const link = element("a", {download: `${name}.tsv`});
+    link.href = URL.createObjectURL(new Blob([lines.join("\n") + "\n"], {type: "text/tab-separated-values"}));
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  });
+  return button;
+}
+
+/** A table by layer: the columns to read first, or all. */
+function layerTable(one, smallDiameter) {
+  const host = element("div", {class: "scroll"});
+  const put = (all) => {
+    const chosen = one.columns.map((c, k) => [c, k]).filter(([c, k]) => k > 1 && (all || one.shown.includes(c)));
+    const some = chosen.length ? chosen : one.columns.map((c, k) => [c, k]).slice(2, 10);
+    const heads = [["y/dS"], ...some.map(([column]) => [column.replace("[", " ["), "number"])];
+    const rows = one.rows.map((row) => [
+      `${short(row[0] / smallDiameter)}–${short(row[1] / smallDiameter)}`,
+      ...some.map(([, k]) => short(row[k])),
+    ]);
+    host.replaceChildren(table(heads, rows));
+  };
+  const box = element("input", {type: "checkbox"});
+  box.addEventListener("change", () => put(box.checked));
+  put(false);
+  return element(
+    "section",
+    {class: "by-layer"},
+    element("h4", {}, one.note),
+    host,
+    element("p", {class: "note screen"}, element("label", {}, box, " all columns"), " ", saveButton(one.name, one), ` as ${one.tool} makes it`),
+  );
+}
+
+/** [value, low, high] as text. */
+function estimate(triple) {
+  const [value, low, high] = triple.map((v) => v ?? NaN);
+  return `${fixed(value)} ${interval([low, high])}`.trim();
+}
+
+function fitSection(fit, heading) {
+  const columns = [["rule"], ["B by sums", "number"], ["B at φ = ½", "number"], ["share", "number"], ["points", "number"], ["used by"]];
+  const several = fit.rules.some((row) => row.mixture);
+  if (several) columns.splice(1, 0, ["mixture"]);
+  const rows = fit.rules.map((row) => {
+    const cells = [row.name, estimate(row.B_sums), estimate(row.B_half), fixed(row.share ?? NaN), String(row.points), row.used_by || "–"];
+    if (several) cells.splice(1, 0, row.mixture);
+    return cells;
+  });
+  const zero = zeroOfSumsWithInterval(fit);
+  const doubts = fit.rules.filter((row) => row.doubt).map((row) => `${row.name}: ${row.doubt}.`);
+  return element(
+    "section",
+    {},
+    element("h3", {}, heading),
+    element("div", {class: "scroll"}, table(columns, rows)),
+    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: with this share B by sums is 0. ` : "", `Intervals of 95 % over ${fit.over}: ${fit.over_words}.`),
+    doubts.length ? element("ul", {class: "doubt"}, ...doubts.map((doubt) => element("li", {}, doubt))) : null,
+    element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => `${key} ${value}`).join("; "), "."),
+  );
+}
+
+/** Heights of the centres of both species over time, and the numbers of grseg-segregation. */
+function segregationSection(run) {
+  const {segregation} = run;
+  if (!segregation) return null;
+  const {columns, rows, numbers, remarks} = segregation;
+  const [large, small] = ["yL[m]", "yS[m]"].map((name) => columns.indexOf(name));
+  const d = run.small_diameter;
+  const middle = (row) => (row[0] + row[1]) / 2;
+  const drawn = figure(
+    "Heights of the centres of mass, means of windows; blue: of small grains, orange: of large ones.",
+    {labels: {x: "t (s)", y: "y/d_S"}},
+    (chart) => {
+      const values = rows.flatMap((row) => [row[large], row[small]]).filter((v) => v !== null);
+      if (!values.length) return;
+      chart.scales.x.domain([rows[0][0], rows[rows.length - 1][1]]);
+      chart.scales.y.domain([Math.min(...values) / d, Math.max(...values) / d]).nice();
+      chart.layout();
+      const {x, y} = chart.scales;
+      chart.under.selectAll("*").remove();
+      for (const [at, look] of [[small, "small"], [large, "large"]])
+        chart.under
+          .append("path")
+          .attr("class", `profile ${look}`)
+          .attr("d", line().defined((row) => row[at] !== null).x((row) => x(middle(row))).y((row) => y(row[at] / d))(rows));
+    },
+  );
+  const cells = numbers.filter(([, value]) => value !== null).map(([name, value, low, high]) => [
+    name.replace("[", " ["),
+    short(value),
+    low === null ? "" : `[${short(low)}, ${short(high)}]`,
+  ]);
+  return element(
+    "section",
+    {},
+    element("h3", {}, "Segregation"),
+    element("div", {class: "figures"}, drawn, element("div", {class: "scroll"}, table([["quantity"], ["value", "number"], ["95 %", "number"]], cells))),
+    ...remarks.map((text) => element("p", {class: "note"}, `${text}.`)),
+    element("p", {class: "note screen"}, saveButton("segregation", segregation), " as grseg-segregation makes it of the bed, window by window"),
+  );
+}
+
+const verdicts = {passed: "✓ passed", failed: "✗ failed", undecided: "? undecided", skipped: "– skipped"};
+
+function checkSection(run) {
+  const {lines, failures, undecided} = run.checks;
+  const d = run.small_diameter;
+  const rows = lines.map((row) => [
+    row.quantity,
+    row.y0 === null ? "" : `${short(row.y0 / d)}–${short(row.y1 / d)}`,
+    short(row.measured, 3),
+    short(row.tolerance, 3),
+    element("span", {class: row.verdict}, verdicts[row.verdict]),
+    row.remark,
+  ]);
+  const count = (verdict) => lines.filter((row) => row.verdict === verdict).length;
+  const words = failures
+    ? `Failed: ${failures}.`
+    : `None failed: ${count("passed")} passed, ${count("undecided")} undecided, ${count("skipped")} skipped.`;
+  return element(
+    "section",
+    {},
+    element("h3", {}, "Checks"),
+    element("p", failures ? {class: "failed"} : {}, `${run.checks.command}. ${words}`, undecided && !failures ? " Undecided: chance alone explains more than the tolerance." : ""),
+    element("details", failures ? {open: ""} : {}, element("summary", {}, `All ${lines.length} lines`), element("div", {class: "scroll"}, table([["quantity"], ["y/dS"], ["measured", "number"], ["tolerance", "number"], ["verdict"], ["remark"]], rows))),
+  );
+}
+
+function pairs(entries) {
+  return element("dl", {class: "facts"}, ...entries.flatMap(([key, value]) => [element("dt", {}, key), element("dd", {}, value)]));
+}
+
+function accuracySection(run) {
+  const observed = run.observables.map(([name, unit, mean, largest]) => [name, unit || "1", short(mean), short(largest)]);
+  return element(
+    "section",
+    {},
+    element("h3", {}, "Accuracy reached"),
+    run.accuracy.length ? pairs(run.accuracy.map(([key, value]) => [key.replace(/_/g, " "), value])) : element("p", {}, "The file has no summary of the run."),
+    observed.length
+      ? element("details", {}, element("summary", {}, "Observables over all frames"), element("div", {class: "scroll"}, table([["observable"], ["unit"], ["mean", "number"], ["largest", "number"]], observed)))
+      : null,
+  );
+}
+
+function settingsSection(run) {
+  return element(
+    "section",
+    {},
+    element("h3", {}, "Settings"),
+    run.scene ? element("pre", {class: "scene"}, run.scene) : null,
+    element("details", run.scene ? {} : {open: ""}, element("summary", {}, `All ${run.parameters.length} parameters of the file`), pairs(run.parameters)),
+  );
+}
+
+function runSection(run) {
+  const {layers} = run;
+  const facts = [
+    ["Digest", run.digest],
+    ["Verified", run.verified],
+    ...run.notes,
+    ["Frames", `${run.frames}, ${short(run.begin)} to ${short(run.end)} s; ${run.contacts} contacts`],
+    ["Species", run.species.map(({name, diameter}) => `${name} ${short(diameter)} m`).join(", ")],
+    ["Program", run.program],
+    ["Sums", run.sums ? `of the table ${run.sums}` : "made for this page as grseg-stress makes them"],
+  ];
+  return element(
+    "article",
+    {},
+    element("h2", {}, run.name),
+    pairs(facts),
+    run.fit ? fitSection(run.fit, "B of the contact stress") : element("p", {class: "doubt"}, `B is not shown: ${run.why_no_fit}.`),
+    element("div", {class: "figures"}, run.fit ? shareFigure(run.fit) : null, ...profileFigures(run)),
+    checkSection(run),
+    accuracySection(run),
+    element("h3", {}, "By layer"),
+    element("p", {class: "note"}, `Means over ${layers.frames} frames from ${short(layers.begin)} to ${short(layers.end)} s. ${layers.missing.join(". ")}`),
+    ...layers.tables.map((one) => layerTable(one, run.small_diameter)),
+    segregationSection(run),
+    settingsSection(run),
+    element("section", {}, element("h3", {}, "History"), element("ol", {class: "history"}, ...run.history.map((text) => element("li", {}, element("code", {}, text))))),
+  );
+}
+
+/** Fills the tab. `together`: {fit} of all runs, if there are several. */
+export function writeReport(content, together) {
+  const host = byId("report");
+  const print = element("button", {class: "screen"}, "Print");
+  print.addEventListener("click", () => window.print());
+  host.replaceChildren(
+    element("p", {class: "lead"}, `${content.runs.length === 1 ? "One run" : `${content.runs.length} runs`}, as ${content.program} found ${content.runs.length === 1 ? "it" : "them"}. `, print),
+    element("p", {class: "command"}, element("code", {}, content.command)),
+    together?.fit ? element("article", {}, element("h2", {}, "All runs together"), fitSection(together.fit, "B of the contact stress")) : "",
+    ...content.runs.map(runSection),
+  );
+}
+
+/** On paper nothing can be unfolded. */
+export function listenToPrinting() {
+  let folded = [];
+  window.addEventListener("beforeprint", () => {
+    folded = Array.from(byId("report").querySelectorAll("details:not([open])"));
+    for (const one of folded) one.open = true;
+    layoutReport();
+  });
+  window.addEventListener("afterprint", () => {
+    for (const one of folded) one.open = false;
+  });
+}
+
+/** When widths are known or have changed. */
+export function layoutReport() {
+  for (const draw of charts) draw();
+}
+

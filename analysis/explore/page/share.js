@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The heart: the share p of a mixed contact that goes to its large grain, and what it makes of B.
+
+import {Chart} from "./chart.js";
+import {area, line, scaleLinear} from "./d3.js";
+import {byId, element, fixed, interval, percent} from "./format.js";
+import {
+  fitOf,
+  hasPowers,
+  intervalOf,
+  neutralSums,
+  parseRule,
+  ruleName,
+  shareOf,
+  zeroOfSumsWithInterval,
+} from "./partition.js";
+import {Parts} from "./parts.js";
+import {set, state} from "./state.js";
+
+const uniform = (p) => ({kind: "uniform", value: Math.min(1, Math.max(0, p))});
+
+/** Q at which two grains of nominal radii are shared by p; beyond the slider its end. */
+function powerOf(fit, p) {
+  const Q = Math.log(p / (1 - p)) / Math.log(fit.size_ratio);
+  return Math.min(4, Math.max(0, Number.isNaN(Q) ? 1 : Q));
+}
+
+/** The names of the codes alone: "MercuryDPM; YADE, PFC". */
+function shortUse(text) {
+  return text
+    .replace(/ compute stress\/atom.*| coarse graining| stress per body|^grseg, |^sums over | \(.*\)/g, "")
+    .trim();
+}
+
+export class Share {
+  constructor(content, fitOfRun) {
+    this.known = content.rules;
+    this.fitOfRun = fitOfRun;
+    this.chart = new Chart(byId("share-plot"), {
+      scales: {x: scaleLinear().domain([0, 1]), y: scaleLinear()},
+      labels: {x: "share p of the large grain", y: "B"},
+      height: 300,
+      name: "B over the share p, with its band, p*, and the rules of published codes",
+    });
+    const {under, marks} = this.chart;
+    this.band = under.append("path").attr("class", "band");
+    this.neutral = under.append("path").attr("class", "neutral");
+    this.others = under.append("g");
+    this.curve = under.append("path").attr("class", "curve");
+    this.zero = marks.append("g").attr("class", "p-zero");
+    this.codes = marks.append("g").attr("class", "codes");
+    this.stem = marks.append("line").attr("class", "stem");
+    this.point = marks.append("circle").attr("class", "point").attr("r", 6.5);
+    this.parts = new Parts();
+    this.#listen();
+    this.#addRules();
+  }
+
+  #addRules() {
+    const stock = this.known.filter((rule) => rule.stock);
+    this.buttons = stock.map((rule, k) => {
+      const button = element(
+        "button",
+        {"aria-pressed": "false", title: `${rule.meaning}${rule.used_by ? `: ${rule.used_by}` : ""} (${k + 1})`},
+        element("b", {}, rule.word),
+        element("small", {}, shortUse(rule.used_by)),
+      );
+      button.addEventListener("click", () => set({rule: parseRule(rule.word)}));
+      return [rule.word, button];
+    });
+    byId("rules").append(...this.buttons.map(([, button]) => button));
+  }
+
+  #listen() {
+    const value = (event) => event.target.valueAsNumber;
+    for (const id of ["p", "dock-p"])
+      byId(id).addEventListener("input", (event) => set({rule: uniform(value(event))}));
+    // While the slider is out of sight, there is another one at the foot of the window.
+    new IntersectionObserver(([{isIntersecting: inSight}]) => {
+      byId("dock").hidden = inSight || byId("explore").hidden;
+    }).observe(byId("p-row"));
+    byId("q").addEventListener("input", (event) => set({rule: {kind: "power", value: value(event)}}));
+    byId("p-number").addEventListener("change", (event) => {
+      if (!Number.isNaN(value(event))) set({rule: uniform(value(event))});
+    });
+    byId("q-number").addEventListener("change", (event) => {
+      if (!Number.isNaN(value(event))) set({rule: {kind: "power", value: Math.min(4, Math.max(0, value(event)))}});
+    });
+    for (const radio of document.getElementsByName("estimator"))
+      radio.addEventListener("change", () => set({estimator: radio.value}));
+    const svg = this.chart.svg.node();
+    const drag = (event) => {
+      if (!(event.buttons & 1)) return;
+      const x = event.clientX - svg.getBoundingClientRect().left;
+      set({rule: uniform(Math.round(1000 * this.chart.scales.x.invert(x)) / 1000)});
+    };
+    svg.addEventListener("pointerdown", (event) => {
+      svg.setPointerCapture(event.pointerId);
+      drag(event);
+    });
+    svg.addEventListener("pointermove", drag);
+  }
+
+  /** What depends on the run and the estimator, not on the rule. */
+  layout(others) {
+    const fit = this.fitOfRun();
+    const {estimator} = state;
+    const {chart} = this;
+    const grid = fit.scan.p;
+    this.values = grid.map((p) => fitOf(fit, uniform(p))[estimator]);
+    const finite = this.values.filter(Number.isFinite);
+    chart.scales.y.domain([Math.min(...finite, 0), Math.max(...finite, 0)]).nice();
+    chart.setLabels({x: "share p of the large grain", y: estimator === "B_sums" ? "B, by sums" : "B at φ = ½"});
+    chart.layout();
+    const {x, y} = chart.scales;
+    const curveOf = (values) =>
+      line()
+        .defined((_, k) => Number.isFinite(values[k]))
+        .x((_, k) => x(grid[k]))
+        .y((_, k) => y(values[k]))(grid);
+    const rows = fit.scan[estimator].map(([, low, high], k) => [grid[k], low, high]);
+    const known = rows.filter(([, low]) => low !== null);
+    this.band.attr("d", area().x((d) => x(d[0])).y0((d) => y(d[1])).y1((d) => y(d[2]))(known));
+    this.curve.attr("d", curveOf(this.values));
+    this.neutral.attr("d", curveOf(grid.map((p) => (estimator === "B_sums" ? neutralSums(fit, p) : NaN))));
+    this.others
+      .selectAll("path")
+      .data(others)
+      .join("path")
+      .attr("class", "other")
+      .attr("d", (other) => curveOf(grid.map((p) => fitOf(other, uniform(p))[estimator])));
+    this.#drawZero(fit);
+    this.#drawCodes(fit);
+    // The thumb stands under the point of the plot.
+    byId("p-row").style.paddingLeft = `${chart.inner.left - 9}px`;
+    byId("p-row").style.paddingRight = `${chart.margin.right - 9}px`;
+    byId("q-note").textContent = hasPowers(fit)
+      ? ""
+      : "Q here shares by nominal radii, p = r^Q/(1 + r^Q); grseg-fit --partition power:Q takes those of each grain.";
+  }
+
+  #drawZero(fit) {
+    const {x} = this.chart.scales;
+    const {top, bottom, left} = this.chart.inner;
+    const [p, low, high] = this.zeroOf(fit);
+    this.zero.selectAll("*").remove();
+    if (!(p >= 0 && p <= 1)) return;
+    if (Number.isFinite(low))
+      this.zero
+        .append("rect")
+        .attr("x", x(Math.max(0, low)))
+        .attr("width", x(Math.min(1, high)) - x(Math.max(0, low)))
+        .attr("y", top)
+        .attr("height", bottom - top);
+    this.zero.append("line").attr("x1", x(p)).attr("x2", x(p)).attr("y1", top).attr("y2", bottom);
+    const before = x(p) > left + 90;
+    this.zero
+      .append("text")
+      .attr("x", x(p) + (before ? -6 : 6))
+      .attr("y", top + 10)
+      .attr("text-anchor", before ? "end" : "start")
+      .text(`p* = ${fixed(p)}`);
+  }
+
+  /** [p*, low, high] of the estimator. */
+  zeroOf(fit) {
+    if (state.estimator === "B_half") return fit.scan.p_zero.map((v) => v ?? NaN);
+    return zeroOfSumsWithInterval(fit);
+  }
+
+  /** Marks of published codes, their names above the curve, where two would meet one below the other. */
+  #drawCodes(fit) {
+    const {x, y} = this.chart.scales;
+    const {left} = this.chart.inner;
+    const marks = this.known
+      .filter((rule) => rule.stock && rule.word !== "drop")
+      .map((rule) => {
+        const own = parseRule(rule.word);
+        return {name: rule.word, use: shortUse(rule.used_by), p: shareOf(fit, own), B: fitOf(fit, own)[state.estimator]};
+      })
+      .filter(({p, B}) => Number.isFinite(p) && Number.isFinite(B))
+      .sort((a, b) => b.p - a.p);
+    this.codes.selectAll("*").remove();
+    marks.forEach(({name, use, p, B}, k) => {
+      // Two that share alike would stand one upon the other.
+      const near = k > 0 && x(marks[k - 1].p) - x(p) < 12;
+      const to = {x: Math.max(left + 60, x(p) - 18), y: y(B) - (near ? 36 : 18)};
+      this.codes.append("line").attr("x1", x(p)).attr("y1", y(B)).attr("x2", to.x + 2).attr("y2", to.y - 3);
+      this.codes.append("circle").attr("cx", x(p)).attr("cy", y(B)).attr("r", 3.5);
+      const text = this.codes.append("text").attr("x", to.x).attr("y", to.y).attr("text-anchor", "end");
+      text.append("tspan").attr("class", "strong").text(name);
+      if (this.chart.width > 420) text.append("tspan").text(` ${use}`);
+    });
+  }
+
+  /** What follows from the rule. */
+  update(stress, found) {
+    const fit = this.fitOfRun();
+    const {rule, estimator} = state;
+    const p = shareOf(fit, rule), B = found[estimator];
+    const {x, y} = this.chart.scales;
+    const seen = Number.isFinite(p) && Number.isFinite(B);
+    for (const mark of [this.point, this.stem]) mark.attr("visibility", seen ? "visible" : "hidden");
+    if (seen) {
+      this.point.attr("cx", x(p)).attr("cy", y(B));
+      this.stem.attr("x1", x(p)).attr("x2", x(p)).attr("y1", y(B)).attr("y2", this.chart.inner.bottom);
+    }
+    this.#updateControls(fit, p);
+    this.#updateReadout(fit, p, B);
+    this.parts.update(fit, stress);
+  }
+
+  #updateControls(fit, p) {
+    const {rule} = state;
+    const own = Number.isFinite(p) ? p : 0;
+    for (const slider of [byId("p"), byId("dock-p")]) {
+      if (document.activeElement !== slider || rule.kind !== "uniform") slider.value = own;
+      slider.style.setProperty("--p", own);
+      slider.classList.toggle("off", !Number.isFinite(p));
+      slider.setAttribute("aria-valuetext", `${percent(p)} to the large grain`);
+    }
+    const Q = rule.kind === "power" ? rule.value : powerOf(fit, own);
+    byId("q").value = Q;
+    byId("q").classList.toggle("off", rule.kind !== "power");
+    const put = (id, value, digits) => {
+      if (document.activeElement !== byId(id)) byId(id).value = Number.isFinite(value) ? value.toFixed(digits) : "";
+    };
+    put("p-number", p, 3);
+    put("q-number", rule.kind === "power" ? rule.value : NaN, 2);
+    for (const [word, button] of this.buttons) button.setAttribute("aria-pressed", String(word === rule.kind));
+    const text = Number.isFinite(p)
+      ? [element("b", {class: "large"}, fixed(p)), " to the large grain, ", element("b", {class: "small"}, fixed(1 - p)), " to the small one"]
+      : ["mixed contacts belong to neither species"];
+    byId("proportion").replaceChildren(...text);
+  }
+
+  #updateReadout(fit, p, B) {
+    const {rule, estimator} = state;
+    byId("b-name").textContent = `B by ${ruleName(rule)}`;
+    byId("b-value").textContent = byId("dock-value").textContent = fixed(B);
+    byId("dock-name").textContent = `p ${fixed(p)}, B`;
+    const band = Number.isFinite(B) ? intervalOf(fit, rule, estimator) : [NaN, NaN];
+    byId("b-interval").textContent = interval(band);
+    byId("b-interval").title = `95 % over ${fit.over}: ${fit.over_words}`;
+    const [low, high] = band;
+    const sure = low > 0 || high < 0;
+    byId("b-words").textContent = !Number.isFinite(B)
+      ? "No B: the stresses of the two species do not add up to the whole."
+      : `${B > 0 ? "Large grains carry more than their share of the pressure" : "Large grains carry less than their share of the pressure"}, by this rule${Number.isFinite(low) && !sure ? "; but the interval holds 0" : ""}.`;
+    const options = [`--partition ${ruleName(rule)}`];
+    const {heights, component, base, pair, runs} = fit.settings;
+    if (pair) options.push(`--pair ${pair}`);
+    if (heights !== "all") options.push(`--heights ${heights}`);
+    if (component !== "yy") options.push(`--component ${component}`);
+    if (base !== "contact-point") options.push(`--base ${base}`);
+    byId("command").textContent = `grseg-fit ${runs === "1" ? "sums.tsv" : "*.tsv"} ${options.join(" ")}`;
+  }
+}

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/explore/partition_data.hpp"
+
+#include "analysis/fit/mixtures.hpp"
+#include "analysis/fit/over.hpp"
+#include "analysis/fit/partition_scan.hpp"
+#include "analysis/frames/layer_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = PartitionRule::Kind;
+
+constexpr double highest_power = 4;
+constexpr ScanRange grid{0, 1, 0.01};
+
+/// The rules whose stresses a page is given; of all others it finds them between these.
+struct GivenRule {
+  const char* name;
+  PartitionRule rule;
+};
+constexpr GivenRule given_rules[] = {{"none", {Kind::uniform, 0}},
+                                     {"all", {Kind::uniform, 1}},
+                                     {"size", {Kind::size}},
+                                     {"contact_point", {Kind::contact_point}},
+                                     {"drop", {Kind::drop}}};
+
+std::vector<PartitionRule> rules_to_read(std::vector<PartitionRule> rules)
+{
+  for (const auto& given : given_rules) rules.push_back(given.rule);
+  return rules;
+}
+
+template <class Of>
+std::vector<double> list(const std::vector<FitPoint>& points, const Of& of)
+{
+  std::vector<double> all;
+  all.reserve(points.size());
+  for (const auto& point : points) all.push_back(of(point));
+  return all;
+}
+
+void add_stresses(const FitData& data, const FitSettings& settings, const std::string& prefix,
+                  BinaryArrays& arrays)
+{
+  for (const auto& [name, rule] : given_rules) {
+    const auto points = fit_points(data, rule, settings);
+    const auto add = [&](const char* what, double FitPoint::*value) {
+      arrays.add(prefix + name + what, list(points, [&](const FitPoint& p) { return p.*value; }));
+    };
+    add("_small", &FitPoint::small);
+    add("_large", &FitPoint::large);
+    if (!rule.adds_up()) add("_total", &FitPoint::total);
+  }
+}
+
+void add_points(const FitData& data, const FitSettings& settings, const std::string& prefix,
+                BinaryArrays& arrays)
+{
+  const auto points = fit_points(data, given_rules[0].rule, settings);
+  const auto add = [&](const char* name, const auto& of) {
+    arrays.add(prefix + name, list(points, of));
+  };
+  add("phi_large", [](const FitPoint& p) { return p.phi_large; });
+  add("weight", [](const FitPoint& p) { return p.weight; });
+  add("frames", [](const FitPoint& p) { return p.frames; });
+  add("window", [](const FitPoint& p) { return static_cast<double>(p.window); });
+  const auto add_key = [&](const char* name, double LayerKey::*value) {
+    std::vector<double> all;
+    all.reserve(data.samples.size());
+    for (const auto& sample : data.samples) all.push_back(sample.key.*value);
+    arrays.add(prefix + name, all);
+  };
+  add_key("begin", &LayerKey::begin);
+  add_key("bottom", &LayerKey::bottom);
+  add_key("top", &LayerKey::top);
+  add_stresses(data, settings, prefix, arrays);
+}
+
+/// The layers of all tables, each with its mean over time, as if they were one window.
+FitData layer_means(const std::vector<FitTable>& tables, const SpeciesPair& pair)
+{
+  std::map<std::pair<double, double>, std::vector<const FitRow*>> rows;
+  for (const auto& table : tables)
+    for (const auto& row : table.rows)
+      if (row.key.frames > 0) rows[{row.key.bottom, row.key.top}].push_back(&row);
+  FitData data;
+  data.species = tables.front().species;
+  for (const auto& table : tables) data.tables.push_back(table.table->name);
+  data.dimension = dimension_of(*tables.front().table);
+  data.runs = {1};
+  for (const auto& [heights, of_layer] : rows) {
+    LayerKey key = of_layer.front()->key;
+    key.frames = 0;
+    for (const auto* row : of_layer) key.frames += row->key.frames;
+    ContactSums<3> mean(data.species.size());
+    mean.at_centres = of_layer.front()->sums.at_centres;
+    for (const auto* row : of_layer) mean += row->sums / (key.frames / row->key.frames);
+    const double small = mean.content[pair.smaller], large = mean.content[pair.larger];
+    if (!(small + large > 0)) continue;
+    data.samples.push_back({.phi_large = large / (small + large),
+                            .frames = key.frames,
+                            .row = data.rows.size(),
+                            .pair = pair,
+                            .key = key});
+    data.rows.push_back(std::move(mean));
+  }
+  return data;
+}
+
+/// What tables of one kind come to: the samples of the fit, and the layers.
+struct Selected {
+  std::vector<FitTable> tables;
+  std::vector<Mixture> mixtures;
+  FitData samples, layers;
+};
+Selected select(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
+                const PartitionSettings& settings)
+{
+  Selected all{read_fit_tables(tables, Quantity::contact, rules), {}, {}, {}};
+  const auto& species = all.tables.front().species;
+  if (species.size() < 2)
+    throw RunError("there is one species of grains, and B compares two; make them with --classes");
+  all.mixtures = find_mixtures(all.tables, "auto");
+  const auto pair = settings.pair.empty() ? SpeciesPair{} : parse_pair(settings.pair, species);
+  all.samples = select_fit_data(all.tables, Quantity::contact, settings.filters, {pair});
+  all.layers = layer_means(all.tables, pair);
+  return all;
+}
+
+/// Of two species alone, in which what large grains do not get goes to the small ones.
+void add_powers(const PartitionInput& input, const PartitionSettings& settings,
+                BinaryArrays& arrays)
+{
+  std::vector<double> of_samples, of_layers;
+  const auto nodes = power_nodes();
+  for (std::size_t k = 0; k < input.of_powers.size(); ++k) {
+    const PartitionRule rule{Kind::power, nodes[k]};
+    const auto selected = select(input.of_powers[k], {rule}, settings);
+    for (const auto& point : fit_points(selected.samples, rule, settings.fit))
+      of_samples.push_back(point.large);
+    for (const auto& point : fit_points(selected.layers, rule, settings.fit))
+      of_layers.push_back(point.large);
+  }
+  arrays.add("power_large", of_samples);
+  arrays.add("layer_power_large", of_layers);
+}
+
+Json with_interval(double value, double low, double high)
+{
+  return Json::array({value, low, high});
+}
+Json with_interval(const RuleFit& fit, double Estimators::*place)
+{
+  return with_interval(fit.value.*place, fit.low.*place, fit.high.*place);
+}
+Json with_interval(const Estimate& estimate)
+{
+  return with_interval(estimate.value, estimate.low, estimate.high);
+}
+
+Json rule_object(const RuleFit& fit, const std::vector<Mixture>& mixtures)
+{
+  Json object{{"name", fit.rule.name()},
+              {"mixture", fit.mixture            ? mixtures[*fit.mixture].name
+                          : mixtures.size() == 1 ? ""
+                                                 : "all mixtures"},
+              {"used_by", fit.rule.used_by()},
+              {"share", fit.share},
+              {"points", fit.points},
+              {"not_positive", fit.not_positive},
+              {"over", word_of(fit.over, overs)},
+              {"p_zero_sums", with_interval(fit.p_zero_sums)},
+              {"doubt", fit.doubt}};
+  for (const auto& [name, place] : estimator_columns) object[name] = with_interval(fit, place);
+  return object;
+}
+
+/// B over the share p with its band.
+Json scan_object(const Selected& selected, const PartitionSettings& settings)
+{
+  const Bootstrap bootstrap(selected.samples.runs, settings.resampling.samples,
+                            settings.resampling.seed);
+  const auto scan = scan_partition(selected.samples, grid, settings.fit, bootstrap);
+  Json object{{"p", grid.shares()}, {"B_sums", Json::array()}, {"B_half", Json::array()}};
+  for (const auto& fit : scan.fits) {
+    object["B_sums"].push_back(with_interval(fit, &Estimators::B_sums));
+    object["B_half"].push_back(with_interval(fit, &Estimators::B_half));
+  }
+  const bool one_zero = selected.samples.species.size() == 2;
+  object["p_zero"] =
+      one_zero ? with_interval(scan.p_zero, scan.p_zero_interval.low, scan.p_zero_interval.high)
+               : with_interval(Estimate{});
+  return object;
+}
+
+Json settings_object(const Selected& selected, const PartitionSettings& settings)
+{
+  const auto& filters = settings.filters;
+  const auto& data = selected.samples;
+  Json object{{"component", word_of(settings.fit.component, components)},
+              {"base", word_of(settings.fit.base, base_parts)},
+              {"ratio_range", fmt::format("{:g}:{:g}", filters.ratio_low, filters.ratio_high)},
+              {"heights", filters.heights.empty() ? "all" : filters.heights},
+              {"min_solid", format_number(filters.min_solid)},
+              {"rows", data.count.sentence()},
+              {"runs", fmt::format("{}", data.runs.size())},
+              {"windows", fmt::format("{}", number_of_windows(data.runs))},
+              {"window", fmt::format("{:g} s", data.window)},
+              {"bootstrap", fmt::format("{}", settings.resampling.samples)},
+              {"seed", fmt::format("{}", settings.resampling.seed)}};
+  const auto& pair = data.samples.front().pair;
+  if (data.species.size() > 2)
+    object["pair"] = data.species[pair.smaller].name + ',' + data.species[pair.larger].name;
+  return object;
+}
+
+}  // namespace
+
+std::vector<double> power_nodes()
+{
+  constexpr int last = 15;
+  std::vector<double> nodes;
+  nodes.reserve(last + 1);
+  for (int k = 0; k <= last; ++k)
+    nodes.push_back(highest_power / 2 * (1 - std::cos(std::numbers::pi * k / last)));
+  return nodes;
+}
+
+Json partition_data(const PartitionInput& input, const PartitionSettings& settings,
+                    BinaryArrays& arrays)
+{
+  const auto selected = select(input.sums, rules_to_read(settings.rules), settings);
+  const auto& pair = selected.samples.samples.front().pair;
+  add_points(selected.samples, settings.fit, "", arrays);
+  add_points(selected.layers, settings.fit, "layer_", arrays);
+  const auto& species = selected.samples.species;
+  const bool has_powers = species.size() == 2 && !input.of_powers.empty();
+  if (has_powers) add_powers(input, settings, arrays);
+
+  Json object{{"pair", {species[pair.smaller].name, species[pair.larger].name}},
+              {"numbers_of_pair", {pair.smaller, pair.larger}},
+              {"size_ratio", species[pair.larger].diameter / species[pair.smaller].diameter}};
+  object["samples"] = selected.samples.samples.size();
+  object["power_nodes"] = has_powers ? power_nodes() : std::vector<double>{};
+  object["settings"] = settings_object(selected, settings);
+  object["scan"] = scan_object(selected, settings);
+  object["rules"] = Json::array();
+  for (const auto& fit : fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
+                                   settings.rules, settings.fit, settings.resampling, false))
+    object["rules"].push_back(rule_object(fit, selected.mixtures));
+  const auto over = object["rules"].back()["over"].get<std::string>();
+  object["over"] = over;
+  object["over_words"] = estimand_words(choose(over, "over", overs), selected.mixtures.size());
+  return object;
+}
+
+}  // namespace grseg

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/explore/binary_arrays.hpp"
+#include "analysis/explore/shown_run.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace grseg {
+
+/// The same for a page: positions, radii in the plane and forces along the branch in 16 bits, the force
+/// across it over that along it in 8 bits. Adds to `arrays`
+///
+///   species (255: base), radius (m), row       by grain
+///   x, y, and of spheres cut_radius            by frame and grain: Quantisation "x", "y", "cut"
+///   contact_offset                             by frame and once more: where its contacts begin
+///   i, j, along, across                        by contact: i less that of the contact before in its
+///                                              frame; wall w has j = 2^16 - 1 - w, of more than 2^15
+///                                              grains 2^32 - 1 - w; Quantisation "along"; across in
+///                                              units of along times "across_step"
+///   walls                                      by frame and wall: normal x, y, offset (m)
+///
+/// and returns what is needed to read them: bounds, numbers and times.
+nlohmann::ordered_json player_data(const ShownRun& run, const Box& box, BinaryArrays& arrays);
+
+}  // namespace grseg

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/explore/settings.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/core/text.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <map>
+#include <string_view>
+
+namespace grseg {
+namespace {
+
+bool is_hdf5(const std::string& path)
+{
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::string start(signature.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start.data(), static_cast<std::streamsize>(start.size())) && start == signature;
+}
+
+}  // namespace
+
+void ExploreSettings::add_to(po::options_description& options)
+{
+  auto add = options.add_options();
+  add("frames", po::value(&shown_frames)->default_value(shown_frames)->value_name("N"),
+      "show about N frames, in equal steps; sums are of all");
+  const auto first = "the rule that the page begins with: " + list_of_rules("or");
+  add("partition", po::value(&start)->default_value(start)->value_name("RULE"), first.c_str());
+  add("rules", po::value(&rules)->composing()->value_name("RULE,..."),
+      "rules that the report compares (default: stock, those of published codes)");
+  add("component", po::value(&component)->default_value(component)->value_name("NAME"),
+      list_of(components).c_str());
+  add("base", po::value(&base)->value_name("NAME"),
+      ("part of contacts with base and walls: " + list_of(base_parts) +
+       " (default: as in the table)")
+          .c_str());
+  add("pair", po::value(&partition.pair)->value_name("A,B"),
+      "of more than two species the two that are compared, by name or number (default: 1,2)");
+  add("heights", po::value(&partition.filters.heights)->value_name("y0:y1"),
+      "B is of the layers between, e.g. 4dS:56dS or 4dS: (default: all)");
+  add("bootstrap", po::value(&bootstrap)->default_value(bootstrap)->value_name("N"),
+      "samples for the 95 % intervals; 0: no intervals");
+  add("seed", po::value(&seed)->default_value(seed)->value_name("N"), "seed of the samples");
+  frames.add_to(options);
+}
+
+void ExploreSettings::check(const po::variables_map& values)
+{
+  if (shown_frames < 1 || shown_frames > 10000)
+    throw UsageError(fmt::format("--frames {}: it must be 1 to 10000", shown_frames));
+  if (bootstrap != 0 && (bootstrap < 100 || bootstrap > 100000))
+    throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", bootstrap));
+  if (seed < 0) throw UsageError("--seed must not be negative");
+  partition.fit.component = choose(component, "--component", components);
+  if (!base.empty()) choose(base, "--base", base_parts);
+  parse_heights(partition.filters.heights, {1, 1});
+  parse_rule(start);
+  partition.rules = parse_rules(rules);
+  for (const auto& rule : partition.rules)
+    if (rule.definition().sum == PairSum::by_power)
+      throw UsageError(fmt::format(
+          "--rules {}: the report compares rules whose sums every table has; move the slider to Q "
+          "instead, or take grseg-stress and grseg-fit with --partition {}",
+          rule.name(), rule.name()));
+  auto& filters = partition.filters;
+  filters.begin = frames.windows.begin.value_or(filters.begin);
+  filters.end = frames.windows.end.value_or(filters.end);
+  partition.resampling = {static_cast<std::size_t>(bootstrap), static_cast<unsigned long>(seed)};
+  frames.output.check(values);
+  const bool to_terminal = frames.output.path.empty() && isatty(STDOUT_FILENO) == 1;
+  if (to_terminal && !frames.json)
+    throw UsageError("a page is nothing for a terminal; name it, e.g. -o explore.html");
+}
+
+ExploreInputs inputs_of(const po::variables_map& values)
+{
+  ExploreInputs inputs;
+  if (values.count("input") > 0)
+    for (const auto& path : values["input"].as<std::vector<std::string>>()) {
+      if (path != "-") require_file(path);
+      (is_hdf5(path) ? inputs.runs : inputs.tables).push_back(path);
+    }
+  if (inputs.runs.empty())
+    throw UsageError(
+        inputs.tables.empty()
+            ? "no run given; name a trajectory file, e.g. run.h5"
+            : fmt::format("{}: is not a run (HDF5); a page shows runs, and uses tables beside them",
+                          printable(inputs.tables.front())));
+  return inputs;
+}
+
+po::variables_map with_inputs(const po::variables_map& values,
+                              const std::vector<std::string>& paths)
+{
+  po::variables_map others = values;
+  std::map<std::string, po::variable_value>& all = others;
+  if (paths.empty())
+    all.erase("input");
+  else
+    all["input"] = po::variable_value(paths, false);
+  return others;
+}
+
+}  // namespace grseg

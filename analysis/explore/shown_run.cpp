@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/explore/shown_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace grseg {
+namespace {
+
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+
+/// Radius of the disc that the plane cuts out of a grain; NaN where it misses it.
+template <int D>
+double radius_in_plane(double radius, const Vector<D>& position, double plane)
+{
+  if constexpr (D == 2) return radius;
+  const double away = position[D - 1] - plane, square = radius * radius - away * away;
+  return square > 0 ? std::sqrt(square) : nothing;
+}
+
+template <int D>
+void show_grains(const Grains& grains, const Frame<D>& frame, double plane, ShownFrame& shown)
+{
+  for (auto* list : {&shown.x, &shown.y, &shown.radius}) list->assign(grains.size(), nothing);
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_present(frame, g)) continue;
+    const double radius = radius_in_plane<D>(grains.radius[g], frame.position[g], plane);
+    if (std::isnan(radius)) continue;
+    shown.x[g] = static_cast<float>(frame.position[g].x());
+    shown.y[g] = static_cast<float>(frame.position[g].y());
+    shown.radius[g] = static_cast<float>(radius);
+  }
+}
+
+/// Keeps a wall for this and the frames to come.
+template <int D>
+void show_wall(const Frame<D>& frame, std::size_t contact, const Vec2& normal,
+               std::vector<ShownWall>& walls)
+{
+  const auto& contacts = frame.contacts;
+  const auto number = static_cast<std::size_t>(-1 - contacts.j[contact]);
+  if (walls.size() <= number) walls.resize(number + 1, {nothing, nothing, nothing});
+  const auto i = static_cast<std::size_t>(contacts.i[contact]);
+  const Vec2 point = (frame.position[i] - contacts.branch[contact]).template head<2>();
+  walls[number] = {static_cast<float>(normal.x()), static_cast<float>(normal.y()),
+                   static_cast<float>(normal.dot(point))};
+}
+
+/// Their numbers, by (i, j).
+template <int D>
+std::vector<std::size_t> in_order(const ContactList<D>& contacts)
+{
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(contacts.i[a], contacts.j[a]) < std::pair(contacts.i[b], contacts.j[b]);
+  });
+  return order;
+}
+
+template <int D>
+void show_contacts(const Frame<D>& frame, ShownFrame& shown)
+{
+  const auto& contacts = frame.contacts;
+  const auto is_shown = [&](std::int32_t g) {
+    return g < 0 || !std::isnan(shown.x[static_cast<std::size_t>(g)]);
+  };
+  for (const auto k : in_order(contacts)) {
+    if (contacts.force[k].isZero() || !is_shown(contacts.i[k]) || !is_shown(contacts.j[k]))
+      continue;
+    const Vec2 branch = contacts.branch[k].template head<2>();
+    const Vec2 force = contacts.force[k].template head<2>();
+    const double length = branch.norm();
+    if (!(length > 1e-3 * contacts.branch[k].norm())) continue;  // across the plane
+    const Vec2 along = branch / length, left(-along.y(), along.x());
+    if (contacts.j[k] < 0) show_wall(frame, k, along, shown.walls);
+    shown.i.push_back(contacts.i[k]);
+    shown.j.push_back(contacts.j[k]);
+    shown.along.push_back(static_cast<float>(force.dot(along)));
+    shown.across.push_back(static_cast<float>(force.dot(left)));
+  }
+}
+
+/// What an overlap or a gap makes of the share of a mixed contact that a cut at the contact point
+/// gives to its larger grain, against one in proportion to the radii.
+template <int D>
+double contact_point_from_size(const Grains& grains, const ContactList<D>& contacts)
+{
+  double largest = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (contacts.j[k] < 0) continue;
+    const auto i = static_cast<std::size_t>(contacts.i[k]),
+               j = static_cast<std::size_t>(contacts.j[k]);
+    if (grains.species[i] == grains.species[j] || !is_mobile(grains, j)) continue;
+    const double by_size = grains.radius[i] / (grains.radius[i] + grains.radius[j]);
+    largest = std::max(largest, std::abs(share_of_first(grains, contacts, k) - by_size));
+  }
+  return largest;
+}
+
+template <class T>
+std::vector<T> picked(const std::vector<T>& all, const std::vector<std::uint32_t>& rows)
+{
+  std::vector<T> some;
+  some.reserve(rows.size());
+  for (const auto row : rows) some.push_back(all[row]);
+  return some;
+}
+
+/// The rows of the grains that at least one frame shows.
+std::vector<std::uint32_t> rows_shown(const std::vector<ShownFrame>& frames, std::size_t grains)
+{
+  std::vector<std::uint32_t> rows;
+  for (std::size_t g = 0; g < grains; ++g)
+    if (std::any_of(frames.begin(), frames.end(),
+                    [g](const ShownFrame& frame) { return !std::isnan(frame.x[g]); }))
+      rows.push_back(static_cast<std::uint32_t>(g));
+  return rows;
+}
+
+/// Leaves out all grains but `rows`.
+void renumber(ShownFrame& frame, const std::vector<std::uint32_t>& rows,
+              const std::vector<std::int32_t>& number)
+{
+  for (auto* list : {&frame.x, &frame.y, &frame.radius}) *list = picked(*list, rows);
+  for (auto* list : {&frame.i, &frame.j})
+    for (auto& grain : *list)
+      if (grain >= 0) grain = number[static_cast<std::size_t>(grain)];
+}
+
+}  // namespace
+
+std::vector<std::size_t> evenly_spaced(const std::vector<std::size_t>& frames, std::size_t count)
+{
+  const std::size_t stride =
+      std::max<std::size_t>(1, (frames.size() + count / 2) / std::max<std::size_t>(1, count));
+  std::vector<std::size_t> some;
+  some.reserve(frames.size() / stride + 1);
+  for (std::size_t k = 0; k < frames.size(); k += stride) some.push_back(frames[k]);
+  return some;
+}
+
+template <int D>
+ShownRun show_run(const TrajectoryReader& run, const Grains& grains,
+                  const std::vector<std::size_t>& frames)
+{
+  ShownRun all;
+  const double plane = run.box().length_z / 2;
+  std::vector<ShownWall> walls;
+  Frame<D> frame;
+  for (const auto index : frames) {
+    run.read(index, frame, {.velocity = false, .contacts = true});
+    auto& shown = all.frames.emplace_back();
+    shown.step = frame.step;
+    shown.time = frame.time;
+    shown.walls = walls;
+    show_grains(grains, frame, plane, shown);
+    show_contacts(frame, shown);
+    walls = shown.walls;
+    all.contact_point_from_size =
+        std::max(all.contact_point_from_size, contact_point_from_size(grains, frame.contacts));
+  }
+  all.row = rows_shown(all.frames, grains.size());
+  std::vector<std::int32_t> number(grains.size(), -1);
+  for (std::size_t g = 0; g < all.row.size(); ++g)
+    number[all.row[g]] = static_cast<std::int32_t>(g);
+  for (auto& shown : all.frames) renumber(shown, all.row, number);
+  for (const auto row : all.row) {
+    all.radius.push_back(static_cast<float>(grains.radius[row]));
+    all.species.push_back(is_mobile(grains, row) ? grains.species[row] : Species::boundary);
+  }
+  return all;
+}
+
+template ShownRun show_run<2>(const TrajectoryReader&, const Grains&,
+                              const std::vector<std::size_t>&);
+template ShownRun show_run<3>(const TrajectoryReader&, const Grains&,
+                              const std::vector<std::size_t>&);
+
+}  // namespace grseg

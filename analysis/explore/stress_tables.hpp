@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/frame_loop.hpp"
+#include "formats/cli/table.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// The sums of a run, as grseg-stress makes them with its defaults: contacts in the layer of their
+/// contact point, grains clipped at the edges of layers.
+struct StressTables {
+  Table sums;
+  /// With the columns of power:Q for each Q that was asked for; all else is that of `sums`.
+  std::vector<Table> of_powers;
+};
+
+/// Reads the frames of all windows once. `command` is the last line of the tables' history.
+StressTables make_stress_tables(FrameLoop& loop, std::span<const double> powers,
+                                const std::string& command);
+
+/// Which of `tables` is of the run: made of it alone, by grseg-stress. FormatError naming a table that
+/// is of none of the runs, whose digests are given ("xxh3 ..."), or of several.
+std::vector<const Table*> tables_of_runs(const std::vector<Table>& tables,
+                                         const std::vector<std::string>& digests);
+
+}  // namespace grseg

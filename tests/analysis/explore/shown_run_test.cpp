@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/explore/shown_run.hpp"
+
+#include "tests/folder.hpp"
+#include "tests/spheres.hpp"
+#include "tests/three_grains.hpp"
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+using Numbers = std::vector<std::size_t>;
+
+class ShownRunTest : public TestInFolder {
+ protected:
+  template <int D>
+  ShownRun shown(const RunDescription& run, const std::vector<Frame<D>>& frames)
+  {
+    TrajectoryWriter writer(path("run.h5"), run);
+    for (const auto& frame : frames)
+      writer.append(frame, std::vector<double>(run.observables.size(), 0.0));
+    writer.close();
+    const TrajectoryReader reader(path("run.h5"));
+    Numbers all;
+    for (std::size_t k = 0; k < frames.size(); ++k) all.push_back(k);
+    return show_run<D>(reader, reader.grains(), all);
+  }
+};
+
+TEST(EvenlySpaced, FramesLieAsFarApartAsTheirNumberAsks)
+{
+  Numbers frames;
+  for (std::size_t k = 0; k < 10; ++k) frames.push_back(100 + k);
+  EXPECT_EQ(evenly_spaced(frames, 20), frames);
+  EXPECT_EQ(evenly_spaced(frames, 10), frames);
+  EXPECT_EQ(evenly_spaced(frames, 5), (Numbers{100, 102, 104, 106, 108}));
+  EXPECT_EQ(evenly_spaced(frames, 3), (Numbers{100, 103, 106, 109}));
+  EXPECT_EQ(evenly_spaced(frames, 1), (Numbers{100}));
+}
+
+TEST(EvenlySpaced, ThereAreTwoThirdsToOneAndAHalfTimesAsManyAsAskedFor)
+{
+  for (std::size_t n = 1; n < 2000; n += 7) {
+    const auto count = evenly_spaced(Numbers(n, 0), 100).size();
+    EXPECT_LE(count, std::min<std::size_t>(n, 150)) << n;
+    EXPECT_GE(count, std::min<std::size_t>(n, 66)) << n;
+  }
+}
+
+TEST_F(ShownRunTest, AForceIsThatAlongTheBranchAndThatToItsLeft)
+{
+  const auto run = shown<2>(three_grains::description(), {three_grains::frame(3)});
+  ASSERT_EQ(run.frames.size(), 1u);
+  const auto& frame = run.frames[0];
+  EXPECT_EQ(frame.step, 1500);
+  EXPECT_EQ(frame.i, (std::vector<std::int32_t>{0, 0}));
+  EXPECT_EQ(frame.j, (std::vector<std::int32_t>{1, 2}));
+  // On the large grain from the small one above: (1e-4, -2e-4), the branch points down.
+  EXPECT_FLOAT_EQ(frame.along[0], 2e-4f);
+  EXPECT_FLOAT_EQ(frame.across[0], 1e-4f);
+  // And from the base below: (-3e-4, 1e-3), the branch points up.
+  EXPECT_FLOAT_EQ(frame.along[1], 1e-3f);
+  EXPECT_FLOAT_EQ(frame.across[1], 3e-4f);
+  EXPECT_FLOAT_EQ(frame.x[1], 0.053f);
+  EXPECT_FLOAT_EQ(frame.y[1], 0.0125f);
+  EXPECT_EQ(run.species, (std::vector<Species>{Species::large, Species::small, Species::boundary}));
+}
+
+TEST_F(ShownRunTest, ContactsWithoutForceAreNotShownAndOthersAreInOrder)
+{
+  auto frame = three_grains::frame(0);
+  auto& contacts = frame.contacts;
+  std::swap(contacts.j[0], contacts.j[1]);
+  std::swap(contacts.force[0], contacts.force[1]);
+  std::swap(contacts.branch[0], contacts.branch[1]);
+  auto without = frame;
+  without.step += 500;
+  without.time += 0.05;
+  without.contacts.force[0].setZero();
+  const auto run = shown<2>(three_grains::description(), {frame, without});
+  EXPECT_EQ(run.frames[0].j, (std::vector<std::int32_t>{1, 2}));
+  EXPECT_EQ(run.frames[1].j, (std::vector<std::int32_t>{1}));
+}
+
+TEST_F(ShownRunTest, AWallIsKnownFromItsFirstContactOn)
+{
+  const auto alone = three_grains::frame(0);
+  auto at_wall = three_grains::frame(1);
+  auto& contacts = at_wall.contacts;
+  contacts.i.push_back(1);
+  contacts.j.push_back(-3);
+  contacts.force.emplace_back(-1e-4, 0);
+  contacts.branch.emplace_back(-0.0025, 0);
+  contacts.gap.push_back(0);
+  const auto run = shown<2>(three_grains::description(), {alone, at_wall, three_grains::frame(2)});
+  EXPECT_TRUE(run.frames[0].walls.empty());
+  for (const std::size_t k : {1u, 2u}) {
+    ASSERT_EQ(run.frames[k].walls.size(), 3u) << "walls are numbered from 0, and this is number 2";
+    EXPECT_TRUE(std::isnan(run.frames[k].walls[0].offset));
+    const auto& wall = run.frames[k].walls[2];
+    EXPECT_FLOAT_EQ(wall.normal_x, -1);
+    EXPECT_FLOAT_EQ(wall.normal_y, 0);
+    EXPECT_FLOAT_EQ(wall.offset, -(0.051f + 0.0025f));
+  }
+}
+
+TEST_F(ShownRunTest, OfSpheresThereAreTheDiscsThatThePlaneHalfWayAcrossCutsOut)
+{
+  const auto description = spheres::description();
+  const double plane = description.box.length_z / 2;
+  auto frame = spheres::frame(0);
+  const double cut[] = {plane - 0.001, plane + 0.003, plane + 0.0024, plane + 0.006};
+  for (std::size_t g = 0; g < 4; ++g) frame.position[g].z() = cut[g];
+  const auto run = shown<3>(description, {frame});
+  ASSERT_EQ(run.row, (std::vector<std::uint32_t>{0, 1, 2})) << "the base lies beyond the plane";
+  const auto& radius = run.frames[0].radius;
+  EXPECT_NEAR(radius[0], std::sqrt(0.006 * 0.006 - 1e-6), 1e-9);
+  EXPECT_NEAR(radius[1], std::sqrt(0.004 * 0.004 - 9e-6), 1e-9);
+  EXPECT_NEAR(radius[2], std::sqrt(0.0025 * 0.0025 - 0.0024 * 0.0024), 1e-9);
+  // Contacts whose both grains are cut; forces are those in the plane.
+  for (std::size_t k = 0; k < run.frames[0].i.size(); ++k) EXPECT_NE(run.frames[0].j[k], 3);
+  const Vec2 force(-0.017, 0.013), branch(-0.007, 0.006);
+  ASSERT_EQ(run.frames[0].i[1], 1);
+  EXPECT_NEAR(run.frames[0].along[1], force.dot(branch) / branch.norm(), 1e-8);
+}
+
+TEST_F(ShownRunTest, GrainsThatAreNeverShownLeaveNoGapInTheNumbersOfOthers)
+{
+  const auto description = spheres::description();
+  auto frame = spheres::frame(0);
+  const double plane = description.box.length_z / 2;
+  for (auto& position : frame.position) position.z() = plane;
+  frame.position[0].z() = plane + 0.0065;
+  const auto run = shown<3>(description, {frame});
+  EXPECT_EQ(run.row, (std::vector<std::uint32_t>{1, 2, 3}));
+  // Left are contacts of the fine grain (now 1): with the middle one (now 0) and with wall 1.
+  EXPECT_EQ(run.frames[0].i, (std::vector<std::int32_t>{1, 1}));
+  EXPECT_EQ(run.frames[0].j, (std::vector<std::int32_t>{-2, 0}));
+}
+
+}  // namespace
+}  // namespace grseg

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/explore/stress_tables.hpp"
+
+#include "tests/folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+Table table_of(const std::string& name, const std::string& program,
+               const std::vector<std::string>& inputs)
+{
+  Table table;
+  table.name = name;
+  table.header = {{"program", program}};
+  for (const auto& input : inputs) table.header.emplace_back("input", input);
+  return table;
+}
+
+const std::vector<std::string> digests{"xxh3 00000000000000aa", "xxh3 00000000000000bb"};
+
+TEST(TablesOfRuns, ATableBelongsToTheRunWithItsDigest)
+{
+  const std::vector<Table> tables{table_of("b.tsv", "grseg-stress 0.2.0", {digests[1]})};
+  const auto found = tables_of_runs(tables, digests);
+  EXPECT_EQ(found[0], nullptr);
+  EXPECT_EQ(found[1], &tables[0]);
+}
+
+TEST(TablesOfRuns, TablesOfOtherRunsProgramsAndSeveralRunsAreRefused)
+{
+  const auto refused = [](const Table& table) {
+    return complaint_of<FormatError>([&] { tables_of_runs({table}, digests); });
+  };
+  EXPECT_EQ(
+      refused(table_of("c.tsv", "grseg-stress 0.2.0", {"xxh3 00000000000000cc"})),
+      "c.tsv: is of the run with the digest xxh3 00000000000000cc, which is none of those given; "
+      "name that run, make the table anew, or leave it out: sums are then made of the run");
+  EXPECT_EQ(
+      refused(table_of("k.tsv", "grseg-kinetic 0.2.0", {digests[0]})),
+      "k.tsv: is a table of grseg-kinetic 0.2.0; beside runs only tables of grseg-stress are used");
+  EXPECT_EQ(refused(table_of("m.tsv", "grseg-stress 0.2.0", digests)),
+            "m.tsv: is made of 2 runs; give tables of one run each");
+  EXPECT_EQ(
+      refused(Table{}),
+      "table: is not a table made by grseg; beside runs only tables of grseg-stress are used");
+}
+
+TEST(TablesOfRuns, TwoTablesOfOneRunAreRefused)
+{
+  const auto table = table_of("a.tsv", "grseg-stress 0.2.0", {digests[0]});
+  EXPECT_EQ(complaint_of<UsageError>([&] {
+              tables_of_runs({table, table}, digests);
+            }),
+            "a.tsv and a.tsv are of the same run; give one of them");
+}
+
+}  // namespace
+}  // namespace grseg
