@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/tool.hpp"
 
+#include "formats/cli/citation.hpp"
+#include "formats/cli/completion.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
@@ -126,11 +128,19 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
   const auto presets = help_of(info.presets);
   if (!info.presets.empty())
     all.add_options()("preset", po::value<std::string>()->value_name("NAME"), presets.c_str());
-  all.add_options()("version", "print the version and exit")("help,h", "print this text and exit");
+  all.add_options()("version", "print the version and exit");
+  all.add_options()("cite", "print what to cite, as BibTeX, and exit");
+  all.add_options()("completion", po::value<std::string>()->value_name("SHELL"),
+                    "print a script by which bash or zsh completes this command, and exit");
+  all.add_options()("help,h", "print this text and exit");
   try {
     const auto values = parse(argc, argv, info, all);
     if (values.count("help") > 0) {
       print_help(info, all);
+    } else if (values.count("cite") > 0) {
+      std::cout << citations();
+    } else if (values.count("completion") > 0) {
+      std::cout << completion_script(values["completion"].as<std::string>(), info.name, all);
     } else if (values.count("version") > 0) {
       std::cout << info.name << ' ' << version_with_hash() << '\n';
     } else {

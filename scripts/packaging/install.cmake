@@ -1,0 +1,63 @@
+# What `cmake --install` puts where, and the Debian package that `cpack` makes of it (docs/guide/install.md).
+# Manual pages and completions are made by the programs themselves, from their tables of options.
+include(GNUInstallDirs)
+set(GRSEG_PROGRAMS grseg-sim ${GRSEG_FORMAT_TOOLS} ${GRSEG_TOOLS})
+install(TARGETS ${GRSEG_PROGRAMS} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/sim/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/grseg)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff TYPE DOC)
+install(FILES ${PROJECT_SOURCE_DIR}/formats/README.md TYPE DOC RENAME file-format.md)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE TYPE DOC RENAME copyright)
+
+# grseg_printed(FILE PROGRAM OPTION ...): what a program prints, as a file that `all` makes.
+set(GRSEG_PRINTED "")
+function(grseg_printed file program)
+  add_custom_command(
+    OUTPUT ${file}
+    COMMAND $<TARGET_FILE:${program}> ${ARGN} > ${file}.part
+    COMMAND ${CMAKE_COMMAND} -E rename ${file}.part ${file}
+    DEPENDS ${program}
+    VERBATIM)
+  set(GRSEG_PRINTED ${GRSEG_PRINTED} ${file} PARENT_SCOPE)
+endfunction()
+
+find_program(HELP2MAN help2man)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/man ${PROJECT_BINARY_DIR}/completions/bash ${PROJECT_BINARY_DIR}/completions/zsh)
+foreach(program ${GRSEG_PROGRAMS})
+  grseg_printed(${PROJECT_BINARY_DIR}/completions/bash/${program} ${program} --completion bash)
+  grseg_printed(${PROJECT_BINARY_DIR}/completions/zsh/_${program} ${program} --completion zsh)
+  if(HELP2MAN)
+    set(page ${PROJECT_BINARY_DIR}/man/${program}.1)
+    add_custom_command(
+      OUTPUT ${page}
+      COMMAND ${HELP2MAN} --no-info --section=1 --output=${page} $<TARGET_FILE:${program}>
+      DEPENDS ${program}
+      VERBATIM)
+    list(APPEND GRSEG_PRINTED ${page})
+  endif()
+endforeach()
+add_custom_target(grseg_printed ALL DEPENDS ${GRSEG_PRINTED})
+
+install(DIRECTORY ${PROJECT_BINARY_DIR}/completions/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+# Debian's zsh looks into the first below /usr/local, into the second below /usr.
+foreach(folder site-functions vendor-completions)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/completions/zsh/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder})
+endforeach()
+if(HELP2MAN)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME grseg)
+set(CPACK_PACKAGE_CONTACT "The grseg developers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "stress partition between small and large grains")
+set(CPACK_PACKAGE_DESCRIPTION
+    "Contact dynamics of rigid discs, and tools that split the stress of a granular flow
+between species of grains, under any rule for contacts of small with large ones,
+also of archives of LAMMPS, LIGGGHTS, MercuryDPM, Siconos and YADE.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, python3-h5py")
+include(CPack)
