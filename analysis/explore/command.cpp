@@ -6,6 +6,7 @@
 #include "analysis/explore/settings.hpp"
 #include "analysis/explore/stress_tables.hpp"
 #include "formats/cli/input_tables.hpp"
+#include "formats/cli/next_step.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/text.hpp"
 #include "formats/trajectory/digest.hpp"
@@ -84,6 +85,8 @@ void write_page(const ToolInfo& info, const po::variables_map& values, ExploreSe
     arrays.push_back(of_all.base64());
   }
   write_whole(s.frames.output, s.frames.json ? content.dump(1) + '\n' : page_of(content, arrays));
+  if (!s.frames.output.path.empty() && !s.frames.json)
+    say_next("xdg-open " + shell_word(s.frames.output.path), s.frames.quiet);
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ Json rule_object(const RuleFit& fit, const std::vector<Mixture>& mixtures)
               {"points", fit.points},
               {"not_positive", fit.not_positive},
               {"over", word_of(fit.over, overs)},
-              {"p_zero_sums", with_interval(fit.p_zero_sums)},
+              {"p_zero_sums", with_interval(fit.p_zero_sums.estimate())},
               {"doubt", fit.doubt}};
   for (const auto& [name, place] : estimator_columns) object[name] = with_interval(fit, place);
   return object;

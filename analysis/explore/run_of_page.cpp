@@ -7,43 +7,19 @@
 #include "analysis/explore/segregation_data.hpp"
 #include "analysis/explore/shown_run.hpp"
 #include "analysis/explore/stress_tables.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 namespace grseg {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// What is being done, on a terminal.
-class Progress {
- public:
-  Progress(const char* tool, bool quiet) : tool_(tool), on_(!quiet && isatty(STDERR_FILENO) == 1) {}
-  ~Progress() { clear(); }
-  void tell(const std::string& run, const char* what) const
-  {
-    if (!on_) return;
-    fmt::print(stderr, "\r{}: {}: {}\033[K", tool_, printable(run), what);
-    std::fflush(stderr);
-  }
-  void clear() const
-  {
-    if (on_) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  const char* tool_;
-  bool on_;
-};
 
 /// Fits, or the sentence that tells why there is nothing to fit.
 Json fitted(const PartitionInput& input, PartitionSettings settings, const std::string& base,
@@ -121,22 +97,23 @@ RunOfPage run_of_page(const ToolInfo& info, const po::variables_map& values,
                       const std::string& command)
 {
   const auto own = with_inputs(values, {path});
-  const Progress progress(info.name, s.frames.quiet);
+  const ProgressBar progress(info.name, {}, s.frames.quiet);
+  const auto tell = [&](const char* what) { progress.say(path + ": " + what); };
   auto quietly = s.frames;
   quietly.quiet = true;
   FrameLoop loop(info, own, quietly);
   RunOfPage run{facts_of(loop), {}, {}};
-  progress.tell(path, "frames");
+  tell("frames");
   run.content["player"] = player_of(loop, s, run.arrays);
-  progress.tell(path, "sums");
+  tell("sums");
   run.sums = sums_of(loop, table, command);
   if (table != nullptr) run.content["sums"] = printable(table->name);
-  progress.tell(path, "intervals");
+  tell("intervals");
   run.content.update(fitted(run.sums, s.partition, s.base, run.arrays));
-  progress.tell(path, "tables by layer");
+  tell("tables by layer");
   run.content["layers"] = layer_tables(loop);
   run.content["segregation"] = segregation_data(loop, s.partition.filters.heights);
-  progress.tell(path, "checks");
+  tell("checks");
   run.content["checks"] = check_run(path);
   return run;
 }

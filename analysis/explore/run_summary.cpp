@@ -84,21 +84,6 @@ std::vector<CheckLine> check_lines(const TrajectoryReader& run)
   return lines;
 }
 
-const char* word_of(Verdict verdict)
-{
-  switch (verdict) {
-    case Verdict::passed:
-      return "passed";
-    case Verdict::failed:
-      return "failed";
-    case Verdict::undecided:
-      return "undecided";
-    case Verdict::skipped:
-      return "skipped";
-  }
-  return "";
-}
-
 }  // namespace
 
 Json run_summary(const TrajectoryReader& run)
@@ -139,7 +124,7 @@ Json check_run(const std::string& path)
                             {"y1", line.y1},
                             {"measured", line.measured},
                             {"tolerance", line.tolerance},
-                            {"verdict", word_of(line.verdict)},
+                            {"verdict", to_text(line.verdict)},
                             {"remark", printable(line.remark)}});
   return all;
 }

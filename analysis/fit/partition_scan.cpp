@@ -187,19 +187,29 @@ ScanRange parse_scan(const std::string& text)
 }
 
 PartitionScan scan_partition(const FitData& data, const ScanRange& range,
-                             const FitSettings& settings, const Bootstrap& bootstrap)
+                             const FitSettings& settings, const Bootstrap& bootstrap,
+                             const std::function<void(double shares)>& tell)
 {
   const auto shares = range.shares();
+  double done = 0;
+  const auto tell_half = [&] {  // each share is met twice
+    done += 0.5;
+    if (tell) tell(done);
+  };
   const auto nearest = nearest_to_zero(data, shares, settings);
   PartitionScan scan;
   const auto at_nearest = dependence(data, uniform(nearest.share), settings);
   scan.dependence = at_nearest;
   if (bootstrap.count() > 0)
-    for (const double share : shares)
+    for (const double share : shares) {
       scan.dependence = worse(scan.dependence, dependence(data, uniform(share), settings));
+      tell_half();
+    }
   scan.dependence.block = at_nearest.block;
-  for (const double share : shares)
+  for (const double share : shares) {
     scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
+    tell_half();
+  }
   scan.p_zero_sums = zero_of_sums(data, settings, bootstrap, scan.fits.front().over, at_nearest);
   if (nearest.crosses)
     static_cast<ZeroOfB&>(scan) = zero_at(nearest.share, data, settings, bootstrap, at_nearest);

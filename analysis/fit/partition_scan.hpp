@@ -3,6 +3,7 @@
 
 #include "analysis/fit/rule_fit.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,10 @@ ZeroOfB find_zero_of_b(const FitData& data, const ScanRange& range, const FitSet
 
 /// The band of B(p) must not jump where the block length of a single fit would, so all shares have
 /// one: that of the share nearest to B = 0, with the longest autocorrelation time of all. The
-/// intervals of p_zero and dB_dp are those of a fit at p_zero, whatever the range.
+/// intervals of p_zero and dB_dp are those of a fit at p_zero, whatever the range. `tell` is told,
+/// now and then, how many shares are done.
 PartitionScan scan_partition(const FitData& data, const ScanRange& range,
-                             const FitSettings& settings, const Bootstrap& bootstrap);
+                             const FitSettings& settings, const Bootstrap& bootstrap,
+                             const std::function<void(double shares)>& tell = {});
 
 }  // namespace grseg

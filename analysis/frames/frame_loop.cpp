@@ -2,6 +2,7 @@
 #include "analysis/frames/frame_loop.hpp"
 
 #include "analysis/frames/layer_key.hpp"
+#include "formats/cli/next_step.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/words.hpp"
@@ -13,12 +14,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -131,7 +130,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
       grouped_(group_grains(run_, options.grouping)),
       layers_(layers_of(run_, options)),
       windows_(cut_into_windows(times_of(run_), options.windows)),
-      progress_(!options.quiet && isatty(STDERR_FILENO) == 1)
+      progress_(info.name, {.things = "frames"}, options.quiet)
 {
   options.parts.check(options.output.path);
   if (const auto& part = options.parts.part) {
@@ -155,7 +154,9 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
       throw UsageError("--json prints text; give it without -o, or a name in .json");
     check_map_file(options.output, {run_.path()});
   }
+  expect_passes(1);
   if (plane) with_dimension(dimension(), [&](auto d) { layers_ = map_of<d>(*plane); });
+  expect_passes(1);
 }
 
 std::span<const Window> FrameLoop::windows() const
@@ -178,9 +179,13 @@ Layers FrameLoop::map_of(MapPlane plane)
                      layers_.length(), layers_.width());
 }
 
-FrameLoop::~FrameLoop()
+void FrameLoop::expect_passes(int passes)
 {
-  if (progress_) fmt::print(stderr, "\r\033[K");
+  std::size_t frames = 0;
+  for (const auto& window : windows()) frames += window.frames.size();
+  frames_done_ = 0;
+  progress_.begin({.things = passes == 1 ? "frames" : fmt::format("frames in {} passes", passes),
+                   .total = static_cast<double>(frames) * passes});
 }
 
 void FrameLoop::require_two_species() const
@@ -208,14 +213,6 @@ void FrameLoop::read(std::size_t index, Frame<D>& frame, TrajectoryReader::Field
 
 template void FrameLoop::read(std::size_t, Frame<2>&, TrajectoryReader::Fields);
 template void FrameLoop::read(std::size_t, Frame<3>&, TrajectoryReader::Fields);
-
-void FrameLoop::report_progress(const Window& window)
-{
-  if (!progress_) return;
-  fmt::print(stderr, "\r{}: {} of {} windows", info_.name, &window - windows_.data() + 1,
-             windows_.size());
-  std::fflush(stderr);
-}
 
 namespace {
 
@@ -375,13 +372,16 @@ Table FrameLoop::joined(const Table& table) const
   return all;
 }
 
-void FrameLoop::write(const Table& table) const
+void FrameLoop::write(const Table& table, const std::string& next)
 {
+  progress_.clear();
   auto whole = options_.parts.join > 0 ? joined(table) : table;
   if (options_.parts.part) whole.header.push_back(part_line(*options_.parts.part));
   if (is_map_file(options_.output.path))
     return write_map_file(whole, options_.output, {run_.path()});
   write_whole(options_.output, options_.json ? whole.to_json() : whole.to_text());
+  if (next.empty() || options_.output.path.empty() || options_.json || options_.parts.part) return;
+  say_next(fmt::format("{} {}", next, shell_word(options_.output.path)), options_.quiet);
 }
 
 }  // namespace grseg

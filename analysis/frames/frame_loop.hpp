@@ -7,6 +7,7 @@
 #include "analysis/frames/windows.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/part.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/cli/verification.hpp"
@@ -54,7 +55,6 @@ class FrameLoop {
  public:
   /// Opens the one run that the command line names. UsageError where it names none or several.
   FrameLoop(const ToolInfo& info, const po::variables_map& values, const FrameOptions& options);
-  ~FrameLoop();
 
   const TrajectoryReader& run() const { return run_; }
   /// 2 or 3: the D of `sum`.
@@ -67,6 +67,8 @@ class FrameLoop {
   const Layers& layers() const { return layers_; }
   /// Those to sum over: all, or those of --part; none with --join, whose rows `write` has.
   std::span<const Window> windows() const;
+  /// How often `sum` will be called for each window, for the progress that is shown; once, unless told.
+  void expect_passes(int passes);
 
   /// Sums over the frames of a window. Each of `empty`, accumulators without frames, is returned
   /// with all frames added:
@@ -98,12 +100,12 @@ class FrameLoop {
                               const std::vector<double>& values) const;
   /// To the file of --output, or to standard output. A map may become a file for other programs
   /// (formats/export/map_file.hpp).
-  void write(const Table& table) const;
+  /// `next` is what a reader of that file runs, without its name: "grseg-fit".
+  void write(const Table& table, const std::string& next = "");
 
  private:
   template <int D>
   void read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields);
-  void report_progress(const Window& window);
   /// The table with the rows of all parts.
   Table joined(const Table& table) const;
   /// The cells that hold the grains of all windows, whose frames are read for that.
@@ -117,7 +119,8 @@ class FrameLoop {
   GroupedGrains grouped_;
   Layers layers_;
   std::vector<Window> windows_;
-  bool progress_;
+  ProgressBar progress_;
+  std::size_t frames_done_ = 0;
   std::mutex reading_;  // the HDF5 library knows no threads
 };
 
@@ -138,15 +141,19 @@ std::tuple<Sums...> FrameLoop::sum(const Window& window, TrajectoryReader::Field
     return sums;
   };
   std::tuple<Sums...> total(empty...);
+  std::size_t done = 0;  // of this window
   const auto merge = [&](const std::tuple<Sums...>& sums) {
     std::apply(
         [&](Sums&... all) {
           std::apply([&](const Sums&... each) { (all.merge(each), ...); }, sums);
         },
         total);
+    const std::size_t more = std::min(block, frames.size() - done);
+    done += more;
+    frames_done_ += more;
+    progress_.show(static_cast<double>(frames_done_));
   };
   in_order(options_.threads, (frames.size() + block - 1) / block, sums_of_block, merge);
-  report_progress(window);
   return total;
 }
 

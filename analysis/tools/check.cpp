@@ -3,7 +3,9 @@
 #include "analysis/check/content_check.hpp"
 #include "analysis/check/physics_check.hpp"
 #include "analysis/check/specification_check.hpp"
+#include "formats/cli/next_step.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
@@ -12,7 +14,6 @@
 #include "formats/trajectory/reader.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <iostream>
@@ -98,17 +99,16 @@ CheckReport check(const TrajectoryReader& run, const Settings& s, const std::str
   if (s.deep) specification.emplace(run);
   std::optional<PhysicsCheck<D>> physics;
   if (s.with_physics) physics.emplace(run, s.physics);
-  const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
+  ProgressBar progress(name, {.things = "frames", .total = static_cast<double>(run.size())},
+                       s.quiet);
   Frame<D> frame;
   for (std::size_t k = 0; k < run.size(); ++k) {
     run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
     content.add(k, frame);
     if (specification) specification->add(k, frame);
     if (physics) physics->add(k, frame);
-    if (progress && k % 100 == 0)
-      fmt::print(stderr, "\r{}: frame {} of {}\033[K", name, k, run.size());
+    progress.show(static_cast<double>(k + 1));
   }
-  if (progress) fmt::print(stderr, "\r\033[K");
   CheckReport report{header_of(run, s, command), content.lines()};
   const auto append = [&](const auto& part) {
     if (!part) return;
@@ -136,5 +136,6 @@ int main(int argc, char** argv)
       throw CheckError(fmt::format("{}: {}", run.path(), failures));
     if (const auto undecided = report.undecided(); !undecided.empty() && !settings.quiet)
       fmt::print(stderr, "{}: {}: {}\n", name, run.path(), undecided);
+    say_next(fmt::format("grseg-stress {} -o stress.tsv", shell_word(run.path())), settings.quiet);
   });
 }

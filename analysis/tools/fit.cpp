@@ -12,6 +12,7 @@
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
@@ -297,6 +298,15 @@ Header header_of(const Settings& s, const std::string& preset, const std::vector
       {"mixtures", grouping_words(s.mixtures, tables)}};
 }
 
+PartitionScan scan(const FitData& data, const ScanRange& range, const FitSettings& settings,
+                   const Bootstrap& bootstrap, bool quiet)
+{
+  const auto shares = static_cast<double>(range.shares().size());
+  ProgressBar progress(info.name, {.things = "shares", .total = shares}, quiet);
+  return scan_partition(data, range, settings, bootstrap,
+                        [&](double done) { progress.show(done); });
+}
+
 FitReport make_report(const Settings& s, const std::string& preset,
                       const std::vector<Table>& tables)
 {
@@ -322,7 +332,7 @@ FitReport make_report(const Settings& s, const std::string& preset,
   const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
   report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings, resampling,
                            s.exponent || report.names_pairs());
-  if (!s.scan.empty()) report.scan = scan_partition(data, parse_scan(s.scan), settings, bootstrap);
+  if (!s.scan.empty()) report.scan = scan(data, parse_scan(s.scan), settings, bootstrap, s.quiet);
   if (prints_short(s)) add_for_short_table(report, data, settings, bootstrap);
 
   report.header = header_of(s, preset, tables, report, data, grains_words(all, data));

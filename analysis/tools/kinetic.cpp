@@ -186,6 +186,7 @@ void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, VelocityInStep 
   const KineticStress<D> nothing(loop.layers(), flow, no_grains, species.size());
   auto table = loop.make_table(command, settings, columns_of(cells(loop, nothing, std::nullopt)));
 
+  loop.expect_passes(2);
   LayerBias bias;
   LeftOut left_out;
   for (const auto& window : loop.windows()) {
@@ -195,7 +196,7 @@ void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, VelocityInStep 
     bias.add(stress, species.size());
     left_out.add(stress, species.size(), window.frames.size());
   }
-  loop.write(table);
+  loop.write(table, loop.layers().map() ? "" : "grseg-fit --quantity kinetic");
   if (flow == MeanFlow::layer && !loop.layers().map() && !s.frames.quiet) bias.report();
   if (left_out.grains > 0 && !s.frames.quiet) left_out.report();
 }

@@ -127,7 +127,7 @@ void tabulate(FrameLoop& loop, const Settings& s, GrainArea area, const std::str
           window, layer, map ? values_of(map_cells(micro.mean(layer))) : micro.row(layer)));
     if (!map) table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));
   }
-  loop.write(table);
+  loop.write(table, map ? "" : "grseg-micro --derived");
 }
 
 void tabulate(Settings s, const po::variables_map& values, const std::string& command)
@@ -145,6 +145,7 @@ void distribute(FrameLoop& loop, const Settings& s, ForceUnit unit, const std::s
                                ForceDistribution<D>::columns());
   const TrajectoryReader::Fields contacts{.velocity = false, .contacts = true};
 
+  loop.expect_passes(2);
   for (const auto& window : loop.windows()) {
     const auto [mean] = loop.sum<D>(window, contacts, MeanNormalForce<D>(loop.layers()));
     const auto [forces] =

@@ -132,7 +132,8 @@ void make_film(const Source& source)
   listen_to_signals();
   Output output(s.output.path, s.output.overwrite, {source.run.path()});
   Film film(ffmpeg, output.temporary(), {source.kind, picture.page().size, s.fps, source.history});
-  ProgressBar progress(info.name, "pictures", frames.size(), s.quiet);
+  ProgressBar progress(
+      info.name, {.things = "pictures", .total = static_cast<double>(frames.size())}, s.quiet);
 
   std::mutex reading;
   std::size_t done = 0;
@@ -151,8 +152,9 @@ void make_film(const Source& source)
   in_order(s.threads, frames.size(), pixels_of, [&](const Pixels& pixels) {
     stop_if_interrupted();
     film.add(pixels.bytes());
-    progress.show(++done);
+    progress.show(static_cast<double>(++done));
   });
+  progress.clear();
   film.finish();
   output.publish();
 }

@@ -150,7 +150,7 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
       table.rows.push_back(loop.row(window, layer, row));
     }
   }
-  loop.write(table);
+  loop.write(table, map ? "" : "grseg-fit");
 }
 
 void tabulate(Settings s, const po::variables_map& values, const std::string& command)

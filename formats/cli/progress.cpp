@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/progress.hpp"
 
+#include "formats/core/text.hpp"
+
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -15,38 +18,32 @@ namespace {
 constexpr double first_on_terminal = 0.3, between_on_terminal = 0.2;  // s
 constexpr double first_in_file = 10, between_in_file = 30;            // s
 
-std::string bar(std::size_t done, std::size_t total)
+std::string bar(double done, double total)
 {
-  constexpr std::size_t length = 24;
-  const std::size_t full = total == 0 ? length : length * done / total;
-  return fmt::format("[{:#<{}}{:.<{}}]", "", full, "", length - full);
+  constexpr double length = 24;
+  const auto full = static_cast<int>(length * std::clamp(done / total, 0.0, 1.0));
+  return fmt::format("[{:#<{}}{:.<{}}] ", "", full, "", static_cast<int>(length) - full);
 }
 
 }  // namespace
 
-std::string progress_text(std::size_t done, std::size_t total, const std::string& things,
-                          double seconds)
+std::string progress_text(double done, const Work& work, double seconds)
 {
-  auto text = fmt::format("{} of {} {}", done, total, things);
-  if (done == 0 || !(seconds > 0)) return text;
-  const double rate = static_cast<double>(done) / seconds;
-  const auto left = std::lround(static_cast<double>(total - done) / rate);
-  return fmt::format("{}, {:.{}f}/s, {}:{:02} left", text, rate, rate < 10 ? 1 : 0, left / 60,
-                     left % 60);
+  auto text = fmt::format("{:.{}f}", done, work.digits);
+  if (work.total > 0) text += fmt::format(" of {:.{}f}", work.total, work.digits);
+  text += " " + work.things;
+  if (!(done > work.from) || !(seconds > 0)) return text;
+  const double rate = (done - work.from) / seconds;
+  text += fmt::format(", {:.{}f}/s", rate, rate < 1 ? 2 : rate < 10 ? 1 : 0);
+  if (!(work.total > 0)) return text;
+  const auto left = std::lround(std::max(0.0, work.total - done) / rate);
+  return fmt::format("{}, {}:{:02} left", text, left / 60, left % 60);
 }
 
-ProgressBar::ProgressBar(const char* program, std::string things, std::size_t total, bool quiet)
-    : program_(program),
-      things_(std::move(things)),
-      total_(total),
-      where_(standard_error(quiet)),
-      next_(where_ == Where::terminal ? first_on_terminal : first_in_file)
+ProgressBar::ProgressBar(const char* program, Work work, bool quiet)
+    : program_(program), where_(standard_error(quiet))
 {
-}
-
-ProgressBar::~ProgressBar()
-{
-  if (where_ == Where::terminal) fmt::print(stderr, "\r\033[K");
+  begin(std::move(work));
 }
 
 ProgressBar::Where ProgressBar::standard_error(bool quiet)
@@ -58,20 +55,38 @@ ProgressBar::Where ProgressBar::standard_error(bool quiet)
   return is_file ? Where::file : Where::nowhere;
 }
 
-void ProgressBar::show(std::size_t done)
+void ProgressBar::begin(Work work)
+{
+  work_ = std::move(work);
+  begin_ = std::chrono::steady_clock::now();
+  next_ = where_ == Where::terminal ? first_on_terminal : first_in_file;
+}
+
+void ProgressBar::show(double done)
 {
   if (where_ == Where::nowhere) return;
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin_;
   if (passed.count() < next_) return;
-  const auto text = progress_text(done, total_, things_, passed.count());
+  const auto text = progress_text(done, work_, passed.count());
   if (where_ == Where::terminal) {
     next_ = passed.count() + between_on_terminal;
-    fmt::print(stderr, "\r\033[K{}: {} {}", program_, bar(done, total_), text);
-    std::fflush(stderr);
+    say((work_.total > 0 ? bar(done, work_.total) : "") + text);
   } else {
     next_ = passed.count() + between_in_file;
     fmt::print(stderr, "{}: {}\n", program_, text);
   }
+}
+
+void ProgressBar::say(const std::string& text) const
+{
+  if (where_ != Where::terminal) return;
+  fmt::print(stderr, "\r\033[K{}: {}", program_, printable(text));
+  std::fflush(stderr);
+}
+
+void ProgressBar::clear() const
+{
+  if (where_ == Where::terminal) fmt::print(stderr, "\r\033[K");
 }
 
 }  // namespace grseg

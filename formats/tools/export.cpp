@@ -2,6 +2,7 @@
 #include "formats/cli/frame_range.hpp"
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/cli/verification.hpp"
 #include "formats/cli/words.hpp"
@@ -12,7 +13,6 @@
 #include "formats/export/vtp_writer.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 
@@ -56,16 +56,16 @@ template <int D, class Writer>
 void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
                   const Settings& s, Writer& writer)
 {
-  const bool progress = !s.quiet && isatty(STDERR_FILENO) == 1;
+  ProgressBar progress(info.name, {.things = "frames", .total = static_cast<double>(frames.size())},
+                       s.quiet);
   Frame<D> frame;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     stop_if_interrupted();
     run.read(frames[k], frame, {.velocity = true, .contacts = true, .force = true});
     writer.add(frame);
-    if (progress && k % 20 == 0)
-      fmt::print(stderr, "\r{}: {} of {} frames\033[K", info.name, k, frames.size());
+    progress.show(static_cast<double>(k + 1));
   }
-  if (progress) fmt::print(stderr, "\r\033[K");
+  progress.clear();
   writer.publish();
 }
 

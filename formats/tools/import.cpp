@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/interruption.hpp"
+#include "formats/cli/next_step.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/import/convert/importer.hpp"
@@ -64,6 +65,9 @@ int main(int argc, char** argv)
     try {
       const auto report = import_archive(settings, command_line(argc, argv));
       if (!settings.quiet) fmt::print(stderr, "{}", to_text(report));
+      if (!settings.parts.part)
+        say_next(fmt::format("grseg-stress {} -o stress.tsv", shell_word(settings.output)),
+                 settings.quiet);
     } catch (const OpenQuestions& open) {
       throw UsageError(fmt::format(
           "{}\nif what is proposed is right, and with the words in capitals filled in:\n  {}",

@@ -2,9 +2,9 @@
 #include "sim/run/run.hpp"
 
 #include "formats/cli/interruption.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
-#include "sim/run/progress.hpp"
 #include "sim/run/provenance.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/run/run_files.hpp"
@@ -16,11 +16,21 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <limits>
 
 namespace grseg {
 namespace {
+
+constexpr const char* program = "grseg-sim";
+
+/// s, of a clock that only runs forward.
+double seconds_now()
+{
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
 
 /// A simulation that is ready to run, with the file that its frames go to.
 struct Run {
@@ -90,7 +100,7 @@ class Checkpoints {
 /// Writes frames and checkpoints until the end or a signal. Checkpoints lie just before a frame, so
 /// that a restart may change the step; that of a signal does not wait for a frame.
 void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
-          Progress& progress)
+          ProgressBar& progress)
 {
   const auto every = scene.steps_per_frame(), end = scene.steps_in_all();
   Frame<2> frame;
@@ -101,7 +111,7 @@ void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkp
     recorder.add(due ? simulation.advance(frame) : simulation.advance());
     if (!due) continue;
     recorder.write(frame, simulation);
-    progress.show_time(simulation.time());
+    progress.show(simulation.time());
   }
   checkpoints.write();
 }
@@ -129,7 +139,10 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
   auto& simulation = run.simulation;
   Recorder recorder(run.writer, scene.small_diameter, run.progress.recorder);
   Checkpoints checkpoints(scene, options, run, recorder);
-  Progress progress(simulation.time(), scene.duration, options.quiet);
+  ProgressBar progress(
+      program,
+      {.things = "s of flow", .total = scene.duration, .from = simulation.time(), .digits = 2},
+      options.quiet);
   const double begin = seconds_now();
   flow(scene, simulation, recorder, checkpoints, progress);
   progress.clear();
@@ -168,11 +181,13 @@ void simulate(const Scene& scene, const RunOptions& options)
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
   listen_to_signals();
 
-  Progress(0, scene.duration, options.quiet).show("depositing the bed");
+  const ProgressBar progress(program, {}, options.quiet);
+  progress.say("depositing the bed");
   const auto listen = [] {
     if (interrupted()) throw interruption("interrupted while the bed was deposited");
   };
   const auto deposited = deposit(scene, {.each_step = listen, .record = {}});
+  progress.clear();
   const auto simulation = release(deposited, scene);
   Run run{simulation,
           new_trajectory(scene, simulation, provenance(scene, options), part),

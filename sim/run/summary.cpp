@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/run/summary.hpp"
 
+#include "formats/cli/next_step.hpp"
 #include "sim/run/effects_report.hpp"
 #include "sim/scene/geometry.hpp"
 
@@ -154,8 +155,10 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
 
 std::string next_steps(const std::string& output)
 {
+  const auto run = shell_word(output);
   return line("next",
-              fmt::format("grseg-stress {} -o stress.tsv, then grseg-fit stress.tsv", output));
+              fmt::format("grseg-stress {} -o stress.tsv, then grseg-fit stress.tsv", run)) +
+         line("look", fmt::format("grseg-explore {} -o explore.html", run));
 }
 
 }  // namespace grseg

@@ -3,6 +3,7 @@
 
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/text.hpp"
@@ -24,6 +25,8 @@ namespace grseg {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* program = "grseg-import";
 
 /// Mean of the smallest and the largest diameter of a species; 0 where it has no grains.
 double mid_range(const Grains& grains, Species species)
@@ -201,6 +204,7 @@ ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settin
   report.tolerance_reason = frames.archive().facts().tolerance_reason;
   TrajectoryWriter writer(path, run, settings.storage);
   Closing closing(run);
+  ProgressBar progress(program, {.things = "moments"}, settings.quiet);
   for (Frame<D> frame; frames.next(frame);) {
     stop_if_interrupted();
     if (frames.complaint()) refuse(frames, settings, closing.judgement(), report.frames + 1);
@@ -209,6 +213,7 @@ ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settin
     const auto record = record_of(frames);
     closing.add(record, frames.place());
     writer.append(frame, import_values(record));
+    progress.show(static_cast<double>(report.frames));
   }
   report.columns = frames.archive().columns();
   report.remarks = remarks_of(frames);
@@ -235,6 +240,9 @@ ImportReport write_part(VerifiedFrames<D> frames, PartPlace place, const ImportS
     frames.skip(place.begin - 1);
     frames.next(frame);
   }
+  ProgressBar progress(program,
+                       {.things = "moments", .total = static_cast<double>(place.end - place.begin)},
+                       settings.quiet);
   for (auto left = place.end - place.begin; left > 0 && frames.next(frame); --left) {
     stop_if_interrupted();
     if (frames.complaint()) refuse(frames, settings, judgement, place.begin + report.frames + 1);
@@ -245,6 +253,7 @@ ImportReport write_part(VerifiedFrames<D> frames, PartPlace place, const ImportS
     const auto of_part = part_values(record);
     values.insert(values.end(), of_part.begin(), of_part.end());
     writer.append(frame, values);
+    progress.show(static_cast<double>(report.frames));
   }
   if (report.frames != place.end - place.begin ||
       (place.part.number == place.part.count && frames.next(frame)))
@@ -319,7 +328,7 @@ void require_next_part(const ImportPart& first, const ImportPart& part, std::siz
 
 template <int D>
 void append_part(TrajectoryWriter& writer, const ImportPart& part, Closing& closing,
-                 ImportReport& report)
+                 ImportReport& report, ProgressBar& progress)
 {
   Frame<D> frame;
   for (std::size_t k = 0; k < part.run().size(); ++k) {
@@ -329,6 +338,7 @@ void append_part(TrajectoryWriter& writer, const ImportPart& part, Closing& clos
     const auto record = part.record(k);
     closing.add(record, fmt::format("{}, frame {}", part.run().path(), k));
     writer.append(frame, import_values(record));
+    progress.show(static_cast<double>(report.frames));
   }
 }
 
@@ -343,11 +353,14 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
   auto report = report_of(run);
   TrajectoryWriter writer(output.temporary(), run, settings.storage);
   Closing closing(run);
+  ProgressBar progress(program,
+                       {.things = "moments", .total = static_cast<double>(first.place().moments)},
+                       settings.quiet);
   for (std::size_t k = 1; k <= parts; ++k) {
     const ImportPart part(settings.output, {k, parts});
     require_next_part(first, part, report.frames, command_line);
     with_dimension(run.box.dimension,
-                   [&](auto d) { append_part<d>(writer, part, closing, report); });
+                   [&](auto d) { append_part<d>(writer, part, closing, report, progress); });
     report.columns = part.place().columns;
     report.remarks = part.place().remarks;
     report.tolerance_reason = part.place().tolerance_reason;

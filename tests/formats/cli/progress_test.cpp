@@ -10,15 +10,28 @@ namespace {
 // 30 in 60 s are 0.5/s, and the 70 that are left take 140 s.
 TEST(Progress, SaysTheRateAndTheTimeThatIsLeft)
 {
-  EXPECT_EQ(progress_text(30, 100, "frames", 60), "30 of 100 frames, 0.5/s, 2:20 left");
-  EXPECT_EQ(progress_text(300, 400, "frames", 10), "300 of 400 frames, 30/s, 0:03 left");
-  EXPECT_EQ(progress_text(1, 7201, "frames", 1), "1 of 7201 frames, 1.0/s, 120:00 left");
+  EXPECT_EQ(progress_text(30, {"frames", 100}, 60), "30 of 100 frames, 0.50/s, 2:20 left");
+  EXPECT_EQ(progress_text(300, {"frames", 400}, 10), "300 of 400 frames, 30/s, 0:03 left");
+  EXPECT_EQ(progress_text(1, {"frames", 7201}, 1), "1 of 7201 frames, 1.0/s, 120:00 left");
+}
+
+// From 10 s on, 5 s of flow in 20 s: a quarter per second, and 135 s take nine minutes.
+TEST(Progress, OfARunThatIsContinuedHasTheRateOfWhatIsNew)
+{
+  const Work flow{"s of flow", 150, 10, 2};
+  EXPECT_EQ(progress_text(15, flow, 20), "15.00 of 150.00 s of flow, 0.25/s, 9:00 left");
+  EXPECT_EQ(progress_text(10, flow, 20), "10.00 of 150.00 s of flow");
+}
+
+TEST(Progress, OfAnUnknownTotalSaysNoTimeThatIsLeft)
+{
+  EXPECT_EQ(progress_text(30, {"moments"}, 10), "30 moments, 3.0/s");
 }
 
 TEST(Progress, SaysNeitherBeforeItKnows)
 {
-  EXPECT_EQ(progress_text(0, 100, "windows", 5), "0 of 100 windows");
-  EXPECT_EQ(progress_text(5, 100, "windows", 0), "5 of 100 windows");
+  EXPECT_EQ(progress_text(0, {"windows", 100}, 5), "0 of 100 windows");
+  EXPECT_EQ(progress_text(5, {"windows", 100}, 0), "5 of 100 windows");
 }
 
 // Here standard error is a pipe or a file, and the work is short.
@@ -26,8 +39,9 @@ TEST(Progress, OfShortWorkIsSilent)
 {
   testing::internal::CaptureStderr();
   {
-    ProgressBar bar("grseg-test", "things", 3, false);
-    for (std::size_t k = 1; k <= 3; ++k) bar.show(k);
+    ProgressBar bar("grseg-test", {"things", 3}, false);
+    bar.say("beginning");
+    for (int k = 1; k <= 3; ++k) bar.show(k);
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
