@@ -20,16 +20,25 @@
 namespace grseg {
 namespace {
 
-/// A line of a table's header that is about the flow, and what it says.
+/// A line of a table's header that is about the flow, what it says, and how far numbers of one
+/// mixture may lie apart, relative to the larger.
 struct FlowLine {
   const char *key, *what;
+  double tolerance = 1e-6;
 };
-constexpr FlowLine flow_lines[] = {
-    {"dimension", "dimension"},        {"species", "species"},   {"small_diameter", "diameters"},
-    {"large_diameter", "diameters"},   {"density", "density"},   {"friction", "friction"},
-    {"restitution", "restitution"},    {"gravity_x", "gravity"}, {"gravity_y", "gravity"},
-    {"gravity_z", "gravity"},          {"step", "step"},         {"length", "length of the cell"},
-    {"length_z", "length of the cell"}};
+constexpr FlowLine flow_lines[] = {{"dimension", "dimension"},
+                                   {"species", "species", diameter_tolerance},
+                                   {"small_diameter", "diameters", diameter_tolerance},
+                                   {"large_diameter", "diameters", diameter_tolerance},
+                                   {"density", "density"},
+                                   {"friction", "friction"},
+                                   {"restitution", "restitution"},
+                                   {"gravity_x", "gravity"},
+                                   {"gravity_y", "gravity"},
+                                   {"gravity_z", "gravity"},
+                                   {"step", "step"},
+                                   {"length", "length of the cell"},
+                                   {"length_z", "length of the cell"}};
 
 /// "unknown" where the table has no such line.
 std::string value_of(const Table& table, const char* key)
@@ -37,16 +46,28 @@ std::string value_of(const Table& table, const char* key)
   return header_or(table, key, "unknown");
 }
 
-bool same_value(const std::string& a, const std::string& b)
+bool near(double a, double b, double tolerance)
 {
-  if (a == b) return true;
-  const auto x = parse_number(a), y = parse_number(b);
-  return x && y && std::abs(*x - *y) <= 1e-6 * std::max(std::abs(*x), std::abs(*y));
+  return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
 }
 
-bool agree(const Table& a, const Table& b, const char* key)
+/// The same names, and diameters that are near each other.
+bool same_species(const SpeciesList& a, const SpeciesList& b, double tolerance)
 {
-  return same_value(value_of(a, key), value_of(b, key));
+  return !a.empty() && std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                                  [&](const SpeciesEntry& x, const SpeciesEntry& y) {
+                                    return x.name == y.name &&
+                                           near(x.diameter, y.diameter, tolerance);
+                                  });
+}
+
+bool agree(const Table& one, const Table& other, const FlowLine& line)
+{
+  const auto a = value_of(one, line.key), b = value_of(other, line.key);
+  if (a == b) return true;
+  const auto x = parse_number(a), y = parse_number(b);
+  if (x && y) return near(*x, *y, line.tolerance);
+  return same_species(parse_species(a), parse_species(b), line.tolerance);
 }
 
 /// Each species' part of all rows' contents, weighted by frames.
@@ -109,7 +130,7 @@ std::vector<Mixture> by_likeness(const std::vector<FitTable>& tables)
       const auto& first = *tables[mixture.tables.front()].table;
       return same_composition(mixture.composition, composition) &&
              std::all_of(std::begin(flow_lines), std::end(flow_lines), [&](const FlowLine& line) {
-               return agree(first, *tables[k].table, line.key);
+               return agree(first, *tables[k].table, line);
              });
     };
     const auto own = std::find_if(mixtures.begin(), mixtures.end(), is_own);
@@ -139,19 +160,20 @@ std::string name_of(const Mixture& mixture, const std::vector<Mixture>& all,
       name += fmt::format("{}{:.2f}", k == 0 ? "" : "/", mixture.composition[k]);
   }
   const auto& own = *tables[mixture.tables.front()].table;
-  const auto differ = [&](const char* key) {
+  const auto differ = [&](const FlowLine& line) {
     return std::any_of(all.begin(), all.end(), [&](const Mixture& other) {
-      return !agree(own, *tables[other.tables.front()].table, key);
+      return !agree(own, *tables[other.tables.front()].table, line);
     });
   };
   const bool inclined = dimension_of(own) == 2 && own.has_header("gravity_x") &&
-                        own.has_header("gravity_y") && differ("gravity_x") && differ("gravity_y");
+                        own.has_header("gravity_y") && differ({"gravity_x", ""}) &&
+                        differ({"gravity_y", ""});
   if (inclined) name += fmt::format(", slope = {:.4g} degrees", slope_of(own));
-  for (const auto& [key, what] : flow_lines) {
-    if (!differ(key) || (inclined && std::string(key).starts_with("gravity"))) continue;
-    const auto value = value_of(own, key);
+  for (const auto& line : flow_lines) {
+    if (!differ(line) || (inclined && std::string(line.key).starts_with("gravity"))) continue;
+    const auto value = value_of(own, line.key);
     const auto number = parse_number(value);
-    name += fmt::format(", {} = {}", key, number ? fmt::format("{:.4g}", *number) : value);
+    name += fmt::format(", {} = {}", line.key, number ? fmt::format("{:.4g}", *number) : value);
   }
   return name;
 }
@@ -162,16 +184,17 @@ std::string grouping_words(const std::string& grouping, const std::vector<Table>
 {
   if (grouping != "auto") return "as given: " + grouping + " tables";
   std::vector<std::string> recorded;
-  for (const auto& [key, what] : flow_lines) {
-    const bool known = std::any_of(tables.begin(), tables.end(), [&key = key](const Table& table) {
-      return value_of(table, key) != "unknown";
+  for (const auto& line : flow_lines) {
+    const bool known = std::any_of(tables.begin(), tables.end(), [&](const Table& table) {
+      return value_of(table, line.key) != "unknown";
     });
-    if (known && (recorded.empty() || recorded.back() != what)) recorded.emplace_back(what);
+    if (known && (recorded.empty() || recorded.back() != line.what))
+      recorded.emplace_back(line.what);
   }
   return fmt::format(
-      "runs of one mixture agree in what their tables record of the flow ({}) and in overall "
-      "composition, to {:g}",
-      fmt::join(recorded, ", "), composition_tolerance);
+      "runs of one mixture agree in what their tables record of the flow ({}), diameters to {:g} %, "
+      "and in overall composition, to {:g}",
+      fmt::join(recorded, ", "), 100 * diameter_tolerance, composition_tolerance);
 }
 
 std::vector<Mixture> find_mixtures(std::vector<FitTable>& tables, const std::string& grouping)

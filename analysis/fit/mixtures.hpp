@@ -22,6 +22,11 @@ struct Mixture {
 /// 0.001, because radii are drawn, and in cells of few hundred grains by a large one more or less.
 inline constexpr double composition_tolerance = 0.02;
 
+/// How far, relative to the larger one, their nominal diameters may lie apart. Of imported runs these
+/// are measured on the grains at hand, half-way between the smallest and the largest of a species:
+/// of n grains spread evenly over +-10 % that scatters by 0.14/n.
+inline constexpr double diameter_tolerance = 0.01;
+
 /// How these tables are told apart, for the header of the fit; names what they record.
 std::string grouping_words(const std::string& grouping, const std::vector<Table>& tables);
 
@@ -29,7 +34,7 @@ std::string grouping_words(const std::string& grouping, const std::vector<Table>
 ///
 /// grouping "auto": tables are of one mixture where the lines of their headers agree that are about
 /// the flow (diameters, density, friction, restitution, gravity, step, length of the cell, species;
-/// numbers to 1e-6) and so do their overall compositions, to composition_tolerance. A line that one
+/// numbers to 1e-6, diameters to diameter_tolerance) and so do their overall compositions, to composition_tolerance. A line that one
 /// table has and another lacks tells them apart. What tables do not record cannot: the spread of
 /// radii, the base, and in older tables density, friction and restitution. "4,4,2": the first four
 /// tables are of one mixture, and so on; UsageError where these numbers do not add up to that of the

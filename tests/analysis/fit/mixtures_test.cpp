@@ -89,14 +89,34 @@ TEST(Mixtures, TheWordsNameWhatTheTablesRecord)
 {
   EXPECT_EQ(
       grouping_words("auto", {run_of(0.3)}),
-      "runs of one mixture agree in what their tables record of the flow (diameters, gravity) "
-      "and in overall composition, to 0.02");
+      "runs of one mixture agree in what their tables record of the flow (diameters, gravity), "
+      "diameters to 1 %, and in overall composition, to 0.02");
   auto with_friction = run_of(0.3);
   with_friction.header.insert(with_friction.header.end(),
                               {{"density", "unknown"}, {"friction", "0.5"}});
   EXPECT_NE(
       grouping_words("auto", {run_of(0.3), with_friction}).find("(diameters, friction, gravity)"),
       std::string::npos);
+}
+
+// Nominal diameters of imported runs are measured on their grains, which differ from seed to seed.
+TEST(Mixtures, DiametersMeasuredOnTheGrainsOfSeedsAreThoseOfOne)
+{
+  int runs = 0;
+  const auto with = [&runs](const char* large, const char* species) {
+    auto table = run_of(0.3 + 1e-6 * runs++);
+    for (auto& [key, value] : table.header)
+      if (key == "large_diameter") value = large;
+    table.header.emplace_back("species", species);
+    return table;
+  };
+  const std::vector<Table> tables{
+      with("0.01", "S 0.005, L 0.01"), with("0.009997", "S 0.005, L 0.009997"),
+      with("0.0098", "S 0.005, L 0.0098"), with("0.01", "S 0.005, X 0.01")};
+  auto read = read_all(tables);
+  const auto mixtures = find_mixtures(read, "auto");
+  ASSERT_EQ(mixtures.size(), 3u);
+  EXPECT_EQ(mixtures[0].tables, (Numbers{0, 1}));
 }
 
 // What begins with the same number need not be the same.

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/fit_options.hpp"
+
+#include "analysis/fit/over.hpp"
+#include "analysis/fit/partition_scan.hpp"
+#include "analysis/frames/layer_key.hpp"
+#include "analysis/stress/partial_stress.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace grseg {
+namespace {
+
+std::string rules_help()
+{
+  std::string text = "the large grain's share of a mixed contact; several rules give a row each.";
+  for (const auto& rule : rule_definitions())
+    text += fmt::format("\n{}{}{}{}: {}{}", rule.word, *rule.number == '\0' ? "" : ":", rule.number,
+                        rule.kind == PartitionRule{}.kind ? " (default)" : "", rule.meaning,
+                        *rule.used_by == '\0' ? "" : fmt::format(" [{}]", rule.used_by));
+  text += "\nstock:";
+  for (const auto& rule : parse_rules({"stock"})) text += fmt::format(" {}", rule.name());
+  return text;
+}
+
+void parse_ratio_range(const std::string& text, FitFilters& filters)
+{
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%lf:%lf%n", &filters.ratio_low, &filters.ratio_high, &used) != 2 ||
+      static_cast<std::size_t>(used) != text.size() ||
+      !(filters.ratio_low > 0 && filters.ratio_low <= filters.ratio_high))
+    throw UsageError(
+        fmt::format("--ratio-range {}: write low:high, 0 < low <= high, e.g. 0.01:100", text));
+}
+
+}  // namespace
+
+po::options_description FitOptions::description()
+{
+  po::options_description options("Options");
+  const auto text = [](std::string& place, const char* name) {
+    return po::value(&place)->value_name(name);
+  };
+  const auto number = [](auto& place, const char* name) {
+    return po::value(&place)->value_name(name);
+  };
+  auto add = options.add_options();
+  add("partition", po::value(&partition)->composing()->value_name("RULE,..."),
+      rules_help().c_str());
+  add("component", text(component, "NAME")->default_value("yy"), list_of(components).c_str());
+  add("quantity", text(quantity, "NAME")->default_value("contact"),
+      (list_of(quantities) + " stress").c_str());
+  add("base", text(base, "NAME"),
+      ("part of contacts with base and walls: " + list_of(base_parts) +
+       " (default: as in the table)")
+          .c_str());
+  add("pair", text(pair, "A,B"), "two of the species, by name or number (default: all pairs)");
+  add("exponent", po::bool_switch(&exponent),
+      "also a of sigma^nu/sigma = phi^nu s^a/sum(phi s^a), s the diameters; of more than two "
+      "species always");
+  add("scan", text(scan, "p0:p1:dp"), "print B over the share p instead of the rules");
+  add("over", text(over, "NAME"),
+      ("what intervals are over, in one row per rule: " + list_of(overs) +
+       " (default: windows of one run, runs of one mixture; of several mixtures a row of each over "
+       "its runs, then one of all over mixtures)")
+          .c_str());
+  add("mixtures", text(mixtures, "N,N,...")->default_value("auto"),
+      "how many of the tables, in their order, are runs of each mixture; auto: those that agree in "
+      "what they record of the flow and in overall composition");
+  add("bootstrap", number(bootstrap, "N")->default_value(1000),
+      "samples for the 95 % intervals; 0: no intervals");
+  add("seed", number(seed, "N")->default_value(1), "seed of the samples");
+  add("ratio-range", text(ratio_range, "a:b")->default_value("0.01:100"),
+      "phi_S/phi_L of the layers that take part");
+  add("heights", text(filters.heights, "y0:y1"),
+      "layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
+  add("min-solid", number(filters.min_solid, "X")->default_value(0.5, "0.5"),
+      "least solid fraction of a layer, in units of the run's median");
+  add("min-grains", number(filters.min_grains, "N")->default_value(0),
+      "least grains of the rarer species in a layer, mean over the window; 0: off, because choosing "
+      "by a number that fluctuates is a bias of its own (B_sums needs no such choice)");
+  add("begin", number(filters.begin, "s"), "first time of the windows that take part");
+  add("end", number(filters.end, "s"), "last time of the windows that take part");
+  add("short", po::bool_switch(&short_form),
+      "print a short table for reading, as on a terminal; with -o beside the whole one in FILE");
+  add("json", po::bool_switch(&json), "print JSON instead of a table");
+  add("quiet", po::bool_switch(&quiet), "no remarks on standard error");
+  output.add_to(options, "write the whole table there; -: to standard output, even on a terminal");
+  return options;
+}
+
+void FitOptions::check(const po::variables_map& values)
+{
+  if (!values.contains("input"))
+    throw UsageError("no table given; name tables of grseg-stress, or - for standard input");
+  if (bootstrap != 0 && (bootstrap < 100 || bootstrap > 100000))
+    throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", bootstrap));
+  if (seed < 0) throw UsageError("--seed must not be negative");
+  output.check(values);
+  if (std::isnan(filters.begin) || std::isnan(filters.end))
+    throw UsageError("--begin and --end are times in seconds");
+  if (!(filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
+  if (!(filters.min_grains >= 0)) throw UsageError("--min-grains must not be negative");
+  if (json && short_form) throw UsageError("--short and --json exclude each other");
+  if (!over.empty()) choose(over, "--over", overs);
+  parse_rules(partition);
+  parse_heights(filters.heights, {1, 1});
+  if (!scan.empty()) parse_scan(scan);
+  if (quantity == "kinetic")
+    for (const char* option : {"partition", "scan", "base"})
+      if (values.contains(option) && !values[option].defaulted())
+        throw UsageError(
+            fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));
+  parse_ratio_range(ratio_range, filters);
+}
+
+bool FitOptions::prints_short() const
+{
+  return short_form || (output.path.empty() && !json && isatty(STDOUT_FILENO) == 1);
+}
+
+}  // namespace grseg

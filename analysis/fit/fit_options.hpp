@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit/fit_data.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/tool.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// What the command line of grseg-fit says, mostly as typed.
+struct FitOptions {
+  std::vector<std::string> partition;
+  std::string component, quantity, base, scan, ratio_range, pair, over, mixtures;
+  OutputOptions output;
+  int bootstrap = 0;
+  long seed = 0;
+  bool json = false, quiet = false, short_form = false, exponent = false;
+  FitFilters filters;
+
+  po::options_description description();
+  /// Refuses what cannot be meant, before any table is read, and sets `filters` from the words.
+  void check(const po::variables_map& values);
+  /// Whether a short table is printed: on a terminal, 17 digits of 48 columns are of no use.
+  bool prints_short() const;
+};
+
+}  // namespace grseg
