@@ -136,4 +136,16 @@ std::vector<const Table*> tables_of_runs(const std::vector<Table>& tables,
   return of_runs;
 }
 
+void require_same_species(const Table& table, const SpeciesList& species)
+{
+  const std::string of_run = names_species(species) ? species_text(species) : "",
+                    of_table = header_or(table, "species", "");
+  if (of_table == of_run) return;
+  const auto words = [](const std::string& text) { return text.empty() ? "small, large" : text; };
+  throw UsageError(fmt::format(
+      "{}: has the species {}, and the run beside it {}; give both the same --group, --classes or "
+      "--edges, or leave the table out",
+      printable(table.name), printable(words(of_table)), words(of_run)));
+}
+
 }  // namespace grseg

@@ -3,7 +3,7 @@
 
 #include "analysis/render/colours.hpp"
 #include "analysis/render/view.hpp"
-#include "analysis/render/walls.hpp"
+#include "analysis/frames/walls.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/frame.hpp"
 

@@ -4,7 +4,7 @@
 #include "analysis/render/drawing.hpp"
 #include "analysis/render/grain_field.hpp"
 #include "analysis/render/view.hpp"
-#include "analysis/render/walls.hpp"
+#include "analysis/frames/walls.hpp"
 
 #include <optional>
 #include <vector>
