@@ -52,7 +52,7 @@ Json facts_of(const FrameLoop& loop)
 /// How the sums are cut into windows, and whether "y" is height ("layers") or what "bins" of the table says.
 Json cut_of(const Table& sums)
 {
-  const auto begin = sums.column("t0[s]"), end = sums.column("t1[s]");
+  const auto begin = sums.column("t0"), end = sums.column("t1");
   std::set<std::pair<double, double>> windows;
   for (const auto& row : sums.rows) windows.emplace(row[begin], row[end]);
   const auto bins = header_or(sums, "bins", "layers");

@@ -61,7 +61,8 @@ class Page:
         self.driver = webdriver.Chrome(service=service, options=options)
         self.resize(*size)
         self.driver.get("file://" + os.path.abspath(path))
-        self.until("document.documentElement.dataset.ready")
+        self.until("document.documentElement.dataset.ready || document.getElementById('trouble').textContent")
+        assert self.text("trouble") == "", self.text("trouble")
 
     def __enter__(self):
         return self
@@ -267,7 +268,7 @@ def check_report(page):
         assert line[0] in text
     assert f"All {len(checks)} lines" in text
     columns = {"kinetic": ["u[m/s]", "T_S_x[m^2/s^2]", "T_L_x[m^2/s^2]", "T_L_y[m^2/s^2]", "equipartition_y"],
-               "balance": ["push_kinetic[N/m^2]", "drag[N/m^2]"], "micro": ["z_L"], "stress": []}
+               "balance": ["push_kinetic[N/m^2]", "drag[N/m^2]"]}
     for name, own in columns.items():
         check_means(page, name, own)
     over = page.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
@@ -278,8 +279,7 @@ def check_report(page):
 
 def check_means(page, name, columns):
     """The report's tables by layer are means of the tool's rows of all windows, weighted by frames."""
-    words = ["--derived"] if name == "micro" else []
-    lines = [line.split("\t") for line in tool(name, RUN, *words, "--quiet").splitlines() if not line.startswith("#")]
+    lines = [line.split("\t") for line in tool(name, RUN, "--quiet").splitlines() if not line.startswith("#")]
     at = {column: k for k, column in enumerate(lines[0])}
     rows = np.array(lines[1:], dtype=float)
     shown = page.run("return grseg.content.runs[0].layers.tables.find((t) => t.name === arguments[0])", name)
@@ -307,7 +307,7 @@ def check_speed(page):
       return (performance.now() - from) / n""")
     first = ", ".join(f"{name} {when:.0f} ms" for name, when in paint)
     print(f"{first}; a frame {frame:.1f} ms, a move of the slider {move:.1f} ms")
-    assert frame < 50 and move < 50, "more than a few frames of a screen, even on a loaded machine"
+    assert frame < 100 and move < 50, "more than a few frames of a screen, even on a loaded machine"
 
 
 def check_hostile():
@@ -439,11 +439,16 @@ def check_walls_and_one_species():
     tool("sim", f"{ROOT}/sim/scenes/column.ini", "--column-width", "8dS", "--depth", "10dS", "--length", "30dS",
          "--duration", "0.5", "--frame-interval", "0.05", "--accuracy", "draft", "--quiet", "-o", "column.h5")
     tool("explore", "column.h5", "--window", "0.25", "--quiet", "-o", "column.html")
+    tool("explore", "column.h5", "--group", "all=1,2", "--window", "0.25", "--quiet", "-o", "one.html")
+    with Page("one.html") as page:
+        assert "there is one species of grains" in page.text("heart"), page.text("heart")
+        assert page.text("legend").startswith("all "), page.text("legend")
+        assert "Forces on large grains" not in page.text("report") and "of the large grains" not in page.text("report")
     with h5py.File("column.h5") as file:
         walls = len(set(file["grseg/contacts/j"][:][file["grseg/contacts/j"][:] < 0]))
         length = file["particles/grains/box/edges"][0] if "edges" in file["particles/grains/box"] else None
     with Page("column.html") as page:
-        assert "No B of this run" in page.text("heart") and "one species" in page.text("heart")
+        assert "No B of this run" in page.text("heart") and "without large grains" in page.text("heart")
         page.run("grseg.page.transport.goTo(grseg.page.transport.times.length - 1)")
         page.settle()
         known = page.run("const p = grseg.page.players[0]; return p.frames.walls(p.frame).map((wall) => Array.from(wall))")
@@ -455,7 +460,7 @@ def check_walls_and_one_species():
         page.shoot("explore-column")
         page.run("document.getElementById('tab-report').click()")
         page.settle()
-        assert "B is not shown" in page.text("report") and "upward" not in page.text("report")
+        assert "B is not shown" in page.text("report")
 
 
 def check_two_mixtures():
@@ -489,7 +494,8 @@ def check_two_mixtures():
         assert heads[1:3] == ["mixture", "95 % over"], heads
         zero = page.run("return grseg.content.together.fit.scan.p_zero_sums")
         for side, name in enumerate(("p_zero_sums", "p_zero_sums_low", "p_zero_sums_high")):
-            close(float("nan") if zero[side] is None else zero[side], float(header[name]), name)
+            own = float("nan") if zero[side] is None else zero[side]
+            assert str(own) == str(float(header[name])), (name, own, header[name])
         assert f"p* = {float(header['p_zero_sums']):.3f}" in text
         page.run("document.getElementById('tab-explore').click()")
         page.settle()

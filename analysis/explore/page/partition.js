@@ -21,7 +21,7 @@ export function ruleName({kind, value}) {
 /** The same as grseg-fit takes it: without sums by power:Q that of nominal radii. */
 export function commandRule(fit, rule) {
   const nominal = rule.kind === "power" && !hasPowers(fit);
-  return ruleName(nominal ? {kind: "uniform", value: powerShare(fit.size_ratio, rule.value)} : rule);
+  return nominal ? {kind: "uniform", value: powerShare(fit.size_ratio, rule.value)} : rule;
 }
 
 /** Share of the larger of two grains by power:Q, `ratio` being r_L/r_S. */

@@ -21,7 +21,8 @@ function figure(caption, options, draw) {
 
 /** B over the share p with its band. */
 function shareFigure(fit) {
-  const caption = "B by sums over the share p of a mixed contact that goes to its large grain; 95 % band; p*.";
+  const [p] = zeroOf(fit, "B_sums");
+  const caption = `B by sums over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}.`;
   return figure(caption, {labels: {x: "share p", y: "B"}}, (chart) => {
     const grid = fit.scan.p.map((p, k) => [p, ...fit.scan.B_sums[k]]).filter(([, B]) => B !== null);
     chart.scales.y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
@@ -31,7 +32,6 @@ function shareFigure(fit) {
     const banded = grid.filter((row) => row[2] !== null);
     chart.under.append("path").attr("class", "band").attr("d", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(banded));
     chart.under.append("path").attr("class", "curve").attr("d", line().x((d) => x(d[0])).y((d) => y(d[1]))(grid));
-    const [p] = zeroOf(fit, "B_sums");
     const {top, bottom} = chart.inner;
     if (isShare(p)) {
       const zero = chart.under.append("g").attr("class", "p-zero");

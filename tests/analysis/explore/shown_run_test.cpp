@@ -132,7 +132,7 @@ TEST_F(ShownRunTest, MoreWallsThanAnySceneHasAreRefused)
     touch_wall(frame, -1 - wall);
   const auto said =
       complaint_of<FormatError>([&] { shown<2>(three_grains::description(), {frame}); });
-  EXPECT_NE(said.find("run.h5: frame 0 (t = 0 s): there are more than 1000 walls"),
+  EXPECT_NE(said.find("more than 1000 walls"),
             std::string::npos)
       << said;
 }
