@@ -134,8 +134,7 @@ Json kinetic_table(FrameLoop& loop)
                     "T_L_y[m^2/s^2]", "equipartition_y"});
   for (const auto& window : loop.windows()) {
     const auto [mean] = loop.sum<D>(
-        window, moving,
-        MeanVelocity<D>(layers, loop.run().small_diameter() / 2, species.size()));
+        window, moving, MeanVelocity<D>(layers, loop.run().small_diameter() / 2, species.size()));
     const auto [stress] = loop.sum<D>(
         window, moving, KineticStress<D>(layers, MeanFlow::profile, mean, species.size()));
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)

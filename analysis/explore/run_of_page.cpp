@@ -127,10 +127,9 @@ void refuse_too_large(const ToolInfo& info, const po::variables_map& values,
       "of more than {:.0f} MB does not open in every browser; {}",
       printable(runs.front()) + (runs.size() > 1 ? " and the others" : ""), s.shown_frames,
       s.shown_frames, megabytes, most_megabytes,
-      fewer >= 1
-          ? fmt::format("take --frames {:.0f}, or a part of the run with --begin and --end",
-                        std::floor(fewer))
-          : "take a part of the run with --begin and --end, or grseg-render"));
+      fewer >= 1 ? fmt::format("take --frames {:.0f}, or a part of the run with --begin and --end",
+                               std::floor(fewer))
+                 : "take a part of the run with --begin and --end, or grseg-render"));
 }
 
 RunOfPage run_of_page(const ToolInfo& info, const po::variables_map& values,

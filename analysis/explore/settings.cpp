@@ -60,7 +60,8 @@ void ExploreSettings::check(const po::variables_map& values)
   if (!base.empty()) choose(base, "--base", base_parts);
   parse_heights(partition.filters.heights, {1, 1});
   const auto first = parse_rule(start);
-  if (first.kind == PartitionRule::Kind::power && !(first.value >= 0 && first.value <= highest_power))
+  if (first.kind == PartitionRule::Kind::power &&
+      !(first.value >= 0 && first.value <= highest_power))
     throw UsageError(fmt::format(
         "--partition {}: the page shows power:Q for Q from 0 to {:g}; for others take grseg-stress "
         "and grseg-fit with --partition {}",

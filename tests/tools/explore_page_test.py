@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 import h5py
 import numpy as np
@@ -504,7 +505,7 @@ def check_two_mixtures():
 
 
 def many_grains(name, grains, frames=None):
-    """The run with its mobile grains over and over, in its first frames; in all, nowhere written, unless these are told."""
+    """The run with its mobile grains over and over, in its first frames; in all, with nothing but zeros, unless these are told."""
     shutil.copy(RUN, name)
     with h5py.File(name, "r+") as file:
         own = file["particles/grains"]
@@ -520,7 +521,12 @@ def many_grains(name, grains, frames=None):
             shape = (len(rows),) if by_grain else (frames or item.shape[0], len(rows), *item.shape[2:])
             kind, chunks = item.dtype, None if by_grain else (1, *shape[1:])
             del file[place]
-            made = file.create_dataset(place, shape, kind, data=values, chunks=chunks, maxshape=shape if by_grain else (None, *shape[1:]))
+            packed = None if by_grain or frames else "gzip"
+            made = file.create_dataset(place, shape, kind, data=values, chunks=chunks, compression=packed,
+                                       maxshape=shape if by_grain else (None, *shape[1:]))
+            zeros = zlib.compress(bytes(kind.itemsize * int(np.prod(shape[1:])))) if packed else b""
+            for frame in range(shape[0] if packed else 0):
+                made.id.write_direct_chunk((frame,) + (0,) * (len(shape) - 1), zeros)
             made.attrs.update(attributes)
         if not frames:
             return

@@ -132,9 +132,7 @@ TEST_F(ShownRunTest, MoreWallsThanAnySceneHasAreRefused)
     touch_wall(frame, -1 - wall);
   const auto said =
       complaint_of<FormatError>([&] { shown<2>(three_grains::description(), {frame}); });
-  EXPECT_NE(said.find("more than 1000 walls"),
-            std::string::npos)
-      << said;
+  EXPECT_NE(said.find("more than 1000 walls"), std::string::npos) << said;
 }
 
 TEST_F(ShownRunTest, GravityIsThatOfTheTimeWhereTheSlopeTurns)
@@ -143,7 +141,8 @@ TEST_F(ShownRunTest, GravityIsThatOfTheTimeWhereTheSlopeTurns)
   description.parameters.numbers["slope_rate"] = {10};  // degrees a second
   const auto run = shown<2>(description, {three_grains::frame(0), three_grains::frame(3)});
   EXPECT_GT((run.frames[1].gravity - run.frames[0].gravity).norm(), 1e-3);
-  const double turned = std::acos(run.frames[0].gravity.normalized().dot(run.frames[1].gravity.normalized()));
+  const double turned =
+      std::acos(run.frames[0].gravity.normalized().dot(run.frames[1].gravity.normalized()));
   EXPECT_NEAR(turned, std::numbers::pi / 18 * (run.frames[1].time - run.frames[0].time), 1e-6);
 }
 
