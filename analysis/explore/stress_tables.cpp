@@ -79,8 +79,9 @@ StressTables make_tables(FrameLoop& loop, std::span<const double> powers,
         loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains,
                     no_contacts<D>(loop, std::nullopt), none);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
+      const auto content = composition.mean(layer);
       const auto row = [&](const PartialContactStress<D>& sums) {
-        return loop.row(window, layer, joined(composition.mean(layer), sums.row(layer)));
+        return loop.row(window, layer, joined(content, sums.row(layer)));
       };
       tables.sums.rows.push_back(row(stress));
       for (std::size_t k = 0; k < powers.size(); ++k)
