@@ -52,8 +52,9 @@ void add_stresses(const FitData& data, const FitSettings& settings, const std::s
 {
   for (const auto& [name, rule] : given_rules) {
     const auto points = fit_points(data, rule, settings);
+    const auto own = prefix + name;
     const auto add = [&](const char* what, double FitPoint::*value) {
-      arrays.add(prefix + name + what, list(points, [&](const FitPoint& p) { return p.*value; }));
+      arrays.add(own + what, list(points, [&](const FitPoint& p) { return p.*value; }));
     };
     add("_small", &FitPoint::small);
     add("_large", &FitPoint::large);
