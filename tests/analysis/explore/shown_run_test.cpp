@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/shown_run.hpp"
 
+#include "formats/core/errors.hpp"
 #include "tests/folder.hpp"
 #include "tests/spheres.hpp"
 #include "tests/three_grains.hpp"
