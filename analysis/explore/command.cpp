@@ -3,6 +3,7 @@
 
 #include "analysis/explore/page.hpp"
 #include "analysis/explore/run_of_page.hpp"
+#include "analysis/explore/same_number.hpp"
 #include "analysis/explore/settings.hpp"
 #include "analysis/explore/stress_tables.hpp"
 #include "formats/cli/input_tables.hpp"
@@ -33,12 +34,13 @@ Json rules_known()
   return rules;
 }
 
-std::vector<std::string> digests_of(const std::vector<std::string>& runs, Verify verify)
+/// As the files tell them; whether it is so is found out when a run is read.
+std::vector<std::string> digests_of(const std::vector<std::string>& runs)
 {
   std::vector<std::string> digests;
   digests.reserve(runs.size());
   for (const auto& path : runs)
-    digests.push_back("xxh3 " + format_digest(TrajectoryReader(path, verify).digest()));
+    digests.push_back("xxh3 " + format_digest(TrajectoryReader(path, Verify::no).digest()));
   return digests;
 }
 
@@ -59,10 +61,14 @@ void write_page(const ToolInfo& info, const po::variables_map& values, ExploreSe
   s.check(values);
   const auto inputs = inputs_of(values);
   const auto tables = read_tables(info, with_inputs(values, inputs.tables), s.frames.quiet);
-  const auto of_runs = tables_of_runs(tables, digests_of(inputs.runs, s.frames.trust.verify()));
+  const auto of_runs = tables_of_runs(tables, digests_of(inputs.runs));
+  refuse_too_large(info, values, inputs.runs, s);
   std::vector<RunOfPage> runs;
   for (std::size_t k = 0; k < inputs.runs.size(); ++k)
     runs.push_back(run_of_page(info, values, inputs.runs[k], of_runs[k], s, command));
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    runs[k].content["commands"] =
+        commands_of(inputs.runs[k], of_runs[k], s, runs.size() == 1 ? 0 : k + 1);
 
   Json content{{"program", program_line(info).second},
                {"command", printable(command)},

@@ -12,6 +12,7 @@
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "formats/core/dimension.hpp"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,17 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// All windows as one.
-Window whole(const FrameLoop& loop)
-{
-  const auto windows = loop.windows();
-  Window all{windows.front().begin, windows.back().end, {}};
-  for (const auto& window : windows)
-    all.frames.insert(all.frames.end(), window.frames.begin(), window.frames.end());
-  return all;
-}
-
-/// A table by layer in the making.
+/// A table by layer in the making: means over windows, weighted by their frames.
 class LayerTable {
  public:
   LayerTable(const char* name, const char* tool, const char* note, std::vector<std::string> shown)
@@ -44,20 +35,38 @@ class LayerTable {
   {
   }
 
-  void add(const Layers& layers, std::size_t layer, const std::vector<Cell>& cells)
+  /// What is not a number in a window counts in no mean.
+  void add(const Window& window, std::size_t layer, const std::vector<Cell>& cells)
   {
-    if (table_["columns"].empty()) {
-      table_["columns"] = {"y0[m]", "y1[m]"};
-      for (const auto& column : columns_of(cells)) table_["columns"].push_back(column);
-    }
-    Json row{layers.bottom(layer), layers.top(layer)};
-    for (const double value : values_of(cells)) row.push_back(value);
-    table_["rows"].push_back(std::move(row));
+    if (columns_.empty()) columns_ = columns_of(cells);
+    while (means_.size() <= layer) means_.emplace_back(columns_.size());
+    const auto values = values_of(cells);
+    const auto frames = static_cast<double>(window.frames.size());
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (std::isfinite(values[k])) {
+        means_[layer][k].sum += frames * values[k];
+        means_[layer][k].frames += frames;
+      }
   }
-  Json take() { return std::move(table_); }
+  Json take(const Layers& layers)
+  {
+    table_["columns"] = {"y0[m]", "y1[m]"};
+    for (const auto& column : columns_) table_["columns"].push_back(column);
+    for (std::size_t layer = 0; layer < means_.size(); ++layer) {
+      Json row{layers.bottom(layer), layers.top(layer)};
+      for (const auto& mean : means_[layer]) row.push_back(ratio(mean.sum, mean.frames));
+      table_["rows"].push_back(std::move(row));
+    }
+    return std::move(table_);
+  }
 
  private:
+  struct Mean {
+    double sum = 0, frames = 0;
+  };
   Json table_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<Mean>> means_;  // by layer and column
 };
 
 /// "sigma_S_yy[N/m]" for each species and component.
@@ -74,52 +83,64 @@ std::vector<Cell> partial_cells(const PartialStress<D>& stress, const SpeciesLis
 }
 
 template <int D>
-Json stress_table(FrameLoop& loop, const Window& window)
+std::vector<Cell> stress_cells(const FrameLoop& loop, const Composition<D>& composition,
+                               const PartialContactStress<D>& contacts, std::size_t layer)
 {
   const auto& species = loop.species();
-  const auto [composition, contacts] =
-      loop.sum<D>(window, {.velocity = false, .contacts = true},
-                  Composition<D>(loop.layers(), GrainArea::clipped, std::nullopt, species.size()),
-                  PartialContactStress<D>(loop.layers(), Assignment::contact_point, std::nullopt,
-                                          std::nullopt, species.size()));
+  auto sums = contacts.mean(layer).sums;
+  sums.content = composition.mean(layer);
+  sums.volume = loop.layers().volume(layer);
+  const auto stress = partial_stress(sums, PartitionRule{});
+  auto cells = stress_fields(sums, species, {PartitionRule{}});
+  for (auto& cell : partial_cells(stress, species)) cells.push_back(std::move(cell));
+  double mixed = 0;
+  for (std::size_t pair = 0; pair < number_of_pairs(species.size()); ++pair)
+    mixed += sums.of(PairSum::whole, pair)(1, 1) / sums.volume;
+  cells.push_back({"mixed_share_yy", ratio(mixed, stress.total(1, 1))});
+  return cells;
+}
+
+template <int D>
+Json stress_table(FrameLoop& loop)
+{
+  const auto& layers = loop.layers();
+  const auto species = loop.species().size();
   const char* unit = D == 3 ? "[Pa]" : "[N/m]";
   LayerTable table(
       "stress", "grseg-stress", "Contact stress; mixed contacts shared by size.",
       {"nu", "phi_L", std::string("sigma_yy") + unit, "stress_ratio",
        std::string("sigma_S_yy") + unit, std::string("sigma_L_yy") + unit, "mixed_share_yy"});
-  for (std::size_t layer = 0; layer < contacts.layers(); ++layer) {
-    auto sums = contacts.mean(layer).sums;
-    sums.content = composition.mean(layer);
-    sums.volume = loop.layers().volume(layer);
-    const auto stress = partial_stress(sums, PartitionRule{});
-    auto cells = stress_fields(sums, species, {PartitionRule{}});
-    for (auto& cell : partial_cells(stress, species)) cells.push_back(std::move(cell));
-    double mixed = 0;
-    for (std::size_t pair = 0; pair < number_of_pairs(species.size()); ++pair)
-      mixed += sums.of(PairSum::whole, pair)(1, 1) / sums.volume;
-    cells.push_back({"mixed_share_yy", ratio(mixed, stress.total(1, 1))});
-    table.add(loop.layers(), layer, cells);
+  for (const auto& window : loop.windows()) {
+    const auto [composition, contacts] =
+        loop.sum<D>(window, {.velocity = false, .contacts = true},
+                    Composition<D>(layers, GrainArea::clipped, std::nullopt, species),
+                    PartialContactStress<D>(layers, Assignment::contact_point, std::nullopt,
+                                            std::nullopt, species));
+    for (std::size_t layer = 0; layer < contacts.layers(); ++layer)
+      table.add(window, layer, stress_cells(loop, composition, contacts, layer));
   }
-  return table.take();
+  return table.take(layers);
 }
 
 template <int D>
-Json kinetic_table(FrameLoop& loop, const Window& window)
+Json kinetic_table(FrameLoop& loop)
 {
   const TrajectoryReader::Fields moving{.velocity = true, .contacts = false};
+  const auto& layers = loop.layers();
   const auto& species = loop.species();
-  const auto [mean] =
-      loop.sum<D>(window, moving,
-                  MeanVelocity<D>(loop.layers(), loop.run().small_diameter() / 2, species.size()));
-  const auto [stress] = loop.sum<D>(
-      window, moving, KineticStress<D>(loop.layers(), MeanFlow::profile, mean, species.size()));
   LayerTable table("kinetic", "grseg-kinetic",
-                   "Mean flow, and granular temperatures about its profile.",
+                   "Mean flow, and granular temperatures about its profile in each window.",
                    {"u[m/s]", "du_dy[1/s]", "T_S_x[m^2/s^2]", "T_S_y[m^2/s^2]", "T_L_x[m^2/s^2]",
                     "T_L_y[m^2/s^2]", "equipartition_y"});
-  for (std::size_t layer = 0; layer < stress.layers(); ++layer)
-    table.add(loop.layers(), layer, stress.cells(species, layer));
-  return table.take();
+  for (const auto& window : loop.windows()) {
+    const auto [mean] = loop.sum<D>(
+        window, moving, MeanVelocity<D>(layers, loop.run().small_diameter() / 2, species.size()));
+    const auto [stress] = loop.sum<D>(
+        window, moving, KineticStress<D>(layers, MeanFlow::profile, mean, species.size()));
+    for (std::size_t layer = 0; layer < stress.layers(); ++layer)
+      table.add(window, layer, stress.cells(species, layer));
+  }
+  return table.take(layers);
 }
 
 template <int D>
@@ -138,78 +159,86 @@ RunConstants constants_of(const FrameLoop& loop)
 }
 
 template <int D>
-Json micro_table(FrameLoop& loop, const Window& window)
+Json micro_table(FrameLoop& loop)
 {
   const auto constants = constants_of<D>(loop);
-  const auto [micro] =
-      loop.sum<D>(window, {.velocity = false, .contacts = true},
-                  StructureByLayer<D>(loop.layers(), GrainArea::clipped, constants.friction));
+  const auto& layers = loop.layers();
   LayerTable table("micro", "grseg-micro --derived",
                    "Contacts per grain, mean forces, friction and fabric.",
                    {"z_S", "z_L", "f_S[N]", "f_L[N]", "f_SS[N]", "f_LS[N]", "f_LL[N]",
                     "mixed_share", "neutral_share", "sliding_all"});
-  for (std::size_t layer = 0; layer < micro.layers(); ++layer) {
-    const SumsRow<D> row{window.begin,
-                         window.end,
-                         loop.layers().bottom(layer),
-                         loop.layers().top(layer),
-                         static_cast<double>(window.frames.size()),
-                         loop.layers().volume(layer),
-                         micro.mean(layer),
-                         {},
-                         micro.heights().bed};
-    table.add(loop.layers(), layer, derived_quantities(row, constants, DerivedSettings{}));
+  for (const auto& window : loop.windows()) {
+    const auto [micro] =
+        loop.sum<D>(window, {.velocity = false, .contacts = true},
+                    StructureByLayer<D>(layers, GrainArea::clipped, constants.friction));
+    for (std::size_t layer = 0; layer < micro.layers(); ++layer) {
+      const SumsRow<D> row{window.begin,
+                           window.end,
+                           layers.bottom(layer),
+                           layers.top(layer),
+                           static_cast<double>(window.frames.size()),
+                           layers.volume(layer),
+                           micro.mean(layer),
+                           {},
+                           micro.heights().bed};
+      table.add(window, layer, derived_quantities(row, constants, DerivedSettings{}));
+    }
   }
-  return table.take();
+  return table.take(layers);
 }
 
 template <int D>
-Json balance_table(FrameLoop& loop, const Window& window)
+Json balance_table(FrameLoop& loop)
 {
+  const auto& layers = loop.layers();
   const auto& run = loop.run();
   const auto& species = loop.species();
   const Kernel kernel(KernelShape::gauss, run.small_diameter());
-  const auto [balance] = loop.sum<D>(
-      window, {.velocity = true, .contacts = true, .force = true},
-      MomentumBalance<D>(loop.layers(), kernel, run.gravity<D>(), run.step(), species.size()));
   const std::string unit = D == 3 ? "[N/m^3]" : "[N/m^2]";
   LayerTable table(
       "balance", "grseg-balance",
-      "Momentum balance of the large grains along y; mixed contacts cut at the contact point.",
+      species.size() == 2
+          ? "Momentum balance of the large grains along y; mixed contacts cut at the contact point."
+          : "Momentum balance of each species; contacts of two species cut at the contact point.",
       {"gravity_L_y" + unit, "contact_L_y" + unit, "interaction_L_y" + unit, "base_L_y" + unit,
        "kinetic_L_y" + unit, "push" + unit, "push_kinetic" + unit, "drag" + unit});
   const auto columns = balance_columns<D>(species);
-  for (std::size_t layer = 0; layer < balance.layers(); ++layer) {
-    const auto values = balance_row(balance, layer);
-    std::vector<Cell> cells;
-    cells.reserve(columns.size());
-    for (std::size_t k = 0; k < columns.size(); ++k) cells.push_back({columns[k], values[k]});
-    table.add(loop.layers(), layer, cells);
+  for (const auto& window : loop.windows()) {
+    const auto [balance] = loop.sum<D>(
+        window, {.velocity = true, .contacts = true, .force = true},
+        MomentumBalance<D>(layers, kernel, run.gravity<D>(), run.step(), species.size()));
+    for (std::size_t layer = 0; layer < balance.layers(); ++layer) {
+      const auto values = balance_row(balance, layer);
+      std::vector<Cell> cells;
+      cells.reserve(columns.size());
+      for (std::size_t k = 0; k < columns.size(); ++k) cells.push_back({columns[k], values[k]});
+      table.add(window, layer, cells);
+    }
   }
-  return table.take();
+  return table.take(layers);
 }
 
 }  // namespace
 
 Json layer_tables(FrameLoop& loop)
 {
-  const Window window = whole(loop);
-  Json all{{"begin", window.begin},
-           {"end", window.end},
-           {"frames", window.frames.size()},
+  const auto windows = loop.windows();
+  Json all{{"begin", windows.front().begin},
+           {"end", windows.back().end},
+           {"windows", windows.size()},
            {"tables", Json::array()},
            {"missing", Json::array()}};
   auto& tables = all["tables"];
   auto& missing = all["missing"];
   with_dimension(loop.dimension(), [&](auto d) {
-    tables.push_back(stress_table<d>(loop, window));
-    tables.push_back(kinetic_table<d>(loop, window));
+    tables.push_back(stress_table<d>(loop));
+    tables.push_back(kinetic_table<d>(loop));
     if (loop.species().size() == 2)
-      tables.push_back(micro_table<d>(loop, window));
+      tables.push_back(micro_table<d>(loop));
     else
       missing.push_back("grseg-micro compares two species, and the run has another number");
     if (loop.run().has_force())
-      tables.push_back(balance_table<d>(loop, window));
+      tables.push_back(balance_table<d>(loop));
     else
       missing.push_back("grseg-balance needs the forces on grains, which the run does not have");
   });

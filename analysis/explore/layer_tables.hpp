@@ -7,8 +7,8 @@
 
 namespace grseg {
 
-/// What grseg-stress, -kinetic, -micro --derived and -balance tell of a run with their defaults, by layer, as
-/// means over all windows together: a list of
+/// What grseg-stress, -kinetic, -micro --derived and -balance tell of a run with their defaults, by layer:
+/// means of the rows of all windows, weighted by frames. A list of
 ///
 ///   {"name": "kinetic", "tool": "grseg-kinetic", "note": "...", "columns": ["y0[m]", ...],
 ///    "shown": ["u[m/s]", ...], "rows": [[...], ...]}

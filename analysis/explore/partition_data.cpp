@@ -19,7 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = PartitionRule::Kind;
 
-constexpr double highest_power = 4;
 constexpr ScanRange grid{0, 1, 0.01};
 
 /// The rules whose stresses a page is given; of all others it finds them between these.
@@ -53,8 +52,9 @@ void add_stresses(const FitData& data, const FitSettings& settings, const std::s
 {
   for (const auto& [name, rule] : given_rules) {
     const auto points = fit_points(data, rule, settings);
+    const auto own = prefix + name;
     const auto add = [&](const char* what, double FitPoint::*value) {
-      arrays.add(prefix + name + what, list(points, [&](const FitPoint& p) { return p.*value; }));
+      arrays.add(own + what, list(points, [&](const FitPoint& p) { return p.*value; }));
     };
     add("_small", &FitPoint::small);
     add("_large", &FitPoint::large);
@@ -178,13 +178,12 @@ Json rule_object(const RuleFit& fit, const std::vector<Mixture>& mixtures)
               {"points", fit.points},
               {"not_positive", fit.not_positive},
               {"over", word_of(fit.over, overs)},
-              {"p_zero_sums", with_interval(fit.p_zero_sums.estimate())},
               {"doubt", fit.doubt}};
   for (const auto& [name, place] : estimator_columns) object[name] = with_interval(fit, place);
   return object;
 }
 
-/// B over the share p with its band.
+/// B over the share p with its band, and of two species where it is 0.
 Json scan_object(const Selected& selected, const PartitionSettings& settings)
 {
   const Bootstrap bootstrap(selected.samples.runs, settings.resampling.samples,
@@ -195,10 +194,10 @@ Json scan_object(const Selected& selected, const PartitionSettings& settings)
     object["B_sums"].push_back(with_interval(fit, &Estimators::B_sums));
     object["B_half"].push_back(with_interval(fit, &Estimators::B_half));
   }
-  const bool one_zero = selected.samples.species.size() == 2;
+  if (selected.samples.species.size() > 2) return object;
   object["p_zero"] =
-      one_zero ? with_interval(scan.p_zero, scan.p_zero_interval.low, scan.p_zero_interval.high)
-               : with_interval(Estimate{});
+      with_interval(scan.p_zero, scan.p_zero_interval.low, scan.p_zero_interval.high);
+  object["p_zero_sums"] = with_interval(scan.p_zero_sums.estimate());
   return object;
 }
 
@@ -249,6 +248,7 @@ Json partition_data(const PartitionInput& input, const PartitionSettings& settin
   Json object{{"pair", {species[pair.smaller].name, species[pair.larger].name}},
               {"numbers_of_pair", {pair.smaller, pair.larger}},
               {"size_ratio", species[pair.larger].diameter / species[pair.smaller].diameter}};
+  object["two"] = species.size() == 2;
   object["samples"] = selected.samples.samples.size();
   object["power_nodes"] = has_powers ? power_nodes() : std::vector<double>{};
   object["settings"] = settings_object(selected, settings);

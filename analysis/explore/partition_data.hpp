@@ -17,8 +17,9 @@ namespace grseg {
 
 /// The exponents Q of power:Q between which a page interpolates: Chebyshev's points of [0, 4]. The
 /// share r_L^Q/(r_L^Q + r_S^Q) is a smooth function of Q, and with it every sum: for radii r_L < 3 r_S
-/// the polynomial through these points differs from it by less than 1e-6, for r_L = 2 r_S by 1e-9.
+/// the polynomial through these points differs from it by less than 1e-7, for r_L < 2.4 r_S by 1e-9.
 std::vector<double> power_nodes();
+inline constexpr double highest_power = 4;
 
 /// Sums of one or several runs, and of the same runs by power:Q for each of power_nodes(), or none.
 struct PartitionInput {
@@ -43,7 +44,8 @@ struct PartitionSettings {
 ///   power_large             by node and sample, where there are nodes
 ///
 /// and the same of the means over time of all layers, "layer_" before the name. Stress under uniform:p
-/// is linear in p. Returns the rest; errors as select_fit_data and fit_points.
+/// is linear in p. Of more than two species mixed contacts with the others enter, too: p*, the shares and
+/// what neutral contacts would make of B belong to two alone, `two`. Returns the rest; errors as select_fit_data and fit_points.
 nlohmann::ordered_json partition_data(const PartitionInput& input,
                                       const PartitionSettings& settings, BinaryArrays& arrays);
 

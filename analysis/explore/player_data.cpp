@@ -12,9 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What lies across the branch counts up to this many times what lies along it.
-constexpr double steepest = 4;
-
 Json bounds_of(const Quantisation& q)
 {
   return {{"from", q.from()}, {"step", q.step()}};
@@ -55,12 +52,6 @@ Json add_positions(const ShownRun& run, const Box& box, BinaryArrays& arrays)
   return all;
 }
 
-double across_over_along(const ShownFrame& frame, std::size_t k)
-{
-  const double ratio = frame.across[k] / frame.along[k];
-  return std::isnan(ratio) ? 0 : std::clamp(ratio, -steepest, steepest);
-}
-
 /// The grains of the contacts, in as few bytes as their number allows.
 template <class Index>
 void add_pairs(const ShownRun& run, BinaryArrays& arrays)
@@ -78,32 +69,29 @@ void add_pairs(const ShownRun& run, BinaryArrays& arrays)
   arrays.add("j", second);
 }
 
+/// 0 lies between the bounds.
+Json add_forces(const ShownRun& run, const char* name, std::vector<float> ShownFrame::*list,
+                BinaryArrays& arrays)
+{
+  auto q = bounds(run, list);
+  q.include(0);
+  arrays.add(name, codes(run, list, q));
+  return bounds_of(q);
+}
+
 Json add_contacts(const ShownRun& run, BinaryArrays& arrays)
 {
   if (run.row.size() <= 1u << 15)
     add_pairs<std::uint16_t>(run, arrays);
   else
     add_pairs<std::uint32_t>(run, arrays);
-  auto along = bounds(run, &ShownFrame::along);
-  along.include(0);
-  arrays.add("along", codes(run, &ShownFrame::along, along));
-
-  double largest = 0;
-  for (const auto& frame : run.frames)
-    for (std::size_t k = 0; k < frame.i.size(); ++k)
-      largest = std::max(largest, std::abs(across_over_along(frame, k)));
-  const double step = largest / 127;
-  std::vector<std::int8_t> across;
   std::vector<std::uint32_t> offset{0};
-  for (const auto& frame : run.frames) {
-    for (std::size_t k = 0; k < frame.i.size(); ++k)
-      across.push_back(
-          static_cast<std::int8_t>(step > 0 ? std::lround(across_over_along(frame, k) / step) : 0));
-    offset.push_back(static_cast<std::uint32_t>(across.size()));
-  }
-  arrays.add("across", across);
+  offset.reserve(run.frames.size() + 1);
+  for (const auto& frame : run.frames)
+    offset.push_back(offset.back() + static_cast<std::uint32_t>(frame.i.size()));
   arrays.add("contact_offset", offset);
-  return {{"along", bounds_of(along)}, {"across_step", step}};
+  return {{"along", add_forces(run, "along", &ShownFrame::along, arrays)},
+          {"across", add_forces(run, "across", &ShownFrame::across, arrays)}};
 }
 
 /// Walls as the last frame knows them, in those before by number; returns how many.
@@ -144,13 +132,28 @@ Json player_data(const ShownRun& run, const Box& box, BinaryArrays& arrays)
   player["walls"] = add_walls(run, arrays);
   player["times"] = Json::array();
   player["steps"] = Json::array();
+  player["gravity"] = Json::array();
   for (const auto& frame : run.frames) {
     player["times"].push_back(frame.time);
     player["steps"].push_back(frame.step);
+    player["gravity"].push_back({frame.gravity.x(), frame.gravity.y()});
   }
   player["contact_point_from_size"] = run.contact_point_from_size;
   if (box.dimension == 3) player["plane"] = box.length_z / 2;
   return player;
+}
+
+double player_bytes(const TrajectoryReader& run, std::size_t frames)
+{
+  const auto& box = run.box();
+  const double grains = static_cast<double>(run.grains().size()),
+               index = grains <= 1u << 15 ? sizeof(std::uint16_t) : sizeof(std::uint32_t),
+               contacts = static_cast<double>(run.contacts()) / static_cast<double>(run.size());
+  constexpr double code = sizeof(std::uint16_t);
+  // A plane cuts the contacts that lie no further away than a grain is wide.
+  const double cut = box.dimension == 3 ? std::min(1.0, run.large_diameter() / box.length_z) : 1;
+  return static_cast<double>(frames) *
+         (grains * box.dimension * code + cut * contacts * (2 * index + 2 * code));
 }
 
 }  // namespace grseg

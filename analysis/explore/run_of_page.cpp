@@ -13,7 +13,11 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <utility>
 
 namespace grseg {
@@ -39,25 +43,35 @@ Json facts_of(const FrameLoop& loop)
 {
   auto facts = run_summary(loop.run());
   facts["small_diameter"] = loop.run().small_diameter();
-  facts["gravity"] = with_dimension(loop.dimension(), [&](auto d) {
-    const auto gravity = loop.run().gravity<d>();
-    return Json::array({gravity.start.x(), gravity.start.y()});
-  });
   facts["species"] = Json::array();
   for (const auto& one : loop.species())
     facts["species"].push_back({{"name", one.name}, {"diameter", one.diameter}});
-  facts["window_times"] = Json::array();
-  for (const auto& window : loop.windows())
-    facts["window_times"].push_back({window.begin, window.end});
   return facts;
 }
 
-Json player_of(const FrameLoop& loop, const ExploreSettings& s, BinaryArrays& arrays)
+/// How the sums are cut into windows, and whether "y" is height ("layers") or what "bins" of the table says.
+Json cut_of(const Table& sums)
+{
+  const auto begin = sums.column("t0"), end = sums.column("t1");
+  std::set<std::pair<double, double>> windows;
+  for (const auto& row : sums.rows) windows.emplace(row[begin], row[end]);
+  const auto bins = header_or(sums, "bins", "layers");
+  Json cut{{"bins", bins.substr(0, bins.find(' '))}, {"window_times", Json::array()}};
+  for (const auto& window : windows) cut["window_times"].push_back({window.first, window.second});
+  return cut;
+}
+
+std::vector<std::size_t> frames_to_show(const FrameLoop& loop, const ExploreSettings& s)
 {
   std::vector<std::size_t> frames;
   for (const auto& window : loop.windows())
     frames.insert(frames.end(), window.frames.begin(), window.frames.end());
-  const auto shown = evenly_spaced(frames, static_cast<std::size_t>(s.shown_frames));
+  return evenly_spaced(frames, static_cast<std::size_t>(s.shown_frames));
+}
+
+Json player_of(const FrameLoop& loop, const ExploreSettings& s, BinaryArrays& arrays)
+{
+  const auto shown = frames_to_show(loop, s);
   return with_dimension(loop.dimension(), [&](auto d) {
     return player_data(show_run<d>(loop.run(), loop.grains(), shown), loop.run().box(), arrays);
   });
@@ -66,7 +80,10 @@ Json player_of(const FrameLoop& loop, const ExploreSettings& s, BinaryArrays& ar
 /// Those that were given, or made of the run.
 PartitionInput sums_of(FrameLoop& loop, const Table* given, const std::string& command)
 {
-  if (given != nullptr) return {{*given}, {}};
+  if (given != nullptr) {
+    require_same_species(*given, loop.species());
+    return {{*given}, {}};
+  }
   const bool two = loop.species().size() == 2;
   auto made = make_stress_tables(loop, two ? power_nodes() : std::vector<double>{}, command);
   PartitionInput sums{{std::move(made.sums)}, {}};
@@ -92,6 +109,29 @@ PartitionInput together(const std::vector<RunOfPage>& runs)
 
 }  // namespace
 
+void refuse_too_large(const ToolInfo& info, const po::variables_map& values,
+                      const std::vector<std::string>& runs, const ExploreSettings& s)
+{
+  auto unread = s.frames;
+  unread.quiet = unread.trust.trust = true;
+  double megabytes = 0;
+  for (const auto& path : runs) {
+    const FrameLoop loop(info, with_inputs(values, {path}), unread);
+    megabytes += 1e-6 * player_bytes(loop.run(), frames_to_show(loop, s).size());
+  }
+  if (megabytes <= most_megabytes) return;
+  // evenly_spaced() may show half as many more as it is asked for.
+  const double fewer = s.shown_frames * most_megabytes / megabytes / 1.5;
+  throw UsageError(fmt::format(
+      "{}: about {} frames, as --frames {} has it, are {:.0f} MB of positions and forces, and a page "
+      "of more than {:.0f} MB does not open in every browser; {}",
+      printable(runs.front()) + (runs.size() > 1 ? " and the others" : ""), s.shown_frames,
+      s.shown_frames, megabytes, most_megabytes,
+      fewer >= 1 ? fmt::format("take --frames {:.0f}, or a part of the run with --begin and --end",
+                               std::floor(fewer))
+                 : "take a part of the run with --begin and --end, or grseg-render"));
+}
+
 RunOfPage run_of_page(const ToolInfo& info, const po::variables_map& values,
                       const std::string& path, const Table* table, const ExploreSettings& s,
                       const std::string& command)
@@ -108,6 +148,7 @@ RunOfPage run_of_page(const ToolInfo& info, const po::variables_map& values,
   tell("sums");
   run.sums = sums_of(loop, table, command);
   if (table != nullptr) run.content["sums"] = printable(table->name);
+  run.content.update(cut_of(run.sums.sums.front()));
   tell("intervals");
   run.content.update(fitted(run.sums, s.partition, s.base, run.arrays));
   tell("tables by layer");

@@ -19,6 +19,15 @@ struct RunOfPage {
   PartitionInput sums;
 };
 
+/// The arrays of a page are no larger than this, in MB. A browser reads each run's from a string of base64,
+/// four bytes for three, and strings end at 2^29 characters in Chromium; while it opens the page it holds
+/// them four times.
+inline constexpr double most_megabytes = 300;
+
+/// UsageError, before frames are read, where those to be shown of all runs would be more.
+void refuse_too_large(const ToolInfo& info, const po::variables_map& values,
+                      const std::vector<std::string>& runs, const ExploreSettings& settings);
+
 /// Reads the run in file `path` as often as it takes. `table`: the sums that were given of it, if any;
 /// otherwise they are made. `command` is the last line of their history.
 RunOfPage run_of_page(const ToolInfo& info, const po::variables_map& values,

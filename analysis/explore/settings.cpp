@@ -59,7 +59,13 @@ void ExploreSettings::check(const po::variables_map& values)
   partition.fit.component = choose(component, "--component", components);
   if (!base.empty()) choose(base, "--base", base_parts);
   parse_heights(partition.filters.heights, {1, 1});
-  parse_rule(start);
+  const auto first = parse_rule(start);
+  if (first.kind == PartitionRule::Kind::power &&
+      !(first.value >= 0 && first.value <= highest_power))
+    throw UsageError(fmt::format(
+        "--partition {}: the page shows power:Q for Q from 0 to {:g}; for others take grseg-stress "
+        "and grseg-fit with --partition {}",
+        first.name(), highest_power, first.name()));
   partition.rules = parse_rules(rules);
   for (const auto& rule : partition.rules)
     if (rule.definition().sum == PairSum::by_power)

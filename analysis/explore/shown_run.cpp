@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/shown_run.hpp"
 
+#include "analysis/frames/walls.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/core/text.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -11,6 +18,8 @@ namespace grseg {
 namespace {
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+/// Of a unit vector: what has less of it in the plane goes across.
+constexpr double along_the_plane = 1e-3;
 
 /// Radius of the disc that the plane cuts out of a grain; NaN where it misses it.
 template <int D>
@@ -35,19 +44,47 @@ void show_grains(const Grains& grains, const Frame<D>& frame, double plane, Show
   }
 }
 
-/// Keeps a wall for this and the frames to come.
+/// Walls as lines in a plane of constant z, under numbers from 0 on.
 template <int D>
-void show_wall(const Frame<D>& frame, std::size_t contact, const Vec2& normal,
-               std::vector<ShownWall>& walls)
-{
-  const auto& contacts = frame.contacts;
-  const auto number = static_cast<std::size_t>(-1 - contacts.j[contact]);
-  if (walls.size() <= number) walls.resize(number + 1, {nothing, nothing, nothing});
-  const auto i = static_cast<std::size_t>(contacts.i[contact]);
-  const Vec2 point = (frame.position[i] - contacts.branch[contact]).template head<2>();
-  walls[number] = {static_cast<float>(normal.x()), static_cast<float>(normal.y()),
-                   static_cast<float>(normal.dot(point))};
-}
+class WallsInPlane {
+ public:
+  explicit WallsInPlane(double plane) : plane_(plane) {}
+
+  /// Learns from the contacts of a frame.
+  void add(const Frame<D>& frame)
+  {
+    walls_.add(frame);
+    for (const auto& [number, wall] : walls_.all()) numbers_.try_emplace(number, numbers_.size());
+  }
+  std::vector<ShownWall> all() const
+  {
+    std::vector<ShownWall> lines(numbers_.size());
+    for (const auto& [number, wall] : walls_.all()) lines[numbers_.at(number)] = line_of(wall);
+    return lines;
+  }
+  std::size_t size() const { return numbers_.size(); }
+  /// As contacts name it: j < 0 of the file becomes one of few.
+  std::int32_t renumbered(std::int32_t j) const
+  {
+    return -1 - static_cast<std::int32_t>(numbers_.at(-1 - j));
+  }
+
+ private:
+  ShownWall line_of(const typename Walls<D>::Wall& wall) const
+  {
+    const Vec2 in_plane = wall.normal.template head<2>();
+    const double length = in_plane.norm();
+    if (!(length > along_the_plane)) return {nothing, nothing, nothing};
+    double offset = wall.normal.dot(wall.point);
+    if constexpr (D == 3) offset -= wall.normal.z() * plane_;
+    return {static_cast<float>(in_plane.x() / length), static_cast<float>(in_plane.y() / length),
+            static_cast<float>(offset / length)};
+  }
+
+  double plane_;
+  Walls<D> walls_;
+  std::map<std::int32_t, std::size_t> numbers_;
+};
 
 /// Their numbers, by (i, j).
 template <int D>
@@ -62,7 +99,7 @@ std::vector<std::size_t> in_order(const ContactList<D>& contacts)
 }
 
 template <int D>
-void show_contacts(const Frame<D>& frame, ShownFrame& shown)
+void show_contacts(const Frame<D>& frame, const WallsInPlane<D>& walls, ShownFrame& shown)
 {
   const auto& contacts = frame.contacts;
   const auto is_shown = [&](std::int32_t g) {
@@ -74,11 +111,10 @@ void show_contacts(const Frame<D>& frame, ShownFrame& shown)
     const Vec2 branch = contacts.branch[k].template head<2>();
     const Vec2 force = contacts.force[k].template head<2>();
     const double length = branch.norm();
-    if (!(length > 1e-3 * contacts.branch[k].norm())) continue;  // across the plane
+    if (!(length > along_the_plane * contacts.branch[k].norm())) continue;  // across the plane
     const Vec2 along = branch / length, left(-along.y(), along.x());
-    if (contacts.j[k] < 0) show_wall(frame, k, along, shown.walls);
     shown.i.push_back(contacts.i[k]);
-    shown.j.push_back(contacts.j[k]);
+    shown.j.push_back(contacts.j[k] < 0 ? walls.renumbered(contacts.j[k]) : contacts.j[k]);
     shown.along.push_back(static_cast<float>(force.dot(along)));
     shown.across.push_back(static_cast<float>(force.dot(left)));
   }
@@ -149,17 +185,22 @@ ShownRun show_run(const TrajectoryReader& run, const Grains& grains,
 {
   ShownRun all;
   const double plane = run.box().length_z / 2;
-  std::vector<ShownWall> walls;
+  const auto gravity = run.gravity<D>();
+  WallsInPlane<D> walls(plane);
   Frame<D> frame;
   for (const auto index : frames) {
     run.read(index, frame, {.velocity = false, .contacts = true});
     auto& shown = all.frames.emplace_back();
     shown.step = frame.step;
     shown.time = frame.time;
-    shown.walls = walls;
+    shown.gravity = gravity.at(frame.time).template head<2>();
+    walls.add(frame);
+    if (walls.size() > most_walls)
+      throw FormatError(fmt::format("{}: frame {} (t = {:g} s): there are more than {} walls",
+                                    printable(run.path()), index, frame.time, most_walls));
+    shown.walls = walls.all();
     show_grains(grains, frame, plane, shown);
-    show_contacts(frame, shown);
-    walls = shown.walls;
+    show_contacts(frame, walls, shown);
     all.contact_point_from_size =
         std::max(all.contact_point_from_size, contact_point_from_size(grains, frame.contacts));
   }

@@ -79,8 +79,9 @@ StressTables make_tables(FrameLoop& loop, std::span<const double> powers,
         loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains,
                     no_contacts<D>(loop, std::nullopt), none);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
+      const auto content = composition.mean(layer);
       const auto row = [&](const PartialContactStress<D>& sums) {
-        return loop.row(window, layer, joined(composition.mean(layer), sums.row(layer)));
+        return loop.row(window, layer, joined(content, sums.row(layer)));
       };
       tables.sums.rows.push_back(row(stress));
       for (std::size_t k = 0; k < powers.size(); ++k)
@@ -134,6 +135,18 @@ std::vector<const Table*> tables_of_runs(const std::vector<Table>& tables,
     of_runs[run] = &table;
   }
   return of_runs;
+}
+
+void require_same_species(const Table& table, const SpeciesList& species)
+{
+  const std::string of_run = names_species(species) ? species_text(species) : "",
+                    of_table = header_or(table, "species", "");
+  if (of_table == of_run) return;
+  const auto words = [](const std::string& text) { return text.empty() ? "small, large" : text; };
+  throw UsageError(fmt::format(
+      "{}: has the species {}, and the run beside it {}; give both the same --group, --classes or "
+      "--edges, or leave the table out",
+      printable(table.name), printable(words(of_table)), words(of_run)));
 }
 
 }  // namespace grseg

@@ -27,4 +27,7 @@ StressTables make_stress_tables(FrameLoop& loop, std::span<const double> powers,
 std::vector<const Table*> tables_of_runs(const std::vector<Table>& tables,
                                          const std::vector<std::string>& digests);
 
+/// UsageError with the remedy where a table tells other species apart than the run beside it.
+void require_same_species(const Table& table, const SpeciesList& species);
+
 }  // namespace grseg

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/walls.hpp"
 #include "analysis/render/colours.hpp"
 #include "analysis/render/view.hpp"
-#include "analysis/render/walls.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/frame.hpp"
 

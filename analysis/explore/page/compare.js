@@ -2,7 +2,7 @@
 // Several runs: what the rule of the moment makes of each, and of all together.
 
 import {byId, element, fixed, interval} from "./format.js";
-import {fitOf, intervalOf, zeroOfSums} from "./partition.js";
+import {fitOf, intervalOf, zeroOf} from "./partition.js";
 import {set, state} from "./state.js";
 
 export class Compare {
@@ -14,7 +14,7 @@ export class Compare {
     const heads = ["run", "B", "95 %", "over", "p*"].map((text, k) => element("th", k ? {class: "number"} : {}, text));
     this.rows = all.map(({name}, k) => {
       const button = element("button", {class: "link"}, name);
-      button.addEventListener("click", () => set({run: k, grain: -1}));
+      button.addEventListener("click", () => set({run: k, ...(k < all.length - 1 ? {player: k, grain: -1} : {})}));
       const cells = heads.slice(1).map(() => element("td", {class: "number"}));
       return {row: element("tr", {}, element("td", {}, button), ...cells), cells, button};
     });
@@ -36,8 +36,8 @@ export class Compare {
       button.disabled = !fit;
       if (!fit) return;
       const B = fitOf(fit, state.rule)[state.estimator];
-      const p = state.estimator === "B_sums" ? zeroOfSums(fit) : fit.scan.p_zero[0] ?? NaN;
-      const texts = [fixed(B), interval(intervalOf(fit, state.rule, state.estimator)), fit.over, fixed(p)];
+      const {interval: ends} = intervalOf(fit, state.rule, state.estimator);
+      const texts = [fixed(B), Number.isFinite(B) ? interval(ends) : "", fit.over, fixed(zeroOf(fit, state.estimator)[0])];
       texts.forEach((text, n) => (cells[n].textContent = text));
     });
   }

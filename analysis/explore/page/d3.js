@@ -23,6 +23,7 @@ BUSINESS INTERRUPTION) HOWEVER CAUSED AND ON ANY THEORY OF LIABILITY, WHETHER IN
 (INCLUDING NEGLIGENCE OR OTHERWISE) ARISING IN ANY WAY OUT OF THE USE OF THIS SOFTWARE, EVEN IF ADVISED OF THE
 POSSIBILITY OF SUCH DAMAGE. */
 // What this page uses of d3; the rest is left out of the bundle.
+export {extent, group} from "d3-array";
 export {axisBottom, axisLeft} from "d3-axis";
 export {scaleLinear, scaleLog} from "d3-scale";
 export {select} from "d3-selection";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The frames of a run as player_data.hpp has coded them.
 
+import {extent} from "./d3.js";
+
 const none = 65535; // the code of a grain that is not shown
 
 export class Frames {
@@ -68,17 +70,22 @@ export class Frames {
       const x = this.x(frame, grain), y = this.y(frame, grain);
       let [xj, yj] = other < 0 ? this.#onWall(frame, -1 - other, x, y) : [this.x(frame, other), this.y(frame, other)];
       if (periodic) xj += length * Math.round((x - xj) / length);
-      const force = bounds.along.from + along[from + k] * bounds.along.step;
       all.i[k] = grain;
       all.j[k] = other;
       all.xi[k] = x;
       all.yi[k] = y;
       all.xj[k] = xj;
       all.yj[k] = yj;
-      all.along[k] = force;
-      all.across[k] = across[from + k] * bounds.across_step * force;
+      all.along[k] = bounds.along.from + along[from + k] * bounds.along.step;
+      all.across[k] = bounds.across.from + across[from + k] * bounds.across.step;
     }
     return all;
+  }
+
+  /** Half a step of the codes of forces over the mean force: by so much one may be off. */
+  get rounding() {
+    const {along, across} = this.player.bounds;
+    return Math.max(along.step, across.step) / 2 / this.meanForce;
   }
 
   /** The walls that are known: [normal x, normal y, offset]. */
@@ -119,7 +126,7 @@ export class Frames {
   /** Corners of what is ever seen: [[x, y], [x, y]] in m. */
   #extent() {
     const {bounds, length_x, periodic_x} = this.player;
-    const margin = Math.max(...this.arrays.radius, 0);
+    const margin = extent(this.arrays.radius)[1] ?? 0;
     const ends = ({from, step}) => [from, from + 65534 * step];
     const [x0, x1] = periodic_x ? [0, length_x] : ends(bounds.x).map((x, k) => x + (k ? margin : -margin));
     const [y0, y1] = ends(bounds.y);

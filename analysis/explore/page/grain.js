@@ -7,7 +7,10 @@ import {parseRule, ruleName} from "./partition.js";
 import {shareOfContact} from "./player.js";
 import {set, state} from "./state.js";
 
-/** What there is to know about the contacts of a grain in a frame. */
+/**
+ * What there is to know about the contacts of a grain in a frame. Of spheres these are the contacts with
+ * others that are cut by the plane, and forces are those in it.
+ */
 export function contactsOf(player, grain) {
   const contacts = player.contacts();
   const {frames} = player;
@@ -133,11 +136,12 @@ export class GrainPanel {
     const mean = frames.meanForce;
     const mixed = contacts.filter((contact) => contact.mixed);
     const whole = mixed.reduce((sum, {stress}) => sum + stress, 0);
+    const flat = run.dimension === 2;
     const heading = element(
       "h3",
       {},
       `Grain ${row[grain]}, ${name(species[grain])}`,
-      element("small", {}, ` radius ${fixed(radius[grain] / run.small_diameter, 2)} dS, ${contacts.length} contacts`),
+      element("small", {}, ` radius ${fixed(radius[grain] / run.small_diameter, 2)} dS, ${contacts.length} contacts${flat ? "" : " with grains in the cut"}`),
     );
     const rows = contacts.map((contact) => {
       const p = contact.mixed ? shareOfContact(state.rule, ...contact.radii) : NaN;
@@ -146,28 +150,29 @@ export class GrainPanel {
         `${Math.round(contact.angle)}°`.replace("-", "−"),
         fixed(contact.along / mean, 2),
         fixed(contact.across / contact.along, 2),
-        short(contact.stress, 3),
+        ...(flat ? [short(contact.stress, 3)] : []),
         contact.mixed ? fixed(contact.larger ? p : 1 - p) : "",
       ];
     });
-    const heads = [["with"], ["towards", "number"], ["fn/⟨fn⟩", "number"], ["ft/fn", "number"], ["fy ℓy (N m)", "number"], ["gets", "number"]];
+    const heads = [["with"], ["towards", "number"], ["fn/⟨fn⟩", "number"], ["ft/fn", "number"], ...(flat ? [["fy ℓy (N m)", "number"]] : []), ["gets", "number"]];
     const parts = [...this.rules, state.rule].map((rule, k, all) => {
       const part = partOf(contacts, rule);
       return [k === all.length - 1 ? `now, ${ruleName(rule)}` : ruleName(rule), short(part, 3), percent(part / whole)];
     });
-    const words = mixed.length
+    const words = !flat
+      ? "The plane shows some of its contacts; what rules give it of all of them is not in the page."
+      : mixed.length
       ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species bear Σ fy ℓy = ${short(whole, 3)} N m. Of these it gets`
       : "It has no contact with the other species: no rule gives or takes.";
-    const apart = run.player.contact_point_from_size;
     this.contacts.replaceChildren(heading, element("div", {class: "scroll"}, table(heads, rows)));
     this.rulesOfIt.replaceChildren(
       element("p", {}, words),
-      mixed.length ? table([["by"], ["N m", "number"], ["", "number"]], parts) : "",
+      flat && mixed.length ? table([["by"], ["N m", "number"], ["", "number"]], parts) : "",
       element(
         "p",
         {class: "note"},
-        "In the page forces are rounded by up to 0.5 %; contact-point is shown as size, from which it " +
-          `differs by ${short(run.player.contact_point_from_size, 2)} at most.`,
+        `${flat ? "" : "Forces are their parts in the plane of the cut. "}In the page forces are rounded to ±${short(frames.rounding, 2)} ⟨fn⟩; ` +
+          `contact-point is shown as size, from which it differs by ${short(run.player.contact_point_from_size, 2)} at most.`,
       ),
     );
   }

@@ -2,7 +2,7 @@
 // Keys; those that a control understands by itself are left to it.
 
 import {byId} from "./format.js";
-import {parseRule, shareOf} from "./partition.js";
+import {isShare, parseRule, shareOf} from "./partition.js";
 import {set, state} from "./state.js";
 
 function toggle(id) {
@@ -18,13 +18,18 @@ export function listenToKeys(page) {
     const next = Math.round(1000 * ((Number.isFinite(p) ? p : 0.5) + by)) / 1000;
     set({rule: {kind: "uniform", value: Math.min(1, Math.max(0, next))}});
   };
+  const toZero = () => {
+    const fit = page.fit();
+    const p = fit ? page.zero() : NaN;
+    if (isShare(p)) set({rule: {kind: "uniform", value: p}});
+  };
   const keys = {
     " ": () => page.play(),
     ArrowLeft: () => page.step(-1),
     ArrowRight: () => page.step(1),
     ArrowUp: (event) => move(event.shiftKey ? 0.05 : 0.005),
     ArrowDown: (event) => move(event.shiftKey ? -0.05 : -0.005),
-    0: () => page.fit() && set({rule: {kind: "uniform", value: page.zero()}}),
+    0: toZero,
     g: () => toggle("show-grains"),
     f: () => toggle("show-forces"),
     m: () => toggle("only-mixed"),

@@ -7,7 +7,7 @@ import {byId, element, forgetColours} from "./format.js";
 import {Frames} from "./frames.js";
 import {GrainPanel} from "./grain.js";
 import {listenToKeys} from "./keyboard.js";
-import {fitOf, parseRule, shareOf, stressOf} from "./partition.js";
+import {fitOf, parseRule, shareOf, stressOf, zeroOf} from "./partition.js";
 import {Player} from "./player.js";
 import {Profiles} from "./profiles.js";
 import {layoutReport, listenToPrinting, writeReport} from "./report.js";
@@ -72,18 +72,30 @@ function isDark() {
 }
 
 function describeColours() {
-  const pair = runs.find((run) => run.fit)?.fit.numbers_of_pair ?? [0, 1];
-  const present = new Set(runs.flatMap((run) => [...new Set(run.arrays.species)]));
-  const keys = runs[0].species
-    .map(({name}, k) => [name, ["small", "large"][pair.indexOf(k)] ?? "other", k])
-    .concat([["base", "base", 255]])
-    .filter(([, , k]) => present.has(k))
-    .flatMap(([name, look]) => [element("span", {class: `key ${look}`}), `${name} `]);
+  const keys = runs.flatMap((run) => {
+    const pair = run.fit?.numbers_of_pair ?? [0, 1];
+    const present = new Set(run.arrays.species);
+    return run.species
+      .map(({name}, k) => [name, ["small", "large"][pair.indexOf(k)] ?? "other", k])
+      .concat([["base", "base", 255]])
+      .filter(([, , k]) => present.has(k));
+  });
+  // Runs may name their species differently; a name is told once, the base last.
+  const names = new Map(keys.map(([name, look]) => [`${look} ${name}`, [name, look]]));
+  const inOrder = [...names.values()].sort(([, a], [, b]) => (a === "base") - (b === "base"));
   byId("legend").replaceChildren(
-    ...keys,
+    ...inOrder.flatMap(([name, look]) => [element("span", {class: `key ${look}`}), `${name} `]),
     "– lines are contacts, their width the force; each counts to the species whose colour it has.",
     runs.some((run) => run.dimension === 3) ? " Spheres are cut by the plane half-way across." : "",
   );
+}
+
+/** What heights are told in: the runs' d_S, or metres where they differ; in annuli y is a radius. */
+function heightOf(some) {
+  const sizes = some.map((run) => run.small_diameter);
+  const same = Math.max(...sizes) < 1.001 * Math.min(...sizes);
+  const letter = some.every((run) => run.bins === "radius") ? "r" : "y";
+  return same ? {unit: sizes[0], name: `${letter}/d_S`} : {unit: 1, name: `${letter} (m)`};
 }
 
 /** All that is drawn, with the players of all runs. */
@@ -92,9 +104,9 @@ class Page {
     this.fits = [...runs, ...(content.together ? [content.together] : [])].map((one) => one.fit ?? null);
     const rule = parseRule(content.start);
     const first = this.fits.findIndex(Boolean);
-    Object.assign(state, {rule, run: Math.max(0, first)});
+    Object.assign(state, {rule, run: Math.max(0, first), player: Math.max(0, first)});
     this.players = runs.map(
-      (run, k) => new Player(run, new Frames(run), (grain) => set({grain: grain === state.grain && k === state.run ? -1 : grain, ...this.chosen(k)})),
+      (run, k) => new Player(run, new Frames(run), (grain) => set({grain: grain === state.grain && k === state.player ? -1 : grain, player: k, ...this.chosen(k)})),
     );
     this.#placePlayers();
     this.transport = new Transport(this.players.map((player) => player.frames));
@@ -133,10 +145,10 @@ class Page {
 
   #makePlots() {
     const fit = () => this.fit;
-    this.share = new Share(content, fit);
-    this.scatter = new Scatter(fit, () => this.run);
-    const some = () => this.run ?? runs[0];
-    this.profiles = new Profiles(fit, () => some().small_diameter, () => (some().dimension === 3 ? "Pa" : "N/m"));
+    const own = () => (this.run ? [this.run] : runs);
+    this.share = new Share(content, fit, own);
+    this.scatter = new Scatter(fit, () => this.run?.window_times ?? []);
+    this.profiles = new Profiles(fit, () => heightOf(own()), () => (own()[0].dimension === 3 ? "Pa" : "N/m"));
   }
 
   #hideWhatIsMissing() {
@@ -160,11 +172,11 @@ class Page {
 
   drawPlayers() {
     this.players.forEach((player, k) => {
-      player.active = k === state.run;
-      player.canvas.parentElement.classList.toggle("chosen", runs.length > 1 && player.active);
+      player.active = k === state.player;
+      player.canvas.parentElement.classList.toggle("chosen", runs.length > 1 && k === state.run);
       player.draw();
     });
-    this.grain.update(this.players[state.run]);
+    this.grain.update(this.players[state.player]);
   }
 
   update() {
@@ -212,11 +224,11 @@ function listenToAll(page) {
   listenToPrinting();
   listenToKeys({
     fit: () => page.fit,
-    zero: () => page.share.zeroOf(page.fit)[0],
+    zero: () => zeroOf(page.fit, state.estimator)[0],
     step: (by) => page.transport.step(by),
     play: () => page.transport.toggle(),
     nextGrain: (by) => {
-      const n = page.players[state.run]?.frames.grains ?? 0;
+      const n = page.players[state.player].frames.grains;
       if (n) set({grain: (Math.max(state.grain, by > 0 ? -1 : 0) + by + n) % n});
     },
     nextRun: () => {
@@ -224,7 +236,7 @@ function listenToAll(page) {
       let k = state.run;
       do k = (k + 1) % n;
       while (!page.fits[k] && k !== state.run);
-      set({run: k, grain: -1});
+      set({run: k, ...(k < runs.length ? {player: k, grain: -1} : {})});
     },
     tab: showTab,
     theme,

@@ -6,13 +6,22 @@
 //
 // and that of small grains likewise; `size` and `contact-point` have sums of their own.
 
-/** A rule as typed, "size", "uniform:0.65": {kind, value}. */
+/** A rule as typed, "size", "uniform:0.65": {kind, value}; p and Q within what the page knows of. */
 export function parseRule(text) {
   const [kind, number] = text.split(":");
-  return {kind, value: number === undefined ? NaN : Number(number)};
+  return kind === "power" || kind === "uniform" ? numberedRule(kind, Number(number)) : {kind, value: NaN};
+}
+export function numberedRule(kind, value) {
+  return {kind, value: Math.min(kind === "power" ? 4 : 1, Math.max(0, value))};
 }
 export function ruleName({kind, value}) {
   return Number.isNaN(value) || value === undefined ? kind : `${kind}:${Number(value.toPrecision(12))}`;
+}
+
+/** The same as grseg-fit takes it: without sums by power:Q that of nominal radii. */
+export function commandRule(fit, rule) {
+  const nominal = rule.kind === "power" && !hasPowers(fit);
+  return nominal ? {kind: "uniform", value: powerShare(fit.size_ratio, rule.value)} : rule;
 }
 
 /** Share of the larger of two grains by power:Q, `ratio` being r_L/r_S. */
@@ -86,13 +95,14 @@ export function stressOf(fit, rule, prefix = "") {
   }
 }
 
-/** B and what belongs to it, as grseg-fit prints them; `where` chooses points by number. */
-export function estimatorsOf(fit, stress, where = () => true) {
+/** B and what belongs to it, as grseg-fit prints them; `which`: the numbers of the points, if not all. */
+export function estimatorsOf(fit, stress, which = null) {
   const {phi_large, weight, frames} = fit.arrays;
   const {small: smalls, large: larges, total: totals} = stress;
   let w = 0, wLog = 0, xx = 0, xy = 0, wQD = 0, wQQ = 0, fD = 0, fQ = 0, points = 0;
-  for (let k = 0; k < phi_large.length; ++k) {
-    if (!where(k)) continue;
+  const n = (which ?? phi_large).length;
+  for (let m = 0; m < n; ++m) {
+    const k = which ? which[m] : m;
     const phi = phi_large[k], small = smalls[k], large = larges[k], total = totals[k];
     if (small > 0 && large > 0) {
       const x = (1 - phi) / phi, y = small / large;
@@ -125,8 +135,9 @@ export function estimatorsOf(fit, stress, where = () => true) {
   };
 }
 
-/** B_sums of contacts that ignore grain size, of nominal radii, at the share p (neutral_contacts.hpp). */
+/** Of two species: B_sums of contacts that ignore grain size, of nominal radii, at p (neutral_contacts.hpp). */
 export function neutralSums(fit, p) {
+  if (!fit.two) return NaN;
   const {phi_large, frames} = fit.arrays;
   const r = fit.size_ratio;
   let above = 0, below = 0;
@@ -145,11 +156,16 @@ export function fitOf(fit, rule) {
   return all;
 }
 
-/** Mean share of the large grains in the stress of mixed contacts. */
+/**
+ * Mean share of the large grains in the stress of mixed contacts. Of more than two species it is not in the
+ * sums of the pair, which hold contacts with the others: NaN but where the rule itself says it.
+ */
 export function shareOf(fit, rule) {
   if (rule.kind === "uniform") return rule.value;
   if (rule.kind === "half") return 0.5;
   if (rule.kind === "drop") return NaN;
+  if (rule.kind === "power" && !hasPowers(fit)) return powerShare(fit.size_ratio, rule.value);
+  if (!fit.two) return NaN;
   const {none_large, all_large, weight} = fit.arrays;
   const {large} = stressOf(fit, rule);
   let given = 0, whole = 0;
@@ -160,22 +176,14 @@ export function shareOf(fit, rule) {
   return given / whole;
 }
 
-/** p*, at which B_sums = 0: the sum over frames of psi_L - phi_L is linear in p. */
-export function zeroOfSums(fit) {
-  const at = (p) => {
-    const {B_sums, weight} = fitOf(fit, {kind: "uniform", value: p});
-    return B_sums * weight;
-  };
-  const none = at(0);
-  return -none / (at(1) - none);
+/** [p*, low, high] at which B of the estimator is 0, as grseg-fit --scan says; NaN of more than two species. */
+export function zeroOf(fit, estimator) {
+  const found = estimator === "B_sums" ? fit.scan.p_zero_sums : fit.scan.p_zero;
+  return (found ?? [null, null, null]).map((value) => value ?? NaN);
 }
-
-/** [p*, low, high] of B by sums: of the rule that was fitted next to it. */
-export function zeroOfSumsWithInterval(fit) {
-  const size = (row) => Math.abs(row.B_sums[0]);
-  const rows = fit.rules.filter((row) => row.p_zero_sums[0] !== null && row.B_sums[0] !== null);
-  const nearest = rows.reduce((best, row) => (best && size(best) <= size(row) ? best : row), null);
-  return [zeroOfSums(fit), ...(nearest ? nearest.p_zero_sums.slice(1).map((v) => v ?? NaN) : [NaN, NaN])];
+/** Whether a share can be p*. */
+export function isShare(p) {
+  return p >= 0 && p <= 1;
 }
 
 /** [low, high] of the band at the share p, between the shares at which grseg-fit made it. */
@@ -197,9 +205,16 @@ export function fittedRule(fit, rule) {
   return fit.rules.filter((row) => row.name === name).pop();
 }
 
-/** [low, high] of a rule: its own, or that of the band at its mean share. */
+/**
+ * {interval: [low, high], of: what it is of} of a rule: its own, or as wide as that of the band at its mean
+ * share and about B by this rule.
+ */
 export function intervalOf(fit, rule, estimator) {
   const own = fittedRule(fit, rule);
-  if (own) return own[estimator].slice(1).map((x) => (x === null ? NaN : x));
-  return bandAt(fit, estimator, shareOf(fit, rule));
+  if (own) return {interval: own[estimator].slice(1).map((x) => x ?? NaN), of: ""};
+  const p = shareOf(fit, rule);
+  const uniform = {kind: "uniform", value: p};
+  const shift = fitOf(fit, rule)[estimator] - fitOf(fit, uniform)[estimator];
+  const interval = bandAt(fit, estimator, p).map((end) => end + shift);
+  return {interval, of: rule.kind === "uniform" ? "" : `as wide as that of uniform:${Number(p.toPrecision(3))}`};
 }

@@ -32,7 +32,10 @@ export class Parts {
     byId("parts").append(element("div", {class: "bar-of-parts"}, ...this.spans, this.phi), this.words);
   }
 
+  /** Of two species: with more a bar would have to have more parts. */
   update(fit, stress) {
+    byId("parts").hidden = !fit.two;
+    if (!fit.two) return;
     const {small, large, mixed, given, phi} = meanParts(fit, stress);
     const dropped = state.rule.kind === "drop";
     const parts = [

@@ -33,6 +33,8 @@ export class Player {
     this.context = this.canvas.getContext("2d");
     this.still = document.createElement("canvas"); // what the rule does not change
     this.pair = run.fit ? run.fit.numbers_of_pair : [0, 1];
+    this.base = run.fit ? run.fit.settings.base : "contact-point";
+    this.hasLayers = run.fit && run.bins === "layers"; // annuli are not drawn
     this.cached = {frame: -1, contacts: null};
     this.canvas.addEventListener("click", (event) => onPick(this.grainAt(event)));
   }
@@ -160,6 +162,7 @@ export class Player {
   }
 
   #drawLayers(c) {
+    if (!this.hasLayers) return;
     if (state.layer) {
       const [bottom, top] = state.layer.map((y) => this.py(y));
       c.fillStyle = this.colours.ink;
@@ -167,7 +170,7 @@ export class Player {
       c.fillRect(0, top, this.width, bottom - top);
       c.globalAlpha = 1;
     }
-    if (!state.showLayers || !this.run.fit) return;
+    if (!state.showLayers) return;
     c.strokeStyle = this.colours.line;
     c.lineWidth = 1;
     c.beginPath();
@@ -194,10 +197,19 @@ export class Player {
     const {species, radius} = this.frames.arrays;
     const i = contacts.i[k], j = contacts.j[k];
     const si = species[i], sj = j < 0 ? this.frames.base : species[j];
-    if (sj === this.frames.base || si === sj) return {si, sj: si, at: 1, mixed: false};
+    if (sj === this.frames.base) return {si, sj, at: this.#partAtBase(i, j), mixed: false};
+    if (si === sj) return {si, sj, at: 1, mixed: false};
     const iLarger = si > sj; // species are numbered in order of size
     const share = shareOfContact(state.rule, radius[iLarger ? i : j], radius[iLarger ? j : i]);
     return {si, sj, at: iLarger ? share : 1 - share, mixed: true};
+  }
+
+  /** What of a contact with the base counts to the grain; a wall's line ends at the contact point. */
+  #partAtBase(i, j) {
+    const {radius} = this.frames.arrays;
+    if (this.base === "none") return 0;
+    if (this.base === "half") return 0.5;
+    return j < 0 ? 1 : radius[i] / (radius[i] + radius[j]);
   }
 
   #drawForces() {
@@ -256,7 +268,7 @@ export class Player {
   /** An arrow in the corner. */
   #drawGravity() {
     const {context: c} = this;
-    const [gx, gy] = this.run.gravity;
+    const [gx, gy] = this.frames.player.gravity[this.frame];
     const size = Math.hypot(gx, gy);
     if (!(size > 0)) return;
     const [ux, uy] = [gx / size, -gy / size];

@@ -2,7 +2,7 @@
 // What the rule makes of each layer: the pressures of both species, and B.
 
 import {Chart} from "./chart.js";
-import {line, scaleLinear} from "./d3.js";
+import {extent, group, line, scaleLinear} from "./d3.js";
 import {byId} from "./format.js";
 import {estimatorsOf, stressOf} from "./partition.js";
 import {set, state} from "./state.js";
@@ -20,20 +20,21 @@ function follow(chart, layers) {
 }
 
 export class Profiles {
-  constructor(fitOfRun, smallDiameter, unitOfStress) {
+  /** `height()`: {unit: of heights in m, name: of the axis}. */
+  constructor(fitOfRun, height, unitOfStress) {
     this.fitOfRun = fitOfRun;
-    this.smallDiameter = smallDiameter;
-    const height = 300;
+    this.heightOfRun = height;
+    const tall = 300;
     this.pressure = new Chart(byId("profile-plot"), {
       scales: {x: scaleLinear(), y: scaleLinear()},
       labels: {x: `σ (${unitOfStress()})`, y: "y/d_S"},
-      height,
+      height: tall,
       name: "Pressure of small and of large grains, and of both, over height",
     });
     this.strength = new Chart(byId("layers-plot"), {
       scales: {x: scaleLinear(), y: scaleLinear()},
       labels: {x: "B of the layer", y: "y/d_S"},
-      height,
+      height: tall,
       name: "B of each layer over height",
     });
     this.unitOfStress = unitOfStress;
@@ -47,22 +48,24 @@ export class Profiles {
   layout() {
     const fit = this.fitOfRun();
     const {layer_bottom, layer_top, bottom, frames, phi_large} = fit.arrays;
-    const d = this.smallDiameter();
-    this.layers = Array.from(layer_bottom, (y, k) => [y / d, layer_top[k] / d, [y, layer_top[k]]]);
-    const top = Math.max(...this.layers.map(([, y]) => y));
+    const {unit, name} = this.heightOfRun();
+    this.layers = Array.from(layer_bottom, (y, k) => [y / unit, layer_top[k] / unit, [y, layer_top[k]]]);
+    // Those of runs of different grains lie between each other; a profile joins layers of one thickness.
+    this.profiles = group(Array.from(this.layers.keys()), (k) => (layer_top[k] - layer_bottom[k]).toPrecision(6));
+    const [, top] = extent(this.layers, ([, y]) => y);
     const {large, total} = stressOf(fit, {kind: "uniform", value: 1}, "layer_");
-    this.pressure.scales.x.domain([Math.min(0, ...large), Math.max(...total)]).nice();
+    this.pressure.scales.x.domain([Math.min(0, extent(large)[0]), extent(total)[1]]).nice();
     this.pressure.scales.y.domain([0, top]);
-    this.pressure.setLabels({x: `σ (${this.unitOfStress()})`, y: "y/d_S"});
+    this.pressure.setLabels({x: `σ (${this.unitOfStress()})`, y: name});
+    this.strength.setLabels({x: "B of the layer", y: name});
     this.pressure.layout();
 
     // The layers of the fit, and by which weight they count in it.
-    const heights = [...new Set(bottom)].sort((a, b) => a - b);
-    this.fitted = heights.map((y) => {
-      const own = Array.from(bottom.keys()).filter((k) => bottom[k] === y);
+    const pointsAt = group(Array.from(bottom.keys()), (k) => bottom[k]);
+    this.fitted = Array.from(pointsAt, ([y, own]) => {
       const weight = own.reduce((sum, k) => sum + frames[k] * phi_large[k] * (1 - phi_large[k]), 0);
       const k = this.layers.findIndex(([, , [low]]) => low === y);
-      return {y: (this.layers[k][0] + this.layers[k][1]) / 2, own: new Set(own), weight};
+      return {y: (this.layers[k][0] + this.layers[k][1]) / 2, own, weight};
     });
     const heaviest = Math.max(...this.fitted.map((layer) => layer.weight));
     for (const layer of this.fitted) layer.light = layer.weight < heaviest / 10;
@@ -77,7 +80,7 @@ export class Profiles {
 
   #strengths(stress) {
     const fit = this.fitOfRun();
-    return this.fitted.map(({own}) => estimatorsOf(fit, stress, (k) => own.has(k))[state.estimator]);
+    return this.fitted.map(({own}) => estimatorsOf(fit, stress, own)[state.estimator]);
   }
 
   update(stress, found) {
@@ -86,9 +89,9 @@ export class Profiles {
     const {x, y} = this.pressure.scales;
     ["total", "small", "large"].forEach((name, row) => {
       const path = line()
-        .x((_, k) => x(means[name][k]))
-        .y(([bottom, top]) => y((bottom + top) / 2))(this.layers);
-      this.lines[row].attr("d", path);
+        .x((k) => x(means[name][k]))
+        .y((k) => y((this.layers[k][0] + this.layers[k][1]) / 2));
+      this.lines[row].attr("d", Array.from(this.profiles.values(), path).join(""));
     });
     byId("profile-note").textContent = "Blue: of small grains, orange: of large ones, dark: of both; means over all windows.";
     const values = state.rule.kind === "drop" ? this.fitted.map(() => NaN) : this.#strengths(stress);

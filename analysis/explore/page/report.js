@@ -2,9 +2,9 @@
 // The second tab: what was run, how accurately, with which result; made to be printed.
 
 import {Chart} from "./chart.js";
-import {area, line, scaleLinear} from "./d3.js";
+import {area, extent, line, scaleLinear} from "./d3.js";
 import {byId, element, fixed, interval, short, table} from "./format.js";
-import {zeroOfSums, zeroOfSumsWithInterval} from "./partition.js";
+import {isShare, stressOf, zeroOf} from "./partition.js";
 
 const charts = [];
 
@@ -21,7 +21,8 @@ function figure(caption, options, draw) {
 
 /** B over the share p with its band. */
 function shareFigure(fit) {
-  const caption = "B by sums over the share p of a mixed contact that goes to its large grain; 95 % band; p*.";
+  const [p] = zeroOf(fit, "B_sums");
+  const caption = `B by sums over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}.`;
   return figure(caption, {labels: {x: "share p", y: "B"}}, (chart) => {
     const grid = fit.scan.p.map((p, k) => [p, ...fit.scan.B_sums[k]]).filter(([, B]) => B !== null);
     chart.scales.y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
@@ -31,13 +32,28 @@ function shareFigure(fit) {
     const banded = grid.filter((row) => row[2] !== null);
     chart.under.append("path").attr("class", "band").attr("d", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(banded));
     chart.under.append("path").attr("class", "curve").attr("d", line().x((d) => x(d[0])).y((d) => y(d[1]))(grid));
-    const p = zeroOfSums(fit);
     const {top, bottom} = chart.inner;
-    if (p >= 0 && p <= 1) {
+    if (isShare(p)) {
       const zero = chart.under.append("g").attr("class", "p-zero");
       zero.append("line").attr("x1", x(p)).attr("x2", x(p)).attr("y1", top).attr("y2", bottom);
       zero.append("text").attr("x", x(p) + 5).attr("y", bottom - 8).text(`p* = ${fixed(p)}`);
     }
+  });
+}
+
+/** psi_L over phi_L, a point per layer and window; in one path, since there may be thousands. */
+function excessFigure(fit) {
+  const caption = "Large grains’ share of the pressure, by size, over their share of the grains: a point for each layer and window; dashed: equal shares.";
+  return figure(caption, {labels: {x: "φ_L", y: "ψ_L"}}, (chart) => {
+    const {small, large} = stressOf(fit, {kind: "size", value: NaN});
+    const points = Array.from(fit.arrays.phi_large, (phi, k) => [phi, large[k] / (small[k] + large[k])]).filter(([, psi]) => Number.isFinite(psi));
+    if (!points.length) return;
+    chart.scales.y.domain([Math.min(0, extent(points, ([, psi]) => psi)[0]), Math.max(1, extent(points, ([, psi]) => psi)[1])]);
+    chart.layout();
+    const {x, y} = chart.scales;
+    chart.under.selectAll("*").remove();
+    chart.under.append("path").attr("class", "neutral").attr("d", line()([[x(0), y(0)], [x(1), y(1)]]));
+    chart.under.append("path").attr("class", "points").attr("d", points.map(([phi, psi]) => `M${x(phi).toFixed(1)},${y(psi).toFixed(1)}h0`).join(""));
   });
 }
 
@@ -50,7 +66,8 @@ function profileFigure(layers, name, lines, caption, label, smallDiameter) {
   return figure(caption, {labels: {x: label, y: "y/d_S"}}, (chart) => {
     const values = rows.flatMap((row) => places.map(([at]) => row[at])).filter((v) => v !== null);
     if (!values.length) return;
-    chart.scales.x.domain([Math.min(0, ...values), Math.max(0, ...values)]).nice();
+    const [least, most] = extent(values);
+    chart.scales.x.domain([Math.min(0, least), Math.max(0, most)]).nice();
     chart.scales.y.domain([0, Math.max(...rows.map((row) => row[1])) / smallDiameter]);
     chart.layout();
     const {x, y} = chart.scales;
@@ -70,11 +87,11 @@ function profileFigures(run) {
   const own = (...rest) => profileFigure(run.layers, ...rest, d);
   return [
     own("stress", [["sigma_yy", "total"], ["sigma_S_yy", "small"], ["sigma_L_yy", "large"]], "Contact pressure; blue: of small grains, orange: of large ones, by size; dark: of both.", `σ_{yy} (${stress})`),
-    own("kinetic", [["u", "total"]], "Mean velocity down the slope.", "u (m/s)"),
+    own("kinetic", [["u", "total"]], "Mean velocity along x.", "u (m/s)"),
     own("kinetic", [["T_S_y", "small"], ["T_L_y", "large"]], "Granular temperature along y; blue: small, orange: large grains.", "T (m²/s²)"),
     own("micro", [["z_S", "small"], ["z_L", "large"]], "Contacts of a grain.", "z"),
     own("micro", [["mixed_share", "total"], ["neutral_share", "neutral"]], "Share of mixed contacts; dashed: of contacts that ignore grain size.", "share"),
-    own("balance", [["push", "large"], ["push_kinetic", "small"], ["drag", "total"]], "What drives large grains upward: orange: contact push, cut at the contact point; blue: kinetic push; dark: drag.", `force (${force})`),
+    run.species.length !== 2 ? null : own("balance", [["push", "large"], ["push_kinetic", "small"], ["drag", "total"]], "Forces on large grains along y, upward positive; orange: contact push, cut at the contact point; blue: kinetic push; dark: drag.", `force (${force})`),
   ].filter(Boolean);
 }
 
@@ -112,7 +129,7 @@ function layerTable(one, smallDiameter) {
     {class: "by-layer"},
     element("h4", {}, one.note),
     host,
-    element("p", {class: "note screen"}, element("label", {}, box, " all columns"), " ", saveButton(one.name, one), ` as ${one.tool} makes it`),
+    element("p", {class: "note screen"}, element("label", {}, box, " all columns"), " ", saveButton(one.name, one), ` means of the rows of ${one.tool}, window by window`),
   );
 }
 
@@ -125,20 +142,20 @@ function estimate(triple) {
 function fitSection(fit, heading) {
   const columns = [["rule"], ["B by sums", "number"], ["B at φ = ½", "number"], ["share", "number"], ["points", "number"], ["used by"]];
   const several = fit.rules.some((row) => row.mixture);
-  if (several) columns.splice(1, 0, ["mixture"]);
+  if (several) columns.splice(1, 0, ["mixture"], ["95 % over"]);
   const rows = fit.rules.map((row) => {
     const cells = [row.name, estimate(row.B_sums), estimate(row.B_half), fixed(row.share ?? NaN), String(row.points), row.used_by || "–"];
-    if (several) cells.splice(1, 0, row.mixture);
+    if (several) cells.splice(1, 0, row.mixture, row.over);
     return cells;
   });
-  const zero = zeroOfSumsWithInterval(fit);
+  const zero = zeroOf(fit, "B_sums");
   const doubts = fit.rules.filter((row) => row.doubt).map((row) => `${row.name}: ${row.doubt}.`);
   return element(
     "section",
     {},
     element("h3", {}, heading),
     element("div", {class: "scroll"}, table(columns, rows)),
-    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: with this share B by sums is 0. ` : "", `Intervals of 95 % over ${fit.over}: ${fit.over_words}.`),
+    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: with this share B by sums is 0. ` : "", `${several ? "The intervals of all mixtures are" : "Intervals of 95 % are"} over ${fit.over}: ${fit.over_words}.`),
     doubts.length ? element("ul", {class: "doubt"}, ...doubts.map((doubt) => element("li", {}, doubt))) : null,
     element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => `${key} ${value}`).join("; "), "."),
   );
@@ -159,7 +176,7 @@ function segregationSection(run) {
       const values = rows.flatMap((row) => [row[large], row[small]]).filter((v) => v !== null);
       if (!values.length) return;
       chart.scales.x.domain([rows[0][0], rows[rows.length - 1][1]]);
-      chart.scales.y.domain([Math.min(...values) / d, Math.max(...values) / d]).nice();
+      chart.scales.y.domain(extent(values).map((y) => y / d)).nice();
       chart.layout();
       const {x, y} = chart.scales;
       chart.under.selectAll("*").remove();
@@ -255,11 +272,12 @@ function runSection(run) {
     element("h2", {}, run.name),
     pairs(facts),
     run.fit ? fitSection(run.fit, "B of the contact stress") : element("p", {class: "doubt"}, `B is not shown: ${run.why_no_fit}.`),
-    element("div", {class: "figures"}, run.fit ? shareFigure(run.fit) : null, ...profileFigures(run)),
+    element("div", {class: "figures"}, ...(run.fit ? [shareFigure(run.fit), excessFigure(run.fit)] : []), ...profileFigures(run)),
     checkSection(run),
     accuracySection(run),
     element("h3", {}, "By layer"),
-    element("p", {class: "note"}, `Means over ${layers.frames} frames from ${short(layers.begin)} to ${short(layers.end)} s. ${layers.missing.join(". ")}`),
+    element("p", {class: "note"}, `Means over ${layers.windows} window${layers.windows > 1 ? "s" : ""} from ${short(layers.begin)} to ${short(layers.end)} s, weighted by frames. ` +
+      (run.sums ? "Layers and windows are those of the command above, B is of the table’s. " : "") + layers.missing.map((text) => `${text}. `).join("")),
     ...layers.tables.map((one) => layerTable(one, run.small_diameter)),
     segregationSection(run),
     settingsSection(run),

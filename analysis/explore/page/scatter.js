@@ -3,7 +3,7 @@
 // there may be thousands.
 
 import {Chart} from "./chart.js";
-import {line, scaleLog} from "./d3.js";
+import {extent, line, scaleLog} from "./d3.js";
 import {byId, colour, element, fixed} from "./format.js";
 import {stressOf} from "./partition.js";
 import {state} from "./state.js";
@@ -11,9 +11,10 @@ import {state} from "./state.js";
 const tenths = (scale) => [4, (value) => (scale.domain()[1] / scale.domain()[0] > 300 && Math.log10(value) % 1 ? "" : String(value))];
 
 export class Scatter {
-  constructor(fitOfRun, runOfPage) {
+  /** `windowTimes()`: [[begin, end], ...] of the sums. */
+  constructor(fitOfRun, windowTimes) {
     this.fitOfRun = fitOfRun;
-    this.runOfPage = runOfPage;
+    this.windowTimes = windowTimes;
     const host = byId("scatter-plot");
     this.canvas = element("canvas", {class: "under", "aria-hidden": "true"});
     host.append(this.canvas);
@@ -42,7 +43,7 @@ export class Scatter {
         high = Math.max(high, small[k] / large[k]);
       }
     }
-    const xs = [Math.min(...this.ratio), Math.max(...this.ratio)];
+    const xs = extent(this.ratio);
     this.chart.scales.x.domain([xs[0] / 1.2, xs[1] * 1.2]);
     this.chart.scales.y.domain([Math.max(low, 1e-3) / 1.2, Math.min(high, 1e3) * 1.2]);
     this.chart.ticks = {x: tenths(this.chart.scales.x), y: tenths(this.chart.scales.y)};
@@ -82,7 +83,7 @@ export class Scatter {
     c.beginPath();
     c.rect(left, top, right - left, bottom - top);
     c.clip();
-    const now = this.#windowNow();
+    const now = this.windowNow();
     const ink = colour("point"), strong = colour("ink");
     let outside = 0;
     for (const current of [false, true]) {
@@ -114,9 +115,8 @@ export class Scatter {
   }
 
   /** Where the window begins that holds the frame that is shown. */
-  #windowNow() {
-    const times = this.runOfPage()?.window_times ?? [];
-    const window = times.find(([begin, end]) => state.time >= begin && state.time < end);
+  windowNow() {
+    const window = this.windowTimes().find(([begin, end]) => state.time >= begin && state.time < end);
     return window ? window[0] : null;
   }
 }

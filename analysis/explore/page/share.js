@@ -5,24 +5,34 @@ import {Chart} from "./chart.js";
 import {area, line, scaleLinear} from "./d3.js";
 import {byId, element, fixed, interval, percent} from "./format.js";
 import {
+  commandRule,
   fitOf,
   hasPowers,
   intervalOf,
+  isShare,
   neutralSums,
+  numberedRule,
   parseRule,
   ruleName,
   shareOf,
-  zeroOfSumsWithInterval,
+  zeroOf,
 } from "./partition.js";
 import {Parts} from "./parts.js";
 import {set, state} from "./state.js";
 
-const uniform = (p) => ({kind: "uniform", value: Math.min(1, Math.max(0, p))});
+const uniform = (p) => numberedRule("uniform", p);
 
 /** Q at which two grains of nominal radii are shared by p; beyond the slider its end. */
 function powerOf(fit, p) {
   const Q = Math.log(p / (1 - p)) / Math.log(fit.size_ratio);
   return Math.min(4, Math.max(0, Number.isNaN(Q) ? 1 : Q));
+}
+
+/** Why there is no B. */
+function whyNot(fit, rule, stress) {
+  if (rule.kind === "drop") return "the stresses of the two species do not add up to the whole";
+  if (!stress.total.some((total) => total > 0)) return "in no layer and window do the two species bear a pressure";
+  return "in no layer and window do both species bear a positive stress";
 }
 
 /** The names of the codes alone: "MercuryDPM; YADE, PFC". */
@@ -33,9 +43,11 @@ function shortUse(text) {
 }
 
 export class Share {
-  constructor(content, fitOfRun) {
+  /** `runsOfFit()`: those that the plots are of. */
+  constructor(content, fitOfRun, runsOfFit) {
     this.known = content.rules;
     this.fitOfRun = fitOfRun;
+    this.runsOfFit = runsOfFit;
     this.chart = new Chart(byId("share-plot"), {
       scales: {x: scaleLinear().domain([0, 1]), y: scaleLinear()},
       labels: {x: "share p of the large grain", y: "B"},
@@ -79,12 +91,12 @@ export class Share {
     new IntersectionObserver(([{isIntersecting: inSight}]) => {
       byId("dock").hidden = inSight || byId("explore").hidden;
     }).observe(byId("p-row"));
-    byId("q").addEventListener("input", (event) => set({rule: {kind: "power", value: value(event)}}));
+    byId("q").addEventListener("input", (event) => set({rule: numberedRule("power", value(event))}));
     byId("p-number").addEventListener("change", (event) => {
       if (!Number.isNaN(value(event))) set({rule: uniform(value(event))});
     });
     byId("q-number").addEventListener("change", (event) => {
-      if (!Number.isNaN(value(event))) set({rule: {kind: "power", value: Math.min(4, Math.max(0, value(event)))}});
+      if (!Number.isNaN(value(event))) set({rule: numberedRule("power", value(event))});
     });
     for (const radio of document.getElementsByName("estimator"))
       radio.addEventListener("change", () => set({estimator: radio.value}));
@@ -142,9 +154,9 @@ export class Share {
   #drawZero(fit) {
     const {x} = this.chart.scales;
     const {top, bottom, left} = this.chart.inner;
-    const [p, low, high] = this.zeroOf(fit);
+    const [p, low, high] = zeroOf(fit, state.estimator);
     this.zero.selectAll("*").remove();
-    if (!(p >= 0 && p <= 1)) return;
+    if (!isShare(p)) return;
     if (Number.isFinite(low))
       this.zero
         .append("rect")
@@ -160,12 +172,6 @@ export class Share {
       .attr("y", top + 10)
       .attr("text-anchor", before ? "end" : "start")
       .text(`p* = ${fixed(p)}`);
-  }
-
-  /** [p*, low, high] of the estimator. */
-  zeroOf(fit) {
-    if (state.estimator === "B_half") return fit.scan.p_zero.map((v) => v ?? NaN);
-    return zeroOfSumsWithInterval(fit);
   }
 
   /** Marks of published codes, their names above the curve, where two would meet one below the other. */
@@ -206,7 +212,8 @@ export class Share {
       this.stem.attr("x1", x(p)).attr("x2", x(p)).attr("y1", y(B)).attr("y2", this.chart.inner.bottom);
     }
     this.#updateControls(fit, p);
-    this.#updateReadout(fit, p, B);
+    this.#updateReadout(fit, p, B, stress);
+    this.#updateCommand(fit);
     this.parts.update(fit, stress);
   }
 
@@ -230,29 +237,40 @@ export class Share {
     for (const [word, button] of this.buttons) button.setAttribute("aria-pressed", String(word === rule.kind));
     const text = Number.isFinite(p)
       ? [element("b", {class: "large"}, fixed(p)), " to the large grain, ", element("b", {class: "small"}, fixed(1 - p)), " to the small one"]
-      : ["mixed contacts belong to neither species"];
+      : [this.#withoutShare(fit)];
     byId("proportion").replaceChildren(...text);
   }
 
-  #updateReadout(fit, p, B) {
+  #withoutShare(fit) {
+    if (state.rule.kind === "drop") return "mixed contacts belong to neither species";
+    return fit.two ? "there are no mixed contacts to share" : "each mixed contact by its own radii";
+  }
+
+  #updateReadout(fit, p, B, stress) {
     const {rule, estimator} = state;
     byId("b-name").textContent = `B by ${ruleName(rule)}`;
     byId("b-value").textContent = byId("dock-value").textContent = fixed(B);
     byId("dock-name").textContent = `p ${fixed(p)}, B`;
-    const band = Number.isFinite(B) ? intervalOf(fit, rule, estimator) : [NaN, NaN];
-    byId("b-interval").textContent = interval(band);
+    const {interval: band, of} = Number.isFinite(B) ? intervalOf(fit, rule, estimator) : {interval: [NaN, NaN], of: ""};
+    const known = interval(band);
+    byId("b-interval").textContent = known && of ? `${known}, ${of}` : known;
     byId("b-interval").title = `95 % over ${fit.over}: ${fit.over_words}`;
     const [low, high] = band;
     const sure = low > 0 || high < 0;
     byId("b-words").textContent = !Number.isFinite(B)
-      ? "No B: the stresses of the two species do not add up to the whole."
+      ? `No B: ${whyNot(fit, rule, stress)}.`
       : `${B > 0 ? "Large grains carry more than their share of the pressure" : "Large grains carry less than their share of the pressure"}, by this rule${Number.isFinite(low) && !sure ? "; but the interval holds 0" : ""}.`;
-    const options = [`--partition ${ruleName(rule)}`];
-    const {heights, component, base, pair, runs} = fit.settings;
-    if (pair) options.push(`--pair ${pair}`);
-    if (heights !== "all") options.push(`--heights ${heights}`);
-    if (component !== "yy") options.push(`--component ${component}`);
-    if (base !== "contact-point") options.push(`--base ${base}`);
-    byId("command").textContent = `grseg-fit ${runs === "1" ? "sums.tsv" : "*.tsv"} ${options.join(" ")}`;
+  }
+
+  /** Commands that print the same B, in the order in which they are run. */
+  #updateCommand(fit) {
+    const rule = commandRule(fit, state.rule);
+    const ofPower = rule.kind === "power" ? ` --partition ${ruleName(rule)}` : "";
+    const all = this.runsOfFit().map((run) => run.commands);
+    const made = all.filter(({sums}) => sums).map(({sums, file}) => `${sums}${ofPower} -o ${file}`);
+    const pair = fit.settings.pair ? ` --pair ${fit.settings.pair}` : "";
+    const {fit: options} = all.find(({sums}) => !sums) ?? all[0]; // a table that was given is cut by grseg-fit
+    const files = all.map(({file}) => file).join(" ");
+    byId("command").textContent = [...made, `grseg-fit ${files} --partition ${ruleName(rule)}${pair}${options}`].join("\n");
   }
 }

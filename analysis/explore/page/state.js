@@ -6,7 +6,8 @@ export const state = {
   estimator: "B_sums",
   run: 0, // that plots are of; the number of runs: all together
   time: 0, // s
-  grain: -1, // of that run
+  player: 0, // the run of which a grain was chosen
+  grain: -1, // of it
   layer: null, // [bottom, top] in m, of the pointer
   showGrains: true,
   showForces: true,

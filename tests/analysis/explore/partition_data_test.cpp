@@ -110,7 +110,8 @@ TEST(PartitionData, ByNeutralContactsBIsZeroBySizeAndAtTwoThirds)
   BinaryArrays arrays;
   const auto data = partition_data({{neutral_table(2)}, {}}, settings_of("size,half"), arrays);
   EXPECT_NEAR(data["rules"][0]["B_sums"][0], 0, 1e-12);
-  EXPECT_NEAR(data["rules"][0]["p_zero_sums"][0], 2.0 / 3, 1e-12);
+  EXPECT_EQ(data["two"], true);
+  EXPECT_NEAR(data["scan"]["p_zero_sums"][0], 2.0 / 3, 1e-12);
   EXPECT_EQ(data["rules"][1]["name"], "half");
   EXPECT_LT(data["rules"][1]["B_sums"][0], -0.2);
   EXPECT_EQ(data["scan"]["p"].size(), 101u);

@@ -82,18 +82,22 @@ TEST(PlayerData, ContactsAreCountedFrameByFrameAndWallsFromTheTop)
 
 TEST(PlayerData, ForcesComeBackWithinHalfAStep)
 {
+  auto run = two_frames();
+  run.frames[1].across = {20};  // what lies across may be many times what lies along
+  const double along_were[] = {2, 4, 1, 0.5}, across_were[] = {1, -2, 0.25, 20};
   BinaryArrays arrays;
-  const auto data = player_data(two_frames(), cell, arrays);
+  const auto data = player_data(run, cell, arrays);
   const auto along = unpacked::array<std::uint16_t>(arrays, "along", "u16");
-  const auto across = unpacked::array<std::int8_t>(arrays, "across", "i8");
-  const double from = data["bounds"]["along"]["from"], step = data["bounds"]["along"]["step"],
-               part = data["bounds"]["across_step"];
-  const double along_were[] = {2, 4, 1, 0.5}, across_were[] = {1, -2, 0.25, 0.1};
-  EXPECT_EQ(from, 0) << "no force has the code 0";
+  const auto across = unpacked::array<std::uint16_t>(arrays, "across", "u16");
+  EXPECT_EQ(data["bounds"]["along"]["from"], 0) << "no force has the code 0";
+  EXPECT_DOUBLE_EQ(data["bounds"]["across"]["step"], 22.0 / 65534) << "-2 to 20";
   for (std::size_t k = 0; k < 4; ++k) {
-    const double force = from + along[k] * step;
-    EXPECT_NEAR(force, along_were[k], 0.51 * step);
-    EXPECT_NEAR(across[k] * part * force, across_were[k], 0.51 * part * force);
+    const auto of = [&](const char* name, std::uint16_t code) {
+      const auto& bounds = data["bounds"][name];
+      return bounds["from"].get<double>() + code * bounds["step"].get<double>();
+    };
+    EXPECT_NEAR(of("along", along[k]), along_were[k], 0.51 * 4 / 65534);
+    EXPECT_NEAR(of("across", across[k]), across_were[k], 0.51 * 22 / 65534);
   }
 }
 
@@ -109,6 +113,15 @@ TEST(PlayerData, WallsThatAFrameDoesNotKnowYetAreNotNumbers)
   EXPECT_TRUE(std::isnan(walls[5]));
   EXPECT_EQ(walls[10], 1);
   EXPECT_EQ(walls[11], -0.02f);
+}
+
+TEST(PlayerData, GravityIsToldFrameByFrame)
+{
+  auto run = two_frames();
+  run.frames[0].gravity = {1, -9};
+  run.frames[1].gravity = {2, -8};
+  BinaryArrays arrays;
+  EXPECT_EQ(player_data(run, cell, arrays)["gravity"].dump(), "[[1.0,-9.0],[2.0,-8.0]]");
 }
 
 TEST(PlayerData, ManyGrainsTakeWiderNumbers)

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/shown_run.hpp"
 
+#include "formats/core/errors.hpp"
 #include "tests/folder.hpp"
 #include "tests/spheres.hpp"
 #include "tests/three_grains.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace grseg {
 namespace {
@@ -83,26 +87,64 @@ TEST_F(ShownRunTest, ContactsWithoutForceAreNotShownAndOthersAreInOrder)
   EXPECT_EQ(run.frames[1].j, (std::vector<std::int32_t>{1}));
 }
 
+/// A contact of grain 1 with a wall to its right.
+void touch_wall(Frame<2>& frame, std::int32_t j)
+{
+  auto& contacts = frame.contacts;
+  contacts.i.push_back(1);
+  contacts.j.push_back(j);
+  contacts.force.emplace_back(-1e-4, 0);
+  contacts.branch.emplace_back(-0.0025, 0);
+  contacts.gap.push_back(0);
+}
+
 TEST_F(ShownRunTest, AWallIsKnownFromItsFirstContactOn)
 {
   const auto alone = three_grains::frame(0);
   auto at_wall = three_grains::frame(1);
-  auto& contacts = at_wall.contacts;
-  contacts.i.push_back(1);
-  contacts.j.push_back(-3);
-  contacts.force.emplace_back(-1e-4, 0);
-  contacts.branch.emplace_back(-0.0025, 0);
-  contacts.gap.push_back(0);
+  touch_wall(at_wall, -3);
   const auto run = shown<2>(three_grains::description(), {alone, at_wall, three_grains::frame(2)});
   EXPECT_TRUE(run.frames[0].walls.empty());
   for (const std::size_t k : {1u, 2u}) {
-    ASSERT_EQ(run.frames[k].walls.size(), 3u) << "walls are numbered from 0, and this is number 2";
-    EXPECT_TRUE(std::isnan(run.frames[k].walls[0].offset));
-    const auto& wall = run.frames[k].walls[2];
+    ASSERT_EQ(run.frames[k].walls.size(), 1u) << "of walls that nothing touches nothing is known";
+    const auto& wall = run.frames[k].walls[0];
     EXPECT_FLOAT_EQ(wall.normal_x, -1);
     EXPECT_FLOAT_EQ(wall.normal_y, 0);
     EXPECT_FLOAT_EQ(wall.offset, -(0.051f + 0.0025f));
   }
+}
+
+TEST_F(ShownRunTest, AWallOfAnyNumberIsOneWall)
+{
+  auto frame = three_grains::frame(0);
+  touch_wall(frame, std::numeric_limits<std::int32_t>::min());
+  touch_wall(frame, -1);
+  const auto run = shown<2>(three_grains::description(), {frame});
+  EXPECT_EQ(run.frames[0].walls.size(), 2u);
+  const auto& j = run.frames[0].j;
+  ASSERT_EQ(std::count_if(j.begin(), j.end(), [](std::int32_t one) { return one < 0; }), 2);
+  for (const auto one : j) EXPECT_GE(one, -2);
+}
+
+TEST_F(ShownRunTest, MoreWallsThanAnySceneHasAreRefused)
+{
+  auto frame = three_grains::frame(0);
+  for (std::int32_t wall = 0; wall <= static_cast<std::int32_t>(most_walls); ++wall)
+    touch_wall(frame, -1 - wall);
+  const auto said =
+      complaint_of<FormatError>([&] { shown<2>(three_grains::description(), {frame}); });
+  EXPECT_NE(said.find("more than 1000 walls"), std::string::npos) << said;
+}
+
+TEST_F(ShownRunTest, GravityIsThatOfTheTimeWhereTheSlopeTurns)
+{
+  auto description = three_grains::description();
+  description.parameters.numbers["slope_rate"] = {10};  // degrees a second
+  const auto run = shown<2>(description, {three_grains::frame(0), three_grains::frame(3)});
+  EXPECT_GT((run.frames[1].gravity - run.frames[0].gravity).norm(), 1e-3);
+  const double turned =
+      std::acos(run.frames[0].gravity.normalized().dot(run.frames[1].gravity.normalized()));
+  EXPECT_NEAR(turned, std::numbers::pi / 18 * (run.frames[1].time - run.frames[0].time), 1e-6);
 }
 
 TEST_F(ShownRunTest, OfSpheresThereAreTheDiscsThatThePlaneHalfWayAcrossCutsOut)

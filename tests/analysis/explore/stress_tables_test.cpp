@@ -56,5 +56,20 @@ TEST(TablesOfRuns, TwoTablesOfOneRunAreRefused)
             "a.tsv and a.tsv are of the same run; give one of them");
 }
 
+TEST(SpeciesOfATable, OthersThanThoseOfTheRunBesideAreRefused)
+{
+  auto table = table_of("a.tsv", "grseg-stress 0.2.0", {digests[0]});
+  const auto two = two_sizes(0.005, 0.01);
+  const SpeciesList three{{"c1", 0.004}, {"c2", 0.005}, {"c3", 0.01}};
+  require_same_species(table, two);
+  EXPECT_EQ(
+      complaint_of<UsageError>([&] { require_same_species(table, three); }),
+      "a.tsv: has the species small, large, and the run beside it c1 0.004, c2 0.005, c3 0.01; "
+      "give both the same --group, --classes or --edges, or leave the table out");
+  table.header.emplace_back("species", species_text(three));
+  require_same_species(table, three);
+  EXPECT_NE(complaint_of<UsageError>([&] { require_same_species(table, two); }), "");
+}
+
 }  // namespace
 }  // namespace grseg

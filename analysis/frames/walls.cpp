@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/render/walls.hpp"
+#include "analysis/frames/walls.hpp"
 
 namespace grseg {
 
