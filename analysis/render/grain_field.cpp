@@ -232,7 +232,7 @@ template <int D>
 void GrainField<D>::require_within_periods(const std::string& length) const
 {
   const auto require = [&](bool periodic, double period, char axis) {
-    if (periodic && radius_ > period)
+    if (periodic && radius_ > period * (1 + 1e-9))  // 35dL may be a little more than 0.35 m
       throw UsageError(fmt::format(
           "--color composition:{}: {:.4g} m is longer than the period along {}, which is {:.4g} m",
           length, radius_, axis, period));

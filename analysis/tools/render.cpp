@@ -115,7 +115,7 @@ void warn_if_sparse(const TrajectoryReader& run, const std::vector<std::size_t>&
   if (apart > s.every + run.step() / 2)
     fmt::print(stderr,
                "{}: the frames are {:.3g} s apart, so that --every {:g} takes all of them and the "
-               "film is {:.3g} times as fast; at this speed --fps is {:.3g}\n",
+               "film is {:.3g} times as fast as asked; --fps {:.3g} keeps the speed\n",
                info.name, apart, s.every, apart / s.every, s.fps * s.every / apart);
 }
 
