@@ -52,6 +52,10 @@ TEST_F(PeriodsOfAnArchive, AreKnownFromUnwrappedPositions)
 TEST_F(PeriodsOfAnArchive, AreUnknownFromWrappedPositionsAlone)
 {
   EXPECT_EQ(images_of(grains(0, "x y"), grains(100, "x y")), "unknown");
+}
+
+TEST_F(PeriodsOfAnArchive, AreUnknownWhereTheFirstMomentDoesNotTell)
+{
   EXPECT_EQ(images_of(grains(0, "x y"), grains(100, "x y", " 3 0")), "unknown");
 }
 
