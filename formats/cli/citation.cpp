@@ -69,7 +69,7 @@ constexpr const char* sources = R"(
   year    = {2009}
 }
 
-% fields of a coarse-graining width (--average, grseg-balance)
+% fields of a coarse-graining width (--assign gauss, lucy, heaviside; grseg-balance)
 @article{Goldhirsch2010,
   author  = {Goldhirsch, I.},
   title   = {Stress, stress asymmetry and couple stress: from discrete particles to continuous fields},
