@@ -1139,7 +1139,7 @@ class Points:
         return len(self.run)
 
     def stresses(self, rule="size"):
-        """Of the smaller species, the larger one and, of two species, all contacts [n]; N/m, Pa (kinetic: J)."""
+        """Of the smaller species, the larger one and, of two species, all contacts [n]: N/m, of spheres Pa; the kinetic one is K/V."""
         small, large, total = (np.empty(len(self)) for _ in range(3))
         for number, table in enumerate(self.tables):
             own, rows = self.run == number, self.row[self.run == number]

@@ -6,10 +6,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
+#include <string_view>
 
 namespace grseg {
 namespace {
+
+/// Linux starts no program with an argument of 128 KiB (MAX_ARG_STRLEN).
+constexpr std::size_t longest_comment = 100000;
 
 std::vector<std::string> words_of(const std::string& text)
 {
@@ -33,7 +38,8 @@ std::vector<std::string> arguments(const std::string& path, const FilmFormat& fo
                    : "-c:v libvpx-vp9 -deadline good -cpu-used 4 -crf 30 -b:v 0 -f webm");
   all.insert(all.end(), coding.begin(), coding.end());
   // As words of their own, since they may hold anything; "file:" so that no name is an address.
-  all.insert(all.end(), {"-metadata", "comment=" + format.history, "file:" + path});
+  all.insert(all.end(), {"-metadata", "comment=" + shortened(format.history, longest_comment),
+                         "file:" + path});
   return all;
 }
 
@@ -54,6 +60,37 @@ std::string find_ffmpeg()
   throw RunError(
       "ffmpeg, which makes films, is not in PATH: install it (Debian: apt-get install ffmpeg), or "
       "make pictures (-o NAME.png)");
+}
+
+std::vector<std::size_t> film_frames(const std::vector<double>& times,
+                                     const std::vector<std::size_t>& frames, double every,
+                                     double step)
+{
+  if (every == 0 || frames.empty()) return frames;
+  std::vector<std::size_t> shown;
+  const double begin = times[frames.front()];
+  double next = begin;
+  for (const auto index : frames) {
+    const double time = times[index] + step / 2;
+    if (time < next) continue;
+    shown.push_back(index);
+    next = begin + every * (std::floor((time - begin) / every) + 1);
+  }
+  return shown;
+}
+
+std::string shortened(const std::string& text, std::size_t most)
+{
+  constexpr std::string_view left_out = "\n[the middle is left out]\n";
+  if (text.size() <= most) return text;
+  const auto inside = [&](std::size_t at) {  // a character of UTF-8
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+  };
+  const std::size_t half = (most - left_out.size()) / 2;
+  std::size_t end = half, begin = text.size() - half;
+  while (end > 0 && inside(end)) --end;
+  while (inside(begin)) ++begin;
+  return text.substr(0, end).append(left_out).append(text, begin);
 }
 
 Film::Film(const std::string& ffmpeg, const std::string& path, const FilmFormat& format)

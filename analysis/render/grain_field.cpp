@@ -106,6 +106,20 @@ constexpr FieldDefinition definitions[] = {
 
 constexpr const char* species_word = "species";
 
+/// Of an import, which may lack them (formats/README.md).
+void require_images(const TrajectoryReader& run, const std::string& time)
+{
+  const auto& told = run.parameters();
+  const bool periodic = run.box().periodic_x || run.box().periodic_z;
+  if (!periodic || told.text("import_format").empty() || told.text("import_images") == "known")
+    return;
+  throw UsageError(fmt::format(
+      "--color displacement:{0}: {1} does not tell how often grains have crossed its "
+      "periods; import the run again, from a dump with the columns ix iy iz or xu yu zu, or "
+      "choose rise:{0}",
+      time, run.path()));
+}
+
 Eigen::Index axis_of(const std::string& text, int dimension)
 {
   if (text.empty() || text == "x") return 0;
@@ -195,10 +209,14 @@ GrainField<D>::GrainField(const FieldChoice& choice, const TrajectoryReader& run
       const auto length = choice.argument.empty() ? std::string("2dL") : choice.argument;
       radius_ = parse_length(length, "--color composition:", units);
       if (!(radius_ > 0)) throw UsageError("--color composition: its radius must be positive");
+      require_within_periods(length);
       title_ += fmt::format(" {} within {}", species.back().name, length);
       break;
     }
     case FieldKind::displacement:
+      require_images(run, choice.argument);
+      begin_at(choice.argument, run);
+      break;
     case FieldKind::rise:
       begin_at(choice.argument, run);
       break;
@@ -207,6 +225,20 @@ GrainField<D>::GrainField(const FieldChoice& choice, const TrajectoryReader& run
   }
   const std::string unit = D == 3 ? definition_->unit_3d : definition_->unit_2d;
   if (!unit.empty()) title_ += fmt::format(", {}", unit);
+}
+
+/// Each grain then has one image at most beyond each end of a period.
+template <int D>
+void GrainField<D>::require_within_periods(const std::string& length) const
+{
+  const auto require = [&](bool periodic, double period, char axis) {
+    if (periodic && radius_ > period * (1 + 1e-9))  // 35dL may be a little more than 0.35 m
+      throw UsageError(fmt::format(
+          "--color composition:{}: {:.4g} m is longer than the period along {}, which is {:.4g} m",
+          length, radius_, axis, period));
+  };
+  require(box_.periodic_x, box_.length_x, 'x');
+  require(D == 3 && box_.periodic_z, box_.length_z, 'z');
 }
 
 template <int D>

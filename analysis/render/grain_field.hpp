@@ -69,7 +69,8 @@ class GrainField {
  public:
   /// `grains` and `species` as told apart (analysis/frames/grouping.hpp); `rule` shares out the
   /// mixed contacts of pressure. UsageError where the argument is not a length, or not a time of the
-  /// run. `grains` must outlive this.
+  /// run, and where displacements are asked for of an import that does not know how often grains have
+  /// crossed its periods. `grains` must outlive this.
   GrainField(const FieldChoice& choice, const TrajectoryReader& run, const Grains& grains,
              const SpeciesList& species, const PartitionRule& rule);
 
@@ -84,6 +85,7 @@ class GrainField {
   std::vector<double> pressures(const Frame<D>& frame) const;
   std::vector<double> contact_numbers(const Frame<D>& frame) const;
   Vector<D> place(const Frame<D>& frame, std::size_t grain) const;
+  void require_within_periods(const std::string& length) const;
   void begin_at(const std::string& time, const TrajectoryReader& run);
 
   const FieldDefinition* definition_;

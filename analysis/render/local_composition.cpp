@@ -5,46 +5,96 @@
 #include "analysis/frames/ratio.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace grseg {
 namespace {
 
-/// A grain, or an image of it beyond an end of the period along x.
-struct Place {
-  double x;
+/// The number of a strip along x, along y and in three dimensions along z: whole numbers, as large
+/// as a height over a radius may be.
+using Strip = std::array<double, 2>;
+
+/// A mobile grain, or an image of it beyond an end of a period.
+template <int D>
+struct Image {
+  Strip strip;
+  Vector<D> centre;
   std::size_t grain;
 };
 
+/// Mobile grains and those of their images that lie within a radius of the cell, by strips along x,
+/// which are no narrower than the radius, and by x.
 template <int D>
-std::vector<Place> places_along_x(const Grains& grains, const Frame<D>& frame, const Box& box,
-                                  double radius)
-{
-  std::vector<Place> places;
-  places.reserve(grains.size());
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, frame, g)) continue;
-    const double x = frame.position[g].x();
-    places.push_back({x, g});
-    if (!box.periodic_x) continue;
-    if (x < radius) places.push_back({x + box.length_x, g});
-    if (x > box.length_x - radius) places.push_back({x - box.length_x, g});
+class NearGrains {
+ public:
+  NearGrains(const Grains& grains, const Frame<D>& frame, const Box& box, double radius)
+      : radius_(radius), width_(radius)
+  {
+    for (const double r : grains.radius) width_ = std::max(width_, 2 * r);
+    images_.reserve(grains.size());
+    for (std::size_t g = 0; g < grains.size(); ++g)
+      if (is_mobile(grains, frame, g)) add(frame.position[g], g, box);
+    std::sort(images_.begin(), images_.end(), [](const Image<D>& a, const Image<D>& b) {
+      return std::make_tuple(a.strip, a.centre.x()) < std::make_tuple(b.strip, b.centre.x());
+    });
   }
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.x < b.x; });
-  return places;
-}
 
-/// Squared distance across x, along z to the nearest image.
-template <int D>
-double across_squared(const Vector<D>& a, const Vector<D>& b, const Box& box)
-{
-  const double y = a.y() - b.y();
-  if constexpr (D == 2) return y * y;
-  double z = a[D - 1] - b[D - 1];
-  if (box.periodic_z) z -= box.length_z * std::round(z / box.length_z);
-  return y * y + z * z;
-}
+  /// Calls book(grain, distance) for each that is nearer to `centre` than the radius.
+  template <class Book>
+  void visit(const Vector<D>& centre, const Book& book) const
+  {
+    const auto [along_y, along_z] = strip_of(centre);
+    const double reach_z = D == 3 ? 1 : 0;
+    for (double y = along_y - 1; y <= along_y + 1; ++y)
+      for (double z = along_z - reach_z; z <= along_z + reach_z; ++z)
+        visit_strip({y, z}, centre, book);
+  }
+
+ private:
+  Strip strip_of(const Vector<D>& centre) const
+  {
+    return {std::floor(centre.y() / width_), D == 3 ? std::floor(centre[D - 1] / width_) : 0};
+  }
+  void add(const Vector<D>& centre, std::size_t grain, const Box& box)
+  {
+    for (const double x : shifts(centre.x(), box.periodic_x, box.length_x))
+      for (const double z : shifts(centre[D - 1], D == 3 && box.periodic_z, box.length_z)) {
+        Vector<D> moved = centre;
+        moved.x() += x;
+        if constexpr (D == 3) moved.z() += z;
+        images_.push_back({strip_of(moved), moved, grain});
+      }
+  }
+  /// By how much a grain at `place` is to be moved along an axis for each of its images.
+  std::vector<double> shifts(double place, bool periodic, double length) const
+  {
+    std::vector<double> all{0};
+    if (periodic && place < radius_) all.push_back(length);
+    if (periodic && place > length - radius_) all.push_back(-length);
+    return all;
+  }
+  template <class Book>
+  void visit_strip(const Strip& strip, const Vector<D>& centre, const Book& book) const
+  {
+    const auto first = std::lower_bound(
+        images_.begin(), images_.end(), std::make_tuple(strip, centre.x() - radius_),
+        [](const Image<D>& near, const std::tuple<Strip, double>& from) {
+          return std::make_tuple(near.strip, near.centre.x()) < from;
+        });
+    for (auto near = first;
+         near != images_.end() && near->strip == strip && near->centre.x() <= centre.x() + radius_;
+         ++near) {
+      const double squared = (near->centre - centre).squaredNorm();
+      if (squared < radius_ * radius_) book(near->grain, std::sqrt(squared));
+    }
+  }
+
+  double radius_, width_;
+  std::vector<Image<D>> images_;
+};
 
 }  // namespace
 
@@ -52,27 +102,18 @@ template <int D>
 std::vector<double> local_composition(const Grains& grains, const Frame<D>& frame, const Box& box,
                                       Species of, double radius)
 {
-  // Within half a period every grain has one image at most.
-  if (box.periodic_x) radius = std::min(radius, box.length_x / 2);
   const Kernel kernel(KernelShape::lucy, radius);
-  const auto places = places_along_x(grains, frame, box, radius);
+  const NearGrains<D> all(grains, frame, box, radius);
   std::vector<double> shares(grains.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
-    const auto& centre = frame.position[g];
-    double part = 0, all = 0;
-    const auto first = std::lower_bound(places.begin(), places.end(), centre.x() - radius,
-                                        [](const Place& place, double x) { return place.x < x; });
-    for (auto near = first; near != places.end() && near->x <= centre.x() + radius; ++near) {
-      const double x = near->x - centre.x();
-      const double squared = x * x + across_squared<D>(frame.position[near->grain], centre, box);
-      if (squared >= radius * radius) continue;
-      const double weight =
-          grain_volume<D>(grains.radius[near->grain]) * kernel.value(std::sqrt(squared));
-      all += weight;
-      if (grains.species[near->grain] == of) part += weight;
-    }
-    shares[g] = ratio(part, all);
+    double part = 0, sum = 0;
+    all.visit(frame.position[g], [&](std::size_t near, double distance) {
+      const double weight = grain_volume<D>(grains.radius[near]) * kernel.value(distance);
+      sum += weight;
+      if (grains.species[near] == of) part += weight;
+    });
+    shares[g] = ratio(part, sum);
   }
   return shares;
 }

@@ -27,6 +27,11 @@ long number_below(double value)
   return 3 * static_cast<long>(std::floor(std::log10(value))) - 1;
 }
 
+int exponent_of(double value)
+{
+  return static_cast<int>(std::floor(std::log10(value) + round_off));
+}
+
 struct LengthUnit {
   double metres;
   const char* name;
@@ -86,13 +91,14 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks)
   double largest = 0;
   for (const double tick : ticks) largest = std::max(largest, std::abs(tick));
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : largest;
-  const bool plain = largest < 1e5 && step >= 1e-3;
-  const int decimals =
-      plain ? std::max(0, -static_cast<int>(std::floor(std::log10(step) + round_off))) : 0;
+  const int last = exponent_of(step);  // the power of ten of the last digit that counts
+  const bool plain = largest < 1e5 && (step >= 1e-3 || largest >= 1e-2);
+  const int digits = std::clamp(plain ? -last : exponent_of(largest) - last + 1, plain ? 0 : 1, 17);
   std::vector<std::string> labels;
   labels.reserve(ticks.size());
   for (const double tick : ticks)
-    labels.push_back(plain ? fmt::format("{:.{}f}", tick, decimals) : fmt::format("{:.3g}", tick));
+    labels.push_back(plain ? fmt::format("{:.{}f}", tick, digits)
+                           : fmt::format("{:.{}g}", tick, digits));
   return labels;
 }
 

@@ -105,19 +105,26 @@ void make_picture(const Source& source)
                     source.history, [&](cairo_surface_t* page) { picture.paint(page, drawings); }));
 }
 
-/// Frames at least --every apart, but for half a step.
-std::vector<std::size_t> film_frames(const TrajectoryReader& run, const Settings& s)
+/// Where frames are further apart than --every the film is faster than was asked for.
+void warn_if_sparse(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
+                    const Settings& s)
 {
-  auto all = s.range.frames_of(run);
+  if (s.quiet || s.every == 0 || frames.size() < 2) return;
+  const double length = run.times()[frames.back()] - run.times()[frames.front()];
+  const double apart = length / static_cast<double>(frames.size() - 1);
+  if (apart > s.every + run.step() / 2)
+    fmt::print(stderr,
+               "{}: the frames are {:.3g} s apart, so that --every {:g} takes all of them and the "
+               "film is {:.3g} times as fast as asked; --fps {:.3g} keeps the speed\n",
+               info.name, apart, s.every, apart / s.every, s.fps * s.every / apart);
+}
+
+std::vector<std::size_t> frames_of_film(const TrajectoryReader& run, const Settings& s)
+{
+  const auto all = s.range.frames_of(run);
   if (!(s.every >= 0) || !std::isfinite(s.every)) throw UsageError("--every must be positive");
-  if (s.every == 0) return all;
-  std::vector<std::size_t> frames;
-  const double begin = run.times()[all.front()];
-  for (const auto index : all) {
-    const double next = begin + s.every * static_cast<double>(frames.size());
-    if (run.times()[index] >= next - run.step() / 2) frames.push_back(index);
-  }
-  return frames;
+  warn_if_sparse(run, all, s);
+  return film_frames(run.times(), all, s.every, run.step());
 }
 
 template <int D>
@@ -125,7 +132,7 @@ void make_film(const Source& source)
 {
   const auto& s = source.settings;
   const auto ffmpeg = find_ffmpeg();
-  const auto frames = film_frames(source.run, s);
+  const auto frames = frames_of_film(source.run, s);
   auto settings = s.picture.settings(source.run);
   settings.is_film = true;
   const Picture<D> picture(source.run, source.grains, frames, 1, settings);

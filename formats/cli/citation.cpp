@@ -68,6 +68,27 @@ constexpr const char* sources = R"(
   pages   = {154107},
   year    = {2009}
 }
+
+% fields of a coarse-graining width (--assign gauss, lucy, heaviside; grseg-balance)
+@article{Goldhirsch2010,
+  author  = {Goldhirsch, I.},
+  title   = {Stress, stress asymmetry and couple stress: from discrete particles to continuous fields},
+  journal = {Granular Matter},
+  volume  = {12},
+  pages   = {239--252},
+  year    = {2010}
+}
+
+% kinetic stress (grseg-kinetic, grseg-balance)
+@article{HillTan2014,
+  author  = {Hill, K. M. and Tan, D. S.},
+  title   = {Segregation in dense sheared flows: gravity, temperature gradients, and stress
+             partitioning},
+  journal = {Journal of Fluid Mechanics},
+  volume  = {756},
+  pages   = {54--88},
+  year    = {2014}
+}
 )";
 
 }  // namespace

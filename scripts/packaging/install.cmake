@@ -37,13 +37,18 @@ foreach(program ${GRSEG_PROGRAMS})
 endforeach()
 add_custom_target(grseg_printed ALL DEPENDS ${GRSEG_PRINTED})
 
-install(DIRECTORY ${PROJECT_BINARY_DIR}/completions/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+# By name: the folders may hold those of programs that there were before. Also by `--component manuals`.
+list(TRANSFORM GRSEG_PROGRAMS PREPEND ${PROJECT_BINARY_DIR}/completions/bash/ OUTPUT_VARIABLE for_bash)
+list(TRANSFORM GRSEG_PROGRAMS PREPEND ${PROJECT_BINARY_DIR}/completions/zsh/_ OUTPUT_VARIABLE for_zsh)
+list(TRANSFORM GRSEG_PROGRAMS REPLACE "(.+)" "${PROJECT_BINARY_DIR}/man/\\1.1" OUTPUT_VARIABLE manual_pages)
+install(FILES ${for_bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+        COMPONENT manuals)
 # Debian's zsh looks into the first below /usr/local, into the second below /usr.
 foreach(folder site-functions vendor-completions)
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/completions/zsh/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder})
+  install(FILES ${for_zsh} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder} COMPONENT manuals)
 endforeach()
 if(HELP2MAN)
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${manual_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT manuals)
 endif()
 
 set(CPACK_GENERATOR DEB)
@@ -59,5 +64,5 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, python3-h5py")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, gnuplot-nox, python3-h5py")
 include(CPack)

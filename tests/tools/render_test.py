@@ -222,6 +222,11 @@ def check_film_frames():
     assert open(made("film.mp4", *view, "--overwrite", "--threads", "3", path=keeps), "rb").read() == raw
     every = open(made("every.mp4", *view, "--every", "0.1", path=keeps), "rb").read()
     assert every == raw[:size] + raw[2 * size:3 * size]
+    sparse = call(three, *view, "--every", "0.04", "--overwrite", "-o", "every.mp4", path=keeps)
+    assert open("every.mp4", "rb").read() == raw
+    assert sparse.returncode == 0 and sparse.stderr == (
+        "grseg-render: the frames are 0.05 s apart, so that --every 0.04 takes all of them and the film is 1.25 times as "
+        "fast as asked; --fps 20 keeps the speed\n"), sparse
     stride = open(made("stride.mp4", *view, "--stride", "3", "--begin", "0", path=keeps), "rb").read()
     assert stride == raw[:size] + raw[3 * size:]
 

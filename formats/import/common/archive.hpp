@@ -33,8 +33,11 @@ struct ArchiveGrains {
   std::vector<std::uint8_t> fixed;     // 1: the archive marks it as held in place
   std::vector<std::string> missing;    // components of vectors above that the archive lacks, by the
                                        // names of its columns; they are 0 here
+  bool unwrapped = false;              // `position` counts the periods that grains have crossed
 
   std::size_t size() const { return id.size(); }
+  /// Whether the archive tells how often grains have crossed its periods.
+  bool counts_periods() const { return unwrapped || !image.empty(); }
 };
 
 /// Adds to `missing` the names of the components that an archive lacks of a vector of which it has

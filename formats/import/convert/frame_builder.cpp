@@ -37,6 +37,7 @@ FrameBuilder::FrameBuilder(const ArchiveMoment& all, const RunFacts& facts,
     : bed_(all, facts, settings),
       step_(facts.step),
       has_force_(!all.grains.force.empty()),
+      counts_periods_(all.grains.counts_periods()),
       grains_come_and_go_(grains_come_and_go)
 {
 }
@@ -128,6 +129,11 @@ void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame<D>& frame) co
   };
   if (!grains_come_and_go_ && from.size() != n)
     refuse_others(fmt::format("{} grains, but {} in the first moment", from.size(), n));
+  if (counts_periods_ && from.size() > 0 && !from.counts_periods())
+    throw FormatError(fmt::format(
+        "{}: moments before tell how often grains have crossed the periods, and this one "
+        "does not; import them separately, with --from and --to",
+        moment.place));
   if (from.velocity.empty() && from.size() > 0)
     throw FormatError(fmt::format("{}: the grains have no velocities", moment.place));
   frame.position.resize(n);

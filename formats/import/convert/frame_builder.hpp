@@ -19,6 +19,9 @@ class FrameBuilder {
                bool grains_come_and_go = false);
 
   const ImportedBed& bed() const { return bed_; }
+  /// Whether images of frames are those of the archive. Where it does not tell how often grains have
+  /// crossed a period, images are 0 for positions within the cell.
+  bool counts_periods() const { return counts_periods_; }
 
   /// D is the dimension of the bed's box. FormatError naming the moment where grains or contacts are
   /// impossible, or lack components in three dimensions; OtherGrains where a moment has not all
@@ -46,7 +49,7 @@ class FrameBuilder {
 
   ImportedBed bed_;
   double step_;
-  bool has_force_, grains_come_and_go_;
+  bool has_force_, counts_periods_, grains_come_and_go_;
 };
 
 }  // namespace grseg

@@ -109,6 +109,8 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["import_base"] = frames.builder().bed().species.base;
   texts["import_sizes"] = frames.builder().bed().species.sizes;
   texts["import_columns"] = frames.archive().columns();
+  if (run.box.periodic_x || run.box.periodic_z)
+    texts["import_images"] = frames.builder().counts_periods() ? "known" : "unknown";
   if (!facts.walls.empty()) texts["import_walls"] = fmt::format("{}", fmt::join(facts.walls, ", "));
   if (settings.from) texts["import_from"] = *settings.from;
   if (settings.to) texts["import_to"] = *settings.to;

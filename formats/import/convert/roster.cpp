@@ -25,6 +25,7 @@ class Collector {
     roster_.most = std::max(roster_.most, now.size());
     for (std::size_t g = 0; g < now.size(); ++g) add_grain(moment, g);
     if (now.size() > 0) roster_.all.grains.missing = now.missing;
+    if (now.size() > 0) counts_periods_ = counts_periods_ && now.counts_periods();
   }
   Roster finish();
 
@@ -55,6 +56,7 @@ class Collector {
   };
   Roster roster_;
   std::size_t moments_ = 0;
+  bool counts_periods_ = true;  // every moment so far
   std::unordered_map<std::int64_t, std::size_t> row_;
   std::vector<Seen> seen_;
 };
@@ -118,6 +120,7 @@ Roster Collector::finish()
   auto& all = roster_.all.grains;
   for (std::size_t row = 0; row < all.size(); ++row)
     all.position[row] /= static_cast<double>(seen_[row].times);
+  all.unwrapped = counts_periods_;
   roster_.moments = moments_;
   return std::move(roster_);
 }

@@ -50,14 +50,17 @@ void DumpGrains::want_positions(const DumpHeader& header)
 {
   image_ = {-1, -1, -1};
   positions_ = Positions::plain;
+  unwrapped_ = false;
   if (header.find("x") || header.find("xs")) {
     const bool plain = header.find("x").has_value();
     positions_ = plain ? Positions::plain : Positions::scaled;
     position_ = plain ? want(header, {"x", "y", "z"}) : want(header, {"xs", "ys", "zs"});
     want_images(header);
   } else if (header.find("xu")) {
+    unwrapped_ = true;
     position_ = want(header, {"xu", "yu", "zu"});
   } else if (header.find("xsu")) {
+    unwrapped_ = true;
     positions_ = Positions::scaled;
     position_ = want(header, {"xsu", "ysu", "zsu"});
   } else {
@@ -153,6 +156,7 @@ void DumpGrains::read(DumpReader& dump, ArchiveGrains& grains, const std::vector
   take(spin_, grains.angular_velocity);
   take(force_, grains.force);
   grains.missing = missing_;
+  grains.unwrapped = unwrapped_;
 }
 
 }  // namespace grseg

@@ -34,6 +34,7 @@ class DumpGrains {
   int id_ = -1, type_ = -1, mass_ = -1, radius_ = -1, diameter_ = -1;
   Triple position_{}, image_{}, velocity_{}, spin_{}, force_{};
   Positions positions_ = Positions::plain;
+  bool unwrapped_ = false;
   std::vector<std::string> missing_;  // components
   std::vector<std::vector<double>> values_;
 };

@@ -100,6 +100,38 @@ TEST_F(GrainFields, DisplacementsCountThePeriodsThatWereCrossed)
   EXPECT_NEAR(of.values(frame)[1], 2 * 0.35 + 0.001, 1e-15);
 }
 
+// The archive of an import may not tell how often grains have crossed a period; then nobody knows how
+// far they went. Their heights are known all the same.
+TEST_F(GrainFields, DisplacementsOfAnImportThatCountsNoPeriodsAreRefused)
+{
+  const auto write = [&](const std::string& images) {
+    auto told = three_grains::description();
+    told.parameters.texts["import_format"] = "lammps";
+    if (!images.empty()) told.parameters.texts["import_images"] = images;
+    TrajectoryWriter writer(path("run.h5"), told, {});
+    for (int k = 0; k < 3; ++k) writer.append(three_grains::frame(k), std::vector<double>{0});
+    writer.close();
+  };
+  for (const auto* images : {"unknown", ""}) {  // and imports of earlier versions, which do not say
+    write(images);
+    EXPECT_EQ(
+        complaint("displacement:0"),
+        "--color displacement:0: " + path("run.h5") +
+            " does not tell how often grains have crossed its periods; import the run again, from "
+            "a dump with the columns ix iy iz or xu yu zu, or choose rise:0");
+    EXPECT_EQ(values("rise:0")[0], 0);
+  }
+  write("known");
+  EXPECT_NEAR(values("displacement:0")[0], 0.002, 1e-15);
+}
+
+TEST_F(GrainFields, CompositionReachesNoFurtherThanAPeriod)
+{
+  EXPECT_EQ(complaint("composition:36dL"),
+            "--color composition:36dL: 0.36 m is longer than the period along x, which is 0.35 m");
+  EXPECT_EQ(values("composition:35dL").size(), 3u);
+}
+
 TEST_F(GrainFields, TitlesSayWhatIsShownAndItsUnit)
 {
   const TrajectoryReader run(path("run.h5"));
@@ -175,14 +207,50 @@ TEST(LocalComposition, ReachesAcrossThePeriods)
   }
 }
 
-TEST(LocalComposition, InAShortCellEveryGrainCountsOnce)
+// The other grain is at 2, and its image at 8 on the other side; the grain's own images are at 10.
+TEST(LocalComposition, InAShortCellImagesCountToo)
 {
   Packing packing;
   packing.grain(Species::small, 1, {1, 0});
   packing.grain(Species::large, 1, {3, 0});
   const Box box{.length_x = 10, .length_y = 10, .periodic_x = true};
-  const auto share = local_composition<2>(packing.grains, packing.frame, box, Species::large, 50);
-  EXPECT_NEAR(share[0], lucy(0.4) / (1 + lucy(0.4)), 1e-15);  // as with a radius of 5
+  const auto share = local_composition<2>(packing.grains, packing.frame, box, Species::large, 10);
+  const double others = lucy(0.2) + lucy(0.8);
+  EXPECT_NEAR(share[0], others / (1 + others), 1e-15);
+}
+
+// All pairs, of grains below and above y = 0 alike, with their images along both periods.
+TEST(LocalComposition, IsTheSumOverAllPairs)
+{
+  PackingOf<3> packing;
+  for (int k = 0; k < 60; ++k)
+    packing.grain(
+        k % 3 == 0 ? Species::large : Species::small, 0.1 + 0.01 * (k % 7),
+        {std::fmod(0.618 * k, 5.0), std::fmod(1.37 * k, 8.0) - 4, std::fmod(0.271 * k, 3.0)});
+  const Box box{.length_x = 5,
+                .length_y = 10,
+                .periodic_x = true,
+                .dimension = 3,
+                .length_z = 3,
+                .periodic_z = true};
+  const double radius = 2;  // beyond half the period along z
+  const auto share =
+      local_composition<3>(packing.grains, packing.frame, box, Species::large, radius);
+  for (std::size_t i = 0; i < 60; ++i) {
+    double part = 0, all = 0;
+    for (std::size_t j = 0; j < 60; ++j)
+      for (int x = -1; x <= 1; ++x)
+        for (int z = -1; z <= 1; ++z) {
+          const Vec3 between =
+              packing.frame.position[j] + Vec3(5 * x, 0, 3 * z) - packing.frame.position[i];
+          if (between.norm() >= radius) continue;
+          const double weight =
+              std::pow(packing.grains.radius[j], 3) * lucy(between.norm() / radius);
+          all += weight;
+          if (packing.grains.species[j] == Species::large) part += weight;
+        }
+    EXPECT_NEAR(share[i], part / all, 1e-13) << i;
+  }
 }
 
 }  // namespace

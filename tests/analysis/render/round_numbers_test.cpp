@@ -58,6 +58,13 @@ TEST(RoundNumbers, TicksLieInTheRangeAndHaveTheDecimalsOfTheirStep)
   EXPECT_EQ(tick_labels(ticks({0, 2e-6}, 3)), (Texts{"0", "1e-06", "2e-06"}));
 }
 
+TEST(RoundNumbers, LabelsOfANarrowRangeDiffer)
+{
+  EXPECT_EQ(tick_labels(ticks({0.01, 0.0101}, 3)), (Texts{"0.01000", "0.01005", "0.01010"}));
+  EXPECT_EQ(tick_labels(ticks({2e-6, 2.002e-6}, 3)), (Texts{"2e-06", "2.001e-06", "2.002e-06"}));
+  EXPECT_EQ(tick_labels(ticks({1e6, 1000002}, 3)), (Texts{"1000000", "1000001", "1000002"}));
+}
+
 TEST(RoundNumbers, LengthsHaveTheUnitThatFits)
 {
   EXPECT_EQ(length_text(0.005), "5 mm");

@@ -1,0 +1,22 @@
+#!/bin/sh
+# manuals_test.sh BUILD: manual pages and completions are installed of the programs that there are, and of no others,
+# which an earlier build may have left; the Debian package suggests what makes films, figures and reads runs in Python.
+set -eu
+build=$1
+folder=$(mktemp -d)
+left="$build/completions/bash/grseg-gone $build/completions/zsh/_grseg-gone $build/man/grseg-gone.1"
+trap 'rm -rf "$folder" $left' EXIT
+touch $left
+
+cmake --install "$build" --component manuals --prefix "$folder" >"$folder/said"
+cd "$folder/share"
+for file in bash-completion/completions/grseg- zsh/site-functions/_grseg- zsh/vendor-completions/_grseg- man/man1/grseg-; do
+  # Without help2man there are no pages.
+  [ $file = man/man1/grseg- ] && ! command -v help2man >"$folder/said" && continue
+  ls $file* | grep -q 'grseg-stress\(\.1\)\?$'
+  ls $file* | grep 'grseg-gone' && exit 1
+done
+
+for package in ffmpeg gnuplot-nox python3-h5py; do
+  grep -q "CPACK_DEBIAN_PACKAGE_SUGGESTS .*[\" ]$package[\",]" "$build/CPackConfig.cmake"
+done
