@@ -46,11 +46,10 @@ class NearGrains {
   template <class Book>
   void visit(const Vector<D>& centre, const Book& book) const
   {
-    const auto [along_y, along_z] = strip_of(centre);
-    const double reach_z = D == 3 ? 1 : 0;
-    for (double y = along_y - 1; y <= along_y + 1; ++y)
-      for (double z = along_z - reach_z; z <= along_z + reach_z; ++z)
-        visit_strip({y, z}, centre, book);
+    const auto own = strip_of(centre);
+    constexpr int across = D == 3 ? 1 : 0;
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -across; z <= across; ++z) visit_strip({own[0] + y, own[1] + z}, centre, book);
   }
 
  private:
