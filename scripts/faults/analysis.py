@@ -479,6 +479,7 @@ FAULTS = [
 # What no test can see, with the reason in the document.
 ARGUED = {"component: the trace instead of its part per dimension"}
 LIBRARY = "grseg_analysis"
+FOLDER = "analysis"  # of the library
 OUTPUT = "docs/studies/fault-injection.md"
 # Whose tests are asked for a fault in a room: its own, then those of rooms that build on it.
 ASKED = {"frames": ["frames", "stress", "micro", "balance", "segregation", "fit", "check"],

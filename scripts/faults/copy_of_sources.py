@@ -115,12 +115,12 @@ def mark_of(fault):
 @contextlib.contextmanager
 def broken(copy, part, path, text):
     """The file with this text, compiled. Then file, object and library are put back as they were, times too, so
-    that nothing has to be compiled again; what a header broke is compiled again by the next build."""
+    that nothing has to be compiled again; what a header or a page's program broke is compiled again by the next build."""
     source = f"{copy.tree}/{path}"
-    folder, name = path.split("/", 1)
-    made = [f"{copy.tree}/build/{folder}/CMakeFiles/{part.LIBRARY}.dir/{name}.o",
-            f"{copy.tree}/build/{folder}/lib{part.LIBRARY}.so"] if name.endswith(".cpp") else []
-    compiled = name.endswith((".cpp", ".hpp"))
+    build = f"{copy.tree}/build/{part.FOLDER}"
+    made = [f"{build}/CMakeFiles/{part.LIBRARY}.dir/{os.path.relpath(path, part.FOLDER)}.o",
+            f"{build}/lib{part.LIBRARY}.so"] if path.endswith(".cpp") else []
+    compiled = path.endswith((".cpp", ".hpp", ".js"))
     for sound in [source, *made]:
         shutil.copy2(sound, sound + ".sound")
     try:

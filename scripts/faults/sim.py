@@ -88,6 +88,7 @@ FAULTS = [
 
 ARGUED = set()
 LIBRARY = "grseg_simulator"
+FOLDER = "sim"  # of the library
 OUTPUT = "docs/studies/hard-cases.md"
 HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",
         "invariances", "newcomer", "extremes", "slopes"]

@@ -174,13 +174,19 @@ def main():
                          "command": f"{command_of[members[0]]} -c {text}"})
         work.append((str(lint), str(text), members))
     (lint / "compile_commands.json").write_text(json.dumps(database, indent=1))
-    reports = {}
+    reports = {file: None for file in files}  # None: not checked yet
+
+    def write_passed():
+        """After every text: what has passed need not be checked again where the rest is interrupted."""
+        passed = [f"{print_of[f]}  {f}\n" for f in sorted(given.files) if reports.get(f, "") == ""]
+        (lint / "passed.txt").write_text("".join(passed))
+
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        for result in pool.map(lambda w: check(*w), work):
-            reports |= result
+        for done in concurrent.futures.as_completed(pool.submit(check, *w) for w in work):
+            reports |= done.result()
+            write_passed()
+    write_passed()
     print("".join(reports.values()), end="")
-    passed = [f"{print_of[f]}  {f}\n" for f in sorted(given.files) if not reports.get(f)]
-    (lint / "passed.txt").write_text("".join(passed))
     sys.exit(1 if any(reports.values()) else 0)
 
 
