@@ -184,22 +184,29 @@ class Stages(Pipeline):
     def test_leaving_out_runs_tells_how_runs_differ(self):
         starts = {"a": [points(j, 0, self.SHAPE, seed=n) for n, j in enumerate((1.0, 2.0, 3.0))]}
         found = {row[:2]: row[2:] for row in stages.jackknife(starts)}
-        value, low, high = found["both", "j"]
+        value, low, high, _ = found["both", "j"]
         self.assertAlmostEqual(value, 2, 0)
         self.assertAlmostEqual((high - low) / 2, 4.303 / math.sqrt(3), delta=0.4)  # Student's t of three, 1 apart
         # A second start, of two runs that agree, halves the weight of the first and adds no variance.
         starts["b"] = [points(2, 0, self.SHAPE, seed=n) for n in (7, 7)]
         found = {row[:2]: row[2:] for row in stages.jackknife(starts)}
         self.assertAlmostEqual((found["both", "j"][2] - found["both", "j"][1]) / 2, 3 / 5 * 4.303 / math.sqrt(3), delta=0.4)
-        lonely = {row[:2]: row[2:] for row in stages.jackknife({"a": starts["a"], "c": starts["b"][:1]})}
-        self.assertTrue(math.isnan(lonely["both", "j"][1]))
+        # Of a single run the units are blocks: as one run of ten alike it adds no variance; j = 1 before 300 s and 3 after has one.
+        changing = points(1, 0, self.SHAPE)
+        late = changing[:, 0] > 300
+        changing[late] = points(3, 0, self.SHAPE)[late]
+        steady, lonely = ({row[:2]: row[2:] for row in stages.jackknife({"c": [run]})} for run in (points(2, 0, self.SHAPE), changing))
+        self.assertEqual(steady["both", "j"][3], "blocks of 60 s")
+        self.assertLess(steady["both", "j"][2] - steady["both", "j"][1], 1e-9)
+        # Ten values of 1 and 3, five of each: Student's t, standard deviation and root of their number.
+        self.assertAlmostEqual((lonely["both", "j"][2] - lonely["both", "j"][1]) / 2, 2.262 * math.sqrt(10 / 9) / math.sqrt(10), delta=0.25)
         alike = {row[:2]: row[2:] for row in stages.jackknife({"a": [points(1, 0, self.SHAPE, seed=n) for n in range(3)]})}
         self.assertAlmostEqual(alike["both", "j"][1], alike["both", "j"][2], 9)
 
     def test_b_at_equal_composition_and_height_does_not_see_where_a_start_has_its_points(self):
         whole = points(0, 0, (0.02, 0.0, 0.04, 0.0), n=4000)
         low = whole[(whole[:, 1] < 0.35) | ((np.arange(len(whole)) % 5 == 0) & (whole[:, 1] < 0.66))]
-        found = {row[0]: row[2] for row in stages.equal_parts({"all": [whole], "low": [low]}, 0)}
+        found = {row[0]: row[2] for row in stages.by_time({"all": [whole], "low": [low]}, 0) if row[1] != "B"}
         self.assertAlmostEqual(found["all 300-600 s"], found["low 300-600 s"], 2)
         of = lambda p: (p[:, 4] * p[:, 3]).sum() / (p[:, 4] * p[:, 2] * (1 - p[:, 2])).sum()
         self.assertGreater(of(whole) - of(low), 0.005)
@@ -207,9 +214,20 @@ class Stages(Pipeline):
     def test_a_window_counts_where_all_of_it_lies(self):
         # From 0 to 10 s, when the flow begins, and from 10 to 20 s: the first is not of 5 to 20 s.
         points = np.array([[t, 0.5, 0.5, excess, 1, 0, 0, 0] for t, excess in ((5, 0.01), (15, 0.03))])
-        row, = stages.equal_parts({"a": [points]}, 10)
-        self.assertEqual(row[:2], ("a 5-20 s", "B over 1 classes"))
-        self.assertAlmostEqual(row[2], 0.03 / 0.25)
+        as_it_is, in_class = stages.by_time({"a": [points]}, 10)
+        self.assertEqual(as_it_is[:2], ("a 5-20 s", "B"))
+        self.assertEqual(in_class[:2], ("a 5-20 s", "B over 1 classes"))
+        for row in (as_it_is, in_class):
+            self.assertAlmostEqual(row[2], 0.03 / 0.25)
+            self.assertTrue(math.isnan(row[3]), "one block tells no interval")
+
+    def test_b_of_one_run_has_the_interval_of_its_blocks(self):
+        # Three windows of 10 s, alike but for their excess: Student's t of three means, 0.01/0.25 apart.
+        points = np.array([[t, 0.5, 0.5, excess, 1, 0, 0, 0] for t, excess in ((25, 0.01), (35, 0.02), (45, 0.03))])
+        row = next(iter(stages.by_time({"a": [points]}, 10)))
+        self.assertEqual((row[0], row[1], row[5]), ("a 20-60 s", "B", "3 blocks"))
+        self.assertAlmostEqual(row[2], 0.02 / 0.25)
+        self.assertAlmostEqual((row[4] - row[3]) / 2, 4.3027 / math.sqrt(3) * 0.01 / 0.25, 4)
 
     def test_a_point_is_a_layer_inside_over_ten_seconds(self):
         content = dict(A_SS_yy=2.0, A_LL_yy=3.0, M_yy=6.0, Msize_yy=4.0, A_Sb_yy=0.0, A_Lb_yy=0.0)
@@ -331,14 +349,14 @@ class Answers(unittest.TestCase):
                 return done, page.read()
 
     def test_only_the_part_between_markers_changes(self):
-        stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2}
+        stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2, "over": "2 runs"}
         before = "one\n<!-- stages -->\nold\n<!-- /stages -->\ntwo\n"
         _, after = self.rewritten(before, stages=[stage])
-        self.assertEqual(after, "one\n<!-- stages -->\n| of |  | value |\n|---|---|---|\n| both | k | 0.123 [0.100, 0.200] |\n<!-- /stages -->\ntwo\n")
+        self.assertEqual(after, "one\n<!-- stages -->\n| of |  | value | 95 % over |\n|---|---|---|---|\n| both | k | 0.123 [0.100, 0.200] | 2 runs |\n<!-- /stages -->\ntwo\n")
 
     def test_each_table_stands_in_one_of_several_documents(self):
         with tempfile.TemporaryDirectory() as work:
-            stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2}
+            stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2, "over": "2 runs"}
             tables.write(os.path.join(work, "stages.tsv"), "stages", list(stage), [stage])
             pages = [os.path.join(work, name) for name in ("a.md", "b.md")]
             for page, text in zip(pages, ("one\n", "two\n<!-- stages -->\n<!-- /stages -->\n")):
@@ -348,13 +366,13 @@ class Answers(unittest.TestCase):
             subprocess.run(words, check=True)
             with open(pages[0]) as a, open(pages[1]) as b:
                 self.assertEqual(a.read(), "one\n")
-                self.assertIn("| both | k | 0.123 [0.100, 0.200] |", b.read())
+                self.assertIn("| both | k | 0.123 [0.100, 0.200] | 2 runs |", b.read())
             with open(pages[0], "a") as out:
                 out.write("<!-- stages -->\n<!-- /stages -->\n")
             self.assertIn("once", subprocess.run(words, capture_output=True, text=True).stderr)
 
     def test_runs_without_a_place_in_the_document_are_refused(self):
-        stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2}
+        stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2, "over": "2 runs"}
         done, after = self.rewritten("nothing\n", stages=[stage])
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("<!-- stages -->", done.stderr)
