@@ -36,7 +36,7 @@ std::string text_of(const std::vector<double>& numbers)
   return fmt::format("{:.9g}", fmt::join(numbers, " "));
 }
 
-constexpr std::string_view summary = "summary_";
+constexpr std::string_view summary_prefix = "summary_";
 
 /// /parameters whose names begin with summary_, or the others; texts that are shown elsewhere are not
 /// among them.
@@ -45,8 +45,9 @@ Json parameters_of(const TrajectoryReader& run, bool of_summary)
   Json all = Json::array();
   const auto& [numbers, texts] = run.parameters();
   for (const auto& [name, value] : numbers)
-    if (name.starts_with(summary) == of_summary)
-      all.push_back({printable(of_summary ? name.substr(summary.size()) : name), text_of(value)});
+    if (name.starts_with(summary_prefix) == of_summary)
+      all.push_back(
+          {printable(of_summary ? name.substr(summary_prefix.size()) : name), text_of(value)});
   if (of_summary) return all;
   for (const auto& [name, value] : texts)
     if (name != "scene" && name != "history" && name != "command_line")
