@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/rates.hpp"
 
+#include "analysis/statistics/least_squares.hpp"
 #include "analysis/statistics/median_of_positive.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <map>
 #include <string>
@@ -38,12 +39,12 @@ class Regression {
       rows.emplace(point.window, static_cast<Eigen::Index>(rows.size()));
       equations.emplace_back(point.window, e);
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(matrix);
+    const LeastSquares normal(matrix);
     influence = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), unknowns);
-    if (rows.empty() || !solver.isInvertible()) return;
-    value = solver.solve(right);
+    if (rows.empty() || normal.rank() < unknowns) return;
+    value = normal.solve(right);
     for (const auto& [window, e] : equations)
-      influence.row(rows[window]) += e.weight * (e.y - e.x.dot(value)) * solver.solve(e.x);
+      influence.row(rows[window]) += e.weight * (e.y - e.x.dot(value)) * normal.solve(e.x);
   }
 
   Estimate estimate(Eigen::Index unknown = 0) const

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/statistics/composition_noise.hpp"
 
-#include <Eigen/QR>
+#include "analysis/statistics/least_squares.hpp"
+
 #include <map>
 
 namespace grseg {
 namespace {
-
-using Fit = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixX3d>;
 
 /// Fewer points are fitted by their mean.
 constexpr Eigen::Index fewest = 30;
@@ -21,12 +20,10 @@ Eigen::MatrixX3d basis_of(const Eigen::VectorXd& phi_large)
   return basis;
 }
 
-Fit fit_of(const Eigen::MatrixX3d& basis, const Eigen::VectorXd& root_of_weight)
+LeastSquares fit_of(const Eigen::MatrixX3d& basis, const Eigen::VectorXd& root_of_weight)
 {
-  Fit fit;
-  fit.setThreshold(1e-6);  // one or two compositions determine fewer coefficients
-  fit.compute(root_of_weight.asDiagonal() * basis);
-  return fit;
+  // One or two compositions determine fewer coefficients.
+  return LeastSquares(root_of_weight.asDiagonal() * basis, 1e-6);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/statistics/exponential_approach.hpp"
 
+#include "analysis/statistics/least_squares.hpp"
+
 #include <gsl/gsl_multifit_nlinear.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <memory>
 
@@ -44,7 +46,7 @@ Parameters best_for(const Data& data, double rate)
   Eigen::MatrixX2d basis(data.x.size(), 2);
   basis.col(0) = decay(data.x, rate);
   basis.col(1) = 1 - basis.col(0).array();
-  const Eigen::Vector2d ends = basis.colPivHouseholderQr().solve(data.y);
+  const Eigen::Vector2d ends = LeastSquares(basis).solve(data.y);
   return {ends[0], ends[1], rate};
 }
 
