@@ -352,7 +352,7 @@ class Answers(unittest.TestCase):
         stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2, "over": "2 runs"}
         before = "one\n<!-- stages -->\nold\n<!-- /stages -->\ntwo\n"
         _, after = self.rewritten(before, stages=[stage])
-        self.assertEqual(after, "one\n<!-- stages -->\n| of |  | value | 95 % over |\n|---|---|---|---|\n| both | k | 0.123 [0.100, 0.200] | 2 runs |\n<!-- /stages -->\ntwo\n")
+        self.assertEqual(after, "one\n<!-- stages -->\n| model |  | value | 95 % over |\n|---|---|---|---|\n| both | k | 0.123 [0.100, 0.200] | 2 runs |\n<!-- /stages -->\ntwo\n")
 
     def test_each_table_stands_in_one_of_several_documents(self):
         with tempfile.TemporaryDirectory() as work:
@@ -370,6 +370,14 @@ class Answers(unittest.TestCase):
             with open(pages[0], "a") as out:
                 out.write("<!-- stages -->\n<!-- /stages -->\n")
             self.assertIn("once", subprocess.run(words, capture_output=True, text=True).stderr)
+
+    def test_b_by_time_has_a_column_for_each_start(self):
+        row = lambda of, what, value: {"of": of, "what": what, "value": value, "low": value - 0.01, "high": value + 0.01, "over": "4 blocks"}
+        text = answers.stages([row("+q", "j", 0.2), row("a 5-20 s", "B", 0.05), row("b 5-20 s", "B", 0.03), row("a 5-20 s", "B over 3 classes", 0.04),
+                               row("b 5-20 s", "B over 3 classes", 0.035)])
+        self.assertIn("| time | a, B | b, B | classes | a, over classes | b, over classes | 95 % over |", text)
+        self.assertIn("| 5-20 s | 0.050 [0.040, 0.060] | 0.030 [0.020, 0.040] | 3 | 0.040 [0.030, 0.050] | 0.035 [0.025, 0.045] | 4 blocks |", text)
+        self.assertIn("| +q | j | 0.200 [0.190, 0.210] | 4 blocks |", text)
 
     def test_runs_without_a_place_in_the_document_are_refused(self):
         stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2, "over": "2 runs"}
