@@ -2,6 +2,7 @@
 #include "analysis/render/picture_file.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/core/xml.hpp"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
@@ -65,23 +66,6 @@ std::string png_bytes(const Vec2& size, const std::string& history, const Paint&
   return bytes;
 }
 
-/// Between tags of XML.
-std::string escaped(const std::string& text)
-{
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 std::string vector_bytes(PictureKind kind, const Vec2& size, double points,
                          const std::string& history, const Paint& paint)
 {
@@ -101,7 +85,7 @@ std::string vector_bytes(PictureKind kind, const Vec2& size, double points,
   require_success(cairo_surface_status(surface.get()));
   if (kind == PictureKind::svg) {
     const auto begin = bytes.find('>', bytes.find("<svg")) + 1;
-    bytes.insert(begin, "\n<desc>" + escaped(history) + "</desc>");
+    bytes.insert(begin, "\n<desc>" + xml_escaped(history) + "</desc>");
   }
   return bytes;
 }

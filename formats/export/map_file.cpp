@@ -3,6 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "formats/core/xml.hpp"
 #include "formats/export/output_folder.hpp"
 
 #include <fmt/format.h>
@@ -19,28 +20,11 @@ std::string folder_of(const std::string& list)
   return list.substr(0, list.size() - std::string(".pvd").size());
 }
 
-/// In XML, between quotes.
-std::string escaped(const std::string& text)
-{
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 void write_series(const MapTable& map, const OutputOptions& output,
                   const std::vector<std::string>& inputs)
 {
   const auto path = folder_of(output.path);
-  const auto name = escaped(std::filesystem::path(path).filename().string());
+  const auto name = xml_escaped(std::filesystem::path(path).filename().string());
   OutputFolder folder(path, first_image, output.overwrite, inputs);
   std::string list = R"(<?xml version="1.0"?>
 <VTKFile type="Collection" version="1.0" byte_order="LittleEndian">

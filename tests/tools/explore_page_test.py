@@ -156,6 +156,145 @@ def check_band(page):
     assert page.text("b-interval") == "[{}, {}]".format(*map(number, row["interval"])), page.text("b-interval")
 
 
+def check_interval_between(page):
+    """Between the shares of the band its ends are joined by lines; of a rule that grseg-fit was not asked for it moves with B."""
+    scan = page.run("return grseg.content.runs[0].fit.scan")
+    def band(p):
+        return [np.interp(p, scan["p"], [row[side] for row in scan["B_sums"]]) for side in (1, 2)]
+    def shown(rule):
+        page.run("const [kind, value] = arguments[0].split(':'); grseg.set({rule: {kind, value: Number(value)}}); grseg.flush()", rule)
+        text = re.match(r"\[(\S+), (\S+)\]", page.text("b-interval").replace("−", "-"))
+        return [float(text[1]), float(text[2])]
+    for a, b in zip(shown("uniform:0.6075"), band(0.6075)):
+        close(a, b, "the band between two shares", 6e-4)
+    power = page.run("return grseg.fit(0, 'power:3.3')")
+    moved = power["B_sums"] - page.run("return grseg.fit(0, arguments[0]).B_sums", f"uniform:{power['share']}")
+    assert abs(moved) > 2e-3, "the sample has grains of one size each; take another run"
+    for a, b in zip(shown("power:3.3"), band(power["share"])):
+        close(a, b + moved, "the interval of a rule that was not asked for", 6e-4)
+
+
+def check_neutral(page):
+    """Contacts that ignore size: ends of pairs drawn by phi/d, forces alike, branches as long as the pair."""
+    arrays = page.run("const {phi_large, frames} = grseg.page.fits[0].arrays; return [Array.from(phi_large), Array.from(frames)]")
+    phi, frames = map(np.array, arrays)
+    r = page.run("return grseg.page.fits[0].size_ratio")
+    large = phi / r / (phi / r + 1 - phi)
+    for p in (0, 0.5, r / (1 + r), 1):
+        whole = large**2 * r + 2 * large * (1 - large) * (1 + r) / 2 + (1 - large)**2
+        of_large = (large**2 * r + p * 2 * large * (1 - large) * (1 + r) / 2) / whole
+        expected = (frames * (of_large - phi)).sum() / (frames * phi * (1 - phi)).sum()
+        close(page.run("return grseg.neutral(0, arguments[0])", p), expected, f"neutral contacts at p = {p}")
+
+
+def check_contacts(page, run, numbers):
+    """Contacts of a frame as the file has them, with the branch from the nearest image, or a wall's point of contact, and the force on grain i along it and across."""
+    for number in numbers:
+        page.run("grseg.page.transport.goTo(arguments[0])", number)
+        page.settle()
+        own = page.run("""const {players: [player]} = grseg.page, c = player.contacts(), {row} = player.frames.arrays;
+          const of = (values) => Array.from(values);
+          return [of(c.i).map((g) => row[g]), of(c.j).map((g) => g < 0 ? g : row[g]), of(c.xi).map((x, k) => x - c.xj[k]), of(c.yi).map((y, k) => y - c.yj[k]),
+                  of(c.along), of(c.across), player.frames.rounding * player.frames.meanForce, grseg.state.time]""")
+        first, second, bx, by, along, across = map(np.array, own[:6])
+        with h5py.File(run) as file:
+            frame = int(np.argmin(abs(file["particles/grains/position/time"][:] - own[7])))
+            begin, end = file["grseg/contacts/offset"][frame:frame + 2].astype(int)
+            i, j, force, branch = (file[f"grseg/contacts/{name}"][begin:end] for name in ("i", "j", "force", "branch"))
+            diameter = 2 * file["particles/grains/radius"][:].min()
+        bears = (force != 0).any(axis=1)
+        known = {pair: k for k, pair in enumerate(zip(i, j)) if bears[k]}
+        assert len(first) == bears.sum() == len(known)
+        at = np.array([known[pair] for pair in zip(first, second)])
+        assert abs(np.stack([bx, by], 1) - branch[at]).max() < 0.01 * diameter, "branches"
+        unit = branch[at] / np.linalg.norm(branch[at], axis=1)[:, None]
+        normal = (force[at] * unit).sum(1)
+        shear = force[at, 1] * unit[:, 0] - force[at, 0] * unit[:, 1]
+        for name, shown, told in (("along", along, normal), ("across", across, shear)):
+            assert abs(shown - told).max() < 1.01 * own[6] + 1e-6 * abs(told).max(), (name, abs(shown - told).max(), own[6])
+
+
+def check_cuts(page):
+    """Where the line of a mixed contact changes its colour: the large grain's share of the branch, whichever grain comes first."""
+    radius, small, rules = page.run("""
+      const {players: [player]} = grseg.page, c = player.contacts(), {species, radius} = player.frames.arrays;
+      const cuts = {}, mixed = [];
+      for (let k = 0; k < c.i.length; ++k) if (c.j[k] >= 0 && species[c.i[k]] + species[c.j[k]] === 1) mixed.push(k);
+      for (const [kind, value] of [["size", NaN], ["half", NaN], ["uniform", 0.7], ["power", 2]]) {
+        grseg.set({rule: {kind, value}});
+        cuts[kind] = mixed.map((k) => player.cut(c, k).at);
+      }
+      return [mixed.map((k) => [radius[c.i[k]], radius[c.j[k]]]), mixed.map((k) => species[c.i[k]] === 0), cuts]""")
+    radius = np.array(radius)
+    larger, smaller = radius.max(1), radius.min(1)
+    for kind, share in (("size", larger / (larger + smaller)), ("half", 0.5), ("uniform", 0.7), ("power", larger**2 / (larger**2 + smaller**2))):
+        of_first = np.where(small, 1 - share, share)
+        assert abs(np.array(rules[kind]) - of_first).max() < 1e-6, kind
+
+
+def check_base_cuts(page):
+    """A contact with the base counts up to the contact point."""
+    radii, at = page.run("""
+      const {players: [player]} = grseg.page, c = player.contacts(), {species, radius} = player.frames.arrays;
+      const own = Array.from(c.i.keys()).filter((k) => c.j[k] >= 0 && species[c.j[k]] === 255);
+      return [own.map((k) => [radius[c.i[k]], radius[c.j[k]]]), own.map((k) => player.cut(c, k).at)]""")
+    grain, bead = np.array(radii).T
+    assert abs(np.array(at) - grain / (grain + bead)).max() < 1e-6
+
+
+def drawn(page, plot, what, scales="chart.scales"):
+    """The corners of a path, or the middles of circles, in the units of the plot's axes."""
+    return np.array(page.run("""
+      const {x, y} = eval(`grseg.page.${arguments[0]}.${arguments[2]}`);
+      const marks = Array.from(document.querySelectorAll(arguments[1]));
+      const pixels = marks[0].tagName === "path" ? marks[0].getAttribute("d").slice(1).split("L").map((pair) => pair.split(",").map(Number))
+                                                 : marks.map((mark) => ["cx", "cy"].map((name) => Number(mark.getAttribute(name))));
+      return pixels.map(([px, py]) => [x.invert(px), y.invert(py)])""", plot, what, scales))
+
+
+def check_plots(page):
+    """What is drawn, read off the axes: the curve of equal B, the marks of codes, the profiles and B of the layers."""
+    page.run("grseg.set({rule: {kind: 'size', value: NaN}, estimator: 'B_sums', time: 5}); grseg.flush()")
+    rules = fitted("sums.tsv", "--partition", "size,half")
+    B = {rule: rules[rule]["estimators"]["B_sums"]["value"] for rule in rules}
+    ratio, value = drawn(page, "scatter", "#scatter-plot .curve").T
+    phi, psi = 1 / (1 + ratio), 1 / (1 + value)
+    assert abs((psi - phi) / (phi * (1 - phi)) - B["size"]).max() < 2e-3, "B is the same along the curve"
+    with open("sums.tsv") as file:
+        lines = [line.split("\t") for line in file if not line.startswith("#")]
+    sums = {name: np.array([float(line[k]) for line in lines[1:]]) for k, name in enumerate(lines[0][:-1])}
+    area = {name: next(values for column, values in sums.items() if column.startswith(f"area_{name}")) for name in "SL"}
+    of_files = area["S"] / np.where(area["L"] > 0, area["L"], np.nan)
+    for shown in page.run("return Array.from(grseg.page.scatter.ratio)"):
+        assert abs(of_files - shown)[of_files > 0].min() < 1e-9 * shown, "phi_S/phi_L of a layer and window"
+    assert page.run("return grseg.page.scatter.windowNow()") == 5, "a window holds its beginning"
+    marks = drawn(page, "share", "#share-plot .codes circle")
+    nearest = marks[abs(marks[:, 0] - 0.5).argmin()]
+    assert abs(nearest[0] - 0.5) < 1e-3 and abs(nearest[1] - B["half"]) < 0.01, ("the mark of half", nearest, B["half"])
+    table = page.run("return grseg.content.runs[0].layers.tables.find((t) => t.name === 'stress')")
+    d = page.run("return grseg.content.runs[0].small_diameter")
+    rows = np.array(table["rows"], dtype=float)
+    column = lambda name: rows[:, next(k for k, own in enumerate(table["columns"]) if own.startswith(name))]
+    height = (column("y0") + column("y1")) / 2 / d
+    for species, name in (("small", "sigma_S_yy"), ("large", "sigma_L_yy")):
+        profile = drawn(page, "profiles", f"#profile-plot .profile.{species}", "pressure.scales")
+        expected = np.interp(profile[:, 1], height, column(name))
+        assert abs(profile[:, 0] - expected).max() < 0.02 * column(name).max(), species
+    arrays = {name: np.array(values) for name, values in page.run("""const {phi_large, frames, bottom, size_small, size_large} = grseg.page.fits[0].arrays;
+      return Object.fromEntries(Object.entries({phi_large, frames, bottom, size_small, size_large}).map(([name, values]) => [name, Array.from(values)]))""").items()}
+    dots = drawn(page, "profiles", "#layers-plot circle", "strength.scales")
+    for bottom in set(arrays["bottom"]):
+        own = {name: values[arrays["bottom"] == bottom] for name, values in arrays.items()}
+        phi, frames = own["phi_large"], own["frames"]
+        excess = own["size_large"] / (own["size_small"] + own["size_large"]) - phi
+        of_layer = (frames * excess).sum() / (frames * phi * (1 - phi)).sum()
+        shown = dots[abs(dots[:, 1] - bottom / d - 2).argmin(), 0]
+        ends = page.run("return grseg.page.profiles.strength.scales.x.domain()")
+        assert abs(shown - min(max(of_layer, ends[0]), ends[1])) < 0.01, ("B of the layer at", bottom / d, shown, of_layer)
+    player = page.run("const [player] = grseg.page.players; return [player.py(0), player.py(0.1)]")
+    assert player[1] < player[0], "up is up"
+
+
 def check_controls(page):
     driver = page.driver
     slider = driver.find_element(By.ID, "p")
@@ -454,6 +593,7 @@ def check_walls_and_one_species():
         page.settle()
         known = page.run("const p = grseg.page.players[0]; return p.frames.walls(p.frame).map((wall) => Array.from(wall))")
         assert len(known) == walls > 0, (known, walls)
+        check_contacts(page, "column.h5", [page.run("return grseg.page.transport.times.length - 1")])
         vertical = [wall for wall in known if abs(wall[0]) > 0.999]
         assert vertical and all(abs(wall[2]) < 1e-6 or length is None or abs(abs(wall[2]) - length) < 1e-6 for wall in vertical), known
         page.run("grseg.set({grain: 3}); grseg.flush()")
@@ -590,6 +730,12 @@ def main():
     with Page("page.html") as page:
         check_b(page)
         check_band(page)
+        check_interval_between(page)
+        check_neutral(page)
+        check_contacts(page, RUN, (0, 60))
+        check_cuts(page)
+        check_base_cuts(page)
+        check_plots(page)
         check_controls(page)
         check_grain(page)
         check_widths(page)
