@@ -351,7 +351,7 @@ def check_grain(page):
         force, branch = (file[f"grseg/contacts/{name}"][begin:end] for name in ("force", "branch"))
         bears = (force != 0).any(axis=1)
         mixed = bears & (j >= 0) & (species[i] + species[j] == 1)
-        row = int(i[mixed][0])
+        row = next(int(one) for one in i[mixed] if ((j == one) & bears).any())
         own = bears & ((i == row) | (j == row))
     place = page.run("""
       const {frames} = grseg.page.players[0], {canvas} = grseg.page.players[0];
@@ -364,6 +364,11 @@ def check_grain(page):
     assert f"Grain {row}," in page.text("grain"), page.text("grain")
     lines = page.run("return document.querySelectorAll('#grain tbody')[0].rows.length")
     assert lines == own.sum(), (lines, own.sum())
+    towards = page.run("return Array.from(document.querySelectorAll('#grain tbody')[0].rows, (row) => row.cells[1].textContent)")
+    to_other = np.where(i[own] == row, -1, 1)[:, None] * branch[own]
+    assert (j[own] == row).any(), "in one contact at least the grain comes second"
+    for shown, angle in zip(towards, np.degrees(np.arctan2(to_other[:, 1], to_other[:, 0]))):
+        assert abs((float(shown.rstrip("°").replace("−", "-")) - angle + 180) % 360 - 180) < 2, (shown, angle)
     rows = page.run("""return Array.from(document.querySelectorAll('#grain tbody')[1].rows,
                                          (row) => [row.cells[0].textContent, row.cells[1].textContent])""")
     shares = dict(rows)
