@@ -280,6 +280,13 @@ def check_plots(page):
         profile = drawn(page, "profiles", f"#profile-plot .profile.{species}", "pressure.scales")
         expected = np.interp(profile[:, 1], height, column(name))
         assert abs(profile[:, 0] - expected).max() < 0.02 * column(name).max(), species
+    of = lambda name: next(values for own, values in sums.items() if own.startswith(name))
+    with np.errstate(invalid="ignore"):
+        mixed = of("M_yy") / sum(of(f"{name}_yy") for name in ("A_SS", "A_LL", "M", "A_Sb", "A_Lb"))
+    for bottom, shown in zip(column("y0"), column("mixed_share_yy")):
+        own = (of("y0") == bottom) & np.isfinite(mixed)
+        if own.any():
+            close(shown, (of("frames") * mixed)[own].sum() / of("frames")[own].sum(), f"mixed contacts' part of the stress at {bottom}")
     arrays = {name: np.array(values) for name, values in page.run("""const {phi_large, frames, bottom, size_small, size_large} = grseg.page.fits[0].arrays;
       return Object.fromEntries(Object.entries({phi_large, frames, bottom, size_small, size_large}).map(([name, values]) => [name, Array.from(values)]))""").items()}
     dots = drawn(page, "profiles", "#layers-plot circle", "strength.scales")
