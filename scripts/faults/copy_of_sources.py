@@ -21,7 +21,7 @@ def run_quietly(command, **options):
 def without_joined_libraries(text):
     """CMakeLists.txt that compiles each file of the libraries alone, so that a fault costs one file, not a
     room; tests stay joined."""
-    return re.sub(r"\ngrseg_join_sources\(grseg_(analysis|simulator|explore)\)", "", text)
+    return re.sub(r"\n *grseg_join_sources\(grseg_(analysis|simulator|explore)\)", "", text)
 
 
 def mirror(source, copy, change=lambda text: text):
