@@ -179,7 +179,7 @@ TEST(PictureFile, ThePixelsAreThoseThatWerePainted)
 TEST(PictureFile, HistoriesAreEscapedInXml)
 {
   const auto svg = picture_bytes(PictureKind::svg, {10, 10}, 1, "a < b & \"c\" -->", [](auto*) {});
-  EXPECT_NE(svg.find("<desc>a &lt; b &amp; \"c\" --&gt;</desc>"), std::string::npos);
+  EXPECT_NE(svg.find("<desc>a &lt; b &amp; &quot;c&quot; --&gt;</desc>"), std::string::npos);
 }
 
 }  // namespace
