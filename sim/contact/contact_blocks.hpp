@@ -11,24 +11,30 @@
 
 namespace grseg {
 
-/// As many contacts as the widest vector has doubles. The number is the same on every instruction
+/// As many contacts as the widest vector has numbers. The number is the same on every instruction
 /// set, so that sums over lanes are too; narrower vectors take a block in parts.
-constexpr std::uint32_t block_lanes = 8;
+template <class Real>
+constexpr std::uint32_t lanes_of = 64 / sizeof(Real);
+constexpr std::uint32_t block_lanes = lanes_of<double>;
 
-/// Eight contacts of one colour, lane by lane: no mobile body appears in two of them, so they may
-/// be relaxed at the same time. Members as in Contact.
-struct alignas(64) ContactBlock {
-  using Lanes = std::array<double, block_lanes>;
+/// Contacts of one colour, lane by lane, eight in double and sixteen in single precision: no mobile
+/// body appears in two of them, so they may be relaxed at the same time. Members as in Contact.
+template <class Real>
+struct alignas(64) BlockOf {
+  using Lanes = std::array<Real, lanes_of<Real>>;
   Lanes nx, ny, kappa, mass_n, mass_t, rebound, impulse_n, impulse_t;
-  /// Where the bodies' entries begin, counted in doubles from the first Motion.
-  std::array<std::uint32_t, block_lanes> i, j;
+  /// Where the bodies' entries begin, counted in numbers from the first MotionOf<Real>.
+  std::array<std::uint32_t, lanes_of<Real>> i, j;
 };
+using ContactBlock = BlockOf<double>;
 
 /// Blocks in the order in which they are relaxed, parted into runs: no two blocks of a run share a
 /// mobile body, so no block has to wait for what another one writes.
-struct BlockRuns {
-  std::span<ContactBlock> blocks;
+template <class Real>
+struct RunsOf {
+  std::span<BlockOf<Real>> blocks;
   std::span<const std::uint32_t> ends;  // of the runs, in blocks
 };
+using BlockRuns = RunsOf<double>;
 
 }  // namespace grseg

@@ -81,8 +81,9 @@ HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector impulse_n, 
 }
 
 /// Adds the impulse (px, py) to a and takes it from b; `spin` is taken from both.
-template <Effects with>
-HWY_INLINE void push(Bodies& a, Bodies& b, Vector px, Vector py, Vector spin)
+template <Effects with, class Tag>
+HWY_INLINE void push(Bodies<Tag>& a, Bodies<Tag>& b, hn::Vec<Tag> px, hn::Vec<Tag> py,
+                     hn::Vec<Tag> spin)
 {
   if constexpr (with.friction && with.rotation) {
     a.rim_speed = hn::Sub(a.rim_speed, hn::Mul(a.inverse_mass, spin));
@@ -96,11 +97,11 @@ HWY_INLINE void push(Bodies& a, Bodies& b, Vector px, Vector py, Vector spin)
 
 /// Relaxes the lanes of a block that begin at `lane`, whose bodies are a and b.
 /// `results.add(lane, change, level)` is given the changes, m/s, and W times the impulses, m/s.
-template <Effects with, class Results>
-HWY_INLINE void relax(ContactBlock& c, std::size_t lane, Bodies& a, Bodies& b, Vector friction,
-                      Results& results)
+template <Effects with, class Real, class Tag = TagOf<Real>, class Results>
+HWY_INLINE void relax(BlockOf<Real>& c, std::size_t lane, Bodies<Tag>& a, Bodies<Tag>& b,
+                      hn::Vec<Tag> friction, Results& results)
 {
-  const D d;
+  const Tag d;
   const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
   const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
   const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
@@ -119,10 +120,10 @@ HWY_INLINE void relax(ContactBlock& c, std::size_t lane, Bodies& a, Bodies& b, V
     auto sliding = hn::Sub(hn::Mul(dvy, nx), hn::Mul(dvx, ny));
     auto w_tt = w_nn;
     const auto kappa = hn::Load(d, &c.kappa[lane]);
-    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), kappa);
+    const auto lever = hn::Mul(hn::Set(d, Real{disc_rim_factor}), kappa);
     if constexpr (with.rotation) {
       sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
-      w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, 1.0), hn::Mul(lever, kappa)));
+      w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, Real{1}), hn::Mul(lever, kappa)));
     }
     const auto limit = hn::Mul(friction, impulse_n);
     const auto before_t = hn::Load(d, &c.impulse_t[lane]);

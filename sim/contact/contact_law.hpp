@@ -82,28 +82,32 @@ inline LawParameters law_parameters(ContactLaw law, double horizon, double step,
   return {};
 }
 
-/// What a contact needs to know of a grain, 32 bytes. With the rim speed r*omega in place of the
-/// angular velocity the moment of inertia of a disc, m r^2/2, leaves the equations. Aligned, so
-/// that one load fetches it.
-struct alignas(32) Motion {
-  double vx = 0, vy = 0;    // m/s
-  double rim_speed = 0;     // m/s, radius times angular velocity (counter-clockwise)
-  double inverse_mass = 0;  // 1/kg; 0 for grains and walls that contacts cannot move
+/// What a contact needs to know of a grain. With the rim speed r*omega in place of the angular
+/// velocity the moment of inertia of a disc, m r^2/2, leaves the equations. Aligned, so that one
+/// load fetches it.
+template <class Real>
+struct alignas(4 * sizeof(Real)) MotionOf {
+  Real vx = 0, vy = 0;    // m/s
+  Real rim_speed = 0;     // m/s, radius times angular velocity (counter-clockwise)
+  Real inverse_mass = 0;  // 1/kg; 0 for grains and walls that contacts cannot move
 };
+using Motion = MotionOf<double>;
 
 /// A pair that acts, seen from the middle of the step. The normal n points from j to i, the
 /// tangent is t = (-ny, nx). Impulses are those ON i, in kg m/s, over the whole step.
 ///
 /// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j), so that they add up
 /// to the distance of the centres and angular momentum is conserved whatever the gap.
-struct Contact {
-  double nx, ny;
-  double kappa;                 // 1 at a straight wall
-  double mass_n, mass_t;        // kg, effective masses 1/W_nn and 1/W_tt
-  double rebound;               // m/s, least separation velocity after the step
-  double impulse_n, impulse_t;  // kg m/s
-  std::int32_t i, j;            // entries of the Motion array
+template <class Real>
+struct ContactOf {
+  Real nx, ny;
+  Real kappa;                 // 1 at a straight wall
+  Real mass_n, mass_t;        // kg, effective masses 1/W_nn and 1/W_tt
+  Real rebound;               // m/s, least separation velocity after the step
+  Real impulse_n, impulse_t;  // kg m/s
+  std::int32_t i, j;          // entries of the Motion array
 };
+using Contact = ContactOf<double>;
 
 /// What the contacts of a scene do. An effect left out gives the same bits as its neutral
 /// coefficient: friction 0, restitution 0, and for rotation rim speeds that stay 0.
@@ -119,9 +123,11 @@ struct Material {
 };
 
 /// Changes of one relaxation, as the relative velocities they stand for (m/s): W times the impulse.
-struct Change {
-  double normal, tangential;
+template <class Real>
+struct ChangeOf {
+  Real normal, tangential;
 };
+using Change = ChangeOf<double>;
 
 /// m r^2/I of a disc: a tangential impulse p_t changes rim speeds by -2 kappa p_t/m.
 constexpr double disc_rim_factor = 2;
@@ -193,35 +199,35 @@ inline Rebound rebound_of(double gap, double separation, double impulse_n, doubl
 ///
 /// Limits are written as max and min in the order of their arguments that also gives zeros the sign
 /// which vector instructions give.
-template <Effects with>
-inline Change relax(Contact& c, Motion& a, Motion& b, double friction)
+template <Effects with, class Real>
+inline ChangeOf<Real> relax(ContactOf<Real>& c, MotionOf<Real>& a, MotionOf<Real>& b, Real friction)
 {
-  const double w_nn = a.inverse_mass + b.inverse_mass;
-  const double dvx = a.vx - b.vx, dvy = a.vy - b.vy;
-  const double separation = dvx * c.nx + dvy * c.ny;
-  const double excess = with.restitution ? separation - c.rebound : separation;
-  const double before_n = c.impulse_n;
-  c.impulse_n = std::max(0.0, before_n - c.mass_n * excess);
-  const double change_n = c.impulse_n - before_n;
-  double px = change_n * c.nx, py = change_n * c.ny;
+  const Real w_nn = a.inverse_mass + b.inverse_mass;
+  const Real dvx = a.vx - b.vx, dvy = a.vy - b.vy;
+  const Real separation = dvx * c.nx + dvy * c.ny;
+  const Real excess = with.restitution ? separation - c.rebound : separation;
+  const Real before_n = c.impulse_n;
+  c.impulse_n = std::max(Real{0}, before_n - c.mass_n * excess);
+  const Real change_n = c.impulse_n - before_n;
+  Real px = change_n * c.nx, py = change_n * c.ny;
 
-  Change change{std::abs(change_n) * w_nn, 0};
+  ChangeOf<Real> change{std::abs(change_n) * w_nn, 0};
   if constexpr (with.friction) {
-    const double lever = disc_rim_factor * c.kappa;
-    double sliding = dvy * c.nx - dvx * c.ny;
+    const Real lever = Real{disc_rim_factor} * c.kappa;
+    Real sliding = dvy * c.nx - dvx * c.ny;
     if constexpr (with.rotation) sliding -= c.kappa * (a.rim_speed + b.rim_speed);
-    const double limit = friction * c.impulse_n;
-    const double before_t = c.impulse_t;
+    const Real limit = friction * c.impulse_n;
+    const Real before_t = c.impulse_t;
     c.impulse_t = std::min(limit, std::max(-limit, before_t - c.mass_t * sliding));
-    const double change_t = c.impulse_t - before_t;
+    const Real change_t = c.impulse_t - before_t;
     px -= change_t * c.ny;
     py += change_t * c.nx;
     if constexpr (with.rotation) {
-      const double spin = lever * change_t;
+      const Real spin = lever * change_t;
       a.rim_speed -= a.inverse_mass * spin;
       b.rim_speed -= b.inverse_mass * spin;
     }
-    const double w_tt = with.rotation ? w_nn * (1 + lever * c.kappa) : w_nn;
+    const Real w_tt = with.rotation ? w_nn * (1 + lever * c.kappa) : w_nn;
     change.tangential = std::abs(change_t) * w_tt;
   }
   a.vx += a.inverse_mass * px;

@@ -20,32 +20,38 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<double, block_lanes>;
+template <class Real>
+using TagOf = hn::CappedTag<Real, lanes_of<Real>>;
+using D = TagOf<double>;
 using Vector = hn::Vec<D>;
 using Lanes = ContactBlock::Lanes;
 
-/// All bodies as one array of doubles.
-HWY_INLINE double* members(Motion* motion)
+/// All bodies as one array of numbers.
+template <class Real>
+HWY_INLINE Real* members(MotionOf<Real>* motion)
 {
-  return reinterpret_cast<double*>(motion);
+  return reinterpret_cast<Real*>(motion);
 }
 
-/// Entries of Motion, one member per vector.
+/// Entries of MotionOf, one member per vector.
+template <class Tag>
 struct Bodies {
-  Vector vx, vy, rim_speed, inverse_mass;
+  hn::Vec<Tag> vx, vy, rim_speed, inverse_mass;
 };
 
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE Bodies load_bodies(D d, const double* motion, const std::uint32_t* at)
+template <class Tag, class Real>
+HWY_INLINE Bodies<Tag> load_bodies(Tag d, const Real* motion, const std::uint32_t* at)
 {
-  const double* body = motion + *at;
+  const Real* body = motion + *at;
   return {hn::Load(d, body), hn::Load(d, body + 1), hn::Load(d, body + 2), hn::Load(d, body + 3)};
 }
 
-HWY_INLINE void store_bodies(D d, const Bodies& b, double* motion, const std::uint32_t* at)
+template <class Tag, class Real>
+HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, Real* motion, const std::uint32_t* at)
 {
-  double* body = motion + *at;
+  Real* body = motion + *at;
   hn::Store(b.vx, d, body);
   hn::Store(b.vy, d, body + 1);
   hn::Store(b.rim_speed, d, body + 2);
@@ -56,7 +62,7 @@ HWY_INLINE void store_bodies(D d, const Bodies& b, double* motion, const std::ui
 /// Whole bodies are loaded and their members sorted into vectors, since that takes fewer operations
 /// than gathering member by member.
 template <class Tag>
-HWY_INLINE Bodies load_bodies(Tag d, const double* motion, const std::uint32_t* at)
+HWY_INLINE Bodies<Tag> load_bodies(Tag d, const double* motion, const std::uint32_t* at)
 {
   if constexpr (hn::MaxLanes(d) == 8) {
     const hn::Half<Tag> h;
@@ -85,7 +91,7 @@ HWY_INLINE Bodies load_bodies(Tag d, const double* motion, const std::uint32_t* 
 
 /// The way back. Two lanes with the same immobile body write the same.
 template <class Tag>
-HWY_INLINE void store_bodies(Tag d, const Bodies& b, double* motion, const std::uint32_t* at)
+HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const std::uint32_t* at)
 {
   const auto v_low = hn::InterleaveLower(d, b.vx, b.vy);
   const auto v_high = hn::InterleaveUpper(d, b.vx, b.vy);
@@ -116,6 +122,70 @@ HWY_INLINE void store_bodies(Tag d, const Bodies& b, double* motion, const std::
     hn::Store(v_high, d, motion + at[1]);
     hn::Store(s_high, d, motion + at[1] + 2);
   }
+}
+
+/// Exchanges rows and columns of the squares of four by four that blocks of 128 bits make up.
+template <class Tag>
+HWY_INLINE Bodies<Tag> transpose(Tag d, hn::Vec<Tag> r0, hn::Vec<Tag> r1, hn::Vec<Tag> r2,
+                                 hn::Vec<Tag> r3)
+{
+  const hn::Repartition<double, Tag> twos;
+  const auto low01 = hn::BitCast(twos, hn::InterleaveLower(d, r0, r1));
+  const auto low23 = hn::BitCast(twos, hn::InterleaveLower(d, r2, r3));
+  const auto high01 = hn::BitCast(twos, hn::InterleaveUpper(d, r0, r1));
+  const auto high23 = hn::BitCast(twos, hn::InterleaveUpper(d, r2, r3));
+  return {hn::BitCast(d, hn::InterleaveLower(twos, low01, low23)),
+          hn::BitCast(d, hn::InterleaveUpper(twos, low01, low23)),
+          hn::BitCast(d, hn::InterleaveLower(twos, high01, high23)),
+          hn::BitCast(d, hn::InterleaveUpper(twos, high01, high23))};
+}
+
+using FourFloats = hn::FixedTag<float, 4>;
+
+template <class Tag>
+HWY_INLINE Bodies<Tag> load_bodies(Tag d, const float* motion, const std::uint32_t* at)
+{
+  const auto body = [&](int k) HWY_ATTR { return hn::Load(FourFloats(), motion + at[k]); };
+  const auto row = [&](int k) HWY_ATTR {
+    if constexpr (hn::MaxLanes(d) == 4) {
+      return body(k);
+    } else if constexpr (hn::MaxLanes(d) == 8) {
+      return hn::Combine(d, body(k + 4), body(k));
+    } else {
+      static_assert(hn::MaxLanes(d) == 16);
+      const hn::Half<Tag> h;
+      return hn::Combine(d, hn::Combine(h, body(k + 12), body(k + 8)),
+                         hn::Combine(h, body(k + 4), body(k)));
+    }
+  };
+  return transpose(d, row(0), row(1), row(2), row(3));
+}
+
+template <class Tag>
+HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, float* motion, const std::uint32_t* at)
+{
+  const auto rows = transpose(d, b.vx, b.vy, b.rim_speed, b.inverse_mass);
+  const auto store = [&](auto part, int k)
+                         HWY_ATTR { hn::Store(part, FourFloats(), motion + at[k]); };
+  const auto store_row = [&](hn::Vec<Tag> row, int k) HWY_ATTR {
+    if constexpr (hn::MaxLanes(d) == 4) {
+      store(row, k);
+    } else if constexpr (hn::MaxLanes(d) == 8) {
+      store(hn::LowerHalf(FourFloats(), row), k);
+      store(hn::UpperHalf(FourFloats(), row), k + 4);
+    } else {
+      const hn::Half<Tag> h;
+      const auto low = hn::LowerHalf(h, row), high = hn::UpperHalf(h, row);
+      store(hn::LowerHalf(FourFloats(), low), k);
+      store(hn::UpperHalf(FourFloats(), low), k + 4);
+      store(hn::LowerHalf(FourFloats(), high), k + 8);
+      store(hn::UpperHalf(FourFloats(), high), k + 12);
+    }
+  };
+  store_row(rows.vx, 0);
+  store_row(rows.vy, 1);
+  store_row(rows.rim_speed, 2);
+  store_row(rows.inverse_mass, 3);
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR
@@ -279,6 +349,13 @@ HWY_INLINE double sum(const Lanes& s)
 {
   static_assert(block_lanes == 8);
   return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}
+HWY_INLINE double sum(const BlockOf<float>::Lanes& s)
+{
+  Lanes pairs;
+  for (std::size_t k = 0; k < block_lanes; ++k)
+    pairs[k] = double{s[k]} + double{s[k + block_lanes]};
+  return sum(pairs);
 }
 
 /// Clears the upper halves of vector registers, which would slow down all code outside that uses

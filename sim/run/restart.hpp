@@ -21,7 +21,7 @@ constexpr double largest_perturbation = 0.01;  // overlap is not pushed out agai
 /// The scene of `checkpoint`, read from the file `name`.
 Scene scene_of(const Checkpoint& checkpoint, const std::string& name);
 /// The same where `given`, the command line, does not say otherwise. An accuracy that is given sets
-/// step, tolerance, min-sweeps and max-sweeps again.
+/// the keys that follow from it again.
 Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
                const boost::program_options::variables_map& given);
 

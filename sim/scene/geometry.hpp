@@ -63,6 +63,8 @@ class Geometry {
   /// Whether `release` neither adds nor removes grains, so that frames before and after t = 0 can
   /// be in one file.
   virtual bool keeps_grains() const { return true; }
+  /// Whether one of `bodies` moves freely.
+  virtual bool has_free_body() const { return false; }
   /// Boundary grains that move from t = 0 on; they are the last rows of `grains`.
   virtual std::vector<BoundaryBody> bodies(const Scene& scene, const Grains& grains) const;
   /// From t = 0 on.

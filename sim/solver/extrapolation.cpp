@@ -22,9 +22,10 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// now += factor (now - before), and before = what now was.
-HWY_INLINE void extrapolate_numbers(double* now, double* before, std::size_t count, double factor)
+template <class Real>
+HWY_INLINE void extrapolate_numbers(Real* now, Real* before, std::size_t count, Real factor)
 {
-  const D d;
+  const TagOf<Real> d;
   const auto f = hn::Set(d, factor);
   std::size_t k = 0;
   for (; k + hn::MaxLanes(d) <= count; k += hn::MaxLanes(d)) {
@@ -34,26 +35,47 @@ HWY_INLINE void extrapolate_numbers(double* now, double* before, std::size_t cou
     hn::StoreU(hn::Add(n, hn::Mul(f, way)), d, now + k);
   }
   for (; k < count; ++k) {
-    const double n = now[k];
+    const Real n = now[k];
     now[k] = n + factor * (n - before[k]);
     before[k] = n;
   }
 }
 
-void extrapolate_motion(Motion* now, Motion* before, std::size_t count, double factor)
+template <class Real>
+HWY_INLINE void extrapolate_blocks(std::span<BlockOf<Real>> now, Real* before, Real factor)
+{
+  static_assert(offsetof(BlockOf<Real>, impulse_t) ==
+                offsetof(BlockOf<Real>, impulse_n) + sizeof(typename BlockOf<Real>::Lanes));
+  constexpr std::size_t per_block = std::size_t{2} * lanes_of<Real>;
+  for (std::size_t b = 0; b < now.size(); ++b)
+    extrapolate_numbers(now[b].impulse_n.data(), before + per_block * b, per_block, factor);
+  leave_vectors();
+}
+
+template <class Real>
+HWY_INLINE void extrapolate_bodies(MotionOf<Real>* now, MotionOf<Real>* before, std::size_t count,
+                                   Real factor)
 {
   extrapolate_numbers(&now->vx, &before->vx, 4 * count, factor);
   leave_vectors();
 }
 
-void extrapolate_impulses(std::span<ContactBlock> now, double* before, double factor)
+// Dispatch takes no templates.
+void blocks_double(std::span<ContactBlock> now, double* before, double factor)
 {
-  static_assert(offsetof(ContactBlock, impulse_t) ==
-                offsetof(ContactBlock, impulse_n) + sizeof(ContactBlock::Lanes));
-  constexpr std::size_t per_block = std::size_t{2} * block_lanes;
-  for (std::size_t b = 0; b < now.size(); ++b)
-    extrapolate_numbers(now[b].impulse_n.data(), before + per_block * b, per_block, factor);
-  leave_vectors();
+  extrapolate_blocks(now, before, factor);
+}
+void blocks_single(std::span<BlockOf<float>> now, float* before, float factor)
+{
+  extrapolate_blocks(now, before, factor);
+}
+void bodies_double(Motion* now, Motion* before, std::size_t count, double factor)
+{
+  extrapolate_bodies(now, before, count, factor);
+}
+void bodies_single(MotionOf<float>* now, MotionOf<float>* before, std::size_t count, float factor)
+{
+  extrapolate_bodies(now, before, count, factor);
 }
 
 }  // namespace
@@ -65,19 +87,41 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(extrapolate_motion);
-HWY_EXPORT(extrapolate_impulses);
+HWY_EXPORT(blocks_double);
+HWY_EXPORT(blocks_single);
+HWY_EXPORT(bodies_double);
+HWY_EXPORT(bodies_single);
+
+void extrapolate_impulses(std::span<ContactBlock> now, double* before, double factor)
+{
+  HWY_DYNAMIC_DISPATCH(blocks_double)(now, before, factor);
+}
+void extrapolate_impulses(std::span<BlockOf<float>> now, float* before, float factor)
+{
+  HWY_DYNAMIC_DISPATCH(blocks_single)(now, before, factor);
+}
+void extrapolate_motion(Motion* now, Motion* before, std::size_t count, double factor)
+{
+  HWY_DYNAMIC_DISPATCH(bodies_double)(now, before, count, factor);
+}
+void extrapolate_motion(MotionOf<float>* now, MotionOf<float>* before, std::size_t count,
+                        float factor)
+{
+  HWY_DYNAMIC_DISPATCH(bodies_single)(now, before, count, factor);
+}
 
 }  // namespace
 
-void Extrapolation::begin()
+template <class Real>
+void ExtrapolationOf<Real>::begin()
 {
   weight_ = 1;
   last_change_ = std::numeric_limits<double>::infinity();
 }
 
-void Extrapolation::remember(std::span<const BlockRuns> strips, std::span<const Motion> motion,
-                             int threads)
+template <class Real>
+void ExtrapolationOf<Real>::remember(std::span<const RunsOf<Real>> strips,
+                                     std::span<const MotionOf<Real>> motion, int threads)
 {
   impulses_.resize(strips.size());
   for_each_part(threads, strips.size(), [&](std::size_t s) {
@@ -89,23 +133,28 @@ void Extrapolation::remember(std::span<const BlockRuns> strips, std::span<const 
   motion_.assign(motion.begin(), motion.end());
 }
 
-void Extrapolation::extrapolate(std::span<const BlockRuns> strips, std::span<Motion> motion,
-                                double change, int threads)
+template <class Real>
+void ExtrapolationOf<Real>::extrapolate(std::span<const RunsOf<Real>> strips,
+                                        std::span<MotionOf<Real>> motion, double change,
+                                        int threads)
 {
   if (change > last_change_) weight_ = 1;
   last_change_ = change;
   const double next = (1 + std::sqrt(1 + 4 * weight_ * weight_)) / 2;
-  const double factor = (weight_ - 1) / next;
+  const auto factor = static_cast<Real>((weight_ - 1) / next);
   weight_ = next;
   if (factor == 0) return remember(strips, motion, threads);
   for_each_part(threads, strips.size(), [&](std::size_t s) {
-    if (!strips[s].blocks.empty()) HWY_DYNAMIC_DISPATCH(extrapolate_impulses)
-    (strips[s].blocks, impulses_[s][0].n.data(), factor);
+    if (!strips[s].blocks.empty())
+      extrapolate_impulses(strips[s].blocks, impulses_[s][0].n.data(), factor);
   });
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
-    HWY_DYNAMIC_DISPATCH(extrapolate_motion)(&motion[begin], &motion_[begin], end - begin, factor);
+    extrapolate_motion(&motion[begin], &motion_[begin], end - begin, factor);
   });
 }
+
+template class ExtrapolationOf<double>;
+template class ExtrapolationOf<float>;
 
 }  // namespace grseg
 #endif  // HWY_ONCE

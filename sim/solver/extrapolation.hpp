@@ -15,22 +15,26 @@ namespace grseg {
 /// a sweep makes grow, w starts again from 1 (Nesterov 1983; restart by O'Donoghue & Candes, Found.
 /// Comput. Math. 15, 2015). Velocities are linear in impulses, so both are extrapolated alike; the
 /// state in between need not obey Signorini and Coulomb, as the next sweep projects it back.
-class Extrapolation {
+///
+/// Real is double or float.
+template <class Real>
+class ExtrapolationOf {
  public:
   /// To be called before the first sweep,
   void begin();
   /// and after every sweep; `change` is the sum of the squared changes that it made.
-  void extrapolate(std::span<const BlockRuns> strips, std::span<Motion> motion, double change,
-                   int threads);
+  void extrapolate(std::span<const RunsOf<Real>> strips, std::span<MotionOf<Real>> motion,
+                   double change, int threads);
 
  private:
-  void remember(std::span<const BlockRuns> strips, std::span<const Motion> motion, int threads);
+  void remember(std::span<const RunsOf<Real>> strips, std::span<const MotionOf<Real>> motion,
+                int threads);
 
   struct alignas(64) Impulses {
-    ContactBlock::Lanes n, t;
+    typename BlockOf<Real>::Lanes n, t;
   };
   std::vector<std::vector<Impulses>> impulses_;  // after the sweep before, strip by strip
-  std::vector<Motion> motion_;
+  std::vector<MotionOf<Real>> motion_;
   double weight_ = 1, last_change_ = 0;
 };
 

@@ -4,12 +4,19 @@
 #include "sim/contact/contact_blocks.hpp"
 #include "sim/solver/boundary_body.hpp"
 #include "sim/solver/extrapolation.hpp"
+#include "sim/solver/single_contacts.hpp"
 #include "sim/solver/sweep.hpp"
 
 #include <span>
 #include <vector>
 
 namespace grseg {
+
+/// In what precision sweeps relax contacts. Under `mixed` it is single precision: the impulses that
+/// they find are exact to about 1e-6 of the velocities, whatever the tolerance. All else is done
+/// in double precision, the step's velocities too, which are made from those impulses: momentum and
+/// angular momentum balance to round-off.
+enum class Precision { mixed, doubles };
 
 struct SolverSettings {
   double tolerance = 1e-2;  ///< on SolverReport::residual
@@ -19,6 +26,14 @@ struct SolverSettings {
   /// grain only, so while a bed still has to find its weight small changes do not mean small
   /// errors: a bed at rest trembles if every step stops at the first or second sweep.
   int min_sweeps = 1;
+  Precision precision = Precision::doubles;
+};
+
+/// What the solver works on, kept by the caller from step to step to reuse its memory.
+struct SolverMemory {
+  ExtrapolationOf<double> doubles;
+  ExtrapolationOf<float> singles;
+  SingleContacts contacts;
 };
 
 /// How a step's solve went. Not converging is a result: it is stored and reported, not thrown.
@@ -38,10 +53,11 @@ struct SolverReport {
 /// velocity are convergence, too: without gravity loads fade, and no number of sweeps makes changes
 /// small against them.
 ///
-/// With `acceleration` sweeps are extrapolated (Extrapolation, kept by the caller to reuse its
-/// memory).
+/// With `acceleration` sweeps are extrapolated (ExtrapolationOf). Free bodies are solved in double
+/// precision, whatever the setting.
 ///
-/// Impulses in the blocks are the first guess; they are applied to `motion` here. Contacts come in
+/// Impulses in the blocks are the first guess; they are applied to `motion` here, whose last entry
+/// is the body that never moves. Contacts come in
 /// strips and are swept run after run: those of even strips at a time, then those of odd ones.
 /// Strips that are not neighbours share no mobile body; sums are added strip by strip. Of
 /// several strips each is swept twice before the next, and counts as swept twice. When
@@ -49,8 +65,7 @@ struct SolverReport {
 /// neighbours are swept further, without extrapolation; with free bodies all are.
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
-                            const SolverSettings& settings, double floor,
-                            Extrapolation& extrapolation, int threads = 1,
-                            FreeBodies* free = nullptr);
+                            const SolverSettings& settings, double floor, SolverMemory& memory,
+                            int threads = 1, FreeBodies* free = nullptr);
 
 }  // namespace grseg

@@ -23,12 +23,13 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// SweepResult, lane by lane.
+template <class Real>
 struct alignas(64) LaneResults {
-  Lanes largest{}, squares{}, reference{};
+  typename BlockOf<Real>::Lanes largest{}, squares{}, reference{};
 
-  HWY_INLINE void add(std::size_t lane, Vector change, Vector level)
+  HWY_INLINE void add(std::size_t lane, hn::Vec<TagOf<Real>> change, hn::Vec<TagOf<Real>> level)
   {
-    const D d;
+    const TagOf<Real> d;
     hn::Store(hn::Max(hn::Load(d, &largest[lane]), change), d, &largest[lane]);
     hn::Store(hn::Add(hn::Load(d, &squares[lane]), hn::Mul(change, change)), d, &squares[lane]);
     hn::Store(hn::Add(hn::Load(d, &reference[lane]), hn::Mul(level, level)), d, &reference[lane]);
@@ -42,15 +43,15 @@ struct alignas(64) LaneResults {
 /// Relaxes blocks that share no mobile body. The bodies of the next contacts are loaded before the
 /// present ones are relaxed: a relaxation is one long chain of operations, and the processor does
 /// not look far enough ahead to fill its pauses with the next one by itself.
-template <Effects with>
-HWY_INLINE void sweep_run(ContactBlock* block, const ContactBlock* end, double* motion,
-                          Vector friction, LaneResults& results)
+template <Effects with, class Real>
+HWY_INLINE void sweep_run(BlockOf<Real>* block, const BlockOf<Real>* end, Real* motion,
+                          hn::Vec<TagOf<Real>> friction, LaneResults<Real>& results)
 {
-  const D d;
+  const TagOf<Real> d;
   auto a = load_bodies(d, motion, &block->i[0]), b = load_bodies(d, motion, &block->j[0]);
   for (; block != end; ++block) {
-    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-      const bool same = lane + hn::MaxLanes(d) < block_lanes;
+    for (std::size_t lane = 0; lane < lanes_of<Real>; lane += hn::MaxLanes(d)) {
+      const bool same = lane + hn::MaxLanes(d) < lanes_of<Real>;
       const auto* next = same || block + 1 == end ? block : block + 1;
       const std::size_t next_lane = same ? lane + hn::MaxLanes(d) : 0;
       const auto next_a = load_bodies(d, motion, &next->i[next_lane]);
@@ -64,12 +65,11 @@ HWY_INLINE void sweep_run(ContactBlock* block, const ContactBlock* end, double* 
   }
 }
 
-template <Effects with>
-SweepResult sweep(const BlockRuns& contacts, Motion* motion, double friction)
+template <Effects with, class Real>
+SweepResult sweep(const RunsOf<Real>& contacts, MotionOf<Real>* motion, Real friction)
 {
-  const D d;
-  LaneResults results;
-  const auto coefficient = hn::Set(d, friction);
+  LaneResults<Real> results;
+  const auto coefficient = hn::Set(TagOf<Real>(), friction);
   auto* blocks = contacts.blocks.data();
   std::uint32_t begin = 0;
   for (const auto end : contacts.ends) {
@@ -81,12 +81,12 @@ SweepResult sweep(const BlockRuns& contacts, Motion* motion, double friction)
   return total;
 }
 
-template <Effects with>
-void apply(std::span<const ContactBlock> blocks, Motion* motion)
+template <Effects with, class Real>
+void apply(std::span<const BlockOf<Real>> blocks, MotionOf<Real>* motion)
 {
-  const D d;
+  const TagOf<Real> d;
   for (const auto& c : blocks) {
-    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+    for (std::size_t lane = 0; lane < lanes_of<Real>; lane += hn::MaxLanes(d)) {
       auto a = load_bodies(d, members(motion), &c.i[lane]),
            b = load_bodies(d, members(motion), &c.j[lane]);
       const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
@@ -96,7 +96,7 @@ void apply(std::span<const ContactBlock> blocks, Motion* motion)
         const auto tangential = hn::Load(d, &c.impulse_t[lane]);
         px = hn::Sub(px, hn::Mul(tangential, ny));
         py = hn::Add(py, hn::Mul(tangential, nx));
-        const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), hn::Load(d, &c.kappa[lane]));
+        const auto lever = hn::Mul(hn::Set(d, Real{disc_rim_factor}), hn::Load(d, &c.kappa[lane]));
         spin = hn::Mul(lever, tangential);
       }
       push<with>(a, b, px, py, spin);
@@ -108,18 +108,28 @@ void apply(std::span<const ContactBlock> blocks, Motion* motion)
 }
 
 /// The only place where a scene's effects become a compile-time choice.
-Sweep sweep_for(Effects e)
+template <class Real>
+SweepOf<Real> sweep_for(Effects e)
 {
   // [friction][rotation][restitution]
-  static constexpr Sweep table[2][2][2] = {
-      {{sweep<Effects{false, false, false}>, sweep<Effects{false, false, true}>},
-       {sweep<Effects{false, true, false}>, sweep<Effects{false, true, true}>}},
-      {{sweep<Effects{true, false, false}>, sweep<Effects{true, false, true}>},
-       {sweep<Effects{true, true, false}>, sweep<Effects{true, true, true}>}}};
+  static constexpr SweepOf<Real> table[2][2][2] = {
+      {{sweep<Effects{false, false, false}, Real>, sweep<Effects{false, false, true}, Real>},
+       {sweep<Effects{false, true, false}, Real>, sweep<Effects{false, true, true}, Real>}},
+      {{sweep<Effects{true, false, false}, Real>, sweep<Effects{true, false, true}, Real>},
+       {sweep<Effects{true, true, false}, Real>, sweep<Effects{true, true, true}, Real>}}};
   return table[e.friction][e.rotation][e.restitution];
 }
+SweepOf<double> double_sweep_for(Effects e)
+{
+  return sweep_for<double>(e);
+}
+SweepOf<float> single_sweep_for(Effects e)
+{
+  return sweep_for<float>(e);
+}
 
-void apply_for(std::span<const ContactBlock> blocks, Motion* motion, Effects e)
+template <class Real>
+void apply_for(std::span<const BlockOf<Real>> blocks, MotionOf<Real>* motion, Effects e)
 {
   if (!e.friction)
     apply<Effects{false, false, false}>(blocks, motion);
@@ -127,6 +137,14 @@ void apply_for(std::span<const ContactBlock> blocks, Motion* motion, Effects e)
     apply<Effects{true, false, false}>(blocks, motion);
   else
     apply<Effects{true, true, false}>(blocks, motion);
+}
+void apply_double(std::span<const BlockOf<double>> blocks, MotionOf<double>* motion, Effects e)
+{
+  apply_for(blocks, motion, e);
+}
+void apply_single(std::span<const BlockOf<float>> blocks, MotionOf<float>* motion, Effects e)
+{
+  apply_for(blocks, motion, e);
 }
 
 std::int64_t target()
@@ -143,8 +161,10 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(sweep_for);
-HWY_EXPORT(apply_for);
+HWY_EXPORT(double_sweep_for);
+HWY_EXPORT(single_sweep_for);
+HWY_EXPORT(apply_double);
+HWY_EXPORT(apply_single);
 HWY_EXPORT(target);
 
 std::string name_of(std::int64_t target)
@@ -166,14 +186,26 @@ std::string name_of(std::int64_t target)
 
 }  // namespace
 
-Sweep choose_sweep(Effects effects)
+template <>
+SweepOf<double> choose_sweep<double>(Effects effects)
 {
-  return HWY_DYNAMIC_DISPATCH(sweep_for)(effects);
+  return HWY_DYNAMIC_DISPATCH(double_sweep_for)(effects);
+}
+template <>
+SweepOf<float> choose_sweep<float>(Effects effects)
+{
+  return HWY_DYNAMIC_DISPATCH(single_sweep_for)(effects);
 }
 
-void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects)
+void apply_impulses(std::span<const BlockOf<double>> blocks, MotionOf<double>* motion,
+                    Effects effects)
 {
-  HWY_DYNAMIC_DISPATCH(apply_for)(blocks, motion, effects);
+  HWY_DYNAMIC_DISPATCH(apply_double)(blocks, motion, effects);
+}
+void apply_impulses(std::span<const BlockOf<float>> blocks, MotionOf<float>* motion,
+                    Effects effects)
+{
+  HWY_DYNAMIC_DISPATCH(apply_single)(blocks, motion, effects);
 }
 
 std::vector<std::string> instruction_sets()

@@ -20,12 +20,17 @@ struct SweepResult {
   double sum_reference = 0;  // (m/s)^2, of W p
 };
 
-/// Relaxes all contacts once, block after block.
-using Sweep = SweepResult (*)(const BlockRuns&, Motion*, double friction);
-Sweep choose_sweep(Effects effects);
+/// Relaxes all contacts once, block after block. Real is double or float.
+template <class Real>
+using SweepOf = SweepResult (*)(const RunsOf<Real>&, MotionOf<Real>*, Real friction);
+template <class Real = double>
+SweepOf<Real> choose_sweep(Effects effects);
 
 /// Applies the impulses of the blocks to the bodies.
-void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects);
+void apply_impulses(std::span<const BlockOf<double>> blocks, MotionOf<double>* motion,
+                    Effects effects);
+void apply_impulses(std::span<const BlockOf<float>> blocks, MotionOf<float>* motion,
+                    Effects effects);
 
 /// Instruction sets that both this build and this machine have, best first: of avx512, avx2, sse4
 /// and scalar.

@@ -112,7 +112,7 @@ void Simulation::solve(StepReport& report)
   report.solver =
       solve_contacts(strips, count, state_.motion, world_.material.friction, effects_,
                      world_.solver, floor_of_reference * world_.gravity.norm() * world_.step,
-                     extrapolation_, threads_, any_free ? &*free : nullptr);
+                     solver_memory_, threads_, any_free ? &*free : nullptr);
 }
 
 void Simulation::renew_pairs()

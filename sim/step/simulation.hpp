@@ -114,7 +114,7 @@ class Simulation {
   std::vector<Vec2> ahead_;             // m, positions after the forecast of the law
   std::vector<Motion> before_;          // by row, at the beginning of a step written to a frame
   std::vector<StripContacts> contacts_;
-  Extrapolation extrapolation_;
+  SolverMemory solver_memory_;
   std::int64_t steps_done_ = 0;
   bool restored_ = false;  // of the step before only the impulses are known, not the contacts
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/contact/contact_blocks.hpp"
+#include "sim/solver/single_contacts.hpp"
 #include "sim/solver/sweep.hpp"
 #include "tests/frozen_problem.hpp"
 #include "tests/sim/contact_list.hpp"
@@ -34,6 +35,36 @@ void sweep(benchmark::State& state, const std::string& instructions, Effects eff
   const auto one_sweep = choose_sweep(effects);
   for (auto _ : state)
     benchmark::DoNotOptimize(one_sweep(packed.runs(), p.motion.data(), p.friction));
+  count_contacts(state, p);
+}
+
+void single_sweep(benchmark::State& state, const std::string& instructions)
+{
+  use_instruction_set(instructions);
+  auto p = problem();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  SingleContacts singles;
+  singles.take(std::array{packed.runs()}, p.motion, 1);
+  const auto one_sweep = choose_sweep<float>({});
+  for (auto _ : state)
+    benchmark::DoNotOptimize(one_sweep(singles.strips()[0], singles.motion().data(),
+                                       static_cast<float>(FrozenProblem::friction)));
+  count_contacts(state, p);
+}
+
+/// From double to single precision and back.
+void take_and_give_back(benchmark::State& state)
+{
+  use_instruction_set("");
+  auto p = problem();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  SingleContacts singles;
+  for (auto _ : state) {
+    singles.take(std::array{packed.runs()}, p.motion, 1);
+    singles.give_back(0, packed.runs(), p.friction);
+  }
   count_contacts(state, p);
 }
 
@@ -75,7 +106,8 @@ void warm_start(benchmark::State& state)
   auto p = problem();
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
-  for (auto _ : state) apply_impulses(packed.blocks(), p.motion.data(), {});
+  for (auto _ : state)
+    apply_impulses(std::span<const ContactBlock>(packed.blocks()), p.motion.data(), {});
   count_contacts(state, p);
 }
 
@@ -83,6 +115,7 @@ BENCHMARK(scalar_relax_in_list_order);
 BENCHMARK(colour_and_pack);
 BENCHMARK(unpack);
 BENCHMARK(warm_start);
+BENCHMARK(take_and_give_back);
 
 void add_sweeps()
 {
@@ -91,6 +124,7 @@ void add_sweeps()
       benchmark::RegisterBenchmark(("sweep/" + name + effects_name).c_str(), sweep, name, effects);
     };
     add("", {});
+    benchmark::RegisterBenchmark(("sweep/" + name + "/single").c_str(), single_sweep, name);
     add("/no_restitution", {.restitution = false});
     add("/no_rotation", {.rotation = false});
     add("/no_friction", {.friction = false});

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "sim/contact/contact_blocks.hpp"
-#include "sim/solver/extrapolation.hpp"
 #include "sim/solver/solver.hpp"
 
 #include <algorithm>
@@ -143,9 +142,9 @@ inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<M
   ContactBlocks packed;
   packed.pack(contacts, motion, bodies);
   const std::array strips{packed.runs()};
-  Extrapolation extrapolation;
-  const auto report = solve_contacts(strips, contacts.size(), motion, friction, effects, settings,
-                                     floor, extrapolation);
+  SolverMemory memory;
+  const auto report =
+      solve_contacts(strips, contacts.size(), motion, friction, effects, settings, floor, memory);
   motion.pop_back();
   packed.unpack(contacts);
   return report;

@@ -68,6 +68,7 @@ class ShearCell : public Geometry {
   }
 
   bool keeps_grains() const override { return false; }
+  bool has_free_body() const override { return true; }
 
   std::vector<BoundaryBody> bodies(const Scene& scene, const Grains& grains) const override
   {

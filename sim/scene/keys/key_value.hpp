@@ -104,8 +104,9 @@ KeyValue flag(Member member)
 template <class T>
 using Words = std::vector<std::pair<std::string, T>>;
 
-template <class T>
-KeyValue choice(T Scene::*member, const Words<T>& words)
+/// `member` of a Scene, or a function of one that gives a reference to it.
+template <class Member, class T>
+KeyValue choice(Member member, const Words<T>& words)
 {
   std::string all;
   for (const auto& [word, meaning] : words) all += (all.empty() ? "" : ", ") + word;
@@ -115,14 +116,14 @@ KeyValue choice(T Scene::*member, const Words<T>& words)
   value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
     for (const auto& [word, meaning] : words)
       if (text == word) {
-        scene.*member = meaning;
+        std::invoke(member, scene) = meaning;
         return;
       }
     throw SceneError(key, fmt::format("unknown {} '{}'; choose one of {}", key, text, all));
   };
   value.text = [=](const Scene& scene) {
     for (const auto& [word, meaning] : words)
-      if (scene.*member == meaning) return word;
+      if (std::invoke(member, scene) == meaning) return word;
     return std::string();
   };
   return value;

@@ -35,6 +35,11 @@ Words<std::string> accuracy_words()
   return words;
 }
 
+Words<Precision> precision_words()
+{
+  return {{"mixed", Precision::mixed}, {"double", Precision::doubles}};
+}
+
 template <class T>
 auto of_solver(T SolverSettings::*member)
 {
@@ -183,7 +188,7 @@ std::vector<SceneKey> run_keys()
     {"threads", "1", whole_number(&Scene::threads, 0, 1024), machine, no,
      "for wide scenes; 0 uses all cores. Results do not depend on it"},
     {"accuracy", "standard", choice(&Scene::accuracy, accuracy_words()), flow, yes,
-     "sets step, tolerance, min-sweeps and max-sweeps where they are not given"},
+     "sets step, tolerance, min-sweeps, max-sweeps and precision where they are not given"},
     {"step", "", number(&Scene::step, 1e-15, 1e12), flow, yes,
      set_by_accuracy("time step, s, at most 0.05 sqrt(d_S/g)")},
     {"tolerance", "", number(of_solver(&SolverSettings::tolerance), 1e-15, 1e3), flow, yes,
@@ -194,6 +199,8 @@ std::vector<SceneKey> run_keys()
                      "rest trembles")},
     {"max-sweeps", "", whole_number(of_solver(&SolverSettings::max_sweeps), 1, most), flow, yes,
      set_by_accuracy("of the solver, per step")},
+    {"precision", "", choice(of_solver(&SolverSettings::precision), precision_words()), flow, yes,
+     set_by_accuracy("of the solver's sweeps: mixed relaxes contacts in single precision")},
     {"acceleration", "on", on_or_off(of_solver(&SolverSettings::acceleration)), flow, yes,
      "whether sweeps are extrapolated (Nesterov)"},
     {"compression", "0", whole_number(&Scene::compression, 0, 9), extent, no,

@@ -80,6 +80,12 @@ void resolve_accuracy(Scene& scene, const KeyGiven& given)
   require(solver.min_sweeps <= solver.max_sweeps, "min-sweeps",
           fmt::format("min-sweeps is {}, above max-sweeps, {}; give both", solver.min_sweeps,
                       solver.max_sweeps));
+  const bool free_body = scene.geometry->has_free_body();
+  if (!given("precision")) solver.precision = free_body ? Precision::doubles : accuracy.precision;
+  require(!free_body || solver.precision == Precision::doubles, "precision",
+          fmt::format("precision is mixed, but a body that moves freely, as in geometry {}, is "
+                      "solved in double precision; leave it out",
+                      scene.geometry->name()));
 }
 
 void check_frames(const Scene& scene)

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/contact/contact_blocks.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace grseg {
+
+/// The contacts of a step in single precision: sweeps relax twice as many at a time, and memory has
+/// half as much to carry. Velocities are in m/s; masses and impulses in units of a power of two near
+/// the mass of a grain, which changes no digit and keeps them away from the ends of the range.
+class SingleContacts {
+ public:
+  /// Takes over contacts with the first guesses of their impulses, and velocities. The last entry of
+  /// `motion` is the body that never moves.
+  void take(std::span<const BlockRuns> strips, std::span<const Motion> motion, int threads);
+
+  std::span<const RunsOf<float>> strips() const { return runs_; }
+  std::span<MotionOf<float>> motion() { return motion_; }
+
+  /// Writes a strip's impulses to the contacts that they were taken from. A tangential impulse that rounding took beyond
+  /// `friction` times the normal one is cut back.
+  void give_back(std::size_t strip, const BlockRuns& contacts, double friction) const;
+
+ private:
+  struct Strip {
+    std::vector<BlockOf<float>> blocks;  // those of `runs_` are in use; never shrinks
+    std::vector<std::uint32_t> ends;     // as in RunsOf
+  };
+  void take_strip(const BlockRuns& contacts, std::uint32_t idle, Strip& strip) const;
+
+  double mass_unit_ = 1;  // kg
+  std::vector<Strip> strips_;
+  std::vector<RunsOf<float>> runs_;
+  std::vector<MotionOf<float>> motion_;
+};
+
+}  // namespace grseg
