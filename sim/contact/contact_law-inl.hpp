@@ -95,8 +95,14 @@ HWY_INLINE void push(Bodies<Tag>& a, Bodies<Tag>& b, hn::Vec<Tag> px, hn::Vec<Ta
   b.vy = hn::Sub(b.vy, hn::Mul(b.inverse_mass, py));
 }
 
+/// What relaxing changed along one direction, and its level: W times the impulse, m/s.
+template <class Tag>
+struct Relaxed {
+  hn::Vec<Tag> change, level;
+};
+
 /// Relaxes the lanes of a block that begin at `lane`, whose bodies are a and b.
-/// `results.add(lane, change, level)` is given the changes, m/s, and W times the impulses, m/s.
+/// `results.add(lane, normal)` or `results.add(lane, normal, tangential)` is given what changed.
 template <Effects with, class Real, class Tag = TagOf<Real>, class Results>
 HWY_INLINE void relax(BlockOf<Real>& c, std::size_t lane, Bodies<Tag>& a, Bodies<Tag>& b,
                       hn::Vec<Tag> friction, Results& results)
@@ -113,7 +119,7 @@ HWY_INLINE void relax(BlockOf<Real>& c, std::size_t lane, Bodies<Tag>& a, Bodies
       hn::Max(hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess)), hn::Zero(d));
   hn::Store(impulse_n, d, &c.impulse_n[lane]);
   const auto change_n = hn::Sub(impulse_n, before_n);
-  results.add(lane, hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn));
+  const Relaxed<Tag> normal{hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn)};
 
   auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
   if constexpr (with.friction) {
@@ -134,7 +140,10 @@ HWY_INLINE void relax(BlockOf<Real>& c, std::size_t lane, Bodies<Tag>& a, Bodies
     px = hn::Sub(px, hn::Mul(change_t, ny));
     py = hn::Add(py, hn::Mul(change_t, nx));
     if constexpr (with.rotation) spin = hn::Mul(lever, change_t);
-    results.add(lane, hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt));
+    results.add(lane, normal,
+                Relaxed<Tag>{hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt)});
+  } else {
+    results.add(lane, normal);
   }
   push<with>(a, b, px, py, spin);
 }

@@ -48,8 +48,7 @@ class LocalWork {
   explicit LocalWork(std::span<const RunsOf<Real>> strips)
       : strips_(strips), swept_(strips.size(), 1)
   {
-    count_blocks();
-    all_ = relaxed_;
+    for (const auto& strip : strips) all_ += strip.blocks.size();
   }
 
   bool swept(std::size_t strip) const { return swept_[strip] != 0; }
@@ -57,29 +56,28 @@ class LocalWork {
   /// As many as if every strip had been swept as often.
   int rounds() const { return static_cast<int>((relaxed_ + all_ - 1) / all_); }
 
-  /// After a sweep; `enough` of all strips have been made.
-  void choose(const std::vector<SweepResult>& results, double limit, bool enough)
+  /// A sweep over the chosen strips has been made.
+  void count()
+  {
+    for (std::size_t s = 0; s < strips_.size(); ++s)
+      if (swept(s)) relaxed_ += strips_[s].blocks.size();
+  }
+  /// After a sweep that left these changes.
+  void choose(const std::vector<SweepResult>& results, double limit)
   {
     const auto unsettled = [&](std::size_t s) { return results[s].largest > limit; };
     const std::size_t strips = results.size();
     std::size_t count = 0;
     for (std::size_t s = 0; s < strips; ++s) count += unsettled(s) ? 1 : 0;
-    local_ = local_ || (enough && 4 * count <= strips);
-    if (local_)
-      for (std::size_t s = 0; s < strips; ++s)
-        swept_[s] =
-            unsettled(s) || unsettled((s + 1) % strips) || unsettled((s + strips - 1) % strips) ? 1
-                                                                                                : 0;
-    count_blocks();
+    local_ = local_ || 4 * count <= strips;
+    if (!local_) return;
+    for (std::size_t s = 0; s < strips; ++s)
+      swept_[s] =
+          unsettled(s) || unsettled((s + 1) % strips) || unsettled((s + strips - 1) % strips) ? 1
+                                                                                              : 0;
   }
 
  private:
-  void count_blocks()
-  {
-    for (std::size_t s = 0; s < strips_.size(); ++s)
-      if (swept(s)) relaxed_ += strips_[s].blocks.size();
-  }
-
   std::span<const RunsOf<Real>> strips_;
   std::vector<std::uint8_t> swept_;
   std::size_t relaxed_ = 0, all_ = 0;  // blocks
@@ -94,63 +92,115 @@ struct Task {
   const SolverSettings& settings;
   double floor;  // m/s
   int threads;
-  FreeBodies* free;
+  FreeBodies* free;  // with doubles only
 };
 
 template <class Real>
-SolverReport sweep_until_settled(std::span<const RunsOf<Real>> strips,
-                                 std::span<MotionOf<Real>> motion, const Task& task,
-                                 ExtrapolationOf<Real>& extrapolation)
-{
-  const auto& settings = task.settings;
-  for_alternate_strips(task.threads, strips.size(), [&](std::size_t s) {
-    apply_impulses(strips[s].blocks, motion.data(), task.effects);
-  });
-  const bool any_free = task.free != nullptr;
-  const auto update_free = [&] {
-    if constexpr (std::is_same_v<Real, double>) return task.free->update_velocities(motion);
-    return 0.0;
-  };
-  if (any_free) update_free();
-  const auto sweep = choose_sweep<Real>(task.effects);
-  const auto friction = static_cast<Real>(task.friction);
-  const auto contact_count = static_cast<double>(task.count);
-  std::vector<SweepResult> results(strips.size());
-  LocalWork<Real> work(strips);
-  if (settings.acceleration) extrapolation.begin();
-  SolverReport report;
-  double round_off = 0;  // m/s, once it is needed
+class Sweeping {
+ public:
+  Sweeping(std::span<const RunsOf<Real>> strips, std::span<MotionOf<Real>> motion, const Task& task,
+           ExtrapolationOf<Real>& extrapolation)
+      : strips_(strips),
+        motion_(motion),
+        task_(task),
+        extrapolation_(extrapolation),
+        at_a_time_(strips.size() > 1 ? 2 : 1),
+        results_(strips.size()),
+        work_(strips)
+  {
+  }
+
+  SolverReport until_settled();
+
+ private:
+  void begin();
+  SweepResult sweep_all(Findings findings);
+  SolverReport report_on(const SweepResult& result);
+  /// m/s, the mean of W p, at least the floor.
+  double reference(const SweepResult& result) const
+  {
+    return std::max(std::sqrt(result.sum_reference / static_cast<double>(task_.count)),
+                    task_.floor);
+  }
+
+  std::span<const RunsOf<Real>> strips_;
+  std::span<MotionOf<Real>> motion_;
+  const Task& task_;
+  ExtrapolationOf<Real>& extrapolation_;
   // The second sweep of a strip finds its contacts in the cache.
-  const int at_a_time = strips.size() > 1 ? 2 : 1;
-  for (int sweeps = at_a_time;; sweeps += at_a_time) {
-    for_alternate_strips(task.threads, strips.size(), [&](std::size_t s) {
-      for (int k = 0; work.swept(s) && k < at_a_time; ++k)
-        results[s] = sweep(strips[s], motion.data(), friction);
-    });
-    auto result = total(results);
-    if constexpr (std::is_same_v<Real, double>) {
-      if (any_free) {
-        result.largest = std::max(result.largest, update_free());
-        task.free->relax_contacts(motion, friction, task.effects);
-        update_free();
-      }
+  const int at_a_time_;
+  int sweeps_ = 0;
+  std::vector<SweepResult> results_;  // of the last sweep, strip by strip
+  LocalWork<Real> work_;
+  double round_off_ = 0;  // m/s, once it is needed
+};
+
+template <class Real>
+void Sweeping<Real>::begin()
+{
+  for_alternate_strips(task_.threads, strips_.size(), [&](std::size_t s) {
+    apply_impulses(strips_[s].blocks, motion_.data(), task_.effects);
+  });
+  if constexpr (std::is_same_v<Real, double>)
+    if (task_.free != nullptr) task_.free->update_velocities(motion_);
+  if (task_.settings.acceleration) extrapolation_.begin();
+}
+
+template <class Real>
+SweepResult Sweeping<Real>::sweep_all(Findings findings)
+{
+  const auto quick = choose_sweep<Real>(task_.effects, Findings::squares),
+             last = choose_sweep<Real>(task_.effects, findings);
+  const auto friction = static_cast<Real>(task_.friction);
+  for_alternate_strips(task_.threads, strips_.size(), [&](std::size_t s) {
+    if (!work_.swept(s)) return;
+    if (at_a_time_ > 1) quick(strips_[s], motion_.data(), friction);
+    results_[s] = last(strips_[s], motion_.data(), friction);
+  });
+  sweeps_ += at_a_time_;
+  work_.count();
+  auto result = total(results_);
+  if constexpr (std::is_same_v<Real, double>)
+    if (task_.free != nullptr) {
+      result.largest = std::max(result.largest, task_.free->update_velocities(motion_));
+      task_.free->relax_contacts(motion_, friction, task_.effects);
+      task_.free->update_velocities(motion_);
     }
-    const double reference = std::max(std::sqrt(result.sum_reference / contact_count), task.floor);
-    // Without gravity the sweep that lets the last contact go leaves a reference of 0.
-    const auto relative = [&](double change) { return change == 0 ? 0 : change / reference; };
-    report.sweeps = at_a_time * work.rounds();
-    report.residual = relative(result.largest);
-    report.residual_rms = relative(std::sqrt(result.sum_squares / contact_count));
-    report.converged = report.residual <= settings.tolerance;
-    if (!report.converged && sweeps >= sweeps_before_round_off) {
-      if (round_off == 0) round_off = last_digits<Real> * fastest<Real>(motion);
-      report.converged = result.largest <= round_off;
+  return result;
+}
+
+template <class Real>
+SolverReport Sweeping<Real>::report_on(const SweepResult& result)
+{
+  // Without gravity the sweep that lets the last contact go leaves a reference of 0.
+  const auto relative = [&](double change) { return change == 0 ? 0 : change / reference(result); };
+  SolverReport report;
+  report.sweeps = at_a_time_ * work_.rounds();
+  report.residual = relative(result.largest);
+  report.residual_rms = relative(std::sqrt(result.sum_squares / static_cast<double>(task_.count)));
+  report.converged = report.residual <= task_.settings.tolerance;
+  if (!report.converged && sweeps_ >= sweeps_before_round_off) {
+    if (round_off_ == 0) round_off_ = last_digits<Real> * fastest<Real>(motion_);
+    report.converged = result.largest <= round_off_;
+  }
+  return report;
+}
+
+template <class Real>
+SolverReport Sweeping<Real>::until_settled()
+{
+  const auto& settings = task_.settings;
+  begin();
+  while (true) {
+    const bool enough = sweeps_ + at_a_time_ >= std::min(settings.min_sweeps, settings.max_sweeps);
+    const auto result = sweep_all(enough ? Findings::all : Findings::squares);
+    if (enough || (result.sum_squares == 0 && result.largest == 0)) {
+      const auto report = report_on(result);
+      if (report.converged || sweeps_ >= settings.max_sweeps) return report;
+      if (task_.free == nullptr) work_.choose(results_, settings.tolerance * reference(result));
     }
-    const bool enough = sweeps >= settings.min_sweeps || result.largest == 0;
-    if ((report.converged && enough) || sweeps >= settings.max_sweeps) return report;
-    work.choose(results, settings.tolerance * reference, enough && !any_free);
-    if (settings.acceleration && !work.local())
-      extrapolation.extrapolate(strips, motion, result.sum_squares, task.threads);
+    if (settings.acceleration && !work_.local())
+      extrapolation_.extrapolate(strips_, motion_, result.sum_squares, task_.threads);
   }
 }
 
@@ -160,7 +210,7 @@ SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> mo
   auto& contacts = memory.contacts;
   contacts.take(strips, motion, task.threads);
   const auto report =
-      sweep_until_settled(contacts.strips(), contacts.motion(), task, memory.singles);
+      Sweeping<float>(contacts.strips(), contacts.motion(), task, memory.singles).until_settled();
   for_alternate_strips(task.threads, strips.size(), [&](std::size_t s) {
     contacts.give_back(s, strips[s], task.friction);
     apply_impulses(strips[s].blocks, motion.data(), task.effects);
@@ -179,7 +229,7 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
   const Task task{count, friction, effects, settings, floor, threads, free};
   if (settings.precision == Precision::mixed && free == nullptr)
     return solve_mixed(strips, motion, task, memory);
-  return sweep_until_settled(strips, motion, task, memory.doubles);
+  return Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
 }
 
 }  // namespace grseg

@@ -23,16 +23,28 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// SweepResult, lane by lane.
-template <class Real>
+template <class Real, Findings findings>
 struct alignas(64) LaneResults {
+  using Tag = TagOf<Real>;
   typename BlockOf<Real>::Lanes largest{}, squares{}, reference{};
 
-  HWY_INLINE void add(std::size_t lane, hn::Vec<TagOf<Real>> change, hn::Vec<TagOf<Real>> level)
+  template <class... Directions>
+  HWY_INLINE void add(std::size_t lane, Directions... directions)
   {
-    const TagOf<Real> d;
-    hn::Store(hn::Max(hn::Load(d, &largest[lane]), change), d, &largest[lane]);
-    hn::Store(hn::Add(hn::Load(d, &squares[lane]), hn::Mul(change, change)), d, &squares[lane]);
-    hn::Store(hn::Add(hn::Load(d, &reference[lane]), hn::Mul(level, level)), d, &reference[lane]);
+    const Tag d;
+    const auto update = [&](typename BlockOf<Real>::Lanes& lanes, auto with) HWY_ATTR {
+      auto found = hn::Load(d, &lanes[lane]);
+      ((found = with(found, directions)), ...);
+      hn::Store(found, d, &lanes[lane]);
+    };
+    using Found = hn::Vec<Tag>;
+    update(squares, [](Found sum, const Relaxed<Tag>& r)
+                        HWY_ATTR { return hn::Add(sum, hn::Mul(r.change, r.change)); });
+    if constexpr (findings == Findings::squares) return;
+    update(largest,
+           [](Found most, const Relaxed<Tag>& r) HWY_ATTR { return hn::Max(most, r.change); });
+    update(reference, [](Found sum, const Relaxed<Tag>& r)
+                          HWY_ATTR { return hn::Add(sum, hn::Mul(r.level, r.level)); });
   }
   HWY_INLINE SweepResult total() const
   {
@@ -43,9 +55,9 @@ struct alignas(64) LaneResults {
 /// Relaxes blocks that share no mobile body. The bodies of the next contacts are loaded before the
 /// present ones are relaxed: a relaxation is one long chain of operations, and the processor does
 /// not look far enough ahead to fill its pauses with the next one by itself.
-template <Effects with, class Real>
+template <Effects with, class Real, class Results>
 HWY_INLINE void sweep_run(BlockOf<Real>* block, const BlockOf<Real>* end, Real* motion,
-                          hn::Vec<TagOf<Real>> friction, LaneResults<Real>& results)
+                          hn::Vec<TagOf<Real>> friction, Results& results)
 {
   const TagOf<Real> d;
   auto a = load_bodies(d, motion, &block->i[0]), b = load_bodies(d, motion, &block->j[0]);
@@ -65,10 +77,10 @@ HWY_INLINE void sweep_run(BlockOf<Real>* block, const BlockOf<Real>* end, Real* 
   }
 }
 
-template <Effects with, class Real>
+template <Effects with, class Real, Findings findings>
 SweepResult sweep(const RunsOf<Real>& contacts, MotionOf<Real>* motion, Real friction)
 {
-  LaneResults<Real> results;
+  LaneResults<Real, findings> results;
   const auto coefficient = hn::Set(TagOf<Real>(), friction);
   auto* blocks = contacts.blocks.data();
   std::uint32_t begin = 0;
@@ -108,24 +120,35 @@ void apply(std::span<const BlockOf<Real>> blocks, MotionOf<Real>* motion)
 }
 
 /// The only place where a scene's effects become a compile-time choice.
-template <class Real>
+template <class Real, Findings findings>
 SweepOf<Real> sweep_for(Effects e)
 {
   // [friction][rotation][restitution]
   static constexpr SweepOf<Real> table[2][2][2] = {
-      {{sweep<Effects{false, false, false}, Real>, sweep<Effects{false, false, true}, Real>},
-       {sweep<Effects{false, true, false}, Real>, sweep<Effects{false, true, true}, Real>}},
-      {{sweep<Effects{true, false, false}, Real>, sweep<Effects{true, false, true}, Real>},
-       {sweep<Effects{true, true, false}, Real>, sweep<Effects{true, true, true}, Real>}}};
+      {{sweep<Effects{false, false, false}, Real, findings>,
+        sweep<Effects{false, false, true}, Real, findings>},
+       {sweep<Effects{false, true, false}, Real, findings>,
+        sweep<Effects{false, true, true}, Real, findings>}},
+      {{sweep<Effects{true, false, false}, Real, findings>,
+        sweep<Effects{true, false, true}, Real, findings>},
+       {sweep<Effects{true, true, false}, Real, findings>,
+        sweep<Effects{true, true, true}, Real, findings>}}};
   return table[e.friction][e.rotation][e.restitution];
 }
-SweepOf<double> double_sweep_for(Effects e)
+template <class Real>
+SweepOf<Real> sweep_for(Effects e, Findings findings)
 {
-  return sweep_for<double>(e);
+  return findings == Findings::all ? sweep_for<Real, Findings::all>(e)
+                                   : sweep_for<Real, Findings::squares>(e);
 }
-SweepOf<float> single_sweep_for(Effects e)
+// Dispatch takes no templates.
+SweepOf<double> double_sweep_for(Effects e, Findings findings)
 {
-  return sweep_for<float>(e);
+  return sweep_for<double>(e, findings);
+}
+SweepOf<float> single_sweep_for(Effects e, Findings findings)
+{
+  return sweep_for<float>(e, findings);
 }
 
 template <class Real>
@@ -187,14 +210,14 @@ std::string name_of(std::int64_t target)
 }  // namespace
 
 template <>
-SweepOf<double> choose_sweep<double>(Effects effects)
+SweepOf<double> choose_sweep<double>(Effects effects, Findings findings)
 {
-  return HWY_DYNAMIC_DISPATCH(double_sweep_for)(effects);
+  return HWY_DYNAMIC_DISPATCH(double_sweep_for)(effects, findings);
 }
 template <>
-SweepOf<float> choose_sweep<float>(Effects effects)
+SweepOf<float> choose_sweep<float>(Effects effects, Findings findings)
 {
-  return HWY_DYNAMIC_DISPATCH(single_sweep_for)(effects);
+  return HWY_DYNAMIC_DISPATCH(single_sweep_for)(effects, findings);
 }
 
 void apply_impulses(std::span<const BlockOf<double>> blocks, MotionOf<double>* motion,

@@ -20,11 +20,15 @@ struct SweepResult {
   double sum_reference = 0;  // (m/s)^2, of W p
 };
 
+/// What a sweep finds out beside relaxing: only the sum of squares, or all, which takes a fifth
+/// longer.
+enum class Findings { squares, all };
+
 /// Relaxes all contacts once, block after block. Real is double or float.
 template <class Real>
 using SweepOf = SweepResult (*)(const RunsOf<Real>&, MotionOf<Real>*, Real friction);
 template <class Real = double>
-SweepOf<Real> choose_sweep(Effects effects);
+SweepOf<Real> choose_sweep(Effects effects, Findings findings = Findings::all);
 
 /// Applies the impulses of the blocks to the bodies.
 void apply_impulses(std::span<const BlockOf<double>> blocks, MotionOf<double>* motion,
