@@ -68,9 +68,9 @@ struct Rows {
   {
     std::vector<BlockRuns> strips;
     for (auto& p : packed) strips.push_back(p.runs());
-    Extrapolation extrapolation;
+    SolverMemory memory;
     return solve_contacts(strips, packed.size() * (discs - 1), motion, 0, {}, {1e-6, 10000}, 0,
-                          extrapolation, threads);
+                          memory, threads);
   }
 };
 
