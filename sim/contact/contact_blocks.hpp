@@ -28,6 +28,14 @@ struct alignas(64) BlockOf {
 };
 using ContactBlock = BlockOf<double>;
 
+/// In single precision impulses are increments on those that the sweeps begin with (ContactOf).
+template <>
+struct alignas(64) BlockOf<float> {
+  using Lanes = std::array<float, lanes_of<float>>;
+  Lanes nx, ny, kappa, mass_n, mass_t, rebound, base_n, base_t, impulse_n, impulse_t;
+  std::array<std::uint32_t, lanes_of<float>> i, j;
+};
+
 /// Blocks in the order in which they are relaxed, parted into runs: no two blocks of a run share a
 /// mobile body, so no block has to wait for what another one writes.
 template <class Real>

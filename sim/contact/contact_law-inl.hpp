@@ -95,6 +95,26 @@ HWY_INLINE void push(Bodies<Tag>& a, Bodies<Tag>& b, hn::Vec<Tag> px, hn::Vec<Ta
   b.vy = hn::Sub(b.vy, hn::Mul(b.inverse_mass, py));
 }
 
+/// Applies impulses along the normals and tangents of the lanes of a block that begin at `lane`.
+template <Effects with>
+HWY_INLINE void apply(const ContactBlock& c, std::size_t lane, Vector normal, Vector tangential,
+                      double* motion)
+{
+  const D d;
+  auto a = load_bodies(d, motion, &c.i[lane]), b = load_bodies(d, motion, &c.j[lane]);
+  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
+  auto px = hn::Mul(normal, nx), py = hn::Mul(normal, ny), spin = hn::Zero(d);
+  if constexpr (with.friction) {
+    px = hn::Sub(px, hn::Mul(tangential, ny));
+    py = hn::Add(py, hn::Mul(tangential, nx));
+    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), hn::Load(d, &c.kappa[lane]));
+    spin = hn::Mul(lever, tangential);
+  }
+  push<with>(a, b, px, py, spin);
+  store_bodies(d, a, motion, &c.i[lane]);
+  store_bodies(d, b, motion, &c.j[lane]);
+}
+
 /// What relaxing changed along one direction, and its level: W times the impulse, m/s.
 template <class Tag>
 struct Relaxed {
@@ -115,11 +135,16 @@ HWY_INLINE void relax(BlockOf<Real>& c, std::size_t lane, Bodies<Tag>& a, Bodies
   auto excess = hn::Add(hn::Mul(dvx, nx), hn::Mul(dvy, ny));
   if constexpr (with.restitution) excess = hn::Sub(excess, hn::Load(d, &c.rebound[lane]));
   const auto before_n = hn::Load(d, &c.impulse_n[lane]);
-  const auto impulse_n =
-      hn::Max(hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess)), hn::Zero(d));
+  const auto relaxed_n = hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess));
+  auto impulse_n = hn::Max(relaxed_n, hn::Zero(d)), load = impulse_n;
+  if constexpr (has_base<Real>) {
+    const auto base = hn::Load(d, &c.base_n[lane]);
+    impulse_n = hn::Max(relaxed_n, hn::Neg(base));
+    load = hn::Add(base, impulse_n);
+  }
   hn::Store(impulse_n, d, &c.impulse_n[lane]);
   const auto change_n = hn::Sub(impulse_n, before_n);
-  const Relaxed<Tag> normal{hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn)};
+  const Relaxed<Tag> normal{hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(load, w_nn)};
 
   auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
   if constexpr (with.friction) {
@@ -131,17 +156,22 @@ HWY_INLINE void relax(BlockOf<Real>& c, std::size_t lane, Bodies<Tag>& a, Bodies
       sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
       w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, Real{1}), hn::Mul(lever, kappa)));
     }
-    const auto limit = hn::Mul(friction, impulse_n);
+    const auto limit = hn::Mul(friction, load);
     const auto before_t = hn::Load(d, &c.impulse_t[lane]);
     const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_t[lane]), sliding));
-    const auto impulse_t = hn::Min(hn::Max(sticking, hn::Neg(limit)), limit);
+    auto impulse_t = hn::Min(hn::Max(sticking, hn::Neg(limit)), limit), load_t = impulse_t;
+    if constexpr (has_base<Real>) {
+      const auto base = hn::Load(d, &c.base_t[lane]);
+      impulse_t = hn::Min(hn::Max(sticking, hn::Sub(hn::Neg(limit), base)), hn::Sub(limit, base));
+      load_t = hn::Add(base, impulse_t);
+    }
     hn::Store(impulse_t, d, &c.impulse_t[lane]);
     const auto change_t = hn::Sub(impulse_t, before_t);
     px = hn::Sub(px, hn::Mul(change_t, ny));
     py = hn::Add(py, hn::Mul(change_t, nx));
     if constexpr (with.rotation) spin = hn::Mul(lever, change_t);
     results.add(lane, normal,
-                Relaxed<Tag>{hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt)});
+                Relaxed<Tag>{hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(load_t, w_tt)});
   } else {
     results.add(lane, normal);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 /// The contact laws: Signorini's condition, Newton's restitution and Coulomb's friction between
 /// rigid discs, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean, Comput.
@@ -98,6 +99,10 @@ using Motion = MotionOf<double>;
 ///
 /// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j), so that they add up
 /// to the distance of the centres and angular momentum is conserved whatever the gap.
+///
+/// In single precision impulses are increments on a `base`, which velocities contain already: the
+/// last digit is then one of what a step changes, not one of the load, and a bed at rest does not
+/// creep. In double precision there is no base.
 template <class Real>
 struct ContactOf {
   Real nx, ny;
@@ -106,8 +111,11 @@ struct ContactOf {
   Real rebound;               // m/s, least separation velocity after the step
   Real impulse_n, impulse_t;  // kg m/s
   std::int32_t i, j;          // entries of the Motion array
+  Real base_n = 0, base_t = 0;
 };
 using Contact = ContactOf<double>;
+template <class Real>
+constexpr bool has_base = std::is_same_v<Real, float>;
 
 /// What the contacts of a scene do. An effect left out gives the same bits as its neutral
 /// coefficient: friction 0, restitution 0, and for rotation rim speeds that stay 0.
@@ -207,7 +215,8 @@ inline ChangeOf<Real> relax(ContactOf<Real>& c, MotionOf<Real>& a, MotionOf<Real
   const Real separation = dvx * c.nx + dvy * c.ny;
   const Real excess = with.restitution ? separation - c.rebound : separation;
   const Real before_n = c.impulse_n;
-  c.impulse_n = std::max(Real{0}, before_n - c.mass_n * excess);
+  const Real least = has_base<Real> ? -c.base_n : Real{0};
+  c.impulse_n = std::max(least, before_n - c.mass_n * excess);
   const Real change_n = c.impulse_n - before_n;
   Real px = change_n * c.nx, py = change_n * c.ny;
 
@@ -216,9 +225,11 @@ inline ChangeOf<Real> relax(ContactOf<Real>& c, MotionOf<Real>& a, MotionOf<Real
     const Real lever = Real{disc_rim_factor} * c.kappa;
     Real sliding = dvy * c.nx - dvx * c.ny;
     if constexpr (with.rotation) sliding -= c.kappa * (a.rim_speed + b.rim_speed);
-    const Real limit = friction * c.impulse_n;
+    const Real limit = friction * (has_base<Real> ? c.base_n + c.impulse_n : c.impulse_n);
+    const Real lowest = has_base<Real> ? -limit - c.base_t : -limit,
+               highest = has_base<Real> ? limit - c.base_t : limit;
     const Real before_t = c.impulse_t;
-    c.impulse_t = std::min(limit, std::max(-limit, before_t - c.mass_t * sliding));
+    c.impulse_t = std::min(highest, std::max(lowest, before_t - c.mass_t * sliding));
     const Real change_t = c.impulse_t - before_t;
     px -= change_t * c.ny;
     py += change_t * c.nx;

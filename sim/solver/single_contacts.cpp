@@ -13,7 +13,7 @@
 // In this order.
 // clang-format off
 #include <hwy/foreach_target.h>
-#include "sim/contact/lanes-inl.hpp"
+#include "sim/contact/contact_law-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -42,8 +42,10 @@ void take_half(const ContactBlock& from, double per_mass_unit, std::size_t lane,
   narrow(from.mass_n, per_mass_unit, &to.mass_n[lane]);
   narrow(from.mass_t, per_mass_unit, &to.mass_t[lane]);
   narrow(from.rebound, 1, &to.rebound[lane]);
-  narrow(from.impulse_n, per_mass_unit, &to.impulse_n[lane]);
-  narrow(from.impulse_t, per_mass_unit, &to.impulse_t[lane]);
+  narrow(from.impulse_n, per_mass_unit, &to.base_n[lane]);
+  narrow(from.impulse_t, per_mass_unit, &to.base_t[lane]);
+  std::fill_n(to.impulse_n.begin() + lane, block_lanes, 0.0F);
+  std::fill_n(to.impulse_t.begin() + lane, block_lanes, 0.0F);
   std::copy_n(from.i.begin(), block_lanes, to.i.begin() + lane);
   std::copy_n(from.j.begin(), block_lanes, to.j.begin() + lane);
 }
@@ -59,32 +61,56 @@ void take_run(std::span<const ContactBlock> run, const ContactBlock& neutral, do
   leave_vectors();
 }
 
-void give_half(const BlockOf<float>& from, std::size_t first, double mass_unit, double friction,
-               ContactBlock& to)
+/// Eight contacts' increments, from `first` on.
+template <Effects with>
+HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double mass_unit,
+                          double friction, ContactBlock& to, Motion* motion)
 {
   const D d;
-  const auto unit = hn::Set(d, mass_unit), coefficient = hn::Set(d, friction);
+  const auto unit = hn::Set(d, mass_unit);
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
     const auto load = [&](const BlockOf<float>::Lanes& lanes) HWY_ATTR {
-      const auto single = hn::Load(SingleD(), &lanes[first + lane]);
-      return hn::Mul(hn::PromoteTo(d, single), unit);
+      return hn::Mul(hn::PromoteTo(d, hn::Load(SingleD(), &lanes[first + lane])), unit);
     };
-    const auto n = load(from.impulse_n);
-    const auto limit = hn::Mul(coefficient, n);
-    const auto t = hn::Min(hn::Max(load(from.impulse_t), hn::Neg(limit)), limit);
-    hn::Store(n, d, &to.impulse_n[lane]);
-    hn::Store(t, d, &to.impulse_t[lane]);
+    const auto more = load(from.impulse_n), before = hn::Load(d, &to.impulse_n[lane]);
+    const auto opened = hn::Le(more, hn::Neg(load(from.base_n)));
+    const auto sum = hn::Max(hn::Add(before, more), hn::Zero(d));
+    const auto normal = hn::IfThenZeroElse(opened, sum);
+    hn::Store(normal, d, &to.impulse_n[lane]);
+    auto more_t = hn::Zero(d);
+    if constexpr (with.friction) {
+      const auto limit = hn::Mul(hn::Set(d, friction), normal);
+      const auto before_t = hn::Load(d, &to.impulse_t[lane]);
+      const auto sum_t = hn::Add(before_t, load(from.impulse_t));
+      const auto tangential = hn::Min(hn::Max(sum_t, hn::Neg(limit)), limit);
+      hn::Store(tangential, d, &to.impulse_t[lane]);
+      more_t = hn::Sub(tangential, before_t);
+    }
+    apply<with>(to, lane, hn::Sub(normal, before), more_t, members(motion));
   }
 }
 
+template <Effects with>
 void give_run(const BlockOf<float>* from, double mass_unit, double friction,
-              std::span<ContactBlock> run)
+              std::span<ContactBlock> run, Motion* motion)
 {
   for (std::size_t b = 0; b < run.size(); b += 2, ++from) {
-    give_half(*from, 0, mass_unit, friction, run[b]);
-    if (b + 1 < run.size()) give_half(*from, block_lanes, mass_unit, friction, run[b + 1]);
+    give_half<with>(*from, 0, mass_unit, friction, run[b], motion);
+    if (b + 1 < run.size())
+      give_half<with>(*from, block_lanes, mass_unit, friction, run[b + 1], motion);
   }
   leave_vectors();
+}
+
+void give_run_for(const BlockOf<float>* from, double mass_unit, double friction,
+                  std::span<ContactBlock> run, Motion* motion, Effects e)
+{
+  if (!e.friction)
+    give_run<Effects{false, false, false}>(from, mass_unit, friction, run, motion);
+  else if (!e.rotation)
+    give_run<Effects{true, false, false}>(from, mass_unit, friction, run, motion);
+  else
+    give_run<Effects{true, true, false}>(from, mass_unit, friction, run, motion);
 }
 
 }  // namespace
@@ -97,7 +123,7 @@ namespace grseg {
 namespace {
 
 HWY_EXPORT(take_run);
-HWY_EXPORT(give_run);
+HWY_EXPORT(give_run_for);
 
 constexpr std::size_t numbers_per_body = sizeof(Motion) / sizeof(double);
 
@@ -165,11 +191,13 @@ void SingleContacts::take_strip(const BlockRuns& contacts, std::uint32_t idle, S
   });
 }
 
-void SingleContacts::give_back(std::size_t strip, const BlockRuns& contacts, double friction) const
+void SingleContacts::give_back(std::size_t strip, const BlockRuns& contacts, double friction,
+                               Effects effects, Motion* motion) const
 {
   const auto& blocks = strips_[strip].blocks;
   for_each_run(contacts, [&](std::span<ContactBlock> run, std::uint32_t first) {
-    HWY_DYNAMIC_DISPATCH(give_run)(&blocks[first], mass_unit_, friction, run);
+    HWY_DYNAMIC_DISPATCH(give_run_for)
+    (&blocks[first], mass_unit_, friction, run, motion, effects);
   });
 }
 

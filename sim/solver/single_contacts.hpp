@@ -14,16 +14,17 @@ namespace grseg {
 /// the mass of a grain, which changes no digit and keeps them away from the ends of the range.
 class SingleContacts {
  public:
-  /// Takes over contacts with the first guesses of their impulses, and velocities. The last entry of
-  /// `motion` is the body that never moves.
+  /// Takes over contacts and velocities, in which the first guesses of the impulses are contained.
+  /// The last entry of `motion` is the body that never moves.
   void take(std::span<const BlockRuns> strips, std::span<const Motion> motion, int threads);
 
   std::span<const RunsOf<float>> strips() const { return runs_; }
   std::span<MotionOf<float>> motion() { return motion_; }
 
-  /// Writes a strip's impulses to the contacts that they were taken from. A tangential impulse that rounding took beyond
-  /// `friction` times the normal one is cut back.
-  void give_back(std::size_t strip, const BlockRuns& contacts, double friction) const;
+  /// Adds a strip's increments to the impulses that they were taken from, and to the velocities. An
+  /// impulse that rounding took beyond Signorini's or Coulomb's limit is set to it.
+  void give_back(std::size_t strip, const BlockRuns& contacts, double friction, Effects effects,
+                 Motion* motion) const;
 
  private:
   struct Strip {

@@ -113,7 +113,6 @@ class Sweeping {
   SolverReport until_settled();
 
  private:
-  void begin();
   SweepResult sweep_all(Findings findings);
   SolverReport report_on(const SweepResult& result);
   /// m/s, the mean of W p, at least the floor.
@@ -134,17 +133,6 @@ class Sweeping {
   LocalWork<Real> work_;
   double round_off_ = 0;  // m/s, once it is needed
 };
-
-template <class Real>
-void Sweeping<Real>::begin()
-{
-  for_alternate_strips(task_.threads, strips_.size(), [&](std::size_t s) {
-    apply_impulses(strips_[s].blocks, motion_.data(), task_.effects);
-  });
-  if constexpr (std::is_same_v<Real, double>)
-    if (task_.free != nullptr) task_.free->update_velocities(motion_);
-  if (task_.settings.acceleration) extrapolation_.begin();
-}
 
 template <class Real>
 SweepResult Sweeping<Real>::sweep_all(Findings findings)
@@ -190,7 +178,7 @@ template <class Real>
 SolverReport Sweeping<Real>::until_settled()
 {
   const auto& settings = task_.settings;
-  begin();
+  if (settings.acceleration) extrapolation_.begin();
   while (true) {
     const bool enough = sweeps_ + at_a_time_ >= std::min(settings.min_sweeps, settings.max_sweeps);
     const auto result = sweep_all(enough ? Findings::all : Findings::squares);
@@ -212,8 +200,7 @@ SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> mo
   const auto report =
       Sweeping<float>(contacts.strips(), contacts.motion(), task, memory.singles).until_settled();
   for_alternate_strips(task.threads, strips.size(), [&](std::size_t s) {
-    contacts.give_back(s, strips[s], task.friction);
-    apply_impulses(strips[s].blocks, motion.data(), task.effects);
+    contacts.give_back(s, strips[s], task.friction, task.effects, motion.data());
   });
   return report;
 }
@@ -226,6 +213,10 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
                             int threads, FreeBodies* free)
 {
   if (count == 0) return {};
+  for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
+    apply_impulses(strips[s].blocks, motion.data(), effects);
+  });
+  if (free != nullptr) free->update_velocities(motion);
   const Task task{count, friction, effects, settings, floor, threads, free};
   if (settings.precision == Precision::mixed && free == nullptr)
     return solve_mixed(strips, motion, task, memory);

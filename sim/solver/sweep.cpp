@@ -93,27 +93,16 @@ SweepResult sweep(const RunsOf<Real>& contacts, MotionOf<Real>* motion, Real fri
   return total;
 }
 
-template <Effects with, class Real>
-void apply(std::span<const BlockOf<Real>> blocks, MotionOf<Real>* motion)
+template <Effects with>
+void apply(std::span<const ContactBlock> blocks, Motion* motion)
 {
-  const TagOf<Real> d;
+  const D d;
   for (const auto& c : blocks) {
-    for (std::size_t lane = 0; lane < lanes_of<Real>; lane += hn::MaxLanes(d)) {
-      auto a = load_bodies(d, members(motion), &c.i[lane]),
-           b = load_bodies(d, members(motion), &c.j[lane]);
-      const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const auto normal = hn::Load(d, &c.impulse_n[lane]);
-      auto px = hn::Mul(normal, nx), py = hn::Mul(normal, ny), spin = hn::Zero(d);
-      if constexpr (with.friction) {
-        const auto tangential = hn::Load(d, &c.impulse_t[lane]);
-        px = hn::Sub(px, hn::Mul(tangential, ny));
-        py = hn::Add(py, hn::Mul(tangential, nx));
-        const auto lever = hn::Mul(hn::Set(d, Real{disc_rim_factor}), hn::Load(d, &c.kappa[lane]));
-        spin = hn::Mul(lever, tangential);
-      }
-      push<with>(a, b, px, py, spin);
-      store_bodies(d, a, members(motion), &c.i[lane]);
-      store_bodies(d, b, members(motion), &c.j[lane]);
+      auto tangential = hn::Zero(d);
+      if constexpr (with.friction) tangential = hn::Load(d, &c.impulse_t[lane]);
+      apply<with>(c, lane, normal, tangential, members(motion));
     }
   }
   leave_vectors();
@@ -151,8 +140,7 @@ SweepOf<float> single_sweep_for(Effects e, Findings findings)
   return sweep_for<float>(e, findings);
 }
 
-template <class Real>
-void apply_for(std::span<const BlockOf<Real>> blocks, MotionOf<Real>* motion, Effects e)
+void apply_for(std::span<const ContactBlock> blocks, Motion* motion, Effects e)
 {
   if (!e.friction)
     apply<Effects{false, false, false}>(blocks, motion);
@@ -160,14 +148,6 @@ void apply_for(std::span<const BlockOf<Real>> blocks, MotionOf<Real>* motion, Ef
     apply<Effects{true, false, false}>(blocks, motion);
   else
     apply<Effects{true, true, false}>(blocks, motion);
-}
-void apply_double(std::span<const BlockOf<double>> blocks, MotionOf<double>* motion, Effects e)
-{
-  apply_for(blocks, motion, e);
-}
-void apply_single(std::span<const BlockOf<float>> blocks, MotionOf<float>* motion, Effects e)
-{
-  apply_for(blocks, motion, e);
 }
 
 std::int64_t target()
@@ -186,8 +166,7 @@ namespace {
 
 HWY_EXPORT(double_sweep_for);
 HWY_EXPORT(single_sweep_for);
-HWY_EXPORT(apply_double);
-HWY_EXPORT(apply_single);
+HWY_EXPORT(apply_for);
 HWY_EXPORT(target);
 
 std::string name_of(std::int64_t target)
@@ -220,15 +199,9 @@ SweepOf<float> choose_sweep<float>(Effects effects, Findings findings)
   return HWY_DYNAMIC_DISPATCH(single_sweep_for)(effects, findings);
 }
 
-void apply_impulses(std::span<const BlockOf<double>> blocks, MotionOf<double>* motion,
-                    Effects effects)
+void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects)
 {
-  HWY_DYNAMIC_DISPATCH(apply_double)(blocks, motion, effects);
-}
-void apply_impulses(std::span<const BlockOf<float>> blocks, MotionOf<float>* motion,
-                    Effects effects)
-{
-  HWY_DYNAMIC_DISPATCH(apply_single)(blocks, motion, effects);
+  HWY_DYNAMIC_DISPATCH(apply_for)(blocks, motion, effects);
 }
 
 std::vector<std::string> instruction_sets()

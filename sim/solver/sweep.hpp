@@ -31,10 +31,7 @@ template <class Real = double>
 SweepOf<Real> choose_sweep(Effects effects, Findings findings = Findings::all);
 
 /// Applies the impulses of the blocks to the bodies.
-void apply_impulses(std::span<const BlockOf<double>> blocks, MotionOf<double>* motion,
-                    Effects effects);
-void apply_impulses(std::span<const BlockOf<float>> blocks, MotionOf<float>* motion,
-                    Effects effects);
+void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects);
 
 /// Instruction sets that both this build and this machine have, best first: of avx512, avx2, sse4
 /// and scalar.

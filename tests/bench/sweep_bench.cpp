@@ -63,7 +63,7 @@ void take_and_give_back(benchmark::State& state)
   SingleContacts singles;
   for (auto _ : state) {
     singles.take(std::array{packed.runs()}, p.motion, 1);
-    singles.give_back(0, packed.runs(), p.friction);
+    singles.give_back(0, packed.runs(), p.friction, {}, p.motion.data());
   }
   count_contacts(state, p);
 }
