@@ -64,7 +64,10 @@ PairList::State PairList::state() const
     state.impulse_n.push_back(impulse.n);
     state.impulse_t.push_back(impulse.t);
   }
-  for (const auto& memory : pairs_.memory) state.approach.push_back(memory.approach);
+  for (const auto& memory : pairs_.memory) {
+    state.approach.push_back(memory.approach);
+    state.before_n.push_back(memory.n);
+  }
   return state;
 }
 
@@ -78,7 +81,7 @@ void PairList::restore(GrainState& grains, const State& state)
         "the program that wrote it");
   for (std::size_t k = 0; k < pairs_.impulse.size(); ++k) {
     pairs_.impulse[k] = {state.impulse_n[k], state.impulse_t[k]};
-    pairs_.memory[k] = {state.approach[k], 0};
+    pairs_.memory[k] = {state.approach[k], state.before_n[k]};
   }
   renewals_ = state.renewals;
   completeness_.set_age(state.age);

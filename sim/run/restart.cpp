@@ -48,6 +48,7 @@ void change_step(Simulation::State& state, const Scene& before, const Scene& now
   const double longer = now.step / before.step;
   for (auto& impulse : state.pairs.impulse_n) impulse *= longer;
   for (auto& impulse : state.pairs.impulse_t) impulse *= longer;
+  for (auto& impulse : state.pairs.before_n) impulse *= longer;
 }
 
 /// Displaces every mobile grain by a vector that is uniform in a disc of radius `largest` (m).
@@ -75,10 +76,7 @@ Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
   if (!given["accuracy"].defaulted())
     set_again.assign(keys_of_accuracy.begin(), keys_of_accuracy.end());
   auto values = given;
-  auto text = checkpoint.scene;
-  // Before there was this key all was computed in double precision.
-  if (text.find("\nprecision = ") == std::string::npos) text += "precision = double\n";
-  read_scene_text(text, name, set_again, values);
+  read_scene_text(checkpoint.scene, name, set_again, values);
   return resolve_scene(values);
 }
 

@@ -113,10 +113,12 @@ void extrapolate_motion(MotionOf<float>* now, MotionOf<float>* before, std::size
 }  // namespace
 
 template <class Real>
-void ExtrapolationOf<Real>::begin()
+void ExtrapolationOf<Real>::begin(std::span<const RunsOf<Real>> strips,
+                                  std::span<const MotionOf<Real>> motion, int threads)
 {
-  weight_ = 1;
+  weight_ = first_weight;
   last_change_ = std::numeric_limits<double>::infinity();
+  remember(strips, motion, threads);
 }
 
 template <class Real>

@@ -178,7 +178,7 @@ template <class Real>
 SolverReport Sweeping<Real>::until_settled()
 {
   const auto& settings = task_.settings;
-  if (settings.acceleration) extrapolation_.begin();
+  if (settings.acceleration) extrapolation_.begin(strips_, motion_, task_.threads);
   while (true) {
     const bool enough = sweeps_ + at_a_time_ >= std::min(settings.min_sweeps, settings.max_sweeps);
     const auto result = sweep_all(enough ? Findings::all : Findings::squares);
