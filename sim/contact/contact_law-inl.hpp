@@ -80,14 +80,6 @@ HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector impulse_n, 
           hn::IfThenElseZero(hn::And(slowed_down_now, newcomer), approach)};
 }
 
-HWY_INLINE Vector first_guess(Vector last, Vector before)
-{
-  const D d;
-  const auto on = hn::Add(last, hn::Mul(hn::Set(d, persistence), hn::Sub(last, before)));
-  const auto guess = hn::Max(on, hn::Mul(hn::Set(d, 1 - persistence), last));
-  return hn::IfThenElse(hn::Gt(before, hn::Zero(d)), guess, last);
-}
-
 /// Adds the impulse (px, py) to a and takes it from b; `spin` is taken from both.
 template <Effects with, class Tag>
 HWY_INLINE void push(Bodies<Tag>& a, Bodies<Tag>& b, hn::Vec<Tag> px, hn::Vec<Tag> py,

@@ -202,16 +202,6 @@ inline Rebound rebound_of(double gap, double separation, double impulse_n, doubl
   return {closing, newcomer ? approach : 0};
 }
 
-/// The normal impulse with which the solver begins, kg m/s, from those of the last step and of the
-/// one before; 0 where the pair did not act. What changed goes on changing, by this part of it.
-/// docs/studies/numerics.md says what that saves.
-constexpr double persistence = 0.6;
-inline double first_guess(double last, double before)
-{
-  if (!(before > 0)) return last;
-  return std::max(last + persistence * (last - before), (1 - persistence) * last);
-}
-
 /// Makes one contact obey Signorini, Newton and Coulomb while its neighbours hold still. W_nt = 0
 /// for discs, so normal and tangential parts have each their exact solution.
 ///

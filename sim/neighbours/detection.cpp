@@ -184,15 +184,15 @@ HWY_INLINE void set_dynamics(const Pairs& pairs, const DetectionRule& rule, Cont
     const auto separation = hn::Add(hn::Mul(vx, hn::Load(d, &block.nx[lane])),
                                     hn::Mul(vy, hn::Load(d, &block.ny[lane])));
     const auto [n, t] = load_twos(d, numbers_of(pairs.impulse.data()), &origin.pair[lane]);
-    const auto [remembered, before_n] =
-        load_twos(d, numbers_of(pairs.memory.data()), &origin.pair[lane]);
+    auto remembered = hn::Zero(d);
+    if constexpr (with.horizon)
+      remembered = load_twos(d, numbers_of(pairs.memory.data()), &origin.pair[lane]).first;
     const auto gap = hn::Load(d, &origin.gap[lane]);
     const auto rebound = rebound_of<with.restitution, with.horizon>(gap, separation, n, remembered,
                                                                     rule.restitution, rule.horizon);
     hn::Store(rebound.velocity, d, &block.rebound[lane]);
-    hn::Store(rebound.remembered, d, &origin.approach[lane]);
-    hn::Store(n, d, &origin.last_n[lane]);
-    hn::Store(first_guess(n, before_n), d, &block.impulse_n[lane]);
+    if constexpr (with.horizon) hn::Store(rebound.remembered, d, &origin.approach[lane]);
+    hn::Store(n, d, &block.impulse_n[lane]);
     hn::Store(t, d, &block.impulse_t[lane]);
     const auto used = hn::Gt(mass, hn::Zero(d));
     accumulate(gap, approach_of(separation), used, lane, sums);
@@ -278,6 +278,7 @@ void keep(const StripContacts& contacts, Pairs::Impulse* impulses, Pairs::Memory
           ImpulseSums& total)
 {
   const D d;
+  auto* remembered = reinterpret_cast<double*>(memories);
   alignas(64) Lanes gaps{}, base_x{}, base_y{};
   for (std::size_t b = 0; b < contacts.size; ++b) {
     const auto& block = contacts.blocks[b];
@@ -286,9 +287,10 @@ void keep(const StripContacts& contacts, Pairs::Impulse* impulses, Pairs::Memory
       const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
       store_twos(d, {n, t}, &impulses->n, &origin.pair[lane]);
       const auto bearing = hn::Gt(n, hn::Zero(d));
-      const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
-      store_twos(d, {approach, hn::Load(d, &origin.last_n[lane])}, &memories->approach,
-                 &origin.pair[lane]);
+      if (remembered != nullptr) {
+        const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
+        store_twos(d, {approach, hn::Zero(d)}, remembered, &origin.pair[lane]);
+      }
       const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
       const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
       hn::Store(sum_gap, d, &gaps[lane]);
@@ -384,7 +386,7 @@ void forget_impulses(std::span<const StripContacts> contacts, std::span<Pairs::I
     for (std::size_t b = 0; b < strip.previous_size; ++b)
       for (const auto pair : strip.previous_origins[b].pair) {
         impulses[pair / 2] = {0, 0};
-        memories[pair / 2] = {0, 0};
+        if (!memories.empty()) memories[pair / 2] = {0, 0};
       }
   });
 }

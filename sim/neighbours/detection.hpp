@@ -15,7 +15,6 @@ namespace grseg {
 struct alignas(64) BlockOrigin {
   ContactBlock::Lanes gap;                      // m
   ContactBlock::Lanes approach;                 // m/s, to be remembered, see Rebound
-  ContactBlock::Lanes last_n;                   // kg m/s, normal impulse of the last step
   std::array<std::uint32_t, block_lanes> pair;  // twice its index; unused lanes: the neutral one
 };
 

@@ -64,10 +64,7 @@ PairList::State PairList::state() const
     state.impulse_n.push_back(impulse.n);
     state.impulse_t.push_back(impulse.t);
   }
-  for (const auto& memory : pairs_.memory) {
-    state.approach.push_back(memory.approach);
-    state.before_n.push_back(memory.n);
-  }
+  for (const auto& memory : pairs_.memory) state.approach.push_back(memory.approach);
   return state;
 }
 
@@ -81,7 +78,7 @@ void PairList::restore(GrainState& grains, const State& state)
         "the program that wrote it");
   for (std::size_t k = 0; k < pairs_.impulse.size(); ++k) {
     pairs_.impulse[k] = {state.impulse_n[k], state.impulse_t[k]};
-    pairs_.memory[k] = {state.approach[k], state.before_n[k]};
+    pairs_.memory[k] = {state.approach[k], 0};
   }
   renewals_ = state.renewals;
   completeness_.set_age(state.age);

@@ -44,8 +44,7 @@ class PairList {
   struct State {
     std::vector<Vec2> made_at;        // m, as in GrainState; empty before the first renewal
     std::vector<std::uint32_t> i, j;  // as in Pairs, and with the same neutral pair
-    std::vector<double> impulse_n, impulse_t;  // kg m/s, as Pairs::Impulse
-    std::vector<double> approach, before_n;    // m/s and kg m/s, as Pairs::Memory
+    std::vector<double> impulse_n, impulse_t, approach;
     std::uint64_t renewals = 0, age = 0;
   };
   State state() const;

@@ -40,7 +40,7 @@ struct Pairs {
   struct Memory {
     double
         approach;  ///< m/s, of a pair that was slowed down in the last step (Rebound::remembered)
-    double n;      ///< kg m/s, normal impulse of the step before the last
+    double unused;
   };
   struct Class {
     std::uint32_t begin, end;  ///< multiples of 8

@@ -19,7 +19,7 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int32_t format_version = 4;
+constexpr std::int32_t format_version = 3;
 
 /// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
 /// numbers.
@@ -232,7 +232,6 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
   visit("/state/pairs/impulse_n", c.state.pairs.impulse_n);
   visit("/state/pairs/impulse_t", c.state.pairs.impulse_t);
   visit("/state/pairs/approach", c.state.pairs.approach);
-  visit("/state/pairs/before_n", c.state.pairs.before_n);
   visit("/state/pairs/renewals", c.state.pairs.renewals);
   visit("/state/pairs/age", c.state.pairs.age);
   visit("/trajectory/frames", c.trajectory.frames);

@@ -96,8 +96,7 @@ class Check {
     for (const auto& [path, size] : {std::pair{"j", c_.state.pairs.j.size()},
                                      {"impulse_n", c_.state.pairs.impulse_n.size()},
                                      {"impulse_t", c_.state.pairs.impulse_t.size()},
-                                     {"approach", c_.state.pairs.approach.size()},
-                                     {"before_n", c_.state.pairs.before_n.size()}})
+                                     {"approach", c_.state.pairs.approach.size()}})
       require(size == pairs,
               fmt::format("/state/pairs/{} has {} entries for {} pairs", path, size, pairs));
     const auto made_at = c_.state.pairs.made_at.size();
@@ -162,7 +161,6 @@ class Check {
     all_finite("/state/pairs/impulse_n", pairs.impulse_n);
     all_finite("/state/pairs/impulse_t", pairs.impulse_t);
     all_finite("/state/pairs/approach", pairs.approach);
-    all_finite("/state/pairs/before_n", pairs.before_n);
     require(pairs.renewals <= largest_count, "/state/pairs/renewals is not a number of lists");
     require(pairs.age <= largest_count, "/state/pairs/age is not a number of steps");
   }

@@ -12,8 +12,8 @@ namespace grseg {
 /// Nesterov's extrapolation of Gauss-Seidel sweeps. With x_k the state after sweep k, the next
 /// sweep starts from x_k + f_k (x_k - x_(k-1)), where f_k = (w_k - 1)/w_(k+1) and
 /// w_(k+1) = (1 + sqrt(1 + 4 w_k^2))/2, so that f_k grows towards 1; where the changes that a sweep
-/// makes grow, w starts again from 1. In the beginning w is `first_weight`, not 1: the first guess
-/// comes from the step before and is no arbitrary state (docs/studies/numerics.md). (Nesterov 1983; restart by O'Donoghue & Candes, Found.
+/// makes grow, w starts again from 1. It begins with `first_weight`, not with 1, because a step's
+/// first guess is nearly its solution (docs/studies/numerics.md). (Nesterov 1983; restart by O'Donoghue & Candes, Found.
 /// Comput. Math. 15, 2015). Velocities are linear in impulses, so both are extrapolated alike; the
 /// state in between need not obey Signorini and Coulomb, as the next sweep projects it back.
 ///
@@ -21,7 +21,7 @@ namespace grseg {
 template <class Real>
 class ExtrapolationOf {
  public:
-  static constexpr double first_weight = 2.5;
+  static constexpr double first_weight = 2;
 
   /// To be called before the first sweep,
   void begin(std::span<const RunsOf<Real>> strips, std::span<const MotionOf<Real>> motion,

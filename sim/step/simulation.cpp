@@ -148,7 +148,7 @@ void Simulation::find_contacts(StepReport& report)
   if (renew || restored_)
     pairs_.forget_impulses();
   else
-    forget_impulses(contacts_, pairs_.impulses(), pairs_.memories(), threads_);
+    forget_impulses(contacts_, pairs_.impulses(), memories(), threads_);
   restored_ = false;
   report.touching = sums.touching;
   report.sum_overlap = sums.overlap;
@@ -166,6 +166,12 @@ double Simulation::unseen_approach() const
   }
   const double spread = (high - low).norm();
   return spread * world_.step / 2 > world_.skin - world_.law.margin ? spread : 0;
+}
+
+std::span<Pairs::Memory> Simulation::memories()
+{
+  if (world_.law.horizon > 0) return pairs_.memories();
+  return {};
 }
 
 void Simulation::stop_at_coincidence() const
@@ -188,7 +194,7 @@ void Simulation::stop_at_coincidence() const
 
 void Simulation::keep_impulses(StepReport& report)
 {
-  const auto sums = grseg::keep_impulses(contacts_, pairs_.impulses(), pairs_.memories(), threads_);
+  const auto sums = grseg::keep_impulses(contacts_, pairs_.impulses(), memories(), threads_);
   report.force_bearing = sums.force_bearing;
   report.sum_gap_bearing = sums.gap_bearing;
   report.base_impulse = sums.on_base_side;

@@ -101,6 +101,8 @@ class Simulation {
   [[noreturn]] void stop_at_coincidence() const;
   void solve(StepReport& report);
   void keep_impulses(StepReport& report);
+  /// Empty where the law needs no memory.
+  std::span<Pairs::Memory> memories();
 
   World world_;
   Gravity<2> gravity_;
