@@ -82,7 +82,8 @@ HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double 
       const auto limit = hn::Mul(hn::Set(d, friction), normal);
       const auto before_t = hn::Load(d, &to.impulse_t[lane]);
       const auto sum_t = hn::Add(before_t, load(from.impulse_t));
-      const auto tangential = hn::Min(hn::Max(sum_t, hn::Neg(limit)), limit);
+      // Zeros are positive, whatever the sign of what single precision could not resolve.
+      const auto tangential = hn::Add(hn::Min(hn::Max(sum_t, hn::Neg(limit)), limit), hn::Zero(d));
       hn::Store(tangential, d, &to.impulse_t[lane]);
       more_t = hn::Sub(tangential, before_t);
     }

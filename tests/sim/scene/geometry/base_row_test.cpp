@@ -151,7 +151,8 @@ TEST(BaseRow, IsTheSameForTheSameSeedAndAnotherForAnother)
 
 TEST(BaseRow, LeavesTheGrainsThatFallOnItAsTheyAre)
 {
-  const Words size{"--depth", "12dS", "--length", "12dL"};
+  // So large that the first bed is as high as it should be: a second one has other grains.
+  const Words size{"--depth", "24dS", "--length", "24dL"};
   auto irregular = size;
   irregular.insert(irregular.end(), {"--base-height-spread", "0.2dS"});
   const auto a = deposit(scene_from(size)), b = deposit(scene_from(irregular));
