@@ -230,28 +230,36 @@ TEST(Detection, FindsTheContactsOfAWideBed)
   }
 }
 
+std::vector<double> numbers_of_25_steps(Bed bed, int threads, Precision precision)
+{
+  bed.world.threads = threads;
+  bed.world.solver.precision = precision;
+  auto simulation = simulation_of(bed);
+  std::vector<double> all;
+  for (int step = 0; step < 25; ++step) {
+    const auto report = simulation.advance();
+    all.insert(all.end(),
+               {report.solver.residual, report.solver.residual_rms, report.sum_overlap,
+                report.sum_gap_bearing, report.base_impulse.x(), report.base_impulse.y()});
+  }
+  EXPECT_GT(simulation.pair_list_renewals(), 1u);
+  for (std::size_t g = 0; g < bed.position.size(); ++g)
+    all.insert(all.end(), {simulation.position(g).x(), simulation.position(g).y(),
+                           simulation.angular_velocity(g)});
+  return all;
+}
+
 TEST(Detection, AnyNumberOfThreadsGivesTheSameBytes)
 {
   auto bed = bed_of(4000, 12, true, 0);
-  std::vector<double> first;
-  hard_cases::Case same("H38", "bits of 25 steps with 2 and 3 threads are those with one");
-  for (const int threads : {1, 2, 3}) {
-    bed.world.threads = threads;
-    auto simulation = simulation_of(bed);
-    std::vector<double> all;
-    for (int step = 0; step < 25; ++step) {
-      const auto report = simulation.advance();
-      all.insert(all.end(),
-                 {report.solver.residual, report.solver.residual_rms, report.sum_overlap,
-                  report.sum_gap_bearing, report.base_impulse.x(), report.base_impulse.y()});
-    }
-    EXPECT_GT(simulation.pair_list_renewals(), 1u);
-    for (std::size_t g = 0; g < bed.position.size(); ++g) {
-      all.insert(all.end(), {simulation.position(g).x(), simulation.position(g).y(),
-                             simulation.angular_velocity(g)});
-    }
-    if (first.empty()) first = all;
-    same.holds(all == first);
+  hard_cases::Case same("H38", "bits of 25 steps with 2 and 3 threads are those with one"),
+      single("H38", "the same, with sweeps in single precision");
+  const auto one = numbers_of_25_steps(bed, 1, Precision::doubles),
+             one_single = numbers_of_25_steps(bed, 1, Precision::mixed);
+  EXPECT_NE(one, one_single);
+  for (const int threads : {2, 3}) {
+    same.holds(numbers_of_25_steps(bed, threads, Precision::doubles) == one);
+    single.holds(numbers_of_25_steps(bed, threads, Precision::mixed) == one_single);
   }
 }
 

@@ -75,6 +75,25 @@ TEST(Scene, AWholeNumberOfStepsFitsIntoAFrameInterval)
   EXPECT_THROW(scene_from({"--step", "0.0003"}), UsageError);
 }
 
+TEST(Scene, SweepsAreInSinglePrecisionWhereTheAccuracyAllowsIt)
+{
+  const auto precision = [](const std::vector<std::string>& words) {
+    return scene_from(words).solver.precision;
+  };
+  EXPECT_EQ(precision({"--accuracy", "draft"}), Precision::mixed);
+  EXPECT_EQ(precision({"--accuracy", "standard"}), Precision::mixed);
+  EXPECT_EQ(precision({"--accuracy", "reference"}), Precision::doubles);
+  EXPECT_EQ(precision({"--accuracy", "reference", "--precision", "mixed"}), Precision::mixed);
+  EXPECT_EQ(precision({"--precision", "double"}), Precision::doubles);
+  EXPECT_EQ(to_parameters(scene_from({})).texts.at("precision"), "mixed");
+}
+
+TEST(Scene, AFreePlateIsSolvedInDoublePrecision)
+{
+  EXPECT_EQ(scene_from({"--geometry", "shear"}).solver.precision, Precision::doubles);
+  EXPECT_THROW(scene_from({"--geometry", "shear", "--precision", "mixed"}), UsageError);
+}
+
 TEST(Scene, StorageIsAsAsked)
 {
   EXPECT_TRUE(scene_from({"--store", "float32"}).float32);

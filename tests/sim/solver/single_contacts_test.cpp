@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/solver/single_contacts.hpp"
+
+#include "sim/solver/sweep.hpp"
+#include "tests/frozen_problem.hpp"
+#include "tests/sim/contact_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <limits>
+
+/// Sweeps in single precision, and what comes of them in double precision.
+namespace grseg {
+namespace {
+
+/// The frozen problem with the entry that unused lanes act on. Contacts carry a load already, which
+/// the velocities do not contain yet.
+FrozenProblem problem()
+{
+  auto p = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
+  p.motion.emplace_back();
+  for (std::size_t k = 0; k < p.contacts.size(); ++k) {
+    auto& c = p.contacts[k];
+    c.kappa = 0.98 + 0.0005 * static_cast<double>(k % 60);
+    c.impulse_n = c.mass_n * 1e-3 * static_cast<double>(k % 7);
+    c.impulse_t = 0.5 * c.impulse_n * (static_cast<double>(k % 3) - 1);
+  }
+  return p;
+}
+
+using Bits = std::vector<std::uint32_t>;
+
+void add_bits(Bits& bits, float x)
+{
+  bits.push_back(std::bit_cast<std::uint32_t>(x));
+}
+
+bool in_use(const BlockOf<float>& block, std::size_t lane)
+{
+  return block.i[lane] != block.j[lane];
+}
+
+Bits bits_of(std::span<const BlockOf<float>> blocks, std::span<const MotionOf<float>> motion)
+{
+  Bits bits;
+  for (const auto& b : blocks)
+    for (std::size_t k = 0; k < lanes_of<float>; ++k)
+      if (in_use(b, k)) add_bits(bits, b.impulse_n[k]), add_bits(bits, b.impulse_t[k]);
+  for (const auto& m : motion)
+    for (const float x : {m.vx, m.vy, m.rim_speed}) add_bits(bits, x);
+  return bits;
+}
+
+/// Relaxes contact by contact, in the order of blocks and lanes.
+template <Effects with>
+void relax_one_by_one(std::span<BlockOf<float>> blocks, std::vector<MotionOf<float>>& motion)
+{
+  for (auto& b : blocks)
+    for (std::size_t k = 0; k < lanes_of<float>; ++k) {
+      if (!in_use(b, k)) continue;
+      const std::uint32_t i = b.i[k] / 4, j = b.j[k] / 4;
+      ContactOf<float> c{b.nx[k],      b.ny[k],        b.kappa[k],     b.mass_n[k], b.mass_t[k],
+                         b.rebound[k], b.impulse_n[k], b.impulse_t[k], 0,           0,
+                         b.base_n[k],  b.base_t[k]};
+      relax<with>(c, motion[i], motion[j], static_cast<float>(FrozenProblem::friction));
+      b.impulse_n[k] = c.impulse_n;
+      b.impulse_t[k] = c.impulse_t;
+    }
+}
+
+template <Effects with>
+void expect_the_law(const std::string& instructions)
+{
+  use_instruction_set(instructions);
+  auto p = problem();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  SingleContacts singles;
+  const std::array strips{packed.runs()};
+  singles.take(strips, p.motion, 1);
+  const auto& run = singles.strips()[0];
+  std::vector<BlockOf<float>> blocks(run.blocks.begin(), run.blocks.end());
+  std::vector<MotionOf<float>> motion(singles.motion().begin(), singles.motion().end());
+  for (int sweep = 0; sweep < 4; ++sweep) {
+    choose_sweep<float>(with)(run, singles.motion().data(),
+                              static_cast<float>(FrozenProblem::friction));
+    relax_one_by_one<with>(blocks, motion);
+  }
+  EXPECT_EQ(bits_of(run.blocks, singles.motion()), bits_of(blocks, motion)) << instructions;
+  use_instruction_set("");
+}
+
+TEST(SinglePrecision, SweepsAreTheLawOfAPairToTheLastBitOnEveryInstructionSet)
+{
+  for (const auto& set : instruction_sets()) {
+    expect_the_law<Effects{true, true, true}>(set);
+    expect_the_law<Effects{true, true, false}>(set);
+    expect_the_law<Effects{true, false, true}>(set);
+    expect_the_law<Effects{false, false, true}>(set);
+    expect_the_law<Effects{false, false, false}>(set);
+  }
+}
+
+TEST(SinglePrecision, FindingsAreThoseOfEveryContact)
+{
+  auto p = problem();
+  ContactBlocks packed;
+  packed.pack(p.contacts, p.motion, p.motion.size() - 1);
+  auto twice = p;
+  ContactBlocks again;
+  again.pack(twice.contacts, twice.motion, twice.motion.size() - 1);
+  SingleContacts singles;
+  apply_impulses(packed.blocks(), p.motion.data(), {});
+  apply_impulses(again.blocks(), twice.motion.data(), {});
+  singles.take(std::array{packed.runs()}, p.motion, 1);
+  const auto found = choose_sweep<float>({})(singles.strips()[0], singles.motion().data(), 0.5F);
+  const auto exact = choose_sweep({})(again.runs(), twice.motion.data(), 0.5);
+  // A rounding error of the fastest velocity in each of the ten relaxations that a body takes part
+  // in, over the largest change; sums of squares twice that.
+  constexpr double error = 1e-4;
+  EXPECT_NEAR(found.largest, exact.largest, error * exact.largest);
+  EXPECT_NEAR(found.sum_squares, exact.sum_squares, 2 * error * exact.sum_squares);
+  EXPECT_NEAR(found.sum_reference, exact.sum_reference, 2 * error * exact.sum_reference);
+}
+
+struct Solved {
+  std::vector<Contact> contacts;
+  std::vector<Motion> motion;
+  int sweeps;
+};
+
+Solved solved(Precision precision, SolverSettings settings)
+{
+  auto p = problem();
+  p.motion.pop_back();
+  settings.precision = precision;
+  const auto report = solve_contacts(p.contacts, p.motion, p.friction, {}, settings, 0);
+  return {p.contacts, p.motion, report.sweeps};
+}
+
+TEST(SinglePrecision, VelocitiesAreThoseOfDoublePrecisionUpToItsRounding)
+{
+  constexpr int sweeps = 24;
+  const SolverSettings settings{
+      .tolerance = 0, .max_sweeps = sweeps, .acceleration = false, .min_sweeps = sweeps};
+  const auto mixed = solved(Precision::mixed, settings),
+             exact = solved(Precision::doubles, settings);
+  double fastest = 0, largest = 0;
+  for (std::size_t b = 0; b < exact.motion.size(); ++b) {
+    const auto &m = mixed.motion[b], &e = exact.motion[b];
+    fastest = std::max({fastest, std::abs(e.vx), std::abs(e.vy), std::abs(e.rim_speed)});
+    largest = std::max({largest, std::abs(m.vx - e.vx), std::abs(m.vy - e.vy),
+                        std::abs(m.rim_speed - e.rim_speed)});
+  }
+  // A disc of diameter 2 has at most nine neighbours of diameter 1. Each relaxation rounds the
+  // velocities of its bodies once, and sweeps do not enlarge an error of them.
+  constexpr double relaxations = 9 * sweeps;
+  EXPECT_LT(largest, relaxations * std::numeric_limits<float>::epsilon() * fastest);
+  EXPECT_GT(largest, 0);
+  EXPECT_EQ(mixed.sweeps, exact.sweeps);
+}
+
+TEST(SinglePrecision, MomentumAndSpinBalanceInDoublePrecision)
+{
+  const auto start = problem().motion;
+  const auto end = solved(Precision::mixed, {.tolerance = 0.1, .max_sweeps = 100});
+  std::vector<Vec2> momentum(end.motion.size(), Vec2::Zero());  // kg m/s, that contacts give
+  std::vector<double> spin(end.motion.size(), 0);               // kg m/s, mass times rim speed
+  double largest = 0;
+  for (const auto& c : end.contacts) {
+    const auto i = static_cast<std::size_t>(c.i), j = static_cast<std::size_t>(c.j);
+    const Vec2 normal(c.nx, c.ny), tangent(-c.ny, c.nx);
+    const Vec2 impulse = c.impulse_n * normal + c.impulse_t * tangent;
+    momentum[i] += impulse;
+    momentum[j] -= impulse;
+    for (const auto b : {i, j}) spin[b] -= disc_rim_factor * c.kappa * c.impulse_t;
+    largest = std::max(largest, impulse.norm());
+  }
+  for (std::size_t b = 0; b < end.motion.size(); ++b) {
+    const auto &m = end.motion[b], &s = start[b];
+    if (m.inverse_mass == 0) continue;
+    // Round-off of velocities of some m/s, as in double precision throughout.
+    EXPECT_NEAR((m.vx - s.vx) / m.inverse_mass, momentum[b].x(),
+                1e-12 * (largest + 1 / m.inverse_mass));
+    EXPECT_NEAR((m.vy - s.vy) / m.inverse_mass, momentum[b].y(),
+                1e-12 * (largest + 1 / m.inverse_mass));
+    EXPECT_NEAR((m.rim_speed - s.rim_speed) / m.inverse_mass, spin[b],
+                1e-12 * (largest + 1 / m.inverse_mass));
+  }
+}
+
+TEST(SinglePrecision, NoContactPullsOrRubsHarderThanCoulombAllows)
+{
+  const auto end = solved(Precision::mixed, {.tolerance = 0.1, .max_sweeps = 100});
+  std::size_t bearing = 0, open = 0, sliding = 0;
+  for (const auto& c : end.contacts) {
+    EXPECT_GE(c.impulse_n, 0);
+    EXPECT_LE(std::abs(c.impulse_t), FrozenProblem::friction * c.impulse_n);
+    bearing += c.impulse_n > 0;
+    open += c.impulse_n == 0;
+    sliding += c.impulse_n > 0 && std::abs(c.impulse_t) == FrozenProblem::friction * c.impulse_n;
+  }
+  EXPECT_GT(bearing, 1000u);
+  EXPECT_GT(open, 100u);
+  EXPECT_GT(sliding, 100u);
+}
+
+TEST(SinglePrecision, UnitsOfMassChangeNoDigit)
+{
+  auto p = problem();
+  p.motion.pop_back();
+  auto heavy = p;
+  constexpr double unit = 1024.0 * 1024 * 1024;
+  for (auto& m : heavy.motion) m.inverse_mass /= unit;
+  for (auto& c : heavy.contacts)
+    for (auto* x : {&c.mass_n, &c.mass_t, &c.impulse_n, &c.impulse_t}) *x *= unit;
+  const SolverSettings settings{.tolerance = 0.1, .max_sweeps = 100, .precision = Precision::mixed};
+  solve_contacts(p.contacts, p.motion, p.friction, {}, settings, 0);
+  solve_contacts(heavy.contacts, heavy.motion, p.friction, {}, settings, 0);
+  for (std::size_t b = 0; b < p.motion.size(); ++b) {
+    EXPECT_EQ(p.motion[b].vx, heavy.motion[b].vx);
+    EXPECT_EQ(p.motion[b].vy, heavy.motion[b].vy);
+  }
+}
+
+}  // namespace
+}  // namespace grseg
