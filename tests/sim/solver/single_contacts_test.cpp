@@ -207,6 +207,25 @@ TEST(SinglePrecision, NoContactPullsOrRubsHarderThanCoulombAllows)
   EXPECT_GT(sliding, 100u);
 }
 
+TEST(SinglePrecision, AContactThatPartsLosesItsLoadToTheLastDigit)
+{
+  // Loads with digits that single precision does not have.
+  for (const double load : {0.1, 1.0 / 3, 0.7}) {
+    std::vector<Motion> motion{{load, 0, 0, 1}, {-load, 0, 0, 1}};  // as if it bore twice that
+    Contact c{};
+    c.nx = 1, c.kappa = 1;
+    c.mass_n = 0.5, c.mass_t = c.mass_n / 3;
+    c.impulse_n = load, c.impulse_t = load / 7;
+    c.i = 0, c.j = 1;
+    std::vector<Contact> contacts{c};
+    solve_contacts(contacts, motion, 0.5, {}, {.max_sweeps = 10, .precision = Precision::mixed}, 0);
+    EXPECT_EQ(contacts[0].impulse_n, 0);
+    EXPECT_EQ(contacts[0].impulse_t, 0);
+    EXPECT_EQ(motion[0].vx, load);
+    EXPECT_EQ(motion[0].rim_speed, 0);
+  }
+}
+
 TEST(SinglePrecision, UnitsOfMassChangeNoDigit)
 {
   auto p = problem();
