@@ -95,6 +95,7 @@ struct Task {
   FreeBodies* free;  // with doubles only
 };
 
+/// One solve, from the first guess on, which the velocities contain.
 template <class Real>
 class Sweeping {
  public:

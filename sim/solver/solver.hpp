@@ -12,10 +12,10 @@
 
 namespace grseg {
 
-/// In what precision sweeps relax contacts. Under `mixed` it is single precision: the impulses that
-/// they find are exact to about 1e-6 of the velocities, whatever the tolerance. All else is done
-/// in double precision, the step's velocities too, which are made from those impulses: momentum and
-/// angular momentum balance to round-off.
+/// In what precision sweeps relax contacts. Under `mixed` it is single precision: a contact's relative
+/// velocity is then off by some 1e-7 of the fastest velocity, far below the tolerance of a flow. All
+/// else is done in double precision. Sweeps find increments on the first guesses, which are added to
+/// impulses and velocities at the end, so that momentum and angular momentum balance to round-off.
 enum class Precision { mixed, doubles };
 
 struct SolverSettings {
@@ -57,11 +57,10 @@ struct SolverReport {
 /// precision, whatever the setting.
 ///
 /// Impulses in the blocks are the first guess; they are applied to `motion` here, whose last entry
-/// is the body that never moves. Contacts come in
-/// strips and are swept run after run: those of even strips at a time, then those of odd ones.
-/// Strips that are not neighbours share no mobile body; sums are added strip by strip. Of
-/// several strips each is swept twice before the next, and counts as swept twice. When
-/// changes above the tolerance are left in a quarter of the strips or less, only these and their
+/// is the body that never moves. Contacts come in strips and are swept run after run: those of even
+/// strips at a time, then those of odd ones. Strips that are not neighbours share no mobile body;
+/// sums are added strip by strip. Of several strips each is swept twice before the next, and counts
+/// as swept twice. When changes above the tolerance are left in a quarter of the strips or less, only these and their
 /// neighbours are swept further, without extrapolation; with free bodies all are.
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
