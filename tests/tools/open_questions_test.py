@@ -116,6 +116,15 @@ class Questions(Pipeline):
         self.assertAlmostEqual(row["f_ratio"], (3 + 2 + 7) / (1 + 2 + 4))  # of the last 15 s alone
         self.assertAlmostEqual(row["trapped_reach"], 12.706 * math.sqrt(2) / math.sqrt(2), 4)
 
+    def test_a_run_of_150_s_counts_instead_of_a_shorter_one_of_its_mixture(self):
+        self.answer("phi0.60-s23-e0.5-t150", 0.05, "--over", "mixtures")
+        for flow in ("phi0.30-s23-e0.5", "phi0.60-s23-e0.5", "phi0.60-s23-e0.5-t150"):
+            self.run_of(f"{flow}-seed1")
+            self.answer(flow, 0.04)
+        self.run_of("phi0.60-s23-e0.5-seed2")
+        every = self.campaign.made_by("questions")[-1]
+        self.assertEqual((every["flow"], every["runs"], every["B"]), ("mixtures-e0.5", 2, 0.05))
+
     def test_all_mixtures_of_one_restitution_make_a_row(self):
         self.answer("phi0.60-s23-e0.5", 0.05, "--over", "mixtures")
         for phi in ("0.30", "0.60"):
