@@ -20,8 +20,7 @@ struct SweepResult {
   double sum_reference = 0;  // (m/s)^2, of W p
 };
 
-/// What a sweep finds out beside relaxing: only the sum of squares, or all, which takes a fifth
-/// longer.
+/// What a sweep finds out beside relaxing: only the sum of squares, or all of SweepResult.
 enum class Findings { squares, all };
 
 /// Relaxes all contacts once, block after block. Real is double or float.
