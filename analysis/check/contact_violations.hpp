@@ -23,6 +23,8 @@ class ContactViolations {
  public:
   explicit ContactViolations(const ContactRules& rules) : rules_(rules) {}
 
+  /// s, of the frames that follow: of the rules, unless steps were taken in parts.
+  void use_step(double step) { rules_.step = step; }
   template <int D>
   void add(const Grains& grains, const Frame<D>& frame);
 

@@ -77,7 +77,8 @@ PhysicsCheck<D>::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings
       partials_(run.box(), run.species().size()),
       contacts_(rules_),
       base_force_(base_force_of<D>(run)),
-      energy_defect_(observable_of(run, "energy_defect"))
+      energy_defect_(observable_of(run, "energy_defect")),
+      frame_step_(observable_of(run, "frame_step"))
 {
   tolerances_.require_valid();
   try {
@@ -130,6 +131,7 @@ void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
   has_force_ = has_force_ && !frame.force.empty();
   forces_.add(grains, frame);
   partials_.add(grains, frame);
+  if (!frame_step_.empty()) contacts_.use_step(frame_step_[index]);
   contacts_.add(grains, frame);
   if (!energy_defect_.empty())
     energy_.add(at_rest(total) ? 0 : energy_defect_[index], frame.time, 0);

@@ -361,6 +361,14 @@ DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
   return total;
 }
 
+void forget_search(std::vector<StripContacts>& contacts)
+{
+  for (auto& strip : contacts) {
+    std::swap(strip.origins, strip.previous_origins);
+    strip.size = strip.previous_size;
+  }
+}
+
 ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
                           std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
                           int threads)

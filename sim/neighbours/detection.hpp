@@ -67,6 +67,9 @@ struct DetectionSums {
 DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
                             std::vector<StripContacts>& contacts, int threads = 1);
 
+/// Takes the last find_contacts back: `contacts` hold those of the step before again.
+void forget_search(std::vector<StripContacts>& contacts);
+
 /// Sums over the contacts that were solved.
 struct ImpulseSums {
   std::size_t force_bearing = 0;     // contacts that carry an impulse

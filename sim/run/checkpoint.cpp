@@ -19,7 +19,7 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int32_t format_version = 3;
+constexpr std::int32_t format_version = 4;
 
 /// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
 /// numbers.
@@ -198,6 +198,8 @@ void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
   at("largest_residual", totals.largest_residual);
   at("largest_overlap", totals.largest_overlap);
   at("fastest_approach", totals.fastest_approach);
+  at("farthest_approach", totals.farthest_approach);
+  at("divided", totals.divided);
   at("base_impulse_x", totals.base_impulse.x());
   at("base_impulse_y", totals.base_impulse.y());
 }

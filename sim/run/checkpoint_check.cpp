@@ -167,13 +167,13 @@ class Check {
 
   void totals(const char* group, const StepTotals& totals) const
   {
-    require(totals.steps >= 0 && totals.missed >= 0,
+    require(totals.steps >= 0 && totals.missed >= 0 && totals.divided >= 0,
             fmt::format("{} has a negative number of steps", group));
     for (const double sum :
          {totals.sweeps, totals.residual_rms, totals.touching, totals.force_bearing,
           totals.sum_overlap, totals.sum_gap_bearing, totals.largest_residual,
-          totals.largest_overlap, totals.fastest_approach, totals.base_impulse.x(),
-          totals.base_impulse.y()})
+          totals.largest_overlap, totals.fastest_approach, totals.farthest_approach,
+          totals.base_impulse.x(), totals.base_impulse.y()})
       require(finite(sum), fmt::format("{} has a number that is not finite", group));
   }
 

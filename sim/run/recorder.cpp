@@ -14,7 +14,6 @@ namespace grseg {
 namespace {
 
 constexpr double most_overlap = 0.01;  // mean, in d_S
-constexpr double most_approach = 0.5;  // per step, in d_S: a grain must not pass through another
 
 bool all_finite(const std::vector<Vec2>& values)
 {
@@ -36,6 +35,8 @@ void StepTotals::add(const StepReport& report)
   largest_residual = std::max(largest_residual, report.solver.residual);
   largest_overlap = std::max(largest_overlap, report.largest_overlap);
   fastest_approach = std::max(fastest_approach, report.fastest_approach);
+  farthest_approach = std::max(farthest_approach, report.farthest_approach);
+  divided += report.parts > 1;
   base_impulse += report.base_impulse;
 }
 
@@ -52,6 +53,8 @@ void StepTotals::add(const StepTotals& other)
   largest_residual = std::max(largest_residual, other.largest_residual);
   largest_overlap = std::max(largest_overlap, other.largest_overlap);
   fastest_approach = std::max(fastest_approach, other.fastest_approach);
+  farthest_approach = std::max(farthest_approach, other.farthest_approach);
+  divided += other.divided;
   base_impulse += other.base_impulse;
 }
 
@@ -75,6 +78,7 @@ std::vector<Observable> Recorder::observables()
           {"largest_overlap", "m"},
           {"mean_gap", "m"},
           {"fastest_approach", "m s-1"},
+          {"frame_step", "s"},
           {"base_force_x", "N"},
           {"base_force_y", "N"}};
 }
@@ -89,8 +93,8 @@ void Recorder::write(const Frame<2>& frame, const Simulation& simulation)
   check_bounds(frame, simulation);
   const auto& t = state_.since_frame;
   const auto& world = simulation.world();
-  const auto energy =
-      energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
+  const auto energy = energy_balance(world.grains, frame, simulation.before(), world.gravity,
+                                     simulation.written_step());
   const std::vector<double> values{
       translational_energy(simulation),
       rotational_energy(simulation),
@@ -110,6 +114,7 @@ void Recorder::write(const Frame<2>& frame, const Simulation& simulation)
       t.largest_overlap,
       t.mean_gap_bearing(),
       t.fastest_approach,
+      simulation.written_step(),
       t.per_step(t.base_impulse.x()) / simulation.world().step,
       t.per_step(t.base_impulse.y()) / simulation.world().step};
   writer_.append(frame, values);
@@ -128,13 +133,13 @@ void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation)
         fmt::format("the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S; use a "
                     "smaller step or tolerance",
                     overlap, frame.time, most_overlap));
-  const double crossing =
-      state_.since_frame.fastest_approach * simulation.world().step / small_diameter_;
+  const double crossing = state_.since_frame.farthest_approach / small_diameter_;
   if (crossing > most_approach)
     throw RunError(fmt::format(
-        "grains approach each other by {:.2g} d_S per step at t = {:.6g} s, above {} d_S; use a "
-        "step below {:.2g} s",
-        crossing, frame.time, most_approach, simulation.world().step * most_approach / crossing));
+        "grains approach each other by {:.2g} d_S in 1/{} of a step at t = {:.6g} s, above {} d_S; "
+        "use a step below {:.2g} s",
+        crossing, 1 << most_halvings, frame.time, most_approach,
+        simulation.world().step * most_approach / crossing));
 }
 
 double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& gravity)

@@ -15,7 +15,8 @@ struct StepTotals {
   std::int64_t missed = 0;  ///< steps that ended above the tolerance
   double sweeps = 0, residual_rms = 0, touching = 0, force_bearing = 0;
   double sum_overlap = 0, sum_gap_bearing = 0;
-  double largest_residual = 0, largest_overlap = 0, fastest_approach = 0;
+  double largest_residual = 0, largest_overlap = 0, fastest_approach = 0, farthest_approach = 0;
+  std::int64_t divided = 0;          ///< steps that were taken in parts
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s
 
   void add(const StepReport& report);
@@ -49,8 +50,8 @@ class Recorder {
 
   void add(const StepReport& report) { state_.since_frame.add(report); }
   /// Writes `frame`; its own step must have been added. RunError where the mean overlap since the
-  /// last frame is above 1 % of d_S, a grain approaches its neighbour by more than half of d_S per
-  /// step, or a number is not finite.
+  /// last frame is above 1 % of d_S, a grain approaches its neighbour by more than half of d_S even in
+  /// the smallest part of a step, or a number is not finite.
   void write(const Frame<2>& frame, const Simulation& simulation);
 
   const StepTotals& totals() const { return state_.totals; }

@@ -87,6 +87,11 @@ std::string doubts(const StepTotals& t, const Scene& scene)
     lines += line("doubt", fmt::format("{} steps missed the tolerance: raise --max-sweeps, now {}, "
                                        "or choose a smaller --step",
                                        t.missed, scene.solver.max_sweeps));
+  if (t.divided > 0)
+    lines +=
+        line("remark", fmt::format("{} steps were taken in parts, because grains approached each "
+                                   "other by more than {:g} d_S in a whole one",
+                                   t.divided, most_approach));
   if (t.mean_overlap() > small_overlap * scene.small_diameter)
     lines += line("doubt", fmt::format("the mean overlap is above {:g} d_S: choose a smaller "
                                        "--step or a larger --min-sweeps",
@@ -118,6 +123,7 @@ Parameters to_parameters(const RunSummary& s)
   auto& n = p.numbers;
   n["summary_sweeps_per_step"] = {t.per_step(t.sweeps)};
   n["summary_contacts_per_step"] = {t.per_step(t.force_bearing)};
+  n["summary_divided_steps"] = {static_cast<double>(t.divided)};
   n["summary_missed_share"] = {t.per_step(static_cast<double>(t.missed))};
   n["summary_largest_residual"] = {t.largest_residual};
   n["summary_mean_overlap"] = {t.mean_overlap()};

@@ -21,10 +21,14 @@ namespace {
 // A motionless bed has converged when no velocity changes by this part of g h times the tolerance.
 constexpr double floor_of_reference = 1e-3;
 
+double smallest_diameter(const Grains& grains)
+{
+  return 2 * *std::min_element(grains.radius.begin(), grains.radius.end());
+}
+
 World with_defaults(World world)
 {
-  const double smallest =
-      2 * *std::min_element(world.grains.radius.begin(), world.grains.radius.end());
+  const double smallest = smallest_diameter(world.grains);
   world.law.margin = std::max(world.law.margin, least_margin * smallest);
   if (!(world.skin > 0))
     world.skin = 0.5 * smallest;  // independent of the margin, which a restart may change
@@ -37,6 +41,23 @@ Effects effects_of(const World& world)
   return {.friction = world.general || world.material.friction > 0,
           .rotation = world.rotation,
           .restitution = world.general || world.material.restitution > 0 || world.law.horizon > 0};
+}
+
+/// Adds what a part did to what those before it did. Numbers of contacts are those of the last part.
+void add_part(const StepReport& part, StepReport& all)
+{
+  const auto before = all;
+  all = part;
+  all.parts += before.parts;
+  if (before.parts == 0) return;
+  all.solver.sweeps += before.solver.sweeps;
+  all.solver.residual = std::max(all.solver.residual, before.solver.residual);
+  all.solver.residual_rms = std::max(all.solver.residual_rms, before.solver.residual_rms);
+  all.solver.converged = all.solver.converged && before.solver.converged;
+  all.largest_overlap = std::max(all.largest_overlap, before.largest_overlap);
+  all.fastest_approach = std::max(all.fastest_approach, before.fastest_approach);
+  all.farthest_approach = std::max(all.farthest_approach, before.farthest_approach);
+  all.base_impulse += before.base_impulse;
 }
 
 // With fewer grains more threads than one do not pay.
@@ -53,7 +74,8 @@ Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world_.skin,
              world_.law.margin, threads_),
       state_(make_state(world.grains, position)),
-      body_of_(position.size())
+      body_of_(position.size()),
+      farthest_allowed_(most_approach * smallest_diameter(world.grains))
 {
   std::iota(body_of_.begin(), body_of_.end(), 0);
 }
@@ -72,27 +94,70 @@ StepReport Simulation::step(Frame<2>* frame)
 {
   const double h = world_.step;
   StepReport report;
-  if (gravity_.turns()) world_.gravity = gravity_.at(time() + h / 2);
-  drive_boundaries(world_, time(), body_of_, state_);
+  report.parts = 0;
+  take({}, frame, report);
+  world_.step = h;
+  ++steps_done_;
+  return report;
+}
+
+void Simulation::take(const Part& part, Frame<2>* frame, StepReport& report)
+{
+  const double length = world_.step;
+  StepReport own;
+  if (try_to_take(part, frame, own)) return add_part(own, report);
+  const double half = std::ldexp(1, -part.halvings - 1);
+  world_.step = length / 2;
+  lengthen_impulses(0.5);
+  take({part.begin, part.halvings + 1}, nullptr, report);
+  world_.step = length / 2;
+  take({part.begin + half, part.halvings + 1}, frame, report);
+  lengthen_impulses(2);
+}
+
+bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& report)
+{
+  const double h = world_.step, whole = std::ldexp(h, part.halvings);
+  const auto at = [&](double steps) { return (static_cast<double>(steps_done_) + steps) * whole; };
+  const double begin = at(part.begin), middle = at(part.begin + std::ldexp(0.5, -part.halvings));
+  if (gravity_.turns()) world_.gravity = gravity_.at(begin + h / 2);
+  drive_boundaries(world_, begin, body_of_, state_);
   if (frame != nullptr) remember_motion();
 
   move_bodies(h / 2, world_.law.forecast * h, state_, ahead_, threads_);
-  find_contacts(report);
+  const bool renewed = find_contacts(report);
+  if (report.farthest_approach > farthest_allowed_ && part.halvings < most_halvings) {
+    take_back(renewed);
+    return false;
+  }
+  forget_impulses(renewed);
   accelerate(h * world_.gravity, state_, threads_);
   apply_loads(world_, h, body_of_, state_);
   solve(report);
   keep_impulses(report);
   if (frame != nullptr)
-    write_frame({world_, state_, pairs_.pairs(), contacts_, body_of_, before_, steps_done_},
+    write_frame({world_, state_, pairs_.pairs(), contacts_, body_of_, before_, steps_done_, middle},
                 *frame);
   move_bodies(h / 2, state_, threads_);
+  return true;
+}
 
-  ++steps_done_;
-  return report;
+void Simulation::take_back(bool renewed)
+{
+  move_bodies(-world_.step / 2, state_, threads_);
+  forget_search(contacts_);
+  // The contacts of the step before are entries of the old list.
+  restored_ = restored_ || renewed;
+}
+
+void Simulation::lengthen_impulses(double factor)
+{
+  for (auto& impulse : pairs_.impulses()) impulse = {factor * impulse.n, factor * impulse.t};
 }
 
 void Simulation::remember_motion()
 {
+  written_step_ = world_.step;
   before_.clear();
   for (const auto body : body_of_) before_.push_back(state_.motion[body]);
 }
@@ -128,7 +193,7 @@ void Simulation::renew_pairs()
   });
 }
 
-void Simulation::find_contacts(StepReport& report)
+bool Simulation::find_contacts(StepReport& report)
 {
   const bool renew = !pairs_.complete(ahead_);
   const double unseen = unseen_approach();
@@ -145,15 +210,21 @@ void Simulation::find_contacts(StepReport& report)
   rule.periodic = world_.general || world_.box.periodic_x;
   const auto sums = grseg::find_contacts(pairs_.pairs(), rule, contacts_, threads_);
   if (sums.coincident) stop_at_coincidence();
-  if (renew || restored_)
-    pairs_.forget_impulses();
-  else
-    forget_impulses(contacts_, pairs_.impulses(), memories(), threads_);
-  restored_ = false;
   report.touching = sums.touching;
   report.sum_overlap = sums.overlap;
   report.largest_overlap = sums.largest_overlap;
   report.fastest_approach = std::max(sums.fastest_approach, unseen);
+  report.farthest_approach = report.fastest_approach * world_.step;
+  return renew;
+}
+
+void Simulation::forget_impulses(bool renewed)
+{
+  if (renewed || restored_)
+    pairs_.forget_impulses();
+  else
+    grseg::forget_impulses(contacts_, pairs_.impulses(), memories(), threads_);
+  restored_ = false;
 }
 
 double Simulation::unseen_approach() const

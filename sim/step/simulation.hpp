@@ -14,6 +14,11 @@
 
 namespace grseg {
 
+/// Of a pair in a step, in smallest diameters: else grains might pass each other unseen.
+constexpr double most_approach = 0.5;
+/// How often a step is halved to keep to that.
+constexpr int most_halvings = 6;
+
 /// What one step did.
 struct StepReport {
   SolverReport solver;
@@ -25,6 +30,8 @@ struct StepReport {
   /// m/s, of a pair that acts, at the beginning of the step; or of grains so fast that they may
   /// have passed each other unseen.
   double fastest_approach = 0;
+  double farthest_approach = 0;      ///< m, the same times the length of the step or of its part
+  int parts = 1;                     ///< in which the step was taken
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
 };
 
@@ -36,6 +43,10 @@ struct StepReport {
 ///   x  ->  x + h v+/2        grains move on to the end of the step
 ///
 /// sim/contact/contact_law.hpp states which pairs act, and the law that their impulses obey.
+///
+/// Where a pair would approach by more than half the smallest diameter in a step, so that grains might
+/// pass each other unseen, the step is taken in two halves, and these in halves again, up to
+/// 1/64 of the step. A frame of such a step is one of its last part.
 class Simulation {
  public:
   /// All that changes from step to step and that later steps depend on.
@@ -86,15 +97,29 @@ class Simulation {
   }
   void set_velocity(std::size_t g, const Vec2& velocity, double angular_velocity = 0);
 
-  /// Motion of each grain at the beginning of the last step that was written to a frame.
+  /// Motion of each grain at the beginning of the last step, or part of one, that was written to a
+  /// frame, and its length, s.
   const std::vector<Motion>& before() const { return before_; }
+  double written_step() const { return written_step_; }
 
   std::size_t pair_list_renewals() const { return pairs_.renewals(); }
 
  private:
   StepReport step(Frame<2>* frame);
+  /// The part of a step that begins `begin` steps after the step does.
+  struct Part {
+    double begin = 0;
+    int halvings = 0;  // of the step
+  };
+  void take(const Part& part, Frame<2>* frame, StepReport& report);
+  /// False, with everything as before, where the part is too long.
+  bool try_to_take(const Part& part, Frame<2>* frame, StepReport& report);
+  void take_back(bool renewed);
+  void lengthen_impulses(double factor);
   void remember_motion();
-  void find_contacts(StepReport& report);
+  /// Whether the list was renewed.
+  bool find_contacts(StepReport& report);
+  void forget_impulses(bool renewed);
   void renew_pairs();
   /// m/s, of grains that may have passed each other since the last list, or before the first one.
   double unseen_approach() const;
@@ -112,7 +137,9 @@ class Simulation {
   GrainState state_;
   std::vector<std::uint32_t> body_of_;  // where in the state each grain is
   std::vector<Vec2> ahead_;             // m, positions after the forecast of the law
+  double farthest_allowed_;             // m, that a pair may approach in a part of a step
   std::vector<Motion> before_;          // by row, at the beginning of a step written to a frame
+  double written_step_ = 0;             // s
   std::vector<StripContacts> contacts_;
   SolverMemory solver_memory_;
   std::int64_t steps_done_ = 0;

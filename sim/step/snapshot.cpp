@@ -34,7 +34,7 @@ void write_positions(const SolvedStep& s, Frame<2>& frame)
   frame.step = s.steps_done;
   frame.position.resize(count);
   frame.image.resize(count);
-  frame.time = (static_cast<double>(frame.step) + 0.5) * s.world.step;
+  frame.time = s.middle;
   for (std::size_t g = 0; g < count; ++g) {
     frame.position[g] = s.grains.position[s.body_of[g]];
     frame.image[g] = {s.grains.image[s.body_of[g]], 0};

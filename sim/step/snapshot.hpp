@@ -21,6 +21,7 @@ struct SolvedStep {
   std::span<const std::uint32_t> body_of;  // where in `grains` each row of Grains is
   std::span<const Motion> before;          // by row, at the beginning of the step
   std::int64_t steps_done = 0;             // before this one
+  double middle = 0;                       // s, time
 };
 
 /// The step as a frame of a trajectory (formats/README.md): positions and contacts at mid-step,

@@ -80,6 +80,8 @@ std::vector<double> numbers_of(const StepTotals& t)
           t.largest_residual,
           t.largest_overlap,
           t.fastest_approach,
+          t.farthest_approach,
+          static_cast<double>(t.divided),
           t.base_impulse.x(),
           t.base_impulse.y()};
 }
@@ -120,7 +122,7 @@ TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(read.trajectory.begin, 0.25);
   EXPECT_EQ(read.trajectory.wall, 1.5);
   EXPECT_EQ(numbers_of(read.trajectory.recorder.since_frame),
-            (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 1.0 / 3}));
+            (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 1.0 / 3}));
   EXPECT_EQ(numbers_of(read.trajectory.recorder.totals),
             numbers_of(written.trajectory.recorder.totals));
 }
@@ -150,7 +152,7 @@ TEST_F(CheckpointFile, AnotherVersionIsRefused)
   for (const int version : {1, 99}) {
     tamper([&](hid_t file) { put(file, "/version", H5T_NATIVE_INT, version); });
     EXPECT_EQ(complaint(), path + ": is a checkpoint of version " + std::to_string(version) +
-                               ", and this grseg-sim reads version 3; continue with the "
+                               ", and this grseg-sim reads version 4; continue with the "
                                "program that wrote it");
   }
 }

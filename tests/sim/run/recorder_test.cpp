@@ -113,7 +113,9 @@ TEST_F(RecorderFile, ARunThatOverlapsOrTunnelsIsStopped)
   report.sum_overlap = 0.0101;
   EXPECT_THROW(record(report, "steps"), RunError);
   report.sum_overlap = 0;
-  report.fastest_approach = 0.51 / world.step;
+  report.farthest_approach = 0.49;
+  EXPECT_NO_THROW(record(report, "steps"));
+  report.farthest_approach = 0.51;
   EXPECT_THROW(record(report, "steps"), RunError);
 }
 }  // namespace

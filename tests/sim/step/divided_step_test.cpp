@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run/recorder.hpp"
+#include "sim/step/energies.hpp"
+#include "tests/sim/small_chute.hpp"
+#include "tests/sim/worlds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+/// Steps in which grains would approach each other by more than half a diameter are taken in parts.
+namespace grseg {
+namespace {
+
+using worlds::Disc;
+using worlds::positions_of;
+using worlds::world_of;
+
+/// Two equal discs of diameter 1 on a line, the first moving at `diameters` per step towards the
+/// other, which it meets head-on.
+struct Collision {
+  World world;
+  Simulation simulation;
+
+  Collision(double diameters, LawParameters law)
+      : world(world_with(law)), simulation(world, {{-8.3, 0}, {0, 0}})
+  {
+    simulation.set_velocity(0, {diameters / world.step, 0});
+  }
+  static World world_with(LawParameters law)
+  {
+    auto world = world_of({{{-8.3, 0}, 0.5}, {{0, 0}, 0.5}});
+    world.material = {0, 0.25};
+    world.law = law;
+    return world;
+  }
+};
+
+constexpr std::array laws{ContactLaw::speculative, ContactLaw::touch, ContactLaw::centred,
+                          ContactLaw::predictive};
+
+TEST(DividedStep, DiscsThatApproachByDiametersPerStepDoNotPassEachOther)
+{
+  for (const auto law : laws)
+    for (const double diameters : {0.7, 1.9, 5.3, 20.0}) {
+      Collision two(diameters, law_parameters(law, 0.75, 1e-3, 1, 1));
+      int most_parts = 0;
+      for (int step = 0; step < 40; ++step)
+        most_parts = std::max(most_parts, two.simulation.advance().parts);
+      EXPECT_GT(most_parts, 1) << diameters;
+      const Vec2 a = two.simulation.velocity(0), b = two.simulation.velocity(1);
+      const double speed = diameters / two.world.step;
+      EXPECT_GT(two.simulation.position(1).x() - two.simulation.position(0).x(), 1) << diameters;
+      // Newton's law and momentum: u' = -e u, and the sum of velocities stays.
+      EXPECT_NEAR(b.x() - a.x(), 0.25 * speed, 1e-12 * speed) << diameters;
+      EXPECT_NEAR(a.x() + b.x(), speed, 1e-12 * speed) << diameters;
+    }
+}
+
+TEST(DividedStep, StepsAreWholeWhereNothingApproachesThatFast)
+{
+  Collision two(0.49, law_parameters(ContactLaw::touch, 0, 1e-3, 1, 1));
+  for (int step = 0; step < 60; ++step) EXPECT_EQ(two.simulation.advance().parts, 1);
+  EXPECT_LT(two.simulation.velocity(0).x(), two.simulation.velocity(1).x());
+}
+
+TEST(DividedStep, IsTheSameAsStepsOfThatLength)
+{
+  const auto law = law_parameters(ContactLaw::touch, 0, 1e-3, 1, 1);
+  Collision whole(0.9, law), halves(0.9, law);
+  auto world = halves.world;
+  world.step /= 2;
+  Simulation by_halves(world, {{-8.3, 0}, {0, 0}});
+  by_halves.set_velocity(0, halves.simulation.velocity(0));
+  int divided = 0;
+  for (int step = 0; step < 12; ++step) {
+    divided += whole.simulation.advance().parts == 2;
+    by_halves.advance();
+    by_halves.advance();
+    for (const std::size_t k : {0, 1})
+      EXPECT_NEAR((whole.simulation.position(k) - by_halves.position(k)).norm(), 0, 1e-12);
+  }
+  EXPECT_GT(divided, 0);
+}
+
+/// Shoots the n-th mobile grain into the bed.
+void shoot(Simulation& bed, int n)
+{
+  const auto& fixed = bed.world().grains.fixed;
+  for (std::size_t g = 0; g < fixed.size(); ++g)
+    if (!fixed[g] && n-- == 0) bed.set_velocity(g, {60, -60});
+}
+
+Simulation bed_with_a_bullet(const Scene& scene)
+{
+  auto bed = small_chute::bed(scene);
+  for (int k = 0; k < 50; ++k) bed.advance();
+  shoot(bed, 0);
+  return bed;
+}
+
+TEST(DividedStep, ARestartBetweenDividedStepsChangesNoBit)
+{
+  for (const auto* precision : {"mixed", "double"}) {
+    const auto scene = small_chute::scene({"--precision", precision});
+    auto bed = bed_with_a_bullet(scene);
+    int before = 0, after = 0;
+    for (int k = 0; k < 2; ++k) before += bed.advance().parts > 1;
+    Simulation again(bed.world(), bed.state());
+    for (auto* simulation : {&bed, &again}) shoot(*simulation, 10);
+    for (int k = 0; k < 30; ++k) {
+      after += bed.advance().parts > 1;
+      again.advance();
+    }
+    EXPECT_GT(before, 0);
+    EXPECT_GT(after, 0);
+    for (std::size_t g = 0; g < bed.world().grains.size(); ++g) {
+      EXPECT_EQ(bed.position(g), again.position(g));
+      EXPECT_EQ(bed.velocity(g), again.velocity(g));
+      EXPECT_EQ(bed.angular_velocity(g), again.angular_velocity(g));
+    }
+  }
+}
+
+TEST(DividedStep, AFrameIsItsLastPartAndForcesBalanceInIt)
+{
+  auto bed = bed_with_a_bullet(small_chute::scene());
+  const auto& world = bed.world();
+  Frame<2> frame;
+  int divided = 0;
+  for (int k = 0; k < 30; ++k) {
+    const double begin = bed.time();
+    const auto report = bed.advance(frame);
+    EXPECT_LT(momentum_defect(world.grains, frame, world.gravity), 1e-12);
+    EXPECT_NEAR(frame.time, begin + world.step - bed.written_step() / 2, 1e-12);
+    EXPECT_EQ(bed.world().step, world.step);
+    EXPECT_EQ(bed.written_step() < world.step, report.parts > 1);
+    divided += report.parts > 1;
+  }
+  EXPECT_GT(divided, 0);
+  EXPECT_LT(divided, 30);
+}
+
+TEST(DividedStep, TotalsCountTheStepsAndKeepTheFarthestApproach)
+{
+  StepReport whole, divided;
+  whole.farthest_approach = 0.3;
+  divided.farthest_approach = 0.1;
+  divided.parts = 4;
+  StepTotals totals, all;
+  for (const auto& report : {whole, divided, divided}) totals.add(report);
+  all.add(totals);
+  all.add(totals);
+  EXPECT_EQ(totals.divided, 2);
+  EXPECT_EQ(all.divided, 4);
+  EXPECT_EQ(all.farthest_approach, 0.3);
+}
+
+}  // namespace
+}  // namespace grseg
