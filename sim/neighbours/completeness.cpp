@@ -29,6 +29,21 @@ bool empty(const Extent& extent)
   return extent.low.x() > extent.high.x();
 }
 
+double squared_size(const Extent& extent)
+{
+  return empty(extent) ? 0 : (extent.high - extent.low).squaredNorm();
+}
+
+Extent velocities_of(const Range& bodies, const std::vector<Motion>& motion)
+{
+  auto extent = nothing();
+  for (auto b = bodies.begin; b < bodies.end; ++b) {
+    const Vec2 v(motion[b].vx, motion[b].vy);
+    add(extent, {v, v});
+  }
+  return extent;
+}
+
 /// The least that any displacement within `extent` leads along `direction`; infinity for none.
 double least_along(const Extent& extent, const Vec2& direction)
 {
@@ -53,7 +68,6 @@ Completeness::Completeness(const std::vector<Wall>& walls, const Box& box, doubl
 void Completeness::begin(const CellGrid& grid, const GrainState& grains,
                          const std::vector<Vec2>& made_at)
 {
-  age_ = 0;
   column_width_ = grid.column_width();
   make_groups(grid);
   for_each_part(threads_, walls_.empty() ? 0 : groups_.size(),
@@ -99,7 +113,6 @@ void Completeness::find_unlisted(std::size_t group, const GrainState& grains,
 
 bool Completeness::holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position)
 {
-  ++age_;
   const std::size_t across = first_group_.back();
   for_each_part(threads_, bands_, [&](std::size_t band) {
     measure_displacements(made_at, position, std::span(groups_).subspan(band * across, across),
@@ -110,30 +123,44 @@ bool Completeness::holds(const std::vector<Vec2>& made_at, const std::vector<Vec
   return neighbours_moved_ <= slack_ && bands_stay_apart() && walls_stay_away();
 }
 
-double Completeness::moved_in_a_step() const
+double Completeness::fastest_unlisted(const std::vector<Motion>& motion) const
 {
-  if (age_ != 1) return 0;
-  if (neighbours_moved_ > slack_) return neighbours_moved_;
-  if (bands_stay_apart()) return 0;
-  auto all = nothing();
-  for (const auto& band : band_moved_) add(all, band);
-  return (all.high - all.low).norm();
+  std::vector<Extent> velocity;
+  for (const auto& group : groups_) velocity.push_back(velocities_of(group, motion));
+  const std::size_t across = first_group_.back();
+  double squared = 0;
+  for (std::size_t band = 0; band < bands_; ++band)
+    for (std::size_t g = 0; g < across; ++g)
+      if (squared_size(square_at(moved_, band, g)) > slack_ * slack_)
+        squared = std::max(squared, squared_size(square_at(velocity, band, g)));
+  if (!bands_stay_apart()) {
+    auto all = nothing();
+    for (const auto& group : velocity) add(all, group);
+    squared = squared_size(all);
+  }
+  return std::sqrt(squared);
 }
 
-/// Any two neighbouring groups lie in a square of two by two.
+Extent Completeness::square_at(const std::vector<Extent>& groups, std::size_t band,
+                               std::size_t g) const
+{
+  const std::size_t across = first_group_.back();
+  const auto* here = &groups[band * across];
+  const auto* above = band + 1 < bands_ ? here + across : here;
+  const std::size_t next = g + 1 < across ? g + 1 : periodic_ ? 0 : g;
+  auto square = here[g];
+  for (const auto& other : {here[next], above[g], above[next]}) add(square, other);
+  return square;
+}
+
 void Completeness::measure_neighbours(std::size_t band)
 {
   const std::size_t across = first_group_.back();
-  const auto* here = &moved_[band * across];
-  const auto* above = band + 1 < bands_ ? here + across : here;
   band_moved_[band] = nothing();
   double squared = 0;
   for (std::size_t g = 0; g < across; ++g) {
-    const std::size_t next = g + 1 < across ? g + 1 : periodic_ ? 0 : g;
-    auto square = here[g];
-    add(band_moved_[band], square);
-    for (const auto& other : {here[next], above[g], above[next]}) add(square, other);
-    if (!empty(square)) squared = std::max(squared, (square.high - square.low).squaredNorm());
+    add(band_moved_[band], moved_[band * across + g]);
+    squared = std::max(squared, squared_size(square_at(moved_, band, g)));
   }
   moved_in_band_[band] = std::sqrt(squared);
 }

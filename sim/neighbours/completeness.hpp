@@ -28,18 +28,17 @@ class Completeness {
   void begin(const CellGrid& grid, const GrainState& grains, const std::vector<Vec2>& made_at);
   /// Whether that list is still complete with bodies at `position`, m, not wrapped since.
   bool holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position);
-  /// If a list was incomplete the first time that it was checked: by how much, m, grains may have
-  /// moved past each other in that one step, unseen. Otherwise 0.
-  double moved_in_a_step() const;
-
-  /// How often the list has been checked since it was made.
-  std::uint64_t age() const { return age_; }
-  void set_age(std::uint64_t age) { age_ = age; }
+  /// Where it was last found not to be, m/s: no two grains that may have met since then without
+  /// being listed had a larger relative velocity, if bodies moved with `motion`. Otherwise 0.
+  double fastest_unlisted(const std::vector<Motion>& motion) const;
 
  private:
   void make_groups(const CellGrid& grid);
   void find_unlisted(std::size_t group, const GrainState& grains, const std::vector<Vec2>& made_at);
   void measure_neighbours(std::size_t band);
+  /// Of a group and the neighbours to its right and above it: any two neighbouring groups lie in
+  /// such a square.
+  Extent square_at(const std::vector<Extent>& groups, std::size_t band, std::size_t g) const;
   bool bands_stay_apart() const;
   bool walls_stay_away() const;
 
@@ -47,7 +46,6 @@ class Completeness {
   bool periodic_;
   double cell_, skin_, slack_;  // m; slack is skin - margin
   int threads_;
-  std::uint64_t age_ = 0;
   double neighbours_moved_ = 0;  // m, largest relative displacement in neighbouring groups
   double column_width_ = 0;      // m, of the grid
 

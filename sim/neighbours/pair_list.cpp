@@ -57,7 +57,6 @@ PairList::State PairList::state() const
   State state;
   state.made_at = search_.made_at();
   state.renewals = renewals_;
-  state.age = completeness_.age();
   state.i = pairs_.i;
   state.j = pairs_.j;
   for (const auto& impulse : pairs_.impulse) {
@@ -81,7 +80,6 @@ void PairList::restore(GrainState& grains, const State& state)
     pairs_.memory[k] = {state.approach[k], 0};
   }
   renewals_ = state.renewals;
-  completeness_.set_age(state.age);
 }
 
 void PairList::lay_out()

@@ -38,14 +38,17 @@ class PairList {
   void forget_impulses();
   std::size_t renewals() const { return renewals_; }
   /// See Completeness.
-  double moved_in_a_step() const { return completeness_.moved_in_a_step(); }
+  double fastest_unlisted(const std::vector<Motion>& motion) const
+  {
+    return completeness_.fastest_unlisted(motion);
+  }
 
   /// What it takes to make the same list again.
   struct State {
     std::vector<Vec2> made_at;        // m, as in GrainState; empty before the first renewal
     std::vector<std::uint32_t> i, j;  // as in Pairs, and with the same neutral pair
     std::vector<double> impulse_n, impulse_t, approach;
-    std::uint64_t renewals = 0, age = 0;
+    std::uint64_t renewals = 0;
   };
   State state() const;
   /// Makes the list again. FormatError where one made at the same positions holds other pairs.

@@ -20,6 +20,7 @@ namespace {
 using namespace hdf5;
 
 constexpr std::int32_t format_version = 4;
+constexpr std::int32_t oldest_version = 3;  // without steps in parts
 
 /// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
 /// numbers.
@@ -184,7 +185,7 @@ class Reader {
 };
 
 template <class Visitor, class Totals>
-void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
+void visit_totals(Visitor& visit, const std::string& group, Totals& totals, std::int32_t version)
 {
   const auto at = [&](const char* name, auto& value) { visit((group + name).c_str(), value); };
   at("steps", totals.steps);
@@ -198,16 +199,17 @@ void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
   at("largest_residual", totals.largest_residual);
   at("largest_overlap", totals.largest_overlap);
   at("fastest_approach", totals.fastest_approach);
-  at("farthest_approach", totals.farthest_approach);
-  at("divided", totals.divided);
   at("base_impulse_x", totals.base_impulse.x());
   at("base_impulse_y", totals.base_impulse.y());
+  if (version < 4) return;
+  at("farthest_approach", totals.farthest_approach);
+  at("divided", totals.divided);
 }
 
-/// Calls `visit` with every entry of a checkpoint and its path: writing, reading and the digest
-/// share this list.
+/// Calls `visit` with every entry of a checkpoint of this version and its path: writing, reading
+/// and the digest share this list.
 template <class Visitor, class SomeCheckpoint>
-void visit_all(Visitor& visit, SomeCheckpoint& c)
+void visit_all(Visitor& visit, SomeCheckpoint& c, std::int32_t version = format_version)
 {
   visit("/scene", c.scene);
   visit("/program", c.program);
@@ -235,19 +237,19 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
   visit("/state/pairs/impulse_t", c.state.pairs.impulse_t);
   visit("/state/pairs/approach", c.state.pairs.approach);
   visit("/state/pairs/renewals", c.state.pairs.renewals);
-  visit("/state/pairs/age", c.state.pairs.age);
+  if (version < 4) visit("/state/pairs/age", c.age_of_pairs);
   visit("/trajectory/frames", c.trajectory.frames);
   visit("/trajectory/digest", c.trajectory.digest);
   visit("/trajectory/begin", c.trajectory.begin);
   visit("/trajectory/wall", c.trajectory.wall);
-  visit_totals(visit, "/trajectory/since_frame/", c.trajectory.recorder.since_frame);
-  visit_totals(visit, "/trajectory/totals/", c.trajectory.recorder.totals);
+  visit_totals(visit, "/trajectory/since_frame/", c.trajectory.recorder.since_frame, version);
+  visit_totals(visit, "/trajectory/totals/", c.trajectory.recorder.totals, version);
 }
 
-std::uint64_t digest_of(const Checkpoint& checkpoint)
+std::uint64_t digest_of(const Checkpoint& checkpoint, std::int32_t version = format_version)
 {
   Digester digester;
-  visit_all(digester, checkpoint);
+  visit_all(digester, checkpoint, version);
   return digester.digest();
 }
 
@@ -287,16 +289,16 @@ Checkpoint read_parts(const std::string& path)
   const Reader read(file, path);
   std::int32_t version = 0;
   read("/version", version);
-  if (version != format_version)
+  if (version < oldest_version || version > format_version)
     fail(
-        fmt::format("is a checkpoint of version {}, and this grseg-sim reads version {}; continue "
-                    "with the program that wrote it",
-                    version, format_version));
+        fmt::format("is a checkpoint of version {}, and this grseg-sim reads versions {} and {}; "
+                    "continue with the program that wrote it",
+                    version, oldest_version, format_version));
   Checkpoint checkpoint;
-  visit_all(read, checkpoint);
+  visit_all(read, checkpoint, version);
   std::uint64_t digest = 0;
   read("/digest", digest);
-  if (digest != digest_of(checkpoint))
+  if (digest != digest_of(checkpoint, version))
     fail("does not have the content that its digest names: it is damaged; use an older checkpoint");
   check_checkpoint(checkpoint, path);
   return checkpoint;

@@ -162,7 +162,6 @@ class Check {
     all_finite("/state/pairs/impulse_t", pairs.impulse_t);
     all_finite("/state/pairs/approach", pairs.approach);
     require(pairs.renewals <= largest_count, "/state/pairs/renewals is not a number of lists");
-    require(pairs.age <= largest_count, "/state/pairs/age is not a number of steps");
   }
 
   void totals(const char* group, const StepTotals& totals) const

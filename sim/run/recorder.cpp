@@ -127,12 +127,6 @@ void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation)
   if (!all_finite(frame.position) || !all_finite(frame.velocity))
     throw RunError(fmt::format(
         "a position or velocity is not finite at t = {:.6g} s; use a smaller step", frame.time));
-  const double overlap = state_.since_frame.mean_overlap() / small_diameter_;
-  if (overlap > most_overlap)
-    throw RunError(
-        fmt::format("the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S; use a "
-                    "smaller step or tolerance",
-                    overlap, frame.time, most_overlap));
   const double crossing = state_.since_frame.farthest_approach / small_diameter_;
   if (crossing > most_approach)
     throw RunError(fmt::format(
@@ -140,6 +134,12 @@ void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation)
         "use a step below {:.2g} s",
         crossing, 1 << most_halvings, frame.time, most_approach,
         simulation.world().step * most_approach / crossing));
+  const double overlap = state_.since_frame.mean_overlap() / small_diameter_;
+  if (overlap > most_overlap)
+    throw RunError(
+        fmt::format("the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S; use a "
+                    "smaller step or tolerance",
+                    overlap, frame.time, most_overlap));
 }
 
 double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& gravity)

@@ -75,7 +75,10 @@ Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
   if (!given["accuracy"].defaulted())
     set_again.assign(keys_of_accuracy.begin(), keys_of_accuracy.end());
   auto values = given;
-  read_scene_text(checkpoint.scene, name, set_again, values);
+  auto text = checkpoint.scene;
+  // Before there was this key all was computed in double precision.
+  if (text.find("\nprecision = ") == std::string::npos) text += "precision = double\n";
+  read_scene_text(text, name, set_again, values);
   return resolve_scene(values);
 }
 

@@ -38,10 +38,33 @@ void move_bodies(double duration, double onward, GrainState& grains, std::vector
 void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,
                         int threads)
 {
+  ahead.resize(grains.position.size());
   for_ranges(threads, grains.position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
       ahead[b] = grains.position[b] + onward * Vec2(grains.motion[b].vx, grains.motion[b].vy);
   });
+}
+
+double largest_difference(const GrainState& grains, int threads)
+{
+  std::vector<Vec2> low(static_cast<std::size_t>(threads), Vec2::Zero()), high = low;
+  for_each_part(threads, low.size(), [&](std::size_t part) {
+    const std::size_t begin = part * grains.size() / low.size();
+    const std::size_t end = (part + 1) * grains.size() / low.size();
+    Vec2 least = Vec2::Zero(), most = Vec2::Zero();
+    for (std::size_t b = begin; b < end; ++b) {
+      const Vec2 velocity(grains.motion[b].vx, grains.motion[b].vy);
+      least = least.cwiseMin(velocity);
+      most = most.cwiseMax(velocity);
+    }
+    low[part] = least;
+    high[part] = most;
+  });
+  for (std::size_t part = 1; part < low.size(); ++part) {
+    low[0] = low[0].cwiseMin(low[part]);
+    high[0] = high[0].cwiseMax(high[part]);
+  }
+  return (high[0] - low[0]).norm();
 }
 
 void accelerate(const Vec2& change, GrainState& grains, int threads)

@@ -19,6 +19,9 @@ void move_bodies(double duration, double onward, GrainState& grains, std::vector
 void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,
                         int threads);
 
+/// m/s; no two bodies have a larger relative velocity.
+double largest_difference(const GrainState& grains, int threads);
+
 /// Adds `change`, m/s, to the velocities of all mobile grains.
 void accelerate(const Vec2& change, GrainState& grains, int threads);
 

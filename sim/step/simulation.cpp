@@ -123,6 +123,7 @@ bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& repo
   if (gravity_.turns()) world_.gravity = gravity_.at(begin + h / 2);
   drive_boundaries(world_, begin, body_of_, state_);
   if (frame != nullptr) remember_motion();
+  if (pairs_.renewals() == 0) renew_pairs(0);
 
   move_bodies(h / 2, world_.law.forecast * h, state_, ahead_, threads_);
   const bool renewed = find_contacts(report);
@@ -146,8 +147,9 @@ void Simulation::take_back(bool renewed)
 {
   move_bodies(-world_.step / 2, state_, threads_);
   forget_search(contacts_);
-  // The contacts of the step before are entries of the old list.
-  restored_ = restored_ || renewed;
+  if (!renewed) return;
+  renew_pairs(0);    // where no two grains have passed each other
+  restored_ = true;  // the contacts of the step before are entries of an old list
 }
 
 void Simulation::lengthen_impulses(double factor)
@@ -180,9 +182,8 @@ void Simulation::solve(StepReport& report)
                      solver_memory_, threads_, any_free ? &*free : nullptr);
 }
 
-void Simulation::renew_pairs()
+void Simulation::renew_pairs(double onward)
 {
-  const double onward = world_.law.forecast * world_.step;
   if (world_.box.periodic_x) wrap_positions(world_.box.length_x, state_, threads_);
   forecast_positions(onward, state_, ahead_, threads_);
   pairs_.renew(state_, ahead_);  // sorts the bodies
@@ -196,8 +197,11 @@ void Simulation::renew_pairs()
 bool Simulation::find_contacts(StepReport& report)
 {
   const bool renew = !pairs_.complete(ahead_);
-  const double unseen = unseen_approach();
-  if (renew) renew_pairs();
+  double unlisted = 0;
+  if (renew) {
+    unlisted = pairs_.fastest_unlisted(state_.motion);
+    renew_pairs(world_.law.forecast * world_.step);
+  }
   DetectionRule rule;
   rule.ahead = ahead_;
   rule.middle = state_.position;
@@ -213,7 +217,7 @@ bool Simulation::find_contacts(StepReport& report)
   report.touching = sums.touching;
   report.sum_overlap = sums.overlap;
   report.largest_overlap = sums.largest_overlap;
-  report.fastest_approach = std::max(sums.fastest_approach, unseen);
+  report.fastest_approach = std::max({sums.fastest_approach, unlisted, unlisted_ahead()});
   report.farthest_approach = report.fastest_approach * world_.step;
   return renew;
 }
@@ -227,16 +231,12 @@ void Simulation::forget_impulses(bool renewed)
   restored_ = false;
 }
 
-double Simulation::unseen_approach() const
+double Simulation::unlisted_ahead()
 {
-  if (pairs_.renewals() > 0) return pairs_.moved_in_a_step() / world_.step;
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-  for (const auto& m : state_.motion) {
-    low = low.cwiseMin(Vec2(m.vx, m.vy));
-    high = high.cwiseMax(Vec2(m.vx, m.vy));
-  }
-  const double spread = (high - low).norm();
-  return spread * world_.step / 2 > world_.skin - world_.law.margin ? spread : 0;
+  const double half = world_.step / 2;
+  if (largest_difference(state_, threads_) * half <= world_.skin - world_.law.margin) return 0;
+  forecast_positions(world_.law.forecast * world_.step + half, state_, ahead_at_end_, threads_);
+  return pairs_.complete(ahead_at_end_) ? 0 : pairs_.fastest_unlisted(state_.motion);
 }
 
 std::span<Pairs::Memory> Simulation::memories()

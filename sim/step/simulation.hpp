@@ -27,8 +27,8 @@ struct StepReport {
   double sum_overlap = 0;         ///< m, of -gap over the touching pairs
   double largest_overlap = 0;     ///< m
   double sum_gap_bearing = 0;     ///< m, of |gap| over force-bearing contacts
-  /// m/s, of a pair that acts, at the beginning of the step; or of grains so fast that they may
-  /// have passed each other unseen.
+  /// m/s, of a pair that acts, at the beginning of the step; or of grains that are not listed and
+  /// may have met before its middle or may meet before its end.
   double fastest_approach = 0;
   double farthest_approach = 0;      ///< m, the same times the length of the step or of its part
   int parts = 1;                     ///< in which the step was taken
@@ -120,9 +120,10 @@ class Simulation {
   /// Whether the list was renewed.
   bool find_contacts(StepReport& report);
   void forget_impulses(bool renewed);
-  void renew_pairs();
-  /// m/s, of grains that may have passed each other since the last list, or before the first one.
-  double unseen_approach() const;
+  /// Lists the pairs of where grains will be `onward`, s, later.
+  void renew_pairs(double onward);
+  /// m/s, of grains that may meet before the end of the step, as they move now, and are not listed.
+  double unlisted_ahead();
   [[noreturn]] void stop_at_coincidence() const;
   void solve(StepReport& report);
   void keep_impulses(StepReport& report);
@@ -137,6 +138,7 @@ class Simulation {
   GrainState state_;
   std::vector<std::uint32_t> body_of_;  // where in the state each grain is
   std::vector<Vec2> ahead_;             // m, positions after the forecast of the law
+  std::vector<Vec2> ahead_at_end_;      // m, the same for the end of a step; for fast grains only
   double farthest_allowed_;             // m, that a pair may approach in a part of a step
   std::vector<Motion> before_;          // by row, at the beginning of a step written to a frame
   double written_step_ = 0;             // s

@@ -109,8 +109,8 @@ TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheSuggestedStepKeepsIts
   const int steps = 1500;
   for (int step = 0; step < steps; ++step) {
     floor += simulation.advance(frame).base_impulse;
-    const auto balance =
-        energy_balance(grains, frame, simulation.before(), c.world.gravity, c.world.step);
+    const auto balance = energy_balance(grains, frame, simulation.before(), c.world.gravity,
+                                        simulation.written_step());
     defects.at_most(balance.defect(), 1e-12);
   }
   const Vec2 weight = steps * c.world.step * mass * c.world.gravity;
