@@ -141,6 +141,38 @@ TEST(DividedStep, AFrameIsItsLastPartAndForcesBalanceInIt)
   EXPECT_LT(divided, 30);
 }
 
+TEST(DividedStep, ABedAtRestKnowsItsLoadInAPartOfAStep)
+{
+  // A column of five on a floor, whose loads few sweeps have found over many steps, and far from it
+  // a disc that is shot at a fixed one.
+  std::vector<Disc> discs{{{-20, 3}, 0.5, true}, {{-30, 3}, 0.5}};
+  for (int k = 0; k < 5; ++k) discs.push_back({{0, 0.5 + k}, 0.5});
+  auto world = world_of(discs);
+  world.walls = {worlds::floor_at(0)};
+  world.gravity = {0, -10};
+  world.step = 1e-3;
+  world.solver = {1e-12, 8};
+  Simulation simulation(world, positions_of(discs));
+  const auto speed = [&] {
+    double largest = 0;
+    for (std::size_t k = 2; k < discs.size(); ++k)
+      largest = std::max(largest, simulation.velocity(k).norm());
+    return largest / 0.01;  // of g h
+  };
+  for (int step = 0; step < 500; ++step) {
+    simulation.set_velocity(1, {0, 0});
+    simulation.advance();
+  }
+  ASSERT_LT(speed(), 1e-9);
+  int divided = 0;
+  for (int step = 0; step < 20; ++step) {
+    simulation.set_velocity(1, {0.9 / world.step, 0});
+    divided += simulation.advance().parts > 1;
+    EXPECT_LT(speed(), 1e-9);
+  }
+  EXPECT_GT(divided, 0);
+}
+
 TEST(DividedStep, TotalsCountTheStepsAndKeepTheFarthestApproach)
 {
   StepReport whole, divided;
