@@ -129,7 +129,7 @@ OUTPUT = "docs/studies/hard-cases.md"
 HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",
         "invariances", "newcomer", "extremes", "slopes"]
 UNIT = ["contact_law", "sweep", "single_contacts", "solver", "detection", "pair_list", "simulation", "restart",
-        "effects", "energy_balance", "boundary_body", "left_out"]
+        "divided_step", "effects", "energy_balance", "boundary_body", "left_out"]
 OPTIONS = []
 TARGETS = [f"{name}_test" for name in HARD + UNIT]
 
