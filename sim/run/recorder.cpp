@@ -127,13 +127,13 @@ void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation)
   if (!all_finite(frame.position) || !all_finite(frame.velocity))
     throw RunError(fmt::format(
         "a position or velocity is not finite at t = {:.6g} s; use a smaller step", frame.time));
-  const double crossing = state_.since_frame.farthest_approach / small_diameter_;
-  if (crossing > most_approach)
+  const double approach = state_.since_frame.farthest_approach, most = simulation.most_approach();
+  if (approach > most)
     throw RunError(fmt::format(
-        "grains approach each other by {:.2g} d_S in 1/{} of a step at t = {:.6g} s, above {} d_S; "
-        "use a step below {:.2g} s",
-        crossing, 1 << most_halvings, frame.time, most_approach,
-        simulation.world().step * most_approach / crossing));
+        "grains may approach each other by {:.2g} d_S in 1/{} of a step at t = {:.6g} s, above "
+        "{:.2g} d_S, half the smallest diameter; use a step below {:.2g} s",
+        approach / small_diameter_, 1 << most_halvings, frame.time, most / small_diameter_,
+        simulation.world().step * most / approach));
   const double overlap = state_.since_frame.mean_overlap() / small_diameter_;
   if (overlap > most_overlap)
     throw RunError(

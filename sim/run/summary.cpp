@@ -88,10 +88,10 @@ std::string doubts(const StepTotals& t, const Scene& scene)
                                        "or choose a smaller --step",
                                        t.missed, scene.solver.max_sweeps));
   if (t.divided > 0)
-    lines +=
-        line("remark", fmt::format("{} steps were taken in parts, because grains approached each "
-                                   "other by more than {:g} d_S in a whole one",
-                                   t.divided, most_approach));
+    lines += line("remark",
+                  fmt::format("{} steps were taken in parts, because grains might have "
+                              "approached each other by more than half a diameter in a whole one",
+                              t.divided));
   if (t.mean_overlap() > small_overlap * scene.small_diameter)
     lines += line("doubt", fmt::format("the mean overlap is above {:g} d_S: choose a smaller "
                                        "--step or a larger --min-sweeps",

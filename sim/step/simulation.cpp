@@ -75,7 +75,7 @@ Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
              world_.law.margin, threads_),
       state_(make_state(world.grains, position)),
       body_of_(position.size()),
-      farthest_allowed_(most_approach * smallest_diameter(world.grains))
+      most_approach_(smallest_diameter(world.grains) / 2)
 {
   std::iota(body_of_.begin(), body_of_.end(), 0);
 }
@@ -127,7 +127,7 @@ bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& repo
 
   move_bodies(h / 2, world_.law.forecast * h, state_, ahead_, threads_);
   const bool renewed = find_contacts(report);
-  if (report.farthest_approach > farthest_allowed_ && part.halvings < most_halvings) {
+  if (report.farthest_approach > most_approach_ && part.halvings < most_halvings) {
     take_back(renewed);
     return false;
   }

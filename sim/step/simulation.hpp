@@ -14,9 +14,8 @@
 
 namespace grseg {
 
-/// Of a pair in a step, in smallest diameters: else grains might pass each other unseen.
-constexpr double most_approach = 0.5;
-/// How often a step is halved to keep to that.
+/// How often a step is halved, at most, so that no pair approaches by more than half the smallest
+/// diameter in a part of it.
 constexpr int most_halvings = 6;
 
 /// What one step did.
@@ -102,6 +101,9 @@ class Simulation {
   const std::vector<Motion>& before() const { return before_; }
   double written_step() const { return written_step_; }
 
+  /// m, half the smallest diameter: grains that approach by more in a step might pass unseen.
+  double most_approach() const { return most_approach_; }
+
   std::size_t pair_list_renewals() const { return pairs_.renewals(); }
 
  private:
@@ -139,7 +141,7 @@ class Simulation {
   std::vector<std::uint32_t> body_of_;  // where in the state each grain is
   std::vector<Vec2> ahead_;             // m, positions after the forecast of the law
   std::vector<Vec2> ahead_at_end_;      // m, the same for the end of a step; for fast grains only
-  double farthest_allowed_;             // m, that a pair may approach in a part of a step
+  double most_approach_;                // m
   std::vector<Motion> before_;          // by row, at the beginning of a step written to a frame
   double written_step_ = 0;             // s
   std::vector<StripContacts> contacts_;
