@@ -114,7 +114,8 @@ class Simulation {
     int halvings = 0;  // of the step
   };
   void take(const Part& part, Frame<2>* frame, StepReport& report);
-  /// False, with everything as before, where the part is too long.
+  /// False where the part is too long: positions are then those before, to round-off, and the list of
+  /// pairs is one of there.
   bool try_to_take(const Part& part, Frame<2>* frame, StepReport& report);
   void take_back(bool renewed);
   void lengthen_impulses(double factor);
