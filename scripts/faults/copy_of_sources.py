@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 
-FOLDERS = ["analysis", "data", "formats", "scripts", "sim", "tests"]
+FOLDERS = ["analysis", "data", "docs", "formats", "scripts", "sim", "tests"]
 
 
 def run_quietly(command, **options):

@@ -44,7 +44,7 @@ FAULTS = [
      "    hn::Store(hn::Zero(d), d, &block.impulse_n[lane]);\n"
      "    hn::Store(hn::Zero(d), d, &block.impulse_t[lane]);"),
     ("warm start: impulses of contacts that have ended are kept", "sim/step/simulation.cpp",
-     "    grseg::forget_impulses(contacts_, pairs_.impulses(), memories(), threads_);", "    (void)0;"),
+     "    grseg::forget_impulses(pairs_.pairs(), contacts_, pairs_.impulses(), memories(), threads_);", "    (void)0;"),
     ("warm start: guessed but not applied", "sim/solver/solver.cpp",
      "    apply_impulses(strips[s].blocks, motion.data(), effects);", "    (void)s;"),
     ("mid-point: contacts are looked for at the end of the step", "sim/step/simulation.cpp",

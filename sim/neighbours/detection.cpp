@@ -4,6 +4,7 @@
 #include "sim/contact/parallel.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 // Highway compiles what follows once per instruction set.
@@ -51,10 +52,12 @@ HWY_INLINE const double* numbers_of(const Pairs::Impulse* g)
   return &g->n;
 }
 
-/// Writes the pairs of grains that are closer than reach + margin to `near`; returns their number.
+/// Writes the pairs of grains that are closer than reach + margin to `near`, and their bits to
+/// `acting`; returns their number.
 template <bool periodic>
 HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c,
-                                       const DetectionRule& rule, NearPairs& near)
+                                       const DetectionRule& rule, NearPairs& near,
+                                       std::uint8_t* acting)
 {
   const D d;
   const auto* position = rule.ahead.data()->data();
@@ -69,6 +72,7 @@ HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c
       if constexpr (periodic) x = hn::Add(x, shift);
       bits |= bits_of(d, acts(x, y, reach, margin)) << lane;
     }
+    *acting++ = static_cast<std::uint8_t>(bits);
     store_set_bits<2>(bits, k, &near.pair[count]);
     store_chosen(bits, &pairs.i[k], &near.i[count]);
     store_chosen(bits, &pairs.j[k], &near.j[count]);
@@ -78,14 +82,17 @@ HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c
 }
 
 std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const DetectionRule& rule,
-                           NearPairs& near)
+                           NearPairs& near, std::uint8_t* acting)
 {
   const auto& wall = rule.walls[static_cast<std::size_t>(c.wall)];
+  std::fill_n(acting, (c.end - c.begin) / block_lanes, std::uint8_t{0});
   std::size_t count = 0;
   for (auto k = c.begin; k < c.end; ++k) {
     const auto& x = rule.ahead[pairs.i[k] / 2];
     const double distance = (x - wall.point).dot(wall.normal);
     if (!acts_on_wall(distance, pairs.geometry[k].reach, rule.margin)) continue;
+    const auto at = k - c.begin;
+    acting[at / block_lanes] |= static_cast<std::uint8_t>(1U << at % block_lanes);
     near.pair[count] = 2 * k;
     near.i[count] = pairs.i[k];
     near.j[count] = pairs.j[k];
@@ -227,13 +234,15 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
 {
   LaneSums sums;
   auto& near = contacts.near;
+  const auto first = pairs.begin_of(strip);
   bool base_seen = false;
   contacts.ends.clear();
   for (const auto& c : pairs.classes_of(strip)) {
     if (c.on_base && !base_seen) contacts.on_base = contacts.size;
     base_seen |= c.on_base;
-    const auto count = c.wall < 0 ? find_near_pairs<with.periodic>(pairs, c, rule, near)
-                                  : find_near_wall(pairs, c, rule, near);
+    auto* acting = &contacts.acting[(c.begin - first) / block_lanes];
+    const auto count = c.wall < 0 ? find_near_pairs<with.periodic>(pairs, c, rule, near, acting)
+                                  : find_near_wall(pairs, c, rule, near, acting);
     const auto blocks = fill_up(pairs, c.alone, count, near);
     for (std::size_t b = 0; b < blocks; ++b) {
       auto& block = contacts.blocks[contacts.size + b];
@@ -331,6 +340,8 @@ void make_room(std::span<const Pairs::Class> classes, StripContacts& contacts)
   }
   if (contacts.blocks.size() < most) contacts.blocks.resize(most);
   if (contacts.origins.size() < most) contacts.origins.resize(most);
+  const std::size_t listed = classes.empty() ? 0 : classes.back().end - classes.front().begin;
+  contacts.acting.resize(listed / block_lanes);
   for (auto* numbers : {&contacts.near.pair, &contacts.near.i, &contacts.near.j})
     numbers->resize(largest_class + block_lanes);
 }
@@ -344,8 +355,7 @@ DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
   std::vector<DetectionSums> sums(contacts.size());
   for_each_part(threads, contacts.size(), [&](std::size_t s) {
     auto& strip = contacts[s];
-    std::swap(strip.origins, strip.previous_origins);
-    strip.previous_size = strip.size;
+    std::swap(strip.acting, strip.acted);
     strip.size = strip.count = 0;
     make_room(pairs.classes_of(s), strip);
     HWY_DYNAMIC_DISPATCH(find_for)(pairs, s, rule, strip, sums[s]);
@@ -363,10 +373,7 @@ DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
 
 void forget_search(std::vector<StripContacts>& contacts)
 {
-  for (auto& strip : contacts) {
-    std::swap(strip.origins, strip.previous_origins);
-    strip.size = strip.previous_size;
-  }
+  for (auto& strip : contacts) std::swap(strip.acting, strip.acted);
 }
 
 ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
@@ -386,16 +393,22 @@ ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
   return total;
 }
 
-void forget_impulses(std::span<const StripContacts> contacts, std::span<Pairs::Impulse> impulses,
-                     std::span<Pairs::Memory> memories, int threads)
+void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts,
+                     std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
+                     int threads)
 {
   for_each_part(threads, contacts.size(), [&](std::size_t s) {
     const auto& strip = contacts[s];
-    for (std::size_t b = 0; b < strip.previous_size; ++b)
-      for (const auto pair : strip.previous_origins[b].pair) {
-        impulses[pair / 2] = {0, 0};
-        if (!memories.empty()) memories[pair / 2] = {0, 0};
+    const std::size_t first = pairs.begin_of(s);
+    for (std::size_t eight = 0; eight < strip.acted.size(); ++eight) {
+      auto gone = static_cast<std::uint32_t>(strip.acted[eight] & ~strip.acting[eight]);
+      for (; gone != 0; gone &= gone - 1) {
+        const auto pair =
+            first + eight * block_lanes + static_cast<unsigned>(std::countr_zero(gone));
+        impulses[pair] = {0, 0};
+        if (!memories.empty()) memories[pair] = {0, 0};
       }
+    }
   });
 }
 

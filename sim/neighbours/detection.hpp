@@ -28,10 +28,11 @@ struct NearPairs {
 struct StripContacts {
   std::vector<ContactBlock> blocks;  // `size` of them are in use; never shrinks
   std::vector<std::uint32_t> ends;   // as in BlockRuns
-  std::vector<BlockOrigin> origins, previous_origins;
+  std::vector<BlockOrigin> origins;
   NearPairs near;
-  std::size_t size = 0;  // blocks in use
-  std::size_t previous_size = 0;
+  /// A byte per eight listed pairs, a bit per pair: which act in this step, and in the one before.
+  std::vector<std::uint8_t> acting, acted;
+  std::size_t size = 0;     // blocks in use
   std::size_t on_base = 0;  // first of the blocks whose partners j do not move
   std::size_t count = 0;    // contacts
 
@@ -67,7 +68,7 @@ struct DetectionSums {
 DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
                             std::vector<StripContacts>& contacts, int threads = 1);
 
-/// Takes the last find_contacts back: `contacts` hold those of the step before again.
+/// Takes the last find_contacts back: the pairs that act are those of the step before again.
 void forget_search(std::vector<StripContacts>& contacts);
 
 /// Sums over the contacts that were solved.
@@ -81,8 +82,10 @@ struct ImpulseSums {
 ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
                           std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
                           int threads = 1);
-/// Sets the impulses of the previous step's contacts to 0; the list must be the same.
-void forget_impulses(std::span<const StripContacts> contacts, std::span<Pairs::Impulse> impulses,
-                     std::span<Pairs::Memory> memories, int threads = 1);
+/// Sets the impulses of pairs to 0 that acted in the step before and do not now; the list must be
+/// the same.
+void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts,
+                     std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
+                     int threads = 1);
 
 }  // namespace grseg

@@ -68,6 +68,12 @@ struct Pairs {
   {
     return std::span(classes).subspan(strips[strip], strips[strip + 1] - strips[strip]);
   }
+  /// First entry of a strip.
+  std::uint32_t begin_of(std::size_t strip) const
+  {
+    const auto of_strip = classes_of(strip);
+    return of_strip.empty() ? 0 : of_strip.front().begin;
+  }
 
   /// Number of entries but the neutral one.
   std::size_t size() const { return i.empty() ? 0 : i.size() - 1; }

@@ -227,7 +227,7 @@ void Simulation::forget_impulses(bool renewed)
   if (renewed || restored_)
     pairs_.forget_impulses();
   else
-    grseg::forget_impulses(contacts_, pairs_.impulses(), memories(), threads_);
+    grseg::forget_impulses(pairs_.pairs(), contacts_, pairs_.impulses(), memories(), threads_);
   restored_ = false;
 }
 
