@@ -3,6 +3,7 @@
 
 #include "sim/contact/parallel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -132,7 +133,12 @@ void ExtrapolationOf<Real>::remember(std::span<const RunsOf<Real>> strips,
     for (std::size_t b = 0; b < blocks.size(); ++b)
       impulses_[s][b] = {blocks[b].impulse_n, blocks[b].impulse_t};
   });
-  motion_.assign(motion.begin(), motion.end());
+  motion_.resize(motion.size());
+  for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
+    std::copy(motion.begin() + static_cast<std::ptrdiff_t>(begin),
+              motion.begin() + static_cast<std::ptrdiff_t>(end),
+              motion_.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
 }
 
 template <class Real>
