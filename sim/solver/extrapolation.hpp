@@ -3,6 +3,8 @@
 
 #include "sim/contact/contact_blocks.hpp"
 
+#include <boost/align/aligned_allocator.hpp>
+
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -39,7 +41,7 @@ class ExtrapolationOf {
     typename BlockOf<Real>::Lanes n, t;
   };
   std::vector<std::vector<Impulses>> impulses_;  // after the sweep before, strip by strip
-  std::vector<MotionOf<Real>> motion_;
+  std::vector<MotionOf<Real>, boost::alignment::aligned_allocator<MotionOf<Real>, 64>> motion_;
   double weight_ = 1, last_change_ = 0;
 };
 

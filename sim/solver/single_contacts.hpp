@@ -3,6 +3,8 @@
 
 #include "sim/contact/contact_blocks.hpp"
 
+#include <boost/align/aligned_allocator.hpp>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,7 +38,7 @@ class SingleContacts {
   double mass_unit_ = 1;  // kg
   std::vector<Strip> strips_;
   std::vector<RunsOf<float>> runs_;
-  std::vector<MotionOf<float>> motion_;
+  std::vector<MotionOf<float>, boost::alignment::aligned_allocator<MotionOf<float>, 64>> motion_;
 };
 
 }  // namespace grseg
