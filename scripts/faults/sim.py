@@ -47,6 +47,8 @@ FAULTS = [
      "    grseg::forget_impulses(pairs_.pairs(), contacts_, pairs_.impulses(), memories(), threads_);", "    (void)0;"),
     ("warm start: guessed but not applied", "sim/solver/solver.cpp",
      "    apply_impulses(strips[s].blocks, motion.data(), effects);", "    (void)s;"),
+    ("warm start: guessed but not applied, in single precision", "sim/solver/single_contacts.cpp",
+     "    apply_impulses(strips[s].blocks, motion.data(), effects);\n", ""),
     ("mid-point: contacts are looked for at the end of the step", "sim/step/simulation.cpp",
      "move_bodies(h / 2, world_.law.forecast * h,", "move_bodies(h, world_.law.forecast * h,"),
     ("gravity: boundary grains fall, too", "sim/step/free_flight.cpp",
@@ -97,7 +99,20 @@ FAULTS = [
      "return table[e.friction][e.rotation][e.restitution];",
      "return table[true][e.rotation][e.restitution];"),
     ("findings: largest changes are never looked for", "sim/solver/solver.cpp",
-     "sweep_all(enough ? Findings::all : Findings::squares)", "sweep_all(Findings::squares)"),
+     "sweep_strip(s, may_be_last ? Findings::all : Findings::squares)", "sweep_strip(s, Findings::squares)"),
+    ("findings: those of the least sweeps over several strips are never looked for", "sim/solver/solver.cpp",
+     "sweep_strip(s, round < factors.size() ? Findings::squares : Findings::all)",
+     "sweep_strip(s, Findings::squares)"),
+    ("wavefront: odd strips do not wait for even ones", "sim/solver/wavefront.cpp",
+     "if (strip % 2 == 1 && !neighbours_have(worked_, strip, round + 1)) return false;", ""),
+    ("wavefront: a round begins before the neighbours are closed", "sim/solver/wavefront.cpp",
+     "if (!neighbours_have(closed_, strip, round)) return false;", ""),
+    ("wavefront: a strip is closed before its neighbours are done", "sim/solver/wavefront.cpp",
+     "  if (!neighbours_have(worked_, strip, round + 1)) return false;\n  close", "  close"),
+    ("wavefront: round after round", "sim/solver/wavefront.cpp",
+     "s = s < begin + 2 ? begin : s - 2;", "s = s + 1 < end ? s + 1 : begin;"),
+    ("wavefront: bodies of a strip are not extrapolated", "sim/solver/extrapolation.cpp",
+     "if (bodies.end > bodies.begin)", "if (bodies.end > bodies.end)"),
     ("extrapolation: begins from the end of the step before", "sim/solver/extrapolation.cpp",
      "  remember(strips, motion, threads);\n}", "  if (motion_.size() != motion.size()) remember(strips, motion, threads);\n}"),
     ("single precision: a contact cannot bear less than before", "sim/contact/contact_law-inl.hpp",
@@ -128,7 +143,7 @@ FOLDER = "sim"  # of the library
 OUTPUT = "docs/studies/hard-cases.md"
 HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",
         "invariances", "newcomer", "extremes", "slopes"]
-UNIT = ["contact_law", "sweep", "single_contacts", "solver", "detection", "pair_list", "simulation", "restart",
+UNIT = ["contact_law", "sweep", "single_contacts", "solver", "wavefront", "detection", "pair_list", "simulation", "restart",
         "divided_step", "effects", "energy_balance", "boundary_body"]
 # It stops the processor after every instruction, for minutes: it is asked where no other test notices.
 SLOW, SLOW_SECONDS = "left_out_test", 300

@@ -36,12 +36,20 @@ struct alignas(64) BlockOf<float> {
   std::array<std::uint32_t, lanes_of<float>> i, j;
 };
 
+/// Indices of bodies from `begin` on, up to but without `end`.
+struct Range {
+  std::uint32_t begin, end;
+};
+
 /// Blocks in the order in which they are relaxed, parted into runs: no two blocks of a run share a
 /// mobile body, so no block has to wait for what another one writes.
 template <class Real>
 struct RunsOf {
   std::span<BlockOf<Real>> blocks;
   std::span<const std::uint32_t> ends;  // of the runs, in blocks
+  /// Where several strips make up a scene: the bodies of this one. Together they are all that contacts
+  /// move; contacts touch those of their own strip and of its neighbours.
+  Range bodies{};
 };
 using BlockRuns = RunsOf<double>;
 

@@ -36,7 +36,7 @@ struct StripContacts {
   std::size_t on_base = 0;  // first of the blocks whose partners j do not move
   std::size_t count = 0;    // contacts
 
-  BlockRuns used() { return {std::span(blocks).first(size), ends}; }
+  BlockRuns used(Range bodies) { return {std::span(blocks).first(size), ends, bodies}; }
 };
 
 /// The law of a step, and the state that it applies to.

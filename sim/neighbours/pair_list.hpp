@@ -37,6 +37,7 @@ class PairList {
   /// Sets all impulses to 0, as if no pair had ever touched.
   void forget_impulses();
   std::size_t renewals() const { return renewals_; }
+  Range bodies_of_strip(std::size_t strip) const { return search_.grid().bodies_of_strip(strip); }
   /// See Completeness.
   double fastest_unlisted(const std::vector<Motion>& motion) const
   {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
+#include "sim/contact/contact_blocks.hpp"
 
 #include <cstdint>
 #include <span>
@@ -10,11 +11,6 @@
 /// The parts of the pair list that visit every grain or pair, with vector instructions. All
 /// instruction sets give the same bytes.
 namespace grseg {
-
-/// Indices of bodies from `begin` on, up to but without `end`.
-struct Range {
-  std::uint32_t begin, end;
-};
 
 /// Bounding box of a set of displacements, m.
 struct Extent {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 // Highway compiles what follows once per instruction set.
 #define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
@@ -148,9 +149,7 @@ void ExtrapolationOf<Real>::extrapolate(std::span<const RunsOf<Real>> strips,
 {
   if (change > last_change_) weight_ = 1;
   last_change_ = change;
-  const double next = (1 + std::sqrt(1 + 4 * weight_ * weight_)) / 2;
-  const auto factor = static_cast<Real>((weight_ - 1) / next);
-  weight_ = next;
+  const auto factor = static_cast<Real>(next_factor());
   if (factor == 0) return remember(strips, motion, threads);
   for_each_part(threads, strips.size(), [&](std::size_t s) {
     if (!strips[s].blocks.empty())
@@ -159,6 +158,25 @@ void ExtrapolationOf<Real>::extrapolate(std::span<const RunsOf<Real>> strips,
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
     extrapolate_motion(&motion[begin], &motion_[begin], end - begin, factor);
   });
+}
+
+template <class Real>
+double ExtrapolationOf<Real>::next_factor()
+{
+  const double next = (1 + std::sqrt(1 + 4 * weight_ * weight_)) / 2;
+  return (std::exchange(weight_, next) - 1) / next;
+}
+
+template <class Real>
+void ExtrapolationOf<Real>::extrapolate_strip(std::span<const RunsOf<Real>> strips,
+                                              std::size_t strip, std::span<MotionOf<Real>> motion,
+                                              double factor)
+{
+  const auto& [blocks, ends, bodies] = strips[strip];
+  const auto f = static_cast<Real>(factor);
+  if (!blocks.empty()) extrapolate_impulses(blocks, impulses_[strip][0].n.data(), f);
+  if (bodies.end > bodies.begin)
+    extrapolate_motion(&motion[bodies.begin], &motion_[bodies.begin], bodies.end - bodies.begin, f);
 }
 
 template class ExtrapolationOf<double>;

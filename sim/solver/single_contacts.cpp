@@ -2,6 +2,7 @@
 #include "sim/solver/single_contacts.hpp"
 
 #include "sim/contact/parallel.hpp"
+#include "sim/solver/sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -152,10 +153,20 @@ double unit_of_mass(std::span<const Motion> motion)
 
 }  // namespace
 
-void SingleContacts::take(std::span<const BlockRuns> strips, std::span<const Motion> motion,
-                          int threads)
+void SingleContacts::take(std::span<const BlockRuns> strips, std::span<Motion> motion,
+                          Effects effects, int threads)
 {
   mass_unit_ = unit_of_mass(motion);
+  strips_.resize(strips.size());
+  runs_.resize(strips.size());
+  const auto idle = static_cast<std::uint32_t>(numbers_per_body * (motion.size() - 1));
+  for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
+    apply_impulses(strips[s].blocks, motion.data(), effects);
+    take_strip(strips[s], idle, strips_[s]);
+    runs_[s] = {
+        std::span(strips_[s].blocks).first(strips_[s].ends.empty() ? 0 : strips_[s].ends.back()),
+        strips_[s].ends, strips[s].bodies};
+  });
   motion_.resize(motion.size());
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -164,15 +175,6 @@ void SingleContacts::take(std::span<const BlockRuns> strips, std::span<const Mot
                     static_cast<float>(m.rim_speed),
                     static_cast<float>(m.inverse_mass * mass_unit_)};
     }
-  });
-  strips_.resize(strips.size());
-  runs_.resize(strips.size());
-  const auto idle = static_cast<std::uint32_t>(numbers_per_body * (motion.size() - 1));
-  for_each_part(threads, strips.size(), [&](std::size_t s) {
-    take_strip(strips[s], idle, strips_[s]);
-    runs_[s] = {
-        std::span(strips_[s].blocks).first(strips_[s].ends.empty() ? 0 : strips_[s].ends.back()),
-        strips_[s].ends};
   });
 }
 

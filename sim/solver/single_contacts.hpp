@@ -16,9 +16,10 @@ namespace grseg {
 /// the mass of a grain, which changes no digit and keeps them away from the ends of the range.
 class SingleContacts {
  public:
-  /// Takes over contacts and velocities, in which the first guesses of the impulses are contained.
-  /// The last entry of `motion` is the body that never moves.
-  void take(std::span<const BlockRuns> strips, std::span<const Motion> motion, int threads);
+  /// Applies the first guesses of the impulses to `motion`, whose last entry is the body that never
+  /// moves, and takes over contacts and velocities.
+  void take(std::span<const BlockRuns> strips, std::span<Motion> motion, Effects effects,
+            int threads);
 
   std::span<const RunsOf<float>> strips() const { return runs_; }
   std::span<MotionOf<float>> motion() { return motion_; }

@@ -2,6 +2,7 @@
 #include "sim/solver/solver.hpp"
 
 #include "sim/contact/parallel.hpp"
+#include "sim/solver/wavefront.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -105,6 +106,7 @@ class Sweeping {
         motion_(motion),
         task_(task),
         extrapolation_(extrapolation),
+        least_(std::min(task.settings.min_sweeps, task.settings.max_sweeps)),
         at_a_time_(strips.size() > 1 ? 2 : 1),
         results_(strips.size()),
         work_(strips)
@@ -114,7 +116,9 @@ class Sweeping {
   SolverReport until_settled();
 
  private:
-  SweepResult sweep_all(Findings findings);
+  SweepResult sweep_least();
+  SweepResult sweep_all();
+  void sweep_strip(std::size_t strip, Findings findings);
   SolverReport report_on(const SweepResult& result);
   /// m/s, the mean of W p, at least the floor.
   double reference(const SweepResult& result) const
@@ -127,6 +131,7 @@ class Sweeping {
   std::span<MotionOf<Real>> motion_;
   const Task& task_;
   ExtrapolationOf<Real>& extrapolation_;
+  const int least_;  // sweeps
   // The second sweep of a strip finds its contacts in the cache.
   const int at_a_time_;
   int sweeps_ = 0;
@@ -136,15 +141,46 @@ class Sweeping {
 };
 
 template <class Real>
-SweepResult Sweeping<Real>::sweep_all(Findings findings)
+void Sweeping<Real>::sweep_strip(std::size_t strip, Findings findings)
 {
   const auto quick = choose_sweep<Real>(task_.effects, Findings::squares),
              last = choose_sweep<Real>(task_.effects, findings);
   const auto friction = static_cast<Real>(task_.friction);
+  if (at_a_time_ > 1) quick(strips_[strip], motion_.data(), friction);
+  results_[strip] = last(strips_[strip], motion_.data(), friction);
+}
+
+/// The least number of sweeps over several strips, whose changes nobody waits for.
+template <class Real>
+SweepResult Sweeping<Real>::sweep_least()
+{
+  const int rounds = (least_ + at_a_time_ - 1) / at_a_time_;
+  std::vector<double> factors;  // between two rounds
+  for (int round = 1; round < rounds; ++round) factors.push_back(extrapolation_.next_factor());
+  std::vector<SweepResult> before(strips_.size());  // of the last round but one
+  Wavefront(strips_.size(), rounds)
+      .run(
+          task_.threads,
+          [&](std::size_t s, std::size_t round) {
+            before[s] = results_[s];
+            sweep_strip(s, round < factors.size() ? Findings::squares : Findings::all);
+          },
+          [&](std::size_t s, std::size_t round) {
+            if (task_.settings.acceleration && round < factors.size())
+              extrapolation_.extrapolate_strip(strips_, s, motion_, factors[round]);
+          });
+  sweeps_ = rounds * at_a_time_;
+  for (int round = 0; round < rounds; ++round) work_.count();
+  if (rounds > 1) extrapolation_.last_change(total(before).sum_squares);
+  return total(results_);
+}
+
+template <class Real>
+SweepResult Sweeping<Real>::sweep_all()
+{
+  const bool may_be_last = sweeps_ + at_a_time_ >= least_;
   for_alternate_strips(task_.threads, strips_.size(), [&](std::size_t s) {
-    if (!work_.swept(s)) return;
-    if (at_a_time_ > 1) quick(strips_[s], motion_.data(), friction);
-    results_[s] = last(strips_[s], motion_.data(), friction);
+    if (work_.swept(s)) sweep_strip(s, may_be_last ? Findings::all : Findings::squares);
   });
   sweeps_ += at_a_time_;
   work_.count();
@@ -152,7 +188,7 @@ SweepResult Sweeping<Real>::sweep_all(Findings findings)
   if constexpr (std::is_same_v<Real, double>)
     if (task_.free != nullptr) {
       result.largest = std::max(result.largest, task_.free->update_velocities(motion_));
-      task_.free->relax_contacts(motion_, friction, task_.effects);
+      task_.free->relax_contacts(motion_, task_.friction, task_.effects);
       task_.free->update_velocities(motion_);
     }
   return result;
@@ -181,9 +217,9 @@ SolverReport Sweeping<Real>::until_settled()
   const auto& settings = task_.settings;
   if (settings.acceleration) extrapolation_.begin(strips_, motion_, task_.threads);
   while (true) {
-    const bool enough = sweeps_ + at_a_time_ >= std::min(settings.min_sweeps, settings.max_sweeps);
-    const auto result = sweep_all(enough ? Findings::all : Findings::squares);
-    if (enough || (result.sum_squares == 0 && result.largest == 0)) {
+    const bool together = sweeps_ == 0 && strips_.size() > 1 && task_.free == nullptr;
+    const auto result = together ? sweep_least() : sweep_all();
+    if (sweeps_ >= least_ || (result.sum_squares == 0 && result.largest == 0)) {
       const auto report = report_on(result);
       if (report.converged || sweeps_ >= settings.max_sweeps) return report;
       if (task_.free == nullptr) work_.choose(results_, settings.tolerance * reference(result));
@@ -197,7 +233,7 @@ SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> mo
                          const Task& task, SolverMemory& memory)
 {
   auto& contacts = memory.contacts;
-  contacts.take(strips, motion, task.threads);
+  contacts.take(strips, motion, task.effects, task.threads);
   const auto report =
       Sweeping<float>(contacts.strips(), contacts.motion(), task, memory.singles).until_settled();
   for_alternate_strips(task.threads, strips.size(), [&](std::size_t s) {
@@ -214,13 +250,13 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
                             int threads, FreeBodies* free)
 {
   if (count == 0) return {};
+  const Task task{count, friction, effects, settings, floor, threads, free};
+  if (settings.precision == Precision::mixed && free == nullptr)
+    return solve_mixed(strips, motion, task, memory);
   for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
     apply_impulses(strips[s].blocks, motion.data(), effects);
   });
   if (free != nullptr) free->update_velocities(motion);
-  const Task task{count, friction, effects, settings, floor, threads, free};
-  if (settings.precision == Precision::mixed && free == nullptr)
-    return solve_mixed(strips, motion, task, memory);
   return Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
 }
 

@@ -168,9 +168,9 @@ void Simulation::solve(StepReport& report)
 {
   std::vector<BlockRuns> strips;
   std::size_t count = 0;
-  for (auto& strip : contacts_) {
-    strips.push_back(strip.used());
-    count += strip.count;
+  for (std::size_t s = 0; s < contacts_.size(); ++s) {
+    strips.push_back(contacts_[s].used(pairs_.bodies_of_strip(s)));
+    count += contacts_[s].count;
   }
   const bool any_free = std::any_of(world_.bodies.begin(), world_.bodies.end(),
                                     [](const auto& body) { return body.free(); });

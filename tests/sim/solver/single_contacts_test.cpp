@@ -79,7 +79,7 @@ void expect_the_law(const std::string& instructions)
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
   SingleContacts singles;
   const std::array strips{packed.runs()};
-  singles.take(strips, p.motion, 1);
+  singles.take(strips, p.motion, with, 1);
   const auto& run = singles.strips()[0];
   std::vector<BlockOf<float>> blocks(run.blocks.begin(), run.blocks.end());
   std::vector<MotionOf<float>> motion(singles.motion().begin(), singles.motion().end());
@@ -112,9 +112,8 @@ TEST(SinglePrecision, FindingsAreThoseOfEveryContact)
   ContactBlocks again;
   again.pack(twice.contacts, twice.motion, twice.motion.size() - 1);
   SingleContacts singles;
-  apply_impulses(packed.blocks(), p.motion.data(), {});
   apply_impulses(again.blocks(), twice.motion.data(), {});
-  singles.take(std::array{packed.runs()}, p.motion, 1);
+  singles.take(std::array{packed.runs()}, p.motion, {}, 1);
   const auto found = choose_sweep<float>({})(singles.strips()[0], singles.motion().data(), 0.5F);
   const auto exact = choose_sweep({})(again.runs(), twice.motion.data(), 0.5);
   // A rounding error of the fastest velocity in each of the ten relaxations that a body takes part

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace grseg {
 namespace {
 
@@ -85,6 +87,88 @@ TEST(Solver, AStripThatNeedsManySweepsDoesNotCostOthersMore)
   for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_NEAR(many.motion[k].vx, 0.1, 1e-3);
   EXPECT_EQ(shared.solve(3).sweeps, among.sweeps);
   for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_EQ(shared.motion[k].vx, many.motion[k].vx);
+}
+
+/// Rows of ten discs, a strip each, that touch one another along rows and columns and are hit by chance;
+/// an even number of rows closes to a ring.
+struct Net {
+  static constexpr std::size_t discs = 10;
+  std::vector<Motion> motion;
+  std::vector<ContactBlocks> packed;
+  std::vector<BlockRuns> strips;
+
+  explicit Net(std::size_t rows) : packed(rows)
+  {
+    std::mt19937 random(static_cast<unsigned>(rows));
+    const auto number = [&] { return 1e-9 * static_cast<double>(random()) - 2; };
+    for (std::size_t k = 0; k < rows * discs; ++k)
+      motion.push_back({number(), number(), number(), 1});
+    motion.emplace_back();
+    for (std::size_t r = 0; r < rows; ++r) {
+      std::vector<Contact> contacts;
+      for (std::size_t k = 0; k < discs; ++k) {
+        if (k > 0) contacts.push_back(contact(r * discs + k, r * discs + k - 1, 1, 0));
+        if (r + 1 < rows || rows % 2 == 0)
+          contacts.push_back(contact((r + 1) % rows * discs + k, r * discs + k, 0, 1));
+      }
+      packed[r].pack(contacts, motion, motion.size() - 1);
+    }
+    for (std::size_t r = 0; r < rows; ++r) {
+      strips.push_back(
+          {packed[r].blocks(),
+           packed[r].runs().ends,
+           {static_cast<std::uint32_t>(r * discs), static_cast<std::uint32_t>((r + 1) * discs)}});
+    }
+  }
+  static Contact contact(std::size_t i, std::size_t j, double nx, double ny)
+  {
+    Contact c{};
+    c.nx = nx, c.ny = ny, c.kappa = 1, c.mass_n = 0.5, c.mass_t = 1.0 / 6;
+    c.i = static_cast<std::int32_t>(i), c.j = static_cast<std::int32_t>(j);
+    return c;
+  }
+  std::vector<double> numbers() const
+  {
+    std::vector<double> all;
+    for (const auto& m : motion) all.insert(all.end(), {m.vx, m.vy, m.rim_speed});
+    for (const auto& strip : strips)
+      for (const auto& b : strip.blocks)
+        for (const auto& lanes : {b.impulse_n, b.impulse_t})
+          all.insert(all.end(), lanes.begin(), lanes.end());
+    return all;
+  }
+  /// All strips one after the other, those of even number first, and then the extrapolation.
+  void sweep_round_after_round(int rounds)
+  {
+    const auto sweep = choose_sweep({});
+    ExtrapolationOf<double> extrapolation;
+    extrapolation.begin(strips, motion, 1);
+    for (int round = 0; round < rounds; ++round) {
+      if (round > 0) extrapolation.extrapolate(strips, motion, 0, 1);
+      for (const std::size_t odd : {0, 1})
+        for (std::size_t r = odd; r < strips.size(); r += 2)
+          for (int twice = 0; twice < 2; ++twice) sweep(strips[r], motion.data(), 0.5);
+    }
+  }
+};
+
+TEST(Solver, StripsThatGoAheadEndWhereRoundAfterRoundEnds)
+{
+  for (const std::size_t rows : {2, 3, 6, 7, 30}) {
+    for (const int sweeps : {1, 2, 8}) {
+      Net expected(rows);
+      expected.sweep_round_after_round((sweeps + 1) / 2);
+      for (const int threads : {1, 2, 3}) {
+        Net net(rows);
+        SolverMemory memory;
+        const auto report = solve_contacts(net.strips, 19 * rows, net.motion, 0.5, {},
+                                           {1e9, 100, true, sweeps}, 0, memory, threads);
+        EXPECT_EQ(report.sweeps, (sweeps + 1) / 2 * 2);
+        EXPECT_EQ(net.numbers(), expected.numbers())
+            << rows << " rows, " << sweeps << " sweeps, " << threads << " threads";
+      }
+    }
+  }
 }
 
 TEST(Solver, WithoutGravityTheSweepThatOpensTheLastContactIsFollowedByAnother)
