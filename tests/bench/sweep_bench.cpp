@@ -45,7 +45,7 @@ void single_sweep(benchmark::State& state, const std::string& instructions)
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
   SingleContacts singles;
-  singles.take(std::array{packed.runs()}, p.motion, 1);
+  singles.take(std::array{packed.runs()}, p.motion, {}, 1);
   const auto one_sweep = choose_sweep<float>({});
   for (auto _ : state)
     benchmark::DoNotOptimize(one_sweep(singles.strips()[0], singles.motion().data(),
@@ -53,7 +53,7 @@ void single_sweep(benchmark::State& state, const std::string& instructions)
   count_contacts(state, p);
 }
 
-/// From double to single precision and back.
+/// From double to single precision and back, with the first guesses applied.
 void take_and_give_back(benchmark::State& state)
 {
   use_instruction_set("");
@@ -62,7 +62,7 @@ void take_and_give_back(benchmark::State& state)
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
   SingleContacts singles;
   for (auto _ : state) {
-    singles.take(std::array{packed.runs()}, p.motion, 1);
+    singles.take(std::array{packed.runs()}, p.motion, {}, 1);
     singles.give_back(0, packed.runs(), p.friction, {}, p.motion.data());
   }
   count_contacts(state, p);

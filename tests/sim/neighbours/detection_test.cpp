@@ -547,7 +547,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   EXPECT_EQ(sums.force_bearing, bearing);
   EXPECT_NEAR(sums.gap_bearing, gap, 1e-12);
   EXPECT_NEAR((sums.on_base_side - base).norm(), 0, 1e-12);
-  const auto kept = contacts.used().blocks;
+  const auto kept = contacts.used({}).blocks;
   for (std::size_t b = 0; b < kept.size(); ++b)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
       const auto& impulse = p.list.pairs().impulse[contacts.origins[b].pair[lane] / 2];
