@@ -33,13 +33,13 @@ class ExtrapolationOf {
   void extrapolate(std::span<const RunsOf<Real>> strips, std::span<MotionOf<Real>> motion,
                    double change, int threads);
 
-  /// The factors of sweeps whose changes are not looked at, one by one,
+  /// The factor after the next sweep, if its change is not looked at.
   double next_factor();
-  /// the extrapolation of a strip and its bodies by such a factor,
+  /// Extrapolates the impulses and the bodies of a strip by such a factor.
   void extrapolate_strip(std::span<const RunsOf<Real>> strips, std::size_t strip,
                          std::span<MotionOf<Real>> motion, double factor);
-  /// and the change that the last of these sweeps made.
-  void last_change(double change) { last_change_ = change; }
+  /// Lets extrapolate() go on after such sweeps: the change of the last that was extrapolated.
+  void set_last_change(double change) { last_change_ = change; }
 
  private:
   void remember(std::span<const RunsOf<Real>> strips, std::span<const MotionOf<Real>> motion,

@@ -19,6 +19,10 @@ template <class Real>
 constexpr double last_digits = 8 * double{std::numeric_limits<Real>::epsilon()};
 constexpr int sweeps_before_round_off = 32;
 
+// In so many sweeps from a good first guess changes hardly ever grow; in more they do, and without a
+// restart extrapolation would do worse than plain sweeps.
+constexpr int most_without_restart = 8;
+
 /// m/s, the largest component of all velocities.
 template <class Real>
 double fastest(std::span<const MotionOf<Real>> motion)
@@ -106,7 +110,7 @@ class Sweeping {
         motion_(motion),
         task_(task),
         extrapolation_(extrapolation),
-        least_(std::min(task.settings.min_sweeps, task.settings.max_sweeps)),
+        least_(std::max(1, std::min(task.settings.min_sweeps, task.settings.max_sweeps))),
         at_a_time_(strips.size() > 1 ? 2 : 1),
         results_(strips.size()),
         work_(strips)
@@ -116,7 +120,7 @@ class Sweeping {
   SolverReport until_settled();
 
  private:
-  SweepResult sweep_least();
+  SweepResult first_of_several();
   SweepResult sweep_all();
   void sweep_strip(std::size_t strip, Findings findings);
   SolverReport report_on(const SweepResult& result);
@@ -150,28 +154,31 @@ void Sweeping<Real>::sweep_strip(std::size_t strip, Findings findings)
   results_[strip] = last(strips_[strip], motion_.data(), friction);
 }
 
-/// The least number of sweeps over several strips, whose changes nobody waits for.
+/// The first sweeps over several strips, whose changes nobody waits for: the least number, but not more
+/// than may go without a restart of the extrapolation.
 template <class Real>
-SweepResult Sweeping<Real>::sweep_least()
+SweepResult Sweeping<Real>::first_of_several()
 {
-  const int rounds = (least_ + at_a_time_ - 1) / at_a_time_;
+  const int rounds = (std::min(least_, most_without_restart) + at_a_time_ - 1) / at_a_time_;
+  const auto last = static_cast<std::size_t>(rounds - 1);
   std::vector<double> factors;  // between two rounds
-  for (int round = 1; round < rounds; ++round) factors.push_back(extrapolation_.next_factor());
+  for (std::size_t round = 0; round < last; ++round)
+    factors.push_back(extrapolation_.next_factor());
   std::vector<SweepResult> before(strips_.size());  // of the last round but one
   Wavefront(strips_.size(), rounds)
       .run(
           task_.threads,
           [&](std::size_t s, std::size_t round) {
             before[s] = results_[s];
-            sweep_strip(s, round < factors.size() ? Findings::squares : Findings::all);
+            sweep_strip(s, round < last ? Findings::squares : Findings::all);
           },
           [&](std::size_t s, std::size_t round) {
-            if (task_.settings.acceleration && round < factors.size())
+            if (task_.settings.acceleration && round < last)
               extrapolation_.extrapolate_strip(strips_, s, motion_, factors[round]);
           });
   sweeps_ = rounds * at_a_time_;
   for (int round = 0; round < rounds; ++round) work_.count();
-  if (rounds > 1) extrapolation_.last_change(total(before).sum_squares);
+  if (last > 0) extrapolation_.set_last_change(total(before).sum_squares);
   return total(results_);
 }
 
@@ -217,8 +224,8 @@ SolverReport Sweeping<Real>::until_settled()
   const auto& settings = task_.settings;
   if (settings.acceleration) extrapolation_.begin(strips_, motion_, task_.threads);
   while (true) {
-    const bool together = sweeps_ == 0 && strips_.size() > 1 && task_.free == nullptr;
-    const auto result = together ? sweep_least() : sweep_all();
+    const bool several = strips_.size() > 1 && task_.free == nullptr;
+    const auto result = several && sweeps_ == 0 ? first_of_several() : sweep_all();
     if (sweeps_ >= least_ || (result.sum_squares == 0 && result.largest == 0)) {
       const auto report = report_on(result);
       if (report.converged || sweeps_ >= settings.max_sweeps) return report;

@@ -12,19 +12,21 @@
 
 namespace grseg {
 
-/// In what precision sweeps relax contacts. Under `mixed` it is single precision: a contact's relative
-/// velocity is then off by some 1e-7 of the fastest velocity, far below the tolerance of a flow. All
-/// else is done in double precision. Sweeps find increments on the first guesses, which are added to
-/// impulses and velocities at the end, so that momentum and angular momentum balance to round-off.
+/// In what precision sweeps relax contacts. Under `mixed` it is single precision: a contact's
+/// relative velocity is then off by some 1e-7 of the fastest velocity, far below the tolerance of a
+/// flow. All else is done in double precision. Sweeps find increments on the first guesses, which
+/// are added to impulses and velocities at the end, so that momentum and angular momentum balance
+/// to round-off.
 enum class Precision { mixed, doubles };
 
 struct SolverSettings {
   double tolerance = 1e-2;  ///< on SolverReport::residual
   int max_sweeps = 500;
   bool acceleration = false;
-  /// At least so many sweeps, unless there is one strip and one changes nothing. A sweep passes a load on to the next
-  /// grain only, so while a bed still has to find its weight small changes do not mean small
-  /// errors: a bed at rest trembles if every step stops at the first or second sweep.
+  /// At least so many sweeps, unless one changes nothing (see solve_contacts). A sweep passes a
+  /// load on to the next grain only, so while a bed still has to find its weight small changes do
+  /// not mean small errors: a bed at rest trembles if every step stops at the first or second
+  /// sweep.
   int min_sweeps = 1;
   Precision precision = Precision::doubles;
 };
@@ -60,10 +62,11 @@ struct SolverReport {
 /// is the body that never moves. Contacts come in strips and are swept run after run: those of even
 /// strips at a time, then those of odd ones. Strips that are not neighbours share no mobile body;
 /// sums are added strip by strip. Of several strips each is swept twice before the next, and counts
-/// as swept twice. Of several strips nobody waits for what the least number of sweeps changes, so a
-/// strip makes these sweeps as soon as its neighbours let it (Wavefront), and extrapolation is not
-/// restarted before they are made. When changes above the tolerance are left in a quarter of the strips or less, only these and their
-/// neighbours are swept further, without extrapolation; with free bodies all are.
+/// as swept twice. Nobody waits for what the first eight of the least sweeps change then, so a
+/// strip makes them as soon as its neighbours let it (Wavefront): none of them ends the solve, and
+/// none restarts the extrapolation; this does not hold with free bodies. When changes above the
+/// tolerance are left in a quarter of the strips or less, only these and their neighbours are swept
+/// further, without extrapolation; with free bodies all are.
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
                             const SolverSettings& settings, double floor, SolverMemory& memory,

@@ -7,24 +7,25 @@
 
 namespace grseg {
 
-void Wavefront::run(int threads, const Task& work, const Task& close)
+void Wavefront::run(int threads, const Action& work, const Action& finish)
 {
-  const std::size_t strips = closed_.size();
+  const std::size_t strips = finished_.size();
 #pragma omp parallel num_threads(threads) if (threads > 1)
   {
     const auto thread = static_cast<std::size_t>(omp_get_thread_num());
     const auto team = static_cast<std::size_t>(omp_get_num_threads());
-    run_between(strips * thread / team, strips * (thread + 1) / team, work, close);
+    run_between(strips * thread / team, strips * (thread + 1) / team, work, finish);
   }
 }
 
-/// What a thread does.
-void Wavefront::run_between(std::size_t begin, std::size_t end, const Task& work, const Task& close)
+/// One thread's share: strips begin .. end-1.
+void Wavefront::run_between(std::size_t begin, std::size_t end, const Action& work,
+                            const Action& finish)
 {
-  for (std::size_t s = begin, finished = 0; finished < end - begin;) {
-    if (go_ahead(s, work, close)) {
-      if (closed_[s] == rounds_) ++finished;
-      s = s < begin + 2 ? begin : s - 2;  // may have waited for this one
+  for (std::size_t s = begin, through = 0; through < end - begin;) {
+    if (go_ahead(s, work, finish)) {
+      if (finished_[s] == rounds_) ++through;
+      if (s > begin) --s;  // it may have waited for this one
     } else if (++s == end) {
       s = begin;
       std::this_thread::yield();  // others have to go ahead first
@@ -32,31 +33,29 @@ void Wavefront::run_between(std::size_t begin, std::size_t end, const Task& work
   }
 }
 
-bool Wavefront::go_ahead(std::size_t strip, const Task& work, const Task& close)
+bool Wavefront::go_ahead(std::size_t strip, const Action& work, const Action& finish)
 {
-  const int round = closed_[strip].load(std::memory_order_relaxed);
+  const int round = finished_[strip].load(std::memory_order_relaxed);
   if (round == rounds_) return false;
   if (worked_[strip].load(std::memory_order_relaxed) == round) {
-    if (!neighbours_have(closed_, strip, round)) return false;
-    if (strip % 2 == 1 && !neighbours_have(worked_, strip, round + 1)) return false;
+    const bool even = strip % 2 == 0;
+    if (!neighbours_have(even ? finished_ : worked_, strip, even ? round : round + 1)) return false;
     work(strip, static_cast<std::size_t>(round));
     worked_[strip].store(round + 1, std::memory_order_release);
     return true;
   }
   if (!neighbours_have(worked_, strip, round + 1)) return false;
-  close(strip, static_cast<std::size_t>(round));
-  closed_[strip].store(round + 1, std::memory_order_release);
+  finish(strip, static_cast<std::size_t>(round));
+  finished_[strip].store(round + 1, std::memory_order_release);
   return true;
 }
 
-/// The first and the last strip may both be even: then they are no neighbours, because the row does
-/// not close to a ring.
+/// In a row, too, the first strip waits for the last and the other way round, without need.
 bool Wavefront::neighbours_have(const Counts& counts, std::size_t strip, int rounds)
 {
   const std::size_t last = counts.size() - 1;
   for (const auto other : {strip == 0 ? last : strip - 1, strip == last ? 0 : strip + 1})
-    if (other % 2 != strip % 2 && counts[other].load(std::memory_order_acquire) < rounds)
-      return false;
+    if (counts[other].load(std::memory_order_acquire) < rounds) return false;
   return true;
 }
 

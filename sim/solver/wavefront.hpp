@@ -8,28 +8,30 @@
 
 namespace grseg {
 
-/// Rounds of work on strips in a ring. In a round a strip is first worked on, those of even number
-/// before their odd neighbours, and is closed when its neighbours have been worked on, too. The next
-/// round may work on it when it and its neighbours are closed. Instead of making round after round, the
-/// strips that were last worked on go ahead as far as their neighbours allow, while the cache still
-/// holds them; what each does and sees is the same, and so is every byte, with any number of threads.
+/// Rounds of work on strips in a row or, if their number is even, a ring. In a round a strip is first
+/// worked on, those of even number before their odd neighbours, and is finished when its neighbours
+/// have been worked on, too. The next round may work on it when it and its neighbours are finished.
+/// Rather than finish one round before the next begins, a thread takes the strips that it last worked
+/// on as far as their neighbours allow, while they are in the cache. Each strip does and sees the same,
+/// so results are the same to the byte with any number of threads.
 class Wavefront {
  public:
-  Wavefront(std::size_t strips, int rounds) : worked_(strips), closed_(strips), rounds_(rounds) {}
+  /// `rounds` is at least 1.
+  Wavefront(std::size_t strips, int rounds) : worked_(strips), finished_(strips), rounds_(rounds) {}
 
   /// What is done with a strip in a round; rounds count from 0.
-  using Task = std::function<void(std::size_t strip, std::size_t round)>;
+  using Action = std::function<void(std::size_t strip, std::size_t round)>;
   /// Calls both once for each strip and round.
-  void run(int threads, const Task& work, const Task& close);
+  void run(int threads, const Action& work, const Action& finish);
 
  private:
   using Counts = std::vector<std::atomic<int>>;  // rounds done, per strip
 
-  void run_between(std::size_t begin, std::size_t end, const Task& work, const Task& close);
-  bool go_ahead(std::size_t strip, const Task& work, const Task& close);
+  void run_between(std::size_t begin, std::size_t end, const Action& work, const Action& finish);
+  bool go_ahead(std::size_t strip, const Action& work, const Action& finish);
   static bool neighbours_have(const Counts& counts, std::size_t strip, int rounds);
 
-  Counts worked_, closed_;
+  Counts worked_, finished_;
   int rounds_;
 };
 

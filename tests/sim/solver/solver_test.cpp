@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
+#include <tuple>
 
 namespace grseg {
 namespace {
@@ -137,38 +139,68 @@ struct Net {
           all.insert(all.end(), lanes.begin(), lanes.end());
     return all;
   }
-  /// All strips one after the other, those of even number first, and then the extrapolation.
-  void sweep_round_after_round(int rounds)
+  /// All strips one after the other, those of even number first, and then the extrapolation, which
+  /// looks at changes from the eighth sweep on.
+  void sweep_round_after_round(int sweeps, bool acceleration)
   {
     const auto sweep = choose_sweep({});
     ExtrapolationOf<double> extrapolation;
     extrapolation.begin(strips, motion, 1);
-    for (int round = 0; round < rounds; ++round) {
-      if (round > 0) extrapolation.extrapolate(strips, motion, 0, 1);
+    for (int done = 0; done < sweeps; done += 2) {
+      double change = 0;
       for (const std::size_t odd : {0, 1})
-        for (std::size_t r = odd; r < strips.size(); r += 2)
-          for (int twice = 0; twice < 2; ++twice) sweep(strips[r], motion.data(), 0.5);
+        for (std::size_t r = odd; r < strips.size(); r += 2) {
+          sweep(strips[r], motion.data(), 0.5);
+          change_[r] = sweep(strips[r], motion.data(), 0.5).sum_squares;
+        }
+      for (const double of_strip : change_) change += of_strip;
+      if (!acceleration || done + 2 >= sweeps) continue;
+      if (done + 2 < 8) extrapolation.set_last_change(std::numeric_limits<double>::infinity());
+      extrapolation.extrapolate(strips, motion, change, 1);
     }
   }
+
+ private:
+  std::vector<double> change_ = std::vector<double>(packed.size());
 };
 
 TEST(Solver, StripsThatGoAheadEndWhereRoundAfterRoundEnds)
 {
   for (const std::size_t rows : {2, 3, 6, 7, 30}) {
-    for (const int sweeps : {1, 2, 8}) {
+    for (const auto& [least, most, acceleration] : {std::tuple{1, 1, true},
+                                                    {2, 2, true},
+                                                    {8, 3, true},
+                                                    {8, 8, true},
+                                                    {8, 8, false},
+                                                    {60, 60, true}}) {
+      const int sweeps = (std::min(least, most) + 1) / 2 * 2;
       Net expected(rows);
-      expected.sweep_round_after_round((sweeps + 1) / 2);
+      expected.sweep_round_after_round(sweeps, acceleration);
       for (const int threads : {1, 2, 3}) {
         Net net(rows);
         SolverMemory memory;
         const auto report = solve_contacts(net.strips, 19 * rows, net.motion, 0.5, {},
-                                           {1e9, 100, true, sweeps}, 0, memory, threads);
-        EXPECT_EQ(report.sweeps, (sweeps + 1) / 2 * 2);
+                                           {1e9, most, acceleration, least}, 0, memory, threads);
+        EXPECT_EQ(report.sweeps, sweeps);
         EXPECT_EQ(net.numbers(), expected.numbers())
             << rows << " rows, " << sweeps << " sweeps, " << threads << " threads";
       }
     }
   }
+}
+
+TEST(Solver, StripsThatGoAheadInSinglePrecisionGiveTheSameWithAnyNumberOfThreads)
+{
+  const auto solved = [](int threads) {
+    Net net(30);
+    SolverMemory memory;
+    solve_contacts(net.strips, 19 * 30, net.motion, 0.5, {}, {1e-3, 100, true, 8, Precision::mixed},
+                   0, memory, threads);
+    return net.numbers();
+  };
+  const auto alone = solved(1);
+  EXPECT_EQ(solved(2), alone);
+  EXPECT_EQ(solved(3), alone);
 }
 
 TEST(Solver, WithoutGravityTheSweepThatOpensTheLastContactIsFollowedByAnother)

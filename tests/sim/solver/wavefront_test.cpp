@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <mutex>
-#include <utility>
+#include <vector>
 
 namespace grseg {
 namespace {
