@@ -28,11 +28,10 @@ struct alignas(64) BlockOf {
 };
 using ContactBlock = BlockOf<double>;
 
-/// In single precision impulses are increments on those that the sweeps begin with (ContactOf).
 template <>
 struct alignas(64) BlockOf<float> {
   using Lanes = std::array<float, lanes_of<float>>;
-  Lanes nx, ny, kappa, mass_n, mass_t, rebound, base_n, base_t, impulse_n, impulse_t;
+  Lanes nx, ny, kappa, share_i, share_j, mass_ratio, rebound, base_n, base_t, impulse_n, impulse_t;
   std::array<std::uint32_t, lanes_of<float>> i, j;
 };
 

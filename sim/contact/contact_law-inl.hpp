@@ -80,19 +80,40 @@ HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector impulse_n, 
           hn::IfThenElseZero(hn::And(slowed_down_now, newcomer), approach)};
 }
 
-/// Adds the impulse (px, py) to a and takes it from b; `spin` is taken from both.
-template <Effects with, class Tag>
-HWY_INLINE void push(Bodies<Tag>& a, Bodies<Tag>& b, hn::Vec<Tag> px, hn::Vec<Tag> py,
-                     hn::Vec<Tag> spin)
+/// Adds the impulse (px, py) times their weights to a and takes it from b; `spin` is taken from both.
+template <Effects with, class Tag, class V = hn::Vec<Tag>>
+HWY_INLINE void push(Bodies<Tag>& a, Bodies<Tag>& b, V weight_a, V weight_b, V px, V py, V spin)
 {
   if constexpr (with.friction && with.rotation) {
-    a.rim_speed = hn::Sub(a.rim_speed, hn::Mul(a.inverse_mass, spin));
-    b.rim_speed = hn::Sub(b.rim_speed, hn::Mul(b.inverse_mass, spin));
+    a.rim_speed = hn::Sub(a.rim_speed, hn::Mul(weight_a, spin));
+    b.rim_speed = hn::Sub(b.rim_speed, hn::Mul(weight_b, spin));
   }
-  a.vx = hn::Add(a.vx, hn::Mul(a.inverse_mass, px));
-  a.vy = hn::Add(a.vy, hn::Mul(a.inverse_mass, py));
-  b.vx = hn::Sub(b.vx, hn::Mul(b.inverse_mass, px));
-  b.vy = hn::Sub(b.vy, hn::Mul(b.inverse_mass, py));
+  a.vx = hn::Add(a.vx, hn::Mul(weight_a, px));
+  a.vy = hn::Add(a.vy, hn::Mul(weight_a, py));
+  b.vx = hn::Sub(b.vx, hn::Mul(weight_b, px));
+  b.vy = hn::Sub(b.vy, hn::Mul(weight_b, py));
+}
+
+/// What impulses along the normals and tangents of contacts do to their bodies, as push() takes it.
+struct Pushes {
+  Vector px, py, spin;
+};
+template <Effects with>
+HWY_INLINE Pushes pushes_of(const ContactBlock& c, std::size_t lane, Vector normal,
+                            Vector tangential)
+{
+  const D d;
+  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
+  Pushes p{hn::Mul(normal, nx), hn::Mul(normal, ny), hn::Zero(d)};
+  if constexpr (with.friction) {
+    p.px = hn::Sub(p.px, hn::Mul(tangential, ny));
+    p.py = hn::Add(p.py, hn::Mul(tangential, nx));
+  }
+  if constexpr (with.friction && with.rotation) {
+    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), hn::Load(d, &c.kappa[lane]));
+    p.spin = hn::Mul(lever, tangential);
+  }
+  return p;
 }
 
 /// Applies impulses along the normals and tangents of the lanes of a block that begin at `lane`.
@@ -100,19 +121,8 @@ template <Effects with>
 HWY_INLINE void apply(const ContactBlock& c, std::size_t lane, Vector normal, Vector tangential,
                       double* motion)
 {
-  const D d;
-  auto a = load_bodies(d, motion, &c.i[lane]), b = load_bodies(d, motion, &c.j[lane]);
-  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
-  auto px = hn::Mul(normal, nx), py = hn::Mul(normal, ny), spin = hn::Zero(d);
-  if constexpr (with.friction) {
-    px = hn::Sub(px, hn::Mul(tangential, ny));
-    py = hn::Add(py, hn::Mul(tangential, nx));
-    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), hn::Load(d, &c.kappa[lane]));
-    spin = hn::Mul(lever, tangential);
-  }
-  push<with>(a, b, px, py, spin);
-  store_bodies(d, a, motion, &c.i[lane]);
-  store_bodies(d, b, motion, &c.j[lane]);
+  const auto p = pushes_of<with>(c, lane, normal, tangential);
+  push_bodies(D(), p.px, p.py, p.spin, motion, &c.i[lane], &c.j[lane]);
 }
 
 /// What relaxing changed along one direction, and its level: W times the impulse, m/s.
@@ -123,11 +133,11 @@ struct Relaxed {
 
 /// Relaxes the lanes of a block that begin at `lane`, whose bodies are a and b.
 /// `results.add(lane, normal)` or `results.add(lane, normal, tangential)` is given what changed.
-template <Effects with, class Real, class Tag = TagOf<Real>, class Results>
-HWY_INLINE void relax(BlockOf<Real>& c, std::size_t lane, Bodies<Tag>& a, Bodies<Tag>& b,
-                      hn::Vec<Tag> friction, Results& results)
+template <Effects with, class Results>
+HWY_INLINE void relax(ContactBlock& c, std::size_t lane, Bodies<D>& a, Bodies<D>& b,
+                      Vector friction, Results& results)
 {
-  const Tag d;
+  const D d;
   const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
   const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
   const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
@@ -136,46 +146,85 @@ HWY_INLINE void relax(BlockOf<Real>& c, std::size_t lane, Bodies<Tag>& a, Bodies
   if constexpr (with.restitution) excess = hn::Sub(excess, hn::Load(d, &c.rebound[lane]));
   const auto before_n = hn::Load(d, &c.impulse_n[lane]);
   const auto relaxed_n = hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess));
-  auto impulse_n = hn::Max(relaxed_n, hn::Zero(d)), load = impulse_n;
-  if constexpr (has_base<Real>) {
-    const auto base = hn::Load(d, &c.base_n[lane]);
-    impulse_n = hn::Max(relaxed_n, hn::Neg(base));
-    load = hn::Add(base, impulse_n);
-  }
+  const auto impulse_n = hn::Max(relaxed_n, hn::Zero(d));
   hn::Store(impulse_n, d, &c.impulse_n[lane]);
   const auto change_n = hn::Sub(impulse_n, before_n);
-  const Relaxed<Tag> normal{hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(load, w_nn)};
+  const Relaxed<D> normal{hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn)};
 
   auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
   if constexpr (with.friction) {
     auto sliding = hn::Sub(hn::Mul(dvy, nx), hn::Mul(dvx, ny));
     auto w_tt = w_nn;
     const auto kappa = hn::Load(d, &c.kappa[lane]);
-    const auto lever = hn::Mul(hn::Set(d, Real{disc_rim_factor}), kappa);
+    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), kappa);
     if constexpr (with.rotation) {
       sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
-      w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, Real{1}), hn::Mul(lever, kappa)));
+      w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, 1.0), hn::Mul(lever, kappa)));
     }
-    const auto limit = hn::Mul(friction, load);
+    const auto limit = hn::Mul(friction, impulse_n);
     const auto before_t = hn::Load(d, &c.impulse_t[lane]);
     const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_t[lane]), sliding));
-    auto impulse_t = hn::Min(hn::Max(sticking, hn::Neg(limit)), limit), load_t = impulse_t;
-    if constexpr (has_base<Real>) {
-      const auto base = hn::Load(d, &c.base_t[lane]);
-      impulse_t = hn::Min(hn::Max(sticking, hn::Sub(hn::Neg(limit), base)), hn::Sub(limit, base));
-      load_t = hn::Add(base, impulse_t);
-    }
+    const auto impulse_t = hn::Min(hn::Max(sticking, hn::Neg(limit)), limit);
     hn::Store(impulse_t, d, &c.impulse_t[lane]);
     const auto change_t = hn::Sub(impulse_t, before_t);
     px = hn::Sub(px, hn::Mul(change_t, ny));
     py = hn::Add(py, hn::Mul(change_t, nx));
     if constexpr (with.rotation) spin = hn::Mul(lever, change_t);
     results.add(lane, normal,
-                Relaxed<Tag>{hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(load_t, w_tt)});
+                Relaxed<D>{hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt)});
   } else {
     results.add(lane, normal);
   }
-  push<with>(a, b, px, py, spin);
+  push<with, D>(a, b, a.inverse_mass, b.inverse_mass, px, py, spin);
+}
+
+/// The same in single precision, see ContactOf<float>.
+template <Effects with, class Results, class Single = TagOf<float>>
+HWY_INLINE void relax(BlockOf<float>& c, std::size_t lane, Bodies<Single>& a, Bodies<Single>& b,
+                      hn::Vec<Single> friction, Results& results)
+{
+  const Single d;
+  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
+  const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
+
+  const auto separation = hn::Add(hn::Mul(dvx, nx), hn::Mul(dvy, ny));
+  const auto before_n = hn::Load(d, &c.impulse_n[lane]), base_n = hn::Load(d, &c.base_n[lane]);
+  auto aim = before_n;
+  if constexpr (with.restitution) aim = hn::Add(before_n, hn::Load(d, &c.rebound[lane]));
+  const auto impulse_n = hn::Max(hn::Sub(aim, separation), hn::Neg(base_n));
+  hn::Store(impulse_n, d, &c.impulse_n[lane]);
+  const auto change_n = hn::Sub(impulse_n, before_n);
+  const Relaxed<Single> normal{hn::Abs(change_n), hn::Add(base_n, impulse_n)};
+
+  auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
+  if constexpr (with.friction) {
+    auto sliding = hn::Sub(hn::Mul(dvy, nx), hn::Mul(dvx, ny));
+    const auto kappa = hn::Load(d, &c.kappa[lane]);
+    const auto lever = hn::Mul(hn::Set(d, float{disc_rim_factor}), kappa);
+    if constexpr (with.rotation)
+      sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
+    const auto base_t = hn::Load(d, &c.base_t[lane]), before_t = hn::Load(d, &c.impulse_t[lane]);
+    const auto held = hn::Mul(friction, base_n), more = hn::Mul(friction, impulse_n);
+    const auto lowest = hn::Sub(hn::Sub(hn::Neg(held), base_t), more);
+    const auto highest = hn::Add(hn::Sub(held, base_t), more);
+    const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_ratio[lane]), sliding));
+    const auto impulse_t = hn::Min(hn::Max(sticking, lowest), highest);
+    hn::Store(impulse_t, d, &c.impulse_t[lane]);
+    const auto change_t = hn::Sub(impulse_t, before_t);
+    px = hn::Sub(px, hn::Mul(change_t, ny));
+    py = hn::Add(py, hn::Mul(change_t, nx));
+    Relaxed<Single> tangential{hn::Abs(change_t), hn::Add(base_t, impulse_t)};
+    if constexpr (with.rotation) {
+      spin = hn::Mul(lever, change_t);
+      const auto w_ratio = hn::Add(hn::Set(d, 1.0F), hn::Mul(lever, kappa));
+      tangential = {hn::Mul(tangential.change, w_ratio), hn::Mul(tangential.level, w_ratio)};
+    }
+    results.add(lane, normal, tangential);
+  } else {
+    results.add(lane, normal);
+  }
+  const auto share_a = hn::Load(d, &c.share_i[lane]), share_b = hn::Load(d, &c.share_j[lane]);
+  push<with, Single>(a, b, share_a, share_b, px, py, spin);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
 
 /// The contact laws: Signorini's condition, Newton's restitution and Coulomb's friction between
 /// rigid discs, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean, Comput.
@@ -92,6 +91,11 @@ struct alignas(4 * sizeof(Real)) MotionOf {
   Real rim_speed = 0;     // m/s, radius times angular velocity (counter-clockwise)
   Real inverse_mass = 0;  // 1/kg; 0 for grains and walls that contacts cannot move
 };
+template <>
+struct alignas(4 * sizeof(float)) MotionOf<float> {
+  float vx = 0, vy = 0, rim_speed = 0;
+  float unused = 0;  // contacts know the masses, see ContactOf<float>
+};
 using Motion = MotionOf<double>;
 
 /// A pair that acts, seen from the middle of the step. The normal n points from j to i, the
@@ -99,10 +103,6 @@ using Motion = MotionOf<double>;
 ///
 /// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j), so that they add up
 /// to the distance of the centres and angular momentum is conserved whatever the gap.
-///
-/// In single precision impulses are increments on a `base`, which velocities contain already: the
-/// last digit is then one of what a step changes, not one of the load, and a bed at rest does not
-/// creep. In double precision there is no base.
 template <class Real>
 struct ContactOf {
   Real nx, ny;
@@ -111,11 +111,24 @@ struct ContactOf {
   Real rebound;               // m/s, least separation velocity after the step
   Real impulse_n, impulse_t;  // kg m/s
   std::int32_t i, j;          // entries of the Motion array
-  Real base_n = 0, base_t = 0;
 };
 using Contact = ContactOf<double>;
-template <class Real>
-constexpr bool has_base = std::is_same_v<Real, float>;
+
+/// In single precision impulses are increments on a `base`, which velocities contain already: the
+/// last digit is then one of what a step changes, not one of the load, and a bed at rest does not
+/// creep. They are per mass_n, the relative velocities that they make, of which each body takes its
+/// share: a relaxation needs no mass, and the chain of its operations is shorter.
+template <>
+struct ContactOf<float> {
+  float nx, ny;
+  float kappa;
+  float share_i, share_j;      // mass_n over the mass of the body; 0 for one that cannot be moved
+  float mass_ratio;            // mass_t/mass_n
+  float rebound;               // m/s
+  float base_n, base_t;        // m/s
+  float impulse_n, impulse_t;  // m/s
+  std::int32_t i, j;
+};
 
 /// What the contacts of a scene do. An effect left out gives the same bits as its neutral
 /// coefficient: friction 0, restitution 0, and for rotation rim speeds that stay 0.
@@ -202,49 +215,87 @@ inline Rebound rebound_of(double gap, double separation, double impulse_n, doubl
   return {closing, newcomer ? approach : 0};
 }
 
+/// Adds the impulse (px, py) times their weights to a and takes it from b; `spin` is taken from both.
+template <Effects with, class Real>
+inline void push(MotionOf<Real>& a, MotionOf<Real>& b, Real weight_a, Real weight_b, Real px,
+                 Real py, Real spin)
+{
+  if constexpr (with.friction && with.rotation) {
+    a.rim_speed -= weight_a * spin;
+    b.rim_speed -= weight_b * spin;
+  }
+  a.vx += weight_a * px;
+  a.vy += weight_a * py;
+  b.vx -= weight_b * px;
+  b.vy -= weight_b * py;
+}
+
 /// Makes one contact obey Signorini, Newton and Coulomb while its neighbours hold still. W_nt = 0
 /// for discs, so normal and tangential parts have each their exact solution.
 ///
 /// Limits are written as max and min in the order of their arguments that also gives zeros the sign
 /// which vector instructions give.
-template <Effects with, class Real>
-inline ChangeOf<Real> relax(ContactOf<Real>& c, MotionOf<Real>& a, MotionOf<Real>& b, Real friction)
+template <Effects with>
+inline Change relax(Contact& c, Motion& a, Motion& b, double friction)
 {
-  const Real w_nn = a.inverse_mass + b.inverse_mass;
-  const Real dvx = a.vx - b.vx, dvy = a.vy - b.vy;
-  const Real separation = dvx * c.nx + dvy * c.ny;
-  const Real excess = with.restitution ? separation - c.rebound : separation;
-  const Real before_n = c.impulse_n;
-  const Real least = has_base<Real> ? -c.base_n : Real{0};
-  c.impulse_n = std::max(least, before_n - c.mass_n * excess);
-  const Real change_n = c.impulse_n - before_n;
-  Real px = change_n * c.nx, py = change_n * c.ny;
+  const double w_nn = a.inverse_mass + b.inverse_mass;
+  const double dvx = a.vx - b.vx, dvy = a.vy - b.vy;
+  const double separation = dvx * c.nx + dvy * c.ny;
+  const double excess = with.restitution ? separation - c.rebound : separation;
+  const double before_n = c.impulse_n;
+  c.impulse_n = std::max(0.0, before_n - c.mass_n * excess);
+  const double change_n = c.impulse_n - before_n;
+  double px = change_n * c.nx, py = change_n * c.ny, spin = 0;
 
-  ChangeOf<Real> change{std::abs(change_n) * w_nn, 0};
+  Change change{std::abs(change_n) * w_nn, 0};
   if constexpr (with.friction) {
-    const Real lever = Real{disc_rim_factor} * c.kappa;
-    Real sliding = dvy * c.nx - dvx * c.ny;
+    const double lever = disc_rim_factor * c.kappa;
+    double sliding = dvy * c.nx - dvx * c.ny;
     if constexpr (with.rotation) sliding -= c.kappa * (a.rim_speed + b.rim_speed);
-    const Real limit = friction * (has_base<Real> ? c.base_n + c.impulse_n : c.impulse_n);
-    const Real lowest = has_base<Real> ? -limit - c.base_t : -limit,
-               highest = has_base<Real> ? limit - c.base_t : limit;
-    const Real before_t = c.impulse_t;
-    c.impulse_t = std::min(highest, std::max(lowest, before_t - c.mass_t * sliding));
-    const Real change_t = c.impulse_t - before_t;
+    const double limit = friction * c.impulse_n;
+    const double before_t = c.impulse_t;
+    c.impulse_t = std::min(limit, std::max(-limit, before_t - c.mass_t * sliding));
+    const double change_t = c.impulse_t - before_t;
     px -= change_t * c.ny;
     py += change_t * c.nx;
-    if constexpr (with.rotation) {
-      const Real spin = lever * change_t;
-      a.rim_speed -= a.inverse_mass * spin;
-      b.rim_speed -= b.inverse_mass * spin;
-    }
-    const Real w_tt = with.rotation ? w_nn * (1 + lever * c.kappa) : w_nn;
+    spin = lever * change_t;
+    const double w_tt = with.rotation ? w_nn * (1 + lever * c.kappa) : w_nn;
     change.tangential = std::abs(change_t) * w_tt;
   }
-  a.vx += a.inverse_mass * px;
-  a.vy += a.inverse_mass * py;
-  b.vx -= b.inverse_mass * px;
-  b.vy -= b.inverse_mass * py;
+  push<with>(a, b, a.inverse_mass, b.inverse_mass, px, py, spin);
+  return change;
+}
+
+/// The same in single precision, see ContactOf<float>. Sums are in the order that makes the chain of
+/// operations on velocities shortest.
+template <Effects with>
+inline ChangeOf<float> relax(ContactOf<float>& c, MotionOf<float>& a, MotionOf<float>& b,
+                             float friction)
+{
+  const float dvx = a.vx - b.vx, dvy = a.vy - b.vy;
+  const float separation = dvx * c.nx + dvy * c.ny;
+  const float before_n = c.impulse_n, aim = with.restitution ? before_n + c.rebound : before_n;
+  c.impulse_n = std::max(-c.base_n, aim - separation);
+  const float change_n = c.impulse_n - before_n;
+  float px = change_n * c.nx, py = change_n * c.ny, spin = 0;
+
+  ChangeOf<float> change{std::abs(change_n), 0};
+  if constexpr (with.friction) {
+    const float lever = float{disc_rim_factor} * c.kappa;
+    float sliding = dvy * c.nx - dvx * c.ny;
+    if constexpr (with.rotation) sliding -= c.kappa * (a.rim_speed + b.rim_speed);
+    const float held = friction * c.base_n, more = friction * c.impulse_n;
+    const float lowest = (-held - c.base_t) - more, highest = (held - c.base_t) + more;
+    const float before_t = c.impulse_t;
+    c.impulse_t = std::min(highest, std::max(lowest, before_t - c.mass_ratio * sliding));
+    const float change_t = c.impulse_t - before_t;
+    px -= change_t * c.ny;
+    py += change_t * c.nx;
+    spin = lever * change_t;
+    change.tangential = with.rotation ? std::abs(change_t) * (1 + lever * c.kappa)
+                                      : std::abs(change_t);
+  }
+  push<with>(a, b, c.share_i, c.share_j, px, py, spin);
   return change;
 }
 

@@ -33,7 +33,7 @@ HWY_INLINE Real* members(MotionOf<Real>* motion)
   return reinterpret_cast<Real*>(motion);
 }
 
-/// Entries of MotionOf, one member per vector.
+/// Entries of MotionOf, one member per vector; with floats the last one is 0.
 template <class Tag>
 struct Bodies {
   hn::Vec<Tag> vx, vy, rim_speed, inverse_mass;
@@ -55,6 +55,18 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, Real* motion, const st
   hn::Store(b.vx, d, body);
   hn::Store(b.vy, d, body + 1);
   hn::Store(b.rim_speed, d, body + 2);
+}
+
+HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* motion,
+                            const std::uint32_t* i, const std::uint32_t* j)
+{
+  auto a = load_bodies(d, motion, i), b = load_bodies(d, motion, j);
+  a = {hn::Add(a.vx, hn::Mul(a.inverse_mass, px)), hn::Add(a.vy, hn::Mul(a.inverse_mass, py)),
+       hn::Sub(a.rim_speed, hn::Mul(a.inverse_mass, spin)), a.inverse_mass};
+  b = {hn::Sub(b.vx, hn::Mul(b.inverse_mass, px)), hn::Sub(b.vy, hn::Mul(b.inverse_mass, py)),
+       hn::Sub(b.rim_speed, hn::Mul(b.inverse_mass, spin)), b.inverse_mass};
+  store_bodies(d, a, motion, i);
+  store_bodies(d, b, motion, j);
 }
 
 #else
@@ -89,9 +101,10 @@ HWY_INLINE Bodies<Tag> load_bodies(Tag d, const double* motion, const std::uint3
   }
 }
 
-/// The way back. Two lanes with the same immobile body write the same.
-template <class Tag>
-HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const std::uint32_t* at)
+/// Sorts the members of bodies into rows, one per body: use(part, from, k) for the part of row k
+/// that begins at its member `from`; where vectors have less than four lanes a row has two parts.
+template <class Tag, class Use>
+HWY_INLINE void for_each_row(Tag d, const Bodies<Tag>& b, const Use& use)
 {
   const auto v_low = hn::InterleaveLower(d, b.vx, b.vy);
   const auto v_high = hn::InterleaveUpper(d, b.vx, b.vy);
@@ -103,25 +116,50 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const 
     const auto r15 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(s_high), v_high);
     const auto r26 = hn::OddEvenBlocks(s_low, hn::SwapAdjacentBlocks(v_low));
     const auto r37 = hn::OddEvenBlocks(s_high, hn::SwapAdjacentBlocks(v_high));
-    hn::Store(hn::LowerHalf(h, r04), h, motion + at[0]);
-    hn::Store(hn::LowerHalf(h, r15), h, motion + at[1]);
-    hn::Store(hn::LowerHalf(h, r26), h, motion + at[2]);
-    hn::Store(hn::LowerHalf(h, r37), h, motion + at[3]);
-    hn::Store(hn::UpperHalf(h, r04), h, motion + at[4]);
-    hn::Store(hn::UpperHalf(h, r15), h, motion + at[5]);
-    hn::Store(hn::UpperHalf(h, r26), h, motion + at[6]);
-    hn::Store(hn::UpperHalf(h, r37), h, motion + at[7]);
+    use(hn::LowerHalf(h, r04), 0, 0), use(hn::LowerHalf(h, r15), 0, 1);
+    use(hn::LowerHalf(h, r26), 0, 2), use(hn::LowerHalf(h, r37), 0, 3);
+    use(hn::UpperHalf(h, r04), 0, 4), use(hn::UpperHalf(h, r15), 0, 5);
+    use(hn::UpperHalf(h, r26), 0, 6), use(hn::UpperHalf(h, r37), 0, 7);
   } else if constexpr (hn::MaxLanes(d) == 4) {
-    hn::Store(hn::ConcatLowerLower(d, s_low, v_low), d, motion + at[0]);
-    hn::Store(hn::ConcatLowerLower(d, s_high, v_high), d, motion + at[1]);
-    hn::Store(hn::ConcatUpperUpper(d, s_low, v_low), d, motion + at[2]);
-    hn::Store(hn::ConcatUpperUpper(d, s_high, v_high), d, motion + at[3]);
+    use(hn::ConcatLowerLower(d, s_low, v_low), 0, 0);
+    use(hn::ConcatLowerLower(d, s_high, v_high), 0, 1);
+    use(hn::ConcatUpperUpper(d, s_low, v_low), 0, 2);
+    use(hn::ConcatUpperUpper(d, s_high, v_high), 0, 3);
   } else {
-    hn::Store(v_low, d, motion + at[0]);
-    hn::Store(s_low, d, motion + at[0] + 2);
-    hn::Store(v_high, d, motion + at[1]);
-    hn::Store(s_high, d, motion + at[1] + 2);
+    use(v_low, 0, 0), use(s_low, 2, 0);
+    use(v_high, 0, 1), use(s_high, 2, 1);
   }
+}
+
+/// A whole body, or half of one.
+using Row = hn::CappedTag<double, 4>;
+
+/// The way back. Two lanes with the same immobile body write the same.
+template <class Tag>
+HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const std::uint32_t* at)
+{
+  for_each_row(d, b, [&](auto part, std::size_t from, int k) HWY_ATTR {
+    hn::Store(part, Row(), motion + at[k] + from);
+  });
+}
+
+/// Gives bodies i the impulses (px, py) and bodies j the opposite ones; `spin` is taken from the rim
+/// speeds of both, times the inverse mass. Impulses are sorted into rows, not bodies into vectors:
+/// that takes half as many operations.
+HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* motion,
+                            const std::uint32_t* i, const std::uint32_t* j)
+{
+  alignas(32) static constexpr double opposite[] = {-0.0, -0.0, 0.0, 0.0};
+  const auto add = [&](auto part, std::size_t from, double* body) HWY_ATTR {
+    const auto inverse_mass = hn::Set(Row(), body[3]);
+    const auto now = hn::Load(Row(), body + from);
+    hn::Store(hn::Add(now, hn::Mul(inverse_mass, part)), Row(), body + from);
+  };
+  for_each_row(d, Bodies<D>{px, py, hn::Neg(spin), hn::Zero(d)},
+               [&](auto part, std::size_t from, int k) HWY_ATTR {
+                 add(part, from, motion + i[k]);
+                 add(hn::Xor(part, hn::Load(Row(), opposite + from)), from, motion + j[k]);
+               });
 }
 
 /// Exchanges rows and columns of the squares of four by four that blocks of 128 bits make up.
@@ -158,7 +196,9 @@ HWY_INLINE Bodies<Tag> load_bodies(Tag d, const float* motion, const std::uint32
                          hn::Combine(h, body(k + 4), body(k)));
     }
   };
-  return transpose(d, row(0), row(1), row(2), row(3));
+  auto bodies = transpose(d, row(0), row(1), row(2), row(3));
+  bodies.inverse_mass = hn::Zero(d);  // known to the compiler, need not be kept
+  return bodies;
 }
 
 template <class Tag>

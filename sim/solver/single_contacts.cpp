@@ -2,10 +2,8 @@
 #include "sim/solver/single_contacts.hpp"
 
 #include "sim/contact/parallel.hpp"
-#include "sim/solver/sweep.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 // Highway compiles what follows once per instruction set.
 #define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
@@ -24,65 +22,102 @@ namespace {
 
 using SingleD = hn::Rebind<float, D>;
 
-/// Writes `factor` times eight doubles.
-HWY_INLINE void narrow(const Lanes& from, double factor, float* to)
+/// Applies the first guesses of a block and takes it over as half a block, from `first` on.
+template <Effects with>
+HWY_INLINE void take_half(const ContactBlock& from, std::size_t first, Motion* motion,
+                          BlockOf<float>& to)
 {
   const D d;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto scaled = hn::Mul(hn::Load(d, &from[lane]), hn::Set(d, factor));
-    hn::Store(hn::DemoteTo(SingleD(), scaled), SingleD(), to + lane);
-  }
-}
+    const auto load = [&](const Lanes& lanes) HWY_ATTR { return hn::Load(d, &lanes[lane]); };
+    const auto store = [&](Vector numbers, BlockOf<float>::Lanes& lanes) HWY_ATTR {
+      hn::Store(hn::DemoteTo(SingleD(), numbers), SingleD(), &lanes[first + lane]);
+    };
+    const auto normal = load(from.impulse_n), tangential = load(from.impulse_t);
+    const auto mass = load(from.mass_n);
+    auto a = load_bodies(d, members(motion), &from.i[lane]);
+    auto b = load_bodies(d, members(motion), &from.j[lane]);
+    const auto p = pushes_of<with>(from, lane, normal, tangential);
+    push<with, D>(a, b, a.inverse_mass, b.inverse_mass, p.px, p.py, p.spin);
+    store_bodies(d, a, members(motion), &from.i[lane]);
+    store_bodies(d, b, members(motion), &from.j[lane]);
 
-/// Half a block of contacts, from `lane` on.
-void take_half(const ContactBlock& from, double per_mass_unit, std::size_t lane, BlockOf<float>& to)
-{
-  narrow(from.nx, 1, &to.nx[lane]);
-  narrow(from.ny, 1, &to.ny[lane]);
-  narrow(from.kappa, 1, &to.kappa[lane]);
-  narrow(from.mass_n, per_mass_unit, &to.mass_n[lane]);
-  narrow(from.mass_t, per_mass_unit, &to.mass_t[lane]);
-  narrow(from.rebound, 1, &to.rebound[lane]);
-  narrow(from.impulse_n, per_mass_unit, &to.base_n[lane]);
-  narrow(from.impulse_t, per_mass_unit, &to.base_t[lane]);
-  std::fill_n(to.impulse_n.begin() + lane, block_lanes, 0.0F);
-  std::fill_n(to.impulse_t.begin() + lane, block_lanes, 0.0F);
-  std::copy_n(from.i.begin(), block_lanes, to.i.begin() + lane);
-  std::copy_n(from.j.begin(), block_lanes, to.j.begin() + lane);
+    const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
+    store(load(from.nx), to.nx);
+    store(load(from.ny), to.ny);
+    store(load(from.kappa), to.kappa);
+    store(hn::Mul(mass, a.inverse_mass), to.share_i);
+    store(hn::Mul(mass, b.inverse_mass), to.share_j);
+    store(hn::Mul(load(from.mass_t), w_nn), to.mass_ratio);
+    store(load(from.rebound), to.rebound);
+    store(hn::Mul(normal, w_nn), to.base_n);
+    store(hn::Mul(tangential, w_nn), to.base_t);
+  }
+  std::fill_n(to.impulse_n.begin() + first, block_lanes, 0.0F);
+  std::fill_n(to.impulse_t.begin() + first, block_lanes, 0.0F);
+  std::copy_n(from.i.begin(), block_lanes, to.i.begin() + first);
+  std::copy_n(from.j.begin(), block_lanes, to.j.begin() + first);
 }
 
 /// Blocks that share no mobile body, two by two.
-void take_run(std::span<const ContactBlock> run, const ContactBlock& neutral, double per_mass_unit,
+template <Effects with>
+void take_run(std::span<const ContactBlock> run, const ContactBlock& neutral, Motion* motion,
               BlockOf<float>* to)
 {
   for (std::size_t b = 0; b < run.size(); b += 2, ++to) {
-    take_half(run[b], per_mass_unit, 0, *to);
-    take_half(b + 1 < run.size() ? run[b + 1] : neutral, per_mass_unit, block_lanes, *to);
+    take_half<with>(run[b], 0, motion, *to);
+    take_half<with>(b + 1 < run.size() ? run[b + 1] : neutral, block_lanes, motion, *to);
+  }
+  leave_vectors();
+}
+
+void take_run_for(std::span<const ContactBlock> run, const ContactBlock& neutral, Motion* motion,
+                  BlockOf<float>* to, Effects e)
+{
+  if (!e.friction)
+    take_run<Effects{false, false, false}>(run, neutral, motion, to);
+  else if (!e.rotation)
+    take_run<Effects{true, false, false}>(run, neutral, motion, to);
+  else
+    take_run<Effects{true, true, false}>(run, neutral, motion, to);
+}
+
+void take_motion(std::span<const Motion> from, MotionOf<float>* to)
+{
+  const hn::CappedTag<double, 4> d;
+  const hn::Rebind<float, decltype(d)> single;
+  alignas(32) static constexpr double without_mass[] = {1, 1, 1, 0};
+  for (const auto& body : from) {
+    auto* number = members(to++);
+    for (std::size_t k = 0; k < 4; k += hn::MaxLanes(d)) {
+      const auto kept = hn::Mul(hn::Load(d, &body.vx + k), hn::Load(d, without_mass + k));
+      hn::Store(hn::DemoteTo(single, kept), single, number + k);
+    }
   }
   leave_vectors();
 }
 
 /// Eight contacts' increments, from `first` on.
 template <Effects with>
-HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double mass_unit,
-                          double friction, ContactBlock& to, Motion* motion)
+HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double friction,
+                          ContactBlock& to, Motion* motion)
 {
   const D d;
-  const auto unit = hn::Set(d, mass_unit);
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+    const auto mass = hn::Load(d, &to.mass_n[lane]);
     const auto load = [&](const BlockOf<float>::Lanes& lanes) HWY_ATTR {
-      return hn::Mul(hn::PromoteTo(d, hn::Load(SingleD(), &lanes[first + lane])), unit);
+      return hn::PromoteTo(d, hn::Load(SingleD(), &lanes[first + lane]));
     };
     const auto more = load(from.impulse_n), before = hn::Load(d, &to.impulse_n[lane]);
     const auto opened = hn::Le(more, hn::Neg(load(from.base_n)));
-    const auto sum = hn::Max(hn::Add(before, more), hn::Zero(d));
+    const auto sum = hn::Max(hn::Add(before, hn::Mul(more, mass)), hn::Zero(d));
     const auto normal = hn::IfThenZeroElse(opened, sum);
     hn::Store(normal, d, &to.impulse_n[lane]);
     auto more_t = hn::Zero(d);
     if constexpr (with.friction) {
       const auto limit = hn::Mul(hn::Set(d, friction), normal);
       const auto before_t = hn::Load(d, &to.impulse_t[lane]);
-      const auto sum_t = hn::Add(before_t, load(from.impulse_t));
+      const auto sum_t = hn::Add(before_t, hn::Mul(load(from.impulse_t), mass));
       // Zeros are positive, whatever the sign of what single precision could not resolve.
       const auto tangential = hn::Add(hn::Min(hn::Max(sum_t, hn::Neg(limit)), limit), hn::Zero(d));
       hn::Store(tangential, d, &to.impulse_t[lane]);
@@ -93,26 +128,26 @@ HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double 
 }
 
 template <Effects with>
-void give_run(const BlockOf<float>* from, double mass_unit, double friction,
-              std::span<ContactBlock> run, Motion* motion)
+void give_run(const BlockOf<float>* from, double friction, std::span<ContactBlock> run,
+              Motion* motion)
 {
   for (std::size_t b = 0; b < run.size(); b += 2, ++from) {
-    give_half<with>(*from, 0, mass_unit, friction, run[b], motion);
+    give_half<with>(*from, 0, friction, run[b], motion);
     if (b + 1 < run.size())
-      give_half<with>(*from, block_lanes, mass_unit, friction, run[b + 1], motion);
+      give_half<with>(*from, block_lanes, friction, run[b + 1], motion);
   }
   leave_vectors();
 }
 
-void give_run_for(const BlockOf<float>* from, double mass_unit, double friction,
-                  std::span<ContactBlock> run, Motion* motion, Effects e)
+void give_run_for(const BlockOf<float>* from, double friction, std::span<ContactBlock> run,
+                  Motion* motion, Effects e)
 {
   if (!e.friction)
-    give_run<Effects{false, false, false}>(from, mass_unit, friction, run, motion);
+    give_run<Effects{false, false, false}>(from, friction, run, motion);
   else if (!e.rotation)
-    give_run<Effects{true, false, false}>(from, mass_unit, friction, run, motion);
+    give_run<Effects{true, false, false}>(from, friction, run, motion);
   else
-    give_run<Effects{true, true, false}>(from, mass_unit, friction, run, motion);
+    give_run<Effects{true, true, false}>(from, friction, run, motion);
 }
 
 }  // namespace
@@ -124,7 +159,8 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(take_run);
+HWY_EXPORT(take_run_for);
+HWY_EXPORT(take_motion);
 HWY_EXPORT(give_run_for);
 
 constexpr std::size_t numbers_per_body = sizeof(Motion) / sizeof(double);
@@ -143,42 +179,28 @@ std::uint32_t for_each_run(const BlockRuns& strip, const Run& do_run)
   return singles;
 }
 
-/// The power of two below the mass of the first grain that moves, kg.
-double unit_of_mass(std::span<const Motion> motion)
-{
-  for (const auto& m : motion)
-    if (m.inverse_mass > 0) return std::exp2(-std::ilogb(m.inverse_mass));
-  return 1;
-}
-
 }  // namespace
 
 void SingleContacts::take(std::span<const BlockRuns> strips, std::span<Motion> motion,
                           Effects effects, int threads)
 {
-  mass_unit_ = unit_of_mass(motion);
   strips_.resize(strips.size());
   runs_.resize(strips.size());
   const auto idle = static_cast<std::uint32_t>(numbers_per_body * (motion.size() - 1));
   for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
-    apply_impulses(strips[s].blocks, motion.data(), effects);
-    take_strip(strips[s], idle, strips_[s]);
+    take_strip(strips[s], motion.data(), idle, effects, strips_[s]);
     runs_[s] = {
         std::span(strips_[s].blocks).first(strips_[s].ends.empty() ? 0 : strips_[s].ends.back()),
         strips_[s].ends, strips[s].bodies};
   });
   motion_.resize(motion.size());
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const auto& m = motion[b];
-      motion_[b] = {static_cast<float>(m.vx), static_cast<float>(m.vy),
-                    static_cast<float>(m.rim_speed),
-                    static_cast<float>(m.inverse_mass * mass_unit_)};
-    }
+    HWY_DYNAMIC_DISPATCH(take_motion)(motion.subspan(begin, end - begin), &motion_[begin]);
   });
 }
 
-void SingleContacts::take_strip(const BlockRuns& contacts, std::uint32_t idle, Strip& strip) const
+void SingleContacts::take_strip(const BlockRuns& contacts, Motion* motion, std::uint32_t idle,
+                                Effects effects, Strip& strip)
 {
   ContactBlock neutral{};
   neutral.i.fill(idle);
@@ -190,7 +212,7 @@ void SingleContacts::take_strip(const BlockRuns& contacts, std::uint32_t idle, S
       });
   if (strip.blocks.size() < count) strip.blocks.resize(count);
   for_each_run(contacts, [&](std::span<const ContactBlock> run, std::uint32_t first) {
-    HWY_DYNAMIC_DISPATCH(take_run)(run, neutral, 1 / mass_unit_, &strip.blocks[first]);
+    HWY_DYNAMIC_DISPATCH(take_run_for)(run, neutral, motion, &strip.blocks[first], effects);
   });
 }
 
@@ -200,7 +222,7 @@ void SingleContacts::give_back(std::size_t strip, const BlockRuns& contacts, dou
   const auto& blocks = strips_[strip].blocks;
   for_each_run(contacts, [&](std::span<ContactBlock> run, std::uint32_t first) {
     HWY_DYNAMIC_DISPATCH(give_run_for)
-    (&blocks[first], mass_unit_, friction, run, motion, effects);
+    (&blocks[first], friction, run, motion, effects);
   });
 }
 

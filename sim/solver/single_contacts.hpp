@@ -12,8 +12,8 @@
 namespace grseg {
 
 /// The contacts of a step in single precision: sweeps relax twice as many at a time, and memory has
-/// half as much to carry. Velocities are in m/s; masses and impulses in units of a power of two near
-/// the mass of a grain, which changes no digit and keeps them away from the ends of the range.
+/// half as much to carry. All numbers are velocities in m/s or ratios (ContactOf<float>), whatever the
+/// unit of mass.
 class SingleContacts {
  public:
   /// Applies the first guesses of the impulses to `motion`, whose last entry is the body that never
@@ -34,9 +34,9 @@ class SingleContacts {
     std::vector<BlockOf<float>> blocks;  // those of `runs_` are in use; never shrinks
     std::vector<std::uint32_t> ends;     // as in RunsOf
   };
-  void take_strip(const BlockRuns& contacts, std::uint32_t idle, Strip& strip) const;
+  static void take_strip(const BlockRuns& contacts, Motion* motion, std::uint32_t idle,
+                         Effects effects, Strip& strip);
 
-  double mass_unit_ = 1;  // kg
   std::vector<Strip> strips_;
   std::vector<RunsOf<float>> runs_;
   std::vector<MotionOf<float>, boost::alignment::aligned_allocator<MotionOf<float>, 64>> motion_;
