@@ -230,6 +230,23 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, float* motion, const s
 
 #endif  // HWY_TARGET == HWY_SCALAR
 
+/// Four neighbouring doubles of each lane: the first ones, the second ones, and so on.
+struct Fours {
+  Vector first, second, third, fourth;
+};
+
+/// Those that begin at `from + at`.
+HWY_INLINE Fours load_fours(D d, const double* from, const std::uint32_t* at)
+{
+  const auto [first, second, third, fourth] = load_bodies(d, from, at);
+  return {first, second, third, fourth};
+}
+
+HWY_INLINE void store_fours(D d, Fours fours, double* to, const std::uint32_t* at)
+{
+  store_bodies(d, Bodies<D>{fours.first, fours.second, fours.third, fours.fourth}, to, at);
+}
+
 /// Two neighbouring doubles of each lane: the first ones, and the second ones.
 struct Twos {
   Vector first, second;
@@ -256,12 +273,6 @@ HWY_INLINE Twos load_differences(D d, const double* from, const std::uint32_t* i
 HWY_INLINE Twos load_next_twos(D d, const double* from)
 {
   return {hn::Load(d, from), hn::Load(d, from + 1)};
-}
-
-HWY_INLINE void store_twos(D d, Twos twos, double* from, const std::uint32_t* at)
-{
-  hn::Store(twos.first, d, from + *at);
-  hn::Store(twos.second, d, from + *at + 1);
 }
 
 #else
@@ -311,28 +322,6 @@ HWY_INLINE Twos load_next_twos(Tag d, const double* from)
 {
   const auto low = hn::LoadU(d, from), high = hn::LoadU(d, from + hn::MaxLanes(d));
   return {hn::ConcatEven(d, high, low), hn::ConcatOdd(d, high, low)};
-}
-
-template <class Tag>
-HWY_INLINE void store_twos(Tag d, Twos twos, double* from, const std::uint32_t* at)
-{
-  const auto even = hn::InterleaveLower(d, twos.first, twos.second);
-  const auto odd = hn::InterleaveUpper(d, twos.first, twos.second);
-  const auto store = [&](auto r, int k) HWY_ATTR { hn::Store(r, TwoDoubles(), from + at[k]); };
-  if constexpr (hn::MaxLanes(d) == 2) {
-    store(even, 0), store(odd, 1);
-  } else if constexpr (hn::MaxLanes(d) == 4) {
-    store(hn::LowerHalf(TwoDoubles(), even), 0), store(hn::LowerHalf(TwoDoubles(), odd), 1);
-    store(hn::UpperHalf(TwoDoubles(), even), 2), store(hn::UpperHalf(TwoDoubles(), odd), 3);
-  } else {
-    const hn::Half<Tag> h;
-    const auto e0 = hn::LowerHalf(h, even), e1 = hn::UpperHalf(h, even);
-    const auto o0 = hn::LowerHalf(h, odd), o1 = hn::UpperHalf(h, odd);
-    store(hn::LowerHalf(TwoDoubles(), e0), 0), store(hn::LowerHalf(TwoDoubles(), o0), 1);
-    store(hn::UpperHalf(TwoDoubles(), e0), 2), store(hn::UpperHalf(TwoDoubles(), o0), 3);
-    store(hn::LowerHalf(TwoDoubles(), e1), 4), store(hn::LowerHalf(TwoDoubles(), o1), 5);
-    store(hn::UpperHalf(TwoDoubles(), e1), 6), store(hn::UpperHalf(TwoDoubles(), o1), 7);
-  }
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR

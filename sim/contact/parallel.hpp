@@ -20,13 +20,19 @@ void for_each_part(int threads, std::size_t count, const Part& do_part)
   for (std::size_t k = 0; k < count; ++k) do_part(k);
 }
 
-/// do_range(begin, end) for ranges that make up 0 .. count-1.
+constexpr std::size_t range_size = 16384;
+constexpr std::size_t range_count(std::size_t count)
+{
+  return (count + range_size - 1) / range_size;
+}
+
+/// do_range(begin, end) for ranges of range_size (the last one is shorter) that make up 0 .. count-1.
 template <class Range>
 void for_ranges(int threads, std::size_t count, const Range& do_range)
 {
-  constexpr std::size_t size = 16384;
-  for_each_part(threads, (count + size - 1) / size,
-                [&](std::size_t k) { do_range(k * size, std::min(count, (k + 1) * size)); });
+  for_each_part(threads, range_count(count), [&](std::size_t k) {
+    do_range(k * range_size, std::min(count, (k + 1) * range_size));
+  });
 }
 
 /// do_strip(s) for all strips: those of even number at the same time, then the others, so that no

@@ -34,7 +34,7 @@ struct alignas(64) LaneSums {
   bool coincident = false;
 };
 
-/// What is kept per pair, as one array of doubles: two per pair.
+/// What is kept per pair, as one array of doubles: two per pair, of memories four.
 HWY_INLINE const double* numbers_of(const Pairs::Geometry* g)
 {
   return &g->shift;
@@ -44,10 +44,6 @@ HWY_INLINE const double* numbers_of(const Pairs::Inertia* g)
   return &g->inverse_reach;
 }
 HWY_INLINE const double* numbers_of(const Pairs::Memory* g)
-{
-  return &g->approach;
-}
-HWY_INLINE const double* numbers_of(const Pairs::Impulse* g)
 {
   return &g->n;
 }
@@ -138,7 +134,8 @@ HWY_INLINE void set_geometry(const Pairs& pairs, const Pairs::Class& c, const Ne
     const auto j = hn::LoadU(d32, &near.j[first + lane]);
     hn::Store(hn::Add(i, i), d32, &block.i[lane]);
     hn::Store(hn::Add(j, j), d32, &block.j[lane]);
-    hn::Store(hn::LoadU(d32, &near.pair[first + lane]), d32, &origin.pair[lane]);
+    const auto pair = hn::LoadU(d32, &near.pair[first + lane]);
+    hn::Store(hn::Add(pair, pair), d32, &origin.pair[lane]);
   }
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
     const auto *pair = &near.pair[first + lane], *i = &near.i[first + lane],
@@ -190,15 +187,14 @@ HWY_INLINE void set_dynamics(const Pairs& pairs, const DetectionRule& rule, Cont
     const auto [vx, vy] = load_differences<1>(d, velocity, &block.i[lane], &block.j[lane]);
     const auto separation = hn::Add(hn::Mul(vx, hn::Load(d, &block.nx[lane])),
                                     hn::Mul(vy, hn::Load(d, &block.ny[lane])));
-    const auto [n, t] = load_twos(d, numbers_of(pairs.impulse.data()), &origin.pair[lane]);
-    auto remembered = hn::Zero(d);
-    if constexpr (with.horizon)
-      remembered = load_twos(d, numbers_of(pairs.memory.data()), &origin.pair[lane]).first;
+    const auto [n, t, approach, unused] =
+        load_fours(d, numbers_of(pairs.memory.data()), &origin.pair[lane]);
+    const auto remembered = with.horizon ? approach : hn::Zero(d);
     const auto gap = hn::Load(d, &origin.gap[lane]);
     const auto rebound = rebound_of<with.restitution, with.horizon>(gap, separation, n, remembered,
                                                                     rule.restitution, rule.horizon);
     hn::Store(rebound.velocity, d, &block.rebound[lane]);
-    if constexpr (with.horizon) hn::Store(rebound.remembered, d, &origin.approach[lane]);
+    hn::Store(rebound.remembered, d, &origin.approach[lane]);
     hn::Store(n, d, &block.impulse_n[lane]);
     hn::Store(t, d, &block.impulse_t[lane]);
     const auto used = hn::Gt(mass, hn::Zero(d));
@@ -283,23 +279,19 @@ void find_for(const Pairs& pairs, std::size_t strip, const DetectionRule& rule,
       pairs, strip, rule, contacts, total);
 }
 
-void keep(const StripContacts& contacts, Pairs::Impulse* impulses, Pairs::Memory* memories,
-          ImpulseSums& total)
+void keep(const StripContacts& contacts, Pairs::Memory* memories, ImpulseSums& total)
 {
   const D d;
-  auto* remembered = reinterpret_cast<double*>(memories);
+  auto* memory = reinterpret_cast<double*>(memories);
   alignas(64) Lanes gaps{}, base_x{}, base_y{};
   for (std::size_t b = 0; b < contacts.size; ++b) {
     const auto& block = contacts.blocks[b];
     const auto& origin = contacts.origins[b];
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
-      store_twos(d, {n, t}, &impulses->n, &origin.pair[lane]);
       const auto bearing = hn::Gt(n, hn::Zero(d));
-      if (remembered != nullptr) {
-        const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
-        store_twos(d, {approach, hn::Zero(d)}, remembered, &origin.pair[lane]);
-      }
+      const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
+      store_fours(d, {n, t, approach, hn::Zero(d)}, memory, &origin.pair[lane]);
       const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
       const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
       hn::Store(sum_gap, d, &gaps[lane]);
@@ -377,12 +369,11 @@ void forget_search(std::vector<StripContacts>& contacts)
 }
 
 ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
-                          std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
-                          int threads)
+                          std::span<Pairs::Memory> memories, int threads)
 {
   std::vector<ImpulseSums> sums(contacts.size());
   for_each_part(threads, contacts.size(), [&](std::size_t s) {
-    HWY_DYNAMIC_DISPATCH(keep)(contacts[s], impulses.data(), memories.data(), sums[s]);
+    HWY_DYNAMIC_DISPATCH(keep)(contacts[s], memories.data(), sums[s]);
   });
   ImpulseSums total;
   for (const auto& s : sums) {
@@ -394,8 +385,7 @@ ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
 }
 
 void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts,
-                     std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
-                     int threads)
+                     std::span<Pairs::Memory> memories, int threads)
 {
   for_each_part(threads, contacts.size(), [&](std::size_t s) {
     const auto& strip = contacts[s];
@@ -405,8 +395,7 @@ void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts
       for (; gone != 0; gone &= gone - 1) {
         const auto pair =
             first + eight * block_lanes + static_cast<unsigned>(std::countr_zero(gone));
-        impulses[pair] = {0, 0};
-        if (!memories.empty()) memories[pair] = {0, 0};
+        memories[pair] = {};
       }
     }
   });

@@ -15,7 +15,7 @@ namespace grseg {
 struct alignas(64) BlockOrigin {
   ContactBlock::Lanes gap;                      // m
   ContactBlock::Lanes approach;                 // m/s, to be remembered, see Rebound
-  std::array<std::uint32_t, block_lanes> pair;  // twice its index; unused lanes: the neutral one
+  std::array<std::uint32_t, block_lanes> pair;  // 4 times its index; unused lanes: the neutral one
 };
 
 /// The pairs of a class that act: scratch space of find_contacts.
@@ -78,14 +78,11 @@ struct ImpulseSums {
   Vec2 on_base_side = Vec2::Zero();  // kg m/s, of walls and boundary grains on mobile grains
 };
 
-/// Writes the contacts' impulses to their pairs.
+/// Writes the contacts' impulses, and what else they have to remember, to their pairs.
 ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
-                          std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
-                          int threads = 1);
-/// Sets the impulses of pairs to 0 that acted in the step before and do not now; the list must be
-/// the same.
+                          std::span<Pairs::Memory> memories, int threads = 1);
+/// Lets pairs forget that acted in the step before and do not now; the list must be the same.
 void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts,
-                     std::span<Pairs::Impulse> impulses, std::span<Pairs::Memory> memories,
-                     int threads = 1);
+                     std::span<Pairs::Memory> memories, int threads = 1);
 
 }  // namespace grseg

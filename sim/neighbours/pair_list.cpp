@@ -49,7 +49,7 @@ void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
   number_.resize(search_.found().size());
   lay_out();
   for_each_part(threads_, strips_.size(), [&](std::size_t s) { fill_in(s, grains); });
-  carry_impulses();
+  carry_memories();
 }
 
 PairList::State PairList::state() const
@@ -59,11 +59,11 @@ PairList::State PairList::state() const
   state.renewals = renewals_;
   state.i = pairs_.i;
   state.j = pairs_.j;
-  for (const auto& impulse : pairs_.impulse) {
-    state.impulse_n.push_back(impulse.n);
-    state.impulse_t.push_back(impulse.t);
+  for (const auto& memory : pairs_.memory) {
+    state.impulse_n.push_back(memory.n);
+    state.impulse_t.push_back(memory.t);
+    state.approach.push_back(memory.approach);
   }
-  for (const auto& memory : pairs_.memory) state.approach.push_back(memory.approach);
   return state;
 }
 
@@ -75,10 +75,8 @@ void PairList::restore(GrainState& grains, const State& state)
     throw FormatError(
         "this grseg-sim finds other pairs than the one that wrote the checkpoint; continue with "
         "the program that wrote it");
-  for (std::size_t k = 0; k < pairs_.impulse.size(); ++k) {
-    pairs_.impulse[k] = {state.impulse_n[k], state.impulse_t[k]};
-    pairs_.memory[k] = {state.approach[k], 0};
-  }
+  for (std::size_t k = 0; k < pairs_.memory.size(); ++k)
+    pairs_.memory[k] = {state.impulse_n[k], state.impulse_t[k], state.approach[k], 0};
   renewals_ = state.renewals;
 }
 
@@ -109,7 +107,6 @@ void PairList::lay_out()
   pairs_.j.resize(begin + 1);
   pairs_.geometry.resize(begin + 1);
   pairs_.inertia.resize(begin + 1);
-  pairs_.impulse.resize(begin + 1);
   pairs_.memory.resize(begin + 1);
 }
 
@@ -158,23 +155,20 @@ void PairList::fill_in(std::size_t strip, const GrainState& grains)
     for (const auto b : search_.at_wall(strip, static_cast<std::size_t>(c.wall)))
       write(k++, 2 * b, nobody, {0, grains.radius[b]}, grains.motion[b].inverse_mass);
   }
-  std::fill(pairs_.impulse.begin() + s.begin, pairs_.impulse.begin() + s.end, Pairs::Impulse{});
   std::fill(pairs_.memory.begin() + s.begin, pairs_.memory.begin() + s.end, Pairs::Memory{});
   if (s.end > s.begin)
     invert({&pairs_.inertia[s.begin].inverse_reach, 2 * std::size_t{s.end - s.begin}});
   if (strip + 1 < strips_.size()) return;
   write(s.end, nobody, nobody, {0, 1}, 0);
-  pairs_.impulse[s.end] = {};
   pairs_.memory[s.end] = {};
 }
 
-void PairList::forget_impulses()
+void PairList::forget()
 {
-  pairs_.impulse.assign(pairs_.i.size(), {0, 0});
-  pairs_.memory.assign(pairs_.i.size(), {0, 0});
+  pairs_.memory.assign(pairs_.i.size(), {});
 }
 
-void PairList::carry_wall_impulse(std::uint32_t body, std::int32_t wall, std::uint32_t from)
+void PairList::carry_wall_memory(std::uint32_t body, std::int32_t wall, std::uint32_t from)
 {
   for (const auto& c : pairs_.classes) {
     if (c.wall != wall) continue;
@@ -182,12 +176,11 @@ void PairList::carry_wall_impulse(std::uint32_t body, std::int32_t wall, std::ui
     const auto found = std::lower_bound(first, last, 2 * body);
     if (found == last || *found != 2 * body) continue;
     const auto to = static_cast<std::size_t>(found - pairs_.i.begin());
-    pairs_.impulse[to] = old_pairs_.impulse[from];
     pairs_.memory[to] = old_pairs_.memory[from];
   }
 }
 
-void PairList::carry_impulses()
+void PairList::carry_memories()
 {
   const auto& old = old_pairs_;
   if (old.classes.empty() || pairs_.classes.empty()) return;
@@ -196,18 +189,16 @@ void PairList::carry_impulses()
                        search_.place().data(),
                        &search_.found(),
                        number_.data(),
-                       &old.impulse[0].n,
-                       &old.memory[0].approach,
-                       &pairs_.impulse[0].n,
-                       &pairs_.memory[0].approach};
+                       &old.memory[0].n,
+                       &pairs_.memory[0].n};
   for_each_part(threads_, old.classes.size(), [&](std::size_t n) {
     if (old.classes[n].wall < 0) carry_over(task, old.classes[n].begin, old.classes[n].end);
   });
   for (const auto& c : old.classes) {
     if (c.wall < 0) continue;
     for (auto k = c.begin; k < c.end; ++k)
-      if (old.impulse[k].n != 0 || old.impulse[k].t != 0)
-        carry_wall_impulse(search_.place()[old.i[k] / 2], c.wall, k);
+      if (old.memory[k].n != 0 || old.memory[k].t != 0)
+        carry_wall_memory(search_.place()[old.i[k] / 2], c.wall, k);
   }
 }
 

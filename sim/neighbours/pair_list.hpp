@@ -27,15 +27,14 @@ class PairList {
   /// Whether the list still holds every pair that may touch at `position` (m, in the order of
   /// GrainState; not wrapped since the list was made, as a pair's shift is that of then).
   bool complete(const std::vector<Vec2>& position);
-  /// Makes a new list for grains at `position`, m; pairs that stay keep their impulses. Sorts
+  /// Makes a new list for grains at `position`, m; pairs that stay keep what they remember. Sorts
   /// `grains` along the cells.
   void renew(GrainState& grains, const std::vector<Vec2>& position);
 
   const Pairs& pairs() const { return pairs_; }
-  std::span<Pairs::Impulse> impulses() { return pairs_.impulse; }
   std::span<Pairs::Memory> memories() { return pairs_.memory; }
-  /// Sets all impulses to 0, as if no pair had ever touched.
-  void forget_impulses();
+  /// As if no pair had ever touched.
+  void forget();
   std::size_t renewals() const { return renewals_; }
   Range bodies_of_strip(std::size_t strip) const { return search_.grid().bodies_of_strip(strip); }
   /// See Completeness.
@@ -64,8 +63,8 @@ class PairList {
 
   void lay_out();
   void fill_in(std::size_t strip, const GrainState& grains);
-  void carry_impulses();
-  void carry_wall_impulse(std::uint32_t body, std::int32_t wall, std::uint32_t from);
+  void carry_memories();
+  void carry_wall_memory(std::uint32_t body, std::int32_t wall, std::uint32_t from);
   double nearest_shift(double difference) const;
 
   std::size_t walls_;               // their number

@@ -134,14 +134,15 @@ void invert_all(double* values, std::size_t count)
   leave_vectors();
 }
 
-/// Which of eight twos of doubles are not both zero, as bits.
-HWY_INLINE std::uint32_t not_zero(const double* values)
+/// Which of eight memories are of an impulse, as bits.
+HWY_INLINE std::uint32_t bearing(const double* memory)
 {
   const D d;
+  static constexpr std::uint32_t rows[block_lanes] = {0, 4, 8, 12, 16, 20, 24, 28};
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto two = load_next_twos(d, values + 2 * lane);
-    const auto zero = hn::And(hn::Eq(two.first, hn::Zero(d)), hn::Eq(two.second, hn::Zero(d)));
+    const auto m = load_fours(d, memory, rows + lane);
+    const auto zero = hn::And(hn::Eq(m.first, hn::Zero(d)), hn::Eq(m.second, hn::Zero(d)));
     bits |= bits_of(d, hn::Not(zero)) << lane;
   }
   return bits;
@@ -165,14 +166,13 @@ void carry_all(const CarryOver& task, std::uint32_t first, std::uint32_t last)
 {
   const auto& found = *task.found;
   for (std::size_t eight = first; eight < last; eight += block_lanes) {
-    for (auto bits = not_zero(task.impulse + 2 * eight); bits != 0; bits &= bits - 1) {
+    for (auto bits = bearing(task.memory + 4 * eight); bits != 0; bits &= bits - 1) {
       const std::size_t k = eight + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       const auto i = task.place[task.i[k] / 2], j = task.place[task.j[k] / 2];
       auto f = find_pair(found, std::min(i, j), std::max(i, j));
       if (f == found.size()) f = find_pair(found, std::max(i, j), std::min(i, j));
       if (f == found.size()) continue;
-      std::copy_n(task.impulse + 2 * k, 2, task.to_impulse + 2 * std::size_t{task.number[f]});
-      std::copy_n(task.memory + 2 * k, 2, task.to_memory + 2 * std::size_t{task.number[f]});
+      std::copy_n(task.memory + 4 * k, 4, task.to_memory + 4 * std::size_t{task.number[f]});
     }
   }
   leave_vectors();

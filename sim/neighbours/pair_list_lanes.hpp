@@ -51,14 +51,14 @@ void find_near(const Discs& discs, const Search& search, double skin, FoundPairs
 /// Replaces every x by 1/x.
 void invert(std::span<double> values);
 
-/// Impulses and memories of an old list, and where they go in the new one.
+/// What the pairs of an old list remember, and where it goes in the new one.
 struct CarryOver {
   const std::uint32_t *i, *j;      // of the old pairs: twice the bodies' old indices
   const std::uint32_t* place;      // new index of each old body
   const FoundPairs* found;         // the new pairs
   const std::uint32_t* number;     // entry of each in the new list
-  const double *impulse, *memory;  // two per old pair
-  double *to_impulse, *to_memory;  // two per new pair
+  const double* memory;            // Pairs::Memory, four per old pair
+  double* to_memory;               // and per new pair
 };
 
 /// Carries over what pairs that stay have, if their impulse is not zero: those of the old pairs

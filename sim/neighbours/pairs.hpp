@@ -34,12 +34,10 @@ struct Pairs {
     double inverse_reach;  ///< 1/m
     double mass;           ///< kg, effective along the normal
   };
-  struct Impulse {
-    double n, t;  ///< kg m/s, of the last step; 0 for a pair that did not act
-  };
-  struct Memory {
-    double
-        approach;  ///< m/s, of a pair that was slowed down in the last step (Rebound::remembered)
+  /// Of the last step; all 0 for a pair that did not act.
+  struct alignas(32) Memory {
+    double n, t;      ///< kg m/s, its impulse
+    double approach;  ///< m/s, of a pair that was slowed down (Rebound::remembered)
     double unused;
   };
   struct Class {
@@ -53,7 +51,6 @@ struct Pairs {
   std::vector<std::uint32_t> i, j;
   std::vector<Geometry> geometry;
   std::vector<Inertia> inertia;
-  std::vector<Impulse> impulse;
   std::vector<Memory> memory;
   /// Strip by strip; in a strip pairs of mobile grains first, then those with boundary grains, then
   /// those at walls. Entries that pad a class to a multiple of 8 have reach NaN. The entry after

@@ -6,6 +6,14 @@
 #include <cmath>
 
 namespace grseg {
+namespace {
+
+/// m/s, between which velocities lie; the body that never moves is one of them.
+struct Velocities {
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+};
+
+}  // namespace
 
 // Plain pointers, captured by value, or the compiler fetches them anew for every grain.
 
@@ -19,20 +27,31 @@ void move_bodies(double duration, GrainState& grains, int threads)
   });
 }
 
-void move_bodies(double duration, double onward, GrainState& grains, std::vector<Vec2>& ahead,
-                 int threads)
+double move_bodies(double duration, double onward, GrainState& grains, std::vector<Vec2>& ahead,
+                   int threads)
 {
   ahead.resize(grains.position.size());
+  std::vector<Velocities> found(range_count(grains.position.size()));
   auto *position = grains.position.data(), *then = ahead.data();
   const auto* motion = grains.motion.data();
-  for_ranges(threads, grains.position.size(), [=](std::size_t begin, std::size_t end) {
+  for_ranges(threads, grains.position.size(), [=, &found](std::size_t begin, std::size_t end) {
+    Velocities here;
     for (std::size_t b = begin; b < end; ++b) {
       const Vec2 velocity(motion[b].vx, motion[b].vy);
+      here.low = here.low.cwiseMin(velocity);
+      here.high = here.high.cwiseMax(velocity);
       const Vec2 moved = position[b] + duration * velocity;
       position[b] = moved;
       then[b] = moved + onward * velocity;
     }
+    found[begin / range_size] = here;
   });
+  Velocities all;
+  for (const auto& range : found) {
+    all.low = all.low.cwiseMin(range.low);
+    all.high = all.high.cwiseMax(range.high);
+  }
+  return (all.high - all.low).norm();
 }
 
 void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,
@@ -43,28 +62,6 @@ void forecast_positions(double onward, const GrainState& grains, std::vector<Vec
     for (std::size_t b = begin; b < end; ++b)
       ahead[b] = grains.position[b] + onward * Vec2(grains.motion[b].vx, grains.motion[b].vy);
   });
-}
-
-double largest_difference(const GrainState& grains, int threads)
-{
-  std::vector<Vec2> low(static_cast<std::size_t>(threads), Vec2::Zero()), high = low;
-  for_each_part(threads, low.size(), [&](std::size_t part) {
-    const std::size_t begin = part * grains.size() / low.size();
-    const std::size_t end = (part + 1) * grains.size() / low.size();
-    Vec2 least = Vec2::Zero(), most = Vec2::Zero();
-    for (std::size_t b = begin; b < end; ++b) {
-      const Vec2 velocity(grains.motion[b].vx, grains.motion[b].vy);
-      least = least.cwiseMin(velocity);
-      most = most.cwiseMax(velocity);
-    }
-    low[part] = least;
-    high[part] = most;
-  });
-  for (std::size_t part = 1; part < low.size(); ++part) {
-    low[0] = low[0].cwiseMin(low[part]);
-    high[0] = high[0].cwiseMax(high[part]);
-  }
-  return (high[0] - low[0]).norm();
 }
 
 void accelerate(const Vec2& change, GrainState& grains, int threads)

@@ -12,15 +12,13 @@ namespace grseg {
 void move_bodies(double duration, GrainState& grains, int threads);
 
 /// Moves all bodies on by `duration`; `ahead` becomes where they would be `onward` later still, m.
-void move_bodies(double duration, double onward, GrainState& grains, std::vector<Vec2>& ahead,
+/// Returns a velocity, m/s, that no two bodies have relative to each other or more.
+double move_bodies(double duration, double onward, GrainState& grains, std::vector<Vec2>& ahead,
                  int threads);
 
 /// Where all bodies would be `onward` later, m.
 void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,
                         int threads);
-
-/// m/s; no two bodies have a larger relative velocity.
-double largest_difference(const GrainState& grains, int threads);
 
 /// Adds `change`, m/s, to the velocities of all mobile grains.
 void accelerate(const Vec2& change, GrainState& grains, int threads);

@@ -125,8 +125,8 @@ bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& repo
   if (frame != nullptr) remember_motion();
   if (pairs_.renewals() == 0) renew_pairs(0);
 
-  move_bodies(h / 2, world_.law.forecast * h, state_, ahead_, threads_);
-  const bool renewed = find_contacts(report);
+  const double spread = move_bodies(h / 2, world_.law.forecast * h, state_, ahead_, threads_);
+  const bool renewed = find_contacts(spread, report);
   if (report.farthest_approach > most_approach_ && part.halvings < most_halvings) {
     take_back(renewed);
     return false;
@@ -154,7 +154,10 @@ void Simulation::take_back(bool renewed)
 
 void Simulation::lengthen_impulses(double factor)
 {
-  for (auto& impulse : pairs_.impulses()) impulse = {factor * impulse.n, factor * impulse.t};
+  for (auto& memory : pairs_.memories()) {
+    memory.n *= factor;
+    memory.t *= factor;
+  }
 }
 
 void Simulation::remember_motion()
@@ -194,7 +197,7 @@ void Simulation::renew_pairs(double onward)
   });
 }
 
-bool Simulation::find_contacts(StepReport& report)
+bool Simulation::find_contacts(double spread, StepReport& report)
 {
   const bool renew = !pairs_.complete(ahead_);
   double unlisted = 0;
@@ -217,7 +220,7 @@ bool Simulation::find_contacts(StepReport& report)
   report.touching = sums.touching;
   report.sum_overlap = sums.overlap;
   report.largest_overlap = sums.largest_overlap;
-  report.fastest_approach = std::max({sums.fastest_approach, unlisted, unlisted_ahead()});
+  report.fastest_approach = std::max({sums.fastest_approach, unlisted, unlisted_ahead(spread)});
   report.farthest_approach = report.fastest_approach * world_.step;
   return renew;
 }
@@ -225,24 +228,18 @@ bool Simulation::find_contacts(StepReport& report)
 void Simulation::forget_impulses(bool renewed)
 {
   if (renewed || restored_)
-    pairs_.forget_impulses();
+    pairs_.forget();
   else
-    grseg::forget_impulses(pairs_.pairs(), contacts_, pairs_.impulses(), memories(), threads_);
+    grseg::forget_impulses(pairs_.pairs(), contacts_, pairs_.memories(), threads_);
   restored_ = false;
 }
 
-double Simulation::unlisted_ahead()
+double Simulation::unlisted_ahead(double spread)
 {
   const double half = world_.step / 2;
-  if (largest_difference(state_, threads_) * half <= world_.skin - world_.law.margin) return 0;
+  if (spread * half <= world_.skin - world_.law.margin) return 0;
   forecast_positions(world_.law.forecast * world_.step + half, state_, ahead_at_end_, threads_);
   return pairs_.complete(ahead_at_end_) ? 0 : pairs_.fastest_unlisted(state_.motion);
-}
-
-std::span<Pairs::Memory> Simulation::memories()
-{
-  if (world_.law.horizon > 0) return pairs_.memories();
-  return {};
 }
 
 void Simulation::stop_at_coincidence() const
@@ -265,7 +262,7 @@ void Simulation::stop_at_coincidence() const
 
 void Simulation::keep_impulses(StepReport& report)
 {
-  const auto sums = grseg::keep_impulses(contacts_, pairs_.impulses(), memories(), threads_);
+  const auto sums = grseg::keep_impulses(contacts_, pairs_.memories(), threads_);
   report.force_bearing = sums.force_bearing;
   report.sum_gap_bearing = sums.gap_bearing;
   report.base_impulse = sums.on_base_side;

@@ -120,18 +120,16 @@ class Simulation {
   void take_back(bool renewed);
   void lengthen_impulses(double factor);
   void remember_motion();
-  /// Whether the list was renewed.
-  bool find_contacts(StepReport& report);
+  /// Whether the list was renewed. `spread`, m/s, as move_bodies() returns it.
+  bool find_contacts(double spread, StepReport& report);
   void forget_impulses(bool renewed);
   /// Lists the pairs of where grains will be `onward`, s, later.
   void renew_pairs(double onward);
   /// m/s, of grains that may meet before the end of the step, as they move now, and are not listed.
-  double unlisted_ahead();
+  double unlisted_ahead(double spread);
   [[noreturn]] void stop_at_coincidence() const;
   void solve(StepReport& report);
   void keep_impulses(StepReport& report);
-  /// Empty where the law needs no memory.
-  std::span<Pairs::Memory> memories();
 
   World world_;
   Gravity<2> gravity_;

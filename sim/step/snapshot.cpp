@@ -63,7 +63,7 @@ void write_contacts(const SolvedStep& s, ContactList<2>& list)
       const auto& block = strip.blocks[slot / block_lanes];
       const auto& origin = strip.origins[slot / block_lanes];
       const std::size_t lane = slot % block_lanes;
-      const std::size_t k = origin.pair[lane] / 2;
+      const std::size_t k = origin.pair[lane] / 4;
       if (k == pairs.size()) continue;
       const bool at_wall = pairs.j[k] / 2 == s.grains.immobile();
       const std::int32_t i = row_of(pairs.i[k]),

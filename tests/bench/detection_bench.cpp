@@ -126,8 +126,8 @@ void keep_and_forget(benchmark::State& state, int copies)
   std::vector<StripContacts> strips;
   for (int step = 0; step < 2; ++step) find_contacts(now.list.pairs(), now.rule, strips);
   for (auto _ : state) {
-    forget_impulses(now.list.pairs(), strips, now.list.impulses(), {});
-    benchmark::DoNotOptimize(keep_impulses(strips, now.list.impulses(), {}));
+    forget_impulses(now.list.pairs(), strips, now.list.memories());
+    benchmark::DoNotOptimize(keep_impulses(strips, now.list.memories()));
   }
   report_contacts(state, strips);
 }

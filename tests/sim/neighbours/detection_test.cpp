@@ -287,7 +287,7 @@ struct Prepared {
     list.renew(state, state.position);
     for (std::size_t k = 0; k < list.pairs().size(); ++k)
       if (list.pairs().listed(k))
-        list.impulses()[k] = {1 + static_cast<double>(k), 0.5 - static_cast<double>(k % 7)};
+        list.memories()[k] = {1 + static_cast<double>(k), 0.5 - static_cast<double>(k % 7), 0, 0};
     rule.ahead = rule.middle = state.position;
     rule.motion = state.motion;
     rule.walls = walls;
@@ -386,9 +386,9 @@ PairInWords in_words(const Prepared& p, const Pairs::Class& c, std::size_t k)
   pair.contact.ny = n.ny;
   pair.contact.mass_n = normal_mass(a.inverse_mass, b.inverse_mass);
   pair.contact.mass_t = tangential_mass(pair.contact.mass_n, pair.contact.kappa);
-  pair.contact.impulse_n = pairs.impulse[k].n;
-  pair.contact.impulse_t = pairs.impulse[k].t;
-  const auto rebound = rebound_of(pair.gap, pair.separation, pairs.impulse[k].n,
+  pair.contact.impulse_n = pairs.memory[k].n;
+  pair.contact.impulse_t = pairs.memory[k].t;
+  const auto rebound = rebound_of(pair.gap, pair.separation, pairs.memory[k].n,
                                   pairs.memory[k].approach, p.rule.restitution, p.rule.horizon);
   pair.contact.rebound = rebound.velocity;
   pair.remembered = rebound.remembered;
@@ -433,7 +433,7 @@ void expect_the_law_in_words(const Prepared& p, Seen& seen)
   std::map<std::size_t, std::pair<std::size_t, std::size_t>> found;  // pair: block and lane
   for (std::size_t b = 0; b < contacts.size; ++b)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      const std::size_t k = contacts.origins[b].pair[lane] / 2;
+      const std::size_t k = contacts.origins[b].pair[lane] / 4;
       if (k == pairs.size()) continue;
       EXPECT_TRUE(found.insert({k, {b, lane}}).second);
     }
@@ -492,8 +492,8 @@ TEST_P(DetectionOn, PairsStillApartAreSlowedDownAsTheLawInWordsSaysToTheLastBit)
     p.rule.ahead = then;
     // Newcomers, pairs slowed down in the step before, and pairs that have borne a load for long.
     for (std::size_t k = 0; k < p.list.pairs().size(); ++k) {
-      if (k % 3 != 2) p.list.impulses()[k] = {0, 0};
-      if (k % 3 == 1) p.list.memories()[k] = {0.1 * static_cast<double>(k % 7), 0};
+      if (k % 3 != 2) p.list.memories()[k] = {};
+      if (k % 3 == 1) p.list.memories()[k].approach = 0.1 * static_cast<double>(k % 7);
     }
     expect_the_law_in_words(p, seen);
   }
@@ -532,7 +532,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   for (std::size_t b = 0; b < contacts.size; ++b) {
     auto& block = contacts.blocks[b];
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      if (contacts.origins[b].pair[lane] / 2 == p.list.pairs().size()) continue;
+      if (contacts.origins[b].pair[lane] / 4 == p.list.pairs().size()) continue;
       n = static_cast<double>((b + lane) % 3);
       block.impulse_n[lane] = n;
       block.impulse_t[lane] = -n / 2;
@@ -543,14 +543,14 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
       base += n * normal - n / 2 * tangent;
     }
   }
-  const auto sums = keep_impulses(strips, p.list.impulses(), {});
+  const auto sums = keep_impulses(strips, p.list.memories());
   EXPECT_EQ(sums.force_bearing, bearing);
   EXPECT_NEAR(sums.gap_bearing, gap, 1e-12);
   EXPECT_NEAR((sums.on_base_side - base).norm(), 0, 1e-12);
   const auto kept = contacts.used({}).blocks;
   for (std::size_t b = 0; b < kept.size(); ++b)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      const auto& impulse = p.list.pairs().impulse[contacts.origins[b].pair[lane] / 2];
+      const auto& impulse = p.list.pairs().memory[contacts.origins[b].pair[lane] / 4];
       EXPECT_EQ(impulse.n, kept[b].impulse_n[lane]);
       EXPECT_EQ(impulse.t, kept[b].impulse_t[lane]);
     }
@@ -562,14 +562,14 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   std::set<std::uint32_t> acting;
   for (std::size_t b = 0; b < contacts.size; ++b)
     acting.insert(contacts.origins[b].pair.begin(), contacts.origins[b].pair.end());
-  const auto had = p.list.pairs().impulse;
-  forget_impulses(p.list.pairs(), strips, p.list.impulses(), {});
+  const auto had = p.list.pairs().memory;
+  forget_impulses(p.list.pairs(), strips, p.list.memories());
   std::size_t gone = 0;
   for (std::size_t b = 0; b < size; ++b)
     for (const auto pair : before[b].pair) {
-      const auto& impulse = p.list.pairs().impulse[pair / 2];
-      EXPECT_EQ(impulse.n, acting.contains(pair) ? had[pair / 2].n : 0);
-      EXPECT_EQ(impulse.t, acting.contains(pair) ? had[pair / 2].t : 0);
+      const auto& impulse = p.list.pairs().memory[pair / 4];
+      EXPECT_EQ(impulse.n, acting.contains(pair) ? had[pair / 4].n : 0);
+      EXPECT_EQ(impulse.t, acting.contains(pair) ? had[pair / 4].t : 0);
       gone += acting.contains(pair) ? 0 : 1;
     }
   EXPECT_GT(gone, size);

@@ -186,11 +186,11 @@ TEST(PairList, APairThatStaysKeepsItsImpulseThroughARenewal)
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 2u);
   for (const auto& pair : list.pairs())
-    list.list.impulses()[pair.entry] = pair.i == 0 ? Pairs::Impulse{3, -1} : Pairs::Impulse{4, 1};
+    list.list.memories()[pair.entry] = pair.i == 0 ? Pairs::Memory{3, -1, 0, 0} : Pairs::Memory{4, 1, 0, 0};
   position[2].x() = 5;  // the second pair ends
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 1u);
-  const auto impulse = list.list.impulses()[list.pairs()[0].entry];
+  const auto impulse = list.list.memories()[list.pairs()[0].entry];
   EXPECT_EQ(impulse.n, 3);
   EXPECT_EQ(impulse.t, -1);
 }
@@ -209,22 +209,19 @@ TEST(PairList, EveryPairOfABedKeepsItsOwnImpulseThroughARenewal)
   Listed list(world, position, {worlds::floor_at(0)}, 0.2);
   list.renew(position);
   const auto own = [](const Listed::Pair& pair) {
-    return Pairs::Impulse{1.0 + std::min(pair.i, pair.j) + 1000 * std::max(pair.i, pair.j),
-                          1.0 + pair.i * pair.j};
+    const double n = 1.0 + std::min(pair.i, pair.j) + 1000 * std::max(pair.i, pair.j);
+    return Pairs::Memory{n, 1.0 + pair.i * pair.j, -n, 0};
   };
   const auto before = list.pairs();
   EXPECT_EQ(before.size(), 12u * 20 - 20 + 11 * 20 + 20);
-  for (const auto& pair : before) {
-    list.list.impulses()[pair.entry] = own(pair);
-    list.list.memories()[pair.entry] = {-own(pair).n, 0};
-  }
+  for (const auto& pair : before) list.list.memories()[pair.entry] = own(pair);
   for (auto& x : position) x.x() += 7.7 - (x.x() + 7.7 >= 20 ? 20 : 0);
   list.renew(position);
   EXPECT_EQ(list.pairs().size(), before.size());
   for (const auto& pair : list.pairs()) {
-    EXPECT_EQ(list.list.impulses()[pair.entry].n, own(pair).n) << pair.i << ' ' << pair.j;
-    EXPECT_EQ(list.list.impulses()[pair.entry].t, own(pair).t);
-    EXPECT_EQ(list.list.memories()[pair.entry].approach, -own(pair).n);
+    EXPECT_EQ(list.list.memories()[pair.entry].n, own(pair).n) << pair.i << ' ' << pair.j;
+    EXPECT_EQ(list.list.memories()[pair.entry].t, own(pair).t);
+    EXPECT_EQ(list.list.memories()[pair.entry].approach, own(pair).approach);
   }
 }
 
