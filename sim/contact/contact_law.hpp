@@ -292,8 +292,8 @@ inline ChangeOf<float> relax(ContactOf<float>& c, MotionOf<float>& a, MotionOf<f
     px -= change_t * c.ny;
     py += change_t * c.nx;
     spin = lever * change_t;
-    change.tangential = with.rotation ? std::abs(change_t) * (1 + lever * c.kappa)
-                                      : std::abs(change_t);
+    change.tangential =
+        with.rotation ? std::abs(change_t) * (1 + lever * c.kappa) : std::abs(change_t);
   }
   push<with>(a, b, c.share_i, c.share_j, px, py, spin);
   return change;

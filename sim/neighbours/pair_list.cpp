@@ -184,13 +184,8 @@ void PairList::carry_memories()
 {
   const auto& old = old_pairs_;
   if (old.classes.empty() || pairs_.classes.empty()) return;
-  const CarryOver task{old.i.data(),
-                       old.j.data(),
-                       search_.place().data(),
-                       &search_.found(),
-                       number_.data(),
-                       &old.memory[0].n,
-                       &pairs_.memory[0].n};
+  const CarryOver task{old.i.data(),   old.j.data(),     search_.place().data(), &search_.found(),
+                       number_.data(), &old.memory[0].n, &pairs_.memory[0].n};
   for_each_part(threads_, old.classes.size(), [&](std::size_t n) {
     if (old.classes[n].wall < 0) carry_over(task, old.classes[n].begin, old.classes[n].end);
   });

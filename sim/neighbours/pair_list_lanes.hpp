@@ -53,12 +53,12 @@ void invert(std::span<double> values);
 
 /// What the pairs of an old list remember, and where it goes in the new one.
 struct CarryOver {
-  const std::uint32_t *i, *j;      // of the old pairs: twice the bodies' old indices
-  const std::uint32_t* place;      // new index of each old body
-  const FoundPairs* found;         // the new pairs
-  const std::uint32_t* number;     // entry of each in the new list
-  const double* memory;            // Pairs::Memory, four per old pair
-  double* to_memory;               // and per new pair
+  const std::uint32_t *i, *j;   // of the old pairs: twice the bodies' old indices
+  const std::uint32_t* place;   // new index of each old body
+  const FoundPairs* found;      // the new pairs
+  const std::uint32_t* number;  // entry of each in the new list
+  const double* memory;         // Pairs::Memory, four per old pair
+  double* to_memory;            // and per new pair
 };
 
 /// Carries over what pairs that stay have, if their impulse is not zero: those of the old pairs

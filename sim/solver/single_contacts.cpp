@@ -133,8 +133,7 @@ void give_run(const BlockOf<float>* from, double friction, std::span<ContactBloc
 {
   for (std::size_t b = 0; b < run.size(); b += 2, ++from) {
     give_half<with>(*from, 0, friction, run[b], motion);
-    if (b + 1 < run.size())
-      give_half<with>(*from, block_lanes, friction, run[b + 1], motion);
+    if (b + 1 < run.size()) give_half<with>(*from, block_lanes, friction, run[b + 1], motion);
   }
   leave_vectors();
 }

@@ -12,9 +12,9 @@ namespace grseg {
 void move_bodies(double duration, GrainState& grains, int threads);
 
 /// Moves all bodies on by `duration`; `ahead` becomes where they would be `onward` later still, m.
-/// Returns a velocity, m/s, that no two bodies have relative to each other or more.
+/// Returns a bound on how fast any two bodies move relative to each other, m/s.
 double move_bodies(double duration, double onward, GrainState& grains, std::vector<Vec2>& ahead,
-                 int threads);
+                   int threads);
 
 /// Where all bodies would be `onward` later, m.
 void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,

@@ -186,7 +186,8 @@ TEST(PairList, APairThatStaysKeepsItsImpulseThroughARenewal)
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 2u);
   for (const auto& pair : list.pairs())
-    list.list.memories()[pair.entry] = pair.i == 0 ? Pairs::Memory{3, -1, 0, 0} : Pairs::Memory{4, 1, 0, 0};
+    list.list.memories()[pair.entry] =
+        pair.i == 0 ? Pairs::Memory{3, -1, 0, 0} : Pairs::Memory{4, 1, 0, 0};
   position[2].x() = 5;  // the second pair ends
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 1u);

@@ -61,10 +61,19 @@ void relax_one_by_one(std::span<BlockOf<float>> blocks, std::vector<MotionOf<flo
     for (std::size_t k = 0; k < lanes_of<float>; ++k) {
       if (!in_use(b, k)) continue;
       const std::uint32_t i = b.i[k] / 4, j = b.j[k] / 4;
-      ContactOf<float> c{b.nx[k],      b.ny[k],        b.kappa[k],
-                         b.share_i[k], b.share_j[k],   b.mass_ratio[k],
-                         b.rebound[k], b.base_n[k],    b.base_t[k],
-                         b.impulse_n[k], b.impulse_t[k], 0, 0};
+      ContactOf<float> c{b.nx[k],
+                         b.ny[k],
+                         b.kappa[k],
+                         b.share_i[k],
+                         b.share_j[k],
+                         b.mass_ratio[k],
+                         b.rebound[k],
+                         b.base_n[k],
+                         b.base_t[k],
+                         b.impulse_n[k],
+                         b.impulse_t[k],
+                         0,
+                         0};
       relax<with>(c, motion[i], motion[j], static_cast<float>(FrozenProblem::friction));
       b.impulse_n[k] = c.impulse_n;
       b.impulse_t[k] = c.impulse_t;
