@@ -15,7 +15,9 @@ namespace grseg {
 struct alignas(64) BlockOrigin {
   ContactBlock::Lanes gap;                      // m
   ContactBlock::Lanes approach;                 // m/s, to be remembered, see Rebound
-  std::array<std::uint32_t, block_lanes> pair;  // 4 times its index; unused lanes: the neutral one
+  std::array<std::uint32_t, block_lanes> pair;  // 4 times its entry; unused lanes: the neutral one
+
+  std::size_t entry(std::size_t lane) const { return pair[lane] / 4; }  // in Pairs
 };
 
 /// The pairs of a class that act: scratch space of find_contacts.

@@ -63,7 +63,7 @@ void write_contacts(const SolvedStep& s, ContactList<2>& list)
       const auto& block = strip.blocks[slot / block_lanes];
       const auto& origin = strip.origins[slot / block_lanes];
       const std::size_t lane = slot % block_lanes;
-      const std::size_t k = origin.pair[lane] / 4;
+      const std::size_t k = origin.entry(lane);
       if (k == pairs.size()) continue;
       const bool at_wall = pairs.j[k] / 2 == s.grains.immobile();
       const std::int32_t i = row_of(pairs.i[k]),
@@ -83,7 +83,7 @@ void write_contacts(const SolvedStep& s, ContactList<2>& list)
     list.j.push_back(j);
     list.force.push_back((block->impulse_n[lane] * normal + block->impulse_t[lane] * tangent) /
                          s.world.step);
-    list.branch.push_back((pairs.geometry[origin->pair[lane] / 2].reach + gap) * normal);
+    list.branch.push_back((pairs.geometry[origin->entry(lane)].reach + gap) * normal);
     list.gap.push_back(gap);
   }
 }

@@ -433,7 +433,7 @@ void expect_the_law_in_words(const Prepared& p, Seen& seen)
   std::map<std::size_t, std::pair<std::size_t, std::size_t>> found;  // pair: block and lane
   for (std::size_t b = 0; b < contacts.size; ++b)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      const std::size_t k = contacts.origins[b].pair[lane] / 4;
+      const std::size_t k = contacts.origins[b].entry(lane);
       if (k == pairs.size()) continue;
       EXPECT_TRUE(found.insert({k, {b, lane}}).second);
     }
@@ -532,7 +532,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   for (std::size_t b = 0; b < contacts.size; ++b) {
     auto& block = contacts.blocks[b];
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      if (contacts.origins[b].pair[lane] / 4 == p.list.pairs().size()) continue;
+      if (contacts.origins[b].entry(lane) == p.list.pairs().size()) continue;
       n = static_cast<double>((b + lane) % 3);
       block.impulse_n[lane] = n;
       block.impulse_t[lane] = -n / 2;
@@ -550,7 +550,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   const auto kept = contacts.used({}).blocks;
   for (std::size_t b = 0; b < kept.size(); ++b)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-      const auto& impulse = p.list.pairs().memory[contacts.origins[b].pair[lane] / 4];
+      const auto& impulse = p.list.pairs().memory[contacts.origins[b].entry(lane)];
       EXPECT_EQ(impulse.n, kept[b].impulse_n[lane]);
       EXPECT_EQ(impulse.t, kept[b].impulse_t[lane]);
     }
