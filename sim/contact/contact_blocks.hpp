@@ -31,7 +31,8 @@ using ContactBlock = BlockOf<double>;
 template <>
 struct alignas(64) BlockOf<float> {
   using Lanes = std::array<float, lanes_of<float>>;
-  Lanes nx, ny, kappa, share_i, share_j, mass_ratio, rebound, base_n, base_t, impulse_n, impulse_t;
+  Lanes nx, ny, kappa, weight_i, weight_j, mass_ratio, rebound, base_n, base_t, impulse_n,
+      impulse_t;
   std::array<std::uint32_t, lanes_of<float>> i, j;
 };
 

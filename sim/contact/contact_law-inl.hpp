@@ -223,8 +223,8 @@ HWY_INLINE void relax(BlockOf<float>& c, std::size_t lane, Bodies<Single>& a, Bo
   } else {
     results.add(lane, normal);
   }
-  const auto share_a = hn::Load(d, &c.share_i[lane]), share_b = hn::Load(d, &c.share_j[lane]);
-  push<with, Single>(a, b, share_a, share_b, px, py, spin);
+  const auto weight_a = hn::Load(d, &c.weight_i[lane]), weight_b = hn::Load(d, &c.weight_j[lane]);
+  push<with, Single>(a, b, weight_a, weight_b, px, py, spin);
 }
 
 }  // namespace

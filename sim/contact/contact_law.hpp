@@ -116,13 +116,13 @@ using Contact = ContactOf<double>;
 
 /// In single precision impulses are increments on a `base`, which velocities contain already: the
 /// last digit is then one of what a step changes, not one of the load, and a bed at rest does not
-/// creep. They are per mass_n, the relative velocities that they make, of which each body takes its
-/// share: a relaxation needs no mass, and the chain of its operations is shorter.
+/// creep. They are per mass_n: the relative velocities that they make, which the bodies divide by their
+/// weights. So a relaxation needs no mass, and the chain of its operations is shorter.
 template <>
 struct ContactOf<float> {
   float nx, ny;
   float kappa;
-  float share_i, share_j;      // mass_n over the mass of the body; 0 for one that cannot be moved
+  float weight_i, weight_j;    // mass_n over the mass of the body; 0 for one that cannot be moved
   float mass_ratio;            // mass_t/mass_n
   float rebound;               // m/s
   float base_n, base_t;        // m/s
@@ -295,7 +295,7 @@ inline ChangeOf<float> relax(ContactOf<float>& c, MotionOf<float>& a, MotionOf<f
     change.tangential =
         with.rotation ? std::abs(change_t) * (1 + lever * c.kappa) : std::abs(change_t);
   }
-  push<with>(a, b, c.share_i, c.share_j, px, py, spin);
+  push<with>(a, b, c.weight_i, c.weight_j, px, py, spin);
   return change;
 }
 

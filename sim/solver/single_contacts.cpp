@@ -46,8 +46,8 @@ HWY_INLINE void take_half(const ContactBlock& from, std::size_t first, Motion* m
     store(load(from.nx), to.nx);
     store(load(from.ny), to.ny);
     store(load(from.kappa), to.kappa);
-    store(hn::Mul(mass, a.inverse_mass), to.share_i);
-    store(hn::Mul(mass, b.inverse_mass), to.share_j);
+    store(hn::Mul(mass, a.inverse_mass), to.weight_i);
+    store(hn::Mul(mass, b.inverse_mass), to.weight_j);
     store(hn::Mul(load(from.mass_t), w_nn), to.mass_ratio);
     store(load(from.rebound), to.rebound);
     store(hn::Mul(normal, w_nn), to.base_n);
