@@ -46,6 +46,14 @@ HWY_INLINE Normals normal_of_wall(Vector dx, Vector dy, Vector nx, Vector ny)
   return {nx, ny, hn::Add(hn::Mul(dx, nx), hn::Mul(dy, ny))};
 }
 
+/// From the sum of inverse masses; 0 where `used` is false.
+HWY_INLINE Vector normal_mass(Vector inverse_masses, Mask used)
+{
+  const D d;
+  const auto one = hn::Set(d, 1.0);
+  return hn::IfThenElseZero(used, hn::Div(one, hn::IfThenElse(used, inverse_masses, one)));
+}
+
 HWY_INLINE Vector tangential_mass(Vector normal_mass, Vector kappa, double rim_factor)
 {
   const D d;

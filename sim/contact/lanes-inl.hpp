@@ -39,6 +39,11 @@ struct Bodies {
   hn::Vec<Tag> vx, vy, rim_speed, inverse_mass;
 };
 
+/// The velocity of bodies i less that of bodies j, and the sum of their inverse masses.
+struct Relative {
+  Vector vx, vy, inverse_mass;
+};
+
 #if HWY_TARGET == HWY_SCALAR
 
 template <class Tag, class Real>
@@ -57,6 +62,13 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, Real* motion, const st
   hn::Store(b.rim_speed, d, body + 2);
 }
 
+HWY_INLINE Relative load_relative(D d, const double* motion, const std::uint32_t* i,
+                                  const std::uint32_t* j)
+{
+  const auto a = load_bodies(d, motion, i), b = load_bodies(d, motion, j);
+  return {hn::Sub(a.vx, b.vx), hn::Sub(a.vy, b.vy), hn::Add(a.inverse_mass, b.inverse_mass)};
+}
+
 HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* motion,
                             const std::uint32_t* i, const std::uint32_t* j)
 {
@@ -71,34 +83,58 @@ HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* moti
 
 #else
 
-/// Whole bodies are loaded and their members sorted into vectors, since that takes fewer operations
-/// than gathering member by member.
-template <class Tag>
-HWY_INLINE Bodies<Tag> load_bodies(Tag d, const double* motion, const std::uint32_t* at)
+/// A whole body, or half of one.
+using Row = hn::CappedTag<double, 4>;
+
+/// The members of bodies from their rows: row(k, from) is the part of row k that begins at member
+/// `from`; where vectors have less than four lanes a row has two parts.
+template <class Tag, class RowOf>
+HWY_INLINE Bodies<Tag> sort_rows(Tag d, const RowOf& row)
 {
   if constexpr (hn::MaxLanes(d) == 8) {
-    const hn::Half<Tag> h;
-    const auto body = [&](int k) HWY_ATTR { return hn::Load(h, motion + at[k]); };
-    const auto r01 = hn::Combine(d, body(1), body(0)), r23 = hn::Combine(d, body(3), body(2));
-    const auto r45 = hn::Combine(d, body(5), body(4)), r67 = hn::Combine(d, body(7), body(6));
+    const auto r01 = hn::Combine(d, row(1, 0), row(0, 0));
+    const auto r23 = hn::Combine(d, row(3, 0), row(2, 0));
+    const auto r45 = hn::Combine(d, row(5, 0), row(4, 0));
+    const auto r67 = hn::Combine(d, row(7, 0), row(6, 0));
     const auto even03 = hn::ConcatEven(d, r23, r01), odd03 = hn::ConcatOdd(d, r23, r01);
     const auto even47 = hn::ConcatEven(d, r67, r45), odd47 = hn::ConcatOdd(d, r67, r45);
     return {hn::ConcatEven(d, even47, even03), hn::ConcatEven(d, odd47, odd03),
             hn::ConcatOdd(d, even47, even03), hn::ConcatOdd(d, odd47, odd03)};
   } else if constexpr (hn::MaxLanes(d) == 4) {
-    const auto r0 = hn::Load(d, motion + at[0]), r1 = hn::Load(d, motion + at[1]);
-    const auto r2 = hn::Load(d, motion + at[2]), r3 = hn::Load(d, motion + at[3]);
+    const auto r0 = row(0, 0), r1 = row(1, 0), r2 = row(2, 0), r3 = row(3, 0);
     const auto low01 = hn::InterleaveLower(d, r0, r1), high01 = hn::InterleaveUpper(d, r0, r1);
     const auto low23 = hn::InterleaveLower(d, r2, r3), high23 = hn::InterleaveUpper(d, r2, r3);
     return {hn::ConcatLowerLower(d, low23, low01), hn::ConcatLowerLower(d, high23, high01),
             hn::ConcatUpperUpper(d, low23, low01), hn::ConcatUpperUpper(d, high23, high01)};
   } else {
     static_assert(hn::MaxLanes(d) == 2);
-    const auto v0 = hn::Load(d, motion + at[0]), s0 = hn::Load(d, motion + at[0] + 2);
-    const auto v1 = hn::Load(d, motion + at[1]), s1 = hn::Load(d, motion + at[1] + 2);
+    const auto v0 = row(0, 0), s0 = row(0, 2), v1 = row(1, 0), s1 = row(1, 2);
     return {hn::InterleaveLower(d, v0, v1), hn::InterleaveUpper(d, v0, v1),
             hn::InterleaveLower(d, s0, s1), hn::InterleaveUpper(d, s0, s1)};
   }
+}
+
+/// Whole bodies are loaded and their members sorted into vectors, since that takes fewer operations
+/// than gathering member by member.
+template <class Tag>
+HWY_INLINE Bodies<Tag> load_bodies(Tag d, const double* motion, const std::uint32_t* at)
+{
+  return sort_rows(
+      d, [&](int k, std::size_t from) HWY_ATTR { return hn::Load(Row(), motion + at[k] + from); });
+}
+
+/// Changes the signs of the velocity, by exclusive or.
+alignas(32) constexpr double opposite_velocity[] = {-0.0, -0.0, 0.0, 0.0};
+
+HWY_INLINE Relative load_relative(D d, const double* motion, const std::uint32_t* i,
+                                  const std::uint32_t* j)
+{
+  const auto sums = sort_rows(d, [&](int k, std::size_t from) HWY_ATTR {
+    const auto other = hn::Load(Row(), motion + j[k] + from);
+    const auto sign = hn::Load(Row(), opposite_velocity + from);
+    return hn::Add(hn::Load(Row(), motion + i[k] + from), hn::Xor(other, sign));
+  });
+  return {sums.vx, sums.vy, sums.inverse_mass};
 }
 
 /// Sorts the members of bodies into rows, one per body: use(part, from, k) for the part of row k
@@ -131,9 +167,6 @@ HWY_INLINE void for_each_row(Tag d, const Bodies<Tag>& b, const Use& use)
   }
 }
 
-/// A whole body, or half of one.
-using Row = hn::CappedTag<double, 4>;
-
 /// The way back. Two lanes with the same immobile body write the same.
 template <class Tag>
 HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const std::uint32_t* at)
@@ -149,7 +182,6 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const 
 HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* motion,
                             const std::uint32_t* i, const std::uint32_t* j)
 {
-  alignas(32) static constexpr double opposite[] = {-0.0, -0.0, 0.0, 0.0};
   const auto add = [&](auto part, std::size_t from, double* body) HWY_ATTR {
     const auto inverse_mass = hn::Set(Row(), body[3]);
     const auto now = hn::Load(Row(), body + from);
@@ -158,7 +190,7 @@ HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* moti
   for_each_row(d, Bodies<D>{px, py, hn::Neg(spin), hn::Zero(d)},
                [&](auto part, std::size_t from, int k) HWY_ATTR {
                  add(part, from, motion + i[k]);
-                 add(hn::Xor(part, hn::Load(Row(), opposite + from)), from, motion + j[k]);
+                 add(hn::Xor(part, hn::Load(Row(), opposite_velocity + from)), from, motion + j[k]);
                });
 }
 

@@ -39,10 +39,6 @@ HWY_INLINE const double* numbers_of(const Pairs::Geometry* g)
 {
   return &g->shift;
 }
-HWY_INLINE const double* numbers_of(const Pairs::Inertia* g)
-{
-  return &g->inverse_reach;
-}
 HWY_INLINE const double* numbers_of(const Pairs::Memory* g)
 {
   return &g->n;
@@ -121,38 +117,39 @@ HWY_INLINE Normals normals_of_wall(const DetectionRule& rule, const Wall& wall,
                         hn::Set(d, wall.normal.y()));
 }
 
-/// Bodies, normals and lever arms of the eight pairs of a class that begin at `near`.
+/// Bodies and entries of the eight pairs of a class that begin at `near`.
+HWY_INLINE void set_places(const NearPairs& near, std::size_t first, ContactBlock& block,
+                           BlockOrigin& origin)
+{
+  const D32 d;
+  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+    const auto i = hn::LoadU(d, &near.i[first + lane]);
+    const auto j = hn::LoadU(d, &near.j[first + lane]);
+    hn::Store(hn::Add(i, i), d, &block.i[lane]);
+    hn::Store(hn::Add(j, j), d, &block.j[lane]);
+    const auto pair = hn::LoadU(d, &near.pair[first + lane]);
+    hn::Store(hn::Add(pair, pair), d, &origin.pair[lane]);
+  }
+}
+
+struct Geometries {
+  Vector nx, ny, kappa, gap;
+};
+
+/// Of the pairs of a class from `at` of `near` on.
 template <bool periodic>
-HWY_INLINE void set_geometry(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
-                             std::size_t first, const DetectionRule& rule, ContactBlock& block,
-                             BlockOrigin& origin, LaneSums& sums)
+HWY_INLINE Geometries geometry_of(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
+                                  std::size_t at, const DetectionRule& rule, Mask used,
+                                  LaneSums& sums)
 {
   const D d;
-  const D32 d32;
-  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d32)) {
-    const auto i = hn::LoadU(d32, &near.i[first + lane]);
-    const auto j = hn::LoadU(d32, &near.j[first + lane]);
-    hn::Store(hn::Add(i, i), d32, &block.i[lane]);
-    hn::Store(hn::Add(j, j), d32, &block.j[lane]);
-    const auto pair = hn::LoadU(d32, &near.pair[first + lane]);
-    hn::Store(hn::Add(pair, pair), d32, &origin.pair[lane]);
-  }
-  for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto *pair = &near.pair[first + lane], *i = &near.i[first + lane],
-               *j = &near.j[first + lane];
-    const auto [shift, reach] = load_twos(d, numbers_of(pairs.geometry.data()), pair);
-    const auto [inverse_reach, mass] = load_twos(d, numbers_of(pairs.inertia.data()), pair);
-    const auto used = hn::Gt(mass, hn::Zero(d));
-    const auto n = c.wall < 0
-                       ? normals_of_grains<periodic>(rule, i, j, shift, used, sums)
-                       : normals_of_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], i);
-    const auto kappa = c.wall < 0 ? hn::Mul(n.distance, inverse_reach) : hn::Set(d, 1.0);
-    hn::Store(n.nx, d, &block.nx[lane]);
-    hn::Store(n.ny, d, &block.ny[lane]);
-    hn::Store(kappa, d, &block.kappa[lane]);
-    hn::Store(mass, d, &block.mass_n[lane]);
-    hn::Store(hn::Sub(n.distance, reach), d, &origin.gap[lane]);
-  }
+  const auto one = hn::Set(d, 1.0);
+  const auto [shift, reach] = load_twos(d, numbers_of(pairs.geometry.data()), &near.pair[at]);
+  const auto n =
+      c.wall < 0 ? normals_of_grains<periodic>(rule, &near.i[at], &near.j[at], shift, used, sums)
+                 : normals_of_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], &near.i[at]);
+  const auto kappa = c.wall < 0 ? hn::Mul(n.distance, hn::Div(one, reach)) : one;
+  return {n.nx, n.ny, kappa, hn::Sub(n.distance, reach)};
 }
 
 HWY_INLINE void accumulate(Vector gap, Vector approach, Mask used, std::size_t lane, LaneSums& sums)
@@ -171,34 +168,39 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Mask used, std::size_t l
   keep_most(sums.fastest_approach, approach);
 }
 
-/// The rest of a contact: tangential mass, rebound, and the first guess of its impulse.
+/// Eight pairs of a class from `first` of `near` on, with the first guess of their impulses.
 template <Variant with>
-HWY_INLINE void set_dynamics(const Pairs& pairs, const DetectionRule& rule, ContactBlock& block,
-                             BlockOrigin& origin, LaneSums& sums)
+HWY_INLINE void set_block(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
+                          std::size_t first, const DetectionRule& rule, ContactBlock& block,
+                          BlockOrigin& origin, LaneSums& sums)
 {
   const D d;
-  const auto* velocity = reinterpret_cast<const double*>(rule.motion.data());
+  const auto* motion = reinterpret_cast<const double*>(rule.motion.data());
+  set_places(near, first, block, origin);
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto mass = hn::Load(d, &block.mass_n[lane]);
-    auto mass_t = mass;
-    if constexpr (with.rotation)
-      mass_t = tangential_mass(mass, hn::Load(d, &block.kappa[lane]), rule.rim_factor);
-    hn::Store(mass_t, d, &block.mass_t[lane]);
-    const auto [vx, vy] = load_differences<1>(d, velocity, &block.i[lane], &block.j[lane]);
-    const auto separation = hn::Add(hn::Mul(vx, hn::Load(d, &block.nx[lane])),
-                                    hn::Mul(vy, hn::Load(d, &block.ny[lane])));
+    const auto store = [&](Vector what, Lanes& to) HWY_ATTR { hn::Store(what, d, &to[lane]); };
+    const auto v = load_relative(d, motion, &block.i[lane], &block.j[lane]);
+    const auto used = hn::Gt(v.inverse_mass, hn::Zero(d));
+    const auto g = geometry_of<with.periodic>(pairs, c, near, first + lane, rule, used, sums);
+    const auto mass = normal_mass(v.inverse_mass, used);
+    store(g.nx, block.nx);
+    store(g.ny, block.ny);
+    store(g.kappa, block.kappa);
+    store(mass, block.mass_n);
+    store(with.rotation ? tangential_mass(mass, g.kappa, rule.rim_factor) : mass, block.mass_t);
+
+    const auto separation = hn::Add(hn::Mul(v.vx, g.nx), hn::Mul(v.vy, g.ny));
     const auto [n, t, approach, unused] =
         load_fours(d, numbers_of(pairs.memory.data()), &origin.pair[lane]);
     const auto remembered = with.horizon ? approach : hn::Zero(d);
-    const auto gap = hn::Load(d, &origin.gap[lane]);
-    const auto rebound = rebound_of<with.restitution, with.horizon>(gap, separation, n, remembered,
-                                                                    rule.restitution, rule.horizon);
-    hn::Store(rebound.velocity, d, &block.rebound[lane]);
-    hn::Store(rebound.remembered, d, &origin.approach[lane]);
-    hn::Store(n, d, &block.impulse_n[lane]);
-    hn::Store(t, d, &block.impulse_t[lane]);
-    const auto used = hn::Gt(mass, hn::Zero(d));
-    accumulate(gap, approach_of(separation), used, lane, sums);
+    const auto rebound = rebound_of<with.restitution, with.horizon>(
+        g.gap, separation, n, remembered, rule.restitution, rule.horizon);
+    store(rebound.velocity, block.rebound);
+    store(n, block.impulse_n);
+    store(t, block.impulse_t);
+    store(g.gap, origin.gap);
+    store(rebound.remembered, origin.approach);
+    accumulate(g.gap, approach_of(separation), used, lane, sums);
   }
 }
 
@@ -240,12 +242,9 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
     const auto count = c.wall < 0 ? find_near_pairs<with.periodic>(pairs, c, rule, near, acting)
                                   : find_near_wall(pairs, c, rule, near, acting);
     const auto blocks = fill_up(pairs, c.alone, count, near);
-    for (std::size_t b = 0; b < blocks; ++b) {
-      auto& block = contacts.blocks[contacts.size + b];
-      auto& origin = contacts.origins[contacts.size + b];
-      set_geometry<with.periodic>(pairs, c, near, b * block_lanes, rule, block, origin, sums);
-      set_dynamics<with>(pairs, rule, block, origin, sums);
-    }
+    for (std::size_t b = 0; b < blocks; ++b)
+      set_block<with>(pairs, c, near, b * block_lanes, rule, contacts.blocks[contacts.size + b],
+                      contacts.origins[contacts.size + b], sums);
     for (std::size_t b = 0; b < blocks; ++b)
       if (c.alone || b + 1 == blocks)
         contacts.ends.push_back(static_cast<std::uint32_t>(contacts.size + b + 1));

@@ -106,7 +106,6 @@ void PairList::lay_out()
   pairs_.i.resize(begin + 1);
   pairs_.j.resize(begin + 1);
   pairs_.geometry.resize(begin + 1);
-  pairs_.inertia.resize(begin + 1);
   pairs_.memory.resize(begin + 1);
 }
 
@@ -122,44 +121,38 @@ void PairList::fill_in(std::size_t strip, const GrainState& grains)
   auto& s = strips_[strip];
   const auto nobody = static_cast<std::uint32_t>(2 * grains.immobile());
   const auto write = [&](std::size_t k, std::uint32_t i, std::uint32_t j,
-                         const Pairs::Geometry& geometry, double inverse_mass) {
+                         const Pairs::Geometry& geometry) {
     pairs_.i[k] = i;
     pairs_.j[k] = j;
     pairs_.geometry[k] = geometry;
-    pairs_.inertia[k] = {geometry.reach, inverse_mass};  // inverted below
   };
   for (const auto& c : pairs_.classes_of(strip))
-    for (auto k = c.end - block_lanes; k < c.end; ++k)
-      write(k, nobody, nobody, {0, not_a_number}, 1);
+    for (auto k = c.end - block_lanes; k < c.end; ++k) write(k, nobody, nobody, {0, not_a_number});
 
   const auto bodies = search_.grid().bodies_of_strip(strip);
   const auto& found = search_.found();
   const auto& made_at = search_.made_at();
   for (auto a = bodies.begin; a < bodies.end; ++a) {
-    const double w_a = grains.motion[a].inverse_mass;
+    const bool first = grains.motion[a].inverse_mass > 0;
     for (auto f = found.begin[a]; f < found.begin[a + 1]; ++f) {
       const auto c = colours_.class_of(f);
       if (c == PairColours::no_class) continue;
       const auto b = found.b[f];
       const double shift = nearest_shift(made_at[a].x() - made_at[b].x());
-      const bool first = w_a > 0;
       const std::size_t k = number_[f] = s.next[c]++;
       write(k, 2 * (first ? a : b), 2 * (first ? b : a),
-            {first ? shift : -shift, grains.radius[a] + grains.radius[b]},
-            w_a + grains.motion[b].inverse_mass);
+            {first ? shift : -shift, grains.radius[a] + grains.radius[b]});
     }
   }
   for (const auto& c : pairs_.classes_of(strip)) {
     if (c.wall < 0) continue;
     auto k = c.begin;
     for (const auto b : search_.at_wall(strip, static_cast<std::size_t>(c.wall)))
-      write(k++, 2 * b, nobody, {0, grains.radius[b]}, grains.motion[b].inverse_mass);
+      write(k++, 2 * b, nobody, {0, grains.radius[b]});
   }
   std::fill(pairs_.memory.begin() + s.begin, pairs_.memory.begin() + s.end, Pairs::Memory{});
-  if (s.end > s.begin)
-    invert({&pairs_.inertia[s.begin].inverse_reach, 2 * std::size_t{s.end - s.begin}});
   if (strip + 1 < strips_.size()) return;
-  write(s.end, nobody, nobody, {0, 1}, 0);
+  write(s.end, nobody, nobody, {0, 1});
   pairs_.memory[s.end] = {};
 }
 

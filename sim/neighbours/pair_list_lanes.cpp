@@ -123,17 +123,6 @@ void find_near_for(const Discs& discs, const Search& search, double skin, FoundP
     find_near_of<false>(discs, search, skin, found);
 }
 
-void invert_all(double* values, std::size_t count)
-{
-  const D d;
-  const auto one = hn::Set(d, 1.0);
-  std::size_t k = 0;
-  for (; k + hn::MaxLanes(d) <= count; k += hn::MaxLanes(d))
-    hn::StoreU(hn::Div(one, hn::LoadU(d, values + k)), d, values + k);
-  for (; k < count; ++k) values[k] = 1 / values[k];
-  leave_vectors();
-}
-
 /// Which of eight memories are of an impulse, as bits.
 HWY_INLINE std::uint32_t bearing(const double* memory)
 {
@@ -189,7 +178,6 @@ namespace {
 
 HWY_EXPORT(measure);
 HWY_EXPORT(find_near_for);
-HWY_EXPORT(invert_all);
 HWY_EXPORT(carry_all);
 
 }  // namespace
@@ -210,11 +198,6 @@ void find_near(const Discs& discs, const Search& search, double skin, FoundPairs
   const std::size_t room = found.begin.back() + size(search.cell) * partners + block_lanes;
   if (found.b.size() < room) found.b.resize(2 * room);
   HWY_DYNAMIC_DISPATCH(find_near_for)(discs, search, skin, found);
-}
-
-void invert(std::span<double> values)
-{
-  HWY_DYNAMIC_DISPATCH(invert_all)(values.data(), values.size());
 }
 
 void carry_over(const CarryOver& task, std::uint32_t first, std::uint32_t last)

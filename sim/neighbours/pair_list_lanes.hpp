@@ -48,9 +48,6 @@ struct FoundPairs {
 /// of the first body of the cell; `b` may be longer than there are pairs.
 void find_near(const Discs& discs, const Search& search, double skin, FoundPairs& found);
 
-/// Replaces every x by 1/x.
-void invert(std::span<double> values);
-
 /// What the pairs of an old list remember, and where it goes in the new one.
 struct CarryOver {
   const std::uint32_t *i, *j;   // of the old pairs: twice the bodies' old indices

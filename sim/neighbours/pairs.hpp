@@ -30,10 +30,6 @@ struct Pairs {
     double shift;  ///< m, to add to x_i - x_j for the nearest periodic image
     double reach;  ///< m, distance at which the pair touches: r_i + r_j, at a wall r_i
   };
-  struct Inertia {
-    double inverse_reach;  ///< 1/m
-    double mass;           ///< kg, effective along the normal
-  };
   /// Of the last step; all 0 for a pair that did not act.
   struct alignas(32) Memory {
     double n, t;      ///< kg m/s, its impulse
@@ -50,7 +46,6 @@ struct Pairs {
   /// Twice the body's index: where its position begins, counted in doubles. i is mobile.
   std::vector<std::uint32_t> i, j;
   std::vector<Geometry> geometry;
-  std::vector<Inertia> inertia;
   std::vector<Memory> memory;
   /// Strip by strip; in a strip pairs of mobile grains first, then those with boundary grains, then
   /// those at walls. Entries that pad a class to a multiple of 8 have reach NaN. The entry after
