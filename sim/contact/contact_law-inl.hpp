@@ -102,6 +102,18 @@ HWY_INLINE void push(Bodies<Tag>& a, Bodies<Tag>& b, V weight_a, V weight_b, V p
   b.vy = hn::Sub(b.vy, hn::Mul(weight_b, py));
 }
 
+/// use<with>() for the effects that matter where impulses are applied: restitution does not.
+template <class Use>
+HWY_INLINE void with_effects(Effects e, const Use& use)
+{
+  if (!e.friction)
+    use.template operator()<Effects{false, false, false}>();
+  else if (!e.rotation)
+    use.template operator()<Effects{true, false, false}>();
+  else
+    use.template operator()<Effects{true, true, false}>();
+}
+
 /// What impulses along the normals and tangents of contacts do to their bodies, as push() takes it.
 struct Pushes {
   Vector px, py, spin;

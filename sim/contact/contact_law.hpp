@@ -116,8 +116,8 @@ using Contact = ContactOf<double>;
 
 /// In single precision impulses are increments on a `base`, which velocities contain already: the
 /// last digit is then one of what a step changes, not one of the load, and a bed at rest does not
-/// creep. They are per mass_n: the relative velocities that they make, which the bodies divide by their
-/// weights. So a relaxation needs no mass, and the chain of its operations is shorter.
+/// creep. They are per mass_n: the relative velocities that they make, of which each body takes the part
+/// that its weight says. So a relaxation needs no mass, and the chain of its operations is shorter.
 template <>
 struct ContactOf<float> {
   float nx, ny;

@@ -123,7 +123,7 @@ HWY_INLINE Bodies<Tag> load_bodies(Tag d, const double* motion, const std::uint3
       d, [&](int k, std::size_t from) HWY_ATTR { return hn::Load(Row(), motion + at[k] + from); });
 }
 
-/// Changes the signs of the velocity, by exclusive or.
+/// By exclusive or with a row: the velocity changes its sign, the rim speed does not.
 alignas(32) constexpr double opposite_velocity[] = {-0.0, -0.0, 0.0, 0.0};
 
 HWY_INLINE Relative load_relative(D d, const double* motion, const std::uint32_t* i,

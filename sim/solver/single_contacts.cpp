@@ -74,12 +74,7 @@ void take_run(std::span<const ContactBlock> run, const ContactBlock& neutral, Mo
 void take_run_for(std::span<const ContactBlock> run, const ContactBlock& neutral, Motion* motion,
                   BlockOf<float>* to, Effects e)
 {
-  if (!e.friction)
-    take_run<Effects{false, false, false}>(run, neutral, motion, to);
-  else if (!e.rotation)
-    take_run<Effects{true, false, false}>(run, neutral, motion, to);
-  else
-    take_run<Effects{true, true, false}>(run, neutral, motion, to);
+  with_effects(e, [&]<Effects with>() { take_run<with>(run, neutral, motion, to); });
 }
 
 void take_motion(std::span<const Motion> from, MotionOf<float>* to)
@@ -141,12 +136,7 @@ void give_run(const BlockOf<float>* from, double friction, std::span<ContactBloc
 void give_run_for(const BlockOf<float>* from, double friction, std::span<ContactBlock> run,
                   Motion* motion, Effects e)
 {
-  if (!e.friction)
-    give_run<Effects{false, false, false}>(from, friction, run, motion);
-  else if (!e.rotation)
-    give_run<Effects{true, false, false}>(from, friction, run, motion);
-  else
-    give_run<Effects{true, true, false}>(from, friction, run, motion);
+  with_effects(e, [&]<Effects with>() { give_run<with>(from, friction, run, motion); });
 }
 
 }  // namespace

@@ -142,12 +142,7 @@ SweepOf<float> single_sweep_for(Effects e, Findings findings)
 
 void apply_for(std::span<const ContactBlock> blocks, Motion* motion, Effects e)
 {
-  if (!e.friction)
-    apply<Effects{false, false, false}>(blocks, motion);
-  else if (!e.rotation)
-    apply<Effects{true, false, false}>(blocks, motion);
-  else
-    apply<Effects{true, true, false}>(blocks, motion);
+  with_effects(e, [&]<Effects with>() { apply<with>(blocks, motion); });
 }
 
 std::int64_t target()
