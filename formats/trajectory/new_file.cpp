@@ -18,12 +18,11 @@ namespace {
 
 using namespace hdf5;
 
-/// A kill can cut a write at the end of a page of memory (4096 bytes). A header of an object that
-/// crosses one would then be half old and half new: each begins at a multiple of 512 and is shorter.
-void keep_headers_in_pages(hid_t access)
+/// From here on all that is added to a file begins at a multiple of so many bytes.
+void align(hid_t access, hsize_t bytes)
 {
   H5Pset_meta_block_size(access, 0);
-  H5Pset_alignment(access, 1, 512);
+  H5Pset_alignment(access, 1, bytes);
 }
 
 class NewFile {
@@ -37,7 +36,7 @@ class NewFile {
     // disk is updated.
     if (storage.live) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
     const Properties access = newest_format();
-    if (storage.live) keep_headers_in_pages(access);
+    if (storage.live) align(access, 512);  // headers are shorter
     file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, access));
     if (!file_.valid())
       throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
@@ -205,6 +204,11 @@ std::string cleared(hid_t file, const std::string& name)
 }
 
 }  // namespace
+
+void keep_in_pages(hid_t access)
+{
+  align(access, 4096);
+}
 
 void create_trajectory(const std::string& path, const RunDescription& run,
                        const StorageSettings& storage)

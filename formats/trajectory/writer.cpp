@@ -92,7 +92,9 @@ void TrajectoryWriter::Impl::open_file()
   create_trajectory(storage.live ? unfinished.path() : path, run, storage);
   if (storage.live) rename_path(unfinished.path(), path);
   const unsigned mode = H5F_ACC_RDWR | (storage.live ? H5F_ACC_SWMR_WRITE : 0U);
-  file = File(H5Fopen(path.c_str(), mode, newest_format()));
+  const Properties access = newest_format();
+  if (storage.live) keep_in_pages(access);
+  file = File(H5Fopen(path.c_str(), mode, access));
   if (!file.valid()) throw RunError(fmt::format("cannot open {} for writing", path));
 }
 
