@@ -88,26 +88,30 @@ void MomentumBalance<D>::add_contact(const Grains& grains, const Frame<D>& frame
   const double y_contact = y_i - share_i * list.branch[contact].y();
   const Tensor<D> stress = force * list.branch[contact].transpose();
   // At the contact point a force from outside the species counts as that term, not as stress.
-  const auto add_external = [&](Species whose, const Vector<D>& on,
-                                Vector<D> SpeciesMomentum<D>::*term) {
-    share_kernel(layers_, kernel_, y_contact, y_contact, count, [&](std::size_t n, double share) {
-      auto& sums = sums_[n][index(whose)];
-      sums.contact -= share * on;
-      sums.*term += share * on;
-    });
+  const auto at_contact = [&](const auto& book) {
+    share_kernel(layers_, kernel_, y_contact, y_contact, count, book);
   };
 
   pull_[i] += force;
   if (!j) {
-    add_external(species, force, &SpeciesMomentum<D>::base);
+    at_contact([&](std::size_t n, double share) {
+      auto& sums = sums_[n][index(species)];
+      sums.contact -= share * force;
+      sums.base += share * force;
+    });
     return add_stress(species, share_i * stress, y_i, y_contact, count);
   }
   const Species other = grains.species[*j];
   const double y_j = frame.position[*j].y();
   pull_[*j] -= force;
   if (other == species) return add_stress(species, stress, y_i, y_j, count);
-  add_external(species, force, &SpeciesMomentum<D>::interaction);
-  add_external(other, -force, &SpeciesMomentum<D>::interaction);
+  at_contact([&](std::size_t n, double share) {
+    auto &own = sums_[n][index(species)], &others = sums_[n][index(other)];
+    own.contact -= share * force;
+    own.interaction += share * force;
+    others.contact += share * force;
+    others.interaction -= share * force;
+  });
   add_stress(species, share_i * stress, y_i, y_contact, count);
   add_stress(other, (1 - share_i) * stress, y_contact, y_j, count);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/coarse_graining.hpp"
 
+#include "analysis/frames/normal_distribution.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -20,17 +21,6 @@ constexpr double short_branch = 0.02;
 double gauss(double u)
 {
   return std::exp(-u * u / 2) / std::sqrt(2 * std::numbers::pi);
-}
-
-double gauss_below(double u)
-{
-  return std::erfc(-u / std::numbers::sqrt2) / 2;
-}
-
-/// Primitive of gauss_below.
-double gauss_below_below(double u)
-{
-  return u * gauss_below(u) + gauss(u);
 }
 
 double lucy(double u)
@@ -91,14 +81,14 @@ double gauss_mean(double a, double b)
 {
   if (a + b > 0) return gauss_mean(-b, -a);
   if (is_short(a, b)) return three_point_mean(gauss, a, b);
-  return (gauss_below(b) - gauss_below(a)) / (b - a);
+  return (normal_below(b) - normal_below(a)) / (b - a);
 }
 
 double gauss_below_mean(double a, double b)
 {
   if (a + b > 0) return 1 - gauss_below_mean(-b, -a);
-  if (is_short(a, b)) return three_point_mean(gauss_below, a, b);
-  return (gauss_below_below(b) - gauss_below_below(a)) / (b - a);
+  if (is_short(a, b)) return three_point_mean(normal_below, a, b);
+  return (normal_below_primitive(b) - normal_below_primitive(a)) / (b - a);
 }
 
 /// psi, its primitive and their means over an interval, by KernelShape.
@@ -110,7 +100,7 @@ struct Functions {
 };
 
 constexpr Functions shapes[] = {
-    {gauss, gauss_below, gauss_mean, gauss_below_mean, gauss_reach},
+    {gauss, normal_below, gauss_mean, gauss_below_mean, gauss_reach},
     {lucy, lucy_below, piecewise_mean<lucy>, piecewise_mean<lucy_below>, 1},
     {heaviside, heaviside_below, piecewise_mean<heaviside>, piecewise_mean<heaviside_below>, 1}};
 
