@@ -111,8 +111,10 @@ void Completeness::find_unlisted(std::size_t group, const GrainState& grains,
   }
 }
 
-bool Completeness::holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position)
+bool Completeness::holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position,
+                         double farthest)
 {
+  allowed_ = std::min(slack_, farthest);
   const std::size_t across = first_group_.back();
   for_each_part(threads_, bands_, [&](std::size_t band) {
     measure_displacements(made_at, position, std::span(groups_).subspan(band * across, across),
@@ -120,7 +122,7 @@ bool Completeness::holds(const std::vector<Vec2>& made_at, const std::vector<Vec
   });
   for_each_part(threads_, bands_, [&](std::size_t band) { measure_neighbours(band); });
   neighbours_moved_ = *std::max_element(moved_in_band_.begin(), moved_in_band_.end());
-  return neighbours_moved_ <= slack_ && bands_stay_apart() && walls_stay_away();
+  return neighbours_moved_ <= allowed_ && bands_stay_apart() && walls_stay_away();
 }
 
 double Completeness::fastest_unlisted(const std::vector<Motion>& motion) const
@@ -131,7 +133,7 @@ double Completeness::fastest_unlisted(const std::vector<Motion>& motion) const
   double squared = 0;
   for (std::size_t band = 0; band < bands_; ++band)
     for (std::size_t g = 0; g < across; ++g)
-      if (squared_size(square_at(moved_, band, g)) > slack_ * slack_)
+      if (squared_size(square_at(moved_, band, g)) > allowed_ * allowed_)
         squared = std::max(squared, squared_size(square_at(velocity, band, g)));
   if (!bands_stay_apart()) {
     auto all = nothing();
@@ -177,10 +179,10 @@ bool Completeness::bands_stay_apart() const
     below = here;
     here = band;
     if (empty(here)) continue;
-    if (!(highest - here.low.y() <= slack_)) return false;
+    if (!(highest - here.low.y() <= allowed_)) return false;
     auto both = here;
     add(both, below);
-    if (!all_are_neighbours && !(both.high.x() - both.low.x() <= group_width - cell_ + slack_))
+    if (!all_are_neighbours && !(both.high.x() - both.low.x() <= group_width - cell_ + allowed_))
       return false;
   }
   return true;

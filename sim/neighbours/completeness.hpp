@@ -26,10 +26,12 @@ class Completeness {
 
   /// For a list that was just made, of bodies at `made_at`, m, sorted by `grid`.
   void begin(const CellGrid& grid, const GrainState& grains, const std::vector<Vec2>& made_at);
-  /// Whether that list is still complete with bodies at `position`, m, not wrapped since.
-  bool holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position);
-  /// Where it was last found not to be, m/s: no two grains that may have met since then without
-  /// being listed had a larger relative velocity, if bodies moved with `motion`. Otherwise 0.
+  /// Whether that list is still complete with bodies at `position`, m, not wrapped since, and no two
+  /// that may meet have moved by more than `farthest`, m, relative to each other.
+  bool holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position, double farthest);
+  /// Where it was last found not to be so, m/s: no two grains that may have met since then without
+  /// being listed, or have moved by more, had a larger relative velocity, if bodies moved with
+  /// `motion`. Otherwise 0.
   double fastest_unlisted(const std::vector<Motion>& motion) const;
 
  private:
@@ -46,6 +48,7 @@ class Completeness {
   bool periodic_;
   double cell_, skin_, slack_;  // m; slack is skin - margin
   int threads_;
+  double allowed_ = 0;           // m, slack or what holds() was asked for
   double neighbours_moved_ = 0;  // m, largest relative displacement in neighbouring groups
   double column_width_ = 0;      // m, of the grid
 

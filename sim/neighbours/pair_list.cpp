@@ -24,6 +24,7 @@ std::uint32_t whole_blocks(std::size_t pairs)
 PairList::PairList(const std::vector<Wall>& walls, const Box& box, double largest_radius,
                    double skin, double margin, int threads)
     : walls_(walls.size()),
+      skin_(skin),
       length_(box.periodic_x ? box.length_x : 0),
       inverse_length_(box.periodic_x ? 1 / box.length_x : 0),
       threads_(threads),
@@ -32,10 +33,10 @@ PairList::PairList(const std::vector<Wall>& walls, const Box& box, double larges
 {
 }
 
-bool PairList::complete(const std::vector<Vec2>& position)
+bool PairList::complete(const std::vector<Vec2>& position, double farthest)
 {
   return search_.made_at().size() == position.size() &&
-         completeness_.holds(search_.made_at(), position);
+         completeness_.holds(search_.made_at(), position, farthest);
 }
 
 void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
@@ -56,6 +57,7 @@ PairList::State PairList::state() const
 {
   State state;
   state.made_at = search_.made_at();
+  state.skin = skin_;
   state.renewals = renewals_;
   state.i = pairs_.i;
   state.j = pairs_.j;

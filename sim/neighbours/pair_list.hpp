@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,7 +27,12 @@ class PairList {
 
   /// Whether the list still holds every pair that may touch at `position` (m, in the order of
   /// GrainState; not wrapped since the list was made, as a pair's shift is that of then).
-  bool complete(const std::vector<Vec2>& position);
+  bool complete(const std::vector<Vec2>& position)
+  {
+    return complete(position, std::numeric_limits<double>::infinity());
+  }
+  /// And no two that may touch have moved by more than `farthest`, m, relative to each other.
+  bool complete(const std::vector<Vec2>& position, double farthest);
   /// Makes a new list for grains at `position`, m; pairs that stay keep what they remember. Sorts
   /// `grains` along the cells.
   void renew(GrainState& grains, const std::vector<Vec2>& position);
@@ -48,10 +54,12 @@ class PairList {
     std::vector<Vec2> made_at;        // m, as in GrainState; empty before the first renewal
     std::vector<std::uint32_t> i, j;  // as in Pairs, and with the same neutral pair
     std::vector<double> impulse_n, impulse_t, approach;
+    double skin = 0;  // m
     std::uint64_t renewals = 0;
   };
   State state() const;
-  /// Makes the list again. FormatError where one made at the same positions holds other pairs.
+  /// Makes the list again, with the same skin. FormatError where one made at the same positions holds
+  /// other pairs.
   void restore(GrainState& grains, const State& state);
 
  private:
@@ -68,6 +76,7 @@ class PairList {
   double nearest_shift(double difference) const;
 
   std::size_t walls_;               // their number
+  double skin_;                     // m
   double length_, inverse_length_;  // m; 0 and 0 where nothing is periodic
   int threads_;
   PairSearch search_;

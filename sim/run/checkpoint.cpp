@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <type_traits>
 
@@ -19,8 +20,9 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int32_t format_version = 4;
-constexpr std::int32_t oldest_version = 3;  // without steps in parts
+constexpr std::int32_t format_version = 5;
+// Version 3 is without steps in parts, 4 without the skin.
+constexpr std::int32_t oldest_version = 3;
 
 /// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
 /// numbers.
@@ -238,6 +240,7 @@ void visit_all(Visitor& visit, SomeCheckpoint& c, std::int32_t version = format_
   visit("/state/pairs/approach", c.state.pairs.approach);
   visit("/state/pairs/renewals", c.state.pairs.renewals);
   if (version < 4) visit("/state/pairs/age", c.age_of_pairs);
+  if (version >= 5) visit("/state/pairs/skin", c.state.pairs.skin);
   visit("/trajectory/frames", c.trajectory.frames);
   visit("/trajectory/digest", c.trajectory.digest);
   visit("/trajectory/begin", c.trajectory.begin);
@@ -291,7 +294,7 @@ Checkpoint read_parts(const std::string& path)
   read("/version", version);
   if (version < oldest_version || version > format_version)
     fail(
-        fmt::format("is a checkpoint of version {}, and this grseg-sim reads versions {} and {}; "
+        fmt::format("is a checkpoint of version {}, and this grseg-sim reads versions {} to {}; "
                     "continue with the program that wrote it",
                     version, oldest_version, format_version));
   Checkpoint checkpoint;
@@ -300,6 +303,9 @@ Checkpoint read_parts(const std::string& path)
   read("/digest", digest);
   if (digest != digest_of(checkpoint, version))
     fail("does not have the content that its digest names: it is damaged; use an older checkpoint");
+  const auto& radius = checkpoint.grains.radius;
+  if (version < 5 && !radius.empty())  // half the smallest diameter
+    checkpoint.state.pairs.skin = *std::min_element(radius.begin(), radius.end());
   check_checkpoint(checkpoint, path);
   return checkpoint;
 }

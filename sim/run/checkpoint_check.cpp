@@ -161,6 +161,7 @@ class Check {
     all_finite("/state/pairs/impulse_n", pairs.impulse_n);
     all_finite("/state/pairs/impulse_t", pairs.impulse_t);
     all_finite("/state/pairs/approach", pairs.approach);
+    require(positive(pairs.skin), "/state/pairs/skin is not a positive length");
     require(pairs.renewals <= largest_count, "/state/pairs/renewals is not a number of lists");
   }
 
@@ -205,6 +206,8 @@ class Check {
     each(
         "/grains/radius", c_.grains.radius, [most](double radius) { return radius <= most; },
         "is larger than the diameter of large grains and base grains");
+    require(c_.state.pairs.skin <= scene.small_diameter,
+            "/state/pairs/skin is larger than a small grain");
     const double end = farthest * scene.small_diameter;
     const auto near = [end](const Vec2& x) { return x.cwiseAbs().maxCoeff() <= end; };
     for (const auto& [path, positions] : {std::pair{"/state/position", &c_.state.position},

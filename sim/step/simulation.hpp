@@ -29,7 +29,8 @@ struct StepReport {
   /// m/s, of a pair that acts, at the beginning of the step; or of grains that are not listed and
   /// may have met before its middle or may meet before its end.
   double fastest_approach = 0;
-  double farthest_approach = 0;      ///< m, the same times the length of the step or of its part
+  /// m, the same times the length of the step or of its part; infinity where two centres coincide.
+  double farthest_approach = 0;
   int parts = 1;                     ///< in which the step was taken
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
 };
@@ -61,8 +62,8 @@ class Simulation {
 
   /// Grains start at `position` at rest.
   Simulation(const World& world, const std::vector<Vec2>& position);
-  /// Continues from `state`: with the same world, the steps that follow are bitwise identical.
-  /// FormatError as in PairList::restore.
+  /// Continues from `state`: with the same world, the steps that follow are bitwise identical. The
+  /// skin is the one of `state`. FormatError as in PairList::restore.
   Simulation(const World& world, const State& state);
 
   StepReport advance();
@@ -125,9 +126,9 @@ class Simulation {
   void forget_impulses(bool renewed);
   /// Lists the pairs of where grains will be `onward`, s, later.
   void renew_pairs(double onward);
-  /// m/s, of grains that may meet before the end of the step, as they move now, and are not listed.
+  /// m/s, of grains that may meet before the end of the step, as they move now, and do not act.
   double unlisted_ahead(double spread);
-  [[noreturn]] void stop_at_coincidence() const;
+  [[noreturn]] void stop_at_coincidence(double time) const;
   void solve(StepReport& report);
   void keep_impulses(StepReport& report);
 

@@ -3,8 +3,18 @@
 #include "sim/step/simulation.hpp"
 
 namespace grseg {
+namespace {
 
-Simulation::Simulation(const World& world, const State& state) : Simulation(world, state.position)
+World with_skin(World world, double skin)
+{
+  world.skin = skin;
+  return world;
+}
+
+}  // namespace
+
+Simulation::Simulation(const World& world, const State& state)
+    : Simulation(with_skin(world, state.pairs.skin), state.position)
 {
   for (std::size_t b = 0; b < state.row.size(); ++b) {
     const auto g = static_cast<std::size_t>(state.row[b]);

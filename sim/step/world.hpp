@@ -23,7 +23,7 @@ struct World {
   double step = 0;              // h, s
   SolverSettings solver;
   LawParameters law;
-  double skin = 0;  // m, more than margin, of the pair list; 0 chooses half the smallest diameter
+  double skin = 0;  // m, more than margin, of the pair list; 0 chooses what is fastest
   int threads = 1;  // results do not depend on it
   /// Friction, restitution and periodicity are computed even where the world has none: the same
   /// bytes for more time, for measurements and tests.

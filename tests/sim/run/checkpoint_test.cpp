@@ -116,6 +116,7 @@ TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(read.state.pairs.impulse_n, written.state.pairs.impulse_n);
   EXPECT_EQ(read.state.pairs.impulse_t, written.state.pairs.impulse_t);
   EXPECT_EQ(read.state.pairs.approach, written.state.pairs.approach);
+  EXPECT_EQ(read.state.pairs.skin, written.state.pairs.skin);
   EXPECT_EQ(read.state.pairs.renewals, written.state.pairs.renewals);
   EXPECT_EQ(read.trajectory.frames, 3u);
   EXPECT_EQ(read.trajectory.digest, 0xfedcba9876543210);
@@ -152,7 +153,7 @@ TEST_F(CheckpointFile, AnotherVersionIsRefused)
   for (const int version : {1, 99}) {
     tamper([&](hid_t file) { put(file, "/version", H5T_NATIVE_INT, version); });
     EXPECT_EQ(complaint(), path + ": is a checkpoint of version " + std::to_string(version) +
-                               ", and this grseg-sim reads versions 3 and 4; continue "
+                               ", and this grseg-sim reads versions 3 to 5; continue "
                                "with the program that wrote it");
   }
 }
@@ -170,6 +171,9 @@ TEST_F(CheckpointFile, OfVersionThreeIsReadAndItsBedGoesOnInDoublePrecision)
   Simulation simulation(world, old.state);
   const double touching = static_cast<double>(simulation.advance().touching);
   EXPECT_NEAR(touching, old.trajectory.recorder.totals.touching / 126, 0.5 * touching);
+  // It goes on with the skin that every list had then.
+  const auto& radius = old.grains.radius;
+  EXPECT_EQ(simulation.state().pairs.skin, *std::min_element(radius.begin(), radius.end()));
 }
 
 TEST_F(CheckpointFile, AMissingEntryIsNamed)
@@ -311,6 +315,10 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Checkpoint& c) { c.state.pairs.j[0] = 1; }},
         Forgery{"/state/pairs/impulse_n, entry 0, is not a finite number",
                 [](Checkpoint& c) { c.state.pairs.impulse_n[0] = no_number; }},
+        Forgery{"/state/pairs/skin is not a positive length",
+                [](Checkpoint& c) { c.state.pairs.skin = 0; }},
+        Forgery{"/state/pairs/skin is larger than a small grain",
+                [](Checkpoint& c) { c.state.pairs.skin = 1e300; }},
         Forgery{"/state/pairs/renewals is not a number of lists",
                 [](Checkpoint& c) { c.state.pairs.renewals = std::uint64_t{1} << 63; }},
         Forgery{"/trajectory/frames is not a number of frames",
