@@ -17,8 +17,8 @@ void add_run_options(po::options_description& options, RunOptions& run)
   add("output,o", po::value(&run.output)->value_name("FILE"), "the trajectory to write");
   add_overwrite_to(options, run.overwrite);
   add("isa", po::value(&run.instruction_set)->value_name("NAME"),
-      "vector instructions to use: avx512, avx2, sse4 or scalar (default: the best that the "
-      "processor has); results are bitwise identical");
+      "vector instructions to use, such as avx2 (default: the best that the processor has; an "
+      "unknown name lists all); results are bitwise identical");
   add("strict", po::bool_switch(&run.strict), "exit code 4 if a step missed the tolerance");
   add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),

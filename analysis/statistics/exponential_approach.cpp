@@ -125,7 +125,7 @@ class Errors {
 };
 
 /// Why the curve says nothing, or "".
-std::string trouble_with(const Parameters& p, const Errors& errors)
+const char* trouble_with(const Parameters& p, const Errors& errors)
 {
   const auto rise = errors.of({-1, 1, 0}), rate = errors.of({0, 0, 1});
   if (!(p[2] > rate.reach())) return "cannot be told from a straight line";

@@ -4,7 +4,6 @@
 #include "formats/core/text.hpp"
 
 #include <fmt/format.h>
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <cmath>

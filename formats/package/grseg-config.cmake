@@ -2,6 +2,6 @@
 # libfmt-dev, libxxhash-dev, libdeflate-dev. FindHDF5 wants the languages C and CXX in project().
 include(CMakeFindDependencyMacro)
 find_dependency(HDF5 COMPONENTS C)
-find_dependency(Eigen3 3.4 NO_MODULE)
+find_dependency(Eigen3 NO_MODULE)
 find_dependency(fmt)
 include(${CMAKE_CURRENT_LIST_DIR}/grseg-targets.cmake)

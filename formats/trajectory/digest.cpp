@@ -5,7 +5,7 @@
 
 #define XXH_STATIC_LINKING_ONLY  // the state on the stack
 #include <xxhash.h>
-#if __has_include(<xxh_x86dispatch.h>)
+#if __has_include(<xxh_x86dispatch.h>) && !defined(XXH_INLINE_ALL)
 #include <xxh_x86dispatch.h>  // the widest vectors that the processor has: twice as fast
 #endif
 

@@ -20,12 +20,11 @@ function(grseg_printed file program)
   set(GRSEG_PRINTED ${GRSEG_PRINTED} ${file} PARENT_SCOPE)
 endfunction()
 
-find_program(HELP2MAN help2man)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/man ${PROJECT_BINARY_DIR}/completions/bash ${PROJECT_BINARY_DIR}/completions/zsh)
 foreach(program ${GRSEG_PROGRAMS})
   grseg_printed(${PROJECT_BINARY_DIR}/completions/bash/${program} ${program} --completion bash)
   grseg_printed(${PROJECT_BINARY_DIR}/completions/zsh/_${program} ${program} --completion zsh)
-  if(HELP2MAN)
+  if(GRSEG_MANUALS_BUILT)
     set(page ${PROJECT_BINARY_DIR}/man/${program}.1)
     add_custom_command(
       OUTPUT ${page}
@@ -47,7 +46,7 @@ install(FILES ${for_bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/c
 foreach(folder site-functions vendor-completions)
   install(FILES ${for_zsh} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder} COMPONENT manuals)
 endforeach()
-if(HELP2MAN)
+if(GRSEG_MANUALS_BUILT)
   install(FILES ${manual_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT manuals)
 endif()
 

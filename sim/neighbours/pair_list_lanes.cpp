@@ -5,7 +5,6 @@
 #include <limits>
 
 // Highway compiles what follows once per instruction set.
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/neighbours/pair_list_lanes.cpp"
 // In this order.

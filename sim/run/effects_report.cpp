@@ -4,6 +4,7 @@
 #include "sim/scene/geometry.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <vector>
 

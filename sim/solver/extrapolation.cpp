@@ -9,7 +9,6 @@
 #include <utility>
 
 // Highway compiles what follows once per instruction set.
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/extrapolation.cpp"
 // In this order.

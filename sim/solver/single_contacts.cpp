@@ -6,7 +6,6 @@
 #include <algorithm>
 
 // Highway compiles what follows once per instruction set.
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/single_contacts.cpp"
 // In this order.

@@ -4,11 +4,12 @@
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 // Highway compiles what follows once per instruction set.
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/sweep.cpp"
 // In this order.
@@ -164,21 +165,14 @@ HWY_EXPORT(single_sweep_for);
 HWY_EXPORT(apply_for);
 HWY_EXPORT(target);
 
+/// Highway's name in lower case, but for the two that users know by other names.
 std::string name_of(std::int64_t target)
 {
-  switch (target) {
-    case HWY_AVX3:
-      return "avx512";
-    case HWY_AVX2:
-      return "avx2";
-    case HWY_SSE4:
-      return "sse4";
-    case HWY_SCALAR:
-    case HWY_EMU128:
-      return "scalar";
-    default:
-      return hwy::TargetName(target);
-  }
+  std::string name = hwy::TargetName(target);
+  if (name == "AVX3") return "avx512";
+  if (name == "EMU128") return "scalar";
+  for (auto& letter : name) letter = static_cast<char>(std::tolower(letter));
+  return name;
 }
 
 }  // namespace

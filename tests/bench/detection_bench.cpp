@@ -15,7 +15,7 @@ namespace {
 
 Simulation bed(int copies)
 {
-  const auto& one = flow("standard");
+  const auto one = flow("standard");
   auto simulation = side_by_side(one, one.world(), copies);
   for (int warm = 0; warm < 20; ++warm) simulation.advance();
   return simulation;

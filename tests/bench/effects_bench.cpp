@@ -26,7 +26,7 @@ using Change = void (*)(World&);
 /// The developed chute, without spin, under the conditions that `changes` make.
 Simulation chute(const std::vector<Change>& changes)
 {
-  const auto& one = flow("standard");
+  const auto one = flow("standard");
   auto world = one.world();
   for (const auto change : changes) change(world);
   auto simulation = side_by_side(one, world, 1);
@@ -121,7 +121,7 @@ void frames_in_a_file(benchmark::State& state)
 /// bytes (tests/sim/solver/effects_test.cpp), so that this is left out of both.
 void whole_scene(benchmark::State& state, const std::string& name, double time)
 {
-  const auto& start = scene_at(time, name);
+  const auto start = scene_at(time, name);
   auto world = start.world();
   world.general = true;
   if (world.bodies.empty()) {

@@ -24,7 +24,7 @@ with h5py.File(path, "r") as run:
     mass = grains["mass"][:] / (parameters["density"][()] * d**2)
     fixed = grains["fixed"][:] == 1
     large = grains["species"][:] == 1
-    half_step = parameters["step"][()] / 2
+    half_step = float(parameters["step"][()]) / 2
     length = grains["box/edges"][0]
     velocity = grains["velocity/value"][-1].astype(float)
     end_of_step = grains["position/value"][-1] + half_step * velocity

@@ -127,8 +127,10 @@ def check_split():
 
 
 def circles(svg, colour):
-    percent = ",".join(f"{100 * part / 255:.6f}".rstrip("0").rstrip(".") + "%" for part in colour)
-    return svg.count(f"fill:rgb({percent})")
+    """How often an SVG fills with this colour, which versions of cairo write in percent or in parts of 255."""
+    fills = [[float(part[:-1]) * 2.55 if part.endswith("%") else float(part) for part in fill.split(",")]
+             for fill in re.findall(r"fill(?::|=\")rgb\(([^)]*)\)", svg)]
+    return sum(near(fill, colour, 1e-3) for fill in fills)
 
 
 def check_vectors():

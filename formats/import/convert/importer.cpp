@@ -15,6 +15,7 @@
 #include "formats/trajectory/integrity.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
