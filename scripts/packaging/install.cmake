@@ -13,7 +13,7 @@ set(GRSEG_PRINTED "")
 function(grseg_printed file program)
   add_custom_command(
     OUTPUT ${file}
-    COMMAND $<TARGET_FILE:${program}> ${ARGN} > ${file}.part
+    COMMAND ${program} ${ARGN} > ${file}.part
     COMMAND ${CMAKE_COMMAND} -E rename ${file}.part ${file}
     DEPENDS ${program}
     VERBATIM)
