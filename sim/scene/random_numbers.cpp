@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/random_numbers.hpp"
 
-#include <gsl/gsl_randist.h>
+#include <cmath>
 
 namespace grseg {
 
@@ -16,16 +16,29 @@ double RandomNumbers::uniform()
   return gsl_rng_uniform(generator_.get());
 }
 
+// What gsl_ran_gaussian and gsl_ran_dir_2d do, operation by operation, but compiled here: where the
+// processor can multiply and add at once, as Arm's can, compilers do so in GSL, and round otherwise.
+
 double RandomNumbers::gaussian(double deviation)
 {
-  return gsl_ran_gaussian(generator_.get(), deviation);
+  double y = 0, squared = 0;
+  do {
+    const double x = -1 + 2 * gsl_rng_uniform_pos(generator_.get());
+    y = -1 + 2 * gsl_rng_uniform_pos(generator_.get());
+    squared = x * x + y * y;
+  } while (squared > 1 || squared == 0);
+  return deviation * y * std::sqrt(-2 * std::log(squared) / squared);
 }
 
 Vec2 RandomNumbers::direction()
 {
-  Vec2 unit;
-  gsl_ran_dir_2d(generator_.get(), &unit.x(), &unit.y());
-  return unit;
+  double x = 0, y = 0, squared = 0;
+  do {
+    x = -1 + 2 * uniform();
+    y = -1 + 2 * uniform();
+    squared = x * x + y * y;
+  } while (squared > 1 || squared == 0);
+  return {(x * x - y * y) / squared, 2 * x * y / squared};
 }
 
 }  // namespace grseg
