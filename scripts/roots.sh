@@ -18,7 +18,7 @@ make_root() {
       [ ! -s "$file" ] || mirrors+=("$file")
     done
   fi
-  mmdebstrap --variant=minbase "$@" "$suite" "$root" "${mirrors[@]}"
+  mmdebstrap --variant=minbase --dpkgopt=force-unsafe-io "$@" "$suite" "$root" "${mirrors[@]}" || return
   apt-config dump --format '%F "%v";%n' | grep '^Acquire::https\?::proxy' >"$root/etc/apt/apt.conf.d/99proxy" || true # none
   cp -L /etc/resolv.conf "$root/etc/resolv.conf"
 }
@@ -32,3 +32,39 @@ in_root() {
     exec chroot "$1" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
       sh -euc "cd $2 && $3"' sh "$1" "$2" "$3"
 }
+
+# clone_into ROOT: the last commit of this repository, as /grseg.
+clone_into() {
+  rm -rf "$1/grseg"
+  git clone --quiet --no-hardlinks "$source" "$1/grseg" || return
+  git -C "$1/grseg" log -1 --format='commit %h of %ci: %s'
+}
+
+# The packages of the folder `root` and their sizes, kB.
+packages() { dpkg-query --admindir="$root/var/lib/dpkg" -W -f='${Package} ${Installed-Size}\n' | sort; }
+
+# step NAME COMMAND...: runs the command unless $folder/NAME.passed says that it has passed before; says how long it
+# took. Within the command a failure does not end the shell (set -e), hence `|| return`.
+step() {
+  local name=$1 began=$SECONDS before after
+  shift
+  if [ -e "$folder/$name.passed" ]; then
+    echo "$name: passed before: $(cat "$folder/$name.passed")"
+    return
+  fi
+  before=$([ ! -e "$root/var/lib/dpkg/status" ] || packages)
+  if ! "$@" >"$folder/$name.log" 2>&1; then
+    tail -n 30 "$folder/$name.log" >&2
+    fail "$name: failed; all that it printed is in $folder/$name.log"
+  fi
+  after=$(packages)
+  {
+    awk -v s=$((SECONDS - began)) 'BEGIN { printf "%.1f min", s / 60 }'
+    comm -13 <(echo "$before") <(echo "$after") |
+      awk '{ n += 1; kb += $2 } END { if (n) printf ", %d packages installed, %.0f MB", n, kb / 1024 }'
+    grep -h 'tests passed\|files compared' "$folder/$name.log" | sed 's/^/, /' | tr -d '\n' || true # of some
+    echo
+  } >"$folder/$name.passed"
+  echo "$name: passed: $(cat "$folder/$name.passed")"
+}
+

@@ -165,12 +165,11 @@ HWY_EXPORT(single_sweep_for);
 HWY_EXPORT(apply_for);
 HWY_EXPORT(target);
 
-/// Highway's name in lower case, but for the two that users know by other names.
+/// Highway's name in lower case, but for one that users know by another name.
 std::string name_of(std::int64_t target)
 {
   std::string name = hwy::TargetName(target);
   if (name == "AVX3") return "avx512";
-  if (name == "EMU128") return "scalar";
   for (auto& letter : name) letter = static_cast<char>(std::tolower(letter));
   return name;
 }

@@ -32,8 +32,8 @@ SweepOf<Real> choose_sweep(Effects effects, Findings findings = Findings::all);
 /// Applies the impulses of the blocks to the bodies.
 void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects);
 
-/// Instruction sets that both this build and this machine have, best first: of avx512, avx2, sse4
-/// and scalar.
+/// Instruction sets that both this build and this machine have, best first: of avx512,
+/// avx2, sse4, sse2, neon and scalar.
 std::vector<std::string> instruction_sets();
 /// The one in use.
 std::string instruction_set();
