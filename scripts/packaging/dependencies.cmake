@@ -76,7 +76,7 @@ function(grseg_leaf option programs packages)
     set(${option}_BUILT OFF PARENT_SCOPE)
     message(NOTICE "left out: ${programs}, for which install ${packages} (${option}=${${option}})")
   elseif(NOT found)
-    message(FATAL_ERROR "${option}=ON: ${programs} needs ${packages}; install them, or set it to AUTO")
+    message(FATAL_ERROR "${option}=ON: for ${programs} install ${packages}, or set it to AUTO")
   endif()
 endfunction()
 
