@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Later versions of HDF5 keep the functions of 1.10, but under other names unless this is said. Every
+// file includes <hdf5.h> through this header.
+#define H5_USE_110_API
 #include <hdf5.h>
 
 #include <array>

@@ -2,8 +2,7 @@
 #include "formats/trajectory/hdf5_failure.hpp"
 
 #include "formats/core/files.hpp"
-
-#include <hdf5.h>
+#include "formats/trajectory/hdf5.hpp"
 
 #include <cstdio>
 #include <cstring>

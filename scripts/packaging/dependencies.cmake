@@ -14,9 +14,8 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 if(HDF5_VERSION VERSION_LESS 1.10 OR Eigen3_VERSION VERSION_LESS 3.4)
   message(FATAL_ERROR "HDF5 ${HDF5_VERSION} or Eigen ${Eigen3_VERSION} is too old: install HDF5 1.10 and Eigen 3.4, or newer")
 endif()
-# Later versions of HDF5 keep the functions of 1.10. These definitions are for all targets: precompiled
-# headers serve only targets that have the same ones.
-set(GRSEG_DEFINITIONS H5_USE_110_API ${HDF5_C_DEFINITIONS})
+# HDF5's definitions are for all targets: precompiled headers serve only targets that have the same ones.
+set(GRSEG_DEFINITIONS ${HDF5_C_DEFINITIONS})
 foreach(library ${HDF5_C_LIBRARIES})
   if(TARGET ${library})
     list(APPEND GRSEG_DEFINITIONS $<TARGET_PROPERTY:${library},INTERFACE_COMPILE_DEFINITIONS>)

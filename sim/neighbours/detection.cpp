@@ -8,6 +8,7 @@
 #include <cmath>
 
 // Highway compiles what follows once per instruction set.
+#include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/neighbours/detection.cpp"
 // In this order.

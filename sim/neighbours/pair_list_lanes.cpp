@@ -5,6 +5,7 @@
 #include <limits>
 
 // Highway compiles what follows once per instruction set.
+#include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/neighbours/pair_list_lanes.cpp"
 // In this order.

@@ -9,6 +9,7 @@
 #include <utility>
 
 // Highway compiles what follows once per instruction set.
+#include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/extrapolation.cpp"
 // In this order.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 // Highway compiles what follows once per instruction set.
+#include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/single_contacts.cpp"
 // In this order.

@@ -10,6 +10,7 @@
 #include <cctype>
 
 // Highway compiles what follows once per instruction set.
+#include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/sweep.cpp"
 // In this order.

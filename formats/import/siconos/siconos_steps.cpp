@@ -2,7 +2,6 @@
 #include "formats/import/siconos/siconos_steps.hpp"
 
 #include "formats/core/errors.hpp"
-#include "formats/trajectory/hdf5.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <hdf5.h>
+#include "formats/trajectory/hdf5.hpp"
 
 #include <cstdint>
 #include <string>
