@@ -63,7 +63,7 @@ HWY_INLINE Vector tangential_mass(Vector normal_mass, Vector kappa, double rim_f
 
 HWY_INLINE Vector approach_of(Vector separation)
 {
-  return hn::Max(hn::Neg(separation), hn::Zero(D()));
+  return larger(hn::Neg(separation), hn::Zero(D()));
 }
 
 struct Rebounds {
@@ -78,7 +78,7 @@ HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector impulse_n, 
   const D d;
   const auto zero = hn::Zero(d);
   auto approach = approach_of(separation);
-  if constexpr (with_horizon) approach = hn::Max(approach, remembered);
+  if constexpr (with_horizon) approach = larger(approach, remembered);
   const auto newton = with_restitution ? hn::Mul(hn::Set(d, restitution), approach) : zero;
   if constexpr (!with_horizon) return {newton, zero};
   const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, horizon));
@@ -166,7 +166,7 @@ HWY_INLINE void relax(ContactBlock& c, std::size_t lane, Bodies<D>& a, Bodies<D>
   if constexpr (with.restitution) excess = hn::Sub(excess, hn::Load(d, &c.rebound[lane]));
   const auto before_n = hn::Load(d, &c.impulse_n[lane]);
   const auto relaxed_n = hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess));
-  const auto impulse_n = hn::Max(relaxed_n, hn::Zero(d));
+  const auto impulse_n = larger(relaxed_n, hn::Zero(d));
   hn::Store(impulse_n, d, &c.impulse_n[lane]);
   const auto change_n = hn::Sub(impulse_n, before_n);
   const Relaxed<D> normal{hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn)};
@@ -184,7 +184,7 @@ HWY_INLINE void relax(ContactBlock& c, std::size_t lane, Bodies<D>& a, Bodies<D>
     const auto limit = hn::Mul(friction, impulse_n);
     const auto before_t = hn::Load(d, &c.impulse_t[lane]);
     const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_t[lane]), sliding));
-    const auto impulse_t = hn::Min(hn::Max(sticking, hn::Neg(limit)), limit);
+    const auto impulse_t = smaller(larger(sticking, hn::Neg(limit)), limit);
     hn::Store(impulse_t, d, &c.impulse_t[lane]);
     const auto change_t = hn::Sub(impulse_t, before_t);
     px = hn::Sub(px, hn::Mul(change_t, ny));
@@ -211,7 +211,7 @@ HWY_INLINE void relax(BlockOf<float>& c, std::size_t lane, Bodies<Single>& a, Bo
   const auto before_n = hn::Load(d, &c.impulse_n[lane]), base_n = hn::Load(d, &c.base_n[lane]);
   auto aim = before_n;
   if constexpr (with.restitution) aim = hn::Add(before_n, hn::Load(d, &c.rebound[lane]));
-  const auto impulse_n = hn::Max(hn::Sub(aim, separation), hn::Neg(base_n));
+  const auto impulse_n = larger(hn::Sub(aim, separation), hn::Neg(base_n));
   hn::Store(impulse_n, d, &c.impulse_n[lane]);
   const auto change_n = hn::Sub(impulse_n, before_n);
   const Relaxed<Single> normal{hn::Abs(change_n), hn::Add(base_n, impulse_n)};
@@ -228,7 +228,7 @@ HWY_INLINE void relax(BlockOf<float>& c, std::size_t lane, Bodies<Single>& a, Bo
     const auto lowest = hn::Sub(hn::Sub(hn::Neg(held), base_t), more);
     const auto highest = hn::Add(hn::Sub(held, base_t), more);
     const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_ratio[lane]), sliding));
-    const auto impulse_t = hn::Min(hn::Max(sticking, lowest), highest);
+    const auto impulse_t = smaller(larger(sticking, lowest), highest);
     hn::Store(impulse_t, d, &c.impulse_t[lane]);
     const auto change_t = hn::Sub(impulse_t, before_t);
     px = hn::Sub(px, hn::Mul(change_t, ny));

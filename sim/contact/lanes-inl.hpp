@@ -26,6 +26,27 @@ using D = TagOf<double>;
 using Vector = hn::Vec<D>;
 using Lanes = ContactBlock::Lanes;
 
+/// The larger and the smaller of two numbers, and of two zeros the second, whatever their signs, as
+/// std::max(b, a) and std::min(b, a) give them. Of NEON's own maximum the signs would decide.
+template <class V>
+HWY_INLINE V larger(V a, V b)
+{
+#if HWY_ARCH_ARM
+  return hn::IfThenElse(hn::Gt(a, b), a, b);
+#else
+  return hn::Max(a, b);
+#endif
+}
+template <class V>
+HWY_INLINE V smaller(V a, V b)
+{
+#if HWY_ARCH_ARM
+  return hn::IfThenElse(hn::Lt(a, b), a, b);
+#else
+  return hn::Min(a, b);
+#endif
+}
+
 /// All bodies as one array of numbers.
 template <class Real>
 HWY_INLINE Real* members(MotionOf<Real>* motion)

@@ -158,7 +158,7 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Mask used, std::size_t l
   const auto add = [&](Lanes& to, Vector what)
                        HWY_ATTR { hn::Store(hn::Add(hn::Load(d, &to[lane]), what), d, &to[lane]); };
   const auto keep_most = [&](Lanes& of, Vector what) HWY_ATTR {
-    hn::Store(hn::Max(hn::Load(d, &of[lane]), what), d, &of[lane]);
+    hn::Store(larger(hn::Load(d, &of[lane]), what), d, &of[lane]);
   };
   const auto touching = hn::And(used, hn::Le(gap, hn::Zero(d)));
   const auto overlap = hn::IfThenElseZero(touching, hn::Neg(gap));

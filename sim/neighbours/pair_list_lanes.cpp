@@ -38,8 +38,8 @@ HWY_INLINE Extent measure_group(const double* from, const double* to, Range grou
     for (std::size_t p = 0; p < parts; ++p) {
       const auto displacement =
           hn::Sub(hn::LoadU(d, to + at + p * lanes), hn::LoadU(d, from + at + p * lanes));
-      low[p] = hn::Min(low[p], displacement);
-      high[p] = hn::Max(high[p], displacement);
+      low[p] = smaller(low[p], displacement);
+      high[p] = larger(high[p], displacement);
     }
   }
   alignas(64) Lanes l, h;

@@ -105,7 +105,7 @@ HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double 
     };
     const auto more = load(from.impulse_n), before = hn::Load(d, &to.impulse_n[lane]);
     const auto opened = hn::Le(more, hn::Neg(load(from.base_n)));
-    const auto sum = hn::Max(hn::Add(before, hn::Mul(more, mass)), hn::Zero(d));
+    const auto sum = larger(hn::Add(before, hn::Mul(more, mass)), hn::Zero(d));
     const auto normal = hn::IfThenZeroElse(opened, sum);
     hn::Store(normal, d, &to.impulse_n[lane]);
     auto more_t = hn::Zero(d);
@@ -114,7 +114,7 @@ HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double 
       const auto before_t = hn::Load(d, &to.impulse_t[lane]);
       const auto sum_t = hn::Add(before_t, hn::Mul(load(from.impulse_t), mass));
       // Zeros are positive, whatever the sign of what single precision could not resolve.
-      const auto tangential = hn::Add(hn::Min(hn::Max(sum_t, hn::Neg(limit)), limit), hn::Zero(d));
+      const auto tangential = hn::Add(smaller(larger(sum_t, hn::Neg(limit)), limit), hn::Zero(d));
       hn::Store(tangential, d, &to.impulse_t[lane]);
       more_t = hn::Sub(tangential, before_t);
     }

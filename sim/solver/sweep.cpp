@@ -44,7 +44,7 @@ struct alignas(64) LaneResults {
                         HWY_ATTR { return hn::Add(sum, hn::Mul(r.change, r.change)); });
     if constexpr (findings == Findings::squares) return;
     update(largest,
-           [](Found most, const Relaxed<Tag>& r) HWY_ATTR { return hn::Max(most, r.change); });
+           [](Found most, const Relaxed<Tag>& r) HWY_ATTR { return larger(most, r.change); });
     update(reference, [](Found sum, const Relaxed<Tag>& r)
                           HWY_ATTR { return hn::Add(sum, hn::Mul(r.level, r.level)); });
   }
