@@ -26,8 +26,8 @@ using D = TagOf<double>;
 using Vector = hn::Vec<D>;
 using Lanes = ContactBlock::Lanes;
 
-/// The larger and the smaller of two numbers, and of two zeros the second, whatever their signs, as
-/// std::max(b, a) and std::min(b, a) give them. Of NEON's own maximum the signs would decide.
+/// The larger and the smaller of two numbers. Zeros of either sign are equal, and b is taken, as
+/// std::max(b, a) and std::min(b, a) do. NEON's own maximum would prefer +0.
 template <class V>
 HWY_INLINE V larger(V a, V b)
 {
