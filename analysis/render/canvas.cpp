@@ -2,6 +2,8 @@
 #include "analysis/render/canvas.hpp"
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <numbers>
 
 namespace grseg {
@@ -9,6 +11,15 @@ namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr const char* font = "DejaVu Sans";
+
+/// Fonts that came with the program (scripts/portable) are used where the system may have none.
+void use_own_fonts()
+{
+  std::error_code none;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", none);
+  const auto own = program.parent_path().parent_path() / "share/grseg/fonts.conf";
+  if (std::filesystem::exists(own, none)) setenv("FONTCONFIG_FILE", own.c_str(), 0);
+}
 
 /// What a desktop is set to must not change the bytes.
 void fix_font_options(cairo_t* cairo)
@@ -29,6 +40,7 @@ Canvas::Canvas(cairo_surface_t* surface, double em, bool quick)
   // Files that are not pixels may be looked at from near by.
   cairo_set_tolerance(cairo_.get(), quick ? 0.25 : 0.02);
   if (quick) cairo_set_antialias(cairo_.get(), CAIRO_ANTIALIAS_FAST);
+  use_own_fonts();
   fix_font_options(cairo_.get());
   cairo_select_font_face(cairo_.get(), font, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
 }
