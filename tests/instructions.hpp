@@ -27,9 +27,9 @@ inline const std::uint8_t* next_instruction(pid_t copy)
 #endif
 }
 
-/// Whether an instruction of x86-64 adds, subtracts or multiplies floating-point numbers: opcode 58,
-/// 5C or 59 (hexadecimal) of the map 0F, with SSE's, AVX's or AVX-512's prefixes (Intel's manual,
-/// volume 2, 2.1 to 2.7).
+/// True if an instruction of x86-64 adds, subtracts or multiplies floating-point numbers. Its opcode
+/// is then 58, 5C or 59 (hexadecimal) of the map 0F, behind the prefixes of SSE, AVX or AVX-512
+/// (Intel's manual, volume 2, 2.1 to 2.7).
 inline bool adds_or_multiplies(const std::uint8_t* code)
 {
   if (code[0] == 0xC5) {
@@ -48,7 +48,7 @@ inline bool adds_or_multiplies(const std::uint8_t* code)
 
 struct Instructions {
   long all = 0;
-  long arithmetic = 0;  // those that add, subtract or multiply floating-point numbers
+  long arithmetic = 0;  // additions, subtractions and multiplications of floating-point numbers
 };
 
 /// The instructions that `work` takes, counted one by one in a copy of this process, so that they

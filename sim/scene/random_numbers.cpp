@@ -16,8 +16,8 @@ double RandomNumbers::uniform()
   return gsl_rng_uniform(generator_.get());
 }
 
-// What gsl_ran_gaussian and gsl_ran_dir_2d do, operation by operation, but compiled here: where the
-// processor can multiply and add at once, as Arm's can, compilers do so in GSL, and round otherwise.
+// Gaussian numbers and directions follow gsl_ran_gaussian and gsl_ran_dir_2d operation by operation.
+// They are compiled here, without contraction, because GSL on Arm rounds them differently.
 
 double RandomNumbers::gaussian(double deviation)
 {
