@@ -92,21 +92,30 @@ void write_owner(int file)
                                path, owner ? owner->sentence() : "another process"));
 }
 
-/// Refuses the owner of `lock`, unless it has died; that lock is then out of the way.
-void replace_dead_owner(const std::string& path, const std::string& lock)
+/// A message that leaves to the reader whether the writer that `file` stands for is alive.
+[[noreturn]] void refuse_unless_removed(const std::string& path, const std::string& file,
+                                        const std::optional<Owner>& owner)
 {
+  const auto who = owner ? owner->sentence() : "a process that it does not name";
+  throw UsageError(
+      fmt::format("{} is being written by {}, says {}; if that run is dead, remove this file", path,
+                  who, file));
+}
+
+/// Refuses the owner of `lock`, unless it has died; its lock is then removed. One process at a time
+/// looks and removes, so that none removes a lock taken after it looked.
+void remove_dead_lock(const std::string& path, const std::string& lock)
+{
+  const auto claim = lock + ".claim";
+  const int file = open(claim.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0 && errno == EEXIST) refuse_unless_removed(path, claim, {});
+  if (file < 0) throw RunError(fmt::format("cannot create {}: {}", claim, reason(errno)));
+  close(file);
+  const RemoveAtEnd claimed(claim);
   const auto owner = Owner::in(lock);
-  if (!owner || !owner->has_died()) {
-    const auto who = owner ? owner->sentence() : "a process that it does not name";
-    throw UsageError(
-        fmt::format("{} is being written by {}, says {}; if that run is dead, remove this file",
-                    path, who, lock));
-  }
-  // Of several processes that find it dead one gets it; nobody's new lock is removed by mistake.
-  const RemoveAtEnd aside(temporary_path(lock));
-  if (rename(lock.c_str(), aside.path().c_str()) != 0) return;
-  if (Owner::in(aside.path()) != owner && link(aside.path().c_str(), lock.c_str()) == 0)
-    refuse(path, Owner::in(lock));
+  if (!owner && access(lock.c_str(), F_OK) != 0) return;  // its owner has ended meanwhile
+  if (!owner || !owner->has_died()) refuse_unless_removed(path, lock, owner);
+  unlink(lock.c_str());
 }
 
 bool has_no_locks(int error)
@@ -149,7 +158,7 @@ bool OutputLock::take(const std::string& path, int (*lock)(int file))
   close(file_);
   if (error == EWOULDBLOCK) refuse(path, Owner::in(path_));
   if (has_no_locks(error))
-    replace_dead_owner(path, path_);
+    remove_dead_lock(path, path_);
   else if (error != 0)
     throw RunError(fmt::format("cannot lock {}: {}", path_, reason(error)));
   return false;

@@ -111,6 +111,7 @@ TEST_P(OneWriter, OfManyThatFindADeadLockOneGetsIt)
       child = fork();
       if (child != 0) continue;
       close(finish[1]);
+      alarm(60);  // two owners would wait for each other
       try {
         const OutputLock its(run, lock);
         char end = 0;
@@ -120,11 +121,14 @@ TEST_P(OneWriter, OfManyThatFindADeadLockOneGetsIt)
       }
     }
     int refused = 0, status = 0;
-    for (; refused < 7; ++refused) ASSERT_GT(wait(&status), 0);
+    for (; refused < 7; ++refused) {
+      ASSERT_GT(wait(&status), 0);
+      ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2);
+    }
     close(finish[1]);
     close(finish[0]);
     ASSERT_GT(wait(&status), 0);
-    EXPECT_EQ(WEXITSTATUS(status), 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
     std::filesystem::remove(run + ".lock");
   }
 }
@@ -149,6 +153,16 @@ TEST_F(LockFile, OfAnotherComputerIsNotTakenOver)
 TEST_F(LockFile, OfAnotherProcessThatHadThisNumberIsTakenOver)
 {
   EXPECT_EQ(complaint(fmt::format("{} {} 1\n", host(), getpid())), "no complaint");
+}
+
+TEST_F(LockFile, OfADeadProcessThatAnotherLooksAtIsLeftToThatOne)
+{
+  put("run.h5.lock.claim", "");
+  const auto dead = fmt::format("{} {} 1\n", host(), getpid());
+  EXPECT_EQ(complaint(dead),
+            path("run.h5") + " is being written by a process that it does not name, says " +
+                path("run.h5.lock.claim") + "; if that run is dead, remove this file");
+  EXPECT_EQ(content("run.h5.lock"), dead);
 }
 
 TEST_F(LockFile, ThatNamesNobodyIsNotTakenOver)
