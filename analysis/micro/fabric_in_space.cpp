@@ -82,10 +82,10 @@ Expansion expansion_of(const Tensor3& measured, const Moment& moment)
     basis[static_cast<std::size_t>(k) + 4].deviator(2, k) = 1;
   }
   basis[3].deviator(0, 1) = basis[3].deviator(1, 0) = 1;
-  Eigen::Matrix<double, 6, 6> matrix;
+  Eigen::MatrixXd matrix(6, 6);  // g++ 16 takes Eigen's loops over six to leave a fixed one
   for (Eigen::Index k = 0; k < 6; ++k)
     matrix.col(k) = components(moment(basis[static_cast<std::size_t>(k)]));
-  const Six solution = matrix.colPivHouseholderQr().solve(components(measured));
+  const Eigen::VectorXd solution = matrix.colPivHouseholderQr().solve(components(measured));
   Expansion sum;
   for (Eigen::Index k = 0; k < 6; ++k) {
     const auto& part = basis[static_cast<std::size_t>(k)];

@@ -321,9 +321,6 @@ TEST(AbsentGrains, AreNotDisplaced)
   const Window window{0, 8, {}};
   SegregationFlux<2> flux(unit_layers, window, 1, 2);
   Packing packing = heap();
-  std::size_t mobile = 0;
-  for (std::size_t g = 0; g < packing.grains.size(); ++g)
-    mobile += is_mobile(packing.grains, g) ? 1 : 0;
   for (int part = 0; part < 8; ++part) {
     packing.frame.time = part;
     for (auto& position : packing.frame.position) position.y() += 1e-3;

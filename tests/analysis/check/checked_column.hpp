@@ -4,11 +4,11 @@
 #include "analysis/check/content_check.hpp"
 #include "analysis/check/physics_check.hpp"
 #include "formats/core/dimension.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "tests/column.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <filesystem>

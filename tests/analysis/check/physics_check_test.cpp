@@ -2,11 +2,11 @@
 // What grseg-check measures on a column of discs at rest is known. Then one thing is damaged at a
 // time.
 #include "formats/core/errors.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "tests/analysis/check/checked_column.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
 
 #include <cmath>
 #include <string>

@@ -78,14 +78,13 @@ TEST(SegregationRates, AFluxThatObeysTheLawGivesItsCoefficients)
 // 95 of 100, less or more by three standard deviations of such a count.
 TEST(SegregationRates, IntervalsHoldTheTruth)
 {
-  int count = 0, pe = 0, held_S = 0, held_D = 0;
+  int pe = 0, held_S = 0, held_D = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     const auto summary = segregation_rates(points(0.3, seed));
     const auto holds = [&](const char* name, double truth) {
       const auto estimate = number(summary, name);
       return estimate.low <= truth && truth <= estimate.high ? 1 : 0;
     };
-    ++count;
     held_S += holds("S[m/s]", S);
     held_D += holds("D_flux[m^2/s]", D);
     pe += holds("Pe", S * 0.3 / D);

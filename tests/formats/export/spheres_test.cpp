@@ -6,11 +6,11 @@
 #include "formats/export/h5md3d_writer.hpp"
 #include "formats/export/lammps_writer.hpp"
 #include "formats/export/vtp_writer.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "tests/formats/export/exported.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <Eigen/Geometry>

@@ -3,11 +3,11 @@
 
 #include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/reader.hpp"
 #include "tests/three_grains.hpp"
 
 #include <gtest/gtest.h>
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <cstdint>

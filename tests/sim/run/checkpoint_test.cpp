@@ -2,12 +2,12 @@
 #include "sim/run/checkpoint.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "sim/run/restart.hpp"
 #include "sim/run/run_files.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -2,11 +2,11 @@
 #include "sim/run/truncate_to_checkpoint.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/reader.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <filesystem>

@@ -2,10 +2,10 @@
 #include "formats/import/siconos/siconos_archive.hpp"
 
 #include "formats/import/siconos/siconos_bodies.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "tests/formats/import/archive_balance.hpp"
 
 #include <gtest/gtest.h>
-#include <hdf5.h>
 #include <unistd.h>
 
 #include <Eigen/Geometry>
