@@ -101,8 +101,8 @@ bool least_squares(Data& data, Parameters& p)
   const int status =
       gsl_multifit_nlinear_driver(200, 1e-12, 1e-14, 0, nullptr, nullptr, &reason, work.get());
   p = as_parameters(gsl_multifit_nlinear_position(work.get()));
-  // GSL_ENOPROG: no step makes it better any more, as for data without noise.
-  return (status == GSL_SUCCESS || status == GSL_ENOPROG) && p.allFinite();
+  // GSL_ENOPROG: no step improves the first guess, as where it is right and data have no noise.
+  return (status == GSL_SUCCESS || reason == GSL_ENOPROG) && p.allFinite();
 }
 
 /// Errors of combinations of the parameters.

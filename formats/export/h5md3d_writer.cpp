@@ -60,7 +60,7 @@ H5md3dWriter::Impl::Impl(const TrajectoryReader& its_run, const ViewCell& cell,
       edges{cell.length(0), 0, 0, 0, cell.length(1), 0, 0, 0, cell.length(2)}
 {
   silence();
-  file = File(H5Fcreate(output.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  file = File(H5Fcreate(output.temporary().c_str(), H5F_ACC_TRUNC, without_time(), H5P_DEFAULT));
   if (!file.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   h5md::write_root(file);
   const auto word = [](bool periodic) { return periodic ? "periodic" : "none"; };
@@ -149,7 +149,7 @@ void H5md3dWriter::publish()
   for (auto* dataset : {&my.positions, &my.steps, &my.times, &my.box, &my.velocities, &my.forces,
                         &my.images, &my.spins})
     *dataset = Dataset();
-  if (H5Fclose(my.file.release()) < 0)
+  if (close_file(my.file.release()) < 0)
     throw RunError(fmt::format("cannot write {}: {}", my.path, reason_of_failure()));
   my.output.publish();
 }

@@ -19,9 +19,7 @@ class MapFile {
   MapFile(const std::string& path, const std::string& name) : name_(name)
   {
     silence();
-    const Properties create(H5Pcreate(H5P_FILE_CREATE));
-    H5Pset_obj_track_times(create, 0);  // the same map gives the same bytes
-    file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, newest_format()));
+    file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, without_time(), newest_format()));
     require(file_.valid());
   }
 
@@ -52,7 +50,7 @@ class MapFile {
       require(H5DSattach_scale(dataset, opened(dimensions[k]), k) >= 0);
   }
 
-  void close() { require(H5Fclose(file_.release()) >= 0); }
+  void close() { require(close_file(file_.release()) >= 0); }
 
  private:
   void require(bool done) const

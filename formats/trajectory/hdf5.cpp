@@ -95,6 +95,18 @@ Properties newest_format()
   return access;
 }
 
+herr_t close_file(hid_t file)
+{
+  return H5Fflush(file, H5F_SCOPE_LOCAL) < 0 ? -1 : H5Fclose(file);
+}
+
+Properties without_time()
+{
+  Properties create(H5Pcreate(H5P_FILE_CREATE));
+  H5Pset_obj_track_times(create, 0);
+  return create;
+}
+
 File open_for_reading(const std::string& path, Properties access)
 {
   silence();

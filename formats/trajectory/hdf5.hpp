@@ -40,7 +40,11 @@ class Handle {
   hid_t id_ = H5I_INVALID_HID;
 };
 
-using File = Handle<H5Fclose>;
+/// Writes what is left and closes a file; below 0 where it cannot be written. The file then stays
+/// open until the program ends: HDF5 2.2 aborts when a file is closed whose data it could not write.
+herr_t close_file(hid_t file);
+
+using File = Handle<close_file>;
 using Group = Handle<H5Gclose>;
 using Object = Handle<H5Oclose>;  // a group or dataset
 using Dataset = Handle<H5Dclose>;
@@ -56,6 +60,9 @@ void silence();
 
 /// How files are written: in the format of HDF5 1.10, whose metadata carry checksums.
 Properties newest_format();
+
+/// Settings for a new file whose root has no time of day: the same content gives the same bytes.
+Properties without_time();
 
 /// Opens a file that anybody may have made, for reading: UsageError where it is missing or not a
 /// regular file, FormatError where HDF5 cannot open it. A file that a running (or killed) writer

@@ -30,8 +30,7 @@ class NewFile {
   NewFile(const std::string& path, const RunDescription& run, const StorageSettings& storage)
       : path_(path), run_(run), storage_(storage)
   {
-    const Properties create(H5Pcreate(H5P_FILE_CREATE));
-    H5Pset_obj_track_times(create, 0);  // the same run gives the same bytes
+    const Properties create = without_time();
     // Space that the library frees during a run is not reused: a kill may come before the index on
     // disk is updated.
     if (storage.live) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
@@ -51,7 +50,7 @@ class NewFile {
     create_contacts();
     write_parameters();
     create_digests();
-    if (H5Fclose(file_.release()) < 0)
+    if (close_file(file_.release()) < 0)
       throw RunError(fmt::format("cannot write {}: {}", path_, reason_of_failure()));
   }
 

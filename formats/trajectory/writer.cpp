@@ -277,7 +277,7 @@ void TrajectoryWriter::close()
   const std::string path = my.path;
   File file = std::move(my.file);
   impl_ = std::make_unique<Impl>();  // closes every dataset before the file
-  if (H5Fclose(file.release()) < 0)
+  if (close_file(file.release()) < 0)
     throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
 }
 

@@ -258,7 +258,7 @@ std::uint64_t digest_of(const Checkpoint& checkpoint, std::int32_t version = for
 
 void write_parts(const std::string& path, const Checkpoint& checkpoint)
 {
-  File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, newest_format()));
+  File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, without_time(), newest_format()));
   if (!file.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   try {
     Writer writer(file);
@@ -268,7 +268,7 @@ void write_parts(const std::string& path, const Checkpoint& checkpoint)
   } catch (const RunError& failed) {
     throw RunError(fmt::format("{}: {}", path, failed.what()));
   }
-  if (H5Fclose(file.release()) < 0)
+  if (close_file(file.release()) < 0)
     throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
 }
 

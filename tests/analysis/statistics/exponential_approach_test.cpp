@@ -45,6 +45,19 @@ TEST(ExponentialApproach, ATimeIsFoundToRoundOff)
     }
 }
 
+// The times are those of which one is tried first.
+TEST(ExponentialApproach, AFirstGuessThatIsRightIsKept)
+{
+  const auto t = frames(1201, 0.05);
+  for (int power = -2; power <= 4; ++power)
+    for (int level = 1; level <= 20; ++level) {
+      const double scale = std::ldexp(60, -power);
+      const auto fit = fit_approach(t, rise(t, 0.01 * level, 0.5 - 0.007 * level, scale));
+      ASSERT_EQ(fit.trouble, "") << scale << " s at level " << level;
+      EXPECT_NEAR(fit.scale.value, scale, 1e-8 * scale);
+    }
+}
+
 TEST(ExponentialApproach, HalfAndNineTenthsAreLogarithms)
 {
   const auto t = frames(8001, 0.01, 3);

@@ -87,6 +87,14 @@ std::vector<double> numbers_of(const StepTotals& t)
           t.base_impulse.y()};
 }
 
+TEST_F(CheckpointFile, HasNoTimeOfDay)
+{
+  const hdf5::File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  H5O_info_t root;
+  ASSERT_GE(H5Oget_info(file, &root), 0);
+  EXPECT_EQ(root.ctime, 0);
+}
+
 TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
 {
   const auto read = read_checkpoint(path);
