@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/render/canvas.hpp"
 
+#include <sys/auxv.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -16,7 +18,9 @@ constexpr const char* font = "DejaVu Sans";
 void use_own_fonts()
 {
   std::error_code none;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", none);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): getauxval(3) gives an address as a number
+  const auto* name = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  const auto program = std::filesystem::canonical(name, none);
   const auto own = program.parent_path().parent_path() / "share/grseg/fonts.conf";
   if (std::filesystem::exists(own, none)) setenv("FONTCONFIG_FILE", own.c_str(), 0);
 }

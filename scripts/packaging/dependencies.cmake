@@ -50,14 +50,21 @@ add_library(grseg_xxhash INTERFACE)
 target_include_directories(grseg_xxhash SYSTEM INTERFACE ${XXHASH_INCLUDE_DIR})
 add_library(grseg_fmt INTERFACE)
 if(GRSEG_STATIC)
+  # Boost's targets do not know what its archive of streams needs.
+  set_property(TARGET Boost::iostreams APPEND PROPERTY INTERFACE_LINK_LIBRARIES zstd lzma bz2 z)
   # FindHDF5 does not know that libsz.a needs libaec.a. Debian's libxxhash.a lacks functions that its
-  # headers promise, and there is no libfmt.a.
+  # headers promise, and there are no libfmt.a and no libhwy.a.
   target_link_libraries(grseg_hdf5 INTERFACE aec)
   target_compile_definitions(grseg_xxhash INTERFACE XXH_INLINE_ALL)
   target_link_libraries(grseg_fmt INTERFACE fmt::fmt-header-only)
+  add_library(grseg_highway STATIC scripts/packaging/highway.cpp)
+  get_target_property(highway_include hwy::hwy INTERFACE_INCLUDE_DIRECTORIES)
+  target_include_directories(grseg_highway PUBLIC ${PROJECT_SOURCE_DIR} ${highway_include})
 else()
   target_link_libraries(grseg_xxhash INTERFACE ${XXHASH_LIBRARY})
   target_link_libraries(grseg_fmt INTERFACE fmt::fmt)
+  add_library(grseg_highway INTERFACE)
+  target_link_libraries(grseg_highway INTERFACE hwy::hwy)
 endif()
 
 # grseg_leaf(OPTION programs packages FOUND...): programs that nothing else needs. OPTION is ON, OFF, or

@@ -12,4 +12,4 @@ if git grep -n 'include <hdf5.h>' -- '*.cpp' '*.hpp' ':!formats/trajectory/hdf5.
   exit 1
 fi
 # shellcheck disable=SC2046
-tests/lint/tidy.py "$@" "$build" $(git ls-files '*.cpp' | grep -v -e '^tests/' -e '^docs/')
+tests/lint/tidy.py "$@" "$build" $(git ls-files '*.cpp' | grep -v -e '^tests/' -e '^docs/' -e '^scripts/')

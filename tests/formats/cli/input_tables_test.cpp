@@ -2,25 +2,22 @@
 #include "formats/cli/input_tables.hpp"
 
 #include "formats/core/errors.hpp"
+#include "tests/folder.hpp"
 
 #include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace grseg {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr ToolInfo info{"grseg-fit", "", "", ""};
 
-std::string file(const std::string& name, const std::string& program)
-{
-  const auto path = (fs::path(testing::TempDir()) / name).string();
-  std::ofstream(path) << program << "a\n1\n";
-  return path;
-}
+class InputTables : public TestInFolder {
+ protected:
+  std::string file(const std::string& name, const std::string& program) const
+  {
+    return put(name, program + "a\n1\n");
+  }
+};
 
 /// What standard error says while the tables are read.
 std::string remark(const std::vector<std::string>& paths, bool quiet = false)
@@ -32,7 +29,7 @@ std::string remark(const std::vector<std::string>& paths, bool quiet = false)
   return testing::internal::GetCapturedStderr();
 }
 
-TEST(InputTables, OfOlderVersionsGetOneRemark)
+TEST_F(InputTables, OfOlderVersionsGetOneRemark)
 {
   const auto a = file("a.tsv", "# program: grseg-stress 0.1.0\n");
   const auto b = file("b.tsv", "# program: grseg-stress 0.1.0\n");
@@ -45,12 +42,12 @@ TEST(InputTables, OfOlderVersionsGetOneRemark)
   EXPECT_EQ(remark({a, b}, true), "");
 }
 
-TEST(InputTables, MadeByHandAreReadWithoutARemark)
+TEST_F(InputTables, MadeByHandAreReadWithoutARemark)
 {
   EXPECT_EQ(remark({file("c.tsv", "")}), "");
 }
 
-TEST(InputTables, StandardInputCanBeReadOnce)
+TEST_F(InputTables, StandardInputCanBeReadOnce)
 {
   EXPECT_THROW(remark({"-", "-"}), UsageError);
   testing::internal::GetCapturedStderr();
@@ -63,7 +60,7 @@ Table with_header(const Header& header)
   return table;
 }
 
-TEST(InputTables, WhatIsMadeOfThemSaysOfEachOnceWhatWasNotVerified)
+TEST_F(InputTables, WhatIsMadeOfThemSaysOfEachOnceWhatWasNotVerified)
 {
   const auto all = with_header({{"verified", "all"}});
   const auto some = with_header({{"verified", "frames only"}, {"incomplete", "run.h5.part"}});

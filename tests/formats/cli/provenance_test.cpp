@@ -3,11 +3,10 @@
 
 #include "formats/core/version.hpp"
 #include "formats/trajectory/digest.hpp"
+#include "tests/folder.hpp"
 #include "tests/three_grains.hpp"
 
 #include <gtest/gtest.h>
-
-#include <filesystem>
 
 namespace grseg {
 namespace {
@@ -16,17 +15,18 @@ constexpr PresetOption presets[] = {{"layer", "4dS", "1dS"}};
 constexpr ToolInfo with_presets{"grseg-a", "", "", "", presets};
 constexpr ToolInfo without_presets{"grseg-b", "", "", ""};
 
-std::string three_grains_file()
-{
-  const auto path = (std::filesystem::path(testing::TempDir()) / "provenance.h5").string();
-  three_grains::write(path, 2);
-  return path;
-}
+class Provenance : public TestInFolder {
+ protected:
+  std::string three_grains_file() const
+  {
+    three_grains::write(path("run.h5"), 2);
+    return path("run.h5");
+  }
+};
 
-TEST(Provenance, ATableOfARunNamesProgramPresetCommandsAndTheDigestOfItsInput)
+TEST_F(Provenance, ATableOfARunNamesProgramPresetCommandsAndTheDigestOfItsInput)
 {
-  const auto path = three_grains_file();
-  const TrajectoryReader run(path);
+  const TrajectoryReader run(three_grains_file());
   const std::string digest = "xxh3 " + format_digest(run.digest());
   const Header expected{{"program", std::string("grseg-a ") + version()},
                         {"preset", "paper"},
@@ -34,17 +34,15 @@ TEST(Provenance, ATableOfARunNamesProgramPresetCommandsAndTheDigestOfItsInput)
                         {"history", "grseg-a x.h5"},
                         {"input", digest}};
   EXPECT_EQ(provenance(with_presets, "paper", run, "grseg-a x.h5"), expected);
-  std::filesystem::remove(path);
 }
 
-TEST(Provenance, AToolWithoutPresetsHasNoLineOnThem)
+TEST_F(Provenance, AToolWithoutPresetsHasNoLineOnThem)
 {
-  const auto path = three_grains_file();
-  const auto header = provenance(without_presets, "none", TrajectoryReader(path), "grseg-b x.h5");
+  const TrajectoryReader run(three_grains_file());
+  const auto header = provenance(without_presets, "none", run, "grseg-b x.h5");
   ASSERT_EQ(header.size(), 4u);
   EXPECT_EQ(header[0].second, std::string("grseg-b ") + version());
   EXPECT_EQ(header[1].first, "history");
-  std::filesystem::remove(path);
 }
 
 Table with_header(const Header& header)
@@ -54,7 +52,7 @@ Table with_header(const Header& header)
   return table;
 }
 
-TEST(Provenance, ValuesOfSeveralTablesAreListedOnceInTheirOrder)
+TEST_F(Provenance, ValuesOfSeveralTablesAreListedOnceInTheirOrder)
 {
   const auto a = with_header({{"input", "2"}, {"history", "first"}, {"input", "1"}});
   const auto b = with_header({{"input", "3"}, {"input", "2"}});
@@ -65,7 +63,7 @@ TEST(Provenance, ValuesOfSeveralTablesAreListedOnceInTheirOrder)
   EXPECT_EQ(header_or(a, "absent", "none"), "none");
 }
 
-TEST(Provenance, SettingsAreWhatIsLeftWhenSourcesAreTakenAway)
+TEST_F(Provenance, SettingsAreWhatIsLeftWhenSourcesAreTakenAway)
 {
   const auto table = with_header({{"program", "p"},
                                   {"preset", "none"},
