@@ -14,8 +14,9 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr const char* font = "DejaVu Sans";
 
-/// Fonts that came with the program (scripts/portable) are used where the system may have none.
-void use_own_fonts()
+/// Fonts that came with the program (scripts/portable) are used where the system may have none. True
+/// once they are chosen: several canvases may be made at a time, and setenv is for one thread.
+bool use_own_fonts()
 {
   std::error_code none;
   // NOLINTNEXTLINE(performance-no-int-to-ptr): getauxval(3) gives an address as a number
@@ -23,6 +24,7 @@ void use_own_fonts()
   const auto program = std::filesystem::canonical(name, none);
   const auto own = program.parent_path().parent_path() / "share/grseg/fonts.conf";
   if (std::filesystem::exists(own, none)) setenv("FONTCONFIG_FILE", own.c_str(), 0);
+  return true;
 }
 
 /// What a desktop is set to must not change the bytes.
@@ -44,7 +46,7 @@ Canvas::Canvas(cairo_surface_t* surface, double em, bool quick)
   // Files that are not pixels may be looked at from near by.
   cairo_set_tolerance(cairo_.get(), quick ? 0.25 : 0.02);
   if (quick) cairo_set_antialias(cairo_.get(), CAIRO_ANTIALIAS_FAST);
-  use_own_fonts();
+  [[maybe_unused]] static const bool chosen = use_own_fonts();
   fix_font_options(cairo_.get());
   cairo_select_font_face(cairo_.get(), font, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What grseg-sim takes from the library of Highway (hwy/targets.h), for programs that are linked
-// statically: Debian has no archive of that library.
+// Three functions of Highway's library (hwy/targets.h). Static programs need them here, because
+// Debian has no archive of that library.
 #include "sim/contact/targets.hpp"
 
 #include <hwy/highway.h>
@@ -16,20 +16,15 @@ std::int64_t detected()
   std::int64_t targets = HWY_SCALAR | HWY_STATIC_TARGET;
 #ifdef __x86_64__
   __builtin_cpu_init();
-  const auto has = [](auto... features) { return (features && ...); };
-  if (!has(__builtin_cpu_supports("sse4.2"), __builtin_cpu_supports("aes"),
-           __builtin_cpu_supports("pclmul")))
-    return targets;
-  targets |= HWY_SSE4;
-  if (!has(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("fma"),
-           __builtin_cpu_supports("bmi"), __builtin_cpu_supports("bmi2"),
-           __builtin_cpu_supports("f16c"), __builtin_cpu_supports("lzcnt")))
-    return targets;
-  targets |= HWY_AVX2;
-  if (has(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"),
-          __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512bw"),
-          __builtin_cpu_supports("avx512cd")))
-    targets |= HWY_AVX3;
+  const bool sse4 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") &&
+                    __builtin_cpu_supports("pclmul");
+  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                    __builtin_cpu_supports("f16c") && __builtin_cpu_supports("lzcnt");
+  const bool avx3 = avx2 && __builtin_cpu_supports("avx512f") &&
+                    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+  targets |= (sse4 ? HWY_SSE4 : 0) | (avx2 ? HWY_AVX2 : 0) | (avx3 ? HWY_AVX3 : 0);
 #endif
   return targets;
 }
