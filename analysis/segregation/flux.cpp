@@ -215,7 +215,7 @@ std::vector<SegregationResult> SegregationFlux<D>::results(const Grains& grains,
   for (const auto& own : profile) layers = std::max(layers, own.size());
   for (std::size_t part = 0; part < parts; ++part) {
     profile[part].resize(layers);
-    for (const std::size_t lag : {1, 2}) add_displacements(grains, part, lag, profile[part]);
+    for (const std::size_t lag : {1U, 2U}) add_displacements(grains, part, lag, profile[part]);
   }
   const auto without = [&](std::size_t part) {
     Profile sum(layers);

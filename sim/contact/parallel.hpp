@@ -40,7 +40,7 @@ void for_ranges(int threads, std::size_t count, const Range& do_range)
 template <class Strip>
 void for_alternate_strips(int threads, std::size_t count, const Strip& do_strip)
 {
-  for (const std::size_t odd : {0, 1})
+  for (const std::size_t odd : {0U, 1U})
     for_each_part(threads, (count + 1 - odd) / 2, [&](std::size_t k) { do_strip(2 * k + odd); });
 }
 

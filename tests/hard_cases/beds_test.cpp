@@ -435,7 +435,7 @@ TEST(Hopper, FlowsByBeverloosLawThroughWideOutlets)
   const double width = 40.3;
   const std::vector<double> outlets{7, 10, 14, 18};
   std::vector<double> margins;
-  for (const unsigned long seed : {1, 2, 3, 4}) {
+  for (const unsigned long seed : {1U, 2U, 3U, 4U}) {
     auto closed = silo(width, 45, 0, 0.5, seed);
     run(closed, 9000);
     std::vector<double> open, powers;

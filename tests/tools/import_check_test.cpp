@@ -79,7 +79,7 @@ TEST_F(ImportedFile, OfMercuryDpmIsAsSpecified)
 {
   const TrajectoryReader sample(inputs + "/../../data/sample/chute.h5");
   std::string data, fstat;
-  for (const std::size_t k : {5, 6, 7}) {
+  for (const std::size_t k : {5U, 6U, 7U}) {
     Frame<2> frame;
     sample.read(k, frame);
     data += mercury_files::data(sample.grains(), sample.box(), frame, {});

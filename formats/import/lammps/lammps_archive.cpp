@@ -32,7 +32,7 @@ std::vector<std::string> other_columns(const DumpHeader& header)
 {
   std::vector<std::string> others;
   const auto last = header.columns.size();
-  for (const std::size_t i : {2, 1})
+  for (const std::size_t i : {2U, 1U})
     for (auto f = i + 2; f + 2 <= last; ++f) {
       const auto force = fmt::format("i={},j={},force={}", i, i + 1, f);
       others.push_back(force);

@@ -12,7 +12,6 @@ namespace grseg {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr LengthUnits units{0.005, 0.01};
 
 const LayerKey key{1.25, 2.5, 0.02, 0.04, 25, 0.007};
 

@@ -37,7 +37,7 @@ TEST(KernelStress, AKernelSpreadsTheBranchAndEachGrainsPartOfIt)
 TEST(KernelStress, UnderAKernelTheBaseBranchEndsAtTheContactPoint)
 {
   const auto stress = stress_of(small_on_base(), Assignment::kernel);
-  for (const std::size_t n : {0, 1}) {
+  for (const std::size_t n : {0U, 1U}) {
     const double below = smooth.below_along(1, 0.75, 1.25),
                  whole = smooth.below_along(1, -0.25, 1.25);
     EXPECT_TRUE(

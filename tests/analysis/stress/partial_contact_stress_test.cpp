@@ -47,7 +47,7 @@ TEST(PartialContactStress, AContactCountsWholeWhereItTouches)
   EXPECT_TRUE(same(stress.mean(1).sums.of(PairSum::by_size, 0), mixed * 2 / 3));
   EXPECT_TRUE(same(stress.mean(1).sums.of(PairSum::up_to_contact, 0), mixed * 2 / 3));
   EXPECT_EQ(stress.mean(1).contacts, (std::vector<double>{0, 1, 0, 0, 0}));
-  for (const std::size_t n : {0, 2, 3})
+  for (const std::size_t n : {0U, 2U, 3U})
     EXPECT_TRUE(same(stress.mean(n).sums.of(PairSum::whole, 0), mixed * 0));
 }
 

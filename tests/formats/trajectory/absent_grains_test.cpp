@@ -98,7 +98,7 @@ TEST_F(AbsentGrains, NaNInAFileOfVersion1_1IsDamageAsBefore)
 {
   three_grains::write(path, 2);
   tamper([](hid_t file) {
-    for (const hsize_t axis : {0, 1})
+    for (const hsize_t axis : {0U, 1U})
       put(file, "/particles/grains/position/value", 6 + 2 + axis, nan);
   });
   EXPECT_EQ(complaint({}, Verify::no),

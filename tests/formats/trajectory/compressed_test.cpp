@@ -61,7 +61,7 @@ void expect_three_grains(const std::string& path)
 
 TEST_F(Trajectory, ChunksOfSeveralFramesAndFramesOfSeveralChunksGiveTheSameNumbers)
 {
-  for (const std::size_t contacts : {1, 2, 3, 5, 8192}) {
+  for (const std::size_t contacts : {1U, 2U, 3U, 5U, 8192U}) {
     three_grains::write(path, frames, {.compression = 6, .contact_chunk = contacts});
     expect_three_grains(path);
   }

@@ -69,7 +69,7 @@ TEST_F(Trajectory, OneOtherNumberAnywhereIsNamed)
   const std::string once = "box, grains, species, observables or parameters are";
   const std::string place =
       "/particles/grains/position/step, time or its rows of contacts of frame 1";
-  for (const auto& [dataset, entry, what, by] : std::initializer_list<Change>{
+  for (const auto& changed : std::initializer_list<Change>{
            {"/particles/grains/radius", 1, once},
            {"/particles/grains/mass", 0, once},
            {"/particles/grains/species", 1, once},
@@ -96,11 +96,11 @@ TEST_F(Trajectory, OneOtherNumberAnywhereIsNamed)
            {"/grseg/contacts/gap", 2, "/grseg/contacts/gap of frame 1"},
            {"/observables/translational_energy/value", 1, "/observables of frame 1"}}) {
     three_grains::write(path, 3);
-    tamper([&](hid_t file) { add_to(file, dataset, entry, by); });
-    EXPECT_TRUE(complaint_of_all().starts_with(path + ": " + what)) << complaint_of_all();
+    tamper([&](hid_t file) { add_to(file, changed.dataset, changed.entry, changed.by); });
+    EXPECT_TRUE(complaint_of_all().starts_with(path + ": " + changed.place)) << complaint_of_all();
     EXPECT_NE(complaint_of_all().find(" not what was written: the file is damaged"),
               std::string::npos);
-    EXPECT_EQ(complaint_of_all(Verify::no), "no complaint") << dataset;
+    EXPECT_EQ(complaint_of_all(Verify::no), "no complaint") << changed.dataset;
   }
 }
 

@@ -188,7 +188,7 @@ struct ChangedNumber {
 TEST_F(Spheres, AreRefusedByNameIfOneNumberIsAnother)
 {
   const std::string once = "box, grains, species, observables or parameters are";
-  for (const auto& [dataset, entry, what, by] : std::initializer_list<ChangedNumber>{
+  for (const auto& changed : std::initializer_list<ChangedNumber>{
            {"/particles/grains/box/edges", 2, once},
            {"/particles/grains/species", 1, once},
            {"/parameters/gravity", 2, once},
@@ -204,8 +204,8 @@ TEST_F(Spheres, AreRefusedByNameIfOneNumberIsAnother)
            {"/grseg/contacts/force", 20, "/grseg/contacts/force of frame 1"},
            {"/grseg/contacts/branch", 20, "/grseg/contacts/branch of frame 1"}}) {
     spheres::write(path, 3);
-    tamper([&](hid_t file) { add_to(file, dataset, entry, by); });
-    EXPECT_TRUE(complaint_of_all().starts_with(path + ": " + what)) << complaint_of_all();
+    tamper([&](hid_t file) { add_to(file, changed.dataset, changed.entry, changed.by); });
+    EXPECT_TRUE(complaint_of_all().starts_with(path + ": " + changed.place)) << complaint_of_all();
     EXPECT_NE(complaint_of_all().find(" not what was written: the file is damaged"),
               std::string::npos);
   }
@@ -333,11 +333,11 @@ TEST_F(Spheres, OfASpeciesWhoseNameFitsNoTableAreRefused)
 {
   const std::string rule =
       "names have 1 to 15 of the characters A-Z a-z 0-9 _ - . and are neither boundary nor b";
-  for (const auto& [name, shown] : std::initializer_list<std::pair<std::string, std::string>>{
+  for (const auto& names : std::initializer_list<std::pair<std::string, std::string>>{
            {"", ""}, {"a+b", "a+b"}, {"a\tb", "a\\x09b"}, {"boundary", "boundary"}}) {
     spheres::write(path, 1);
-    tamper([&](hid_t file) { rename(file, name); });
-    EXPECT_EQ(complaint(), path + ": /grseg/species/name holds '" + shown + "': " + rule);
+    tamper([&](hid_t file) { rename(file, names.first); });
+    EXPECT_EQ(complaint(), path + ": /grseg/species/name holds '" + names.second + "': " + rule);
   }
 }
 

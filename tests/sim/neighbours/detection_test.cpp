@@ -34,7 +34,7 @@ Random random_numbers()
 
 /// Discs of several sizes on a jittered lattice above a row of beads, in random motion; every
 /// `flying`-th one shoots away.
-Bed bed_of(double length, double height, bool periodic, int flying)
+Bed bed_of(double length, double height, bool periodic, std::size_t flying)
 {
   const auto random = random_numbers();
   const auto between = [&](double low, double high) {

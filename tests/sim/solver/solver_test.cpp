@@ -148,7 +148,7 @@ struct Net {
     extrapolation.begin(strips, motion, 1);
     for (int done = 0; done < sweeps; done += 2) {
       double change = 0;
-      for (const std::size_t odd : {0, 1})
+      for (const std::size_t odd : {0U, 1U})
         for (std::size_t r = odd; r < strips.size(); r += 2) {
           sweep(strips[r], motion.data(), 0.5);
           change_[r] = sweep(strips[r], motion.data(), 0.5).sum_squares;
@@ -166,7 +166,7 @@ struct Net {
 
 TEST(Solver, StripsThatGoAheadEndWhereRoundAfterRoundEnds)
 {
-  for (const std::size_t rows : {2, 3, 6, 7, 30}) {
+  for (const std::size_t rows : {2U, 3U, 6U, 7U, 30U}) {
     for (const auto& [least, most, acceleration] : {std::tuple{1, 1, true},
                                                     {2, 2, true},
                                                     {8, 3, true},

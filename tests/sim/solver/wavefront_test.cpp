@@ -37,11 +37,11 @@ struct Ring {
 
 TEST(Wavefront, EveryStripSeesWhatRoundAfterRoundShowsIt)
 {
-  for (const std::size_t strips : {1, 2, 3, 4, 5, 8, 9, 40}) {
-    for (const std::size_t rounds : {1, 2, 4, 9}) {
+  for (const std::size_t strips : {1U, 2U, 3U, 4U, 5U, 8U, 9U, 40U}) {
+    for (const std::size_t rounds : {1U, 2U, 4U, 9U}) {
       Ring expected(strips);
       for (std::size_t round = 0; round < rounds; ++round) {
-        for (const std::size_t odd : {0, 1})
+        for (const std::size_t odd : {0U, 1U})
           for (std::size_t s = odd; s < strips; s += 2) expected.work(s, round);
         for (std::size_t s = 0; s < strips; ++s) expected.close(s);
       }

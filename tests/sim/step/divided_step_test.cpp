@@ -77,7 +77,7 @@ TEST(DividedStep, IsTheSameAsStepsOfThatLength)
     divided += whole.simulation.advance().parts == 2;
     by_halves.advance();
     by_halves.advance();
-    for (const std::size_t k : {0, 1})
+    for (const std::size_t k : {0U, 1U})
       EXPECT_NEAR((whole.simulation.position(k) - by_halves.position(k)).norm(), 0, 1e-12);
   }
   EXPECT_GT(divided, 0);

@@ -97,7 +97,7 @@ TEST_F(ImportOfGrainsThatComeAndGo, LeavesTheOthersAsTheyWouldBeAlone)
   const TrajectoryReader run(s.output);
   EXPECT_FALSE(run.grains_come_and_go()) << "within this range nobody comes or goes";
   const auto alone = frame_of(s, 0);
-  for (const std::size_t row : {1, 2}) {
+  for (const std::size_t row : {1U, 2U}) {
     EXPECT_EQ(among.position[row], alone.position[row - 1]);
     EXPECT_EQ(among.force[row], alone.force[row - 1]);
   }

@@ -112,7 +112,7 @@ TEST_F(Walls, InACornerEachWallPushesAlongItsNormal)
   ASSERT_EQ(frame.contacts.size(), 3u);
   const double mass = small_mass + large_mass;
   std::map<int, Vec2> force;
-  for (const std::size_t c : {1, 2}) force[frame.contacts.j[c]] = frame.contacts.force[c];
+  for (const std::size_t c : {1U, 2U}) force[frame.contacts.j[c]] = frame.contacts.force[c];
   EXPECT_NEAR((force[-1] - Vec2(0, -mass * gy)).norm(), 0, 1e-15);
   EXPECT_NEAR((force[-2] - Vec2(-mass * gx, 0)).norm(), 0, 1e-15);
   EXPECT_TRUE(mentions(to_text(report), "1 times a grain touches more than one wall"));
@@ -225,7 +225,7 @@ TEST_F(WallsOfTrueArchives, ThatArePlanesCarryTheWeightOfDiscsPouredInBySixDigit
   s.walls = {"floor=y:0", "left=x:-0.04", "right=x:0.04"};
   EXPECT_EQ(import_archive(s, "").frames, 20u);
   const TrajectoryReader run(s.output);
-  for (const std::size_t at_rest : {15, 19}) {
+  for (const std::size_t at_rest : {15U, 19U}) {
     const auto frame = frame_of<2>(s, at_rest);
     const auto [weight, force] = weight_and_force<2>(run.grains(), frame, {0, -9.8});
     // A force's components are off by 5e-6 of themselves at most: 200 contacts of two rows each.

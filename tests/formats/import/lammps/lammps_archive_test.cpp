@@ -351,7 +351,7 @@ TEST_F(Lammps, ADensityBesideMassesHasToBeTheirs)
 TEST_F(Lammps, TheBaseIsAskedForAlsoBesideWallsWhereGrainsNeverMove)
 {
   auto moving = grain_rows();
-  for (const std::size_t g : {1, 2})
+  for (const std::size_t g : {1U, 2U})
     moving[g].replace(moving[g].find(" 0 0 0 0 0"), 10, " 1 0 0 0 0");
   auto s = settings(folder, block("ATOMS", 0, grain_columns, moving), contacts_at(0));
   s.species.boundary.reset();

@@ -29,7 +29,7 @@ class Mercury : public testing::Test {
   void SetUp() override
   {
     fs::create_directory(folder);
-    for (const std::size_t k : {5, 6, 7}) {
+    for (const std::size_t k : {5U, 6U, 7U}) {
       Frame<2> frame;
       run.read(k, frame);
       auto& contacts = frame.contacts;
@@ -239,7 +239,7 @@ TEST_F(Mercury, ATruncatedBlockEndsTheArchiveAfterTheWholeOnes)
 {
   auto all = files({});
   const auto text = data({});
-  for (const std::size_t cut : {1, 40, 5000}) {
+  for (const std::size_t cut : {1U, 40U, 5000U}) {
     all.grains = {file("cut.data", text.substr(0, text.size() - cut))};
     const auto archive = open_mercury(all);
     ArchiveMoment moment;

@@ -26,7 +26,7 @@ class MercuryRestarts : public testing::Test {
   {
     while (run.grains().fixed[leaning]) ++leaning;
     reach = run.grains().radius[leaning] - 1e-5;
-    for (const std::size_t k : {5, 6, 7}) {
+    for (const std::size_t k : {5U, 6U, 7U}) {
       Frame<2> frame;
       run.read(k, frame);
       place_contacts(frame);
