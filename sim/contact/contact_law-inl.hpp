@@ -72,18 +72,19 @@ struct Rebounds {
 
 /// Without `with_restitution` as for e = 0, without `with_horizon` as for horizon 0.
 template <bool with_restitution, bool with_horizon>
-HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector impulse_n, Vector remembered,
+HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector load, Vector remembered,
                                double restitution, double horizon)
 {
   const D d;
-  const auto zero = hn::Zero(d);
-  auto approach = approach_of(separation);
+  const auto zero = hn::Zero(d), fresh = hn::Neg(separation);
+  const auto least = hn::Mul(hn::Set(d, solver_error), load);
+  auto approach = hn::IfThenElseZero(hn::Gt(fresh, least), fresh);
   if constexpr (with_horizon) approach = larger(approach, remembered);
   const auto newton = with_restitution ? hn::Mul(hn::Set(d, restitution), approach) : zero;
   if constexpr (!with_horizon) return {newton, zero};
   const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, horizon));
   const auto slowed_down_now = hn::AndNot(hn::Gt(remembered, zero), hn::Gt(gap, zero));
-  const auto newcomer = hn::And(hn::Eq(impulse_n, zero), hn::Lt(separation, closing));
+  const auto newcomer = hn::And(hn::Eq(load, zero), hn::Lt(separation, closing));
   return {hn::IfThenElse(slowed_down_now, closing, newton),
           hn::IfThenElseZero(hn::And(slowed_down_now, newcomer), approach)};
 }

@@ -194,7 +194,7 @@ HWY_INLINE void set_block(const Pairs& pairs, const Pairs::Class& c, const NearP
         load_fours(d, numbers_of(pairs.memory.data()), &origin.pair[lane]);
     const auto remembered = with.horizon ? approach : hn::Zero(d);
     const auto rebound = rebound_of<with.restitution, with.horizon>(
-        g.gap, separation, n, remembered, rule.restitution, rule.horizon);
+        g.gap, separation, hn::Mul(n, v.inverse_mass), remembered, rule.restitution, rule.horizon);
     store(rebound.velocity, block.rebound);
     store(n, block.impulse_n);
     store(t, block.impulse_t);

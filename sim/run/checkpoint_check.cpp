@@ -14,7 +14,6 @@ namespace grseg {
 namespace {
 
 constexpr std::uint64_t largest_count = 1'000'000'000'000'000;  // a double counts up to there
-constexpr std::int32_t most_periods = 1'000'000'000;
 constexpr double farthest = 1e12;     // in d_S: beyond, a double knows no distance of neighbours
 constexpr double largest_radius = 1;  // in d_L, or in base-diameter
 constexpr std::size_t most_in_cell = 64;  // grains whose centres lie in one square of side d_S

@@ -147,8 +147,12 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
   flow(scene, simulation, recorder, checkpoints, progress);
   progress.clear();
   const double wall = run.progress.wall + seconds_now() - begin;
-  const RunSummary summary{simulation.time() - run.progress.begin, wall, run.deposited_height,
-                           recorder.totals(), stiffness_of(scene, recorder.totals())};
+  const RunSummary summary{simulation.time() - run.progress.begin,
+                           simulation.time(),
+                           wall,
+                           run.deposited_height,
+                           recorder.totals(),
+                           stiffness_of(scene, recorder.totals())};
   run.writer.add_parameters(to_parameters(summary));
   run.writer.close();
   if (!options.quiet) fmt::print(stderr, "{}", to_text(summary, scene, simulation.world().grains));

@@ -33,15 +33,15 @@ std::string grains_in_words(const Scene& scene, const Grains& grains)
 
 std::string flow_in_words(const RunSummary& s, const Scene& scene)
 {
-  const auto slope =
-      gravity_of(scene).norm() == 0
-          ? std::string("no gravity")
-          : fmt::format(
-                "slope {:g} degrees{}", scene.slope,
-                scene.slope_rate == 0 ? "" : fmt::format(" + {:g} per second", scene.slope_rate));
-  return fmt::format("{}: deposited {:.1f} d_S high; {}, friction {:g}, restitution {:g}",
+  auto slope = gravity_of(scene).norm() == 0 ? std::string("no gravity")
+                                             : fmt::format("slope {:g} degrees", scene.slope);
+  if (scene.slope_rate != 0)
+    slope += fmt::format(" at t = 0, {:g} per second steeper, {:.4g} at t = {:g} s",
+                         scene.slope_rate, scene.slope + scene.slope_rate * s.end, s.end);
+  return fmt::format("{}: deposited {:.1f} d_S high; {}, friction {:g}, restitution {:g}{}",
                      scene.geometry->name(), s.deposited_height / scene.small_diameter, slope,
-                     scene.friction, scene.restitution);
+                     scene.friction, scene.restitution,
+                     scene.law == ContactLaw::centred ? " (contact law centred)" : "");
 }
 
 std::string solver_in_words(const StepTotals& t, const Scene& scene)

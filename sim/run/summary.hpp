@@ -12,8 +12,8 @@ namespace grseg {
 
 /// A run in numbers.
 struct RunSummary {
-  double simulated = 0, wall = 0;  // s
-  double deposited_height = 0;     // m
+  double simulated = 0, end = 0, wall = 0;  // s
+  double deposited_height = 0;              // m
   StepTotals totals;
   NumericalStiffness stiffness;
 };

@@ -25,8 +25,7 @@ struct SolverSettings {
   bool acceleration = false;
   /// At least so many sweeps, unless one changes nothing (see solve_contacts). A sweep passes a
   /// load on to the next grain only, so while a bed still has to find its weight small changes do
-  /// not mean small errors: a bed at rest trembles if every step stops at the first or second
-  /// sweep.
+  /// not mean small errors: such a bed is soft if every step stops at the first or second sweep.
   int min_sweeps = 1;
   Precision precision = Precision::doubles;
 };

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/step/free_flight.hpp"
 
+#include "formats/core/errors.hpp"
 #include "sim/contact/parallel.hpp"
 
+#include <fmt/format.h>
+
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 
 namespace grseg {
 namespace {
@@ -80,13 +85,23 @@ void accelerate(const Vec2& change, GrainState& grains, int threads)
 
 void wrap_positions(double length, GrainState& grains, int threads)
 {
+  std::atomic<bool> too_far = false;
   for_ranges(threads, grains.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const double periods = std::floor(grains.position[b].x() / length);
+      if (std::abs(grains.image[b] + periods) > most_periods) {
+        too_far = true;
+        continue;
+      }
       grains.position[b].x() -= periods * length;
       grains.image[b] += static_cast<std::int32_t>(periods);
     }
   });
+  if (too_far)
+    throw RunError(fmt::format(
+        "a grain has crossed the periodic cell more than {} times, and files count no further; "
+        "choose a shorter duration or a longer cell",
+        most_periods));
 }
 
 }  // namespace grseg

@@ -283,6 +283,16 @@ Vec2 Simulation::position(std::size_t g) const
   return state_.position[body] + Vec2(state_.image[body] * world_.box.length_x, 0);
 }
 
+void Simulation::drive(const std::vector<BoundaryBody>& bodies)
+{
+  world_.bodies = bodies;
+  auto stands = world_.grains.fixed;
+  for (const auto& body : bodies)
+    std::fill(stands.begin() + body.begin, stands.begin() + body.end, std::uint8_t{0});
+  for (std::size_t g = 0; g < stands.size(); ++g)
+    if (stands[g] != 0) set_velocity(g, Vec2::Zero());
+}
+
 void Simulation::set_velocity(std::size_t g, const Vec2& velocity, double angular_velocity)
 {
   auto& motion = state_.motion[body_of_[g]];

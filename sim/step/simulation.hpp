@@ -82,8 +82,8 @@ class Simulation {
     gravity_ = gravity;
     world_.gravity = gravity.at(time());
   }
-  /// Replaces World::bodies.
-  void drive(const std::vector<BoundaryBody>& bodies) { world_.bodies = bodies; }
+  /// Replaces World::bodies. Boundary grains of no body stand still from now on.
+  void drive(const std::vector<BoundaryBody>& bodies);
   /// Sets the number of steps done, and with it the time; negative before the tilt.
   void set_clock(std::int64_t steps) { steps_done_ = steps; }
 

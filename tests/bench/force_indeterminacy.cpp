@@ -82,7 +82,7 @@ Contact contact_of(const FrozenStep& step, const World& world, std::size_t k, co
   c.mass_n = normal_mass(a.inverse_mass, b.inverse_mass);
   c.mass_t = tangential_mass(c.mass_n, c.kappa);
   const double separation = normal.dot(Vec2(a.vx - b.vx, a.vy - b.vy));
-  c.rebound = rebound_of(list.gap[k], separation, left.impulse_n, left.approach,
+  c.rebound = rebound_of(list.gap[k], separation, left.impulse_n / c.mass_n, left.approach,
                          world.material.restitution, world.law.horizon * world.step)
                   .velocity;
   c.impulse_n = world.step * list.force[k].dot(normal);

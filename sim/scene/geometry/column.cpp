@@ -15,6 +15,8 @@ class Column : public Geometry {
   {
     require(scene.lateral == Scene::Lateral::walls, "lateral",
             "lateral is periodic: a column stands between walls; set lateral = walls");
+    require(scene.column_width >= scene.large_diameter, "column-width",
+            "column-width is below 1 d_L: a large grain does not fit in; choose a wider one");
     require(scene.column_width < scene.length, "column-width",
             "column-width is not below length: the column needs room to fall into");
   }

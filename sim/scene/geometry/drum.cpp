@@ -24,6 +24,8 @@ class Drum : public Geometry {
   {
     require(scene.lateral == Scene::Lateral::walls, "lateral",
             "lateral is periodic: a drum is closed; set lateral = walls");
+    require(scene.drum_diameter >= 4 * scene.large_diameter, "drum-diameter",
+            "drum-diameter is below 4 d_L: large grains have no room to flow; choose a wider one");
     scene.length = scene.drum_diameter + 2 * scene.large_diameter;
     scene.depth = scene.fill * scene.drum_diameter;
   }

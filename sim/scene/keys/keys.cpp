@@ -105,12 +105,13 @@ std::vector<SceneKey> flow_keys()
      "Coulomb's coefficient, all contacts"},
     {"restitution", "0.25", number(&Scene::restitution, 0, 1), flow, yes,
      "Newton's coefficient, all contacts"},
-    {"contact-law", "speculative", choice(&Scene::law, Words<ContactLaw>{
+    {"contact-law", "", choice(&Scene::law, Words<ContactLaw>{
          {"speculative", ContactLaw::speculative}, {"touch", ContactLaw::touch},
          {"centred", ContactLaw::centred}, {"predictive", ContactLaw::predictive}}), flow, yes,
      "which pairs act in a step: speculative (those about to touch are slowed down short of "
      "overlap and rebound in the next step), touch (those that touch at its middle), centred (at "
-     "its end) or predictive (half a step later)"},
+     "its end) or predictive (half a step later) (default: speculative; centred where restitution is "
+     "above 0.9)"},
     {"horizon", "0.75", number(&Scene::horizon, 1e-3, 1), flow, yes,
      "of the speculative law: steps that it looks ahead"},
     {"rotation", "on", on_or_off(&Scene::rotation), bed, yes,
@@ -147,8 +148,8 @@ std::vector<SceneKey> boundary_keys()
     {"origin", "top", choice(&Scene::origin, Words<Origin>{
          {"top", Origin::top}, {"centre", Origin::centre}}), bed, yes,
      "of y: top of the (highest) base grains, or half a base-diameter below it, their centre"},
-    {"drum-diameter", "100dS", length(&Scene::drum_diameter, "4dL", "1e6dL"), bed, no,
-     "of a drum, between its beads"},
+    {"drum-diameter", "100dS", length(&Scene::drum_diameter, "1dS", "1e6dL"), bed, no,
+     "of a drum, between its beads; at least 4dL"},
     {"drum-rate", "0.5", number(&Scene::drum_rate, -1e6, 1e6), flow, no,
      "of a drum, rad/s, counter-clockwise"},
     {"fill", "0.4", number(&Scene::fill, 0.01, 0.5), bed, no,
@@ -159,8 +160,8 @@ std::vector<SceneKey> boundary_keys()
      "of a shear cell's plate on the grains, N/m"},
     {"plate-mass", "", number(&Scene::plate_mass, 1e-15, 1e15), flow, no,
      "of a shear cell's plate, kg (default: that of its grains)"},
-    {"column-width", "40dS", length(&Scene::column_width, "1dL", "1e12"), bed, no,
-     "of a column before its gate opens"},
+    {"column-width", "40dS", length(&Scene::column_width, "1dS", "1e12"), bed, no,
+     "of a column before its gate opens; at least 1dL"},
     {"outlet", "16dS", length(&Scene::outlet, "1dS", "1e12"), bed, no,
      "width of a hopper's outlet"},
     {"shake-amplitude", "0", length(&Scene::shake_amplitude, "0", "1e12"), flow, no,
@@ -195,8 +196,8 @@ std::vector<SceneKey> run_keys()
      set_by_accuracy("of the solver: largest change of a relative velocity in the last sweep, over "
                      "the mean one that forces make")},
     {"min-sweeps", "", whole_number(of_solver(&SolverSettings::min_sweeps), 1, most), flow, yes,
-     set_by_accuracy("of the solver, per step, unless one changes nothing; with too few a bed at "
-                     "rest trembles")},
+     set_by_accuracy("of the solver, per step, unless one changes nothing; with too few a bed is "
+                     "soft")},
     {"max-sweeps", "", whole_number(of_solver(&SolverSettings::max_sweeps), 1, most), flow, yes,
      set_by_accuracy("of the solver, per step")},
     {"precision", "", choice(of_solver(&SolverSettings::precision), precision_words()), flow, yes,

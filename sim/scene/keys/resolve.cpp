@@ -22,6 +22,14 @@ namespace po = boost::program_options;
 constexpr double largest_step = 0.05;  // in sqrt(d_S/g)
 constexpr double most_steps = 1e15;    // so that a double counts them
 constexpr double largest_turn = 1;     // degree per step: a step feels the gravity of its middle
+// Boundaries move along chords: of N per period of a shaken base, chords differ from the sine's
+// velocity by up to (pi/N)^2/6 of its amplitude, 0.4 % for 20.
+constexpr double least_chords = 20;
+// d_S: within a step its load may move a plate by so much; half of it may become overlap.
+constexpr double farthest_by_load = 0.1;
+// Above this restitution pairs rebound in the step in which they meet: the speculative law changes
+// the energy of a gas (docs/studies/numerics.md).
+constexpr double most_speculative_restitution = 0.9;
 
 void read_keys(const po::variables_map& values, Scene& scene)
 {
@@ -55,10 +63,17 @@ void check_shaking(const Scene& scene)
 void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
 {
   const double natural = std::sqrt(scene.small_diameter / scene.gravity);
+  const double frequency = scene.shake_amplitude > 0 ? scene.shake_frequency : 0;
+  const double longest =
+      std::min(accuracy.step * natural, 1 / (least_chords * frequency));  // infinite at rest
   if (!given("step")) {
-    scene.step = scene.frame_interval / std::ceil(scene.frame_interval / (accuracy.step * natural));
+    scene.step = scene.frame_interval / std::ceil(scene.frame_interval / longest);
     return;
   }
+  require(least_chords * frequency * scene.step <= 1 + 1e-9, "step",
+          fmt::format("step is {:.6g} s: a period of shake-frequency, {:g} Hz, has {:.3g} of them; "
+                      "choose one of at most {:.4g} s, for {:g} in a period",
+                      scene.step, frequency, 1 / (frequency * scene.step), longest, least_chords));
   require_within(scene.step, "step", 0, largest_step * natural);
   const double steps = scene.frame_interval / scene.step;
   require(std::abs(steps - std::round(steps)) <= 1e-6 * steps && steps >= 0.5, "step",
@@ -108,6 +123,18 @@ void check_frames(const Scene& scene)
                       scene.geometry->name()));
 }
 
+void check_plate(const Scene& scene)
+{
+  if (!scene.geometry->has_free_body()) return;
+  const double load = scene.plate_pressure * scene.length;
+  const double way = load / scene.plate_mass * scene.step * scene.step / scene.small_diameter;
+  require(way <= farthest_by_load, "plate-mass",
+          fmt::format("plate-mass is {:.3g} kg: plate-pressure would move the plate by {:.2g} d_S "
+                      "within a step, above {:g}; choose at least {:.2g} kg, or a smaller step",
+                      scene.plate_mass, way, farthest_by_load,
+                      scene.plate_mass * way / farthest_by_load));
+}
+
 void check_turning(const Scene& scene)
 {
   const double turn = std::abs(scene.slope_rate) * scene.step;
@@ -129,10 +156,13 @@ Scene resolve_scene(const po::variables_map& values)
   scene.geometry->resolve(scene, given);
   resolve_base_row(scene, given);
   if (!given("plate-mass")) scene.plate_mass = mass_of_plate(scene);
+  if (!given("contact-law") && scene.restitution > most_speculative_restitution)
+    scene.law = ContactLaw::centred;
   check_shaking(scene);
   resolve_accuracy(scene, given);
   check_frames(scene);
   check_turning(scene);
+  check_plate(scene);
   return scene;
 }
 

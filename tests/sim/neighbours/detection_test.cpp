@@ -287,8 +287,10 @@ struct Prepared {
     }
     list.renew(state, state.position);
     for (std::size_t k = 0; k < list.pairs().size(); ++k)
-      if (list.pairs().listed(k))
-        list.memories()[k] = {1 + static_cast<double>(k), 0.5 - static_cast<double>(k % 7), 0, 0};
+      if (list.pairs().listed(k)) {
+        const double load = (k % 2 == 0 ? 0.01 : 1) * static_cast<double>(1 + k);
+        list.memories()[k] = {load, 0.5 - static_cast<double>(k % 7), 0, 0};
+      }
     rule.ahead = rule.middle = state.position;
     rule.motion = state.motion;
     rule.walls = walls;
@@ -353,7 +355,7 @@ TEST_P(DetectionOn, GivesTheBytesOfTheBestInstructionSet)
 /// A listed pair in the words of contact_law.hpp.
 struct PairInWords {
   bool acts;
-  double separation, gap, remembered;
+  double separation, gap, load, remembered;
   Contact contact;
 };
 
@@ -389,8 +391,9 @@ PairInWords in_words(const Prepared& p, const Pairs::Class& c, std::size_t k)
   pair.contact.mass_t = tangential_mass(pair.contact.mass_n, pair.contact.kappa);
   pair.contact.impulse_n = pairs.memory[k].n;
   pair.contact.impulse_t = pairs.memory[k].t;
-  const auto rebound = rebound_of(pair.gap, pair.separation, pairs.memory[k].n,
-                                  pairs.memory[k].approach, p.rule.restitution, p.rule.horizon);
+  pair.load = pairs.memory[k].n * (a.inverse_mass + b.inverse_mass);
+  const auto rebound = rebound_of(pair.gap, pair.separation, pair.load, pairs.memory[k].approach,
+                                  p.rule.restitution, p.rule.horizon);
   pair.contact.rebound = rebound.velocity;
   pair.remembered = rebound.remembered;
   return pair;
@@ -421,6 +424,7 @@ Bits bits_of(const StripContacts& contacts, std::size_t block, std::size_t lane,
 /// How many pairs of each kind a comparison has seen.
 struct Seen {
   std::size_t acting = 0, idle = 0, apart = 0, newcomers = 0, rebounding = 0;
+  std::size_t pressed_rebounding = 0, pressed_stopped = 0;  // under a load, and approaching
 };
 
 /// Compares what detection makes of a bed with what the words say of every listed pair.
@@ -459,6 +463,9 @@ void expect_the_law_in_words(const Prepared& p, Seen& seen)
       seen.apart += words.gap > 0;
       seen.newcomers += words.remembered > 0;
       seen.rebounding += words.gap > 0 && words.contact.rebound > 0;
+      const bool pressed = words.load > 0 && words.gap <= 0 && words.separation < 0;
+      seen.pressed_rebounding += pressed && words.contact.rebound > 0;
+      seen.pressed_stopped += pressed && words.contact.rebound == 0;
       touching += words.gap <= 0;
       overlap += std::max(-words.gap, 0.0);
       largest = std::max(largest, -words.gap);
@@ -478,6 +485,8 @@ TEST_P(DetectionOn, ContactsAreThoseOfTheLawInWordsToTheLastBit)
     expect_the_law_in_words(Prepared(bed_of(20, 10, periodic, 0)), seen);
   EXPECT_GT(seen.acting, 100u);
   EXPECT_GT(seen.idle, 100u);
+  EXPECT_GT(seen.pressed_rebounding, 20u);
+  EXPECT_GT(seen.pressed_stopped, 20u);
 }
 
 TEST_P(DetectionOn, PairsStillApartAreSlowedDownAsTheLawInWordsSaysToTheLastBit)

@@ -120,11 +120,9 @@ double trembling(const std::string& accuracy, const std::string& min_sweeps)
 
 TEST(Deposition, ABedAtRestStaysAtRest)
 {
-  for (const auto* accuracy : {"draft", "standard"}) {
-    EXPECT_LT(trembling(accuracy, "8"), 1e-3) << accuracy;
-    EXPECT_GT(trembling(accuracy, "1"), 2e-3)
-        << accuracy << ": the least number of sweeps has no effect";
-  }
+  // Slower than gravity makes a grain in a step: (g h)^2/2 = 1.6e-4 g d_S at the step of draft.
+  for (const auto* accuracy : {"draft", "standard"})
+    EXPECT_LT(trembling(accuracy, "8"), 1e-4) << accuracy;
 }
 
 TEST(Deposition, GivesTheWorldTheConditionsOfTheScene)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/step/simulation.hpp"
 
+#include "formats/core/errors.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/step/energies.hpp"
 #include "tests/sim/worlds.hpp"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 
 namespace grseg {
 namespace {
@@ -205,6 +207,19 @@ TEST(Simulation, AFrameUnwrapsToTheTruePositionWheneverTheListWasMade)
     EXPECT_LT(frame.position[0].x(), 10);
     EXPECT_NEAR(frame.position[0].x() + 10 * frame.image[0][0], x, 1e-12);
   }
+}
+
+TEST(Simulation, ADiscThatCrossesTheCellMoreOftenThanAFileCountsEndsTheRun)
+{
+  const std::vector<Disc> discs{{{1, 5}, 0.5}};
+  auto world = world_of(discs);
+  world.box = {10, 10, true};
+  auto state = Simulation(world, positions_of(discs)).state();
+  state.image[0] = most_periods;
+  state.position[0] = {10.5, 5};
+  EXPECT_THROW(Simulation(world, state).advance(), RunError);
+  --state.image[0];
+  EXPECT_NO_THROW(Simulation(world, state).advance());
 }
 
 TEST(Simulation, ASlowRiseUnderGravityEndsAtRestNotInTheFloor)

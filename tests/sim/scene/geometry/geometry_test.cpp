@@ -205,6 +205,21 @@ TEST(Geometry, AShakenBaseMovesAsAskedAndThrowsItsBed)
   EXPECT_GT(highest, before + 4 * scene.shake_amplitude);  // 5.8 g
 }
 
+TEST(Geometry, ABaseThatIsNoLongerShakenStandsStill)
+{
+  auto scene = scene_from(
+      {"--length", "6dL", "--depth", "8dS", "--shake-amplitude", "1dS", "--shake-frequency", "12"});
+  auto simulation = released(scene);
+  run_for(simulation, 0.1);
+  scene.shake_amplitude = 0;
+  start_flow(simulation, scene);
+  const auto last = simulation.world().grains.size() - 1;  // a bead of the base
+  const auto before = simulation.position(last);
+  run_for(simulation, 0.1);
+  EXPECT_EQ(simulation.position(last), before);
+  EXPECT_EQ(simulation.velocity(last), Vec2::Zero());
+}
+
 TEST(Geometry, ARestartedShearCellContinuesBitwise)
 {
   const auto scene = scene_from({"--geometry", "shear", "--length", "6dL", "--depth", "8dS"});
@@ -237,6 +252,22 @@ TEST(Geometry, RefusesKeysThatDoNotFitIt)
                SceneError);
   EXPECT_THROW(scene_from({"--geometry", "shear", "--keep-deposition"}), SceneError);
   EXPECT_THROW(scene_from({"--shake-amplitude", "1dS"}), SceneError);
+}
+
+TEST(Geometry, ChecksLengthsInLargeDiametersOfItsOwnKeysOnly)
+{
+  const auto complaint = [](std::vector<std::string> words) {
+    words.insert(words.end(), {"--size-ratio", "50", "--length", "4dL", "--depth", "60dS"});
+    try {
+      scene_from(words);
+    } catch (const SceneError& error) {
+      return error.key;
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(complaint({}), "none");
+  EXPECT_EQ(complaint({"--geometry", "drum", "--lateral", "walls"}), "drum-diameter");
+  EXPECT_EQ(complaint({"--geometry", "column", "--lateral", "walls"}), "column-width");
 }
 
 }  // namespace

@@ -124,6 +124,42 @@ TEST(Scene, ASlopeThatTurnsIsStoredAndMustTurnSlowly)
   }
 }
 
+/// The key that a scene is refused for.
+std::string refused_key(const std::vector<std::string>& words)
+{
+  try {
+    scene_from(words);
+  } catch (const SceneError& error) {
+    return error.key;
+  }
+  return "none";
+}
+
+TEST(Scene, AShakenBaseHasTwentyStepsInAPeriod)
+{
+  const std::vector<std::string> shaken{"--shake-amplitude", "2dS", "--shake-frequency", "2000"};
+  EXPECT_NEAR(scene_from(shaken).step, 1 / (20 * 2000.0), 1e-12);
+  auto with_step = shaken;
+  with_step.insert(with_step.end(), {"--step", "2.5e-4"});
+  EXPECT_EQ(refused_key(with_step), "step");
+  with_step.back() = "2.5e-5";
+  EXPECT_EQ(refused_key(with_step), "none");
+}
+
+TEST(Scene, APlateIsTooHeavyForItsLoadToMoveItUnseenWithinAStep)
+{
+  EXPECT_EQ(refused_key({"--geometry", "shear"}), "none");
+  EXPECT_EQ(refused_key({"--geometry", "shear", "--plate-mass", "1e-8"}), "plate-mass");
+}
+
+TEST(Scene, NearlyElasticGrainsReboundInTheStepInWhichTheyMeet)
+{
+  EXPECT_EQ(scene_from({"--restitution", "0.9"}).law, ContactLaw::speculative);
+  EXPECT_EQ(scene_from({"--restitution", "0.98"}).law, ContactLaw::centred);
+  EXPECT_EQ(scene_from({"--restitution", "1", "--contact-law", "speculative"}).law,
+            ContactLaw::speculative);
+}
+
 TEST(Scene, BaseAndOrderOfTheDepositionAreStored)
 {
   const auto parameters = to_parameters(scene_from(
