@@ -73,7 +73,8 @@ void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
   require(least_chords * frequency * scene.step <= 1 + 1e-9, "step",
           fmt::format("step is {:.6g} s: a period of shake-frequency, {:g} Hz, has {:.3g} of them; "
                       "choose one of at most {:.4g} s, for {:g} in a period",
-                      scene.step, frequency, 1 / (frequency * scene.step), longest, least_chords));
+                      scene.step, frequency, 1 / (frequency * scene.step),
+                      1 / (least_chords * frequency), least_chords));
   require_within(scene.step, "step", 0, largest_step * natural);
   const double steps = scene.frame_interval / scene.step;
   require(std::abs(steps - std::round(steps)) <= 1e-6 * steps && steps >= 0.5, "step",
