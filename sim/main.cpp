@@ -19,7 +19,8 @@ void add_run_options(po::options_description& options, RunOptions& run)
   add("isa", po::value(&run.instruction_set)->value_name("NAME"),
       "vector instructions to use, such as avx2 (default: the best that the processor has; an "
       "unknown name lists all); results are bitwise identical");
-  add("strict", po::bool_switch(&run.strict), "exit code 4 if a step missed the tolerance");
+  add("strict", po::bool_switch(&run.strict),
+      "exit code 4 if a step missed the tolerance or grains overlapped by more than 0.25 d_S");
   add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
       "write the state to this file regularly, at the end, and on SIGINT and SIGTERM");

@@ -29,7 +29,7 @@ struct Variant {
 
 /// DetectionSums, lane by lane.
 struct alignas(64) LaneSums {
-  Lanes overlap{}, largest_overlap{}, fastest_approach{};
+  Lanes overlap{}, largest_overlap{}, fastest_approach{}, load{}, root_loads{}, approaches{};
   std::size_t touching = 0;
   bool coincident = false;
 };
@@ -152,7 +152,8 @@ HWY_INLINE Geometries geometry_of(const Pairs& pairs, const Pairs::Class& c, con
   return {n.nx, n.ny, kappa, hn::Sub(n.distance, reach)};
 }
 
-HWY_INLINE void accumulate(Vector gap, Vector approach, Mask used, std::size_t lane, LaneSums& sums)
+HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, Mask used,
+                           std::size_t lane, LaneSums& sums)
 {
   const D d;
   const auto add = [&](Lanes& to, Vector what)
@@ -166,6 +167,10 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Mask used, std::size_t l
   add(sums.overlap, overlap);
   keep_most(sums.largest_overlap, overlap);
   keep_most(sums.fastest_approach, approach);
+  add(sums.load, impulse_n);
+  add(sums.root_loads, hn::Sqrt(impulse_n));
+  const auto fresh = hn::IfThenElseZero(hn::Eq(impulse_n, hn::Zero(d)), approach);
+  add(sums.approaches, hn::Mul(fresh, fresh));
 }
 
 /// Eight pairs of a class from `first` of `near` on, with the first guess of their impulses.
@@ -200,7 +205,7 @@ HWY_INLINE void set_block(const Pairs& pairs, const Pairs::Class& c, const NearP
     store(t, block.impulse_t);
     store(g.gap, origin.gap);
     store(rebound.remembered, origin.approach);
-    accumulate(g.gap, approach_of(separation), used, lane, sums);
+    accumulate(g.gap, approach_of(separation), n, used, lane, sums);
   }
 }
 
@@ -253,8 +258,9 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
   }
   if (!base_seen) contacts.on_base = contacts.size;
   const auto most = [](const Lanes& l) { return *std::max_element(l.begin(), l.end()); };
-  total = {sums.touching, sum(sums.overlap), most(sums.largest_overlap),
-           most(sums.fastest_approach), sums.coincident};
+  total = {
+      sums.touching,  sum(sums.overlap),    most(sums.largest_overlap), most(sums.fastest_approach),
+      sum(sums.load), sum(sums.root_loads), sum(sums.approaches),       sums.coincident};
   leave_vectors();
 }
 
@@ -357,6 +363,9 @@ DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
     total.overlap += s.overlap;
     total.largest_overlap = std::max(total.largest_overlap, s.largest_overlap);
     total.fastest_approach = std::max(total.fastest_approach, s.fastest_approach);
+    total.load += s.load;
+    total.root_loads += s.root_loads;
+    total.approaches += s.approaches;
     total.coincident |= s.coincident;
   }
   return total;

@@ -205,8 +205,7 @@ class Check {
     each(
         "/grains/radius", c_.grains.radius, [most](double radius) { return radius <= most; },
         "is larger than the diameter of large grains and base grains");
-    require(c_.state.pairs.skin <= scene.small_diameter,
-            "/state/pairs/skin is larger than a small grain");
+    require(c_.state.pairs.skin <= 2 * most, "/state/pairs/skin is larger than a large grain");
     const double end = farthest * scene.small_diameter;
     const auto near = [end](const Vec2& x) { return x.cwiseAbs().maxCoeff() <= end; };
     for (const auto& [path, positions] : {std::pair{"/state/position", &c_.state.position},

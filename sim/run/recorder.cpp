@@ -13,7 +13,8 @@
 namespace grseg {
 namespace {
 
-constexpr double most_overlap = 0.01;  // mean, in d_S
+// In d_S, of the mean overlap. Grains that approach by more in a step may overlap by as much.
+constexpr double most_overlap = 0.01;
 
 bool all_finite(const std::vector<Vec2>& values)
 {
@@ -135,11 +136,11 @@ void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation)
         approach / small_diameter_, 1 << most_halvings, frame.time, most / small_diameter_,
         simulation.world().step * most / approach));
   const double overlap = state_.since_frame.mean_overlap() / small_diameter_;
-  if (overlap > most_overlap)
-    throw RunError(
-        fmt::format("the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S; use a "
-                    "smaller step or tolerance",
-                    overlap, frame.time, most_overlap));
+  if (overlap > std::max(most_overlap, approach / small_diameter_))
+    throw RunError(fmt::format(
+        "the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S and above what the "
+        "fastest grains make in a step; use a smaller step or tolerance",
+        overlap, frame.time, most_overlap));
 }
 
 double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& gravity)

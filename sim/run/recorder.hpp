@@ -4,10 +4,15 @@
 #include "formats/trajectory/writer.hpp"
 #include "sim/step/simulation.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace grseg {
+
+/// In d_S: an overlap above this, and above what the fastest approach makes in a step, means that a
+/// grain passes into another one or into a wall.
+constexpr double deep_overlap = 0.25;
 
 /// Sums and extremes over the reports of steps.
 struct StepTotals {
@@ -23,6 +28,11 @@ struct StepTotals {
   void add(const StepTotals& other);
   double per_step(double sum) const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
   double mean_overlap() const { return touching > 0 ? sum_overlap / touching : 0; }
+  /// Whether two grains, or one and a wall, overlapped by more than deep_overlap.
+  bool passed_into(double small_diameter) const
+  {
+    return largest_overlap > std::max(deep_overlap * small_diameter, farthest_approach);
+  }
   double mean_gap_bearing() const
   {
     return force_bearing > 0 ? sum_gap_bearing / force_bearing : 0;
@@ -50,7 +60,7 @@ class Recorder {
 
   void add(const StepReport& report) { state_.since_frame.add(report); }
   /// Writes `frame`; its own step must have been added. RunError where the mean overlap since the
-  /// last frame is above 1 % of d_S, a grain approaches its neighbour by more than half of d_S even in
+  /// last frame is above 1 % of d_S and above what the fastest approach makes in a step, a grain approaches its neighbour by more than half of d_S even in
   /// the smallest part of a step, or a number is not finite.
   void write(const Frame<2>& frame, const Simulation& simulation);
 

@@ -125,12 +125,18 @@ Interruption stopped_at(double time, const RunOptions& options)
                                   time, part_of(options.output), continuation));
 }
 
-void refuse_missed_tolerance(const StepTotals& totals)
+/// CheckError where the solver missed its tolerance or grains passed into each other.
+void refuse_errors(const StepTotals& totals, double small_diameter)
 {
   if (totals.missed > 0)
     throw CheckError(fmt::format(
         "the tolerance was missed in {} of {} steps; allow more sweeps or a smaller step",
         totals.missed, totals.steps));
+  if (totals.passed_into(small_diameter))
+    throw CheckError(fmt::format(
+        "two grains, or one and a wall, overlapped by {:.2g} d_S, more than {}; allow more sweeps or a "
+        "smaller step",
+        totals.largest_overlap / small_diameter, deep_overlap));
 }
 
 /// Lets `run` flow to its end and publishes what it wrote.
@@ -160,7 +166,7 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
   publish_trajectory(options.output, options.overwrite,
                      {.compression = scene.compression, .float32 = scene.float32});
   if (!options.quiet) fmt::print(stderr, "{}", next_steps(options.output));
-  if (options.strict) refuse_missed_tolerance(recorder.totals());
+  if (options.strict) refuse_errors(recorder.totals(), scene.small_diameter);
 }
 
 void record_deposition(const Scene& scene, TrajectoryWriter& writer)
@@ -170,7 +176,7 @@ void record_deposition(const Scene& scene, TrajectoryWriter& writer)
     recorder.add(report);
     if (frame != nullptr) recorder.write(*frame, now);
   };
-  deposit(scene, {.each_step = {}, .record = record});
+  deposit(scene, {.each_step = {}, .slowed = {}, .record = record});
 }
 
 }  // namespace
@@ -190,7 +196,9 @@ void simulate(const Scene& scene, const RunOptions& options)
   const auto listen = [] {
     if (interrupted()) throw interruption("interrupted while the bed was deposited");
   };
-  const auto deposited = deposit(scene, {.each_step = listen, .record = {}});
+  double slowed_from = 0;
+  const auto slowed = [&](double time) { slowed_from = slowed_from > 0 ? slowed_from : time; };
+  const auto deposited = deposit(scene, {.each_step = listen, .slowed = slowed, .record = {}});
   progress.clear();
   const auto simulation = release(deposited, scene);
   Run run{simulation,
@@ -200,6 +208,11 @@ void simulate(const Scene& scene, const RunOptions& options)
           options.command_line};
   if (scene.keep_deposition) record_deposition(scene, run.writer);
   finish(scene, options, run);
+  if (slowed_from > 0 && !options.quiet)
+    fmt::print(
+        stderr,
+        "  remark     the falling bed still moved after {:.3g} s; its grains were slowed down\n",
+        slowed_from);
 }
 
 void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& options)

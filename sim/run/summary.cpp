@@ -96,6 +96,11 @@ std::string doubts(const StepTotals& t, const Scene& scene)
     lines += line("doubt", fmt::format("the mean overlap is above {:g} d_S: choose a smaller "
                                        "--step or a larger --min-sweeps",
                                        small_overlap));
+  if (t.passed_into(scene.small_diameter))
+    lines += line("doubt",
+                  fmt::format("two grains, or one and a wall, overlapped by more than {:g} d_S: "
+                              "choose a smaller --step or a larger --min-sweeps",
+                              deep_overlap));
   return lines;
 }
 

@@ -202,12 +202,42 @@ Simulation falling(const Packing& packing, const Scene& scene, RandomNumbers& ra
   return simulation;
 }
 
-double mobile_mass(const Grains& grains)
+/// When a deposition looks whether the bed rests, in steps and s.
+struct Looks {
+  std::int64_t every;  // steps
+  double first;        // s; the free fall is never mistaken for rest
+  double impatient;    // s, from then on grains are slowed down
+  double last;         // s
+};
+
+Looks looks_of(const Scene& scene)
 {
-  double mass = 0;
+  const double fall = std::sqrt(2 * scene.depth / scene.gravity);
+  const double between = 2 * std::sqrt(scene.small_diameter / scene.gravity);
+  return {static_cast<std::int64_t>(std::ceil(between / scene.step)),
+          std::sqrt(2 * 0.2 * scene.depth / scene.gravity), 10 * fall, 20 * fall};
+}
+
+void set_restitution(double restitution, Simulation& simulation)
+{
+  auto world = simulation.world();
+  if (world.material.restitution == restitution) return;
+  world.material.restitution = restitution;
+  simulation = Simulation(world, simulation.state());
+}
+
+/// Where a look after `steps` steps is an impatient one, halves the velocities of mobile grains, which
+/// do not rebound from then on; says whether it is.
+bool slow_down(Simulation& simulation, std::int64_t steps, const Scene& scene, const Looks& looks)
+{
+  if (steps % looks.every != 0 || static_cast<double>(steps) * scene.step < looks.impatient)
+    return false;
+  set_restitution(0, simulation);
+  const auto& grains = simulation.world().grains;
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (!grains.fixed[g]) mass += grains.mass[g];
-  return mass;
+    if (!grains.fixed[g])
+      simulation.set_velocity(g, simulation.velocity(g) / 2, simulation.angular_velocity(g) / 2);
+  return true;
 }
 
 /// Lets the bed fall until it rests; returns the number of steps.
@@ -215,22 +245,26 @@ std::int64_t settle(Simulation& simulation, const Scene& scene, const Deposition
 {
   const double at_rest =
       2e-3 * mobile_mass(simulation.world().grains) * scene.gravity * scene.small_diameter;
-  const double longest_wait = 20 * std::sqrt(2 * scene.depth / scene.gravity);
-  // The free fall is never mistaken for rest: the first look comes after it.
-  const double first_look = std::sqrt(2 * 0.2 * scene.depth / scene.gravity);
-  const auto steps_between_looks = static_cast<std::int64_t>(
-      std::ceil(2 * std::sqrt(scene.small_diameter / scene.gravity) / scene.step));
-  while (simulation.time() < longest_wait) {
-    for (std::int64_t k = 0; k < steps_between_looks; ++k) {
+  const auto looks = looks_of(scene);
+  double energy = 0;
+  while (simulation.time() < looks.last) {
+    for (std::int64_t k = 0; k < looks.every; ++k) {
       simulation.advance();
       if (hooks.each_step) hooks.each_step();
     }
-    const double energy = translational_energy(simulation) + rotational_energy(simulation);
-    if (simulation.time() > first_look && energy < at_rest) return simulation.steps_done();
+    energy = translational_energy(simulation) + rotational_energy(simulation);
+    if (simulation.time() > looks.first && energy < at_rest) {
+      set_restitution(scene.restitution, simulation);
+      return simulation.steps_done();
+    }
+    if (slow_down(simulation, simulation.steps_done(), scene, looks) && hooks.slowed)
+      hooks.slowed(simulation.time());
   }
   throw RunError(fmt::format(
-      "the bed has not come to rest {:.3g} s after its release; use a smaller step or tolerance",
-      longest_wait));
+      "the bed has not come to rest {:.3g} s after its release, although its grains were slowed down: "
+      "its kinetic energy is {:.2g} times that of a bed at rest; use more min-sweeps, now {}, or a "
+      "smaller step",
+      looks.last, energy / at_rest, scene.solver.min_sweeps));
 }
 
 /// Runs `simulation` through `steps` steps that end at time 0, for the record.
@@ -238,13 +272,17 @@ void replay(Simulation& simulation, std::int64_t steps, const Scene& scene,
             const DepositionHooks& hooks)
 {
   Frame<2> frame;
+  const auto looks = looks_of(scene);
   simulation.set_clock(-steps);
   while (simulation.steps_done() < 0) {
     const bool due = simulation.steps_done() % scene.steps_per_frame() == 0;
     const auto report = due ? simulation.advance(frame) : simulation.advance();
     hooks.record(report, simulation, due ? &frame : nullptr);
     if (hooks.each_step) hooks.each_step();
+    if (simulation.steps_done() < 0)
+      slow_down(simulation, steps + simulation.steps_done(), scene, looks);
   }
+  set_restitution(scene.restitution, simulation);
 }
 
 }  // namespace

@@ -12,6 +12,8 @@ namespace grseg {
 struct DepositionHooks {
   /// Called after every step; what it throws ends the deposition.
   std::function<void()> each_step;
+  /// Called with the time, s, where the grains of a bed that does not rest are slowed down.
+  std::function<void(double)> slowed;
   /// Where set, the accepted deposition is run once more with the clock below 0, and this is called
   /// after every step of it, with the frame where one is due and null otherwise.
   std::function<void(const StepReport&, const Simulation&, const Frame<2>*)> record;
@@ -22,6 +24,10 @@ struct DepositionHooks {
 /// mean height of its mobile grains above y = 0, lies within 2 % of scene.depth: grains are added
 /// or left out, at constant phi_L, and the deposition is repeated until it does. RunError where
 /// that cannot be reached.
+///
+/// A bed of depth H that still moves after 10 sqrt(2 H/g), as it may without friction, with
+/// restitution 1, or under a grain that rolls on a flat wall, no longer rebounds and loses half of its
+/// velocities every 2 sqrt(d_S/g) until it rests.
 ///
 /// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
 /// gravity points straight down; release (release.hpp) starts the flow.

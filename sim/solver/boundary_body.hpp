@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "sim/contact/contact_blocks.hpp"
+#include "sim/solver/contact_place.hpp"
 
 #include <cstdint>
 #include <span>
@@ -34,11 +34,11 @@ Vec2 displacement(const BoundaryBody& body, double time);
 Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time, double step);
 
 /// Free bodies within the solve of one step. In a sweep boundary grains have infinite mass; after
-/// each, every free body takes the velocity V of one Newton step towards
+/// each, every free body and its contacts are solved together. The contacts are relaxed and the body
+/// takes the velocity V of one Newton step towards
 ///   M (V - V_free) = P(V),  dP/dV = - (sum of the effective masses of its contacts under force),
-/// where P is the sum of its contact impulses along y and V_free its velocity without contacts. Its
-/// contacts are then relaxed and V is updated once more: if the update came last, all its grains
-/// would be left with the same velocity error, and sink into it step by step.
+/// in turn, until V settles. P is the sum of its contact impulses along y, V_free its velocity without
+/// contacts. A body that keeps a small part of its load's impulse each step sinks into its grains.
 class FreeBodies {
  public:
   /// `place` gives the index in `motion` of each row of Grains.
@@ -48,18 +48,17 @@ class FreeBodies {
   /// Sets the velocities of all bodies from the impulses in the blocks. Returns the largest change,
   /// m/s.
   double update_velocities(std::span<Motion> motion);
-  /// One relaxation of the bodies' own contacts.
-  void relax_contacts(std::span<Motion> motion, double friction, Effects effects);
+  /// Solves the bodies and their own contacts, the impulses of which it changes. Returns the largest
+  /// change of a body's velocity, m/s.
+  double balance(std::span<Motion> motion, double friction, Effects effects);
 
  private:
-  struct BodyContact {  // where the contact is
-    ContactBlock* block;
-    std::uint32_t lane;
-  };
+  void relax_contacts(std::span<Motion> motion, double friction, Effects effects);
+
   struct Body {
     double mass, free_velocity;  // kg, m/s without contacts
     std::vector<std::uint32_t> members;
-    std::vector<BodyContact> contacts;
+    std::vector<ContactPlace> contacts;
   };
   std::vector<Body> bodies_;
 };

@@ -95,9 +95,9 @@ struct Task {
   double friction;
   Effects effects;
   const SolverSettings& settings;
-  double floor;  // m/s
+  ReferenceRange range;
   int threads;
-  FreeBodies* free;  // with doubles only
+  SolvedApart apart;  // with doubles only
 };
 
 /// One solve, from the first guess on, which the velocities contain.
@@ -122,13 +122,14 @@ class Sweeping {
  private:
   SweepResult first_of_several();
   SweepResult sweep_all();
+  double solve_apart();
   void sweep_strip(std::size_t strip, Findings findings);
   SolverReport report_on(const SweepResult& result);
-  /// m/s, the mean of W p, at least the floor.
+  /// m/s, the mean of W p, within its range.
   double reference(const SweepResult& result) const
   {
-    return std::max(std::sqrt(result.sum_reference / static_cast<double>(task_.count)),
-                    task_.floor);
+    const double mean = std::sqrt(result.sum_reference / static_cast<double>(task_.count));
+    return std::clamp(mean, task_.range.least, task_.range.most);
   }
 
   std::span<const RunsOf<Real>> strips_;
@@ -182,6 +183,20 @@ SweepResult Sweeping<Real>::first_of_several()
   return total(results_);
 }
 
+/// m/s, the largest change.
+template <class Real>
+double Sweeping<Real>::solve_apart()
+{
+  double largest = 0;
+  if constexpr (std::is_same_v<Real, double>) {
+    const auto& [free, wedged] = task_.apart;
+    if (free != nullptr) largest = free->balance(motion_, task_.friction, task_.effects);
+    if (wedged != nullptr)
+      largest = std::max(largest, wedged->settle(motion_, task_.friction, task_.effects));
+  }
+  return largest;
+}
+
 template <class Real>
 SweepResult Sweeping<Real>::sweep_all()
 {
@@ -192,12 +207,7 @@ SweepResult Sweeping<Real>::sweep_all()
   sweeps_ += at_a_time_;
   work_.count();
   auto result = total(results_);
-  if constexpr (std::is_same_v<Real, double>)
-    if (task_.free != nullptr) {
-      result.largest = std::max(result.largest, task_.free->update_velocities(motion_));
-      task_.free->relax_contacts(motion_, task_.friction, task_.effects);
-      task_.free->update_velocities(motion_);
-    }
+  result.largest = std::max(result.largest, solve_apart());
   return result;
 }
 
@@ -224,12 +234,12 @@ SolverReport Sweeping<Real>::until_settled()
   const auto& settings = task_.settings;
   if (settings.acceleration) extrapolation_.begin(strips_, motion_, task_.threads);
   while (true) {
-    const bool several = strips_.size() > 1 && task_.free == nullptr;
+    const bool several = strips_.size() > 1 && !task_.apart.any();
     const auto result = several && sweeps_ == 0 ? first_of_several() : sweep_all();
     if (sweeps_ >= least_ || (result.sum_squares == 0 && result.largest == 0)) {
       const auto report = report_on(result);
       if (report.converged || sweeps_ >= settings.max_sweeps) return report;
-      if (task_.free == nullptr) work_.choose(results_, settings.tolerance * reference(result));
+      if (!task_.apart.any()) work_.choose(results_, settings.tolerance * reference(result));
     }
     if (settings.acceleration && !work_.local())
       extrapolation_.extrapolate(strips_, motion_, result.sum_squares, task_.threads);
@@ -253,17 +263,17 @@ SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> mo
 
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
-                            const SolverSettings& settings, double floor, SolverMemory& memory,
-                            int threads, FreeBodies* free)
+                            const SolverSettings& settings, const ReferenceRange& range,
+                            SolverMemory& memory, int threads, const SolvedApart& apart)
 {
   if (count == 0) return {};
-  const Task task{count, friction, effects, settings, floor, threads, free};
-  if (settings.precision == Precision::mixed && free == nullptr)
+  const Task task{count, friction, effects, settings, range, threads, apart};
+  if (settings.precision == Precision::mixed && !apart.any())
     return solve_mixed(strips, motion, task, memory);
   for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
     apply_impulses(strips[s].blocks, motion.data(), effects);
   });
-  if (free != nullptr) free->update_velocities(motion);
+  if (apart.free != nullptr) apart.free->update_velocities(motion);
   return Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
 }
 

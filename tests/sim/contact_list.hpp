@@ -48,8 +48,6 @@ class ContactBlocks {
   std::array<std::uint32_t, colours + 1> next_{};  // free slot of each colour
 };
 
-constexpr std::size_t doubles_per_body = sizeof(Motion) / sizeof(double);
-
 inline ContactBlock neutral_block(std::size_t idle)
 {
   ContactBlock block{};
@@ -133,7 +131,7 @@ inline void ContactBlocks::lay_out(std::size_t idle)
 /// solve_contacts() for contacts in any order.
 inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
                                    double friction, Effects effects, const SolverSettings& settings,
-                                   double floor)
+                                   const ReferenceRange& range)
 {
   if (!effects.friction)
     for (auto& c : contacts) c.impulse_t = 0;
@@ -144,7 +142,7 @@ inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<M
   const std::array strips{packed.runs()};
   SolverMemory memory;
   const auto report =
-      solve_contacts(strips, contacts.size(), motion, friction, effects, settings, floor, memory);
+      solve_contacts(strips, contacts.size(), motion, friction, effects, settings, range, memory);
   motion.pop_back();
   packed.unpack(contacts);
   return report;

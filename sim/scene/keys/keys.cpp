@@ -158,7 +158,7 @@ std::vector<SceneKey> boundary_keys()
      "of a shear cell's plate, m/s"},
     {"plate-pressure", "2", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
      "of a shear cell's plate on the grains, N/m"},
-    {"plate-mass", "", number(&Scene::plate_mass, 1e-15, 1e15), flow, no,
+    {"plate-mass", "", number(&Scene::plate_mass, 1e-60, 1e60), flow, no,
      "of a shear cell's plate, kg (default: that of its grains)"},
     {"column-width", "40dS", length(&Scene::column_width, "1dS", "1e12"), bed, no,
      "of a column before its gate opens; at least 1dL"},
@@ -189,7 +189,9 @@ std::vector<SceneKey> run_keys()
     {"threads", "1", whole_number(&Scene::threads, 0, 1024), machine, no,
      "for wide scenes; 0 uses all cores. Results do not depend on it"},
     {"accuracy", "standard", choice(&Scene::accuracy, accuracy_words()), flow, yes,
-     "sets step, tolerance, min-sweeps, max-sweeps and precision where they are not given"},
+     "sets step, tolerance, min-sweeps, max-sweeps and precision where they are not given; where the "
+     "masses of small and large grains differ much, up to 16 times the sweeps and a tolerance as "
+     "much smaller"},
     {"step", "", number(&Scene::step, 1e-15, 1e12), flow, yes,
      set_by_accuracy("time step, s, at most 0.05 sqrt(d_S/g)")},
     {"tolerance", "", number(of_solver(&SolverSettings::tolerance), 1e-15, 1e3), flow, yes,

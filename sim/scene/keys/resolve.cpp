@@ -27,6 +27,10 @@ constexpr double largest_turn = 1;     // degree per step: a step feels the grav
 constexpr double least_chords = 20;
 // d_S: within a step its load may move a plate by so much; half of it may become overlap.
 constexpr double farthest_by_load = 0.1;
+// Masses of a large grain, in those of a small one, up to which the presets do. Beyond them heavy
+// grains sink into light ones, or light ones lift them (docs/studies/hard-cases.md).
+constexpr double heaviest_large = 16;
+constexpr double most_sweeps_factor = 16;
 // Above this restitution pairs rebound in the step in which they meet: the speculative law changes
 // the energy of a gas (docs/studies/numerics.md).
 constexpr double most_speculative_restitution = 0.9;
@@ -83,6 +87,18 @@ void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
                       scene.frame_interval, scene.step));
 }
 
+/// By how much sweeps must grow, and their tolerance shrink, where grains of one species bear much
+/// heavier ones: a sweep gives a heavy grain only as much of an impulse as stops a light one.
+int more_sweeps(const Scene& scene)
+{
+  const bool two_species =
+      scene.large_grains ? *scene.large_grains > 0 : scene.phi_large > 0 && scene.phi_large < 1;
+  if (!two_species) return 1;
+  const double masses = scene.density_ratio * scene.size_ratio * scene.size_ratio;
+  const double contrast = std::max(masses / heaviest_large, 1 / masses);
+  return static_cast<int>(std::clamp(std::ceil(std::sqrt(contrast)), 1.0, most_sweeps_factor));
+}
+
 void resolve_accuracy(Scene& scene, const KeyGiven& given)
 {
   const auto& accuracy =
@@ -90,9 +106,11 @@ void resolve_accuracy(Scene& scene, const KeyGiven& given)
                     [&](const Accuracy& one) { return one.name == scene.accuracy; });
   resolve_step(scene, given, accuracy);
   auto& solver = scene.solver;
-  if (!given("tolerance")) solver.tolerance = accuracy.tolerance;
-  if (!given("max-sweeps")) solver.max_sweeps = accuracy.max_sweeps;
-  if (!given("min-sweeps")) solver.min_sweeps = std::min(accuracy.min_sweeps, solver.max_sweeps);
+  const int factor = more_sweeps(scene);
+  if (!given("tolerance")) solver.tolerance = accuracy.tolerance / factor;
+  if (!given("max-sweeps")) solver.max_sweeps = factor * accuracy.max_sweeps;
+  if (!given("min-sweeps"))
+    solver.min_sweeps = std::min(factor * accuracy.min_sweeps, solver.max_sweeps);
   require(solver.min_sweeps <= solver.max_sweeps, "min-sweeps",
           fmt::format("min-sweeps is {}, above max-sweeps, {}; give both", solver.min_sweeps,
                       solver.max_sweeps));

@@ -325,7 +325,7 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Checkpoint& c) { c.state.pairs.impulse_n[0] = no_number; }},
         Forgery{"/state/pairs/skin is not a positive length",
                 [](Checkpoint& c) { c.state.pairs.skin = 0; }},
-        Forgery{"/state/pairs/skin is larger than a small grain",
+        Forgery{"/state/pairs/skin is larger than a large grain",
                 [](Checkpoint& c) { c.state.pairs.skin = 1e300; }},
         Forgery{"/state/pairs/renewals is not a number of lists",
                 [](Checkpoint& c) { c.state.pairs.renewals = std::uint64_t{1} << 63; }},

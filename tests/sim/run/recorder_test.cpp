@@ -104,6 +104,27 @@ TEST_F(RecorderFile, WhatMovingBoundariesDoIsRecorded)
   EXPECT_NEAR(file.observable("translational_energy")[0], mass * 2, 1e-12);
 }
 
+TEST_F(RecorderFile, FastGrainsMayOverlapByWhatTheyApproachInAStep)
+{
+  StepReport report;
+  report.touching = 1;
+  report.sum_overlap = 0.05;
+  report.farthest_approach = 0.051;
+  EXPECT_NO_THROW(record(report, "steps"));
+  report.farthest_approach = 0.049;
+  EXPECT_THROW(record(report, "steps"), RunError);
+}
+
+TEST(StepTotals, OneDeepOverlapIsSeenUnlessItsApproachMadeIt)
+{
+  StepTotals totals;
+  totals.largest_overlap = 0.26;
+  EXPECT_TRUE(totals.passed_into(1));
+  EXPECT_FALSE(totals.passed_into(2));
+  totals.farthest_approach = 0.3;
+  EXPECT_FALSE(totals.passed_into(1));
+}
+
 TEST_F(RecorderFile, ARunThatOverlapsOrTunnelsIsStopped)
 {
   StepReport report;

@@ -50,6 +50,12 @@ Simulation restarted(const Simulation& simulation, const Scene& scene)
   return again;
 }
 
+TEST(Restart, OfABedOfLargeGrainsAloneIsPossible)
+{
+  const auto large = scene({"--phi-large", "1", "--size-ratio", "4"});
+  EXPECT_NO_THROW(restarted(bed(large), large));
+}
+
 void expect_a_restart_to_change_nothing(const Scene& scene)
 {
   auto undisturbed = bed(scene);

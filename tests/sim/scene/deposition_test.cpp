@@ -167,17 +167,34 @@ TEST(Deposition, IsRecordedBeforeTheTiltWithoutChangingTheBed)
   const auto scene = scene_from({"--depth", "6dS", "--length", "6dL", "--accuracy", "draft"});
   std::int64_t steps = 0;
   std::vector<double> times;
-  const auto recorded = deposit(
-      scene,
-      {.each_step = {}, .record = [&](const StepReport&, const Simulation&, const Frame<2>* frame) {
-         ++steps;
-         if (frame != nullptr) times.push_back(frame->time);
-       }});
+  const auto recorded =
+      deposit(scene, {.each_step = {},
+                      .slowed = {},
+                      .record = [&](const StepReport&, const Simulation&, const Frame<2>* frame) {
+                        ++steps;
+                        if (frame != nullptr) times.push_back(frame->time);
+                      }});
   ASSERT_GE(times.size(), 2u);
   EXPECT_GE(times.front(), -static_cast<double>(steps) * scene.step);
   EXPECT_LT(times.back(), 0);
   EXPECT_NEAR(times[1] - times[0], scene.frame_interval, 1e-12);
   EXPECT_EQ(recorded.position(3), deposit(scene).position(3));
+}
+
+TEST(Deposition, BringsElasticGrainsToRestBySlowingThemDown)
+{
+  // Elastic discs without friction never rest by themselves.
+  const auto scene = scene_from({"--depth", "6dS", "--length", "8dL", "--friction", "0",
+                                 "--restitution", "1", "--accuracy", "draft"});
+  double from = 0;
+  const auto slowed = [&](double time) { from = from > 0 ? from : time; };
+  const auto bed = deposit(scene, {.each_step = {}, .slowed = slowed, .record = {}});
+  EXPECT_GE(from, 10 * std::sqrt(2 * scene.depth / scene.gravity));
+  EXPECT_LT(translational_energy(bed), potential_energy(bed) / 100);
+  EXPECT_EQ(bed.world().material.restitution, 1);
+  const auto record = [](const StepReport&, const Simulation&, const Frame<2>*) {};
+  const auto recorded = deposit(scene, {.each_step = {}, .slowed = {}, .record = record});
+  EXPECT_EQ(recorded.position(3), bed.position(3));
 }
 
 TEST(Deposition, EndsWhenItIsAskedTo)
@@ -187,7 +204,7 @@ TEST(Deposition, EndsWhenItIsAskedTo)
   const auto listen = [&] {
     if (++steps == 10) throw ToolError(exit_interrupted, "interrupted");
   };
-  EXPECT_THROW(deposit(scene, {.each_step = listen, .record = {}}), ToolError);
+  EXPECT_THROW(deposit(scene, {.each_step = listen, .slowed = {}, .record = {}}), ToolError);
   EXPECT_EQ(steps, 10);
 }
 

@@ -46,6 +46,27 @@ TEST(Solver, MakesTheLeastNumberOfSweepsUnlessOneChangesNothing)
   EXPECT_EQ(sweeps(1, 8), 2);
 }
 
+TEST(Solver, ComparesChangesWithNoMoreThanTheRangeAllows)
+{
+  // A disc at speed 1 that a wall stops, and one at speed 1e-3 between two that hit it in turn: the
+  // mean of W p is that of the fast one.
+  const auto residual = [](const ReferenceRange& range) {
+    std::vector<Motion> motion{{0, -1, 0, 1}, {1e-3, 0, 0, 1}, {-1e-3, 0, 0, 1}, {}};
+    Contact stop{};
+    stop.ny = stop.kappa = stop.mass_n = 1;
+    stop.i = 0, stop.j = 3;
+    Contact hit{};
+    hit.nx = -1;
+    hit.kappa = 1;
+    hit.mass_n = 0.5;
+    hit.i = 1, hit.j = 2;
+    std::vector<Contact> contacts{stop, hit};
+    return solve_contacts(contacts, motion, 0, {}, {10, 1}, range).residual;
+  };
+  EXPECT_NEAR(residual(0), std::sqrt(2), 1e-5);
+  EXPECT_NEAR(residual({0, 0.01}), 1 / 0.01, 1e-9);
+}
+
 /// Rows of ten touching discs, a strip each, of which the first disc of the first row is hit.
 struct Rows {
   static constexpr std::size_t discs = 10;

@@ -174,15 +174,33 @@ TEST(Scene, BaseAndOrderOfTheDepositionAreStored)
 
 TEST(Scene, ItsTextMakesTheSameScene)
 {
-  const auto scene = scene_from(
-      {"--phi-large", "0.45", "--slope", "21.5", "--rotation", "off", "--slope-rate", "0.25"});
-  const auto path =
-      (fs::temp_directory_path() / ("grseg_scene_" + std::to_string(getpid()) + ".ini")).string();
-  std::ofstream(path) << to_text(scene);
-  auto values = parse({});
-  read_scene_file(path, values);
-  fs::remove(path);
-  EXPECT_EQ(to_text(resolve_scene(values)), to_text(scene));
+  const std::vector<std::string> one{"--phi-large", "0.45", "--slope",      "21.5",
+                                     "--rotation",  "off",  "--slope-rate", "0.25"};
+  const std::vector<std::string> tiny{"--small-diameter", "1e-7", "--density",        "1e-3",
+                                      "--duration",       "1e-3", "--frame-interval", "1e-5"};
+  for (const auto& words : {one, tiny}) {
+    const auto scene = scene_from(words);
+    const auto path =
+        (fs::temp_directory_path() / ("grseg_scene_" + std::to_string(getpid()) + ".ini")).string();
+    std::ofstream(path) << to_text(scene);
+    auto values = parse({});
+    read_scene_file(path, values);
+    fs::remove(path);
+    EXPECT_EQ(to_text(resolve_scene(values)), to_text(scene));
+  }
+}
+
+TEST(Scene, GrainsUnderMuchHeavierOnesGetMoreSweeps)
+{
+  const auto sweeps = [](const std::vector<std::string>& words) {
+    return scene_from(words).solver.min_sweeps;
+  };
+  EXPECT_EQ(sweeps({"--size-ratio", "4"}), 8);
+  EXPECT_EQ(sweeps({"--size-ratio", "4", "--density-ratio", "4"}), 2 * 8);
+  EXPECT_EQ(sweeps({"--size-ratio", "2", "--density-ratio", "0.0625"}), 2 * 8);
+  EXPECT_EQ(sweeps({"--size-ratio", "10", "--density-ratio", "1000"}), 16 * 8);
+  EXPECT_EQ(sweeps({"--size-ratio", "10", "--density-ratio", "1000", "--phi-large", "0"}), 8);
+  EXPECT_EQ(sweeps({"--size-ratio", "10", "--density-ratio", "1000", "--max-sweeps", "20"}), 20);
 }
 
 TEST(Scene, ValuesOutOfRangeAreRefusedByName)

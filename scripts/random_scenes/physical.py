@@ -1,0 +1,194 @@
+"""Invariants that an exact solution keeps and one that stops early may break; a run that breaks one has to say so.
+
+Sweeps end at a tolerance on their last change, and no theorem turns it into a bound on energy or overlap. These bounds
+are therefore gross: what no user would take for a flow of rigid discs. What a run says of itself (a missed tolerance,
+a line `doubt` in its summary) excuses a breach.
+"""
+import numpy as np
+
+from random_scenes.exact import Finding, moving, worst
+
+# Of the smaller diameter: what grseg-check accepts as the largest overlap (docs/studies/check.md).
+MOST_OVERLAP = 0.1
+# Lifts all grains by 0.05 d_S. G14 of the hard cases allows 0.02, of a scene that was known (tests/hard_cases/rest_test.cpp).
+MOST_CREATED = 0.05
+PAIRS_AT_MOST = 5e6  # of all frames; those that act are seen in each
+REST, STILL = 1e-12, 1e-10  # kinetic energy, of that which lifts all grains by d_S
+
+
+def all_of(run):
+    for invariant in (overlaps, outside, created_energy, undriven, plate, rest):
+        yield from invariant(run)
+
+
+def overlaps(run):
+    """No two discs overlap by more than they approach in a step and MOST_OVERLAP for what sweeps leave.
+
+    A law that acts once discs touch stops them within a step (sim/contact/contact_law.hpp: overlap up to |u| h).
+    Approaches of the deposition count too: a fall from three times its depth."""
+    fall = np.sqrt(6 * run.number("gravity") * run.number("depth"))
+    fastest = np.maximum.accumulate(np.maximum(run.observables["fastest_approach"], fall))
+    smallest = 2 * run.radius[run.mobile].min()
+    approach = fastest * run.number("step") / smallest
+    stride = int(np.ceil(run.frames * len(run.radius) ** 2 / PAIRS_AT_MOST))
+    deepest = np.zeros(run.frames)
+    both = run.j >= 0
+    smaller = np.where(both, np.minimum(run.radius[run.i], run.radius[run.j]), run.radius[run.i])
+    np.maximum.at(deepest, run.frame_of, -run.gap / (2 * smaller))
+    for k in {*range(0, run.frames, stride), run.frames - 1}:
+        deepest[k] = max(deepest[k], deepest_pair(run, run.position[k]))
+    deepest = np.maximum(deepest, deepest_in_walls(run))
+    k = int(np.argmax(deepest - approach))
+    yield Finding("overlaps", float(deepest[k]), float(MOST_OVERLAP + approach[k]), f"t = {run.time[k]:.6g} s")
+
+
+def deepest_pair(run, position):
+    """The largest overlap over the smaller diameter, of all pairs but those of boundary grains."""
+    dx = position[:, None, 0] - position[None, run.mobile, 0]
+    dy = position[:, None, 1] - position[None, run.mobile, 1]
+    if run.periodic:
+        dx -= run.width * np.round(dx / run.width)
+    a, b = run.radius[:, None], run.radius[None, run.mobile]
+    overlap = (a + b - np.sqrt(dx**2 + dy**2)) / (2 * np.minimum(a, b))
+    overlap[np.flatnonzero(run.mobile), np.arange(overlap.shape[1])] = 0
+    return overlap.max()
+
+
+def walls_of(run):
+    """Lines that no grain passes: a point and a normal."""
+    lines = []
+    if run.keys["base"] == "wall":
+        lines.append(((0, 0), (0, 1)))
+    if run.keys["lateral"] == "walls" and run.keys["geometry"] != "drum":
+        lines += [((0, 0), (1, 0)), ((run.number("length"), 0), (-1, 0))]
+    if run.keys["geometry"] == "hopper":
+        lines.append(((0, -1.3 * run.number("depth")), (0, 1)))
+    return lines
+
+
+def deepest_in_walls(run):
+    """Of each frame, over the grain's diameter."""
+    deepest = np.zeros(run.frames)
+    radius = run.radius[run.mobile]
+    for point, normal in walls_of(run):
+        distance = (run.position[:, run.mobile] - point) @ np.array(normal, float)
+        deepest = np.maximum(deepest, ((radius - distance) / (2 * radius)).max(axis=1))
+    return deepest
+
+
+def outside(run):
+    """No centre lies below those of the base, outside those of a drum, or above those of a plate."""
+    x, geometry = run.position, run.keys["geometry"]
+    if not run.fixed.any() or geometry == "hopper":
+        return
+    small = run.number("small-diameter")
+    if geometry == "drum":
+        centre = run.parameters["drum_centre"]
+        ring = np.linalg.norm(x[:, run.fixed] - centre, axis=2).max(axis=1)
+        beyond = np.linalg.norm(x[:, run.mobile] - centre, axis=2).max(axis=1) - ring
+    else:
+        # Base grains of a shear cell are the lower half of its boundary.
+        beyond = x[:, run.fixed, 1].min(axis=1) - x[:, run.mobile, 1].min(axis=1)
+    if geometry == "shear":
+        beyond = np.maximum(beyond, x[:, run.mobile, 1].max(axis=1) - x[:, moving(run), 1].max(axis=1))
+    yield worst("no grain passes a boundary", beyond / small, 0, run)
+
+
+def created_energy(run):
+    """Energy comes from gravity, from boundaries, and from rebounds with e times the approach; from nothing else.
+
+    With impulses p and relative velocities u before and u' after a step, contacts do the work p.(u + u')/2. In an
+    exact solution p_n (u'_n - rebound) = 0, rebound <= e times the approach, and p_t u'_t <= 0: so
+    sum p_n (u'_n - e approach) + p_t u'_t <= 0 in each step, whatever friction and e are (docs/studies/numerics.md).
+    What this sum makes over any span of steps is the solver's. It is measured in the energy that lifts all grains by
+    d_S, plus the largest kinetic energy; 0.05 of the work of boundaries within the span is left out."""
+    excess = run.sum_of_contacts(run.part[run.frame_of] * (
+        run.normal_force * (run.separation(run.velocity)[0] - run.number("restitution") * approaches(run))
+        + run.tangential_force * run.sliding(run.velocity, run.spin)))
+    excess -= MOST_CREATED * np.abs(run.observables["work_of_boundaries"])
+    # The approach before the step before is known where both steps were whole.
+    known = run.follows & np.append(True, run.whole[:-1])
+    total = largest = 0.0
+    place = 0
+    for k in range(run.frames):
+        total = max(0.0, total + excess[k]) if known[k] else 0.0
+        if total > largest:
+            largest, place = total, k
+    unit = run.unit_of_energy + sum(run.kinetic).max()
+    yield Finding("energy from nothing", float(largest / unit), MOST_CREATED, f"until t = {run.time[place]:.6g} s")
+
+
+def approaches(run):
+    """m/s, of each contact, before its step or, where the speculative law remembers it, before the step before."""
+    now = np.maximum(-run.separation(run.before)[0], 0)
+    if run.keys["contact-law"] != "speculative":
+        return now
+    wide = len(run.radius) + 16
+    key = (run.frame_of * wide + run.i) * wide + run.j + 8
+    order = np.argsort(key)
+    place = np.searchsorted(key[order], key - wide * wide)
+    place = order[np.minimum(place, len(order) - 1)] if len(order) else place
+    same = key[place] == key - wide * wide
+    return np.where(same, np.maximum(now, now[place]), now)
+
+
+def plate(run):
+    """The momentum of a plate that is free along y follows from its load and its contacts. The solver solves it with
+    the contacts, to its tolerance; over a run the error stays below 0.05 of the load's impulse."""
+    if run.keys["geometry"] != "shear" or not run.follows[1:].all():
+        return
+    rows = moving(run)
+    mass, load = run.number("plate-mass"), -run.number("plate-pressure") * run.width
+    on_plate = (run.j >= 0) & np.isin(run.j, rows)
+    force = -run.sum_of_contacts(np.where(on_plate, run.contact_force[:, 1], 0)) + load
+    gained = mass * (run.velocity[-1, rows[0], 1] - run.velocity[0, rows[0], 1])
+    impulse = (force * run.part)[1:].sum()
+    yield Finding("momentum of the plate", float(abs(gained - impulse) / (abs(load) * run.part[1:].sum())), 0.05, "the whole run")
+
+
+def is_driven(run):
+    """Whether a boundary moves or gravity turns."""
+    geometry = run.keys["geometry"]
+    speed = {"drum": run.number("drum-rate"), "shear": run.number("plate-speed")}.get(geometry, 0)
+    shaken = geometry == "bed" and len(moving(run)) > 0
+    return speed != 0 or shaken or run.number("slope-rate") != 0
+
+
+def held_back(run):
+    """J, of each frame: what the speculative law took from pairs that are still apart. They rebound in the next step,
+    and get at most so much back."""
+    if run.keys["contact-law"] != "speculative":
+        return np.zeros(run.frames)
+    along = run.separation((run.before + run.velocity) / 2)[0]
+    work = run.part[run.frame_of] * run.normal_force * along
+    return run.sum_of_contacts(np.where(run.gap > 0, np.maximum(-work, 0), 0))
+
+
+def undriven(run):
+    """Between standing boundaries, under gravity that does not turn, energy never rises, however far frames are apart.
+    Rebounds with friction may raise it (Kane's example; docs/studies/numerics.md); so may a solver that stops
+    early. The bound is that of created_energy."""
+    if is_driven(run) or run.keys["geometry"] == "shear" or run.time[0] < 0:
+        return
+    energy = sum(run.kinetic) + run.observables["potential_energy"]
+    gain = energy - np.minimum.accumulate(energy + held_back(run))
+    gain /= run.unit_of_energy + sum(run.kinetic).max()
+    digits = run.round_off * np.abs(energy).max() / run.unit_of_energy
+    yield worst("energy never rises undriven", gain, MOST_CREATED + digits, run)
+
+
+def rest(run):
+    """What is at rest, and not driven, stays at rest. At rest: for one fall through d_S/2 the kinetic energy is below
+    1e-12 of that which lifts all grains by d_S."""
+    if is_driven(run):
+        return
+    kinetic = sum(run.kinetic) / run.unit_of_energy
+    fall = np.sqrt(run.number("small-diameter") / run.number("gravity"))
+    loud = run.time[kinetic >= REST]
+    since = run.time - np.array([loud[loud <= t].max(initial=run.time[0]) for t in run.time])
+    quiet = since > fall
+    if not quiet.any():
+        return
+    first = int(np.argmax(quiet))
+    k = first + int(np.argmax(kinetic[first:]))
+    yield Finding("what rests stays at rest", float(kinetic[k]), STILL, f"t = {run.time[k]:.6g} s")

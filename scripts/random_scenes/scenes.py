@@ -1,0 +1,296 @@
+"""Random scenes: small, within the ranges of all keys (sim/scene/keys/keys.cpp), the ends of ranges included.
+
+Times, speeds and rates are drawn in the scene's own units, made of d_S and gravity, so that most scenes flow.
+"""
+import dataclasses
+import math
+
+from random_scenes.dice import Dice
+
+# Steps of the presets, in sqrt(d_S/g) (sim/scene/keys/accuracy.hpp).
+STEPS = {"draft": 0.01771, "standard": 0.01107, "reference": 0.00443}
+LONGEST_STEP = 0.05  # in sqrt(d_S/g)
+MOST_GRAINS = 250
+SOLID = 0.81 * 4 / math.pi  # discs of diameter 1 in a unit of area
+
+
+@dataclasses.dataclass
+class Scene:
+    """Keys of grseg-sim, and how the scene is run:
+    once      one run
+    restart   again in two halves, with a checkpoint between them: the same bytes
+    twin      again with other threads and instructions: the same bytes
+    changed   in two halves; the second one with the keys `changes`
+    """
+    keys: dict
+    frames: int
+    interval: float  # s, between frames
+    way: str
+    changes: dict
+    twin: list
+
+
+def number(value):
+    """Four digits, so that a command can be read."""
+    return f"{value:.4g}"
+
+
+def multiple(interval, count):
+    """A duration of `count` frames, s."""
+    return f"{interval * count:.15g}"
+
+
+class Units:
+    """What other keys are drawn in: m, m/s^2, s."""
+
+    def __init__(self, small, gravity):
+        self.small, self.gravity = small, gravity
+        self.time = math.sqrt(small / gravity)
+        self.speed = math.sqrt(small * gravity)
+
+
+def random_scene(seed, count):
+    dice = Dice(seed, count)
+    keys = {"geometry": dice.weighted(bed=50, drum=12, shear=14, column=12, hopper=12)}
+    add_grains(dice, keys)
+    depth, grains = add_shape(dice, keys)
+    units = add_units(dice, keys, depth)
+    add_law(dice, keys)
+    add_drive(dice, keys, units, depth)
+    step = add_solver(dice, keys, units)
+    frames, apart = frames_of(dice, keys, grains)
+    interval = float(multiple(step, apart))
+    keys |= {"frame-interval": repr(interval), "duration": multiple(interval, frames), "seed": str(dice.whole(1, 10**6))}
+    if dice.chance(0.04):
+        keys["store"] = "float32"
+    if dice.chance(0.04):
+        keys["compression"] = str(dice.whole(1, 9))
+    if dice.chance(0.02) and keys["geometry"] not in ("shear", "hopper"):
+        keys["keep-deposition"] = None
+    way = dice.weighted(once=50, restart=18, changed=22, twin=10)
+    return Scene(keys, frames, interval, way, random_changes(dice, keys, units, depth),
+                 [["--threads", dice.pick("2", "0")], ["--isa", dice.pick("scalar", "sse4", "avx2")]])
+
+
+def add_grains(dice, keys):
+    ratio = {"one": 1, "usual": dice.uniform(1, 4), "wide": dice.log(1, 10), "extreme": dice.log(10, 100)}
+    keys["size-ratio"] = number(ratio[dice.weighted(one=15, usual=45, wide=38, extreme=2)])
+    keys["spread"] = number(dice.pick(0, 0.08, 0.2, dice.uniform(0, 0.5), dice.uniform(0, 0.9)))
+    if dice.chance(0.55):
+        keys["density-ratio"] = number(dice.log(1e-3, 1e3))
+    keys["initial"] = dice.pick("large-below", "mixed", "large-above")
+    if dice.chance(0.1):
+        keys["rotation"] = "off"
+
+
+def add_shape(dice, keys):
+    """Lengths, and the share of large grains. Returns the depth in d_S and the number of grains."""
+    ratio = float(keys["size-ratio"])
+    wanted = dice.log(10, 200)
+    shares = {"small": 0, "large": 1, "mixture": dice.uniform(0, 1)}
+    share = shares[dice.weighted(small=12, large=8, mixture=80)]
+    grain = 1 / (1 - share + share / ratio**2)  # d_S^2, mean square of the diameter
+    shape = {"drum": drum_shape, "column": column_shape, "hopper": hopper_shape}.get(keys["geometry"], bed_shape)
+    area, depth = shape(dice, keys, ratio, wanted * grain / SOLID)
+    # Where cells are wide because large grains are, small ones are left out.
+    if area * SOLID * (1 - share) > MOST_GRAINS:
+        share = 1 - MOST_GRAINS / (area * SOLID)
+    if dice.chance(0.15) and share < 1:
+        keys["large-grains"] = str(max(1, round(share * area * SOLID / ratio**2)))
+    else:
+        keys["phi-large"] = f"{share:.6g}"
+    if keys["geometry"] in ("bed", "column", "hopper", "shear"):
+        keys["origin"] = dice.pick("top", "centre")
+    return depth, area * SOLID * (1 - share + share / ratio**2)
+
+
+def bed_shape(dice, keys, ratio, area):
+    length = dice.log(4, 12) * ratio
+    depth = min(max(area / length, 2 * ratio, 3), 40 * ratio)
+    keys |= {"length": number(length) + "dS", "depth": number(depth) + "dS"}
+    if keys["geometry"] == "bed":
+        keys["lateral"] = dice.pick("periodic", "periodic", "walls")
+        add_base(dice, keys, ratio, length)
+    return length * depth, depth
+
+
+def add_base(dice, keys, ratio, length):
+    """Base grains of any size, height and spacing, through which no grain falls."""
+    kind = dice.weighted(touching=45, wall=15, shaped=40)
+    if kind == "wall":
+        keys["base"] = "wall"
+    if kind != "shaped":
+        return
+    diameter = min(dice.log(0.3, 2) * dice.pick(1, ratio), 0.19 * length)
+    smallest = 1 - float(keys["spread"]) / 2
+    spread, height, apart = (dice.pick(0, dice.uniform(0, most)) for most in (0.4, 0.5 * smallest, 0.3))
+    widest = diameter * (1 - spread / 2) + 0.85 * smallest - height
+    spacing = min(dice.uniform(0.5, 1) * widest / (1 + apart), 0.2 * length)
+    keys |= {"base-diameter": number(diameter) + "dS", "base-diameter-spread": number(spread),
+             "base-height-spread": number(height) + "dS", "base-spacing": number(spacing) + "dS",
+             "base-spacing-spread": number(apart)}
+
+
+def drum_shape(dice, keys, ratio, area):
+    fill = dice.uniform(0.1, 0.5)
+    diameter = min(max(math.sqrt(area / fill / (math.pi / 4)), 4 * ratio), 12 * ratio)
+    keys |= {"lateral": "walls", "fill": number(fill), "drum-diameter": number(diameter * 1.001) + "dS"}
+    return fill * math.pi / 4 * diameter**2, fill * diameter
+
+
+def column_shape(dice, keys, ratio, area):
+    width = dice.log(1.2, 6) * ratio
+    depth = min(max(area / width, 2 * ratio, 3), 30 * ratio)
+    length = max(width * dice.uniform(1.1, 5), 4 * ratio)
+    keys |= {"lateral": "walls", "column-width": number(width) + "dS", "depth": number(depth) + "dS",
+             "length": number(length) + "dS"}
+    if dice.chance(0.3):
+        keys["base"] = "wall"
+    return width * depth, depth
+
+
+def hopper_shape(dice, keys, ratio, area):
+    area, depth = bed_shape(dice, keys, ratio, area)
+    keys |= {"lateral": "walls", "outlet": number(max(1, dice.uniform(0.1, 0.8) * area / depth)) + "dS"}
+    return area, depth
+
+
+def add_units(dice, keys, depth):
+    """d_S, density and gravity, mostly those of a laboratory, else of any size."""
+    any_size = dice.chance(0.2)
+    small = dice.log(1e-7, 1e4) if any_size else 0.005
+    density = dice.log(1e-6, 1e6) if any_size else 1
+    gravity = dice.log(1e-6, 1e6) if any_size else 9.8
+    if keys["geometry"] == "shear":
+        pressure = float(number(gravity * density * small * depth * dice.log(0.01, 100)))
+        keys["plate-pressure"] = number(pressure)
+        gravity = pressure / (density * small * depth)  # the default
+    if any_size:
+        keys |= {"small-diameter": number(small), "density": number(density)}
+        small, density = float(keys["small-diameter"]), float(keys["density"])
+        if keys["geometry"] != "shear":
+            keys["gravity"] = number(gravity)
+    return Units(small, gravity)
+
+
+def add_law(dice, keys):
+    keys["friction"] = number(random_friction(dice))
+    keys["restitution"] = number(random_restitution(dice))
+    if dice.chance(0.6):
+        keys["contact-law"] = dice.pick("speculative", "touch", "centred", "predictive")
+    if dice.chance(0.1):
+        keys["horizon"] = number(dice.log(1e-3, 1))
+
+
+def random_friction(dice):
+    kinds = {"none": 0, "usual": dice.uniform(0, 1), "any": dice.log(1e-3, 2), "extreme": dice.log(2, 1e3)}
+    return kinds[dice.weighted(none=12, usual=50, any=30, extreme=8)]
+
+
+def random_restitution(dice, elastic=2):
+    """A bed of elastic discs never comes to rest after its deposition; a restart may make discs elastic."""
+    kinds = {"none": 0, "elastic": 1, "usual": 0.25, "any": dice.uniform(0, 1)}
+    return kinds[dice.weighted(none=20, elastic=elastic, usual=20, any=60)]
+
+
+def random_slope(dice):
+    kinds = {"flat": 0, "usual": dice.uniform(0, 35), "any": dice.uniform(-90, 90), "end": 90 * dice.sign()}
+    return kinds[dice.weighted(flat=30, usual=45, any=20, end=5)]
+
+
+def add_drive(dice, keys, units, depth):
+    keys["slope"] = number(random_slope(dice))
+    if keys["geometry"] != "shear" and dice.chance(0.12):
+        keys["slope-rate"] = number(dice.sign() * dice.log(0.01, 10) / units.time)
+    if keys["geometry"] == "drum":
+        diameter = float(keys["drum-diameter"].removesuffix("dS"))
+        froude = dice.log(1e-4, 10)
+        rate = math.sqrt(2 * froude / diameter) / units.time
+        keys["drum-rate"] = number(dice.pick(-1, 1, 1, 0) * rate)
+    if keys["geometry"] == "shear":
+        add_plate(dice, keys, units, depth)
+    # Shaking moves grains under a bed.
+    if keys["geometry"] == "bed" and "base" not in keys and dice.chance(0.2):
+        keys |= random_shaking(dice, units)
+
+
+def add_plate(dice, keys, units, depth):
+    keys["plate-speed"] = number(dice.pick(-1, 1, 1, 0) * dice.log(0.01, 30) * units.speed)
+    if dice.chance(0.5):
+        length = float(keys["length"].removesuffix("dS"))
+        density = float(keys.get("density", 1))
+        keys["plate-mass"] = number(dice.log(0.03, 30) * density * length * depth * units.small**2)
+
+
+def random_shaking(dice, units):
+    """Amplitudes of up to 3 d_S, accelerations of 0.1 to 30 g."""
+    amplitude = dice.log(1e-3, 3)
+    frequency = math.sqrt(dice.log(0.1, 30) / amplitude) / (2 * math.pi) / units.time
+    return {"shake-amplitude": number(amplitude) + "dS", "shake-frequency": number(frequency)}
+
+
+def add_solver(dice, keys, units):
+    """The solver's settings. Returns the step, s."""
+    keys["accuracy"] = dice.weighted(standard=50, draft=35, reference=15)
+    longest = STEPS[keys["accuracy"]] * units.time
+    given = dice.chance(0.2)
+    if given:
+        longest = dice.log(1e-3, LONGEST_STEP) * units.time
+    if "shake-frequency" in keys:
+        longest = min(longest, 1 / (20 * float(keys["shake-frequency"])))
+    step = float(f"{longest * 0.99999:.6g}")
+    if given:
+        keys["step"] = repr(step)
+    if dice.chance(0.2) and keys["geometry"] != "shear":
+        keys["precision"] = dice.pick("mixed", "double")
+    if dice.chance(0.08):
+        keys["acceleration"] = "off"
+    if dice.chance(0.08):
+        keys["tolerance"] = number(dice.log(1e-3, 2))
+    if dice.chance(0.08):
+        keys["min-sweeps"] = str(round(dice.log(1, 40)))
+    if dice.chance(0.08):
+        keys["max-sweeps"] = str(round(dice.log(40, 3000)))
+    return step
+
+
+def frames_of(dice, keys, grains):
+    """Number of frames, and steps from one to the next. Most scenes are short, with every step a frame, so that each
+    can be followed; the others are ten times as long, for what is slow."""
+    slow = keys["accuracy"] == "reference" or float(keys.get("tolerance", 1)) < 0.1
+    work = 6e4 / grains / (4 if slow else 1)  # steps that take half a second
+    if dice.chance(0.65):
+        return 2 * round(dice.log(100, max(min(1200, work), 110)) / 2), 1
+    apart = min(100, max(4, round(10 * work / 200)))
+    if dice.chance(0.5):
+        keys["burst"] = "2"
+    return 2 * round(dice.log(50, 150)), apart
+
+
+def random_changes(dice, keys, units, depth):
+    """Keys for the second half of a run, one to three of those that a restart may change."""
+    shaken = keys["geometry"] == "bed" and "base" not in keys
+    options = [
+        lambda: {"friction": number(random_friction(dice))},
+        lambda: {"restitution": number(random_restitution(dice, elastic=30))},
+        lambda: {"contact-law": dice.pick("speculative", "touch", "centred", "predictive")},
+        lambda: {"accuracy": dice.pick("draft", "standard", "reference")},
+        lambda: {"acceleration": dice.pick("on", "off")},
+        lambda: {"tolerance": number(dice.log(1e-2, 1))},
+    ]
+    if keys["geometry"] != "shear":
+        options += [lambda: {"slope": number(random_slope(dice))}] * 2
+        options += [lambda: {"slope-rate": number(dice.sign() * dice.log(0.01, 10) / units.time)},
+                    lambda: {"gravity": number(units.gravity * dice.log(0.3, 1))},
+                    lambda: {"precision": dice.pick("mixed", "double")}]
+    if keys["geometry"] == "drum":
+        options += [lambda: {"drum-rate": number(-2 * float(keys["drum-rate"]))}] * 4
+    if keys["geometry"] == "shear":
+        options += [lambda: {"plate-speed": number(dice.sign() * dice.log(0.01, 30) * units.speed)},
+                    lambda: {"plate-pressure": number(float(keys["plate-pressure"]) * dice.log(0.3, 3))}] * 2
+    if shaken:
+        options += [lambda: random_shaking(dice, units)] * 2
+    changes = {}
+    for _ in range(dice.whole(1, 3)):
+        changes |= dice.pick(*options)()
+    return changes

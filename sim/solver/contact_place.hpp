@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/contact/contact_blocks.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+namespace grseg {
+
+constexpr std::uint32_t doubles_per_body = sizeof(Motion) / sizeof(double);
+
+/// Where a contact is that is solved by itself.
+struct ContactPlace {
+  ContactBlock* block;
+  std::uint32_t lane;
+
+  /// Indices in the span of Motion.
+  std::uint32_t i() const { return block->i[lane] / doubles_per_body; }
+  std::uint32_t j() const { return block->j[lane] / doubles_per_body; }
+
+  Contact contact() const
+  {
+    return {block->nx[lane],
+            block->ny[lane],
+            block->kappa[lane],
+            block->mass_n[lane],
+            block->mass_t[lane],
+            block->rebound[lane],
+            block->impulse_n[lane],
+            block->impulse_t[lane],
+            static_cast<std::int32_t>(i()),
+            static_cast<std::int32_t>(j())};
+  }
+  void set_impulse(double n, double t) const
+  {
+    block->impulse_n[lane] = n;
+    block->impulse_t[lane] = t;
+  }
+  /// The contact need no more than stop its approach.
+  void bar_rebound() const { block->rebound[lane] = std::min(block->rebound[lane], 0.0); }
+  /// One relaxation. Without `restitution` rebounds are 0.
+  Change relax(Relax relax_alone, bool restitution, std::span<Motion> motion, double friction) const
+  {
+    auto alone = contact();
+    if (!restitution) alone.rebound = 0;
+    const auto change = relax_alone(alone, motion[i()], motion[j()], friction);
+    set_impulse(alone.impulse_n, alone.impulse_t);
+    return change;
+  }
+};
+
+}  // namespace grseg

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run/summary.hpp"
+
+#include "tests/sim/small_chute.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+std::string text_of(const StepTotals& totals, const Scene& scene, double end = 0)
+{
+  RunSummary summary;
+  summary.totals = totals;
+  summary.end = end;
+  return to_text(summary, scene, {});
+}
+
+bool says(const std::string& text, const std::string& words)
+{
+  return text.find(words) != std::string::npos;
+}
+
+TEST(Summary, TellsTheSlopeAtTheEndOfARunThatTurns)
+{
+  const auto scene = small_chute::scene({"--slope", "20", "--slope-rate", "0.5"});
+  EXPECT_TRUE(says(text_of({}, scene, 4), "22 at t = 4 s"));
+}
+
+TEST(Summary, DoubtsOneDeepOverlapAmongManyShallowOnes)
+{
+  const auto scene = small_chute::scene();
+  StepTotals totals;
+  totals.touching = 1e6;
+  totals.largest_overlap = 0.24 * scene.small_diameter;
+  EXPECT_FALSE(says(text_of(totals, scene), "doubt"));
+  totals.largest_overlap = 0.26 * scene.small_diameter;
+  EXPECT_TRUE(says(text_of(totals, scene), "doubt      two grains"));
+}
+
+}  // namespace
+}  // namespace grseg

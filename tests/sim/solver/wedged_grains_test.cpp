@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/solver/wedged_grains.hpp"
+
+#include "tests/sim/worlds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+using namespace worlds;
+
+/// A contact of a disc whose other body lies at an angle, from the downward vertical.
+Contact at_angle(double angle)
+{
+  Contact contact{};
+  contact.nx = -std::sin(angle);
+  contact.ny = std::cos(angle);
+  contact.kappa = 1;
+  return contact;
+}
+
+TEST(WedgedGrains, FrictionLocksADiscWhereItsConesHoldTheLineBetweenItsContacts)
+{
+  // The line between the contacts is level and makes an angle of 90 degrees - a with either normal.
+  const double a = 1.2, least = 1 / std::tan(a);
+  EXPECT_TRUE(locks(at_angle(a), at_angle(-a), 1.001 * least));
+  EXPECT_FALSE(locks(at_angle(a), at_angle(-a), 0.999 * least));
+  EXPECT_FALSE(locks(at_angle(a), at_angle(a / 2), 0.999 * least));
+}
+
+/// A disc of radius 1/2 just above the gap between two fixed ones of radius 1, `half` apart from the
+/// middle; it falls at speed 1.
+struct OverAGap {
+  std::vector<Disc> discs;
+  World world;
+  double sine;  // of the angle of the line of centres to the level
+  explicit OverAGap(double half)
+      : discs{{{-half, 0}, 1, true}, {{half, 0}, 1, true}, {{0, 0}, 0.5}},
+        sine(std::sqrt(1.5 * 1.5 - half * half) / 1.5)
+  {
+    discs[2].position.y() = 1.5 * sine + 1e-4;
+    world = world_of(discs);
+    world.material = {0.5, 0.5};
+    world.solver.max_sweeps = 100;
+  }
+};
+
+TEST(WedgedGrains, ADiscThatFrictionLocksStopsInOneStepWithForcesThatItsMomentumMakes)
+{
+  // tan of the angle of the line to the normals: 0.32, below mu = 0.5. Two forces along the normals
+  // alone would be m v/(2 sine) each; friction takes a part of it.
+  const OverAGap scene(1.43);
+  Simulation simulation(scene.world, positions_of(scene.discs));
+  simulation.set_velocity(2, {0, -1});
+  Frame<2> frame;
+  const auto report = simulation.advance(frame);
+  EXPECT_TRUE(report.solver.converged);
+  EXPECT_NEAR(simulation.velocity(2).norm(), 0, 1e-9);
+  const double momentum = scene.world.grains.mass[2], step = scene.world.step;
+  ASSERT_EQ(frame.contacts.size(), 2u);
+  for (const auto& force : frame.contacts.force) {
+    EXPECT_NEAR(force.y() * step, momentum / 2, 1e-9);
+    EXPECT_LE(force.norm() * step, momentum / (2 * scene.sine));
+  }
+}
+
+TEST(WedgedGrains, ALockedDiscStopsWithinTheSweepsOfAFlow)
+{
+  OverAGap scene(1.43);
+  scene.world.solver = {.tolerance = 0.5, .max_sweeps = 8, .min_sweeps = 8};
+  Simulation simulation(scene.world, positions_of(scene.discs));
+  simulation.set_velocity(2, {0, -1});
+  simulation.advance();
+  EXPECT_NEAR(simulation.velocity(2).norm(), 0, 1e-3);
+}
+
+TEST(WedgedGrains, BetweenBodiesThatPartADiscBearsNothing)
+{
+  OverAGap scene(1.43);
+  Simulation simulation(scene.world, positions_of(scene.discs));
+  simulation.set_velocity(2, {0, -1});
+  simulation.advance();
+  simulation.set_velocity(0, {-1e-3, 0});
+  Frame<2> frame;
+  simulation.advance(frame);
+  for (const auto& force : frame.contacts.force) EXPECT_LT(force.norm(), 1e-9);
+}
+
+TEST(WedgedGrains, ADiscThatFrictionCannotLockRebounds)
+{
+  // tan of the angle is 0.97.
+  const OverAGap scene(1.08);
+  Simulation simulation(scene.world, positions_of(scene.discs));
+  simulation.set_velocity(2, {0, -1});
+  simulation.advance();
+  EXPECT_GT(simulation.velocity(2).y(), 0.1);
+}
+
+}  // namespace
+}  // namespace grseg
