@@ -111,7 +111,7 @@ FAULTS = [
     ("moving boundaries: a free body feels no load", "sim/step/moving_boundaries.cpp",
      "duration * body.load / body.mass", "0 * duration * body.load / body.mass"),
     ("moving boundaries: a free body is solved once per sweep", "sim/solver/boundary_body.cpp",
-     "constexpr int most_rounds = 40;", "constexpr int most_rounds = 1;"),
+     "constexpr int most_body_rounds = 40;", "constexpr int most_body_rounds = 1;"),
     ("wedges: locked grains rebound", "sim/solver/contact_place.hpp",
      "block->rebound[lane] = std::min(block->rebound[lane], 0.0);", "(void)0;"),
     ("wedges: swept like others", "sim/solver/wedged_grains.cpp",

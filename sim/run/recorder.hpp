@@ -60,7 +60,8 @@ class Recorder {
 
   void add(const StepReport& report) { state_.since_frame.add(report); }
   /// Writes `frame`; its own step must have been added. RunError where the mean overlap since the
-  /// last frame is above 1 % of d_S and above what the fastest approach makes in a step, a grain approaches its neighbour by more than half of d_S even in
+  /// last frame is above 1 % of d_S and above what the fastest approach makes in a step, a grain
+  /// approaches its neighbour by more than half of d_S even in
   /// the smallest part of a step, or a number is not finite.
   void write(const Frame<2>& frame, const Simulation& simulation);
 

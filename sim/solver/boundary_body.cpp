@@ -30,8 +30,8 @@ namespace {
 
 // A body's velocity has settled when it changes by no more than this part of what a sweep made it
 // change. Measured: from 1e-4 on a bed between plates no longer creeps (docs/studies/scenes.md).
-constexpr double settled = 1e-6;
-constexpr int most_rounds = 40;
+constexpr double body_settled = 1e-6;
+constexpr int most_body_rounds = 40;
 
 }  // namespace
 
@@ -82,11 +82,11 @@ double FreeBodies::update_velocities(std::span<Motion> motion)
 double FreeBodies::balance(std::span<Motion> motion, double friction, Effects effects)
 {
   double largest = 0;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_body_rounds; ++round) {
     relax_contacts(motion, friction, effects);
     const double change = update_velocities(motion);
     largest = std::max(largest, change);
-    if (change <= settled * largest) break;
+    if (change <= body_settled * largest) break;
   }
   relax_contacts(motion, friction, effects);
   return largest;

@@ -68,7 +68,8 @@ struct SolverReport {
 /// Projected Gauss-Seidel: sweeps over the contacts, each solved exactly while the others hold
 /// still, until no contact's relative velocity changes by more than `tolerance` times the
 /// reference velocity: the quadratic mean of W p over the `count` contacts, within `range`, so that a
-/// motionless bed stops at once and a few contacts of light grains under a heavy one do not count for all. Normal and tangential parts both count, and the largest
+/// motionless bed stops at once and a few contacts of light grains under a heavy one do not count
+/// for all. Normal and tangential parts both count, and the largest
 /// rather than the mean change decides, so that a contact which has just closed is not hidden by
 /// thousands of settled ones. `min_sweeps` come first. Changes in the last digits of the fastest
 /// velocity are convergence, too: without gravity loads fade, and no number of sweeps makes changes
