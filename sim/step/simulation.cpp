@@ -276,9 +276,9 @@ ReferenceRange Simulation::reference_range(std::size_t contacts) const
   const double fall = impulse_of_fall() / mobile_mass_;
   const auto count = static_cast<double>(contacts);
   const double load = fall + found_.root_loads * found_.root_loads / count / mobile_mass_;
-  const double most = steps_done_ == 0
-                          ? load + part_of_approach * found_.fastest_approach
-                          : std::hypot(most_of_loads * load, std::sqrt(found_.approaches / count));
+  const double loaded = most_of_loads * load;
+  const double most = steps_done_ == 0 ? load + part_of_approach * found_.fastest_approach
+                                       : std::sqrt(loaded * loaded + found_.approaches / count);
   const double least = floor_of_reference * fall;
   if (!(most > 0)) return least;
   return {least, most};
