@@ -12,7 +12,7 @@ from random_scenes.exact import Finding, moving, worst
 MOST_OVERLAP = 0.1
 # Lifts all grains by 0.05 d_S. G14 of the hard cases allows 0.02, of a scene that was known (tests/hard_cases/rest_test.cpp).
 MOST_CREATED = 0.05
-PAIRS_AT_MOST = 5e6  # of all frames; those that act are seen in each
+PAIRS_AT_MOST = 5e6  # in all frames; acting pairs are seen in each
 REST, STILL = 1e-12, 1e-10  # kinetic energy, of that which lifts all grains by d_S
 
 
@@ -67,7 +67,7 @@ def walls_of(run):
 
 
 def deepest_in_walls(run):
-    """Of each frame, over the grain's diameter."""
+    """The largest overlap with a wall in each frame, over the grain's diameter."""
     deepest = np.zeros(run.frames)
     radius = run.radius[run.mobile]
     for point, normal in walls_of(run):
@@ -147,7 +147,7 @@ def plate(run):
 
 
 def is_driven(run):
-    """Whether a boundary moves or gravity turns."""
+    """True where a boundary moves or gravity turns."""
     geometry = run.keys["geometry"]
     speed = {"drum": run.number("drum-rate"), "shear": run.number("plate-speed")}.get(geometry, 0)
     shaken = geometry == "bed" and len(moving(run)) > 0

@@ -268,7 +268,7 @@ def frames_of(dice, keys, grains):
 
 
 def random_changes(dice, keys, units, depth):
-    """Keys for the second half of a run, one to three of those that a restart may change."""
+    """Keys for the second half of a run: one to three that a restart may change."""
     shaken = keys["geometry"] == "bed" and "base" not in keys
     options = [
         lambda: {"friction": number(random_friction(dice))},

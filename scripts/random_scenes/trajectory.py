@@ -58,7 +58,7 @@ class Trajectory:
 
     @functools.cached_property
     def gravity(self):
-        """Of each frame's step, m/s^2."""
+        """Gravity in each frame's step, m/s^2."""
         g = self.number("gravity") if self.keys["geometry"] != "shear" else 0
         later = np.maximum(self.time, 0)
         slope = np.radians(np.where(self.time > 0, self.number("slope") + self.number("slope-rate") * later, 0))
@@ -71,7 +71,7 @@ class Trajectory:
 
     @functools.cached_property
     def frame_of(self):
-        """Of each contact."""
+        """The frame of each contact."""
         return np.repeat(np.arange(self.frames), np.diff(self.offset))
 
     @functools.cached_property
@@ -94,13 +94,13 @@ class Trajectory:
         return np.where(self.j >= 0, np.linalg.norm(self.branch, axis=1) / reach, 1)
 
     def separation(self, velocity):
-        """Of each contact, m/s along its normal; a wall stands still."""
+        """The relative velocity of each contact along its normal, m/s; a wall stands still."""
         relative = velocity[self.frame_of, self.i]
         relative[self.j >= 0] -= velocity[self.frame_of, self.j][self.j >= 0]
         return np.einsum("ca,ca->c", relative, self.normal), relative
 
     def sliding(self, velocity, spin):
-        """Of each contact, m/s along its tangent."""
+        """The relative velocity of each contact along its tangent, m/s."""
         rims = (spin * self.radius)[self.frame_of, self.i]
         rims[self.j >= 0] += (spin * self.radius)[self.frame_of, self.j][self.j >= 0]
         _, relative = self.separation(velocity)
@@ -141,7 +141,7 @@ class Trajectory:
         return largest + heaviest * np.linalg.norm(self.gravity, axis=1) + digits + 1e-300
 
     def sum_of_contacts(self, values):
-        """Of each frame."""
+        """The sum over the contacts of each frame."""
         return np.bincount(self.frame_of, weights=values, minlength=self.frames)
 
     @functools.cached_property
