@@ -119,12 +119,13 @@ def energy_balance(run):
     seen = run.observables
     translation, rotation = run.kinetic
     kinetic = translation + rotation
-    # In single precision the smallest velocities of a bed at rest have few digits.
-    unit = kinetic + 1e-30 * run.unit_of_energy + 1e-300
+    # The smallest velocities of a bed at rest have few digits.
+    still = 1e-30 * run.unit_of_energy + 1e-300
+    unit = kinetic + still
     error = np.abs(translation - seen["translational_energy"]) + np.abs(rotation - seen["rotational_energy"])
     yield worst("energies", error / unit, run.round_off, run)
     total, boundary, size = works(run)
-    unit = size + kinetic + 1e-300
+    unit = size + kinetic + still
     error = np.abs(total - seen["work_of_contacts"]) + np.abs(boundary - seen["work_of_boundaries"])
     yield worst("works", error / unit, run.round_off, run)
     falling = run.part[:, None] * np.einsum("g,fga->fa", run.mass * run.mobile, run.velocity + run.before) / 2
