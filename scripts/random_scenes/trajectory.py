@@ -142,7 +142,7 @@ class Trajectory:
 
     def sum_of_contacts(self, values):
         """The sum over the contacts of each frame."""
-        return np.bincount(self.frame_of, weights=values, minlength=self.frames)
+        return np.bincount(self.frame_of, weights=values, minlength=self.frames).astype(float)  # whole numbers of none
 
     @functools.cached_property
     def kinetic(self):

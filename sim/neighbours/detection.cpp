@@ -29,7 +29,7 @@ struct Variant {
 
 /// DetectionSums, lane by lane.
 struct alignas(64) LaneSums {
-  Lanes overlap{}, largest_overlap{}, fastest_approach{}, root_loads{}, approaches{};
+  Lanes overlap{}, largest_overlap{}, fastest_approach{}, load{}, root_loads{}, approaches{};
   std::size_t touching = 0;
   bool coincident = false;
 };
@@ -167,6 +167,7 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, Mask u
   add(sums.overlap, overlap);
   keep_most(sums.largest_overlap, overlap);
   keep_most(sums.fastest_approach, approach);
+  add(sums.load, impulse_n);
   add(sums.root_loads, hn::Sqrt(impulse_n));
   const auto fresh = hn::IfThenElseZero(hn::Eq(impulse_n, hn::Zero(d)), approach);
   add(sums.approaches, hn::Mul(fresh, fresh));
@@ -257,13 +258,9 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
   }
   if (!base_seen) contacts.on_base = contacts.size;
   const auto most = [](const Lanes& l) { return *std::max_element(l.begin(), l.end()); };
-  total = {sums.touching,
-           sum(sums.overlap),
-           most(sums.largest_overlap),
-           most(sums.fastest_approach),
-           sum(sums.root_loads),
-           sum(sums.approaches),
-           sums.coincident};
+  total = {
+      sums.touching,  sum(sums.overlap),    most(sums.largest_overlap), most(sums.fastest_approach),
+      sum(sums.load), sum(sums.root_loads), sum(sums.approaches),       sums.coincident};
   leave_vectors();
 }
 
@@ -366,6 +363,7 @@ DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
     total.overlap += s.overlap;
     total.largest_overlap = std::max(total.largest_overlap, s.largest_overlap);
     total.fastest_approach = std::max(total.fastest_approach, s.fastest_approach);
+    total.load += s.load;
     total.root_loads += s.root_loads;
     total.approaches += s.approaches;
     total.coincident |= s.coincident;

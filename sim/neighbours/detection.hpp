@@ -63,7 +63,8 @@ struct DetectionSums {
   double overlap = 0;           // m, sum of -gap over the touching pairs
   double largest_overlap = 0;   // m
   double fastest_approach = 0;  // m/s, at the beginning of the step
-  double root_loads = 0;        // (kg m/s)^(1/2), sum of the roots of p_n of the step before
+  double load = 0;              // kg m/s, sum of p_n of the step before
+  double root_loads = 0;        // (kg m/s)^(1/2), sum of their roots
   double approaches = 0;        // (m/s)^2, sum of squares over the pairs that had no p_n
   bool coincident = false;      // the centres of a pair coincide
 };

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
 #include <type_traits>
 
 namespace grseg {
@@ -21,7 +20,7 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int32_t format_version = 6;
+constexpr std::int32_t format_version = 5;
 // Version 3 is without steps in parts, 4 without the skin.
 constexpr std::int32_t oldest_version = 3;
 
@@ -242,7 +241,6 @@ void visit_all(Visitor& visit, SomeCheckpoint& c, std::int32_t version = format_
   visit("/state/pairs/renewals", c.state.pairs.renewals);
   if (version < 4) visit("/state/pairs/age", c.age_of_pairs);
   if (version >= 5) visit("/state/pairs/skin", c.state.pairs.skin);
-  if (version >= 6) visit("/state/borne", c.state.borne);
   visit("/trajectory/frames", c.trajectory.frames);
   visit("/trajectory/digest", c.trajectory.digest);
   visit("/trajectory/begin", c.trajectory.begin);
@@ -308,8 +306,6 @@ Checkpoint read_parts(const std::string& path)
   const auto& radius = checkpoint.grains.radius;
   if (version < 5 && !radius.empty())  // half the smallest diameter
     checkpoint.state.pairs.skin = *std::min_element(radius.begin(), radius.end());
-  const auto& loads = checkpoint.state.pairs.impulse_n;
-  if (version < 6) checkpoint.state.borne = std::accumulate(loads.begin(), loads.end(), 0.0);
   check_checkpoint(checkpoint, path);
   return checkpoint;
 }

@@ -160,7 +160,6 @@ class Check {
     all_finite("/state/pairs/impulse_n", pairs.impulse_n);
     all_finite("/state/pairs/impulse_t", pairs.impulse_t);
     all_finite("/state/pairs/approach", pairs.approach);
-    require(finite(c_.state.borne) && c_.state.borne >= 0, "/state/borne is not a sum of impulses");
     require(positive(pairs.skin), "/state/pairs/skin is not a positive length");
     require(pairs.renewals <= largest_count, "/state/pairs/renewals is not a number of lists");
   }

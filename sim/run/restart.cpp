@@ -48,7 +48,6 @@ void change_step(Simulation::State& state, const Scene& before, const Scene& now
   const double longer = now.step / before.step;
   for (auto& impulse : state.pairs.impulse_n) impulse *= longer;
   for (auto& impulse : state.pairs.impulse_t) impulse *= longer;
-  state.borne *= longer;
 }
 
 /// Displaces every mobile grain by a vector that is uniform in a disc of radius `largest` (m).

@@ -15,7 +15,6 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 namespace grseg {
 namespace {
@@ -78,8 +77,8 @@ void add_part(const StepReport& part, StepReport& all)
 
 // Where all impulses together more than double in a step in which a pair approaches by more than four
 // times g h, there is an impact. The next step does not bear its impulses: as first guesses those that
-// more than doubled are lowered to what was borne before. All impulses are compared with those of the
-// step before, not with first guesses: lowered ones would make an impact of every step that follows.
+// more than doubled are lowered to twice what was guessed before: so they catch up in a few steps where
+// the load lasts.
 constexpr double most_growth_of_loads = 2;
 constexpr double approach_of_impact = 4;
 
@@ -122,7 +121,8 @@ std::vector<LoweredGuess> impacts_of(std::span<const StripContacts> contacts,
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
       const double before = *guess++ + block.mass_n[lane] * fall;
       if (block.impulse_n[lane] > most_growth_of_loads * before)
-        impacts.push_back({origin.entry(lane), before / block.impulse_n[lane]});
+        impacts.push_back(
+            {origin.entry(lane), most_growth_of_loads * before / block.impulse_n[lane]});
     }
   });
   return impacts;
@@ -227,7 +227,6 @@ void Simulation::take_back(bool renewed)
 void Simulation::lengthen_impulses(double factor)
 {
   for (auto& memory : pairs_.memories()) scale(factor, memory);
-  borne_ *= factor;
 }
 
 void Simulation::remember_motion()
@@ -388,9 +387,9 @@ void Simulation::remember_guesses()
 
 void Simulation::lower_guesses()
 {
-  const double before = std::exchange(borne_, sum_of_impulses(contacts_));
   if (!may_have_impact()) return;
-  if (!(borne_ > most_growth_of_loads * (before + impulse_of_fall()))) return;
+  if (!(sum_of_impulses(contacts_) > most_growth_of_loads * (found_.load + impulse_of_fall())))
+    return;
   for (const auto& [pair, factor] :
        impacts_of(contacts_, guesses_, impulse_of_fall() / mobile_mass_))
     scale(factor, pairs_.memories()[pair]);

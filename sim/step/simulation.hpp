@@ -57,7 +57,6 @@ class Simulation {
     std::vector<double> rim_speed;    // m/s, radius times angular velocity
     std::vector<std::int32_t> row;    // of the grains, in the order of memory
     PairList::State pairs;
-    double borne = 0;  // kg m/s, sum of the normal impulses of the step before
     std::int64_t steps_done = 0;
   };
 
@@ -157,7 +156,6 @@ class Simulation {
   double written_step_ = 0;             // s
   std::vector<StripContacts> contacts_;
   SolverMemory solver_memory_;
-  double borne_ = 0;  // kg m/s, sum of p_n after the step before, of guesses that are not lowered
   std::int64_t steps_done_ = 0;
   bool restored_ = false;  // of the step before only the impulses are known, not the contacts
 };

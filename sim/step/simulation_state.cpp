@@ -29,7 +29,6 @@ Simulation::Simulation(const World& world, const State& state)
   }
   pairs_.restore(state_, state.pairs);
   restored_ = true;
-  borne_ = state.borne;
   steps_done_ = state.steps_done;
 }
 
@@ -45,7 +44,6 @@ Simulation::State Simulation::state() const
   }
   state.row = state_.row;
   state.pairs = pairs_.state();
-  state.borne = borne_;
   state.steps_done = steps_done_;
   return state;
 }

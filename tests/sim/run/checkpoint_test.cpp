@@ -161,7 +161,7 @@ TEST_F(CheckpointFile, AnotherVersionIsRefused)
   for (const int version : {1, 99}) {
     tamper([&](hid_t file) { put(file, "/version", H5T_NATIVE_INT, version); });
     EXPECT_EQ(complaint(), path + ": is a checkpoint of version " + std::to_string(version) +
-                               ", and this grseg-sim reads versions 3 to 6; continue "
+                               ", and this grseg-sim reads versions 3 to 5; continue "
                                "with the program that wrote it");
   }
 }

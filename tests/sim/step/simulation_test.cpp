@@ -245,8 +245,8 @@ double sweeps(Simulation& flow, double duration)
   return sum / static_cast<double>(steps);
 }
 
-// The first guesses of an impact are lowered. If that made an impact of the step after it, and so on,
-// the flow would keep no guesses for good, and needed twice the sweeps.
+// The first guesses of an impact are lowered. If they could not catch up afterwards, every step would
+// be taken for an impact: the flow would have no guesses for good, and need twice the sweeps.
 TEST(Simulation, AnImpactOnAFlowIsOverAfterIt)
 {
   auto flow = small_chute::bed(small_chute::paper_scene(
