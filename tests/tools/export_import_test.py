@@ -21,12 +21,12 @@ def same(a, b):
     return np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
 
 
-def require_that_it_comes_back(path):
+def require_that_it_comes_back(path, *more):
     said = subprocess.run([exporter, path, "--to", "lammps", "-o", "run.dump.gz", "--overwrite"],
                           check=True, capture_output=True, text=True).stderr
     words = shlex.split(said.split("back into a run: ")[1])
     assert words[0] == "grseg-import" and words[-2:] == ["-o", "again.h5"], said
-    subprocess.run([importer, *words[1:], "--overwrite"], check=True)
+    subprocess.run([importer, *words[1:], *more, "--overwrite"], check=True)
 
     with h5py.File(path) as run, h5py.File("again.h5") as again:
         for group, names in (
@@ -49,4 +49,5 @@ with tempfile.TemporaryDirectory() as folder:
     for dimension, *words in ((3, "small,large"), (3, "fine,middle,coarse"), (2, "fine,middle,coarse"),
                               (2, "small,large", "changing"), (3, "fine,middle,coarse", "changing")):
         subprocess.run([synthetic, "synthetic.h5", str(dimension), *words], check=True)
-        require_that_it_comes_back("synthetic.h5")
+        # Its grains lie anywhere, and few of those that overlap have a contact.
+        require_that_it_comes_back("synthetic.h5", "--accept-residual", "completeness=100")

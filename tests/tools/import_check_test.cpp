@@ -60,7 +60,7 @@ TEST_F(ImportedFile, OfLiggghtsIsAsSpecifiedWhateverColumnsItHas)
 TEST_F(ImportedFile, OfSiconosIsAsSpecified)
 {
   const std::string run = "--format siconos --gravity 9.81 ";
-  expect_as_specified(run + "--slope 10 --grains siconos/discs.hdf5");
+  expect_as_specified(run + "--slope 10 --cell x:-0.1:0.9 --grains siconos/discs.hdf5");
 }
 
 TEST_F(ImportedFile, OfSpheresInSpaceIsAsSpecifiedWhateverTheSpecies)
@@ -72,7 +72,8 @@ TEST_F(ImportedFile, OfSpheresInSpaceIsAsSpecifiedWhateverTheSpecies)
                            " --species grains=all", " --float32"})
     expect_as_specified(run, more);
   expect_as_specified(
-      "--format siconos --grains siconos/spheres3d.hdf5 --gravity 1.7034886,0,-9.6609641 --axes xz");
+      "--format siconos --grains siconos/spheres3d.hdf5 --gravity 1.7034886,0,-9.6609641 --axes xz "
+      "--cell x:-0.1:0.7 --cell y:-0.1:0.5");
 }
 
 TEST_F(ImportedFile, OfMercuryDpmIsAsSpecified)
@@ -105,7 +106,7 @@ TEST_F(ImportedFile, OfPlainTablesIsAsSpecified)
                                      "0.5,7,9,0,4,0\n0.6,7,9,0,4,0\n");
   expect_as_specified(
       fmt::format("--format csv --grains {} --contacts {} --step 1e-3 --gravity 0,-10,0 "
-                  "--grains-are discs --split-diameter 0.2",
+                  "--grains-are discs --split-diameter 0.2 --cell x:0:0.4",
                   grains, contacts));
 }
 

@@ -40,7 +40,7 @@ awk 'BEGIN { print "t,id,x,y,vx,vy,fx,fy,d,m" > "grains.csv"; print "t,i,j,fx,fy
     if (k != 5) print t ",2,1,0,10" > "contacts.csv"
   } }'
 in_parts 4 --format csv --grains grains.csv --contacts contacts.csv --units si --step 1e-3 --gravity 10 --slope 0 \
-  --boundary-ids 1 --split-diameter 0.2 --grains-are discs
+  --boundary-ids 1 --split-diameter 0.2 --grains-are discs --cell x:0:1
 grep -q '3 ids in all, between 2 and 3 present' joined.log && grep -q '1 moments have grains but no contacts' joined.log ||
   fail "$(cat joined.log)"
 

@@ -66,6 +66,13 @@ struct ArchiveContacts {
   std::size_t size() const { return i.size(); }
 };
 
+/// Where the cell along an axis comes from.
+enum class CellSource : std::uint8_t {
+  archive,  // it states it
+  told,     // --cell
+  grains    // their extent at this moment: the archive states none, or one that follows them
+};
+
 /// One moment of an archive: grains and contacts of the same time. At least one of step and time is
 /// set; the other follows from the length of a step, which the archive or the command line gives.
 struct ArchiveMoment {
@@ -73,6 +80,7 @@ struct ArchiveMoment {
   std::optional<double> time;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // of the cell
   std::array<bool, 3> periodic{};
+  std::array<CellSource, 3> cell{};
   ArchiveGrains grains;
   ArchiveContacts contacts;
   std::string place;                // "atoms.dump, line 12": for sentences about this moment
@@ -92,6 +100,9 @@ struct ArchiveFacts {
   /// The contact forces in the archive were evaluated with velocities half a step later than those
   /// that moved the grains (late_damping.hpp).
   bool forces_are_late = false;
+  /// Every pair that overlaps has a row, as soft grains have. Contact dynamics may list only those
+  /// that bear a force.
+  bool lists_all = true;
   /// Largest residual of a grain's balance that correct output of this program can have, relative
   /// to the largest force of the moment and after subtraction of late damping; and why (digits of
   /// its text, float32).

@@ -20,6 +20,7 @@ inline void enclose_grains(ArchiveMoment& moment)
     if (moment.periodic[static_cast<std::size_t>(axis)]) continue;
     moment.low[axis] = low[axis];
     moment.high[axis] = high[axis];
+    moment.cell[static_cast<std::size_t>(axis)] = CellSource::grains;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace grseg {
 namespace {
@@ -113,12 +114,21 @@ double ImportedBed::make_length(const ArchiveMoment& first, int direction)
 {
   const auto axis = axes.axis_of(direction);
   double low = infinity, high = -infinity;
+  std::string source = "the extent of the grains";
   if (axis) {
+    const auto k = static_cast<std::size_t>(*axis);
+    double first_end = first.low[*axis], last_end = first.high[*axis];
+    if (first.cell[k] == CellSource::told) source = "as told by --cell";
+    if (first.cell[k] == CellSource::archive) source = "stated by the archive";
+    if (const auto ends = between_walls(walls, *axis);
+        ends && first.cell[k] == CellSource::grains) {
+      std::tie(first_end, last_end) = *ends;
+      source = "between walls";
+    }
     const bool forward = axes.is_forward(direction);
-    low = forward ? first.low[*axis] : -first.high[*axis];
-    high = forward ? first.high[*axis] : -first.low[*axis];
-    if (first.periodic[static_cast<std::size_t>(*axis)])
-      periods.push_back({direction, high - low, *axis, forward});
+    low = forward ? first_end : -last_end;
+    high = forward ? last_end : -first_end;
+    if (first.periodic[k]) periods.push_back({direction, high - low, *axis, forward});
   } else {
     for (const auto& position : first.grains.position) {
       const double x = axes.components<3>(position)[direction];
@@ -127,6 +137,8 @@ double ImportedBed::make_length(const ArchiveMoment& first, int direction)
     }
   }
   shift[direction] = -low;
+  cell += fmt::format("{}{:.6g} long along {}, {}", cell.empty() ? "" : "\n", high - low,
+                      direction == 0 ? "x" : "z", source);
   return high - low;
 }
 

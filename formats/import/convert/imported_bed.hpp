@@ -35,6 +35,7 @@ struct ImportedBed {
   SpeciesFound species;
   RowsById rows;
   ArchiveGrains known;           // by row, what a grain keeps: radius, mass, type, fixed
+  std::string cell;              // how long it is along x and z and who says so, a line each
   double origin = 0;             // height in the archive that is y = 0
   Vec3 shift = Vec3::Zero();     // to be added to components of positions
   std::vector<Period> periods;   // of the cell: none, along x, along z, or along both

@@ -21,6 +21,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <sstream>
 
 namespace grseg {
 namespace {
@@ -109,10 +110,12 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["import_grains"] = facts.discs ? "discs" : "spheres";
   texts["import_base"] = frames.builder().bed().species.base;
   texts["import_sizes"] = frames.builder().bed().species.sizes;
+  texts["import_cell"] = frames.builder().bed().cell;
   texts["import_columns"] = frames.archive().columns();
   if (run.box.periodic_x || run.box.periodic_z)
     texts["import_images"] = frames.builder().counts_periods() ? "known" : "unknown";
   if (!facts.walls.empty()) texts["import_walls"] = fmt::format("{}", fmt::join(facts.walls, ", "));
+  if (settings.interval) numbers["import_frame_interval"] = {*settings.interval * units.time};
   if (settings.from) texts["import_from"] = *settings.from;
   if (settings.to) texts["import_to"] = *settings.to;
   texts["import_instant"] =
@@ -139,7 +142,7 @@ template <int D>
   const auto fitting = complaint.of_columns
                            ? columns_that_fit(settings, frames.archive(), moments, frames.roster())
                            : std::string();
-  const auto others = fitting.empty()
+  const auto others = fitting.empty() && !complaint.spoils_gravity
                           ? judgement.also_failed(in_si(frames.moment(), frames.facts().units))
                           : std::string();
   const bool offer = fitting.empty() && complaint.check == "balance";
@@ -176,6 +179,7 @@ ImportReport report_of(const RunDescription& run)
   report.tolerance = run.parameters.numbers.at("import_tolerance")[0];
   report.columns = run.parameters.text("import_columns");
   report.base = run.parameters.text("import_base");
+  report.cell = run.parameters.text("import_cell");
   report.sizes = run.parameters.text("import_sizes");
   return report;
 }
@@ -394,6 +398,8 @@ std::string to_text(const ImportReport& report)
                   report.dimension == 3 ? ", in three dimensions" : "");
   if (!report.columns.empty()) text += fmt::format("columns: {}\n", report.columns);
   text += fmt::format("base: {}; {}\n", report.base, report.sizes);
+  std::istringstream cell(report.cell);
+  for (std::string line; std::getline(cell, line);) text += fmt::format("cell: {}\n", line);
   if (report.largest_residual)
     text +=
         fmt::format("grains balance: largest residual {:.3g}, median {:.3g} of the largest force\n",

@@ -25,7 +25,7 @@ struct ImportReport {
   std::optional<double> unexplained_residual;
   LateDamping late;
   double tolerance = 0;
-  std::string tolerance_reason, columns, base, sizes;
+  std::string tolerance_reason, columns, base, sizes, cell;
   std::vector<std::string> remarks;
   std::vector<Finding> findings;  // of all checks
 };

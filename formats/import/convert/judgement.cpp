@@ -49,6 +49,8 @@ void add_check_parameters(Parameters& parameters, const VerifiedFrames<D>& frame
   texts["import_masses"] = source(archive.density.has_value() || own.masses);
   texts["import_step"] = source(archive.step.has_value());
   texts["import_times"] = own.times;
+  if (!frames.facts().doubt_of_masses.empty())
+    texts["import_masses_doubt"] = frames.facts().doubt_of_masses;
   texts["import_accepted"] = frames.waivers().text();
   const auto& species = settings.species;
   if (species.small || species.large)
@@ -104,7 +106,8 @@ std::string Judgement::also_failed(const CheckMoment& moment) const
   std::string text;
   for (const auto& finding : judge(series, context_))
     if (finding.verdict == Verdict::failed && finding.check != "contacts" &&
-        finding.check != "overlap" && finding.check != "pull" && finding.check != "balance")
+        finding.check != "completeness" && finding.check != "overlap" && finding.check != "pull" &&
+        finding.check != "balance")
       text += fmt::format("; {}: {}", finding.check, finding.sentence);
   return text;
 }

@@ -20,7 +20,9 @@ ArchiveFiles with_columns(ArchiveFiles files, const std::string& columns)
 Moments::Moments(const ImportSettings& settings, const std::string& columns)
     : archive_(open_archive(settings.format, with_columns(settings.files, columns))),
       step_(settings.step),
+      interval_(settings.interval),
       drop_incomplete_(settings.drop_incomplete),
+      cells_(parse_cells(settings.cells)),
       range_(settings.from, settings.to)
 {
 }
@@ -28,11 +30,27 @@ Moments::Moments(const ImportSettings& settings, const std::string& columns)
 bool Moments::read_one(ArchiveMoment& moment, Read read)
 {
   try {
-    return ((*archive_).*read)(moment);
+    if (!((*archive_).*read)(moment)) return false;
+    if (interval_) set_time(moment);
+    for (const auto& cell : cells_) tell(cell, moment);
+    return true;
   } catch (const TruncatedArchive&) {
     if (!drop_incomplete_) throw;
     return false;
   }
+}
+
+/// The number of a moment times --frame-interval.
+void Moments::set_time(ArchiveMoment& moment) const
+{
+  if (moment.time)
+    throw UsageError(fmt::format(
+        "{}: --frame-interval is given, but the archive has times; leave the option out",
+        moment.place));
+  if (!(*interval_ > 0))
+    throw UsageError(fmt::format("--frame-interval {:g} is not positive", *interval_));
+  moment.time = static_cast<double>(*moment.step) * *interval_;
+  moment.step.reset();
 }
 
 bool Moments::advance(ArchiveMoment& moment, Read read)

@@ -3,9 +3,11 @@
 
 #include "formats/import/convert/moment_range.hpp"
 #include "formats/import/facts/import_settings.hpp"
+#include "formats/import/facts/told_cell.hpp"
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace grseg {
 
@@ -30,8 +32,10 @@ class Moments {
   bool read_one(ArchiveMoment& moment, Read read);
 
   std::unique_ptr<Archive> archive_;
-  std::optional<double> step_;  // --step
+  void set_time(ArchiveMoment& moment) const;
+  std::optional<double> step_, interval_;  // --step, --frame-interval
   bool drop_incomplete_;
+  std::vector<ToldCell> cells_;
   MomentRange range_;
   bool found_ = false, ended_ = false;
 };

@@ -4,6 +4,8 @@
 #include "formats/import/convert/imported_bed.hpp"
 #include "formats/import/convert/proposed_files.hpp"
 #include "formats/import/facts/proposals.hpp"
+#include "formats/import/facts/told_cell.hpp"
+#include "formats/import/facts/wall_planes.hpp"
 
 #include <fmt/format.h>
 
@@ -95,10 +97,41 @@ void OpenedArchive::ask_for_the_bed(const ImportSettings& settings,
     else
       propose_base(question_of_base(grains, resting), trial.species);
   }
+  ask_for_the_cell(settings, questions);
   try {
     questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
   } catch (const ToolError&) {
     if (!questions.any()) throw;
+  }
+}
+
+/// All moments are read for what is proposed.
+Question OpenedArchive::question_of_cell(const ImportSettings& settings, int axis) const
+{
+  double low = all_grains().low[axis], high = all_grains().high[axis];
+  if (!roster_) {
+    try {
+      const auto all = read_roster(settings).all;
+      low = all.low[axis], high = all.high[axis];
+    } catch (const ToolError&) {  // to be reported when it is that moment's turn
+    }
+  }
+  const char name = "xyz"[axis];
+  return {fmt::format("the ends of the cell along {}", name),
+          "--cell " + ToldCell{axis, low, high, false}.text(),
+          "the archive states none, or one that follows its grains; this is their extent over all "
+          "moments"};
+}
+
+/// Areas and volumes are those of the cell.
+void OpenedArchive::ask_for_the_cell(const ImportSettings& settings, Questions& questions) const
+{
+  const auto walls = parse_walls(settings.walls);
+  for (const int direction : {0, 2}) {
+    const auto axis = facts.orientation.axes.axis_of(direction);
+    if (!axis || (direction == 2 && facts.dimension == 2) || between_walls(walls, *axis)) continue;
+    if (all_grains().cell[static_cast<std::size_t>(*axis)] == CellSource::grains)
+      questions.ask(question_of_cell(settings, *axis));
   }
 }
 

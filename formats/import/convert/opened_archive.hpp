@@ -43,6 +43,9 @@ class OpenedArchive {
   void ask_for_the_bed(const ImportSettings& settings, const std::vector<bool>& resting,
                        Questions& questions) const;
 
+  void ask_for_the_cell(const ImportSettings& settings, Questions& questions) const;
+  Question question_of_cell(const ImportSettings& settings, int axis) const;
+
   Moments moments_;
   std::shared_ptr<const Roster> roster_;
 };

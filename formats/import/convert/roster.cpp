@@ -37,6 +37,7 @@ class Collector {
     roster_.all.low = first.low;
     roster_.all.high = first.high;
     roster_.all.periodic = first.periodic;
+    roster_.all.cell = first.cell;
     roster_.all.place = fmt::format("all moments from {} on", first.place);
     roster_.fewest = first.grains.size();
   }

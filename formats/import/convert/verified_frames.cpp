@@ -39,11 +39,12 @@ VerifiedFrames<D>::VerifiedFrames(OpenedArchive opened, const ImportSettings& se
       own_(own_facts(opened_.all_grains(), opened_.moment)),
       builder_(std::make_unique<FrameBuilder>(opened_.all_grains(), facts(), settings,
                                               opened_.roster() != nullptr)),
-      verification_(builder_->bed().grains, builder_->bed().box,
-                    facts().orientation.gravity.template head<D>(),
-                    {archive().facts().tolerance, archive().facts().forces_are_late, facts().step,
-                     facts().discs ? inertia_factor<2> : inertia_factor<3>},
-                    waivers_, axes_of(builder_->bed())),
+      verification_(
+          builder_->bed().grains, builder_->bed().box,
+          facts().orientation.gravity.template head<D>(),
+          {archive().facts().tolerance, archive().facts().forces_are_late, facts().step,
+           facts().discs ? inertia_factor<2> : inertia_factor<3>, archive().facts().lists_all},
+          waivers_, axes_of(builder_->bed())),
       has_force_(!opened_.all_grains().grains.force.empty()),
       has_angular_velocity_(!opened_.all_grains().grains.angular_velocity.empty())
 {

@@ -149,6 +149,7 @@ CsvArchive::CsvArchive(const ArchiveFiles& files)
   require_y_or_z(grains_, of_grain::vx, "vy");
   require_y_or_z(contacts_, of_contact::fx, "fy");
   facts_.tolerance = 1e-4;
+  facts_.lists_all = false;  // they may be those of contact dynamics
   facts_.tolerance_reason = "the digits of the tables";
 }
 

@@ -53,6 +53,8 @@ class DumpArchive : public Archive {
     moment.low = header.low;
     moment.high = header.high;
     moment.periodic = header.periodic;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      moment.cell[axis] = header.shrinks[axis] ? CellSource::grains : CellSource::archive;
     moment.questions.clear();
     moment.place = fmt::format("step {} ({}; {})", header.step, header.place,
                                dumps_.contacts().header().place);

@@ -155,7 +155,9 @@ void DumpReader::read_box(std::string_view item)
   const std::size_t letters = words.size() > 2 && words[2] == "xy" ? 5 : 2;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // Dumps from before 2010 have no letters: then nothing is periodic as far as is known.
-    if (letters + axis < words.size()) header_.periodic[axis] = words[letters + axis] == "pp";
+    if (letters + axis >= words.size()) continue;
+    header_.periodic[axis] = words[letters + axis] == "pp";
+    header_.shrinks[axis] = words[letters + axis].find_first_of("sm") != std::string_view::npos;
   }
   for (int axis = 0; axis < 3; ++axis) {
     next_line("a header");

@@ -21,6 +21,7 @@ struct DumpHeader {
   std::size_t rows = 0;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   std::array<bool, 3> periodic{};
+  std::array<bool, 3> shrinks{};     // the bounds follow the grains (boundary s or m)
   std::vector<std::string> columns;  // names
   std::string place;                 // "atoms.dump, line 1"
 

@@ -62,6 +62,8 @@ po::options_description fact_options(ImportSettings& s)
   facts.add_options()("units", optional(s.units, "UNITS"),
                       "si, cgs, or LENGTH:TIME:MASS of its units in m, s, kg")(
       "step", optional(s.step, "DT"), "length of a time step")(
+      "frame-interval", optional(s.interval, "T"),
+      "time between two moments, where the archive counts these and not steps")(
       "gravity", optional(s.gravity, "G"), "vector GX,GY,GZ, or its magnitude beside --slope")(
       "slope", optional(s.slope, "DEGREES"),
       "of the base; with a vector the axes are turned to it")(
@@ -73,6 +75,8 @@ po::options_description fact_options(ImportSettings& s)
       "2 or 3 (default: 3 for spheres that do not lie in one plane)")(
       "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),
       "y = 0: top or centre of the base grains, or a height in the archive")(
+      "cell", po::value(&s.cells)->composing()->value_name("AXIS:LOW:HIGH"),
+      "ends of the cell along an axis, once for each: x:0:0.4, or x:0:0.4:periodic")(
       "wall", po::value(&s.walls)->composing()->value_name("NAME=AXIS:POSITION"),
       "a plane wall of which the archive has no contacts, once for each: floor=z:0");
   return facts;

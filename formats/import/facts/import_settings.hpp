@@ -22,6 +22,7 @@ struct ImportSettings {
 
   std::optional<std::string> units;    // units.hpp
   std::optional<double> step;          // length of a time step
+  std::optional<double> interval;      // between moments that the archive numbers one by one
   std::optional<double> density;       // of discs per area, of spheres per volume
   std::optional<std::string> grains;   // "discs", "spheres"
   std::optional<std::string> gravity;  // axes.hpp
@@ -31,6 +32,7 @@ struct ImportSettings {
   std::optional<int> dimension;        // dimension.hpp
   SpeciesSettings species;
   std::vector<std::string> walls;  // wall_planes.hpp
+  std::vector<std::string> cells;  // told_cell.hpp
 
   std::optional<std::string> from, to;       // moment_range.hpp
   std::vector<std::string> accept_residual;  // finding.hpp

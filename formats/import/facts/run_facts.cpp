@@ -61,20 +61,15 @@ std::optional<double> either(const std::optional<double>& archive,
   return given ? given : archive;
 }
 
-std::optional<bool> discs_or_spheres(const ArchiveFacts& archive, const ArchiveGrains& grains,
-                                     const ImportSettings& settings)
+/// What is told wins over what masses suggest, but must agree with what the archive states.
+std::optional<bool> discs_or_spheres(const ArchiveFacts& archive, const ImportSettings& settings)
 {
-  const auto by_mass = discs_by_mass(grains);
-  const auto known = by_mass ? by_mass : archive.discs;
-  if (!settings.grains) return known;
+  if (!settings.grains) return archive.discs;
   const bool discs =
       choose<bool>(*settings.grains, "--grains-are", {{"discs", true}, {"spheres", false}});
-  if (known && discs != *known)
-    throw UsageError(fmt::format(
-        "--grains-are {}, but {}: leave the option out, or {}", *settings.grains,
-        by_mass ? (discs ? "masses grow as the cube of the radius" : "masses grow as its square")
-                : "the archive says otherwise",
-        discs ? "was density/disc not set in the run?" : "use --grains-are discs"));
+  if (archive.discs && discs != *archive.discs)
+    throw UsageError(fmt::format("--grains-are {}, but the archive says {}; leave the option out",
+                                 *settings.grains, *archive.discs ? "discs" : "spheres"));
   return discs;
 }
 
@@ -163,12 +158,23 @@ void FactFinder::find_step()
 void FactFinder::find_grains()
 {
   const auto& grains = look_.all.grains;
-  auto discs = discs_or_spheres(archive_, grains, settings_);
+  auto discs = discs_or_spheres(archive_, settings_);
   if (!discs && plane_of(grains).empty()) discs = false;
+  const auto by_mass = discs_by_mass(grains);
+  if (!discs && by_mass == true) discs = true;
+  if (discs && by_mass && discs != by_mass)
+    facts_.doubt_of_masses = fmt::format(
+        "grains are taken for {}, but their masses grow as the {} of the radius: their densities "
+        "differ by a factor of {:.3g}, or they are {}",
+        *discs ? "discs" : "spheres", *discs ? "cube" : "square",
+        1 + spread_of_density(grains, *discs), *discs ? "spheres" : "discs");
   if (!discs)
-    questions_.ask({"whether grains are discs or spheres", "--grains-are WHAT",
-                    "discs or spheres: LAMMPS makes spheres without density/disc, also in two "
-                    "dimensions"});
+    questions_.ask(
+        {"whether grains are discs or spheres",
+         by_mass ? "--grains-are spheres" : "--grains-are WHAT",
+         by_mass ? "masses grow as the cube of the radius; discs of two densities may do so, too"
+                 : "discs or spheres: LAMMPS makes spheres without density/disc, also in two "
+                   "dimensions"});
   facts_.discs = discs.value_or(true);
   facts_.density = either(archive_.density, settings_.density, "--density");
   if (settings_.density && discs) require_density(grains, *settings_.density, *discs);

@@ -20,6 +20,7 @@ struct RunFacts {
   bool discs = true;               // false: spheres
   std::vector<std::string> walls;  // straight ones that bound the flow, in words
   std::optional<double> density;   // needed where grains have no mass
+  std::string doubt_of_masses;     // a sentence where they suggest other grains than were told
   Units units;
   std::string units_as_given;
 };
@@ -31,8 +32,8 @@ struct FirstLook {
   const std::vector<bool>& resting;  // grains of `all` that seem to be the base (proposals.hpp)
 };
 
-/// Takes each fact from the archive or the command line; discs and spheres are distinguished by the
-/// masses of grains of different radii, or by grains that lie in no plane. What is missing is added
+/// Takes each fact from the archive or the command line. Grains are discs if their masses grow as the
+/// square of their radii, and spheres if they lie in no plane, unless something else is told. What is missing is added
 /// to `questions`, and the fact is then the one that is proposed, or of no meaning. UsageError where
 /// archive and command line contradict each other.
 RunFacts collect_facts(const ArchiveFacts& archive, const FirstLook& look,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -58,6 +59,17 @@ std::vector<WallPlane> parse_walls(const std::vector<std::string>& texts)
     walls.push_back(wall);
   }
   return walls;
+}
+
+std::optional<std::pair<double, double>> between_walls(const std::vector<WallPlane>& walls,
+                                                       int axis)
+{
+  std::vector<double> places;
+  for (const auto& wall : walls)
+    if (wall.axis == axis) places.push_back(wall.position);
+  if (places.size() < 2) return std::nullopt;
+  const auto [low, high] = std::minmax_element(places.begin(), places.end());
+  return std::pair(*low, *high);
 }
 
 std::string list_of(const std::vector<WallPlane>& walls)

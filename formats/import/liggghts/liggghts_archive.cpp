@@ -14,6 +14,14 @@ std::string assumed_columns(const DumpHeader& contacts, const ArchiveGrains&)
   return "";
 }
 
+/// All its grains are spheres, also where they move in a plane.
+ArchiveFacts facts_of_liggghts()
+{
+  auto facts = facts_of_late_forces("LIGGGHTS");
+  facts.discs = false;
+  return facts;
+}
+
 FileRole role_of(const FileStart& start)
 {
   return role_of_dump(start, are_of_one_compute);
@@ -25,7 +33,7 @@ std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
 {
   static const DumpDialect dialect{assumed_columns,       liggghts_mapping,
                                    liggghts_columns_of,   "pos,id,force,delta",
-                                   liggghts_wall_mapping, facts_of_late_forces("LIGGGHTS")};
+                                   liggghts_wall_mapping, facts_of_liggghts()};
   return open_dumps(files, dialect);
 }
 

@@ -83,6 +83,7 @@ SiconosArchive::SiconosArchive(std::string path, File file)
   facts_.step = steps_.length;
   facts_.discs = bodies_.discs;
   facts_.tolerance = 1e-4;
+  facts_.lists_all = false;
   facts_.tolerance_reason =
       "Siconos writes single precision, and its solver stops at a tolerance of its own";
 }

@@ -109,9 +109,13 @@ CheckContext check_context(const Grains& grains, const SpeciesList& species,
   const auto [length, time, mass] = numbers<3>(parameters, "import_units", file);
   context.units = {length, time, mass};
   context.step = parameters.number("step", file);
+  if (const auto found = parameters.numbers.find("import_frame_interval");
+      found != parameters.numbers.end())
+    context.frame_interval = found->second.at(0);
   const auto is_own = [&](const char* name) { return parameters.text(name) == "archive"; };
   context.gravity_is_given = !is_own("import_gravity");
   context.masses_are_given = !is_own("import_masses");
+  context.doubt_of_masses = parameters.text("import_masses_doubt");
   context.step_is_given = !is_own("import_step");
   const auto times = parameters.text("import_times");
   context.times_are_own = times != "steps";

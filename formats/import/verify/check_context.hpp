@@ -27,8 +27,10 @@ struct CheckContext {
   std::array<Vec3, 3> axes;           // of the flow, in those of the archive
   Units units;                        // of the archive
   double step = 0;                    // s
+  double frame_interval = 0;          // s, as given; 0: it is not
   bool gravity_is_given = true;       // on the command line, and not by the archive
   bool masses_are_given = false;      // likewise, as a density
+  std::string doubt_of_masses;        // of the import, a sentence
   bool step_is_given = true;          // likewise
   bool times_are_own = false;         // times are the archive's, not steps times their length
   bool steps_are_own = true;          // numbers of steps are the archive's

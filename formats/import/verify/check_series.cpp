@@ -18,6 +18,10 @@ void visit_numbers(Moment& moment, const Visit& visit)
   visit("gap", "", moment.gap);
   visit("overlap", "", moment.overlap);
   visit("pull", "", moment.pull);
+  visit("unlisted", "", moment.unlisted);
+  visit("unlisted_pairs", "", moment.unlisted_pairs);
+  visit("unlisted_may_part", "", moment.unlisted_may_part);
+  visit("rigid", "", moment.rigid);
   visit("balance", "", moment.balance);
   visit("balance_grains", "", moment.balance_grains);
   visit("balance_worst", "", moment.balance_worst);

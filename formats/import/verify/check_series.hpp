@@ -48,6 +48,14 @@ struct CheckMoment {
   // overlap. Fraction of the normal force that pulls.
   double distance = 0, gap = 0, overlap = 0, pull = 0;
 
+  /// Pairs that overlap and have no contact: the deepest overlap in units of the smaller radius, and
+  /// their number. 0 where every grain is known to balance without them.
+  double unlisted = 0, unlisted_pairs = 0;
+  /// 1 where they may bear no force, as in contact dynamics.
+  double unlisted_may_part = 0;
+  /// Part of the mobile grains that move as one body with a neighbour they have no contact with.
+  double rigid = 0;
+
   /// By how much the force on a grain is missed, over the largest force; of how many grains: 0 where
   /// it could not be judged.
   double balance = 0, balance_grains = 0;

@@ -104,4 +104,39 @@ std::optional<Slope> slope_of(const SlopeSums& s)
   return slope;
 }
 
+SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckMoment::*which)
+{
+  SlopeSums sums;
+  for (const auto& moment : series) sums += moment.*which;
+  return sums;
+}
+
+CheckSeries half_of(const CheckSeries& series, bool second)
+{
+  const auto middle = series.begin() + static_cast<std::ptrdiff_t>(series.size() / 2);
+  return second ? CheckSeries(middle, series.end()) : CheckSeries(series.begin(), middle);
+}
+
+std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, double tolerance)
+{
+  const auto first = gravity_from(half_of(series, false), &CheckMoment::all);
+  const auto second = gravity_from(half_of(series, true), &CheckMoment::all);
+  if (!first || !second) return std::nullopt;
+  const double change = (second->value - first->value).norm();
+  if (change <= std::max(tolerance, 5 * std::hypot(first->error, second->error)))
+    return std::nullopt;
+  return Halves<Estimate>{*first, *second};
+}
+
+std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,
+                                             SlopeSums CheckMoment::*which)
+{
+  const auto first = slope_of(sums_of(half_of(series, false), which));
+  const auto second = slope_of(sums_of(half_of(series, true), which));
+  if (!first || !second) return std::nullopt;
+  const double unsure = first->uncertainty() + second->uncertainty();
+  if (std::abs(second->value - first->value) <= slope_tolerance + unsure) return std::nullopt;
+  return Halves<Slope>{*first, *second};
+}
+
 }  // namespace grseg

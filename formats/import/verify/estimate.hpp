@@ -27,6 +27,17 @@ inline constexpr std::size_t fewest_pairs = 8;
 std::optional<Estimate> gravity_from(const CheckSeries& series,
                                      GravityEstimate CheckMoment::*which);
 
+/// What is true of the first half of the moments and of the second.
+template <class Value>
+struct Halves {
+  Value first, second;
+};
+CheckSeries half_of(const CheckSeries& series, bool second);
+
+/// Where gravity differs between the halves: by more than five standard errors and more than
+/// `tolerance` (m/s^2).
+std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, double tolerance);
+
 /// k of y = k x, its standard error, and by how much noise in x may have lowered it: the part of the
 /// squares of y that the line leaves over.
 struct Slope {
@@ -41,5 +52,10 @@ inline constexpr double slope_tolerance = 0.1, sharp_slope = 0.5 - slope_toleran
 
 /// Nothing where too little moves or where more than a tenth of the squares is left over.
 std::optional<Slope> slope_of(const SlopeSums& sums);
+SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckMoment::*which);
+
+/// Where the slope differs between the halves by more than their uncertainties and slope_tolerance.
+std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,
+                                             SlopeSums CheckMoment::*which);
 
 }  // namespace grseg

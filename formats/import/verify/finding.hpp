@@ -10,18 +10,19 @@
 
 /// What the verification of an import finds. Every check has a name, by which it can be waived.
 ///
-///   contacts  they join grains that touch, and each is listed once
-///   overlap   they are not too deep
-///   pull      they push rather than pull
-///   balance   they add up to the force on each grain
-///   gravity   the weight of the grains is that of gravity as given
-///   masses    small and large grains weigh what their masses say
-///   sizes     small grains are smaller than large ones
-///   time      displacements are velocity times time
+///   contacts      they join grains that touch, and each is listed once
+///   completeness  grains that overlap are listed, and none are parts of one body
+///   overlap       they are not too deep
+///   pull          they push rather than pull
+///   balance       they add up to the force on each grain
+///   gravity       the weight of the grains is that of gravity as given
+///   masses        small and large grains weigh what their masses say
+///   sizes         small grains are smaller than large ones
+///   time          displacements are velocity times time
 namespace grseg {
 
-inline constexpr const char* check_names[] = {"contacts", "overlap", "pull",  "balance",
-                                              "gravity",  "masses",  "sizes", "time"};
+inline constexpr const char* check_names[] = {
+    "contacts", "completeness", "overlap", "pull", "balance", "gravity", "masses", "sizes", "time"};
 
 /// The answer of one check.
 struct Finding {

@@ -34,6 +34,33 @@ Finding judge_contacts(const CheckSeries& series)
   return finding;
 }
 
+Finding judge_completeness(const CheckSeries& series)
+{
+  const double rigid = largest(series, &CheckMoment::rigid);
+  if (rigid > fewest_rigid)
+    return {"completeness", Verdict::failed,
+            fmt::format("up to {:.2g} of the grains are parts of rigid bodies", rigid),
+            rigid_bodies};
+  double pairs = 0, missing = 0, may_part = 0;
+  for (const auto& moment : series) {
+    pairs = std::max(pairs, moment.unlisted_pairs);
+    auto& deepest = moment.unlisted_may_part != 0 ? may_part : missing;
+    deepest = std::max(deepest, moment.unlisted);
+  }
+  if (pairs == 0)
+    return {"completeness", Verdict::passed, "grains that overlap are listed as contacts", 0};
+  const auto sentence = fmt::format(
+      "up to {:.0f} pairs of a moment overlap, by up to {:.2g} of the smaller radius, "
+      "and are not listed as contacts",
+      pairs, std::max(missing, may_part));
+  if (missing > 0) return within("completeness", missing, 0, sentence);
+  return {"completeness", Verdict::undecided,
+          sentence +
+              ": they may be rigid grains that part, or contacts may be missing; write forces "
+              "on grains, or consecutive steps",
+          may_part};
+}
+
 Finding judge_overlap(const CheckSeries& series)
 {
   const double overlap = largest(series, &CheckMoment::overlap);
@@ -93,6 +120,7 @@ std::vector<Finding> judge(const CheckSeries& series, const CheckContext& contex
 {
   const auto gravity = judge_gravity(series, context);
   std::vector<Finding> findings{judge_contacts(series),
+                                judge_completeness(series),
                                 judge_overlap(series),
                                 judge_pull(series),
                                 judge_balance(series, context),

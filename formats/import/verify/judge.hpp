@@ -24,8 +24,16 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context);
 /// In units of the smaller radius: by how much a distance may differ from radii and overlap (digits
 /// of the text), how far apart grains that bear a force may be, and how deep they may overlap.
 inline constexpr double largest_distance = 0.01, widest_gap = 0.05, deepest_overlap = 0.3;
+/// Part of the mobile grains that may seem to belong to rigid bodies, by chance; and what the
+/// measure of completeness then is. Otherwise it is the overlap of pairs that are not listed, over
+/// the smaller radius.
+inline constexpr double fewest_rigid = 0.01, rigid_bodies = 1;
 /// Fraction of the normal force that may pull: damping of soft grains that separate.
 inline constexpr double largest_pull = 0.2;
+
+/// Grains that have moved farther than this many times their way at the faster of two velocities
+/// were not seen one step apart.
+inline constexpr double farthest = 3;
 
 /// Without forces on grains, two moments are close together where the contact forces on a grain have
 /// changed by less than this fraction of their size. The mean over the time between them then

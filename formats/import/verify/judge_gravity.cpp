@@ -95,6 +95,20 @@ std::string source(const Estimate& found)
       found.medians ? (found.moments == 1 ? "moment" : "moments") : "pairs of moments");
 }
 
+Finding turning(const CheckSeries& series, const CheckContext& context,
+                const Halves<Estimate>& halves, double scale)
+{
+  const auto time = [&](std::size_t k) { return series[k].time / context.units.time; };
+  const auto middle = series.size() / 2;
+  return {
+      "gravity", Verdict::failed,
+      fmt::format("gravity changes within the archive, from {} (t = {:.6g} to {:.6g}) to {} (t = "
+                  "{:.6g} to {:.6g}): import moments of one gravity, with --from and --to",
+                  text_of(context, halves.first.value), time(0), time(middle - 1),
+                  text_of(context, halves.second.value), time(middle), time(series.size() - 1)),
+      (halves.second.value - halves.first.value).norm() / scale};
+}
+
 Finding undecided(const CheckContext& context, const std::string& why)
 {
   if (!context.gravity_is_given)
@@ -116,6 +130,8 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
       {context.gravity.norm(), found->value.norm(), negligible * median_acceleration(series)});
   if (!(scale > 0))
     return {"gravity", Verdict::passed, "there is none, and the grains feel none", 0};
+  if (const auto change = change_of_gravity(series, tolerance * scale))
+    return turning(series, context, *change, scale);
   const double measure = (found->value - context.gravity).norm() / scale;
   const double error = found->error / scale;
   const auto suggestion =

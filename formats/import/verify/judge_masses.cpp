@@ -56,9 +56,14 @@ Part by_size(const CheckSeries& series, const CheckContext& context)
 /// Forces over accelerations where both are known.
 Part by_inertia(const CheckSeries& series, const CheckContext& context)
 {
-  SlopeSums sums;
-  for (const auto& moment : series) sums += moment.force;
-  const auto slope = slope_of(sums);
+  const auto slope = slope_of(sums_of(series, &CheckMoment::force));
+  if (const auto change = change_of_slope(series, &CheckMoment::force))
+    return {Verdict::failed,
+            fmt::format("force over acceleration is {:.4g} times the mass in the first half of the "
+                        "moments and {:.4g} times in the second: masses, or a unit, change within "
+                        "the archive",
+                        change->first.value, change->second.value),
+            std::max(std::abs(change->first.value - 1), std::abs(change->second.value - 1))};
   if (!slope) return {Verdict::undecided, "force over acceleration cannot be formed", 0};
   const double off = std::abs(slope->value - 1), unsure = slope->uncertainty();
   const auto sentence = fmt::format(
@@ -83,8 +88,12 @@ Finding judge_masses(const CheckSeries& series, const CheckContext& context, con
 {
   const auto relative = by_size(series, context), absolute = by_inertia(series, context);
   const bool one_size = !(context.size_ratio > 1);
+  const auto& doubt = context.doubt_of_masses;
   const auto answer = [&](Verdict verdict, const std::string& sentence) {
-    return Finding{"masses", verdict, sentence, std::max(relative.measure, absolute.measure)};
+    const double measure = std::max(relative.measure, absolute.measure);
+    if (verdict == Verdict::passed && !doubt.empty())
+      return Finding{"masses", Verdict::undecided, doubt, measure};
+    return Finding{"masses", verdict, sentence, measure};
   };
   const bool relative_failed = relative.verdict == Verdict::failed;
   if (relative_failed && absolute.verdict == Verdict::failed)

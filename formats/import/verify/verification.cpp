@@ -3,6 +3,7 @@
 
 #include "formats/import/common/minimum_image.hpp"
 #include "formats/import/verify/judge.hpp"
+#include "formats/import/verify/unlisted_forces.hpp"
 
 #include <fmt/format.h>
 
@@ -57,8 +58,11 @@ std::optional<Complaint> Verification<D>::check(const Frame<D>& frame, bool has_
   moment_.time = frame.time;
   auto sums = sums_as(frame, [](const Vector<D>& force, const Vector<D>&) { return force; });
   residual_ = residual_with(frame, sums);
-  auto complaint = geometry(frame);
-  if (!complaint) complaint = double_rows(frame);
+  auto complaint = distance_moved(frame);
+  if (auto other = geometry(frame); !complaint) complaint = other;
+  const auto listed = listed_pairs<D>(frame.contacts);
+  if (!complaint) complaint = double_rows(listed);
+  if (auto other = completeness(frame, listed); !complaint) complaint = other;
   if (auto other = pull(frame); !complaint) complaint = other;
   if (auto other = balance(frame); !complaint) complaint = other;
   const auto distance = from_before(frame, sums);
@@ -71,12 +75,14 @@ std::optional<Complaint> Verification<D>::check(const Frame<D>& frame, bool has_
   return complaint;
 }
 
+/// Rows of grains; negative for a wall.
 template <int D>
-std::string Verification<D>::pair_of(const ContactList<D>& contacts, std::size_t c) const
+std::string Verification<D>::pair_of(std::int32_t i, std::int32_t j) const
 {
-  const auto i = grains_.id[row(contacts.i[c])];
-  if (contacts.j[c] < 0) return fmt::format("grain {} and wall {}", i, -contacts.j[c] - 1);
-  return fmt::format("grains {} and {}", i, grains_.id[row(contacts.j[c])]);
+  if (i < 0) std::swap(i, j);
+  const auto first = grains_.id[row(i)];
+  if (j < 0) return fmt::format("grain {} and wall {}", first, -j - 1);
+  return fmt::format("grains {} and {}", first, grains_.id[row(j)]);
 }
 
 /// Contacts that carry force must join grains that touch. Wall contacts are not checked.
@@ -114,7 +120,7 @@ std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::s
         fmt::format(
             "{} are listed as touching, but their centres are {:.6g} apart and the radii add up "
             "to {:.6g}{}: are i and j their ids, and is the cell periodic as the archive says?",
-            pair_of(contacts, c), apart, radii,
+            pair_of(contacts.i[c], contacts.j[c]), apart, radii,
             as_stated ? "" : fmt::format(" while the archive states a distance of {:.6g}", stated)),
         true};
   if (-gap > waivers_.limit("overlap", deepest_overlap))
@@ -125,27 +131,78 @@ std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::s
             "the radii add up to {:.6g}: are radii and ids read as they are meant? Where "
             "grains are that soft, or a bed is being filled, --accept-residual overlap={:.1g} "
             "imports it",
-            pair_of(contacts, c), -gap, apart, radii, std::ceil(-gap * 10) / 10),
+            pair_of(contacts.i[c], contacts.j[c]), -gap, apart, radii, std::ceil(-gap * 10) / 10),
         true};
   return std::nullopt;
 }
 
 template <int D>
-std::optional<Complaint> Verification<D>::double_rows(const Frame<D>& frame) const
+std::optional<Complaint> Verification<D>::double_rows(const ListedPairs& listed) const
 {
-  const auto& contacts = frame.contacts;
-  std::vector<std::pair<std::pair<std::int32_t, std::int32_t>, std::size_t>> pairs;
-  pairs.reserve(contacts.size());
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    pairs.push_back({std::minmax(contacts.i[c], contacts.j[c]), c});
-  std::sort(pairs.begin(), pairs.end());
-  for (std::size_t k = 1; k < pairs.size(); ++k)
-    if (pairs[k].first == pairs[k - 1].first)
-      return Complaint{"contacts",
-                       fmt::format("the contact of {} appears twice; each must be listed once",
-                                   pair_of(contacts, pairs[k].second)),
-                       false};
+  const auto twice = std::adjacent_find(listed.begin(), listed.end());
+  if (twice == listed.end()) return std::nullopt;
+  return Complaint{"contacts",
+                   fmt::format("the contact of {} appears twice; each must be listed once",
+                               pair_of(twice->first, twice->second)),
+                   false};
+}
+
+/// Whether the forces on every grain are known to add up at this moment.
+template <int D>
+bool Verification<D>::all_balance() const
+{
+  return residual_ && std::max(residual_->worst, residual_->unexplained) <= tolerance();
+}
+
+template <int D>
+std::optional<Complaint> Verification<D>::completeness(const Frame<D>& frame,
+                                                       const ListedPairs& listed)
+{
+  const auto found =
+      unlisted_pairs_of<D>(grains_, box_, frame, listed, std::max(moment_.gap, moment_.distance));
+  const bool is_soft = accuracy_.lists_all || found.forces_grow;
+  if (is_soft || !all_balance()) {
+    moment_.unlisted = found.deepest();
+    moment_.unlisted_pairs = static_cast<double>(found.unlisted.size());
+    moment_.unlisted_may_part = !is_soft && !residual_ && !found.unlisted.empty();
+  }
+  moment_.rigid = found.rigid_grains;
+  const double limit = waivers_.limit("completeness", 0);
+  if (moment_.rigid > fewest_rigid && limit < rigid_bodies)
+    return Complaint{"completeness", rigid_bodies_of(found), false};
+  if (moment_.unlisted > limit && moment_.unlisted_may_part == 0)
+    return Complaint{"completeness", missing_rows_of(found), true};
   return std::nullopt;
+}
+
+template <int D>
+std::string Verification<D>::rigid_bodies_of(const UnlistedPairs& found) const
+{
+  return fmt::format(
+      "{:.0f} % of the grains move as one body with a neighbour without a contact (the first: {}): "
+      "rigid bodies of several grains are not supported, since the forces inside them are unknown",
+      100 * found.rigid_grains, pair_of(found.rigid.front().i, found.rigid.front().j));
+}
+
+template <int D>
+std::string Verification<D>::missing_rows_of(const UnlistedPairs& found) const
+{
+  const auto& deepest = found.unlisted.front();
+  const auto pairs = found.unlisted.size();
+  const auto first = pair_of(deepest.i, deepest.j);
+  const auto what =
+      pairs == 1 ? fmt::format("{} overlap by {:.2g} of the smaller radius", first, -deepest.gap)
+                 : fmt::format("{} pairs overlap (the first: {}, by {:.2g} of the smaller radius)",
+                               pairs, first, -deepest.gap);
+  const auto where =
+      found.at_boundary == 0 ? std::string()
+      : found.at_boundary == pairs
+          ? ": rows with the base are missing"
+          : fmt::format(": {} rows with the base are missing, too", found.at_boundary);
+  return fmt::format(
+      "{} and are not in the list of contacts{}; write all contacts, or leave these "
+      "out by --accept-residual completeness={:.1g}",
+      what, where, std::ceil(-deepest.gap * 10) / 10);
 }
 
 template <int D>
@@ -196,11 +253,51 @@ double Verification<D>::longest_path(const Frame<D>& frame) const
   return longest;
 }
 
+/// How many times as far most grains have moved since the moment before as their velocities allow.
+/// 0 where they have moved by less than a thousandth of their radius, which digits may do.
+template <int D>
+double Verification<D>::too_far(const Frame<D>& frame) const
+{
+  std::vector<double> moved, expected;
+  for (std::size_t g = 0; g < grains_.size(); ++g) {
+    if (!is_mobile(grains_, frame, g) || std::isnan(before_->position[g].y())) continue;
+    const auto between = minimum_image<D>(box_, frame.position[g] - before_->position[g]);
+    const double speed = std::max(frame.velocity[g].norm(), before_->velocity[g].norm());
+    moved.push_back(between.norm() / grains_.radius[g]);
+    expected.push_back(speed * (frame.time - before_->time) / grains_.radius[g]);
+  }
+  if (moved.empty()) return 0;
+  const auto median = [](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  const double way = median(moved), allowed = median(expected);
+  return way > 1e-3 ? way / allowed : 0;
+}
+
+/// That two moments are one step apart is believed where grains have not moved farther than that.
+template <int D>
+std::optional<Complaint> Verification<D>::distance_moved(const Frame<D>& frame) const
+{
+  if (!before_ || frame.step != before_->step + 1) return std::nullopt;
+  const double factor = too_far(frame);
+  if (factor <= 1 + waivers_.limit("time", farthest - 1)) return std::nullopt;
+  return Complaint{
+      "time",
+      fmt::format("most grains have moved {:.3g} times as far as their velocities allow since the "
+                  "moment before, which seems to be one step earlier: are {} and {} the numbers of "
+                  "outputs? Then give the time between two with --frame-interval",
+                  factor, before_->step, frame.step),
+      false};
+}
+
 template <int D>
 auto Verification<D>::from_before(const Frame<D>& frame, const Sums& sums) const -> Distance
 {
   if (!before_) return Distance::none;
-  if (frame.step == before_->step + 1) return Distance::step;
+  if (frame.step == before_->step + 1)
+    return too_far(frame) > farthest ? Distance::far : Distance::step;
   if (!frame.force.empty()) return Distance::far;
   const double change = change_of_sums(grains_, frame, sums.before, sums.now);
   const bool close = change <= close_together && longest_path(frame) <= close_together;
@@ -288,32 +385,34 @@ std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame)
   for (std::size_t g = 0; g < grains_.size(); ++g)
     moment_.balance_grains += is_mobile(grains_, frame, g);
   if (residual_->unexplained <= tolerance()) return std::nullopt;
-  auto remedy = other_readings(frame);
-  if (remedy.empty()) remedy = cause(frame);
-  return Complaint{
-      "balance",
-      fmt::format("the forces on grain {} do not add up: {:.3g} of the largest force is missing "
-                  "(tolerance {:g}){}{}{}",
-                  grains_.id[residual_->grain], residual_->largest, tolerance(),
-                  residual_->late
-                      ? fmt::format(", and {:.3g} that damping evaluated half a step late does not "
-                                    "explain",
-                                    residual_->unexplained)
-                      : "",
-                  frame.force.empty()
-                      ? ", its acceleration being the difference of velocities between two moments "
-                        "that are close together"
-                      : "",
-                  remedy),
-      true};
+  return imbalance(frame);
 }
 
 template <int D>
-std::string Verification<D>::cause(const Frame<D>& frame) const
+Complaint Verification<D>::imbalance(const Frame<D>& frame) const
 {
   const auto sums = sums_as(frame, [](const Vector<D>& force, const Vector<D>&) { return force; });
   const auto [defect, scale] = defect_of(frame, sums);
-  return likely_cause<D>(grains_, box_, frame, {defect, tolerance() * scale}, axes_);
+  const Imbalance<D> missing{defect, tolerance() * scale};
+  UnlistedForces cause{other_readings(frame), false};
+  if (cause.sentence.empty()) cause = unlisted_forces<D>(grains_, box_, frame, missing);
+  if (cause.sentence.empty())
+    cause.sentence = likely_cause<D>(grains_, box_, frame, missing, axes_);
+  return {
+      "balance",
+      fmt::format(
+          "the forces on grain {} do not add up: {:.3g} of the largest force is missing "
+          "(tolerance {:g}){}{}{}",
+          grains_.id[residual_->grain], residual_->largest, tolerance(),
+          residual_->late ? fmt::format(", and {:.3g} that damping evaluated half a step late does "
+                                        "not explain",
+                                        residual_->unexplained)
+                          : "",
+          frame.force.empty() ? ", its acceleration being the difference of velocities between two "
+                                "moments that are close together"
+                              : "",
+          cause.sentence),
+      true, cause.acts_as_weight};
 }
 
 /// Another meaning of the rows with which the grains balance, if there is one.

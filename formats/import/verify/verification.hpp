@@ -7,6 +7,7 @@
 #include "formats/import/verify/imbalance.hpp"
 #include "formats/import/verify/late_damping.hpp"
 #include "formats/import/verify/moment_statistics.hpp"
+#include "formats/import/verify/unlisted_pairs.hpp"
 
 #include <array>
 #include <cstddef>
@@ -32,7 +33,8 @@ struct Residual {
 struct Complaint {
   std::string check;  // finding.hpp
   std::string sentence;
-  bool of_columns = false;  // another --columns might help
+  bool of_columns = false;      // another --columns might help
+  bool spoils_gravity = false;  // what the grains tell of gravity and masses is wrong by it
 };
 
 /// By how much the correct output of a program may fail to balance.
@@ -41,11 +43,12 @@ struct OutputAccuracy {
   bool late_forces = false;  // late_damping.hpp
   double step = 0;           // of the integration, then needed
   double inertia = 0.5;      // I/(m r^2) of the grains, likewise
+  bool lists_all = true;     // every pair that overlaps has a row, also one that bears no force
 };
 
 /// Checks in each frame of an import what must be true if the archive has been read as it was
-/// meant: contacts join grains that touch, each is listed once, they push rather than pull, and add
-/// up to the force on each grain. Where the archive has no forces on grains, m times the difference
+/// meant: contacts join grains that touch, each is listed once, none is missing, they push rather
+/// than pull, and add up to the force on each grain. Where the archive has no forces on grains, m times the difference
 /// of velocities from the frame before is used, with the mean contact forces of the two frames: of
 /// every grain where the two follow step by step, of the median grain where they are close together
 /// (judge.hpp), and not at all otherwise. What can only be told from many frames goes into `moment`.
@@ -73,7 +76,11 @@ class Verification {
 
   std::optional<Complaint> geometry(const Frame<D>& frame);
   std::optional<Complaint> touching(const Frame<D>& frame, std::size_t contact);
-  std::optional<Complaint> double_rows(const Frame<D>& frame) const;
+  std::optional<Complaint> double_rows(const ListedPairs& listed) const;
+  std::optional<Complaint> completeness(const Frame<D>& frame, const ListedPairs& listed);
+  std::string rigid_bodies_of(const UnlistedPairs& found) const;
+  std::string missing_rows_of(const UnlistedPairs& found) const;
+  bool all_balance() const;
   std::optional<Complaint> pull(const Frame<D>& frame);
   std::optional<Complaint> balance(const Frame<D>& frame);
 
@@ -90,6 +97,8 @@ class Verification {
   /// How the frame and the one before can be compared.
   enum class Distance { none, far, close, step };
   double longest_path(const Frame<D>& frame) const;
+  double too_far(const Frame<D>& frame) const;
+  std::optional<Complaint> distance_moved(const Frame<D>& frame) const;
   Distance from_before(const Frame<D>& frame, const Sums& sums) const;
   /// What is missing on each mobile grain, and the largest force.
   std::pair<Forces, double> defect_of(const Frame<D>& frame, const Sums& sums) const;
@@ -97,8 +106,8 @@ class Verification {
   void judge_by_velocities(const Frame<D>& frame, const Sums& sums, const Forces& defect,
                            double scale, Residual& residual) const;
   std::string other_readings(const Frame<D>& frame) const;
-  std::string cause(const Frame<D>& frame) const;
-  std::string pair_of(const ContactList<D>& contacts, std::size_t c) const;
+  Complaint imbalance(const Frame<D>& frame) const;
+  std::string pair_of(std::int32_t i, std::int32_t j) const;
   double tolerance() const { return waivers_.limit("balance", accuracy_.tolerance); }
 
   const Grains& grains_;

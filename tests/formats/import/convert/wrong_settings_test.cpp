@@ -64,7 +64,6 @@ ImportSettings of_liggghts(const Folder& folder)
   s.units = "si";
   s.step = 5e-6;
   s.density = 2500;
-  s.grains = "spheres";
   s.axes = "xz";
   s.species.boundary = "3";
   s.species.small = "1";
@@ -93,6 +92,7 @@ ImportSettings of_siconos(const Folder&)
   s.format = "siconos";
   s.files.grains = {inputs + "/siconos/discs.hdf5"};
   s.units = "si";
+  s.cells = {"x:-0.1:0.9"};
   return s;
 }
 

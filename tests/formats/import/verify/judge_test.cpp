@@ -64,6 +64,50 @@ TEST(JudgeGravity, ThreeDegreesAreSeenWhereTheErrorIsSmall)
   EXPECT_EQ(gravity_of({0.5, -10, 0}, 0.2).verdict, Verdict::undecided);
 }
 
+// Four moments, each of which knows gravity to 0.01: the slope of the last two is 20 degrees more.
+TEST(JudgeGravity, ThatTurnsWithinTheArchiveIsRefused)
+{
+  const double twenty = 20 * lammps_text::pi / 180;
+  const Vec3 flat(0, -10, 0), steep(10 * std::sin(twenty), -10 * std::cos(twenty), 0);
+  CheckSeries series;
+  for (const auto& gravity : {flat, flat, steep, steep}) {
+    series.push_back(moment_with(gravity, 0.01));
+    series.back().time = static_cast<double>(series.size());
+  }
+  const auto finding = judge_gravity(series, context_of());
+  EXPECT_EQ(finding.verdict, Verdict::failed);
+  EXPECT_TRUE(mentions(finding.sentence, "gravity changes within the archive"));
+  EXPECT_TRUE(mentions(finding.sentence, "slope 20.0 degrees (t = 3 to 4)"));
+  EXPECT_NEAR(finding.measure, 2 * std::sin(twenty / 2), 1e-9);
+}
+
+// Displacements are velocity times time in the first half, and twice that in the second.
+TEST(JudgeTime, ThatRunsTwiceAsFastInTheSecondHalfIsRefused)
+{
+  CheckSeries series(8);
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    series[k].step = static_cast<std::int64_t>(k);
+    const double slope = k < 4 ? 1 : 2;
+    for (int g = 1; g <= 10; ++g) series[k].motion.add<2>(Vec2(g, 0), Vec2(slope * g, 0));
+  }
+  const auto finding = judge_time(series, context_of());
+  EXPECT_EQ(finding.verdict, Verdict::failed);
+  EXPECT_TRUE(
+      mentions(finding.sentence, "in the first half of the moments and 2 times in the second"));
+}
+
+TEST(JudgeMasses, AreOpenWhereTheySuggestOtherGrainsThanWereTold)
+{
+  auto context = context_of();
+  context.masses_are_given = false;
+  const CheckSeries series{moment_with({0, -10, 0}, 0.001)};
+  const auto gravity = judge_gravity(series, context);
+  EXPECT_EQ(judge_masses(series, context, gravity).verdict, Verdict::passed);
+  context.doubt_of_masses = "their densities differ by a factor of 2, or they are spheres";
+  EXPECT_EQ(judge_masses(series, context, gravity).verdict, Verdict::undecided);
+  EXPECT_EQ(judge_masses(series, context, gravity).sentence, context.doubt_of_masses);
+}
+
 TEST(JudgeGravity, ThatAgreesButPointsAwayFromTheBaseMeansOtherAxes)
 {
   auto upside_down = context_of();
@@ -71,6 +115,20 @@ TEST(JudgeGravity, ThatAgreesButPointsAwayFromTheBaseMeansOtherAxes)
   const auto finding = gravity_of({4, 9, 0}, 0.001, upside_down);
   EXPECT_EQ(finding.verdict, Verdict::failed);
   EXPECT_TRUE(mentions(finding.sentence, "points away from the base: name the axes"));
+}
+
+TEST(JudgeCompleteness, IsOpenWhereUnlistedPairsMayPart)
+{
+  auto moment = moment_with({0, -10, 0}, 0.01);
+  const auto verdict = [&] { return judge({moment}, context_of())[1].verdict; };
+  EXPECT_EQ(verdict(), Verdict::passed);
+  moment.unlisted = 0.02;
+  moment.unlisted_pairs = 1;
+  EXPECT_EQ(verdict(), Verdict::failed);
+  moment.unlisted_may_part = 1;
+  EXPECT_EQ(verdict(), Verdict::undecided);
+  moment.rigid = 0.5;
+  EXPECT_EQ(verdict(), Verdict::failed);
 }
 
 // A bed at rest without the contacts with its walls: what is inside balances, what is at the side does
@@ -81,7 +139,7 @@ TEST(JudgeBalance, IsUndecidedWhereMostGrainsBalanceButNotAll)
   const auto verdict_with = [&](double median, double worst) {
     moment.balance = median;
     moment.balance_worst = worst;
-    return judge({moment}, context_of())[3];
+    return judge({moment}, context_of())[4];
   };
   EXPECT_EQ(verdict_with(1e-6, 1.5).verdict, Verdict::undecided);
   EXPECT_EQ(verdict_with(1e-6, 1.5).measure, 1.5);

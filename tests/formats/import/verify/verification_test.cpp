@@ -29,6 +29,7 @@ struct Scene {
     grains.fixed = {0, 0, 1};
     frame.position = {{5, 5}, {1, 2}, {1, 0}};
     frame.velocity = {{0, 0}, {0, 0}, {0, 0}};
+    frame.angular_velocity = {0, 0, 0};
     frame.force = {{0, -20}, {0, 0}, {0, 0}};
     frame.contacts.i = {1};
     frame.contacts.j = {2};
@@ -105,6 +106,72 @@ TEST(Verification, OverlapOfSoftGrainsIsNoGapInTheGeometry)
   EXPECT_EQ(scene.complaint(), "no complaint");
   scene.frame.contacts.gap[0] = 0.02;
   EXPECT_TRUE(mentions(scene.complaint(), "while the archive states a distance of 2.02"));
+}
+
+/// Discs 1 and 2, of radii 0.5 and 1, side by side with an overlap of 0.1.
+Scene overlapping_discs()
+{
+  Scene scene;
+  scene.frame.position[0] = {2.4, 2};
+  return scene;
+}
+
+TEST(Verification, APairThatOverlapsWithoutARowIsRefused)
+{
+  auto scene = overlapping_discs();
+  EXPECT_TRUE(mentions(scene.complaint(),
+                       "grains 1 and 2 overlap by 0.2 of the smaller radius and are "
+                       "not in the list of contacts"));
+  scene.frame.position[0].x() += scene.box.length_x;
+  EXPECT_TRUE(mentions(scene.complaint(), "grains 1 and 2 overlap")) << "across the period, too";
+  scene.frame.position[0] = {2.6, 2};
+  EXPECT_EQ(scene.complaint(), "no complaint") << "the two are apart";
+}
+
+TEST(Verification, APairThatOverlapsWithoutARowOfTheBaseNamesTheBase)
+{
+  Scene scene;
+  scene.frame.position[0] = {2.4, 0};
+  EXPECT_TRUE(mentions(scene.complaint(), "rows with the base are missing"));
+}
+
+// Contact dynamics lists what bears a force; a pair that parts may still overlap.
+TEST(Verification, RigidGrainsThatBalanceMayOverlapWithoutARow)
+{
+  const auto scene = overlapping_discs();
+  OutputAccuracy accuracy{1e-10, false, 0, 0.5};
+  accuracy.lists_all = false;
+  Verification<2> verification(scene.grains, scene.box, scene.gravity, accuracy);
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_EQ(verification.moment().unlisted, 0);
+}
+
+// Without forces on grains nothing tells whether the pair bears one.
+TEST(Verification, OfRigidGrainsAtASingleMomentCompletenessIsOpen)
+{
+  auto scene = overlapping_discs();
+  scene.frame.force.clear();
+  OutputAccuracy accuracy{1e-10, false, 0, 0.5};
+  accuracy.lists_all = false;
+  Verification<2> verification(scene.grains, scene.box, scene.gravity, accuracy);
+  EXPECT_FALSE(verification.check(scene.frame));
+  EXPECT_NEAR(verification.moment().unlisted, 0.2, 1e-12);
+  EXPECT_EQ(verification.moment().unlisted_may_part, 1);
+}
+
+// Spins 3, and velocities that differ by 3 x (2.4 - 1, 0) = (0, 4.2).
+TEST(Verification, NeighboursThatShareSpinAndMotionAreOneBody)
+{
+  auto scene = overlapping_discs();
+  scene.frame.angular_velocity = {3, 3, 0};
+  scene.frame.velocity[0] = {1, 4.2};
+  scene.frame.velocity[1] = {1, 0};
+  EXPECT_TRUE(mentions(scene.complaint(), "rigid bodies of several grains are not supported"));
+  scene.frame.position[0].x() += 0.1;
+  scene.frame.velocity[0].y() += 0.3;
+  EXPECT_TRUE(mentions(scene.complaint(), "rigid bodies")) << "also where they only touch";
+  scene.frame.velocity[0].y() += 0.1;
+  EXPECT_EQ(scene.complaint(), "no complaint") << "they pass each other";
 }
 
 TEST(Verification, DampingMayPullALittle)
@@ -244,6 +311,7 @@ TEST(Verification, AMissingWallIsNamedWhereGrainsLackItsPush)
 {
   Scene scene;
   scene.frame.contacts.clear();
+  scene.frame.position[2] = {5, -3};
   Verification<2> verification(scene.grains, scene.box, scene.gravity, {1e-10, false, 0, 0.5}, {},
                                {AxisInArchive{'x', true, 0}, {'z', true, 0.5}});
   const auto complaint = verification.check(scene.frame);
@@ -252,6 +320,65 @@ TEST(Verification, AMissingWallIsNamedWhereGrainsLackItsPush)
                        "the only grain that does not balance is at a side of the bed and lacks "
                        "a push away from it (1 at the lowest z, at about z = 0.5)"));
   EXPECT_TRUE(mentions(complaint->sentence, "name the wall, as in --wall floor=z:0"));
+}
+
+TEST(Verification, AMissingContactIsNamedByItsGrains)
+{
+  Scene scene;
+  scene.frame.contacts.clear();
+  EXPECT_TRUE(mentions(scene.complaint(),
+                       "acts between grains 2 and 3, which touch: their contact is missing"));
+}
+
+// Discs 1 and 2, a tenth of the smaller radius apart, draw each other with the force 6.
+TEST(Verification, OppositeForcesOnNeighboursWithoutARowAreContactsThatPull)
+{
+  Scene scene;
+  scene.frame.position[0] = {2.55, 2};
+  scene.frame.force[0] = {-6, -20};
+  scene.frame.force[1] = {6, 0};
+  EXPECT_TRUE(
+      mentions(scene.complaint(), "what is missing acts along 1 pairs without a listed force"));
+  EXPECT_TRUE(mentions(scene.complaint(), "(the largest: grains 1 and 2): contacts that pull"));
+}
+
+// Three discs that fly, each slowed down by twice its momentum.
+TEST(Verification, ADragOnAllGrainsIsNamedAndIsNoOtherGravity)
+{
+  Scene scene;
+  scene.frame.contacts.clear();
+  scene.grains.fixed[2] = 0;
+  scene.grains.species[2] = Species::large;
+  scene.frame.position = {{5, 5}, {1, 2}, {8, 8}};
+  scene.frame.velocity = {{1, 2}, {-3, 1}, {0.5, -4}};
+  for (std::size_t g = 0; g < 3; ++g)
+    scene.frame.force[g] = scene.grains.mass[g] * (scene.gravity - 2 * scene.frame.velocity[g]);
+  const auto complaint = scene.verification().check(scene.frame);
+  ASSERT_TRUE(complaint);
+  EXPECT_TRUE(
+      mentions(complaint->sentence, "what is missing is 2 times the momentum of each grain"));
+  EXPECT_TRUE(complaint->spoils_gravity);
+}
+
+// Velocities of 1 for 0.1, and displacements of 0.5, five times as far.
+TEST(Verification, MomentsWhoseGrainsMovedTooFarAreNotOneStepApart)
+{
+  Scene scene;
+  scene.frame.contacts.clear();
+  scene.frame.position = {{5, 5}, {1, 7}, {5, -3}};
+  scene.frame.velocity = {{1, 0}, {1, 0}, {0, 0}};
+  scene.frame.force.clear();
+  scene.frame.step = 1;
+  scene.frame.time = 0.1;
+  auto verification = scene.verification();
+  verification.check(scene.frame);
+  scene.frame.step = 2;
+  scene.frame.time = 0.2;
+  for (const std::size_t g : {0, 1}) scene.frame.position[g].x() += 0.5;
+  const auto complaint = verification.check(scene.frame);
+  ASSERT_TRUE(complaint);
+  EXPECT_TRUE(mentions(complaint->sentence, "5 times as far as their velocities allow"));
+  EXPECT_TRUE(mentions(complaint->sentence, "are 1 and 2 the numbers of outputs?"));
 }
 
 TEST(Verification, AMissingTangentialPartIsNamed)

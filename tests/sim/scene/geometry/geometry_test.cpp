@@ -202,7 +202,7 @@ TEST(Geometry, AShakenBaseMovesAsAskedAndThrowsItsBed)
     simulation.advance();
     highest = std::max(highest, bed_height(simulation));
   }
-  // By 4.5 amplitudes where it is solved to the end; draft loses a quarter of it.
+  // By 4.5 amplitudes where it is solved to the end.
   EXPECT_GT(highest, before + 3 * scene.shake_amplitude);  // 5.8 g
 }
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/common/archive.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// The cell along one of the archive's axes, in the archive's units: --cell x:0:0.4 or, where grains
+/// that leave at one end come back at the other, --cell x:0:0.4:periodic.
+struct ToldCell {
+  int axis = 0;  // 0, 1, 2
+  double low = 0, high = 0;
+  bool periodic = false;
+
+  std::string text() const;  // "x:0:0.4"
+};
+
+/// The cells of all --cell options. UsageError where one is not of that form, or an axis is told
+/// twice.
+std::vector<ToldCell> parse_cells(const std::vector<std::string>& texts);
+
+/// Gives a moment this cell. UsageError where the archive says that it is periodic otherwise.
+void tell(const ToldCell& cell, ArchiveMoment& moment);
+
+}  // namespace grseg
