@@ -75,8 +75,9 @@ void ContactViolations::add_motion(const Grains& grains, const Frame<D>& frame, 
   if (!rules_.restitution) return;
   // Files of other programs may list pairs that are merely close.
   if (gap > 0 && !bears && rules_.horizon == 0) return;
-  double least = *rules_.restitution * std::max(0.0, -relative.before.dot(n));
-  if (gap > 0) least = rules_.horizon > 0 ? -gap / (rules_.horizon * rules_.step) : 0;
+  double least = -*rules_.restitution * relative.before.dot(n);
+  if (gap > 0)
+    least = std::min(least, rules_.horizon > 0 ? -gap / (rules_.horizon * rules_.step) : 0);
   approach_.add(std::max(0.0, least - relative.after.dot(n)) * rules_.step, frame.time, contact);
 }
 

@@ -16,8 +16,9 @@ namespace grseg {
 ///   tension     f_n >= 0                                (to round-off)
 ///   open gap    a force acts only where the pair, after `look_ahead` steps of free flight at the
 ///               velocities before the step, would be within `margin` of touching  (to round-off)
-///   approach    u >= e max(-u', 0) where the pair touches, u >= -gap/(horizon h) where it does not
-///               (to the solver's tolerance; the deficit turns into overlap, u h per step)
+///   approach    u >= -e u' where the pair touches; where it does not, u >= -gap/(horizon h), or
+///               -e u' where that is less (to the solver's tolerance; the deficit turns into
+///               overlap, u h per step)
 ///   overlap     of pairs with gap < 0
 class ContactViolations {
  public:

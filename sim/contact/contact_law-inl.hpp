@@ -70,22 +70,33 @@ struct Rebounds {
   Vector velocity, remembered;
 };
 
+HWY_INLINE Vector fresh_approach(Vector separation, Vector load)
+{
+  const D d;
+  const auto part = hn::IfThenElse(hn::Gt(separation, hn::Zero(d)), hn::Set(d, parting_error),
+                                   hn::Set(d, solver_error));
+  return hn::IfThenElseZero(hn::Gt(hn::Abs(separation), hn::Mul(part, load)), hn::Neg(separation));
+}
+
 /// Without `with_restitution` as for e = 0, without `with_horizon` as for horizon 0.
 template <bool with_restitution, bool with_horizon>
 HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector load, Vector remembered,
                                double restitution, double horizon)
 {
   const D d;
-  const auto zero = hn::Zero(d), fresh = hn::Neg(separation);
-  const auto least = hn::Mul(hn::Set(d, solver_error), load);
-  auto approach = hn::IfThenElseZero(hn::Gt(fresh, least), fresh);
-  if constexpr (with_horizon) approach = larger(approach, remembered);
-  const auto newton = with_restitution ? hn::Mul(hn::Set(d, restitution), approach) : zero;
+  const auto zero = hn::Zero(d);
+  const auto already_slowed_down = hn::Gt(remembered, zero);
+  auto approach = fresh_approach(separation, load);
+  if constexpr (with_horizon)
+    approach = hn::IfThenElse(already_slowed_down, larger(remembered, approach), approach);
+  // The sum is never -0, which e = 0 would make.
+  const auto newton =
+      with_restitution ? hn::Add(hn::Mul(hn::Set(d, restitution), approach), zero) : zero;
   if constexpr (!with_horizon) return {newton, zero};
   const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, horizon));
-  const auto slowed_down_now = hn::AndNot(hn::Gt(remembered, zero), hn::Gt(gap, zero));
+  const auto slowed_down_now = hn::AndNot(already_slowed_down, hn::Gt(gap, zero));
   const auto newcomer = hn::And(hn::Eq(load, zero), hn::Lt(separation, closing));
-  return {hn::IfThenElse(slowed_down_now, closing, newton),
+  return {hn::IfThenElse(slowed_down_now, smaller(closing, newton), newton),
           hn::IfThenElseZero(hn::And(slowed_down_now, newcomer), approach)};
 }
 

@@ -270,11 +270,25 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count
   const Task task{count, friction, effects, settings, range, threads, apart};
   if (settings.precision == Precision::mixed && !apart.any())
     return solve_mixed(strips, motion, task, memory);
-  for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
-    apply_impulses(strips[s].blocks, motion.data(), effects);
-  });
-  if (apart.free != nullptr) apart.free->update_velocities(motion);
-  return Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
+  const auto apply = [&] {
+    for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
+      apply_impulses(strips[s].blocks, motion.data(), effects);
+    });
+  };
+  if (apart.free == nullptr) {
+    apply();
+    return Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
+  }
+  // Rounds of a body and its contacts may pass impulses far larger than those they end with. Velocities
+  // that follow from the last impulses alone keep none of their last digits.
+  memory.free_flight.assign(motion.begin(), motion.end());
+  apply();
+  apart.free->update_velocities(motion);
+  const auto report = Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    if (motion[k].inverse_mass > 0) motion[k] = memory.free_flight[k];
+  apply();
+  return report;
 }
 
 }  // namespace grseg

@@ -45,6 +45,7 @@ struct SolverMemory {
   ExtrapolationOf<double> doubles;
   ExtrapolationOf<float> singles;
   SingleContacts contacts;
+  std::vector<Motion> free_flight;
 };
 
 /// m/s, the range of the velocity that changes are compared with.

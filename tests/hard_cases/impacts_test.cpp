@@ -266,20 +266,75 @@ TEST_P(Impact, LoadsThatFadeNeedNoMoreSweepsThanRoundOffAllows)
   }
 }
 
-TEST_P(Impact, SimultaneousElasticImpactsMayGainEnergyUnderNewtonsLaw)
+TEST_P(Impact, SimultaneousElasticImpactsKeepTheirEnergy)
 {
-  // (3, 0, 1) becomes (-2, 7, 7)/3: half the squares sum to 17/3 instead of 5. The last disc
-  // overlaps by what it moves in a step, so that it takes part.
+  // u = (-3, 1) becomes (3, -1): (3, 0, 1) becomes (-1, 8, 5)/3. If the second pair, which was
+  // parting, stayed in touch, it would be (-2, 7, 7)/3, with 17/3 for half the squares instead of 5.
+  // The last disc overlaps by what it moves in a step, so that it takes part.
   auto discs = row_of(3);
   discs[2].position.x() -= 1e-3;
   auto world = world_of(discs);
   world.material.restitution = 1;
   const auto row = row_after_a_step(world, discs, {3, 0, 1});
   Case("H39", "Σv²/2 after (3, 0, 1) at e = 1, before it was 5")
-      .near(kinetic_energy(row) / world.grains.mass[0], 17.0 / 3, 1e-11);
-  EXPECT_NEAR(row.velocity(0).x(), -2.0 / 3, 1e-11);
-  EXPECT_NEAR(row.velocity(1).x(), 7.0 / 3, 1e-11);
-  EXPECT_NEAR(row.velocity(2).x(), 7.0 / 3, 1e-11);
+      .near(kinetic_energy(row) / world.grains.mass[0], 5, 1e-11);
+  EXPECT_NEAR(row.velocity(0).x(), -1.0 / 3, 1e-11);
+  EXPECT_NEAR(row.velocity(1).x(), 8.0 / 3, 1e-11);
+  EXPECT_NEAR(row.velocity(2).x(), 5.0 / 3, 1e-11);
+}
+
+using ImpactAtOnce = UnderEveryLaw;
+INSTANTIATE_TEST_SUITE_P(Laws, ImpactAtOnce, testing::ValuesIn(laws()), name_of);
+INSTANTIATE_TEST_SUITE_P(EarlyLaws, ImpactAtOnce, testing::ValuesIn(early_laws()), name_of);
+
+TEST_P(ImpactAtOnce, AStepOfManySmoothContactsLosesOneMinusEOverOnePlusEOfHalfPWp)
+{
+  // u' = u + W p and p (u' + e u) = 0, with one e, give p.(u + u')/2 = -(1 - e)/(1 + e) p.W p/2, and
+  // p.W p is the sum of m |v' - v|^2. Pairs part and approach at random.
+  Case lost("G19", "energy of a step of many contacts, J, from (1 - e)/(1 + e) pWp/2");
+  std::vector<Disc> discs;
+  for (int row = 0; row < 5; ++row)
+    for (int k = 0; k < 5; ++k)
+      discs.push_back({{0.98 * (k + 0.5 * (row % 2)), 0.98 * std::sqrt(0.75) * row}, 0.5});
+  for (const double e : restitutions) {
+    auto world = world_of(discs);
+    world.material = {0, e};
+    world.solver = {1e-13, 20000};
+    for (std::size_t g = 0; g < discs.size(); ++g)
+      world.grains.mass[g] = std::pow(10, std::sin(7.0 * static_cast<double>(g)));
+    Simulation simulation(world, positions_of(discs));
+    for (std::size_t g = 0; g < discs.size(); ++g) {
+      const auto phase = static_cast<double>(g);
+      simulation.set_velocity(g, {std::sin(phase * phase), std::cos(3 * phase * phase)});
+    }
+    const Velocities before(simulation);
+    const double energy = kinetic_energy(simulation);
+    ASSERT_TRUE(simulation.advance().solver.converged);
+    double p_w_p = 0;
+    for (std::size_t g = 0; g < discs.size(); ++g)
+      p_w_p += world.grains.mass[g] * (simulation.velocity(g) - before.velocity[g]).squaredNorm();
+    ASSERT_GT(p_w_p, energy / 10);
+    lost.near(kinetic_energy(simulation) - energy, -(1 - e) / (1 + e) * p_w_p / 2, 1e-9);
+  }
+}
+
+TEST_P(ImpactAtOnce, ALightDiscThatRattlesBetweenHeavyOnesDoesNotDriveThemApart)
+{
+  // It has no room: each step it strikes one of them and parts from the other.
+  auto discs = row_of(3);
+  for (auto& disc : discs) disc.position.x() *= 0.99;
+  auto world = world_of(discs);
+  world.grains.mass = {1000, 1, 1000};
+  world.material = {0, 0.9};
+  world.solver = {1e-12, 1000};
+  auto row = Simulation(world, positions_of(discs));
+  row.set_velocity(1, {1, 0});
+  Case gain("G19", "energy of a light disc between heavy ones, over its first");
+  const double first = kinetic_energy(row);
+  for (int step = 0; step < 1000; ++step) {
+    row.advance();
+    gain.at_most(kinetic_energy(row) / first, 1 + 1e-9);
+  }
 }
 
 }  // namespace

@@ -229,6 +229,19 @@ TEST(ContactLaw, APairThatTouchesReboundsAtOnceAndOneStillApartAStepLater)
   EXPECT_EQ(rebound_of(0.1, u, 0, 0, e, 0).velocity, 0.5);  // without a horizon it rebounds at once
 }
 
+TEST(ContactLaw, APairThatWasPartingMayComeBackWithETimesItsVelocity)
+{
+  const double e = 0.25, horizon = 0.5;  // s
+  const auto rebound = [&](double gap, double load) {
+    return rebound_of(gap, 2, load, 0, e, horizon).velocity;
+  };
+  EXPECT_EQ(rebound(0, 0), -0.5);
+  EXPECT_EQ(rebound(-0.1, 19), -0.5);
+  EXPECT_EQ(rebound(-0.1, 21), 0);   // below parting_error times the load
+  EXPECT_EQ(rebound(0.1, 0), -0.5);  // more than its gap would allow, -0.2
+  EXPECT_EQ(rebound(1, 0), -2);      // -gap/horizon
+}
+
 /// Bits of the two motions after an impact.
 std::vector<double> after(TwoDiscs s, Effects effects, double friction, double restitution)
 {

@@ -78,9 +78,10 @@ TEST(Effects, AFlowWithoutRotationIsOneInWhichNothingSpinsToTheLastBit)
 TEST(Effects, AFlowBetweenWallsIsOneWhosePairsAreShiftedByNothingToTheLastBit)
 {
   const Change nothing = [](World&) {};
-  const std::vector<std::string> walls{"--lateral", "walls"};
+  const std::vector<std::string> steep{"--slope", "60"},
+      walls{"--slope", "60", "--lateral", "walls"};
   EXPECT_EQ(flow(chute_with(nothing, walls)), flow(chute_with(make_general, walls)));
-  EXPECT_NE(flow(chute_with(nothing, walls)), flow(chute_with(nothing)));
+  EXPECT_NE(flow(chute_with(nothing, walls)), flow(chute_with(nothing, steep)));
 }
 
 // So faint that its square is 0, with which the solver's floor is too. Under the centred law, as
