@@ -9,6 +9,7 @@
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/next_step.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/shell_word.hpp"
 #include "formats/core/text.hpp"
 #include "formats/trajectory/digest.hpp"
 

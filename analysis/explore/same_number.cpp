@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/same_number.hpp"
 
-#include "formats/cli/next_step.hpp"
+#include "formats/cli/shell_word.hpp"
 
 #include <fmt/format.h>
 

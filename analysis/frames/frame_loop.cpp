@@ -4,6 +4,7 @@
 #include "analysis/frames/layer_key.hpp"
 #include "formats/cli/next_step.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/shell_word.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"

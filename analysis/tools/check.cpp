@@ -7,6 +7,7 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/shell_word.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/dimension.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/completion.hpp"
 
+#include "formats/cli/shell_word.hpp"
 #include "formats/cli/words.hpp"
 
 #include <fmt/format.h>
@@ -80,13 +81,13 @@ complete -o filenames -F {1} {0}
                      bash_case(before_other, ""), fmt::join(all, " "));
 }
 
-/// As it may stand between colons and brackets within single quotes.
-std::string quoted(const std::string& words)
+/// As it may stand between the colons and brackets of _arguments.
+std::string without_meaning(const std::string& words)
 {
   std::string text;
   for (const char c : words) {
     if (c == '[' || c == ']' || c == ':' || c == '\\') text += '\\';
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += c;
   }
   return text;
 }
@@ -105,14 +106,16 @@ std::string zsh_line(const po::option_description& option)
 {
   const auto names = names_of(option);
   const bool value = takes_value(option);
-  const auto action = value ? fmt::format(":{}:{}", quoted(name_of_value(option)),
+  const auto action = value ? fmt::format(":{}:{}", without_meaning(name_of_value(option)),
                                           takes_file(option) ? "_files" : "")
                             : "";
-  const auto text = fmt::format("[{}]{}", quoted(short_text(option.description())), action);
+  const auto text =
+      fmt::format("[{}]{}", without_meaning(short_text(option.description())), action);
   const auto name = names[0] + (value ? "=" : "");
-  if (names.size() == 1) return fmt::format("  '{}{}' \\\n", name, text);
-  return fmt::format("  '({})'{{{},{}{}}}'{}' \\\n", fmt::join(names, " "), name, names[1],
-                     value ? "+" : "", text);
+  if (names.size() == 1) return fmt::format("  {} \\\n", shell_word(name + text));
+  return fmt::format("  {}{{{},{}{}}}{} \\\n",
+                     shell_word(fmt::format("({})", fmt::join(names, " "))), name, names[1],
+                     value ? "+" : "", shell_word(text));
 }
 
 std::string zsh_script(const std::string& tool, const po::options_description& options)

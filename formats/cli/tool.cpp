@@ -3,6 +3,7 @@
 
 #include "formats/cli/citation.hpp"
 #include "formats/cli/completion.hpp"
+#include "formats/cli/shell_word.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
@@ -175,8 +176,7 @@ std::string command_line(int argc, char** argv)
       if (name == word) ++k;
       continue;
     }
-    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$*") == std::string::npos;
-    line += plain ? " " + word : " '" + word + "'";
+    line += ' ' + shell_word(word);
   }
   return line;
 }

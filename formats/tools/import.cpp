@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/next_step.hpp"
+#include "formats/cli/shell_word.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/import/convert/importer.hpp"

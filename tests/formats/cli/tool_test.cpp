@@ -99,6 +99,15 @@ TEST(Tool, TheHistoryDoesNotDependOnTheNumberOfThreads)
   EXPECT_EQ(line({"t", "run.h5", "--threads"}), "t run.h5");
 }
 
+TEST(Tool, TheHistoryQuotesWordsForAShell)
+{
+  std::vector<std::string> words{"bin/t", "it's;x.tsv", "a;b.tsv", "two\nlines"};
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  EXPECT_EQ(command_line(static_cast<int>(argv.size()), argv.data()),
+            "t 'it'\\''s;x.tsv' 'a;b.tsv' $'two\\012lines'");
+}
+
 TEST(Tool, HelpShowsExamplesAndRunsNothing)
 {
   testing::internal::CaptureStdout();
