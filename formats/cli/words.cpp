@@ -47,7 +47,9 @@ std::string unknown_word(const std::string& what, const std::string& word,
 std::string nearest(const std::string& word, const std::vector<std::string>& known)
 {
   std::string best;
-  std::size_t least = std::min(word.size(), std::max<std::size_t>(3, word.size() / 2));
+  const auto letters = word.size() - std::min(word.find_first_not_of('-'), word.size());
+  // A slip changes one letter in three; where more differ, nothing says that this was meant.
+  std::size_t least = std::min(letters, (letters + 2) / 3 + 1);
   for (const auto& candidate : known) {
     const auto distance = edit_distance(word, candidate);
     if (distance < least) {

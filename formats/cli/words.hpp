@@ -79,7 +79,8 @@ Value choose(const std::string& word, const char* what, const Choice<Value> (&ch
 /// the place of such words of its sentences, and never ends where that is again such a word.
 std::string placeholder_in(std::string_view text);
 
-/// The known word nearest to `word`, or "" where none is near.
+/// The known word nearest to `word`, or "" where none differs in one letter of three or fewer; dashes
+/// before a word are no letters.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace grseg

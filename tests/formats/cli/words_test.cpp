@@ -32,6 +32,21 @@ TEST(Choice, AnUnknownWordIsAnsweredWithAllThatAreKnown)
   }
 }
 
+// cohesion becomes rotation by four letters of its eight, and --stress --stride by three of its six.
+TEST(NearestWord, IsOneThatDiffersInAThirdOfItsLettersAtMost)
+{
+  const std::vector<std::string> known{"--rotation", "--friction", "--stride", "--layer"};
+  EXPECT_EQ(nearest("--cohesion", known), "");
+  EXPECT_EQ(nearest("--stress", known), "");
+  EXPECT_EQ(nearest("--lay", known), "");
+  EXPECT_EQ(nearest("--a", known), "");
+  EXPECT_EQ(nearest("--", known), "");
+  EXPECT_EQ(nearest("--layr", known), "--layer");
+  EXPECT_EQ(nearest("--rotaton", known), "--rotation");
+  EXPECT_EQ(nearest("--frictoin", known), "--friction");
+  EXPECT_EQ(nearest("frction", {"friction"}), "friction");
+}
+
 TEST(Choice, TheListForHelpSaysWhatAWordMeans)
 {
   EXPECT_EQ(list_of(colours), "red, blue (as the sky) or green");
