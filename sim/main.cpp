@@ -23,7 +23,8 @@ void add_run_options(po::options_description& options, RunOptions& run)
       "exit code 4 if a step missed the tolerance or grains overlapped by more than 0.25 d_S");
   add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
-      "write the state to this file regularly, at the end, and on SIGINT and SIGTERM");
+      "write the state to this file regularly, at the end, and on a signal that ends the run: "
+      "SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU");
   add("checkpoint-every", po::value(&run.checkpoint_every)->default_value(60),
       "s of wall time between checkpoints");
   add("restart", po::value(&run.restart)->value_name("FILE"),

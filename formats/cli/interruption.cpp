@@ -20,6 +20,8 @@ void listen_to_signals()
   stop_signal = 0;
   std::signal(SIGINT, remember_signal);
   std::signal(SIGTERM, remember_signal);
+  for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU})
+    if (std::signal(signal, remember_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 bool interrupted()
@@ -29,7 +31,7 @@ bool interrupted()
 
 Interruption interruption(const std::string& sentence)
 {
-  return {stop_signal == SIGINT ? exit_interrupted : exit_terminated, sentence};
+  return {static_cast<ExitCode>(exit_signal + stop_signal), sentence};
 }
 
 void stop_if_interrupted()

@@ -7,12 +7,14 @@
 
 namespace grseg {
 
-/// Thrown where a signal stops the program; the exit code is that of the signal.
+/// Thrown where a signal stops the program; the exit code is 128 plus its number.
 struct Interruption : ToolError {
   using ToolError::ToolError;
 };
 
-/// From here on SIGINT and SIGTERM are remembered instead of ending the program at once.
+/// From here on signals that ask a program to end are remembered instead of ending it at once: SIGINT,
+/// SIGTERM, SIGHUP, SIGUSR1, SIGUSR2 and SIGXCPU. Where the last four are ignored, as by nohup, they
+/// stay so.
 void listen_to_signals();
 
 /// Whether one of them has arrived since.

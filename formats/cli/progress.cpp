@@ -40,6 +40,12 @@ std::string progress_text(double done, const Work& work, double seconds)
   return fmt::format("{}, {}:{:02} left", text, left / 60, left % 60);
 }
 
+void tell(std::string_view text)
+{
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 ProgressBar::ProgressBar(const char* program, Work work, bool quiet)
     : program_(program), where_(standard_error(quiet))
 {
@@ -73,20 +79,19 @@ void ProgressBar::show(double done)
     say((work_.total > 0 ? bar(done, work_.total) : "") + text);
   } else {
     next_ = passed.count() + between_in_file;
-    fmt::print(stderr, "{}: {}\n", program_, text);
+    tell(fmt::format("{}: {}\n", program_, text));
   }
 }
 
 void ProgressBar::say(const std::string& text) const
 {
   if (where_ != Where::terminal) return;
-  fmt::print(stderr, "\r\033[K{}: {}", program_, printable(text));
-  std::fflush(stderr);
+  tell(fmt::format("\r\033[K{}: {}", program_, printable(text)));
 }
 
 void ProgressBar::clear() const
 {
-  if (where_ == Where::terminal) fmt::print(stderr, "\r\033[K");
+  if (where_ == Where::terminal) tell("\r\033[K");
 }
 
 }  // namespace grseg

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace grseg {
 
@@ -19,6 +20,10 @@ struct Work {
 /// no time has passed, without what depends on the total where that is not known. `seconds` since
 /// the work began.
 std::string progress_text(double done, const Work& work, double seconds);
+
+/// Writes to standard error as far as it can: a terminal that is gone, or a log on a full disk, is no
+/// reason to stop.
+void tell(std::string_view text);
 
 /// Tells on standard error how far a program is. On a terminal it is one line that is drawn anew; in
 /// a file a line now and then, since nobody watches it; in a pipe, or with `quiet`, nothing. The

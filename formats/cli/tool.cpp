@@ -109,7 +109,7 @@ void print_help(const ToolInfo& info, const po::options_description& options)
       << options
       << "\nExit codes: 0 done; 1 error while running; 2 wrong command line or missing input;\n"
          "3 wrong content of a file; 4 a check failed or a tolerance was missed;\n"
-         "130/143 interrupted.\n";
+         "128 + N ended by signal N (130 Ctrl-C, 143 SIGTERM).\n";
 }
 
 /// What it says may quote a file or its name, and no file may write to the terminal.

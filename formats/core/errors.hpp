@@ -8,13 +8,12 @@ namespace grseg {
 
 /// Exit codes, the same for every tool.
 enum ExitCode {
-  exit_done = 0,           ///< done, also when a tolerance was missed (the summary says so)
-  exit_trouble = 1,        ///< run-time error: disk full, no usable data, run out of bounds
-  exit_usage = 2,          ///< wrong command line or missing input file
-  exit_content = 3,        ///< wrong content of a file: unknown key, truncated, NaN, corrupt
-  exit_check = 4,          ///< a check failed, or a tolerance missed with --strict
-  exit_interrupted = 130,  ///< SIGINT; what was committed is kept
-  exit_terminated = 143,   ///< SIGTERM; what was committed is kept
+  exit_done = 0,      ///< done, also when a tolerance was missed (the summary says so)
+  exit_trouble = 1,   ///< run-time error: disk full, no usable data, run out of bounds
+  exit_usage = 2,     ///< wrong command line or missing input file
+  exit_content = 3,   ///< wrong content of a file: unknown key, truncated, NaN, corrupt
+  exit_check = 4,     ///< a check failed, or a tolerance missed with --strict
+  exit_signal = 128,  ///< plus the number of the signal, 130 of SIGINT; what was committed is kept
 };
 
 /// The reason a tool stops: one sentence for the user and an exit code.

@@ -17,7 +17,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
+#include <csignal>
 #include <limits>
 
 namespace grseg {
@@ -161,12 +161,19 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
                            stiffness_of(scene, recorder.totals())};
   run.writer.add_parameters(to_parameters(summary));
   run.writer.close();
-  if (!options.quiet) fmt::print(stderr, "{}", to_text(summary, scene, simulation.world().grains));
+  if (!options.quiet) tell(to_text(summary, scene, simulation.world().grains));
   if (interrupted()) throw stopped_at(simulation.time(), options);
   publish_trajectory(options.output, options.overwrite,
                      {.compression = scene.compression, .float32 = scene.float32});
-  if (!options.quiet) fmt::print(stderr, "{}", next_steps(options.output));
+  if (!options.quiet) tell(next_steps(options.output));
   if (options.strict) refuse_errors(recorder.totals(), scene.small_diameter);
+}
+
+/// Signals end the run with a checkpoint, and a pipe that nobody reads does not end it at all.
+void listen()
+{
+  listen_to_signals();
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 void record_deposition(const Scene& scene, TrajectoryWriter& writer)
@@ -189,16 +196,16 @@ void simulate(const Scene& scene, const RunOptions& options)
   check_output(part, options.overwrite, {});
   require_writable(part);
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
-  listen_to_signals();
+  listen();
 
   const ProgressBar progress(program, {}, options.quiet);
   progress.say("depositing the bed");
-  const auto listen = [] {
+  const auto stop = [] {
     if (interrupted()) throw interruption("interrupted while the bed was deposited");
   };
   double slowed_from = 0;
   const auto slowed = [&](double time) { slowed_from = slowed_from > 0 ? slowed_from : time; };
-  const auto deposited = deposit(scene, {.each_step = listen, .slowed = slowed, .record = {}});
+  const auto deposited = deposit(scene, {.each_step = stop, .slowed = slowed, .record = {}});
   progress.clear();
   const auto simulation = release(deposited, scene);
   Run run{simulation,
@@ -209,10 +216,9 @@ void simulate(const Scene& scene, const RunOptions& options)
   if (scene.keep_deposition) record_deposition(scene, run.writer);
   finish(scene, options, run);
   if (slowed_from > 0 && !options.quiet)
-    fmt::print(
-        stderr,
+    tell(fmt::format(
         "  remark     the falling bed still moved after {:.3g} s; its grains were slowed down\n",
-        slowed_from);
+        slowed_from));
 }
 
 void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& options)
@@ -233,7 +239,7 @@ void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& 
   if (!in_place && holds_something(part)) check_output(part, options.overwrite, {});
   require_writable(part);
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
-  listen_to_signals();
+  listen();
 
   const auto history = fmt::format("{}\n{} (from t = {:g} s)", checkpoint.history,
                                    options.command_line, simulation.time());

@@ -23,7 +23,7 @@ struct RunOptions {
 };
 
 /// Deposits, tilts and runs `scene` into `options.output`. While it runs the file is called
-/// output.part; a run that is interrupted (SIGINT, SIGTERM) or stops out of bounds leaves its
+/// output.part; a run that is interrupted (interruption.hpp) or stops out of bounds leaves its
 /// frames there, readable. A summary goes to standard error and, as numbers, into /parameters.
 ///
 /// Checkpoints are written at the beginning, then at the first frame after every

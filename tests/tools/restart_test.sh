@@ -36,16 +36,41 @@ stopped() {
   wait $! || code=$?
 }
 
-# SIGINT and SIGTERM: the run says how to continue, and continues that way.
-for signal in INT TERM; do
+# A signal that asks the run to end: it says how to continue, and continues that way.
+for pair in INT:130 TERM:143 HUP:129 USR1:138 USR2:140 XCPU:152; do
+  signal=${pair%:*}
   # shellcheck disable=SC2086
   stopped $signal run$signal.chk 0.1 $chute --duration 10 -o $signal.h5
-  [ $code = 130 ] || [ $code = 143 ] || fail "exit code $code after SIG$signal"
+  [ $code = "${pair#*:}" ] || fail "exit code $code after SIG$signal"
   grep -q "the frames so far are in $signal.h5.part, --restart run$signal.chk continues$" words || fail "$(cat words)"
   $bin/grseg-sim --restart run$signal.chk --quiet -o $signal.h5
   content $signal.h5 | cmp - whole || fail "SIG$signal and a restart changed the run"
 done
 mv runTERM.chk run.chk
+
+# nohup keeps SIGHUP from the run.
+( trap '' HUP
+  # shellcheck disable=SC2086
+  stopped HUP nohup.chk 0.05 $chute --duration 10 -o nohup.h5
+  [ $code = 0 ] ) || fail "a run that ignores SIGHUP ended by it"
+content nohup.h5 | cmp - whole || fail "SIGHUP changed a run that ignores it"
+
+# A terminal that is closed sends SIGHUP, and takes no more words.
+/usr/bin/python3 - "$bin/grseg-sim" --checkpoint gone.chk $chute --duration 10 -o gone.h5 <<'CLOSED' ||
+import os, pty, sys, time
+child, terminal = pty.fork()
+if child == 0:
+    os.execv(sys.argv[1], sys.argv[1:])
+while not os.path.exists("gone.chk"):
+    time.sleep(0.01)
+time.sleep(0.4)
+os.close(terminal)
+code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+sys.exit(f"exit code {code}" if code not in (0, 129) else 0)
+CLOSED
+  fail "a closed terminal ended the run otherwise than SIGHUP"
+[ -e gone.h5 ] || $bin/grseg-sim --restart gone.chk --quiet -o gone.h5
+content gone.h5 | cmp - whole || fail "a closed terminal and a restart changed the run"
 
 # Killed again and again at any moment, also while it writes a frame or a checkpoint.
 # shellcheck disable=SC2086

@@ -3,6 +3,7 @@
 #include "formats/cli/progress.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace grseg {
 namespace {
@@ -44,6 +45,16 @@ TEST(Progress, OfShortWorkIsSilent)
     for (int k = 1; k <= 3; ++k) bar.show(k);
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// As where the terminal of a run has been closed.
+TEST(Tell, AStandardErrorThatTakesNothingIsNoReasonToStop)
+{
+  const int kept = dup(STDERR_FILENO);
+  close(STDERR_FILENO);
+  EXPECT_NO_THROW(tell("nobody reads this\n"));
+  dup2(kept, STDERR_FILENO);
+  close(kept);
 }
 
 }  // namespace
