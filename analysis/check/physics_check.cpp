@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/physics_check.hpp"
 
+#include "formats/cli/frame_range.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
 
@@ -28,13 +29,18 @@ Layers layers_of(const TrajectoryReader& run, const std::string& layer)
           box.length_x, run.dimension() == 3 ? std::optional(box.length_z) : std::nullopt};
 }
 
-/// --begin, or the tilt at t = 0; the first frame of runs that end before.
-double first_time(const TrajectoryReader& run, const WindowSettings& settings)
+/// --begin, or the tilt at t = 0; the first frame of runs that end before. In steps, as windows are cut.
+std::int64_t first_step(const TrajectoryReader& run, const WindowSettings& settings)
 {
-  constexpr double tilt = 0;
-  if (settings.begin) return *settings.begin;
-  const bool ends_before = run.size() > 0 && run.times().back() < tilt;
-  return ends_before ? run.times().front() : tilt;
+  if (settings.begin) return whole_steps(*settings.begin, run.step(), "--begin");
+  const bool ends_before = run.size() > 0 && run.steps().back() < 0;
+  return ends_before ? run.steps().front() : 0;
+}
+
+std::int64_t end_step(const TrajectoryReader& run, const WindowSettings& settings)
+{
+  return settings.end ? whole_steps(*settings.end, run.step(), "--end")
+                      : std::numeric_limits<std::int64_t>::max();
 }
 
 std::vector<double> observable_of(const TrajectoryReader& run, const std::string& name)
@@ -70,8 +76,8 @@ PhysicsCheck<D>::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings
       rules_(read_contact_rules(run)),
       rotation_(run.parameters().find_number("rotation").value_or(1) != 0),
       layers_(layers_of(run, settings.layer)),
-      begin_(first_time(run, settings.windows)),
-      end_(settings.windows.end.value_or(std::numeric_limits<double>::infinity())),
+      begin_(first_step(run, settings.windows)),
+      end_(end_step(run, settings.windows)),
       forces_(gravity_, run.step()),
       motion_(gravity_, run.step()),
       partials_(run.box(), run.species().size()),
@@ -82,9 +88,10 @@ PhysicsCheck<D>::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings
 {
   tolerances_.require_valid();
   try {
-    windows_ = cut_into_windows(
-        {run.steps(), run.step(), run.parameters().find_number("frame_interval").value_or(0)},
-        settings.windows);
+    windows_ = cut_into_windows({run.steps(), run.step(),
+                                 run.parameters().find_number("frame_interval").value_or(0)},
+                                settings.windows)
+                   .list;
   } catch (const RunError&) {
     // A run too short for a window is still checked for all that needs none.
   }
@@ -121,7 +128,7 @@ bool PhysicsCheck<D>::at_rest(const TotalMotion<D>& total) const
 template <int D>
 void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
 {
-  if (frame.time < begin_ || frame.time >= end_) return;
+  if (frame.step < begin_ || frame.step >= end_) return;
   const auto& grains = run_.grains();
   std::optional<Vector<D>> base;
   if (!base_force_.empty()) base = base_force_[index];

@@ -15,6 +15,7 @@
 #include "formats/trajectory/reader.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,7 +64,7 @@ class PhysicsCheck {
   ContactRules rules_;
   bool rotation_, has_force_ = true;
   Layers layers_;
-  double begin_, end_;  // s
+  std::int64_t begin_, end_;  // steps
   std::vector<Window> windows_;
 
   ForceBalance<D> forces_;

@@ -43,7 +43,7 @@ std::string stress_options(const FrameOptions& own)
   const FrameOptions usual;
   Options options;
   options.add("--layer", own.layer, usual.layer);
-  options.add("--window", own.windows.length, usual.windows.length);
+  options.add("--window", window_text(own.windows), window_text(usual.windows));
   add_times(options, own.windows);
   options.add("--stride", own.windows.stride, usual.windows.stride);
   for (const auto& group : own.grouping.groups) options.add("--group", group, std::string());

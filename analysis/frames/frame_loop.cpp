@@ -89,9 +89,9 @@ void FrameOptions::add_to(po::options_description& options)
 {
   options.add_options()("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
                         "thickness of the layers: 4dS, 2dL, 20mm, or metres");
-  options.add_options()("window",
-                        po::value(&windows.length)->default_value(windows.length)->value_name("s"),
-                        "time to average over; windows that the run does not fill are left out");
+  options.add_options()("window", window_option(windows),
+                        "time to average over; windows that the run does not fill are left out. "
+                        "all: one window over all frames used");
   options.add_options()("begin", time_option(windows.begin),
                         "first window begins here (default: t = 0)");
   options.add_options()("end", time_option(windows.end),
@@ -162,7 +162,7 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
 
 std::span<const Window> FrameLoop::windows() const
 {
-  const std::span all(windows_);
+  const std::span all(windows_.list);
   if (options_.parts.join > 0) return {};
   if (!options_.parts.part) return all;
   const auto [begin, end] = options_.parts.part->range(all.size());
@@ -174,7 +174,7 @@ Layers FrameLoop::map_of(MapPlane plane)
 {
   const GrainExtent<D> none(layers_.axis());
   auto extent = none;
-  for (const auto& window : windows_)
+  for (const auto& window : windows_.list)
     extent.merge(std::get<0>(sum<D>(window, {.velocity = false, .contacts = false}, none)));
   return Layers::map(map_grid<D>(plane, layers_.thickness(), run_.box(), extent, layers_.axis()),
                      layers_.length(), layers_.width());
@@ -252,7 +252,6 @@ Table FrameLoop::make_table(const std::string& command,
   header = provenance(info_, preset_, run_, command);
   for (auto& line : verification_lines(run_)) header.push_back(std::move(line));
 
-  const auto& first = windows_.front();
   constexpr double no_one = std::numeric_limits<double>::quiet_NaN();
   const auto add = [&](const char* key, double value) {
     header.emplace_back(key, format_number(value));
@@ -276,7 +275,7 @@ Table FrameLoop::make_table(const std::string& command,
   add("length", layers_.length());
   if (layers_.width()) add("length_z", *layers_.width());
   if (!layers_.map()) add("layer", layers_.thickness());
-  add("window", first.end - first.begin);
+  add("window", windows_.length);
   add("stride", static_cast<double>(options_.windows.stride));
   for (auto& line : bins_lines(layers_)) header.push_back(std::move(line));
   const auto origin = run_.parameters().text("origin");

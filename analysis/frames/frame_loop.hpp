@@ -118,7 +118,7 @@ class FrameLoop {
   TrajectoryReader run_;
   GroupedGrains grouped_;
   Layers layers_;
-  std::vector<Window> windows_;
+  Windows windows_;
   ProgressBar progress_;
   std::size_t frames_done_ = 0;
   std::mutex reading_;  // the HDF5 library knows no threads

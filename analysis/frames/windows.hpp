@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/cli/tool.hpp"
+
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace grseg {
@@ -14,13 +18,21 @@ struct Window {
   std::vector<std::size_t> frames;  // numbers of the frames in the file, never empty
 };
 
+/// The length of one window over all frames that are used.
+inline constexpr double all_frames = std::numeric_limits<double>::infinity();
+
 /// What part of a run is cut into windows, and how.
 struct WindowSettings {
-  double length = 1.25;              // s
+  double length = 1.25;              // s, or all_frames
   std::optional<double> begin = {};  // s; by default t = 0, or the first frame if that is later
   std::optional<double> end = {};    // s; by default the end of the run
   int stride = 1;                    // use one frame in `stride`
 };
+
+/// The option --window of a tool: a time in s, or "all".
+po::typed_value<std::string>* window_option(WindowSettings& settings);
+/// What that option was given: "1.25" or "all".
+std::string window_text(const WindowSettings& settings);
 
 /// The times of a run as its file has them.
 struct RunTimes {
@@ -29,11 +41,17 @@ struct RunTimes {
   double frame_interval = 0;        // s, used where there is a single frame only; 0: unknown
 };
 
+/// Windows of one run, each `length` long (s).
+struct Windows {
+  double length = 0;
+  std::vector<Window> list;
+};
+
 /// Window n holds the frames with n W <= t - begin < (n+1) W. Times are compared in whole steps, so
 /// that no rounding moves a frame into the next window; a length W that is not a whole number of steps
 /// is rounded to one. Windows that the run does not fill, mostly the last, are dropped: frame k
 /// stands for the time up to frame k+1. RunError where nothing is left, UsageError where a window
-/// would be shorter than the time between the frames that are used.
-std::vector<Window> cut_into_windows(const RunTimes& run, const WindowSettings& settings);
+/// would be shorter than the time between the frames that are used; both say what would fit.
+Windows cut_into_windows(const RunTimes& run, const WindowSettings& settings);
 
 }  // namespace grseg

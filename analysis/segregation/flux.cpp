@@ -81,7 +81,9 @@ template <int D>
 void SegregationFlux<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   ++frames_;
-  const double passed = (frame.time - begin_) / length_ * static_cast<double>(parts);
+  // An imported instant may lie on the edge of a part, and a difference of times just before it.
+  constexpr double round_off = 1e-9;
+  const double passed = (frame.time - begin_) / length_ * static_cast<double>(parts) + round_off;
   const auto part = static_cast<std::size_t>(std::clamp(passed, 0.0, parts - 1.0));
   Profile now(layers_.count(grains, frame));
   Instant instant{frame.time, std::vector<std::array<double, 2>>(now.size())};

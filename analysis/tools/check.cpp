@@ -65,7 +65,7 @@ po::options_description options_into(Settings& s)
       "check the physics too; all tolerances are options");
   add("layer", po::value(&s.physics.layer)->default_value(s.physics.layer)->value_name("LENGTH"),
       "thickness of the layers whose load is checked: 4dS, 2dL, 20mm, or metres");
-  add("window", po::value(&windows.length)->default_value(windows.length)->value_name("s"),
+  add("window", window_option(windows),
       "duration of the windows; the scatter of their means gives the errors");
   add("begin", time_option(windows.begin), "leave out frames before this time (default: t = 0)");
   add("end", time_option(windows.end), "leave out frames from this time on (default: none)");
@@ -86,7 +86,7 @@ Header header_of(const TrajectoryReader& run, const Settings& s, const std::stri
   Header header = provenance(info(), "", run, command);
   if (!s.with_physics) return header;
   header.emplace_back("layer", s.physics.layer);
-  header.emplace_back("window", format_number(s.physics.windows.length));
+  header.emplace_back("window", window_text(s.physics.windows));
   for (const auto& tolerance : CheckTolerances::options())
     header.emplace_back(tolerance.name, format_number(s.physics.tolerances.*tolerance.value));
   return header;

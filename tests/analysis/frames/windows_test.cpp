@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace grseg {
 namespace {
 
@@ -21,7 +23,7 @@ RunTimes run_of(std::int64_t frames, double step = 1e-4, std::int64_t first = 0)
 TEST(Windows, EveryWindowHoldsTheSameNumberOfFrames)
 {
   for (const double step : {1e-4, 2e-4, 0.05 / 221, 0.05 / 443}) {
-    const auto windows = cut_into_windows(run_of(3000, step), {});
+    const auto windows = cut_into_windows(run_of(3000, step), {}).list;
     ASSERT_EQ(windows.size(), 120u);
     for (std::size_t n = 0; n < windows.size(); ++n) {
       EXPECT_EQ(windows[n].frames.size(), 25u);
@@ -34,21 +36,21 @@ TEST(Windows, EveryWindowHoldsTheSameNumberOfFrames)
 
 TEST(Windows, TheEndOfOneIsTheBeginningOfTheNext)
 {
-  const auto windows = cut_into_windows(run_of(3000), {.length = 0.7});
+  const auto windows = cut_into_windows(run_of(3000), {.length = 0.7}).list;
   for (std::size_t n = 1; n < windows.size(); ++n) EXPECT_EQ(windows[n].begin, windows[n - 1].end);
 }
 
 TEST(Windows, AnIncompleteLastWindowIsDropped)
 {
-  EXPECT_EQ(cut_into_windows(run_of(49), {}).size(), 1u);
-  EXPECT_EQ(cut_into_windows(run_of(50), {}).size(), 2u);
-  EXPECT_EQ(cut_into_windows(run_of(74), {}).size(), 2u);
+  EXPECT_EQ(cut_into_windows(run_of(49), {}).list.size(), 1u);
+  EXPECT_EQ(cut_into_windows(run_of(50), {}).list.size(), 2u);
+  EXPECT_EQ(cut_into_windows(run_of(74), {}).list.size(), 2u);
   EXPECT_THROW(cut_into_windows(run_of(24), {}), RunError);
 }
 
 TEST(Windows, BeginAndEndCutOutAPart)
 {
-  const auto windows = cut_into_windows(run_of(3000), {.begin = 20, .end = 60});
+  const auto windows = cut_into_windows(run_of(3000), {.begin = 20, .end = 60}).list;
   ASSERT_EQ(windows.size(), 32u);
   EXPECT_EQ(windows.front().begin, 20);
   EXPECT_EQ(windows.front().frames.front(), 400u);
@@ -59,21 +61,21 @@ TEST(Windows, BeginAndEndCutOutAPart)
 TEST(Windows, TheDepositionBeforeTheTiltIsLeftOutUnlessAskedFor)
 {
   const auto run = run_of(100, 1e-4, -50);
-  EXPECT_EQ(cut_into_windows(run, {}).front().frames.front(), 50u);
-  EXPECT_EQ(cut_into_windows(run, {.begin = -2.5}).front().frames.front(), 0u);
-  EXPECT_EQ(cut_into_windows(run, {.begin = -2.5}).size(), 4u);
+  EXPECT_EQ(cut_into_windows(run, {}).list.front().frames.front(), 50u);
+  EXPECT_EQ(cut_into_windows(run, {.begin = -2.5}).list.front().frames.front(), 0u);
+  EXPECT_EQ(cut_into_windows(run, {.begin = -2.5}).list.size(), 4u);
 }
 
 TEST(Windows, ARunThatStartsLateHasItsFirstWindowThere)
 {
-  const auto windows = cut_into_windows(run_of(50, 1e-4, 10), {});
+  const auto windows = cut_into_windows(run_of(50, 1e-4, 10), {}).list;
   ASSERT_EQ(windows.size(), 2u);
   EXPECT_DOUBLE_EQ(windows[0].begin, 0.5);
 }
 
 TEST(Windows, AWindowThatTheRunBeginsInsideIsDropped)
 {
-  const auto windows = cut_into_windows(run_of(50, 1e-4, 10), {.begin = 0});
+  const auto windows = cut_into_windows(run_of(50, 1e-4, 10), {.begin = 0}).list;
   ASSERT_EQ(windows.size(), 1u);
   EXPECT_DOUBLE_EQ(windows[0].begin, 1.25);
   EXPECT_EQ(windows[0].frames.front(), 15u);
@@ -81,7 +83,7 @@ TEST(Windows, AWindowThatTheRunBeginsInsideIsDropped)
 
 TEST(Windows, AStrideKeepsOneFrameInN)
 {
-  const auto windows = cut_into_windows(run_of(50), {.stride = 3});
+  const auto windows = cut_into_windows(run_of(50), {.stride = 3}).list;
   ASSERT_EQ(windows.size(), 2u);
   EXPECT_EQ(windows[0].frames, (std::vector<std::size_t>{0, 3, 6, 9, 12, 15, 18, 21, 24}));
   EXPECT_EQ(windows[1].frames, (std::vector<std::size_t>{27, 30, 33, 36, 39, 42, 45, 48}));
@@ -89,8 +91,71 @@ TEST(Windows, AStrideKeepsOneFrameInN)
 
 TEST(Windows, ASingleFrameStandsForOneInterval)
 {
-  EXPECT_EQ(cut_into_windows(run_of(1), {.length = 0.05}).size(), 1u);
+  EXPECT_EQ(cut_into_windows(run_of(1), {.length = 0.05}).list.size(), 1u);
   EXPECT_THROW(cut_into_windows(run_of(1), {.length = 0.1}), RunError);
+}
+
+TEST(Windows, AllIsOneWindowOverTheFramesUsed)
+{
+  const auto all = cut_into_windows(run_of(50), {.length = all_frames});
+  ASSERT_EQ(all.list.size(), 1u);
+  EXPECT_EQ(all.list[0].frames.size(), 50u);
+  EXPECT_EQ(all.list[0].begin, 0);
+  EXPECT_DOUBLE_EQ(all.list[0].end, 2.5);
+  EXPECT_EQ(all.length, all.list[0].end);
+  const auto part = cut_into_windows(run_of(50), {all_frames, 0.5, 1.5, 2});
+  ASSERT_EQ(part.list.size(), 1u);
+  EXPECT_EQ(part.list[0].frames,
+            (std::vector<std::size_t>{10, 12, 14, 16, 18, 20, 22, 24, 26, 28}));
+  EXPECT_EQ(cut_into_windows(run_of(1), {.length = all_frames}).list.size(), 1u);
+  // The run begins at 0.5 s: it has no frame before.
+  EXPECT_DOUBLE_EQ(cut_into_windows(run_of(50, 1e-4, 10), {all_frames, 0.0}).list[0].begin, 0.5);
+}
+
+// 0.1, 0.2 and 0.4 are no binary fractions, and 2.2 - 2 is not 0.2.
+TEST(Windows, TheirLengthIsTheOneThatWasGiven)
+{
+  for (const double length : {0.1, 0.2, 0.4, 0.7})
+    EXPECT_EQ(cut_into_windows(run_of(50), {length, 0.3}).length, length);
+  EXPECT_DOUBLE_EQ(cut_into_windows(run_of(50), {.length = 0.60004}).length, 0.6);  // whole steps
+}
+
+std::string sentence_of(const RunTimes& run, const WindowSettings& settings)
+{
+  try {
+    cut_into_windows(run, settings);
+  } catch (const ToolError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Windows, ARefusalSaysWhatFits)
+{
+  EXPECT_EQ(
+      sentence_of(run_of(10), {}),
+      "no window of 1.25 s is filled: frames used reach from 0 s to 0.5 s; choose --window 0.5 "
+      "or --window all");
+  EXPECT_EQ(sentence_of(run_of(10), {.length = 0.04}),
+            "--window 0.04 s is shorter than the 0.05 s between the frames used; choose --window "
+            "0.05 or longer, or --window all");
+  EXPECT_EQ(
+      sentence_of(run_of(10, 1e-4, 10), {.begin = 0}),
+      "no window of 1.25 s is filled: frames used reach from 0 s to 1 s; choose --window all, "
+      "or another --begin and --end");
+  EXPECT_EQ(sentence_of(run_of(10), {.begin = 2}),
+            "no frame lies between --begin and --end; the run goes from 0 s to 0.45 s");
+}
+
+// Three steps of 0.1234567 s are not 0.37 s, nor 0.3704 s.
+TEST(Windows, WhatARefusalNamesIsTaken)
+{
+  RunTimes run{{0, 1, 2}, 0.1234567, 0};
+  const auto sentence = sentence_of(run, {});
+  const auto at = sentence.find("--window ");
+  ASSERT_NE(at, std::string::npos);
+  const auto length = std::stod(sentence.substr(at + 9));
+  EXPECT_EQ(cut_into_windows(run, {.length = length}).list.size(), 1u);
 }
 
 TEST(Windows, WrongUseIsRefused)
@@ -101,6 +166,7 @@ TEST(Windows, WrongUseIsRefused)
   EXPECT_THROW(cut_into_windows(run_of(50), {.stride = 0}), UsageError);
   EXPECT_THROW(cut_into_windows(run_of(0), {}), RunError);
   EXPECT_THROW(cut_into_windows(run_of(50), {.begin = 1000}), RunError);
+  EXPECT_THROW(cut_into_windows(run_of(50), {.length = all_frames, .begin = 1000}), RunError);
 }
 
 }  // namespace
