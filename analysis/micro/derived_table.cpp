@@ -59,9 +59,10 @@ void require_same_constants(const Table& first, const Table& other)
 {
   for (const char* key : {"small_diameter", "large_diameter", "gravity_x", "gravity_y", "density",
                           "friction", "layer", "composition"})
-    if (first.header_text(key) != other.header_text(key)) refuse_difference(first, other, key);
+    if (!same_setting(first.header_text(key), other.header_text(key)))
+      refuse_difference(first, other, key);
   for (const char* key : {"gravity_z", "species"})  // not in all tables
-    if (header_or(first, key, "") != header_or(other, key, ""))
+    if (!same_setting(header_or(first, key, ""), header_or(other, key, "")))
       refuse_difference(first, other, key);
 }
 

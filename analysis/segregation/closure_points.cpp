@@ -260,7 +260,8 @@ class RunReader {
         data_(data)
   {
     for (const char* key : {"layer", "window"})
-      if (header_or(*tables.segregation, key, "") != header_or(*tables.stress, key, ""))
+      if (!same_setting(header_or(*tables.segregation, key, ""),
+                        header_or(*tables.stress, key, "")))
         throw UsageError(fmt::format(
             "{} and {} differ in '{}'; make both tables of the run with the same --layer and "
             "--window",

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <map>
 
 namespace grseg {
@@ -64,7 +65,8 @@ void require_stress_table(const Table& table)
                                     table.name, c + 1, table.columns[c], key_columns[c].name));
 }
 
-void require_same_settings(const Table& a, const Table& b)
+/// `all_windows`: whatever their windows are.
+void require_same_settings(const Table& a, const Table& b, bool all_windows)
 {
   const auto line = [](const auto& setting) {
     return fmt::format("'# {}: {}'", setting.first, setting.second);
@@ -79,7 +81,10 @@ void require_same_settings(const Table& a, const Table& b)
   for (std::size_t k = 0; k < std::max(all_a.size(), all_b.size()); ++k) {
     if (k >= all_a.size()) refuse("nothing", line(all_b[k]));
     if (k >= all_b.size()) refuse(line(all_a[k]), "nothing");
-    if (all_a[k] != all_b[k]) refuse(line(all_a[k]), line(all_b[k]));
+    const bool same_key = all_a[k].first == all_b[k].first;
+    if (same_key && all_windows && all_a[k].first == "window") continue;
+    if (!same_key || !same_setting(all_a[k].second, all_b[k].second))
+      refuse(line(all_a[k]), line(all_b[k]));
   }
   if (a.columns != b.columns)
     throw FormatError(fmt::format("{} and {} have different columns", a.name, b.name));
@@ -132,6 +137,17 @@ void refuse_overlaps(const std::map<Times, std::vector<const Part*>>& windows)
   }
 }
 
+/// From the first time of all parts to the last one.
+Times whole_of(const std::vector<Parts>& parts)
+{
+  using Limits = std::numeric_limits<std::int64_t>;
+  Times whole{Limits::max(), Limits::min()};
+  for (const auto& of_table : parts)
+    for (const auto& [window, part] : of_table)
+      whole = {std::min(whole.first, window.first), std::max(whole.second, window.second)};
+  return whole;
+}
+
 /// Means over the parts, weighted by frames.
 std::vector<std::vector<double>> merged_rows(const std::vector<const Part*>& parts)
 {
@@ -168,7 +184,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   if (tables.empty()) throw UsageError("no tables given to merge; name some, e.g. a.tsv b.tsv");
   for (const auto& table : tables) {
     require_stress_table(table);
-    require_same_settings(tables[0], table);
+    require_same_settings(tables[0], table, all_windows);
   }
   // Sums are made in an order that does not depend on that of the arguments.
   std::stable_sort(tables.begin(), tables.end(), [](const Table& a, const Table& b) {
@@ -197,9 +213,11 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   for (const auto& [window, of_window] : windows)
     for (auto& row : merged_rows(of_window)) merged.rows.push_back(std::move(row));
   if (all_windows && !merged.rows.empty()) {
-    const LayerKey whole = read_layer_keys(merged, "")[0];
+    // In whole steps, since 2.2 - 2 is not 0.2.
+    const auto [begin, end] = whole_of(parts);
+    const double length = static_cast<double>(end - begin) * tables[0].header_positive("step");
     for (auto& [key, value] : merged.header)
-      if (key == "window") value = format_number(whole.end - whole.begin);
+      if (key == "window") value = format_number(length);
   }
   return merged;
 }

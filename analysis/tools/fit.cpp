@@ -5,6 +5,7 @@
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/numbers.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
@@ -35,12 +36,14 @@ constexpr ToolInfo info{
     "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n",
     presets::fit};
 
-/// As texts; numbers to the tolerance of diameters, in which lengths may be given.
-bool differ(const std::string& a, const std::string& b)
+/// Lengths may have been given in diameters, which are known to a tolerance.
+bool differ(const std::string& key, const std::string& a, const std::string& b)
 {
-  if (a == b) return false;
+  if (same_setting(a, b)) return false;
   const auto x = parse_number(a), y = parse_number(b);
-  return !x || !y || std::abs(*x - *y) > diameter_tolerance * std::max(std::abs(*x), std::abs(*y));
+  const bool length = key == "layer" || key == "width";
+  return !length || !x || !y ||
+         std::abs(*x - *y) > diameter_tolerance * std::max(std::abs(*x), std::abs(*y));
 }
 
 /// Prints on standard error what a reader of the numbers should know; `with_doubts`: unless they
@@ -50,7 +53,7 @@ void remark(const std::vector<Table>& tables, const FitReport& report, bool with
   for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step", "mean",
                           "velocity", "composition", "volume", "origin"})
     for (const auto& table : tables)
-      if (differ(header_or(table, key, ""), header_or(tables[0], key, "")))
+      if (differ(key, header_or(table, key, ""), header_or(tables[0], key, "")))
         std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name,
                                  printable(tables[0].name), printable(table.name), key);
   if (!with_doubts) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/provenance.hpp"
 
+#include "formats/cli/numbers.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 #include "formats/trajectory/digest.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <cmath>
 
 namespace grseg {
 
@@ -65,3 +67,27 @@ Header settings_of(const Table& table)
 }
 
 }  // namespace grseg
+// A difference of two times t in double precision is off by 2^-52 t: by less than this part of a window
+// for t up to four million windows. Other settings are products of two or three numbers. What was set
+// otherwise differs by a step of time or a digit that was typed, which is more.
+constexpr double setting_round_off = 1e-9;
+
+bool same_setting(const std::string& a, const std::string& b)
+{
+  if (a == b) return true;
+  const auto blanks = [](std::string text) {
+    std::replace(text.begin(), text.end(), ',', ' ');
+    return std::istringstream(text);
+  };
+  auto words = blanks(a), others = blanks(b);
+  std::string word, other;
+  while (words >> word) {
+    if (!(others >> other)) return false;
+    const auto x = parse_number(word), y = parse_number(other);
+    if (x && y ? std::abs(*x - *y) > setting_round_off * std::max(std::abs(*x), std::abs(*y))
+               : word != other)
+      return false;
+  }
+  return !(others >> other);
+}
+

@@ -43,3 +43,7 @@ std::string header_or(const Table& table, const std::string& key, const std::str
 Header settings_of(const Table& table);
 
 }  // namespace grseg
+/// True where two values of such a line mean the same: their words are equal, or numbers that agree up
+/// to round-off, as where one is 0.2 and the other 2.2 - 2.
+bool same_setting(const std::string& a, const std::string& b);
+

@@ -221,10 +221,11 @@ void simulate(const Scene& scene, const RunOptions& options)
         slowed_from));
 }
 
-void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& options)
+void resume(const Checkpoint& checkpoint, const Scene& given, const RunOptions& options)
 {
   const auto part = part_of(options.output);
   const auto before = scene_of(checkpoint, options.restart);
+  const auto scene = without_round_off(given, before);
   require_same_bed(before, scene);
   check_outputs(options);
   const RunLocks locks(options);

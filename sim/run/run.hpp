@@ -30,10 +30,10 @@ struct RunOptions {
 /// `checkpoint_every`, on a signal and at the end.
 void simulate(const Scene& scene, const RunOptions& options);
 
-/// Continues `checkpoint` under `scene`, which must have the same bed. With the scene as it was, an
-/// output.part of the same run is cut back to the frames that the checkpoint counts, and ends
+/// Continues `checkpoint` under the scene `given`, which must have the same bed. With the scene as it
+/// was, an output.part of the same run is cut back to the frames that the checkpoint counts, and ends
 /// bitwise as an uninterrupted run; UsageError where output.part is of another run. In all other
 /// cases a new trajectory begins with the frames after the checkpoint.
-void resume(const Checkpoint& checkpoint, const Scene& scene, const RunOptions& options);
+void resume(const Checkpoint& checkpoint, const Scene& given, const RunOptions& options);
 
 }  // namespace grseg

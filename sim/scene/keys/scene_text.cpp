@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/keys/scene_text.hpp"
 
+#include "formats/cli/provenance.hpp"
 #include "sim/scene/geometry.hpp"
 
 #include <fmt/format.h>
@@ -39,6 +40,16 @@ Parameters to_parameters(const Scene& scene)
   parameters.texts["scene"] = to_text(scene);
   scene.geometry->describe(scene, parameters);
   return parameters;
+}
+
+Scene without_round_off(Scene now, const Scene& before)
+{
+  for (const auto& key : scene_keys()) {
+    const auto text = key.value.text(before);
+    if (key.value.text(now) != text && same_setting(key.value.text(now), text))
+      key.value.read(key.name, text, now);
+  }
+  return now;
 }
 
 std::string differing_key(const Scene& a, const Scene& b, KeyRole role)

@@ -14,6 +14,10 @@ std::string to_text(const Scene& scene);
 /// What /parameters of a trajectory states of the scene.
 Parameters to_parameters(const Scene& scene);
 
+/// `now` with the values of `before` where both are the same up to round-off: 70 d_S of 5 mm are 350 mm,
+/// but for the last bit.
+Scene without_round_off(Scene now, const Scene& before);
+
 /// The first key of `role` in which the scenes differ, or "".
 std::string differing_key(const Scene& a, const Scene& b, KeyRole role);
 

@@ -28,6 +28,23 @@ TEST(Pooling, WindowsArePooledAsMeansWeightedByTheirFrames)
   EXPECT_TRUE(rows[1].is_bed());
 }
 
+// The third layer of 7 mm, and of 1.4 times 5 mm.
+TEST(Pooling, LayersThatDifferByRoundOffAreOne)
+{
+  auto one = layer(0.5), other = layer(0.5);
+  one.bottom = 2 * 0.007;
+  one.top = 3 * 0.007;
+  other.bottom = 2 * (1.4 * 0.005);
+  other.top = 3 * (1.4 * 0.005);
+  ASSERT_NE(one.bottom, other.bottom);
+  other.begin = 1;
+  other.end = 2;
+  const auto rows = pooled<2>({one, other}, Pool::windows);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].bottom, one.bottom);
+  EXPECT_EQ(rows[0].top, one.top);
+}
+
 TEST(Pooling, LayersOfLikeCompositionArePooledAndTheBedLeftOut)
 {
   auto empty = layer(0.5);

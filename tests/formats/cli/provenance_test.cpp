@@ -78,3 +78,19 @@ TEST_F(Provenance, SettingsAreWhatIsLeftWhenSourcesAreTakenAway)
 
 }  // namespace
 }  // namespace grseg
+// 2.2 - 2 is 0.20000000000000018, and 1.4 times 5 mm are 0.0069999999999999993 m.
+TEST(Setting, IsTheSameUpToRoundOff)
+{
+  EXPECT_TRUE(same_setting("0.20000000000000001", "0.20000000000000018"));
+  EXPECT_TRUE(same_setting("0.0069999999999999993", "0.0070000000000000001"));
+  EXPECT_TRUE(same_setting("radius 0.1 0.30000000000000004", "radius 0.1 0.3"));
+  EXPECT_TRUE(same_setting("SE 3e-06, AM 1.2e-05", "SE 3.0000000000000001e-06, AM 1.2e-05"));
+  EXPECT_TRUE(same_setting("contact-point", "contact-point"));
+  EXPECT_FALSE(same_setting("1.25", "1.2500004"));
+  EXPECT_FALSE(same_setting("size", "half"));
+  EXPECT_FALSE(same_setting("radius 0.1", "radius 0.1 0.3"));
+  EXPECT_FALSE(same_setting("radius 0.1 0.3", "radius 0.1"));
+  EXPECT_FALSE(same_setting("", "0"));
+  EXPECT_FALSE(same_setting("unknown", "0.5"));
+}
+

@@ -307,6 +307,20 @@ TEST(Restart, KeysOfTheBedCannotChange)
   }
 }
 
+// 70 d_S of 5 mm are 0.35000000000000003 m.
+TEST(Restart, ALengthInOtherUnitsIsNoOtherBed)
+{
+  const auto chute = scene({"--length", "70dS"});
+  Checkpoint checkpoint;
+  checkpoint.scene = to_text(chute);
+  for (const char* length : {"0.35", "350mm", "35cm"}) {
+    const auto now = without_round_off(with_words(checkpoint, {"--length", length}), chute);
+    EXPECT_EQ(to_text(now), to_text(chute)) << length;
+  }
+  const auto longer = without_round_off(with_words(checkpoint, {"--length", "0.351"}), chute);
+  EXPECT_EQ(longer.length, 0.351);
+}
+
 TEST(Restart, OnlyDurationAndStorageLeaveTheMotionAsItWas)
 {
   const auto chute = scene();
