@@ -65,8 +65,7 @@ std::vector<std::string> tables_of(const FitReport& report, const Mixture& mixtu
 std::string mixture_line(const FitReport& report, std::size_t m)
 {
   const auto& mixture = report.mixtures[m];
-  const auto tables = mixture.tables.size();
-  return fmt::format("{}, {} table{}, {}: {}", mixture.name, tables, tables == 1 ? "" : "s",
+  return fmt::format("{}, {}, {}: {}", mixture.name, counted(mixture.tables.size(), "table"),
                      share_words(report, m), fmt::join(tables_of(report, mixture), " "));
 }
 

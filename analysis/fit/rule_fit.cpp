@@ -204,9 +204,9 @@ std::string doubt_of_mixtures(const RuleFit& fit, std::size_t single_runs, std::
 {
   if (single_runs > 0)
     return fmt::format(
-        "{} of {} mixtures have one run: the scatter of its windows stands for that of runs, which "
+        "{} of {} mixtures {} one run: the scatter of its windows stands for that of runs, which "
         "is too narrow where runs differ",
-        single_runs, mixtures);
+        single_runs, mixtures, single_runs == 1 ? "has" : "have");
   if (!(fit.degrees <= 3.5)) return {};
   return fmt::format(
       "{} runs of {} mixtures leave {:.2g} degrees of freedom; more runs of each "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/short_table.hpp"
 
+#include "formats/cli/words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,12 +32,6 @@ std::string with_interval(double value, const Interval& interval)
   if (!std::isfinite(interval.low)) return rounded(value);
   return fmt::format("{} ({} to {})", rounded(value), rounded(interval.low),
                      rounded(interval.high));
-}
-
-/// "1 table", "2 tables".
-std::string counted(std::size_t n, const char* word)
-{
-  return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s");
 }
 
 using Line = std::vector<std::string>;  // all of the same length

@@ -56,6 +56,12 @@ double kept_in_blocks(double time, std::size_t length)
   return 1 - 2 * rho * (1 - std::pow(rho, b)) / (b * (1 - rho * rho));
 }
 
+/// "1 window", "1.6 windows".
+std::string counted(const std::string& number, const char* thing)
+{
+  return fmt::format("{} {}{}", number, thing, number == "1" ? "" : "s");
+}
+
 }  // namespace
 
 Bootstrap::Bootstrap(RunLengths runs, std::size_t samples, unsigned long seed)
@@ -170,18 +176,21 @@ std::string Bootstrap::doubt_of_runs(const Dependence& dependence) const
 std::string Bootstrap::doubt_of_windows(const Dependence& dependence) const
 {
   if (samples_ == 0) return {};
+  if (windows() == 1) return "one window is one observation, too few for an interval";
   const double per_run = dependence.independent_windows() / static_cast<double>(runs_.size());
-  if (dependence.independent_windows() > 8) {
-    if (runs_.size() == 1 || per_run > 5) return {};
+  // 7.95 and more are printed as 8.
+  if (dependence.independent_windows() >= 7.95) {
+    if (runs_.size() == 1 || per_run >= 4.95) return {};
     return fmt::format(
         "the windows of each run are worth {:.2g} independent ones; with fewer than 5 an interval of "
         "95 % over windows holds the truth less often",
         per_run);
   }
   return fmt::format(
-      "{:.3g} windows with an autocorrelation time of {:.3g} windows are worth "
-      "{:.2g} independent ones; {}",
-      dependence.effective_windows, dependence.time, dependence.independent_windows(),
+      "{} with an autocorrelation time of {} are worth {}; {}",
+      counted(fmt::format("{:.3g}", dependence.effective_windows), "window"),
+      counted(fmt::format("{:.3g}", dependence.time), "window"),
+      counted(fmt::format("{:.2g}", dependence.independent_windows()), "independent one"),
       window_degrees(dependence) < least_degrees
           ? "too few for an interval"
           : "with fewer than 8 an interval of 95 % holds the truth less often");

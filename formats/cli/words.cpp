@@ -28,6 +28,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b)
 
 }  // namespace
 
+std::string counted(std::size_t number, const char* thing)
+{
+  return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
+}
+
 std::string list_of_words(const std::vector<std::string>& words)
 {
   if (words.size() < 2) return fmt::format("{}", fmt::join(words, ""));

@@ -29,6 +29,9 @@ std::vector<std::string> words_of(const Choice<Value> (&choices)[N])
   return words;
 }
 
+/// "1 table", "2 tables".
+std::string counted(std::size_t number, const char* thing);
+
 /// "gauss, lucy or heaviside".
 std::string list_of_words(const std::vector<std::string>& words);
 

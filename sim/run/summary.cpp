@@ -85,14 +85,16 @@ std::string doubts(const StepTotals& t, const Scene& scene)
 {
   std::string lines;
   if (t.missed > 0)
-    lines += line("doubt", fmt::format("{} steps missed the tolerance: raise --max-sweeps, now {}, "
+    lines += line("doubt", fmt::format("{} missed the tolerance: raise --max-sweeps, now {}, "
                                        "or choose a smaller --step",
-                                       t.missed, scene.solver.max_sweeps));
+                                       counted(static_cast<std::size_t>(t.missed), "step"),
+                                       scene.solver.max_sweeps));
   if (t.divided > 0)
     lines += line("remark",
-                  fmt::format("{} steps were taken in parts, because grains might have "
+                  fmt::format("{} {} taken in parts, because grains might have "
                               "approached each other by more than half a diameter in a whole one",
-                              t.divided));
+                              counted(static_cast<std::size_t>(t.divided), "step"),
+                              t.divided == 1 ? "was" : "were"));
   if (t.mean_overlap() > small_overlap * scene.small_diameter)
     lines += line("doubt", fmt::format("the mean overlap is above {:g} d_S: choose a smaller "
                                        "--step or a larger --min-sweeps",

@@ -285,6 +285,21 @@ TEST(Bootstrap, DoubtIsVoicedWhereWindowsAreTooFewForTheirCorrelation)
             "with fewer than 8 an interval of 95 % holds the truth less often");
   EXPECT_TRUE(one_run.doubt({12, 48, 48, 1}).ends_with("; too few for an interval"));
   EXPECT_EQ(Bootstrap({48}, 0, 1).doubt({12, 10, 48, 1}), "");
+  EXPECT_EQ(
+      Bootstrap({3}, 200, 1).doubt({1, 1, 3, 1}),
+      "3 windows with an autocorrelation time of 1 window are worth 3 independent ones; with fewer "
+      "than 8 an interval of 95 % holds the truth less often");
+  EXPECT_EQ(
+      Bootstrap({3}, 200, 1).doubt({3, 3, 3, 1}),
+      "3 windows with an autocorrelation time of 3 windows are worth 1 independent one; too few for "
+      "an interval");
+  EXPECT_EQ(Bootstrap({8}, 200, 1).doubt({1, 1, 8, 1}), "");
+}
+
+TEST(Bootstrap, OneWindowIsOneObservation)
+{
+  EXPECT_EQ(Bootstrap({1}, 200, 1).doubt({1, 1, 1, 1}),
+            "one window is one observation, too few for an interval");
 }
 
 // Eight runs of ten windows, three of which tell as much as one.

@@ -38,5 +38,17 @@ TEST(Summary, DoubtsOneDeepOverlapAmongManyShallowOnes)
   EXPECT_TRUE(says(text_of(totals, scene), "doubt      two grains"));
 }
 
+TEST(Summary, CountsOneStepAsOne)
+{
+  const auto scene = small_chute::scene();
+  StepTotals totals;
+  totals.missed = totals.divided = 1;
+  EXPECT_TRUE(says(text_of(totals, scene), "doubt      1 step missed the tolerance"));
+  EXPECT_TRUE(says(text_of(totals, scene), "remark     1 step was taken in parts"));
+  totals.missed = totals.divided = 2;
+  EXPECT_TRUE(says(text_of(totals, scene), "doubt      2 steps missed the tolerance"));
+  EXPECT_TRUE(says(text_of(totals, scene), "remark     2 steps were taken in parts"));
+}
+
 }  // namespace
 }  // namespace grseg
