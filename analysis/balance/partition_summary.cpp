@@ -22,11 +22,12 @@ MeanOfWindows zero_of(const std::vector<PushOverShare>& windows)
     sum.none += window.none;
     sum.all += window.all;
   }
-  std::vector<double> left;  // of each window, in the mean of which p* is taken
+  std::vector<double> left;  // p* of each window as far as their mean is p*
   left.reserve(windows.size());
   const double zero = sum.zero(),
                per_window = (sum.none - sum.all) / static_cast<double>(windows.size());
-  for (const auto& [none, all] : windows) left.push_back((none - zero * (none - all)) / per_window);
+  for (const auto& [none, all] : windows)
+    left.push_back(zero + (none - zero * (none - all)) / per_window);
   return {zero, mean_of_windows(left).error};
 }
 
@@ -143,13 +144,11 @@ std::string PartitionSummary<D>::text() const
       "less the weight to {:.1e}",
       difference_, from_forces_);
   if (push_kinetic_.empty()) return agreement;
-  const auto windows = push_kinetic_.size();
   auto text = fmt::format(
       "forces on the large grains in 1/1000 of their weight, upward positive (at least two large "
       "diameters from base and surface, {}); drag is what closes the "
       "balance\n  {:<14} {:>18} {:>18} {:>18} {:>18}\n",
-      windows > 1 ? fmt::format("standard errors over {} windows", windows) : "of one window",
-      "rule", "-div sigma", "beta", "contact push", "drag");
+      errors_over(contact_force_), "rule", "-div sigma", "beta", "contact push", "drag");
   for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
     const auto& own = of_rules_[rule];
     text += fmt::format("  {:<14} {:>18} {:>18} {:>18} {:>18}\n", rules_[rule].name(),

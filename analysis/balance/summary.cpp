@@ -11,10 +11,14 @@
 namespace grseg {
 namespace {
 
-/// "up by 0.012 +- 0.003", or "neither way" where zero lies within two standard errors.
+/// "up by 0.012 +- 0.003", or "neither way" where zero lies within two standard errors; without an error
+/// where the windows have none.
 std::string direction(const std::vector<double>& push)
 {
   const auto [mean, error] = mean_of_windows(push);
+  if (std::isnan(error))
+    return mean == 0 ? "neither way"
+                     : fmt::format("{} by {:.2g}", mean > 0 ? "up" : "down", std::abs(mean));
   if (std::abs(mean) <= 2 * error)
     return fmt::format("neither way ({:.2g} +- {:.1g})", mean, error);
   return fmt::format("{} by {:.2g} +- {:.1g}", mean > 0 ? "up" : "down", std::abs(mean), error);
@@ -96,9 +100,8 @@ std::string BalanceSummary<D>::sentence() const
   return fmt::format(
       "in units of their weight, with mixed contacts cut at the contact point, large grains are "
       "pushed {} by contact stress, {} by kinetic "
-      "stress and {} by drag (at least two large diameters from base and surface, standard errors "
-      "over {} windows); {}",
-      direction(push_), direction(push_kinetic_), direction(drag_), push_.size(), closed);
+      "stress and {} by drag (at least two large diameters from base and surface, {}); {}",
+      direction(push_), direction(push_kinetic_), direction(drag_), errors_over(drag_), closed);
 }
 
 template std::vector<std::size_t> layers_inside(const MomentumBalance<2>&, const Layers&, double);
