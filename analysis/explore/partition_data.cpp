@@ -4,6 +4,7 @@
 #include "analysis/fit/mixtures.hpp"
 #include "analysis/fit/over.hpp"
 #include "analysis/fit/partition_scan.hpp"
+#include "analysis/fit/table_doubts.hpp"
 #include "analysis/frames/layer_table.hpp"
 
 #include <fmt/format.h>
@@ -254,9 +255,14 @@ Json partition_data(const PartitionInput& input, const PartitionSettings& settin
   object["settings"] = settings_object(selected, settings);
   object["scan"] = scan_object(selected, settings);
   object["rules"] = Json::array();
-  for (const auto& fit : fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
-                                   settings.rules, settings.fit, settings.resampling, false))
+  std::vector<std::string> doubts;
+  if (settings.resampling.samples > 0)
+    doubts = doubts_of_tables(input.sums, selected.tables, selected.samples);
+  for (auto& fit : fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
+                             settings.rules, settings.fit, settings.resampling, false)) {
+    for (const auto& doubt : doubts) add_doubt(fit, doubt);
     object["rules"].push_back(rule_object(fit, selected.mixtures));
+  }
   const auto over = object["rules"].back()["over"].get<std::string>();
   object["over"] = over;
   object["over_words"] = estimand_words(choose(over, "over", overs), selected.mixtures.size());

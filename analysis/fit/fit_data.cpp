@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
-#include "analysis/frames/distinct_runs.hpp"
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/runs_of_tables.hpp"
+#include "analysis/frames/table_windows.hpp"
 #include "analysis/statistics/median_of_positive.hpp"
 #include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
@@ -155,37 +156,67 @@ LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesL
           .key = row.key};
 }
 
-void add_run(const FitTable& run, const FitFilters& filters, const std::vector<SpeciesPair>& pairs,
-             FitData& data)
+/// Rows of a table that are points, with the pair of species that each is of.
+using UsedRows = std::vector<std::pair<const FitRow*, SpeciesPair>>;
+
+UsedRows used_rows(const FitTable& run, const FitFilters& filters,
+                   const std::vector<SpeciesPair>& pairs, FilterCount& count)
 {
   const auto& table = *run.table;
   const LengthUnits units{table.header_positive("small_diameter"),
                           table.header_positive("large_diameter")};
   const RowRange range{filters.begin, filters.end, parse_heights(filters.heights, units)};
-  std::vector<std::pair<const FitRow*, SpeciesPair>> used;
+  UsedRows used;
   for (const auto& row : run.rows)
     for (const auto& pair : pairs)
-      if (passes(row, pair, filters, range, run.median_solid, data.count))
-        used.emplace_back(&row, pair);
+      if (passes(row, pair, filters, range, run.median_solid, count)) used.emplace_back(&row, pair);
+  return used;
+}
 
-  std::map<double, std::size_t> window_at;
-  for (const auto& [row, pair] : used) window_at[row->key.begin] = 0;
-  std::size_t window = 0;
-  for (const auto length : data.runs) window += length;
-  for (auto& [time, number] : window_at) number = window++;
-  if (!window_at.empty()) {
-    data.runs.push_back(window_at.size());
-    data.mixtures.push_back(run.mixture);
+/// The number, in all runs, of the observation that a window of a table is.
+using Observations = std::map<std::pair<const Table*, Span>, std::size_t>;
+
+Observations observations_of(const std::vector<FitTable>& tables, const std::vector<UsedRows>& used,
+                             FitData& data)
+{
+  using Run = std::pair<std::size_t, std::size_t>;  // and mixture
+  std::vector<Run> order;
+  std::map<Run, std::vector<TableWindow>> windows_of_run;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const Run run(tables[k].run, tables[k].mixture);
+    if (!windows_of_run.contains(run)) order.push_back(run);
+    auto& windows = windows_of_run[run];
+    std::set<Span> spans;
+    for (const auto& [row, pair] : used[k]) spans.insert({row->key.begin, row->key.end});
+    for (const auto& span : spans) windows.push_back({tables[k].table, span});
   }
+  Observations numbers;
+  std::size_t first = 0;
+  for (const auto& run : order) {
+    const auto& windows = windows_of_run[run];
+    if (windows.empty()) continue;
+    const auto line = put_in_line(windows);
+    for (std::size_t k = 0; k < windows.size(); ++k)
+      numbers[{windows[k].table, windows[k].span}] = first + line.number[k];
+    first += line.count;
+    data.still += line.still;
+    data.runs.push_back(line.count);
+    data.mixtures.push_back(run.second);
+  }
+  return numbers;
+}
 
-  data.tables.push_back(table.name);
+void add_samples(const FitTable& run, const UsedRows& used, const Observations& observations,
+                 FitData& data)
+{
+  data.tables.push_back(run.table->name);
   const FitRow* last = nullptr;
   for (const auto& [row, pair] : used) {
     if (row != last) data.rows.push_back(row->sums);
     if (data.samples.empty()) data.window = row->key.end - row->key.begin;
     last = row;
     auto& sample = data.samples.emplace_back(sample_of(*row, pair, run.species, data.dimension));
-    sample.window = window_at.at(row->key.begin);
+    sample.window = observations.at({run.table, {row->key.begin, row->key.end}});
     sample.table = data.tables.size() - 1;
     sample.row = data.rows.size() - 1;
   }
@@ -262,10 +293,11 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
     const auto species = species_of(table);
     auto rows = read_rows(table, species, quantity, rules);
     const double median = median_solid_fraction(rows);
-    all.push_back({&table, species, std::move(rows), median, 0});
+    all.push_back({&table, species, std::move(rows), median});
     require_alike(all.front(), all.back());
   }
-  require_distinct_runs(tables);
+  const auto runs = find_runs(tables);
+  for (std::size_t k = 0; k < all.size(); ++k) all[k].run = runs.run[k];
   return all;
 }
 
@@ -276,7 +308,11 @@ FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
   data.quantity = quantity;
   data.dimension = dimension_of(*tables.front().table);
   data.species = tables.front().species;
-  for (const auto& table : tables) add_run(table, filters, pairs, data);
+  std::vector<UsedRows> used;
+  for (const auto& table : tables) used.push_back(used_rows(table, filters, pairs, data.count));
+  const auto observations = observations_of(tables, used, data);
+  for (std::size_t k = 0; k < tables.size(); ++k)
+    add_samples(tables[k], used[k], observations, data);
   if (data.samples.empty()) {
     const auto& count = data.count;
     const bool one_species = count.without_small + count.without_large > 0 &&

@@ -73,8 +73,9 @@ struct FilterCount {
 struct FitData {
   Quantity quantity = Quantity::contact;
   int dimension = 2;
-  RunLengths runs;                    // windows with samples, per table
+  RunLengths runs;                    // observations of each run: windows with samples, in line
   std::vector<std::size_t> mixtures;  // of each run (mixtures.hpp); empty: all are of one
+  std::size_t still = 0;              // windows that add no observation, since nothing moved
   std::vector<std::string> tables;    // their names
   SpeciesList species;                // of the first; those of the others have the same names
   double window = 0;                  // s, the first one's length
@@ -108,6 +109,7 @@ struct FitTable {
   std::vector<FitRow> rows;
   double median_solid = 0;
   std::size_t mixture = 0;
+  std::size_t run = 0;  // the same of tables of one run
 };
 
 /// Reads tables of grseg-stress (contact) or grseg-kinetic; the latter's "contents" are masses.
@@ -116,8 +118,8 @@ struct FitTable {
 std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity quantity,
                                       const std::vector<PartitionRule>& rules);
 
-/// The layers and windows of all tables that pass the filters, with the samples of `pairs`; each
-/// table is one run. phi is made of areas or volumes (contact) or masses (kinetic; all species have
+/// The layers and windows of all tables that pass the filters, with the samples of `pairs`; the windows
+/// of tables of one run and mixture stand in line (table_windows.hpp). phi is made of areas or volumes (contact) or masses (kinetic; all species have
 /// one density). RunError, saying what removed them, where nothing is left.
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs);

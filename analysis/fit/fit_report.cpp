@@ -86,6 +86,8 @@ Header header_of(const FitReport& report)
   for (const auto& line : report.history) lines.emplace_back("history", line);
   for (std::size_t m = 0; m < report.mixtures.size(); ++m)
     lines.emplace_back("mixture", mixture_line(report, m));
+  for (const auto& names : report.shared_runs)
+    lines.emplace_back("one run", fmt::format("{}", fmt::join(names, " ")));
   for (const auto& [over, words] : estimands(report))
     lines.emplace_back("estimand", fmt::format("{}: {}", word_of(over, overs), words));
   for (const auto& doubt : doubts(report)) lines.emplace_back("doubt", doubt);
@@ -311,7 +313,7 @@ std::string used_by(const FitReport& report, const RuleFit& fit)
 
 std::vector<std::string> doubts(const FitReport& report)
 {
-  std::vector<std::string> all;
+  auto all = report.doubts_of_tables;
   for (const auto& fit : report.rules)
     if (!fit.doubt.empty()) all.push_back(fmt::format("{}: {}", row_name(report, fit), fit.doubt));
   if (report.scan && !report.scan->fits.front().doubt.empty())
@@ -350,6 +352,7 @@ std::string to_json(const FitReport& report)
                                {"weight_share", report.shares.half[m]},
                                {"weight_share_sums", report.shares.sums[m]},
                                {"tables", tables_of(report, report.mixtures[m])}});
+  if (!report.shared_runs.empty()) all["one_run"] = report.shared_runs;
   for (const auto& [over, words] : estimands(report))
     all["estimands"][word_of(over, overs)] = words;
   all["inputs"] = report.inputs;

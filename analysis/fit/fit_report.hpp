@@ -27,6 +27,9 @@ struct FitReport {
   std::vector<Mixture> mixtures;  // of the tables
   WeightShares shares;            // of each mixture in the weight of all
   std::vector<std::string> table_names;
+  std::vector<std::vector<std::string>>
+      shared_runs;                            // names of the tables of each run with several
+  std::vector<std::string> doubts_of_tables;  // on what the tables are of
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
   // For the short table only: how much data there is, and p* of contact stress.
@@ -63,8 +66,8 @@ std::string share_words(const FitReport& report, std::size_t mixture);
 /// What each kind of interval in the report is over, in words.
 std::vector<std::pair<Over, std::string>> estimands(const FitReport& report);
 
-/// What limits the intervals: a sentence per rule and one for the scan, mostly none. Both forms
-/// below contain them.
+/// What limits the intervals: of the tables, then a sentence per rule and one for the scan, mostly none.
+/// Both forms below contain them.
 std::vector<std::string> doubts(const FitReport& report);
 
 /// A table (table_text.hpp) with a row per rule, whose name stands first; with a scan instead a row

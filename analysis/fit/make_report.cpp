@@ -3,6 +3,8 @@
 
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/over.hpp"
+#include "analysis/fit/table_doubts.hpp"
+#include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/progress.hpp"
@@ -151,6 +153,7 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   auto all = read_fit_tables(tables, report.quantity, read);
   report.mixtures = find_mixtures(all, s.mixtures);
   for (const auto& table : tables) report.table_names.push_back(table.name);
+  report.shared_runs = find_runs(tables).shared(tables);
   report.species = all.front().species;
   const auto pairs = pairs_of(s, report.species);
   const auto data = select_fit_data(all, report.quantity, s.filters, pairs);
@@ -170,7 +173,14 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   if (names_species(report.species))
     report.header.emplace_back("species", species_text(report.species));
   report.inputs = header_values(tables, "input");
-  report.trust = trust_of(tables);
+  for (auto& line : trust_of(tables))
+    if (line.first == "doubt")
+      report.doubts_of_tables.push_back(line.second);
+    else
+      report.trust.push_back(std::move(line));
+  if (resampling.samples > 0)
+    for (auto& doubt : doubts_of_tables(tables, all, data))
+      report.doubts_of_tables.push_back(std::move(doubt));
   report.history = header_values(tables, "history");
   return report;
 }

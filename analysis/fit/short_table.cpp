@@ -4,6 +4,7 @@
 #include "formats/cli/words.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -214,7 +215,8 @@ std::string doubts_text(const FitReport& report)
   };
   for (const auto& fit : report.rules) add(row_name(report, fit), fit.doubt);
   if (report.scan) add("scan", report.scan->fits.front().doubt);
-  std::string text = names_of.empty() ? "" : "\n";
+  std::string text = names_of.empty() && report.doubts_of_tables.empty() ? "" : "\n";
+  for (const auto& doubt : report.doubts_of_tables) text += fmt::format("doubt: {}\n", doubt);
   for (const auto& [doubt, names] : names_of) text += fmt::format("doubt: {}: {}\n", names, doubt);
   return text;
 }
@@ -239,6 +241,8 @@ std::string short_table(const FitReport& report)
     text += zero_text(*report.zero);
   text += zeros_of_sums_text(report);
   text += populations_text(report);
+  for (const auto& names : report.shared_runs)
+    text += fmt::format("one run: {}\n", fmt::join(names, " "));
   return text + doubts_text(report);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/derived_table.hpp"
 
-#include "analysis/frames/distinct_runs.hpp"
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/micro/pooling.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
@@ -166,7 +166,7 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
   Table table;
   with_dimension(dimension_of(tables[0]), [&](auto d) {
     auto rows = read_rows<d>(tables);
-    require_distinct_runs(tables);
+    find_runs(tables);
     const auto constants = read_run_constants(tables[0]);
     const LengthUnits units{constants.small_diameter, constants.large_diameter};
     if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);

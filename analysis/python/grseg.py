@@ -25,6 +25,7 @@ import itertools
 import math
 import pathlib
 import re
+import zlib
 
 import h5py
 import numpy as np
@@ -147,8 +148,9 @@ class Run:
 
     def windows(self, length=1.25, begin=None, end=None, stride=1):
         """The windows that the tools make, a list of Window: those of `length` (s) from `begin` on
-        (default: t = 0, or the first frame if that is later) that the run fills up to `end`."""
-        return _cut_into_windows(self, length, begin, end, stride)
+        (default: t = 0, or the first frame if that is later) that the run fills up to `end`; "all" is one
+        window over all frames used."""
+        return _cut_into_windows(self, length, begin, end, stride)[1]
 
     def contact_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, power=None):
         """The sums of force (x) branch by layer, window and pair of species, as a Table with the
@@ -373,15 +375,16 @@ class Run:
     def _tabulate(self, sums_of_window, columns, layer, window, settings):
         np.empty(1 << 21)  # once 16 MB have been freed, glibc keeps what temporaries need: twice as fast
         layers = _Layers(self.metres(layer), self.length, self.width, self.path)
-        windows = self.windows(*window)
+        length, windows = _cut_into_windows(self, *window)
         rows = []
         for begin, end, frames in windows:
             for n, values in enumerate(sums_of_window(layers, frames)):
                 key = (begin, end, layers.bottom(n), layers.bottom(n + 1), len(frames), layers.volume)
                 rows.append((*key, *values))
-        header = _run_header(self, layers, windows[0], window[3]) | settings
+        header = _run_header(self, layers, length, window[3]) | settings
         keys = ("t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames", f"V[m^{self.dimension}]")
-        return Table(self.path, header, self.history, (*keys, *columns), np.array(rows))
+        source = _Source(header["input"], _parse_bed(header["bed"]), tuple(self.history))
+        return Table(self.path, header, self.history, (*keys, *columns), np.array(rows), [source])
 
 
 def _text(value):
@@ -568,7 +571,8 @@ def _whole_steps(time, step):
 
 
 def _cut_into_windows(run, length, begin, end, stride):
-    """As cut_into_windows() of analysis/frames/windows.cpp does."""
+    """The length of the windows and these, as cut_into_windows() of analysis/frames/windows.cpp has them."""
+    length = math.inf if length == "all" else length
     if not (length > 0 and stride >= 1):
         raise ValueError(f"a window of {length} s, stride {stride}: they should be positive")
     steps = run.steps
@@ -580,16 +584,21 @@ def _cut_into_windows(run, length, begin, end, stride):
         first = int(steps[0]) if steps[-1] < 0 else max(0, int(steps[0]))
     else:
         first = _whole_steps(begin, run.step)
-    whole = _whole_steps(length, run.step)
-    if whole < between * stride:
-        raise ValueError(f"a window of {length} s is shorter than the {between * stride * run.step:g} s between the "
-                         f"frames of {run.path} that are used")
     last = int(steps[-1]) + between
     if end is not None:
         last = min(last, _whole_steps(end, run.step))
+    if not ((steps >= first) & (steps < last)).any():
+        run._fail(f"no frame lies between begin and end; the run goes from {steps[0] * run.step:g} s to "
+                  f"{steps[-1] * run.step:g} s")
+    if length == math.inf:
+        first = max(first, int(steps[0]))
+    whole = last - first if length == math.inf else _whole_steps(length, run.step)
+    if whole < between * stride and length < math.inf:
+        raise ValueError(f"a window of {length} s is shorter than the {between * stride * run.step:g} s between the "
+                         f"frames of {run.path} that are used; give that, a longer one, or \"all\"")
     exact = whole * run.step
     width = length if abs(exact - length) < 1e-9 * exact else exact
-    origin = first * run.step if begin is None else begin
+    origin = begin if begin is not None and _whole_steps(begin, run.step) == first else first * run.step
     frames_of = collections.defaultdict(list)
     for k in range(int(np.searchsorted(steps, first)), len(steps), stride):
         n = (int(steps[k]) - first) // whole
@@ -599,8 +608,8 @@ def _cut_into_windows(run, length, begin, end, stride):
             frames_of[n].append(k)
     if not frames_of:
         run._fail(f"no window of {length} s is filled: frames used reach from {origin:g} s to {last * run.step:g} s; "
-                  "choose a shorter window, or another begin and end")
-    return [Window(origin + n * width, origin + (n + 1) * width, frames) for n, frames in frames_of.items()]
+                  "choose a shorter window, \"all\", or another begin and end")
+    return width, [Window(origin + n * width, origin + (n + 1) * width, frames) for n, frames in frames_of.items()]
 
 
 class _Layers:
@@ -880,15 +889,16 @@ def _profile(run, layers, frames):
 
 # ----------------------------------------------------------------------------------------- tables
 
-def _run_header(run, layers, window, stride):
+def _run_header(run, layers, length, stride):
     """What later steps need to know of a table, as grseg-stress says it."""
     numbers = {"small_diameter": run.small_diameter, "large_diameter": run.large_diameter}
     numbers |= {f"gravity_{axis}": value for axis, value in zip("xyz", run.gravity)}
     numbers |= {"step": run.step, "length": run.length}
     if run.width is not None:
         numbers["length_z"] = run.width
-    numbers |= {"layer": layers.h, "window": window.end - window.begin, "stride": stride}
-    header = {"program": "grseg.py", "input": f"xxh3 {run.digest}", "verified": "no, grseg.py has no digests"}
+    numbers |= {"layer": layers.h, "window": length, "stride": stride}
+    header = {"program": "grseg.py", "input": f"xxh3 {run.digest}", "bed": _bed_line(run),
+              "verified": "no, grseg.py has no digests"}
     if run.dimension == 3:
         header["dimension"] = "3"
     if [one.name for one in run.species] != ["small", "large"]:
@@ -910,8 +920,9 @@ class Table:
     table["A_SS_yy"] is a column [rows], table.tensor("A_SS") a tensor [rows, D, D].
     """
 
-    def __init__(self, name, header, history, columns, values):
+    def __init__(self, name, header, history, columns, values, sources=()):
         self.name, self.header, self.history, self.values = name, header, list(history), values
+        self._sources = list(sources) or [_Source("", None, ())]  # the runs that it is made of
         self.columns = [column.split("[")[0] for column in columns]
         self.units = {column.split("[")[0]: column.partition("[")[2].rstrip("]") for column in columns}
         self._place = {column: k for k, column in enumerate(self.columns)}
@@ -990,7 +1001,140 @@ def read_table(path):
     except ValueError:
         fail("has a row that is not as many numbers as there are columns; is it a table of a tool of grseg?")
     history = [value for key, value in pairs if key == "history"]
-    return Table(str(path), header, history, columns, values)
+    return Table(str(path), header, history, columns, values, _sources_of(pairs))
+
+
+# ------------------------------------------------------------------------------- tables of one run
+
+_Source = collections.namedtuple("_Source", "input bed history")  # of a run; what the tools made is not history
+_Bed = collections.namedtuple("_Bed", "grains varied come_and_go seed flow")
+_OF_NO_EFFECT = {"duration", "frame-interval", "burst", "keep-deposition", "compression", "store", "threads", "isa",
+                 "restart", "checkpoint", "output", "checkpoint-every", "strict", "overwrite", "quiet"}
+
+
+def _bed_line(run):
+    """The line "bed" of a table (formats/cli/bed.hpp)."""
+    crc = zlib.crc32(run.id.astype("<i4").tobytes(), zlib.crc32(run.radius.astype("<f8").tobytes()))
+    text = f"grains {len(run.radius)}, sizes {len(np.unique(run.radius))}, crc32 {crc:08x}"
+    if run._come_and_go:
+        text += ", come and go"
+    if "seed" in run.parameters:
+        text += f", seed {run.parameters['seed']:.17g}"
+    scene = run.parameters.get("scene", "")
+    if not scene:
+        return text
+    acting = "".join(line + "\n" for line in scene.splitlines() if line.split(" ")[0] not in _OF_NO_EFFECT)
+    acting += "".join(_acting_options(line) for line in run.history if " --restart" in line)
+    return f"{text}, flow {zlib.crc32(acting.encode()):08x}"
+
+
+def _acting_options(command):
+    """The options of a restart that act on the motion, with their values, and since when."""
+    acting, takes = "", False
+    for word in command.split():
+        option = word.startswith("--")
+        if option:
+            takes = word[2:].split("=")[0] not in _OF_NO_EFFECT
+        if takes:
+            acting += word + " "
+        takes = takes and option
+    since = command.find(" (from t = ")
+    return acting and acting + (command[since:] if since >= 0 else "") + "\n"
+
+
+def _parse_bed(text):
+    found = re.fullmatch(r"(grains (\d+), sizes (\d+), [^,]*)(, come and go)?(?:, seed ([^,]*))?(?:, flow ([^,]*))?", text)
+    if not found:
+        return None
+    grains, number, sizes, come_and_go, seed, flow = found.groups("")
+    return _Bed(grains, 2 * int(sizes) > int(number), come_and_go != "", seed, flow)
+
+
+def _sources_of(pairs):
+    """The runs of a table, several where it was merged, of the lines of its header in order."""
+    sources = [["", None, []]]
+    for key, value in pairs:
+        if key in ("history", "input") and sources[-1][0]:
+            sources.append(["", None, []])
+        if key == "history":
+            sources[-1][2].append(value)
+        elif key == "input":
+            sources[-1][0] = value
+        elif key == "bed":
+            sources[-1][1] = _parse_bed(value)
+    if len(sources) > 1 and not sources[-1][0]:
+        sources.pop()
+    return [_Source(name, bed, tuple(history[:-1])) for name, bed, history in sources]
+
+
+_NO_KIN, _UNTOLD, _SAME_GRAINS, _ONE_BED, _SAME_MOTION = range(5)
+
+
+def _seed_of(source):
+    if source.bed:
+        return source.bed.seed
+    found = re.search(r" --seed[ =](\S+)", source.history[0]) if source.history else None
+    return found[1] if found else ""
+
+
+def _goes_on(a, b):
+    """True where one history goes on where the other ends, or both from a common beginning by restarts."""
+    common = sum(1 for _ in itertools.takewhile(lambda pair: pair[0] == pair[1], zip(a, b)))
+    ends = [common == len(one) for one in (a, b)]
+    restarts = [not end and " --restart" in one[common] for end, one in zip(ends, (a, b))]
+    return common > 0 and not all(ends) and all(end or restart for end, restart in zip(ends, restarts))
+
+
+def _kinship(a, b):
+    """What two runs have in common (analysis/frames/run_kinship.hpp)."""
+    if a.input and a.input == b.input:
+        return _SAME_MOTION
+    seeds = _seed_of(a), _seed_of(b)
+    if a.bed and b.bed:
+        if a.bed.grains == b.bed.grains:
+            if all(seeds) and seeds[0] != seeds[1]:
+                return _NO_KIN
+            if not all(seeds):
+                return _SAME_GRAINS if a.bed.varied else _UNTOLD
+            return _SAME_MOTION if a.bed.flow and a.bed.flow == b.bed.flow else _ONE_BED
+        if not a.bed.come_and_go and not b.bed.come_and_go:
+            return _NO_KIN
+    if _goes_on(a.history, b.history):
+        return _ONE_BED
+    return _NO_KIN if all(seeds) and seeds[0] != seeds[1] else _UNTOLD
+
+
+def _overlap(a, b):
+    """When a window of table a begins that overlaps one of b, or None; up to round-off."""
+    spans = [np.unique(np.column_stack([table["t0"], table["t1"]]), axis=0) for table in (a, b)]
+    for begin, end in spans[0]:
+        common = np.minimum(end, spans[1][:, 1]) - np.maximum(begin, spans[1][:, 0])
+        if (common > 1e-6 * (end - begin)).any():
+            return begin
+    return None
+
+
+def _find_runs(tables):
+    """The number of the run of each table, and the tables of which nothing tells that they are of different ones."""
+    first, untold = [], []
+    for k, table in enumerate(tables):
+        first.append(k)
+        for earlier, other in enumerate(tables[:k]):
+            kin = max(_kinship(a, b) for a in other._sources for b in table._sources)
+            time = _overlap(other, table) if kin in (_SAME_GRAINS, _SAME_MOTION) else None
+            if kin == _SAME_GRAINS:
+                kin = _ONE_BED if time is None else _UNTOLD
+            if kin == _SAME_MOTION and time is not None:
+                raise Error(f"{other.name} and {table.name} both hold the time from {time:g} s of the same run; leave "
+                            "one of them out")
+            if kin == _UNTOLD:
+                untold.append((earlier, k))
+            if kin >= _ONE_BED:
+                low, high = sorted((first[earlier], first[k]))
+                first = [low if number == high else number for number in first]
+    numbers = {number: n for n, number in enumerate(dict.fromkeys(first))}
+    return [numbers[number] for number in first], sorted({k for pair in untold for k in pair
+                                                          if first[pair[0]] != first[pair[1]]})
 
 
 # --------------------------------------------------------------------------- partition and estimates
@@ -1100,7 +1244,7 @@ class Points:
     """The layers and windows that take part in a fit, and what rules make of them: what grseg-fit selects of the
     same tables with the same options.
 
-    tables         a Table or several, each of one run
+    tables         a Table or several
     quantity       "contact", of tables of sums of contacts, or "kinetic"
     component      "yy" or "pressure", a D-th of the trace
     base           part of contacts with the base; default: as in the first table
@@ -1112,7 +1256,10 @@ class Points:
     begin, end     s, between which windows lie
 
     Of each point [n]: x = phi_S/phi_L, phi_large, weight (frames times grains of the rarer species), frames,
-    size_ratio, run and row (which table, and which row of it).
+    size_ratio, table and row (which table, and which row of it), run (a number).
+
+    Tables of one bed, such as a run and what continues it, are one run; two that hold the same time of it raise
+    Error. `untold` names tables of which nothing tells that they are of different runs.
     """
 
     def __init__(self, tables, quantity="contact", component="yy", base=None, pair=None, ratio_range=(0.01, 100.0),
@@ -1126,8 +1273,11 @@ class Points:
         self._ratio_range, self._heights = ratio_range, heights
         self._least = {"solid": min_solid, "grains": min_grains}
         self._times = begin, end
+        runs, untold = _find_runs(self.tables)
+        self.untold = [self.tables[k].name for k in untold]
         chosen = [self._select(table) for table in self.tables]
-        self.run = np.repeat(np.arange(len(chosen)), [len(one["row"]) for one in chosen])
+        self.table = np.repeat(np.arange(len(chosen)), [len(one["row"]) for one in chosen])
+        self.run = np.array(runs)[self.table]
         for name in ("row", "phi_large", "weight", "frames", "size_ratio"):
             setattr(self, name, np.concatenate([one[name] for one in chosen]))
         if len(self.run) == 0:
@@ -1142,7 +1292,7 @@ class Points:
         """Of the smaller species, the larger one and, of two species, all contacts [n]: N/m, of spheres Pa; the kinetic one is K/V."""
         small, large, total = (np.empty(len(self)) for _ in range(3))
         for number, table in enumerate(self.tables):
-            own, rows = self.run == number, self.row[self.run == number]
+            own, rows = self.table == number, self.row[self.table == number]
             of_species, of_all = self._stresses_of(table, rule)
             small[own], large[own] = (of_species[rows, species] for species in self.pair)
             total[own] = of_all[rows] if len(table.species) == 2 else small[own] + large[own]

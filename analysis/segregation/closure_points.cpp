@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/closure_points.hpp"
 
-#include "analysis/frames/distinct_runs.hpp"
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/runs_of_tables.hpp"
+#include "analysis/frames/table_windows.hpp"
 #include "analysis/statistics/median_of_positive.hpp"
 #include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/partial_stress.hpp"
@@ -252,11 +253,12 @@ double median_solid(const std::vector<Motion>& motions)
 class RunReader {
  public:
   RunReader(const RunTables& tables, const std::vector<PartitionRule>& rules,
-            const ClosureFilter& filter, ClosureData& data)
+            const ClosureFilter& filter, std::vector<TableWindow>& windows, ClosureData& data)
       : tables_(tables),
         rules_(rules),
         filter_(filter),
         before_(filter.instruments == Instruments::previous),
+        windows_(windows),
         data_(data)
   {
     for (const char* key : {"layer", "window"})
@@ -282,7 +284,8 @@ class RunReader {
   RunTables tables_;
   const std::vector<PartitionRule>& rules_;
   const ClosureFilter& filter_;
-  bool before_;  // points need the window before
+  bool before_;                        // points need the window before
+  std::vector<TableWindow>& windows_;  // of each point
   ClosureData& data_;
   double gravity_ = 0;  // along y, m/s^2
 };
@@ -329,8 +332,6 @@ void RunReader::read()
   for (const auto& motion : list) motions.emplace(place_of(motion.key), motion);
   const auto stresses = stresses_of(*tables_.stress, rules_);
 
-  const std::size_t first = number_of_windows(data_.runs);
-  std::map<double, std::size_t> window_at;
   data_.rows += list.size();
   for (const auto& motion : list) {
     if (!range.holds_window(motion.key) || !range.holds_layer(motion.key) ||
@@ -338,12 +339,30 @@ void RunReader::read()
       continue;
     auto point = point_of(motion, motions, stresses);
     if (!point) continue;
-    point->window = first + window_at.emplace(motion.key.begin, window_at.size()).first->second;
+    windows_.push_back({tables_.segregation, {motion.key.begin, motion.key.end}});
     data_.points.push_back(std::move(*point));
   }
-  if (window_at.empty()) return;
-  data_.runs.push_back(window_at.size());
-  data_.names.push_back(tables_.segregation->name);
+}
+
+/// Numbers the windows of all points, run after run; those of tables of one run stand in line.
+void number_windows(const std::vector<TableWindow>& window_of_point,
+                    const std::map<const Table*, std::size_t>& run_of, ClosureData& data)
+{
+  std::map<std::size_t, std::vector<TableWindow>> of_run;
+  std::map<std::pair<const Table*, Span>, std::size_t> numbers;
+  for (const auto& window : window_of_point)
+    if (numbers.emplace(std::pair(window.table, window.span), 0).second)
+      of_run[run_of.at(window.table)].push_back(window);
+  std::size_t first = 0;
+  for (const auto& [run, windows] : of_run) {
+    const auto line = put_in_line(windows);
+    for (std::size_t k = 0; k < windows.size(); ++k)
+      numbers[{windows[k].table, windows[k].span}] = first + line.number[k];
+    first += line.count;
+    data.runs.push_back(line.count);
+  }
+  for (std::size_t k = 0; k < data.points.size(); ++k)
+    data.points[k].window = numbers[{window_of_point[k].table, window_of_point[k].span}];
 }
 
 }  // namespace
@@ -355,12 +374,17 @@ ClosureData read_closure(const std::vector<Table>& tables, const std::vector<Par
   std::vector<Table> segregation;
   segregation.reserve(runs.size());
   for (const auto& run : runs) segregation.push_back(*run.segregation);
-  require_distinct_runs(segregation);
+  const auto distinct = find_runs(segregation);
+  std::map<const Table*, std::size_t> run_of;
+  for (std::size_t k = 0; k < runs.size(); ++k) run_of[runs[k].segregation] = distinct.run[k];
   auto read = rules;
   for (const double share : {0.0, 1.0}) read.push_back({PartitionRule::Kind::uniform, share});
   ClosureData data;
   data.instruments = filter.instruments;
-  for (const auto& run : runs) RunReader(run, read, filter, data).read();
+  data.doubt = distinct.doubt(segregation);
+  std::vector<TableWindow> windows;
+  for (const auto& run : runs) RunReader(run, read, filter, windows, data).read();
+  number_windows(windows, run_of, data);
   if (data.points.empty())
     throw RunError(
         fmt::format("none of {} rows is left; the closure needs layers that hold both species and "

@@ -73,8 +73,8 @@ struct ClosureFilter {
 };
 
 struct ClosureData {
-  RunLengths runs;                 // windows with points, by run
-  std::vector<std::string> names;  // of the tables of grseg-segregation
+  RunLengths runs;    // observations of each run: windows with points, in line
+  std::string doubt;  // on which tables are of one run, mostly none
   std::vector<ClosurePoint> points;
   std::size_t rows = 0;  // layers and windows of these tables
   Instruments instruments = Instruments::previous;

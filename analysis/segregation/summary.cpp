@@ -27,8 +27,8 @@ std::string to_json(const SegregationSummary& summary, const Header& header)
   table.header = header;
   Json all{{"numbers", numbers}, {"remarks", summary.remarks}};
   const auto rest = Json::parse(table.to_json());
-  for (const char* key :
-       {"settings", "inputs", "history", "verified", "incomplete", "undecided", "waived"})
+  for (const char* key : {"settings", "inputs", "history", "bed", "verified", "incomplete",
+                          "undecided", "waived", "doubt"})
     if (rest.contains(key)) all[key] = rest[key];
   return all.dump(2) + '\n';
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/merge_tables.hpp"
 
-#include "analysis/frames/distinct_runs.hpp"
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/runs_of_tables.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
@@ -40,7 +40,7 @@ using Parts = std::map<Times, Part>;
 
 bool is_source(const std::string& key)
 {
-  return key == "history" || key == "input";
+  return key == "history" || key == "input" || key == "bed";
 }
 
 std::vector<std::string> inputs_of(const Table& table)
@@ -194,7 +194,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   std::vector<Parts> parts;
   parts.reserve(tables.size());
   for (const auto& table : tables) parts.push_back(parts_of(table));
-  require_distinct_runs(tables);
+  const auto doubt = find_runs(tables).doubt(tables);
   std::map<Times, std::vector<const Part*>> windows;
   for (const auto& of_table : parts)
     for (const auto& [window, part] : of_table)
@@ -208,6 +208,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
       if (is_source(line.first)) merged.header.push_back(line);
   merged.header.emplace_back("history", command);
   for (auto& line : trust_of(tables)) merged.header.push_back(std::move(line));
+  if (!doubt.empty()) merged.header.emplace_back("doubt", doubt);
   for (const auto& line : settings_of(tables[0])) merged.header.push_back(line);
   merged.columns = tables[0].columns;
   for (const auto& [window, of_window] : windows)

@@ -172,6 +172,7 @@ void close(const Settings& s, const po::variables_map& values, const std::string
   header.emplace_back("history", command);
   for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
   for (auto& line : trust_of(tables)) header.push_back(std::move(line));
+  if (!data.doubt.empty()) header.emplace_back("doubt", data.doubt);
   std::vector<std::string> names;
   names.reserve(rules.size());
   for (const auto& rule : rules) names.push_back(rule.name());

@@ -47,7 +47,7 @@ Header trust_of(const std::vector<Table>& tables)
   auto verified = header_values(tables, "verified");
   if (verified.size() > 1) std::erase(verified, "all");
   for (auto& value : verified) lines.emplace_back("verified", std::move(value));
-  for (const char* key : {"incomplete", "undecided", "waived"})
+  for (const char* key : {"incomplete", "undecided", "waived", "doubt"})
     for (auto& value : header_values(tables, key)) lines.emplace_back(key, std::move(value));
   return lines;
 }

@@ -15,7 +15,7 @@ namespace grseg {
 std::vector<Table> read_tables(const ToolInfo& info, const po::variables_map& values, bool quiet);
 
 /// What a result must say of the tables that it is made of: the lines "verified", "incomplete",
-/// "undecided" and "waived", each value once. "verified: all" only where nothing else is said.
+/// "undecided", "waived" and "doubt", each value once. "verified: all" only where nothing else is said.
 Header trust_of(const std::vector<Table>& tables);
 
 }  // namespace grseg

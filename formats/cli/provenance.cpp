@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/provenance.hpp"
 
+#include "formats/cli/bed.hpp"
 #include "formats/cli/numbers.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
@@ -9,8 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <cmath>
+#include <sstream>
 
 namespace grseg {
 
@@ -29,6 +30,7 @@ Header provenance(const ToolInfo& info, const std::string& preset, const Traject
     header.emplace_back("history", printable(line));
   header.emplace_back("history", command);
   header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run.digest())));
+  header.emplace_back("bed", bed_of(run).text());
   return header;
 }
 
@@ -59,14 +61,14 @@ Header settings_of(const Table& table)
 {
   Header settings = table.header;
   std::erase_if(settings, [](const HeaderLine& line) {
-    return line.first == "program" || line.first == "history" || line.first == "input" ||
-           line.first == "verified" || line.first == "incomplete" || line.first == "undecided" ||
-           line.first == "waived";
+    for (const char* key : {"program", "history", "input", "bed", "verified", "incomplete",
+                            "undecided", "waived", "doubt"})
+      if (line.first == key) return true;
+    return false;
   });
   return settings;
 }
 
-}  // namespace grseg
 // A difference of two times t in double precision is off by 2^-52 t: by less than this part of a window
 // for t up to four million windows. Other settings are products of two or three numbers. What was set
 // otherwise differs by a step of time or a digit that was typed, which is more.
@@ -91,3 +93,4 @@ bool same_setting(const std::string& a, const std::string& b)
   return !(others >> other);
 }
 
+}  // namespace grseg

@@ -15,10 +15,12 @@
 ///   preset    what --preset was given; only of tools that have presets
 ///   history   one line per command that led here, the oldest first, this tool's own last
 ///   input     digest of the content of each run the table was made of
+///   bed       which grains these are, by what seed and under what flow (bed.hpp); behind each input
 ///   verified  "all", or what of the inputs could not be verified
 ///   incomplete  which run had not ended
 ///   undecided   a check of an import that could not be told from the archive: "check: why"
 ///   waived      a check of an import that had failed or was undecided, and was accepted: likewise
+///   doubt       what limits the conclusions from several tables
 namespace grseg {
 
 using HeaderLine = std::pair<std::string, std::string>;
@@ -42,8 +44,8 @@ std::string header_or(const Table& table, const std::string& key, const std::str
 /// The lines that say how a table was made (preset and settings), rather than of what.
 Header settings_of(const Table& table);
 
-}  // namespace grseg
 /// True where two values of such a line mean the same: their words are equal, or numbers that agree up
 /// to round-off, as where one is 0.2 and the other 2.2 - 2.
 bool same_setting(const std::string& a, const std::string& b);
 
+}  // namespace grseg

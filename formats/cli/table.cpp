@@ -78,8 +78,8 @@ std::string Table::to_json() const
   for (const auto& [key, value] : header) {
     if (key == "input")
       all["inputs"].push_back(printable(value));
-    else if (key == "history" || key == "verified" || key == "incomplete" || key == "undecided" ||
-             key == "waived")
+    else if (key == "history" || key == "bed" || key == "verified" || key == "incomplete" ||
+             key == "undecided" || key == "waived" || key == "doubt")
       all[key].push_back(printable(value));
     else
       all["settings"][key] = printable(value);

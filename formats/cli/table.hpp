@@ -35,8 +35,8 @@ class Table {
 
   std::string to_text() const;
   /// {"columns": [...], "rows": [[...], ...], "settings": {...}, "inputs": [...], "history":
-  /// [...]}; NaN becomes null. Where the header says so, also "verified", "incomplete", "undecided"
-  /// and "waived".
+  /// [...]}; NaN becomes null. Where the header says so, also "bed", "verified", "incomplete",
+  /// "undecided", "waived" and "doubt".
   std::string to_json() const;
 
   /// From a file, or from standard input where `path` is "-". UsageError where it is missing,

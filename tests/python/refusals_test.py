@@ -164,7 +164,11 @@ def wrong_arguments():
         require("a window of 0.01 s is shorter than the 0.05 s between the frames", lambda: run.windows(0.01), ValueError)
         require("mean = 'instant': profile or layer; grseg-kinetic knows more",
                 lambda: run.kinetic_sums(mean="instant"), ValueError)
+        require("no frame lies between begin and end; the run goes from 0 s to 0.15 s", lambda: run.windows("all", begin=3))
         sums = run.contact_sums(window=0.1)
+        all_frames = run.contact_sums(window="all")
+        require("three-grains-1.1.h5 and .*three-grains-1.1.h5 both hold the time from 0 s of the same run; leave one",
+                lambda: grseg.Points([sums, all_frames]))
     for rule in ("sizes", "uniform", "uniform:2", "power:x", "half:1"):
         require(f"'{rule}' is not a rule: size, contact-point", lambda rule=rule: grseg.partial_stress(sums, rule),
                 ValueError)

@@ -75,7 +75,7 @@ def check_contact_sums(run, window):
     largest_of |= dict.fromkeys(("area", "volume"), tools["V"].max())
     compare_tables(run.path, mine, tools, lambda column: largest_of[column.rsplit("_", 1)[0]])
     for key in ("small_diameter", "large_diameter", "dimension", "species", "step", "length", "length_z", "layer",
-                "window", "gravity_x", "gravity_y", "gravity_z", "input", "partition", "power", "base"):
+                "window", "gravity_x", "gravity_y", "gravity_z", "input", "bed", "partition", "power", "base"):
         if mine.header.get(key) != tools.header.get(key):
             raise Difference(f"{run.path}: '{key}: {mine.header.get(key)}', by the tool {tools.header.get(key)}")
 
@@ -173,6 +173,17 @@ def check_all_fits(sample):
     run_tool("stress", "synthetic-1.h5", "--partition", "power:2", "--window", "0.04", "--layer", "2dS", "-o", "spheres.tsv")
     check_fits(["spheres.tsv"])
     check_kinetic_fit("kinetic.tsv")
+    check_runs()
+
+
+def check_runs():
+    """Which tables are of one run, as grseg-fit counts them."""
+    names = ["first.tsv", "second.tsv"]
+    if set(grseg.Points([grseg.read_table(name) for name in names]).run) != {0}:
+        raise Difference("first.tsv and second.tsv are of one run")
+    run_tool("fit", *names, "--bootstrap", "0", "-o", "fit.tsv")
+    if rows_of("fit.tsv")[1]["runs"] != "1":
+        raise Difference("grseg-fit counts first.tsv and second.tsv as two runs")
 
 
 def no_shares(run, i, j, gap):
@@ -220,7 +231,8 @@ def main():
                 check_run(os.path.join(source, "tests", "inputs", f"three-grains-{version}.h5"), {"window": 0.1},
                           unfinished=version == "1.0")
             for path in runs:
-                check_run(path, {"layer": "2dS", "window": 0.04}, {"layer": "7mm", "window": 0.03, "stride": 2})
+                check_run(path, {"layer": "2dS", "window": 0.04}, {"layer": "7mm", "window": 0.03, "stride": 2},
+                          {"layer": "3dS", "window": "all", "begin": 0.01})
             check_run("spheres.h5", {"layer": "3dS", "window": 0.4})
             check_run("discs.h5", {"layer": "2dS", "window": 0.03})
             check_run(sample, {"window": 5, "begin": 3.3, "end": 14}, {"layer": "1.5dS", "window": 2.5, "stride": 3})

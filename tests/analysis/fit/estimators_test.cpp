@@ -16,6 +16,7 @@ namespace {
 
 using synthetic::any_tensor;
 using synthetic::fit;
+using synthetic::moved;
 using synthetic::neutral_data;
 using synthetic::neutral_sums;
 using synthetic::power_law;
@@ -282,8 +283,9 @@ TEST(Intervals, OfIndependentWindowsAreThoseOfAMean)
   for (int k = 0; k < 40; ++k) {
     // + - + + - - - + and its negative: correlations of neighbours cancel to a few per cent.
     const double sign = "+-++---+-+--+++-"[k % 16] == '+' ? 1 : -1;
-    rows.push_back({1.0 * k, k + 1.0, 10,
-                    separate_sums(0.5, std::exp(0.1 * sign) * any_tensor(), any_tensor())});
+    rows.push_back(
+        {1.0 * k, k + 1.0, 10,
+         moved(separate_sums(0.5, std::exp(0.1 * sign) * any_tensor(), any_tensor()), k)});
   }
   const auto data = read({stress_table(rows)});
   const auto result = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));

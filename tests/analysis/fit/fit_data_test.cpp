@@ -40,14 +40,69 @@ TEST(FitData, AWeightIsFramesTimesGrainsOfTheRarerSpecies)
 TEST(FitData, LayersOfOneWindowShareItAndRunsFollowOneAnother)
 {
   const auto sums = neutral_sums(0.3, 2);
-  const auto others = neutral_sums(0.4, 2);
   const auto a = stress_table({{0, 1, 9, sums}, {0, 1, 9, sums}, {1, 2, 9, sums}});
-  const auto b = stress_table({{1, 2, 9, others}, {0, 1, 9, others}});
+  const auto b = stress_table({{1, 2, 9, neutral_sums(0.4, 2)}, {0, 1, 9, neutral_sums(0.41, 2)}});
   const auto data = read({a, b});
   EXPECT_EQ(data.runs, (RunLengths{2, 2}));
   std::vector<std::size_t> windows;
   for (const auto& sample : data.samples) windows.push_back(sample.window);
   EXPECT_EQ(windows, (std::vector<std::size_t>{0, 0, 1, 3, 2}));
+}
+
+/// Windows of a run with this history from `begin` on.
+Table table_of_run(const std::vector<std::string>& history, int begin, double noise)
+{
+  std::vector<TableRow> rows;
+  for (int k = begin; k < begin + 10; ++k) {
+    auto sums = neutral_sums(0.4, 2);
+    sums.of(OwnSum::inside, 1) *= 1 + noise * synthetic::scatter(static_cast<std::size_t>(k));
+    rows.push_back({1.0 * k, k + 1.0, 9, sums});
+  }
+  auto table = stress_table(rows);
+  for (const auto& line : history) table.header.emplace_back("history", line);
+  table.header.emplace_back("history", "grseg-stress");
+  table.header.emplace_back("input", "xxh3 " + history.back() + std::to_string(noise));
+  return table;
+}
+
+// Given in any order, and whatever the digests of the two files.
+TEST(FitData, ARunAndItsContinuationAreOneRunWithItsWindowsInLine)
+{
+  const auto early = table_of_run({"grseg-sim a.ini"}, 0, 0.1);
+  const auto late = table_of_run({"grseg-sim a.ini", "grseg-sim --restart a.chk"}, 10, 0.1);
+  const auto data = read({late, early});
+  EXPECT_EQ(data.runs, (RunLengths{20}));
+  for (std::size_t k = 0; k < 20; ++k) EXPECT_EQ(data.samples[k].window, (k + 10) % 20);
+  const auto other = table_of_run({"grseg-sim b.ini"}, 0, 0.2);
+  EXPECT_EQ(read({late, early, other}).runs, (RunLengths{20, 10}));
+}
+
+// As if each window had twice as many layers: the interval is that of one of the two.
+TEST(FitData, ATwinAddsNoObservations)
+{
+  const std::string twin = "grseg-sim --restart a.chk --perturb 1e-6 --seed-perturbation ";
+  const auto a = table_of_run({"grseg-sim a.ini", twin + "1"}, 0, 0.1);
+  const auto b = table_of_run({"grseg-sim a.ini", twin + "2"}, 0, 0.10001);
+  const auto both = read({a, b}), one = read({a});
+  EXPECT_EQ(both.runs, (RunLengths{10}));
+  EXPECT_EQ(both.samples.size(), 20u);
+  const auto width = [](const FitData& data) {
+    const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
+    return fit.high.B_half - fit.low.B_half;
+  };
+  EXPECT_NEAR(width(both) / width(one), 1, 0.01);
+}
+
+TEST(FitData, WindowsInWhichNothingMovesAreOneObservationWithoutAnInterval)
+{
+  const auto still = table_of_run({"grseg-sim a.ini"}, 0, 1e-9);
+  const auto data = read({still});
+  EXPECT_EQ(data.runs, (RunLengths{1}));
+  EXPECT_EQ(data.still, 9u);
+  EXPECT_EQ(data.samples.size(), 10u);
+  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
+  EXPECT_TRUE(std::isnan(fit.low.B_half) && std::isnan(fit.high.B_sums));
+  EXPECT_EQ(fit.doubt, "one window is one observation, too few for an interval");
 }
 
 TEST(FitData, EachFilterCountsWhatItRemoves)

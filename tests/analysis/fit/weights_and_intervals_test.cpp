@@ -18,6 +18,7 @@ namespace grseg {
 namespace {
 
 using synthetic::any_tensor;
+using synthetic::moved;
 using synthetic::neutral_sums;
 using synthetic::read;
 using synthetic::separate_sums;
@@ -137,8 +138,9 @@ TEST(IntervalByHand, OfTheLineThroughTheOriginIsThatOfTheMeanSlope)
 {
   std::vector<TableRow> rows;
   for (int k = 0; k < 40; ++k)
-    rows.push_back({1.0 * k, k + 1.0, 10,
-                    separate_sums(0.2, 4 * (1 + 0.1 * sign(k)) * any_tensor(), any_tensor())});
+    rows.push_back(
+        {1.0 * k, k + 1.0, 10,
+         moved(separate_sums(0.2, 4 * (1 + 0.1 * sign(k)) * any_tensor(), any_tensor()), k)});
   const auto data = read({stress_table(rows)}, {.min_grains = 0});
   const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
   EXPECT_NEAR(fit.value.slope_linear, 1, 1e-12);
@@ -153,8 +155,9 @@ TEST(IntervalByHand, OfTheRatioOfSumsIsThatOfTheDirectFitWhereAllLayersAreAlike)
   std::vector<TableRow> rows;
   for (int k = 0; k < 40; ++k) {
     const double large = 0.25 + 0.01 * sign(k);
-    rows.push_back({1.0 * k, k + 1.0, 10,
-                    separate_sums(0.2, (1 - large) * any_tensor(), large * any_tensor())});
+    rows.push_back(
+        {1.0 * k, k + 1.0, 10,
+         moved(separate_sums(0.2, (1 - large) * any_tensor(), large * any_tensor()), k)});
   }
   const auto data = read({stress_table(rows)});
   const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
@@ -179,8 +182,9 @@ TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
   Eigen::VectorXd series(96);
   for (int k = 0; k < 96; ++k) {
     series[k] = -0.1 * slow(k);
-    rows.push_back({1.0 * k, k + 1.0, 10,
-                    separate_sums(0.5, std::exp(-series[k]) * any_tensor(), any_tensor())});
+    rows.push_back(
+        {1.0 * k, k + 1.0, 10,
+         moved(separate_sums(0.5, std::exp(-series[k]) * any_tensor(), any_tensor()), k)});
   }
   const auto data = read({stress_table(rows)}, {.min_grains = 0});
   const Bootstrap bootstrap(data.runs, 500, 1);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_table.hpp"
 
-#include "analysis/frames/distinct_runs.hpp"
 #include "formats/core/errors.hpp"
 
 #include <gtest/gtest.h>
@@ -90,14 +89,6 @@ TEST(LayerTable, LengthsAndTimesInTheHeaderArePositive)
     table.header = {{name, "0"}};
     EXPECT_EQ(refusal(table), "t.tsv: '# " + std::string(name) + ": 0' should be positive");
   }
-}
-
-TEST(DistinctRuns, AreTwoTablesWithoutStressInTheSameLayers)
-{
-  auto a = table_of({key(0, 1, 0, 0.02)}), b = a;
-  a.header = {{"input", "xxh3 1"}};
-  b.header = {{"input", "xxh3 2"}};
-  EXPECT_NO_THROW(require_distinct_runs({a, b}));
 }
 
 }  // namespace

@@ -119,6 +119,40 @@ TEST(MergeTables, TimesThatDifferByRoundingAreTheSameWindow)
   EXPECT_EQ(merged({a, b}).rows.size(), 1u);
 }
 
+// As of a run and its continuation from t = 2 s on: 2.2 - 2 is 0.20000000000000018.
+TEST(MergeTables, AWindowThatWasWrittenAsADifferenceOfTimesIsThatOfTheOthers)
+{
+  auto a = table("a", {row(0, 0, 10, 1)}), b = table("b", {row(3, 0, 10, 3)});
+  b.header[5].second = format_number((2 + 0.1) - 2);
+  ASSERT_NE(b.header[5], a.header[5]);
+  EXPECT_EQ(merged({a, b}).rows.size(), 2u);
+  b.header[5].second = "0.101";
+  EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "'# window: 0.1' and '# window: 0.101'"));
+  b.header[5].second = "0.1";
+  b.header[4].second = "0.019999999999999997";  // 4 times 0.005 by another way
+  EXPECT_EQ(merged({a, b}).rows.size(), 2u);
+}
+
+TEST(MergeTables, AllWindowsTogetherMayHaveHadAnyLength)
+{
+  auto b = table("b", {{0.1, 0.4, 30, sums(2), 0, 0.02}});
+  b.header[5].second = "0.3";
+  const auto t = merged({table("a", {row(0, 0, 10, 1)}), b}, true);
+  EXPECT_EQ(t.header_number("window"), 0.4);
+  EXPECT_EQ(cell(t, 0, "frames"), 40);
+}
+
+// Nothing in them says that a and b are different runs; c has another seed than d.
+TEST(MergeTables, SayWhereTablesMayBeOfOneRun)
+{
+  const auto doubt = merged({table("a", {row(0, 0, 10, 1)}), table("b", {row(0, 0, 30, 5)})});
+  EXPECT_TRUE(holds(doubt.header_text("doubt"), "a.tsv, b.tsv count as tables of different runs"));
+  auto c = table("c", {row(0, 0, 10, 1)}), d = table("d", {row(0, 0, 30, 5)});
+  for (auto* one : {&c, &d})
+    one->header.insert(one->header.begin() + 1, {"history", "grseg-sim x.ini --seed " + one->name});
+  EXPECT_FALSE(merged({c, d}).has_header("doubt"));
+}
+
 TEST(MergeTables, TheOrderOfTablesChangesNoByte)
 {
   std::vector<Table> tables{table("b", {row(0, 0, 7, 0.1), row(0, 1, 7, 1e-9)}),
@@ -152,6 +186,7 @@ TEST(MergeTables, HistoriesAndDigestsOfAllTablesAreKept)
       {"history", "grseg-sim of b"},
       {"input", "xxh3 b"},
       {"history", "grseg-stress --merge"},
+      {"doubt", t.header_text("doubt")},
       {"step", "0.001"},
       {"layer", "0.02"},
       {"window", "0.1"},

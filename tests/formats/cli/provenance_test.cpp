@@ -32,7 +32,8 @@ TEST_F(Provenance, ATableOfARunNamesProgramPresetCommandsAndTheDigestOfItsInput)
                         {"preset", "paper"},
                         {"history", "three grains by hand"},
                         {"history", "grseg-a x.h5"},
-                        {"input", digest}};
+                        {"input", digest},
+                        {"bed", "grains 3, sizes 2, crc32 e6b1d670"}};
   EXPECT_EQ(provenance(with_presets, "paper", run, "grseg-a x.h5"), expected);
 }
 
@@ -40,7 +41,7 @@ TEST_F(Provenance, AToolWithoutPresetsHasNoLineOnThem)
 {
   const TrajectoryReader run(three_grains_file());
   const auto header = provenance(without_presets, "none", run, "grseg-b x.h5");
-  ASSERT_EQ(header.size(), 4u);
+  ASSERT_EQ(header.size(), 5u);
   EXPECT_EQ(header[0].second, std::string("grseg-b ") + version());
   EXPECT_EQ(header[1].first, "history");
 }
@@ -69,6 +70,8 @@ TEST_F(Provenance, SettingsAreWhatIsLeftWhenSourcesAreTakenAway)
                                   {"preset", "none"},
                                   {"history", "h"},
                                   {"input", "i"},
+                                  {"bed", "b"},
+                                  {"doubt", "d"},
                                   {"verified", "all"},
                                   {"incomplete", "r"},
                                   {"layer", "1"},
@@ -76,8 +79,6 @@ TEST_F(Provenance, SettingsAreWhatIsLeftWhenSourcesAreTakenAway)
   EXPECT_EQ(settings_of(table), (Header{{"preset", "none"}, {"layer", "1"}, {"base", "half"}}));
 }
 
-}  // namespace
-}  // namespace grseg
 // 2.2 - 2 is 0.20000000000000018, and 1.4 times 5 mm are 0.0069999999999999993 m.
 TEST(Setting, IsTheSameUpToRoundOff)
 {
@@ -94,3 +95,5 @@ TEST(Setting, IsTheSameUpToRoundOff)
   EXPECT_FALSE(same_setting("unknown", "0.5"));
 }
 
+}  // namespace
+}  // namespace grseg

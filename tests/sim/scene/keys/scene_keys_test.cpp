@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/bed.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
 #include "sim/scene/keys/keys.hpp"
@@ -348,6 +349,16 @@ TEST(SceneKeys, ThatDifferAreFoundByWhatTheyBelongTo)
   EXPECT_EQ(differing_key(one, other, KeyRole::bed), "");
   EXPECT_EQ(differing_key(one, other, KeyRole::flow), "friction");
   EXPECT_EQ(differing_key(one, other, KeyRole::extent), "duration");
+}
+
+// The line "bed" of a table, by which runs are known again, leaves out what does not act on the motion.
+TEST(SceneKeys, ThoseOfExtentAndMachineAndWhichFramesAreWrittenDoNotActOnTheMotion)
+{
+  const std::set<std::string> of_frames{"frame-interval", "burst", "keep-deposition"};
+  for (const auto& key : scene_keys()) {
+    const bool acts = key.role == KeyRole::bed || key.role == KeyRole::flow;
+    EXPECT_EQ(acts_on_motion(key.name), acts && !of_frames.contains(key.name)) << key.name;
+  }
 }
 
 }  // namespace

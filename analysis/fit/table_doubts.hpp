@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit/fit_data.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grseg {
+
+/// What limits the independence of windows and runs, a sentence each, mostly none: runs that nothing
+/// tells apart, mixtures that share a run, windows between which nothing moves.
+std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
+                                          const std::vector<FitTable>& read, const FitData& data);
+
+}  // namespace grseg
