@@ -93,6 +93,7 @@ class DumpArchive : public Archive {
         moment.questions.push_back(question_of_columns(header));
       }
       if (columns_text_.empty()) {
+        dumps_.contacts().read_rows({}, values_);  // a header that does not fit its rows is damaged
         moment.contacts = {};
         return;
       }

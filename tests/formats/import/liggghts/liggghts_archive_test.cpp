@@ -197,5 +197,23 @@ TEST_F(Liggghts, AnUnknownNumberOfColumnsNeedsAMapping)
   EXPECT_EQ(moment.contacts.size(), 0u);
 }
 
+TEST_F(Liggghts, NamesOfColumnsThatDoNotFitTheRowsAreNotAskedForAMapping)
+{
+  std::ifstream file(inputs + "contacts-full35.dump");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  text.at(text.find("c_cp[2] c_cp[3]") + 7) = '$';
+  const auto damaged = (folder / "contacts.dump").string();
+  std::ofstream(damaged) << text;
+  auto archive = files("contacts-full35.dump");
+  archive.contacts = {damaged};
+  ArchiveMoment moment;
+  try {
+    open_liggghts(archive)->next(moment);
+    ADD_FAILURE() << "34 names and 35 numbers";
+  } catch (const FormatError& error) {
+    EXPECT_EQ(error.what(), damaged + ", line 10: a row of 35 columns, but the header names 34");
+  }
+}
+
 }  // namespace
 }  // namespace grseg
