@@ -23,11 +23,12 @@ void read_version(const MercuryLines& lines, const std::string& path, MercuryRes
         "'restart_version'. Files older than that name nothing; give --step, --gravity and "
         "--density instead",
         path));
+  if (words[0] == "MercuryDPM") return;  // then the version of the program, or "x.x"
   if (version == "2" || version == "3")
     restart.positional = version == "2" ? 2 : 3;
-  else if (version != "1.0" && version != "0.14")
-    lines.fail(fmt::format("version {} of .restart is not known; 0.14, 1.0, 2 and 3 are",
-                           in_quotes(version)));
+  else if (version != "1.0")
+    lines.fail(
+        fmt::format("version {} of .restart is not known; 1.0, 2 and 3 are", in_quotes(version)));
 }
 
 /// A line above the species.

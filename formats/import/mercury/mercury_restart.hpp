@@ -11,8 +11,8 @@
 namespace grseg {
 
 /// What a .restart of MercuryDPM states. Three versions are in use:
-///   MercuryDPM 1.0, 0.14, and restart_version 1.0 (until 2015): words and values in turn, a line
-///       per object (DPMBase::write); the last block, Interactions, holds the contacts. Written at
+///   MercuryDPM, with any version of the program (since 2018), and restart_version 1.0 (before):
+///       words and values in turn, a line per object (DPMBase::write); the last block, Interactions, holds the contacts. Written at
 ///       the beginning of a time step: forces are those of the positions, and of velocities half a
 ///       step before.
 ///   restart_version 3 and 2 (until 2013): grains as rows of numbers, without ids and contacts.

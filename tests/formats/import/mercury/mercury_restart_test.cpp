@@ -184,6 +184,12 @@ TEST_F(MercuryRestarts, UntilTwoThousandFifteenContactsHadNoPoint)
   expect_frames(series({.first_line = "restart_version 1.0 name chute", .contact_points = false}));
 }
 
+TEST_F(MercuryRestarts, TheVersionOfTheProgramMayBeAnyWord)
+{
+  for (const char* version : {"0.14", "1.1", "x.x"})
+    expect_frames(series({.first_line = fmt::format("MercuryDPM {} name chute", version)}));
+}
+
 TEST_F(MercuryRestarts, IdsAreThoseOfTheProgramAndNotRows)
 {
   expect_frames(series({.id_factor = 3}), 3);
