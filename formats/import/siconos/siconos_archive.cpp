@@ -49,7 +49,8 @@ class SiconosArchive : public Archive {
   Points points_;
   ArchiveFacts facts_;
 
-  // The step before, where it stands in the file.
+  // The state that the next step begins with, where it stands in the file.
+  bool knows_state_ = false;
   double previous_time_ = -HUGE_VAL;
   std::vector<Vec3> previous_velocity_;  // by body
   std::unordered_map<std::int64_t, Points::Row> previous_points_;
@@ -68,7 +69,7 @@ SiconosArchive::SiconosArchive(std::string path, File file)
       file_(std::move(file)),
       steps_(read_siconos_steps(file_, path_)),
       bodies_(read_siconos_bodies(file_, path_)),
-      places_(file_, "/data/dynamic", path_, "was it written by siconos.io.mechanics_run?"),
+      places_(file_, "/data/dynamic", path_, written_by),
       velocities_(file_, "/data/velocities", path_, "make the run write it (output_velocities)"),
       points_(file_, "/data/cf", path_, "make the run write it (output_contact_forces)")
 {
@@ -246,8 +247,9 @@ bool SiconosArchive::next(ArchiveMoment& moment)
     const auto place = places_.rows_of(*time, place_rows_);
     const auto velocity = velocities_.rows_of(*time, velocity_rows_);
     const auto point = points_.rows_of(*time, point_rows_);
-    const bool solved = *time > steps_.first || same_time(*time, steps_.first);
-    const bool whole = solved && !velocity_rows_.empty();
+    const bool whole = !velocity_rows_.empty();
+    const bool follows = knows_state_;
+    knows_state_ = follows || whole || steps_.has_start;
     if (whole) {
       moment = ArchiveMoment{};
       moment.time = *time;
@@ -259,24 +261,29 @@ bool SiconosArchive::next(ArchiveMoment& moment)
       enclose_grains(moment);
     }
     previous_time_ = *time;
-    if (whole) return true;
+    if (whole && follows) return true;
   }
   return false;
 }
 
 std::vector<std::string> SiconosArchive::remarks() const
 {
+  std::vector<std::string> remarks;
+  if (!steps_.has_start)
+    remarks.push_back(fmt::format(
+        "{}: the file does not have the state before its first step, which is left out", path_));
   if (steps_.every > 1)
-    return {fmt::format(
+    remarks.push_back(fmt::format(
         "{}: at most every {} steps were written (output_frequency), which does not tell contacts that "
         "had opened in the step before: their rows, with an impulse that no body felt, are among the "
         "others",
-        path_, steps_.every)};
-  if (left_out_ == 0) return {};
-  return {
-      fmt::format("{}: {} rows of /data/cf repeat a contact that had opened a step before, with "
-                  "an impulse that no body felt; they are left out",
-                  path_, left_out_)};
+        path_, steps_.every));
+  else if (left_out_ > 0)
+    remarks.push_back(
+        fmt::format("{}: {} rows of /data/cf repeat a contact that had opened a step before, with "
+                    "an impulse that no body felt; they are left out",
+                    path_, left_out_));
+  return remarks;
 }
 
 FileRole role_of(const FileStart& start)

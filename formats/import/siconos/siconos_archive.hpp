@@ -13,8 +13,9 @@ namespace grseg {
 ///
 /// * Forces: /data/cf holds impulses of a step on body ds1, so force = impulse / step. The step is
 ///   not in the file; it follows from /data/solv, which has a row per step that was written.
-/// * Moments: the times of /data/dynamic at which a step was solved. The initial state has no
-///   contacts and is left out.
+/// * Moments: the times of /data/dynamic but the first: a step was solved at each. The initial state
+///   has no contacts. Where it was taken away, its place is taken by the first step, of which remarks()
+///   says that it is left out.
 /// * Partners: ds1 == ds2 means that the partner is static: the static disc, box or convex hull that
 ///   the row's second point lies on. Static discs are grains with `fixed` set; they get the density
 ///   of the first mobile grain, and their ids, which are negative, become numbers after the last

@@ -2,6 +2,7 @@
 #include "formats/import/siconos/siconos_steps.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/import/siconos/siconos_table.hpp"
 
 #include <fmt/format.h>
 
@@ -12,10 +13,12 @@
 namespace grseg {
 namespace {
 
-/// The first column of a table.
-std::vector<double> times_of(hid_t file, const std::string& at, const std::string& path)
+using namespace siconos;
+
+/// The first column of /data/solv.
+std::vector<double> solved_times(hid_t file, const std::string& path)
 {
-  const hdf5::CheckedDataset table(file, at, H5T_FLOAT, 2, path);
+  const auto table = table_at(file, "/data/solv", path, written_by);
   table.require(1, 1, true);
   table.require(0, 1, true);
   const auto rows = table.dims()[0], columns = table.dims()[1];
@@ -26,27 +29,45 @@ std::vector<double> times_of(hid_t file, const std::string& at, const std::strin
   return times;
 }
 
+/// The first time of /data/dynamic.
+double first_time(hid_t file, const std::string& path)
+{
+  const auto time = Places(file, "/data/dynamic", path, written_by).time();
+  if (!time) throw FormatError(fmt::format("{}: /data/dynamic has no rows; {}", path, written_by));
+  return *time;
+}
+
+std::string why_not_later(double time, double before)
+{
+  if (same_time(time, before))
+    return "has the time of the row before it: single precision no longer separates two steps; write "
+           "fewer of them (output_frequency)";
+  return "is not later than the row before it: the file is damaged, or holds two runs";
+}
+
 }  // namespace
 
 SiconosSteps read_siconos_steps(hid_t file, const std::string& path)
 {
-  const auto solved = times_of(file, "/data/solv", path);
-  const double start = times_of(file, "/data/dynamic", path).front();
+  const auto solved = solved_times(file, path);
+  const double start = first_time(file, path);
   const auto fail = [&path](std::size_t row, const std::string& why) {
     throw FormatError(fmt::format("{}: row {} of /data/solv {}", path, row, why));
   };
-  // The first step is always written. Where the run was continued from another file, of which the
-  // initial state is not there, the steps that were written tell.
-  double rough = solved[0] - start;
-  if (!(rough > 0) && solved.size() > 1) rough = solved[1] - solved[0];
-  if (!(rough > 0) || !std::isfinite(rough))
-    fail(0, "is not later than the initial state, so there is no step");
-  const double steps = std::round((solved.back() - start) / rough);
-  SiconosSteps found{solved[0], (solved.back() - start) / std::max(1.0, steps), 1};
-  double before = start;
-  for (std::size_t k = 0; k < solved.size(); ++k) {
+  const bool has_start = start < solved[0] && !same_time(start, solved[0]);
+  const std::size_t first = has_start ? 0 : 1;
+  if (solved.size() <= first)
+    fail(
+        0,
+        "is the only one, and no state before it is in the file: nothing tells how long a step is");
+  double before = has_start ? start : solved[0];
+  const double begin = before, rough = solved[first] - begin;
+  if (!(rough > 0) || !std::isfinite(rough)) fail(first, why_not_later(solved[first], before));
+  const double steps = std::round((solved.back() - begin) / rough);
+  SiconosSteps found{(solved.back() - begin) / std::max(1.0, steps), 1, has_start};
+  for (std::size_t k = first; k < solved.size(); ++k) {
     const double apart = (solved[k] - before) / found.length, whole = std::round(apart);
-    if (whole < 1) fail(k, "is not later than the row before, so the times give no step");
+    if (whole < 1) fail(k, why_not_later(solved[k], before));
     if (!(std::abs(solved[k] - before - whole * found.length) <
           0.1 * found.length + 2.4e-7 * std::abs(solved[k])))
       fail(k, fmt::format(

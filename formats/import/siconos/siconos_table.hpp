@@ -14,10 +14,23 @@
 /// Columns as siconos 4.4 writes them (mechanics_run.py).
 namespace grseg::siconos {
 
+constexpr const char* written_by = "was it written by siconos.io.mechanics_run?";
+
 /// Two times of the tables that are the same one: single precision, two units in the last place.
 inline bool same_time(double a, double b)
 {
   return std::abs(a - b) <= 2.4e-7 * std::max(std::abs(a), std::abs(b));
+}
+
+/// FormatError, with `remedy` where there is no such table, unless a file of this size can hold it.
+inline hdf5::CheckedDataset table_at(hid_t file, const std::string& at, const std::string& path,
+                                     const char* remedy)
+{
+  if (!hdf5::exists(file, at))
+    throw FormatError(fmt::format("{}: {} is missing; {}", path, at, remedy));
+  hdf5::CheckedDataset table(file, at, H5T_FLOAT, 2, path);
+  table.require_possible(table.dims()[0]);
+  return table;
 }
 
 /// A table whose first column is time, read forward. Columns as in siconos 4.4, mechanics_run.py.
@@ -29,9 +42,7 @@ class TableInTime {
   TableInTime(hid_t file, const std::string& at, const std::string& path, const char* remedy)
       : path_(path)
   {
-    if (!hdf5::exists(file, at))
-      throw FormatError(fmt::format("{}: {} is missing; {}", path, at, remedy));
-    table_ = hdf5::CheckedDataset(file, at, H5T_FLOAT, 2, path);
+    table_ = table_at(file, at, path, remedy);
     table_.require(1, columns);
   }
 

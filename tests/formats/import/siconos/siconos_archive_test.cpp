@@ -345,6 +345,64 @@ TEST_F(DamagedSiconos, UnknownBodiesAreNamed)
   EXPECT_NE(said.find("row 7 of /data/cf names body 99"), std::string::npos) << said;
 }
 
+/// Copies `from` without what its tables have before `time`.
+void copy_from_time(const std::string& from, const std::string& to, float time)
+{
+  fs::copy_file(from, to);
+  const hid_t file = H5Fopen(to.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  for (const char* table : {"/data/dynamic", "/data/velocities", "/data/cf", "/data/solv"}) {
+    const hid_t id = H5Dopen2(file, table, H5P_DEFAULT), space = H5Dget_space(id);
+    hsize_t dims[2];
+    H5Sget_simple_extent_dims(space, dims, nullptr);
+    std::vector<float> values(dims[0] * dims[1]);
+    H5Dread(id, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    hsize_t first = 0;
+    while (first < dims[0] && values[first * dims[1]] < time) ++first;
+    dims[0] -= first;
+    H5Dset_extent(id, dims);
+    H5Dwrite(id, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, &values[first * dims[1]]);
+    H5Sclose(space);
+    H5Dclose(id);
+  }
+  H5Fclose(file);
+}
+
+TEST_F(DamagedSiconos, ARunWhoseFirstStatesWereTakenAwayHasTheOtherMoments)
+{
+  copy_from_time(discs, path, 0.0995F);  // discs.hdf5 has a step of 0.002 and 80 of them
+  const auto whole = all_of(*open(discs));
+  const auto archive = open(path);
+  const auto rest = all_of(*archive);
+  EXPECT_NEAR(*archive->facts().step, 0.002, 1e-8);
+  ASSERT_EQ(rest.size(), 30u);  // 0.1 is what the next step begins with
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    const auto& meant = whole[50 + k];
+    EXPECT_EQ(rest[k].step, meant.step);
+    EXPECT_EQ(rest[k].grains.velocity, meant.grains.velocity);
+    EXPECT_EQ(rest[k].contacts.i, meant.contacts.i);
+    EXPECT_LT(residual(rest[k], slope), 1e-5);
+  }
+  ASSERT_FALSE(archive->remarks().empty());
+  EXPECT_NE(archive->remarks()[0].find("does not have the state before its first step"),
+            std::string::npos);
+}
+
+TEST_F(DamagedSiconos, OneStepWithoutAStateBeforeItGivesNoLengthOfAStep)
+{
+  copy_from_time(discs, path, 0.159F);
+  EXPECT_NE(complaint().find("row 0 of /data/solv is the only one, and no state before it"),
+            std::string::npos)
+      << complaint();
+}
+
+TEST_F(DamagedSiconos, StepsAtOneTimeAreTheLimitOfSinglePrecision)
+{
+  const auto said = complaint([](hid_t file) { put(file, "/data/solv", 4 * 40, 0.08F); });
+  EXPECT_NE(said.find("row 40 of /data/solv has the time of the row before it: single precision"),
+            std::string::npos)
+      << said;
+}
+
 TEST_F(DamagedSiconos, TruncatedFilesAndTextAreRefused)
 {
   fs::copy_file(discs, path);
