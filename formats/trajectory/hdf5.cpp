@@ -11,9 +11,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 
 namespace grseg::hdf5 {
@@ -217,13 +219,14 @@ CheckedDataset::CheckedDataset(hid_t parent, const std::string& path, H5T_class_
 {
   if (!exists(parent, path)) fail("is missing");
   dataset_ = Dataset(H5Dopen2(parent, path.c_str(), H5P_DEFAULT));
-  if (!dataset_.valid()) fail("cannot be opened");
+  if (!dataset_.valid()) fail("cannot be opened: it is damaged, or a link out of the file");
 
   check_storage();
   const Type type(H5Dget_type(dataset_));
-  if (H5Tget_class(type) != kind) fail("does not hold the right kind of values");
-  if (kind == H5T_STRING ? H5Tis_variable_str(type) > 0 : H5Tget_size(type) > 8)
-    fail("has values of an unknown size");
+  if (H5Tget_class(type) != kind)
+    fail("does not hold the right kind of values: the file is damaged, or of another kind");
+  if (kind == H5T_STRING ? H5Tis_variable_str(type) > 0 : !is_usual_number(type))
+    fail("has values of an unusual type, which is not read; is the file damaged?");
 
   const Space space(H5Dget_space(dataset_));
   if (H5Sget_simple_extent_ndims(space) != rank)
@@ -297,6 +300,16 @@ void CheckedDataset::read_all(hid_t memory_type, void* data) const
 {
   if (H5Dread(dataset_, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     fail("cannot be read: the file is damaged or truncated");
+}
+
+bool is_usual_number(hid_t type)
+{
+  const auto bytes = H5Tget_size(type);
+  if (H5Tget_class(type) == H5T_INTEGER)
+    return bytes <= 8 && std::has_single_bit(bytes) && H5Tget_precision(type) == 8 * bytes;
+  const hid_t floats[] = {H5T_IEEE_F32LE, H5T_IEEE_F32BE, H5T_IEEE_F64LE, H5T_IEEE_F64BE};
+  return std::any_of(std::begin(floats), std::end(floats),
+                     [type](hid_t known) { return H5Tequal(type, known) > 0; });
 }
 
 hsize_t size_of_file(hid_t object)

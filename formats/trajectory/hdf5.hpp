@@ -97,9 +97,8 @@ void append_rows(hid_t dataset, hid_t memory_type, hsize_t rows, const void* dat
                  const std::string& what);
 
 /// A dataset opened for reading and checked before anything is read: FormatError, naming `file` and
-/// the path, unless it exists, holds numbers of class `kind` (H5T_INTEGER or H5T_FLOAT) of at most
-/// 8 bytes (or H5T_STRING of fixed length), has `rank` dimensions, and uses only plain storage and
-/// the filters deflate, shuffle and fletcher32. What is read must be possible for a file of this
+/// the path, unless it exists, holds usual numbers of class `kind` (H5T_INTEGER or H5T_FLOAT, or
+/// H5T_STRING of fixed length), has `rank` dimensions, and uses only plain storage and the filters deflate, shuffle and fletcher32. What is read must be possible for a file of this
 /// size, or it is refused before memory is allocated.
 class CheckedDataset {
  public:
@@ -133,6 +132,10 @@ class CheckedDataset {
   hsize_t most_bytes_ = 0;  // that a file of this size can hold
   std::string path_, file_;
 };
+
+/// Whether numbers of this type are those of any processor: integers of 1 to 8 bytes, IEEE single or
+/// double precision. A damaged description of a type makes other numbers of the same bytes.
+bool is_usual_number(hid_t type);
 
 /// Of the file that an object lies in, bytes.
 hsize_t size_of_file(hid_t object);

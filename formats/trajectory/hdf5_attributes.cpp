@@ -91,13 +91,15 @@ std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
   const auto attribute = attribute_of(parent, path, name);
   if (!attribute.valid()) return {};
   const Type type(H5Aget_type(attribute));
-  const auto kind = H5Tget_class(type);
   const auto count = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute)));
-  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || count < 0 || count > most_in_attribute)
-    throw FormatError(fmt::format("{}: '{}' of {} should hold numbers", file, name, path));
+  if (!is_usual_number(type) || count < 0 || count > most_in_attribute)
+    throw FormatError(
+        fmt::format("{}: '{}' of {} should hold numbers of a usual type; is the file damaged?",
+                    file, name, path));
   std::vector<double> numbers(static_cast<std::size_t>(count));
   if (count > 0 && H5Aread(attribute, H5T_NATIVE_DOUBLE, numbers.data()) < 0)
-    throw FormatError(fmt::format("{}: '{}' of {} cannot be read", file, name, path));
+    throw FormatError(
+        fmt::format("{}: '{}' of {} cannot be read: the file is damaged", file, name, path));
   return numbers;
 }
 
@@ -109,13 +111,15 @@ std::string text_in_attribute(hid_t parent, const std::string& path, const std::
   const Type type(H5Aget_type(attribute));
   const bool one = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute))) == 1;
   if (!one || H5Tget_class(type) != H5T_STRING || H5Tget_size(type) > most_in_attribute)
-    throw FormatError(fmt::format("{}: '{}' of {} should hold a text", file, name, path));
+    throw FormatError(
+        fmt::format("{}: '{}' of {} should hold a text; is the file damaged?", file, name, path));
   std::string text(H5Tget_size(type), '\0');
   char* grown = nullptr;
   const bool variable = H5Tis_variable_str(type) > 0;
   if (H5Aread(attribute, type, variable ? static_cast<void*>(&grown) : text.data()) < 0 ||
       (variable && grown == nullptr))
-    throw FormatError(fmt::format("{}: '{}' of {} cannot be read", file, name, path));
+    throw FormatError(
+        fmt::format("{}: '{}' of {} cannot be read: the file is damaged", file, name, path));
   if (variable) {
     text = grown;
     H5free_memory(grown);

@@ -35,7 +35,9 @@ OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& 
     : moments_(settings, columns), roster_(std::move(roster))
 {
   if (!moments_.next(moment))
-    throw FormatError("the archive holds no moment with grains and contacts");
+    throw FormatError(fmt::format(
+        "{}: the archive holds no moment with grains and contacts; is it whole?",
+        settings.files.grains.empty() ? settings.files.restart : settings.files.grains.front()));
   if (!roster_ && moment.grains.size() == 0)
     throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
   const auto full = roster_ ? full_moment(settings, columns) : moment;

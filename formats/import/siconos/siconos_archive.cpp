@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/siconos/siconos_archive.hpp"
 
+#include "formats/import/common/apart_archive.hpp"
 #include "formats/import/common/enclosing_cell.hpp"
 #include "formats/import/common/file_list.hpp"
 #include "formats/import/siconos/siconos_bodies.hpp"
@@ -297,7 +298,10 @@ std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
 {
   const auto names = archive_files(files.grains, "--grains");
   if (names.size() != 1) throw UsageError("--grains: a Siconos run is one HDF5 file");
-  return std::make_unique<SiconosArchive>(names[0], open_for_reading(names[0]));
+  silence();  // here, so that the library is set up once for both processes
+  return open_apart(names[0], [&] {
+    return std::make_unique<SiconosArchive>(names[0], open_for_reading(names[0]));
+  });
 }
 
 const ArchiveFormat siconos_format{

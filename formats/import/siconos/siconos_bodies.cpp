@@ -81,14 +81,14 @@ class Attributes {
   std::string text(const std::string& key) const
   {
     auto value = hdf5::text_in_attribute(file_, object_, key, name_);
-    if (value.empty()) fail(fmt::format("lacks the attribute '{}'", key));
+    if (value.empty()) lacks(key);
     return value;
   }
   /// Two components in a plane run, three otherwise; what lies behind them is left out.
   Vec3 vector(const std::string& key) const
   {
     const auto values = numbers(key);
-    if (values.size() < 2) fail(fmt::format("lacks the attribute '{}'", key));
+    if (values.size() < 2) lacks(key);
     return {values[0], values[1], values.size() > 2 ? values[2] : 0};
   }
   /// An angle about z in a plane run, a quaternion otherwise.
@@ -96,12 +96,16 @@ class Attributes {
   {
     const auto q = numbers(key);
     if (q.size() == 1) return Eigen::Quaterniond(Eigen::AngleAxisd(q[0], Vec3::UnitZ()));
-    if (q.size() != 4) fail(fmt::format("lacks the attribute '{}'", key));
+    if (q.size() != 4) lacks(key);
     return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
   }
   [[noreturn]] void fail(const std::string& why) const
   {
     throw FormatError(fmt::format("{}: {} {}", name_, object_, why));
+  }
+  [[noreturn]] void lacks(const std::string& key) const
+  {
+    fail(fmt::format("lacks the attribute '{}': the file is damaged, or of another program", key));
   }
 
  private:
@@ -187,7 +191,7 @@ SiconosBody read_body(hid_t file, const std::string& path, const std::string& na
     attributes.fail(fmt::format("has {} shapes, but only one is read", shapes.size()));
   SiconosBody body;
   const auto id = attributes.numbers("id");
-  if (id.size() != 1) attributes.fail("lacks the attribute 'id'");
+  if (id.size() != 1) attributes.lacks("id");
   body.id = std::llround(id[0]);
   const auto mass = attributes.numbers("mass");
   body.mass = mass.empty() ? 0 : mass[0];

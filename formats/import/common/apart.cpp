@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/common/apart.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <new>
+
+namespace grseg {
+namespace {
+
+// What a message may take: processor seconds, and bytes of memory beside those of the program. Right
+// files need a tenth of it.
+constexpr rlim_t patience = 1, bytes_per_second = 1 << 20;
+constexpr rlim_t memory = 128 << 20, memory_per_byte = 64;
+
+struct Header {
+  std::int32_t code = 0;  // 0: a message; otherwise the exit code of a ToolError
+  std::uint64_t bytes = 0;
+};
+
+/// Whether all bytes were passed; `pass` is read or write.
+template <class Pass, class Byte>
+bool pass_all(Pass pass, int end, Byte* bytes, std::size_t count)
+{
+  while (count > 0) {
+    const auto passed = pass(end, bytes, count);
+    if (passed < 0 && errno == EINTR) continue;
+    if (passed <= 0) return false;
+    bytes += passed;
+    count -= static_cast<std::size_t>(passed);
+  }
+  return true;
+}
+
+void write_message(int end, std::int32_t code, const std::string& text)
+{
+  const Header header{code, text.size()};
+  char bytes[sizeof header];
+  std::memcpy(bytes, &header, sizeof header);
+  if (!pass_all(write, end, static_cast<const char*>(bytes), sizeof header) ||
+      !pass_all(write, end, text.data(), text.size()))
+    _exit(exit_trouble);  // nobody listens any more
+}
+
+void limit_memory(rlim_t file_size)
+{
+  rlim_t pages = 0;  // of the program so far
+  rlimit limit{};
+  if (!(std::ifstream("/proc/self/statm") >> pages)) return;
+  if (getrlimit(RLIMIT_AS, &limit) != 0) return;
+  limit.rlim_cur = std::min(limit.rlim_cur, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) +
+                                                memory + memory_per_byte * file_size);
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+/// For the next message: SIGPROF ends the process.
+void limit_time(rlim_t file_size)
+{
+  itimerval once{};
+  once.it_value.tv_sec = static_cast<time_t>(patience + file_size / bytes_per_second);
+  setitimer(ITIMER_PROF, &once, nullptr);
+}
+
+/// All that the process does.
+[[noreturn]] void work_apart(int end, const std::string& file, const Apart::Work& work)
+{
+  std::error_code none;
+  const auto found = std::filesystem::file_size(file, none);
+  const rlim_t size = none ? 0 : found;
+  std::signal(SIGPROF, SIG_DFL);
+  const rlimit no_core{};
+  setrlimit(RLIMIT_CORE, &no_core);
+  limit_memory(size);
+  limit_time(size);
+  try {
+    work([&](const std::string& message) {
+      write_message(end, 0, message);
+      limit_time(size);
+    });
+  } catch (const ToolError& error) {
+    write_message(end, error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    write_message(end, exit_content,
+                  fmt::format("{}: asks for more memory than a file of this size can fill; the "
+                              "file is damaged: copy it again",
+                              file));
+  } catch (const std::exception& error) {
+    write_message(end, exit_content, fmt::format("{}: {}", file, error.what()));
+  }
+  _exit(exit_done);
+}
+
+/// Of a process that sent nothing more.
+std::string how_it_ends(int status)
+{
+  if (!WIFSIGNALED(status))
+    return fmt::format("ends in a crash (exit code {})", WEXITSTATUS(status));
+  if (WTERMSIG(status) == SIGPROF) return "does not end";
+  return fmt::format("ends in a crash (signal {})", WTERMSIG(status));
+}
+
+[[noreturn]] void rethrow(std::int32_t code, const std::string& sentence)
+{
+  if (code == exit_usage) throw UsageError(sentence);
+  if (code == exit_content) throw FormatError(sentence);
+  throw ToolError(static_cast<ExitCode>(code), sentence);
+}
+
+}  // namespace
+
+Apart::Apart(std::string file, const Work& work) : file_(std::move(file))
+{
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0)
+    throw RunError(fmt::format("{}: cannot be read: {}", file_, reason(errno)));
+  end_ = ends[0];
+  const pid_t parent = getpid();
+  process_ = fork();
+  if (process_ == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(exit_trouble);  // it ended before it was said
+    close(ends[0]);
+    work_apart(ends[1], file_, work);
+  }
+  const int error = errno;
+  close(ends[1]);
+  if (process_ > 0) return;
+  close(end_);
+  throw RunError(fmt::format("{}: cannot be read: {}", file_, reason(error)));
+}
+
+Apart::~Apart()
+{
+  close(end_);
+  if (process_ <= 0) return;
+  kill(process_, SIGKILL);
+  waitpid(process_, nullptr, 0);
+}
+
+const std::string& Apart::receive(const std::string& place)
+{
+  Header header;
+  char bytes[sizeof header];
+  if (!pass_all(read, end_, bytes, sizeof header)) explain_end(place);
+  std::memcpy(&header, bytes, sizeof header);
+  message_.resize(header.bytes);
+  if (!pass_all(read, end_, message_.data(), message_.size())) explain_end(place);
+  if (header.code != 0) rethrow(header.code, message_);
+  return message_;
+}
+
+void Apart::explain_end(const std::string& place)
+{
+  int status = 0;
+  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    throw RunError(
+        fmt::format("{}: the process that reads it was killed; is memory short?", file_));
+  throw FormatError(fmt::format("{}: reading it {}; the file is damaged: copy it again", place,
+                                how_it_ends(status)));
+}
+
+}  // namespace grseg
