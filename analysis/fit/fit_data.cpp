@@ -309,6 +309,7 @@ FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
   data.dimension = dimension_of(*tables.front().table);
   data.species = tables.front().species;
   std::vector<UsedRows> used;
+  used.reserve(tables.size());
   for (const auto& table : tables) used.push_back(used_rows(table, filters, pairs, data.count));
   const auto observations = observations_of(tables, used, data);
   for (std::size_t k = 0; k < tables.size(); ++k)

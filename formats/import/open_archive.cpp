@@ -3,6 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/import/common/file_start.hpp"
 #include "formats/import/csv/csv_archive.hpp"
 #include "formats/import/lammps/lammps_archive.hpp"
 #include "formats/import/liggghts/liggghts_archive.hpp"
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -62,6 +64,8 @@ std::unique_ptr<Archive> open_archive(const std::string& name, const ArchiveFile
   refuse_unless(format.takes_wall_columns, !files.wall_columns.empty(), "--wall-columns");
   refuse_unless(format.takes_map, !files.map.empty(), "--map");
   refuse_unless(format.takes_restart, !files.restart.empty(), "--restart");
+  if (!files.grains.empty() && std::filesystem::is_regular_file(files.grains.front()))
+    refuse_other_kind(files.grains.front());
   return format.open(files);
 }
 

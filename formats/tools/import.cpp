@@ -5,6 +5,7 @@
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/import/convert/importer.hpp"
+#include "formats/import/convert/proposed_files.hpp"
 #include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
@@ -64,6 +65,7 @@ int main(int argc, char** argv)
     check(settings);
     listen_to_signals();
     try {
+      settings = with_known_files(settings);
       const auto report = import_archive(settings, command_line(argc, argv));
       if (!settings.quiet) fmt::print(stderr, "{}", to_text(report));
       if (!settings.parts.part)

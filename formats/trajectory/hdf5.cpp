@@ -109,6 +109,12 @@ Properties without_time()
   return create;
 }
 
+bool is_hdf5(const std::string& path)
+{
+  silence();
+  return H5Fis_hdf5(path.c_str()) > 0;
+}
+
 File open_for_reading(const std::string& path, Properties access)
 {
   silence();

@@ -64,6 +64,9 @@ Properties newest_format();
 /// Settings for a new file whose root has no time of day: the same content gives the same bytes.
 Properties without_time();
 
+/// Whether a file begins as those of HDF5 do.
+bool is_hdf5(const std::string& path);
+
 /// Opens a file that anybody may have made, for reading: UsageError where it is missing or not a
 /// regular file, FormatError where HDF5 cannot open it. A file that a running (or killed) writer
 /// holds open in HDF5's SWMR mode can be read, too. `access`: further settings, changed.

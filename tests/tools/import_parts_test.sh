@@ -26,7 +26,7 @@ spheres="--format lammps --grains $source/data/sample/spheres/atoms.dump.gz
   --axes xz --boundary 1 --small 2 --large 3"
 in_parts 3 $spheres
 in_parts 13 $spheres --compression 4 # more parts than moments
-in_parts 2 $spheres --float32 --from step:140000
+in_parts 2 $spheres --float32 --begin step:140000
 in_parts 3 --format lammps --grains "$inputs/lammps/atoms.dump" --contacts "$inputs/lammps/contacts.dump" --units si \
   --step 1e-5 --gravity 9.8 --slope 23 --boundary 3 --columns i=2,j=3,dist=6,force=7,tangential=10
 

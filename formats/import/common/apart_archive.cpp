@@ -19,10 +19,10 @@ void each_of(Question& question, Pass& pass)
 template <class Pass>
 void each_of(ArchiveGrains& grains, Pass& pass)
 {
-  auto& [id, type, radius, mass, position, image, velocity, angular_velocity, force, fixed, missing,
-         unwrapped] = grains;
-  pass(id, type, radius, mass, position, image, velocity, angular_velocity, force, fixed, missing,
-       unwrapped);
+  auto& [id, type, type_names, radius, mass, position, image, velocity, angular_velocity, force,
+         fixed, missing, unwrapped] = grains;
+  pass(id, type, type_names, radius, mass, position, image, velocity, angular_velocity, force,
+       fixed, missing, unwrapped);
 }
 
 template <class Pass>
@@ -35,15 +35,15 @@ void each_of(ArchiveContacts& contacts, Pass& pass)
 template <class Pass>
 void each_of(ArchiveMoment& moment, Pass& pass)
 {
-  auto& [step, time, low, high, periodic, grains, contacts, place, questions] = moment;
-  pass(step, time, low, high, periodic, grains, contacts, place, questions);
+  auto& [step, time, low, high, periodic, cell, grains, contacts, place, questions] = moment;
+  pass(step, time, low, high, periodic, cell, grains, contacts, place, questions);
 }
 
 template <class Pass>
 void each_of(ArchiveFacts& facts, Pass& pass)
 {
-  auto& [step, density, gravity, discs, walls, units, late, tolerance, reason] = facts;
-  pass(step, density, gravity, discs, walls, units, late, tolerance, reason);
+  auto& [step, density, gravity, discs, walls, units, late, lists_all, tolerance, reason] = facts;
+  pass(step, density, gravity, discs, walls, units, late, lists_all, tolerance, reason);
 }
 
 namespace {

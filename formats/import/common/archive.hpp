@@ -24,6 +24,8 @@ namespace grseg {
 struct ArchiveGrains {
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> type;  // the archive's own number of a species
+  std::vector<std::string>
+      type_names;  // where it has words instead: that of type k is type_names[k]
   std::vector<double> radius, mass;
   std::vector<Vec3> position;                      // of the centre; may lie outside a periodic cell
   std::vector<std::array<std::int32_t, 3>> image;  // periods to add to `position`
@@ -38,6 +40,12 @@ struct ArchiveGrains {
   std::size_t size() const { return id.size(); }
   /// Whether the archive tells how often grains have crossed its periods.
   bool counts_periods() const { return unwrapped || !image.empty(); }
+  /// The type as the archive writes it.
+  std::string type_word(std::int32_t number) const
+  {
+    return type_names.empty() ? std::to_string(number)
+                              : type_names.at(static_cast<std::size_t>(number));
+  }
 };
 
 /// Adds to `missing` the names of the components that an archive lacks of a vector of which it has
@@ -155,6 +163,9 @@ struct ArchiveFormat {
   std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
   /// What a file holds that begins like this, if it looks like one of this format.
   FileRole (*role)(const FileStart&);
+  /// Whether it is of this program rather than of another one that writes such files, too; null where
+  /// there is none. Asked where --format does not say.
+  bool (*is_of_program)(const FileStart&) = nullptr;
   /// Which of these options apply to it; the others are refused.
   bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_map = false,
        takes_wall_contacts = false, takes_wall_columns = false;

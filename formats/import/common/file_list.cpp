@@ -27,14 +27,17 @@ std::string number_at(const std::string& text, std::size_t& at)
   return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
 
-std::vector<std::string> matches_of(const std::string& pattern)
+/// `%` stands for the number of a processor unless it is part of a name.
+std::vector<std::string> matches_of(std::string pattern)
 {
   glob_t found{};
   std::vector<std::string> names;
   if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
     names.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
   globfree(&found);
-  return names;
+  if (!names.empty() || pattern.find('%') == std::string::npos) return names;
+  std::replace(pattern.begin(), pattern.end(), '%', '*');
+  return matches_of(std::move(pattern));
 }
 
 }  // namespace
@@ -73,7 +76,7 @@ std::vector<std::string> archive_files(const std::vector<std::string>& names,
   if (names.empty()) throw UsageError(fmt::format("name files with {}", option));
   std::vector<std::string> files;
   for (const auto& name : names) {
-    if (name.find('*') == std::string::npos || std::filesystem::exists(name)) {
+    if (name.find_first_of("*%") == std::string::npos || std::filesystem::exists(name)) {
       require_file(name);
       files.push_back(name);
       continue;

@@ -6,8 +6,8 @@
 
 namespace grseg {
 
-/// The files meant by `names`, of which one may hold `*` and stand for many (one per step, as
-/// LAMMPS writes them), in natural order: atoms.9.dump before atoms.10.dump. UsageError naming
+/// The files meant by `names`, of which one may hold `*` and `%` and stand for many (one per step and
+/// one per processor, as LAMMPS writes them), in natural order: atoms.9.dump before atoms.10.dump. UsageError naming
 /// `option` where no file is named or one is missing.
 std::vector<std::string> archive_files(const std::vector<std::string>& names,
                                        const std::string& option);

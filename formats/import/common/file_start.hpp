@@ -16,7 +16,11 @@ struct FileStart {
   std::vector<std::string> groups;  // of HDF5: the names in its root
 };
 
-/// UsageError where the file is missing.
+/// UsageError where the file is missing or is a trajectory of grseg, FormatError where it is of a kind
+/// that no format reads (file_kind.hpp).
+void refuse_other_kind(const std::string& path);
+
+/// The same, and FormatError where the file is damaged.
 FileStart read_start(const std::string& path);
 
 }  // namespace grseg

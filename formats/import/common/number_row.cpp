@@ -5,10 +5,53 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace grseg {
+
+namespace {
+
+bool are_digits(std::string_view text)
+{
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// The exponent of "D-05", or of "-105" where its three digits leave Fortran no room for the letter;
+/// "" of other text.
+std::string_view exponent_of_fortran(std::string_view text)
+{
+  const bool has_letter = text.find_first_of("DdQq") == 0;
+  if (has_letter) text.remove_prefix(1);
+  const bool has_sign = text.find_first_of("+-") == 0;
+  const auto digits = text.substr(has_sign ? 1 : 0);
+  return are_digits(digits) && (has_letter || (has_sign && digits.size() == 3)) ? text : "";
+}
+
+/// What from_chars calls out of range is 0 where it is small.
+bool read_as_c(const std::string& text, double& number)
+{
+  number = std::strtod(text.c_str(), nullptr);
+  return std::isfinite(number);
+}
+
+}  // namespace
+
+bool read_number(std::string_view word, double& number)
+{
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const auto read = static_cast<std::size_t>(stop - word.data());
+  if (read == word.size() && error == std::errc()) return std::isfinite(number);
+  if (read == word.size() && error == std::errc::result_out_of_range)
+    return read_as_c(std::string(word), number);
+  const auto mantissa = word.substr(0, read), exponent = exponent_of_fortran(word.substr(read));
+  const bool is_decimal = !mantissa.empty() && mantissa.find_first_of("eEnN") == mantissa.npos;
+  if (!is_decimal || exponent.empty()) return false;
+  return read_as_c(fmt::format("{}e{}", mantissa, exponent), number);
+}
 
 void read_numbers(const TextSource& source, std::vector<double>& numbers, char separator)
 {
@@ -19,16 +62,12 @@ void read_numbers(const TextSource& source, std::vector<double>& numbers, char s
   for (;;) {
     while (at < end && is_between(*at)) ++at;
     if (at == end) return;
-    const char* word = at;
+    const char* const word = at;
+    at = std::find_if(at, end, is_between);
     double value = 0;
-    const auto parsed = std::from_chars(at + (*at == '+'), end, value);
-    at = parsed.ptr;
-    if (parsed.ec != std::errc() || !std::isfinite(value) || (at < end && !is_between(*at))) {
-      while (at < end && !is_between(*at)) ++at;
+    if (!read_number({word, at}, value))
       throw FormatError(fmt::format("{}: {} in column {} is not a finite number", source.place(),
-                                    in_quotes({word, static_cast<std::size_t>(at - word)}),
-                                    numbers.size() + 1));
-    }
+                                    in_quotes({word, at}), numbers.size() + 1));
     numbers.push_back(value);
   }
 }

@@ -2,12 +2,17 @@
 #include "formats/import/common/text_source.hpp"
 
 #include "formats/cli/interruption.hpp"
+#include "formats/core/byte_order_mark.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "formats/import/common/file_kind.hpp"
+#include "formats/import/common/zstd_decoder.hpp"
 
 #include <boost/iostreams/device/file.hpp>
+#include <boost/iostreams/filter/bzip2.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
-#include <boost/iostreams/filter/zstd.hpp>
+#include <boost/iostreams/filter/lzma.hpp>
+#include <boost/iostreams/filter/symmetric.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <fmt/format.h>
 
@@ -15,6 +20,7 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <span>
 
 namespace grseg {
 namespace {
@@ -24,16 +30,45 @@ namespace io = boost::iostreams;
 constexpr std::size_t buffer_size = 1 << 20;
 constexpr std::streamsize filter_buffer = 1 << 16;
 
-enum class Packing { none, gzip, zstd };
+using Stream = io::filtering_streambuf<io::input>;
 
-Packing packing_of(const std::string& file)
+/// Pushes the filter that unpacks `file`, if its first bytes say that it is packed. (zstd may begin with
+/// a frame to be skipped.)
+void push_unpacking(const std::string& file, Stream& stream)
 {
-  std::array<char, 4> head{};
+  std::array<char, 6> head{};
   std::ifstream(file, std::ios::binary).read(head.data(), head.size());
   const std::string_view bytes(head.data(), head.size());
-  if (bytes.starts_with("\x1f\x8b")) return Packing::gzip;
-  if (bytes == "\x28\xb5\x2f\xfd") return Packing::zstd;
-  return Packing::none;
+  if (bytes.starts_with("\x1f\x8b"))
+    stream.push(io::gzip_decompressor(io::gzip::default_window_bits, filter_buffer), filter_buffer);
+  else if (bytes.starts_with("BZh") && bytes[3] >= '1' && bytes[3] <= '9')
+    stream.push(io::bzip2_decompressor(false, filter_buffer), filter_buffer);
+  else if (bytes == std::string_view("\xfd\x37zXZ\0", 6))
+    stream.push(io::lzma_decompressor(filter_buffer), filter_buffer);
+  else if (bytes.starts_with("\x28\xb5\x2f\xfd") || bytes.substr(1, 3) == "\x2a\x4d\x18")
+    stream.push(io::symmetric_filter<ZstdDecoder>(filter_buffer), filter_buffer);
+}
+
+std::unique_ptr<Stream> open_unpacked(const std::string& file)
+{
+  require_file(file);
+  auto stream = std::make_unique<Stream>();
+  push_unpacking(file, *stream);
+  stream->push(io::file_source(file, std::ios::binary), filter_buffer);
+  return stream;
+}
+
+/// Fills `to` as far as the file goes. FormatError where its packed data are damaged or end early.
+std::size_t read_from(Stream& stream, std::span<char> to, const std::string& file,
+                      std::size_t lines_before)
+{
+  try {
+    return static_cast<std::size_t>(stream.sgetn(to.data(), std::ssize(to)));
+  } catch (const std::exception& error) {
+    throw FormatError(fmt::format(
+        "{}, after line {}: the compressed data is damaged or truncated ({}); copy the file again",
+        file, lines_before, error.what()));
+  }
 }
 
 }  // namespace
@@ -41,7 +76,7 @@ Packing packing_of(const std::string& file)
 struct TextSource::Impl {
   std::vector<std::string> files;
   std::size_t opened = 0;  // files
-  std::unique_ptr<io::filtering_streambuf<io::input>> stream;
+  std::unique_ptr<Stream> stream;
   // Memory that a small file does not fill is never touched.
   std::unique_ptr<char[]> buffer = std::make_unique_for_overwrite<char[]>(buffer_size);
   std::size_t begin = 0, end = 0;  // of what is not yet handed out
@@ -51,6 +86,7 @@ struct TextSource::Impl {
 
   const std::string& file() const { return files[opened - 1]; }
   void open_next();
+  void read_start();
   std::size_t read_more();
   bool take_line();
 };
@@ -59,14 +95,19 @@ void TextSource::Impl::open_next()
 {
   ++opened;
   number = 0;
-  require_file(file());
-  stream = std::make_unique<io::filtering_streambuf<io::input>>();
-  const auto packing = packing_of(file());
-  if (packing == Packing::gzip)
-    stream->push(io::gzip_decompressor(io::gzip::default_window_bits, filter_buffer),
-                 filter_buffer);
-  if (packing == Packing::zstd) stream->push(io::zstd_decompressor(filter_buffer), filter_buffer);
-  stream->push(io::file_source(file(), std::ios::binary), filter_buffer);
+  stream = open_unpacked(file());
+  read_start();
+}
+
+/// A byte-order mark is passed over. FormatError where the file is of a kind that is no text archive.
+void TextSource::Impl::read_start()
+{
+  constexpr std::size_t enough = 4096;
+  read_more();
+  const std::string_view start(buffer.get(), std::min(end, enough));
+  if (start.starts_with(byte_order_mark)) begin = byte_order_mark.size();
+  if (const auto kind = other_kind(start); !kind.empty())
+    throw FormatError(fmt::format("{} {}", file(), kind));
 }
 
 /// Fills the buffer behind what is left in it; 0 at the end of the file.
@@ -79,16 +120,9 @@ std::size_t TextSource::Impl::read_more()
   if (end == buffer_size)
     throw FormatError(fmt::format("{}, line {}: is longer than a megabyte; is this a text archive?",
                                   file(), number + 1));
-  std::streamsize count = 0;
-  try {
-    count = stream->sgetn(buffer.get() + end, static_cast<std::streamsize>(buffer_size - end));
-  } catch (const std::exception& error) {
-    throw FormatError(fmt::format(
-        "{}, after line {}: the compressed data is damaged or truncated ({}); copy the file again",
-        file(), number, error.what()));
-  }
-  end += static_cast<std::size_t>(count);
-  return static_cast<std::size_t>(count);
+  const auto count = read_from(*stream, {buffer.get() + end, buffer_size - end}, file(), number);
+  end += count;
+  return count;
 }
 
 /// The next line of the file that is open; false where there is none.
@@ -146,9 +180,22 @@ bool TextSource::line_is_whole() const
   return impl_->whole;
 }
 
+const std::string& TextSource::file() const
+{
+  return impl_->file();
+}
+
 std::string TextSource::place() const
 {
   return fmt::format("{}, line {}", impl_->file(), impl_->number);
+}
+
+std::string unpacked_start(const std::string& file, std::size_t bytes)
+{
+  const auto stream = open_unpacked(file);
+  std::string start(bytes, '\0');
+  start.resize(read_from(*stream, start, file, 0));
+  return start;
 }
 
 std::vector<std::string_view> words_of(std::string_view line)

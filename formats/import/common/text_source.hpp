@@ -9,9 +9,10 @@
 namespace grseg {
 
 /// The lines of one or many text files, one after the other, holding about a megabyte at a time.
-/// Files compressed by gzip or zstd (recognised by their first bytes) are unpacked on the way.
-/// UsageError where a file is missing, FormatError naming file and line where compressed data is
-/// damaged or a line longer than a megabyte, RunError where the disk fails.
+/// Files packed by gzip, bzip2, xz or zstd (recognised by their first bytes) are unpacked on the way,
+/// and byte-order marks of UTF-8 are passed over. UsageError where a file is missing, FormatError
+/// naming file and line where packed data are damaged or end early, where a line is longer than a
+/// megabyte, or where a file is of another kind (file_kind.hpp); RunError where the disk fails.
 class TextSource {
  public:
   explicit TextSource(std::vector<std::string> files);
@@ -24,6 +25,8 @@ class TextSource {
   std::string_view line() const;
   /// False where the line ends with its file: the rest of it may be missing.
   bool line_is_whole() const;
+  /// The file that `line` is of.
+  const std::string& file() const;
   /// "atoms.dump, line 12": where `line` is.
   std::string place() const;
 
@@ -31,6 +34,10 @@ class TextSource {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The first bytes of a file, unpacked, or all it has. UsageError where it is missing, FormatError where
+/// its packed data are damaged or end so early.
+std::string unpacked_start(const std::string& file, std::size_t bytes);
 
 /// The words of a line, which are separated by blanks.
 std::vector<std::string_view> words_of(std::string_view line);

@@ -82,7 +82,7 @@ void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame<D>& 
     if (!frame.position[g].allFinite() || !frame.velocity[g].allFinite() ||
         !is_finite(frame.angular_velocity[g]) ||
         (!frame.force.empty() && !frame.force[g].allFinite()))
-      fail(fmt::format("grain {}", bed_.grains.id[g]));
+      fail(fmt::format("grain {}", bed_.known.id[g]));
   };
   for (const auto id : moment.grains.id)
     require_of_grain(static_cast<std::size_t>(bed_.rows.find(id)));
@@ -91,7 +91,7 @@ void FrameBuilder::require_numbers(const ArchiveMoment& moment, const Frame<D>& 
     if (!contacts.force[c].allFinite() || !contacts.branch[c].allFinite() ||
         !std::isfinite(contacts.gap[c]))
       fail(fmt::format("a contact of grain {}",
-                       bed_.grains.id[static_cast<std::size_t>(contacts.i[c])]));
+                       bed_.known.id[static_cast<std::size_t>(contacts.i[c])]));
 }
 
 void FrameBuilder::require_same_cell(const ArchiveMoment& moment) const
@@ -132,7 +132,7 @@ void FrameBuilder::place_grains(const ArchiveMoment& moment, Frame<D>& frame) co
   if (counts_periods_ && from.size() > 0 && !from.counts_periods())
     throw FormatError(fmt::format(
         "{}: moments before tell how often grains have crossed the periods, and this one "
-        "does not; import them separately, with --from and --to",
+        "does not; import them separately, with --begin and --end",
         moment.place));
   if (from.velocity.empty() && from.size() > 0)
     throw FormatError(fmt::format("{}: the grains have no velocities", moment.place));

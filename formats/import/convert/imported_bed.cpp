@@ -15,7 +15,7 @@ namespace grseg {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr auto most_ids = std::numeric_limits<std::int32_t>::max();
+constexpr auto largest_id = std::numeric_limits<std::int32_t>::max();  // in a trajectory
 
 /// Where walls bound the flow and nothing is said of base grains, there are none.
 SpeciesSettings base_settings(const ArchiveMoment& first, const RunFacts& facts,
@@ -53,9 +53,8 @@ void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
   if (from.size() == 0)
     throw FormatError(fmt::format("{}: the first moment has no grains", first.place));
   for (std::size_t g = 0; g < from.size(); ++g) {
-    if (from.id[g] < 0 || from.id[g] > most_ids)
-      throw FormatError(
-          fmt::format("{}: id {} is not between 0 and 2^31", first.place, from.id[g]));
+    if (from.id[g] < 0)
+      throw FormatError(fmt::format("{}: id {} is negative", first.place, from.id[g]));
     if (!(from.radius[g] > 0))
       throw FormatError(
           fmt::format("{}: grain {} has the radius {:g}", first.place, from.id[g], from.radius[g]));
@@ -72,7 +71,6 @@ void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
     if (!ids.empty() && ids.back() == from.id[g])
       throw FormatError(fmt::format("{}: grain {} appears twice", first.place, from.id[g]));
     ids.push_back(from.id[g]);
-    grains.id.push_back(static_cast<std::int32_t>(from.id[g]));
     grains.species.push_back(species.species[g]);
     grains.radius.push_back(from.radius[g]);
     grains.mass.push_back(mass[g]);
@@ -80,12 +78,16 @@ void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
     const auto keep = [g](const auto& its, auto& kept) {
       if (!its.empty()) kept.push_back(its[g]);
     };
+    keep(from.id, known.id);
     keep(from.radius, known.radius);
     keep(from.mass, known.mass);
     keep(from.type, known.type);
     keep(from.fixed, known.fixed);
   }
   rows = RowsById(ids);
+  has_new_ids = ids.back() > largest_id;
+  for (const auto id : ids)
+    grains.id.push_back(static_cast<std::int32_t>(has_new_ids ? grains.id.size() + 1 : id));
 }
 
 void ImportedBed::make_box(const ArchiveMoment& first)

@@ -34,9 +34,10 @@ struct ImportedBed {
   Box box;
   SpeciesFound species;
   RowsById rows;
-  ArchiveGrains known;           // by row, what a grain keeps: radius, mass, type, fixed
-  std::string cell;              // how long it is along x and z and who says so, a line each
-  double origin = 0;             // height in the archive that is y = 0
+  ArchiveGrains known;       // by row, what a grain keeps: id, radius, mass, type, fixed
+  bool has_new_ids = false;  // those of the archive do not fit a trajectory: 1, 2, 3 in their order
+  std::string cell;          // how long it is along x and z and who says so, a line each
+  double origin = 0;         // height in the archive that is y = 0
   Vec3 shift = Vec3::Zero();     // to be added to components of positions
   std::vector<Period> periods;   // of the cell: none, along x, along z, or along both
   std::vector<WallPlane> walls;  // of --wall

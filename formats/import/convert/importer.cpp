@@ -98,6 +98,8 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   numbers["import_tolerance"] = {frames.tolerance()};
   numbers["import_origin"] = {frames.builder().bed().origin};
   numbers["import_units"] = {units.length, units.time, units.mass};
+  const auto& bed = frames.builder().bed();
+  if (bed.has_new_ids) numbers["import_ids"] = {bed.known.id.begin(), bed.known.id.end()};
 
   auto& texts = run.parameters.texts;
   texts["program"] = "grseg-import " + version_with_hash();
@@ -116,8 +118,9 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
     texts["import_images"] = frames.builder().counts_periods() ? "known" : "unknown";
   if (!facts.walls.empty()) texts["import_walls"] = fmt::format("{}", fmt::join(facts.walls, ", "));
   if (settings.interval) numbers["import_frame_interval"] = {*settings.interval * units.time};
-  if (settings.from) texts["import_from"] = *settings.from;
-  if (settings.to) texts["import_to"] = *settings.to;
+  if (settings.begin) texts["import_begin"] = *settings.begin;
+  if (settings.end) texts["import_end"] = *settings.end;
+  if (settings.repeated) texts["import_repeated"] = *settings.repeated;
   texts["import_instant"] =
       "positions, velocities and forces are those of the archive at `time`, not of the middle of a "
       "step";
@@ -159,9 +162,15 @@ std::vector<std::string> remarks_of(const VerifiedFrames<D>& frames)
   if (!frames.range().is_all())
     remarks.push_back(
         fmt::format("only moments in the range {} are imported", frames.range().text()));
+  if (auto repeated = frames.repeated().remark(); !repeated.empty())
+    remarks.push_back(std::move(repeated));
   if (const auto& roster = frames.roster())
     remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} present",
                                   roster->all.grains.size(), roster->fewest, roster->most));
+  if (frames.builder().bed().has_new_ids)
+    remarks.emplace_back(
+        "ids beyond 2^31 are 1, 2, 3, ... in their order; /parameters/import_ids has those of the "
+        "archive");
   if (frames.walls()) remarks.push_back(frames.walls()->remark());
   if (!frames.has_force())
     remarks.emplace_back("the archive has no forces on grains, and the trajectory none");

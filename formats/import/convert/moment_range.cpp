@@ -41,8 +41,8 @@ MomentBound parse_bound(const std::string& text, const std::string& option)
                   option, text));
 }
 
-MomentRange::MomentRange(const std::optional<std::string>& from,
-                         const std::optional<std::string>& to)
+MomentRange::MomentRange(const std::optional<std::string>& begin,
+                         const std::optional<std::string>& end)
 {
   const auto take = [&](const std::optional<std::string>& text, const char* option) {
     std::optional<MomentBound> bound;
@@ -51,8 +51,8 @@ MomentRange::MomentRange(const std::optional<std::string>& from,
     text_ += fmt::format("{}{} {}", text_.empty() ? "" : " ", option, *text);
     return bound;
   };
-  from_ = take(from, "--from");
-  to_ = take(to, "--to");
+  begin_ = take(begin, "--begin");
+  end_ = take(end, "--end");
 }
 
 /// -1, 0 or 1: the moment comes before the bound, at it, or after it.
@@ -81,8 +81,8 @@ MomentRange::Side MomentRange::side(const ArchiveMoment& moment)
 {
   last_ = in_words(moment);
   if (count_++ == 0) first_ = last_;
-  if (from_ && compare(moment, *from_, "--from") < 0) return Side::before;
-  if (to_ && compare(moment, *to_, "--to") > 0) return Side::after;
+  if (begin_ && compare(moment, *begin_, "--begin") < 0) return Side::before;
+  if (end_ && compare(moment, *end_, "--end") >= 0) return Side::after;
   return Side::within;
 }
 

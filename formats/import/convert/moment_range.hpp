@@ -9,7 +9,7 @@
 
 namespace grseg {
 
-/// One end of a range of moments, as --from and --to give it.
+/// One end of a range of moments, as --begin and --end give it.
 struct MomentBound {
   std::optional<double> time;  // in the archive's units; otherwise
   std::int64_t step = 0;
@@ -18,12 +18,12 @@ struct MomentBound {
 /// "12.5", a time, or "step:100000". UsageError naming `option` otherwise.
 MomentBound parse_bound(const std::string& text, const std::string& option);
 
-/// The moments of an archive that are imported: from <= t <= to. Times count as equal to nine
+/// The moments of an archive that are imported: begin <= t < end. Times count as equal to nine
 /// digits, so that step times the length of a step meets a time that was typed.
 class MomentRange {
  public:
   /// UsageError where a text is not a bound.
-  MomentRange(const std::optional<std::string>& from, const std::optional<std::string>& to);
+  MomentRange(const std::optional<std::string>& begin, const std::optional<std::string>& end);
 
   /// The length of a step, with which a moment that has only a step or only a time is compared with
   /// the other.
@@ -35,16 +35,16 @@ class MomentRange {
 
   /// Of all moments so far: "12 moments from t = 0 (step 0) to t = 1.1 (step 110000)".
   std::string seen() const;
-  /// "--from 5 --to 6"
+  /// "--begin 5 --end 6"
   std::string text() const;
   bool any_seen() const { return count_ > 0; }
-  bool is_all() const { return !from_ && !to_; }
+  bool is_all() const { return !begin_ && !end_; }
 
  private:
   int compare(const ArchiveMoment& moment, const MomentBound& bound, const char* option) const;
 
   std::string text_;
-  std::optional<MomentBound> from_, to_;
+  std::optional<MomentBound> begin_, end_;
   std::optional<double> step_;
   std::size_t count_ = 0;
   std::string first_, last_;

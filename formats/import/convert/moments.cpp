@@ -15,6 +15,22 @@ ArchiveFiles with_columns(ArchiveFiles files, const std::string& columns)
   return files;
 }
 
+/// Of all moments, as they follow in the archive.
+std::vector<double> times_of(Archive& archive)
+{
+  std::vector<double> times;
+  ArchiveMoment moment;
+  try {
+    while (archive.next_grains(moment)) {
+      stop_if_interrupted();
+      times.push_back(RepeatedMoments::time_of(moment));
+    }
+  } catch (const TruncatedArchive&) {
+    // Told when it is imported.
+  }
+  return times;
+}
+
 }  // namespace
 
 Moments::Moments(const ImportSettings& settings, const std::string& columns)
@@ -23,8 +39,12 @@ Moments::Moments(const ImportSettings& settings, const std::string& columns)
       interval_(settings.interval),
       drop_incomplete_(settings.drop_incomplete),
       cells_(parse_cells(settings.cells)),
-      range_(settings.from, settings.to)
+      repeated_(parse_repeated(settings.repeated)),
+      range_(settings.begin, settings.end)
 {
+  if (repeated_.needs_all_times())
+    repeated_.set_times(
+        times_of(*open_archive(settings.format, with_columns(settings.files, columns))));
 }
 
 bool Moments::read_one(ArchiveMoment& moment, Read read)
@@ -57,6 +77,7 @@ bool Moments::advance(ArchiveMoment& moment, Read read)
 {
   while (!ended_ && read_one(moment, read)) {
     stop_if_interrupted();
+    if (!repeated_.counts(moment)) continue;
     range_.set_step(step_ ? step_ : archive_->facts().step);
     const auto side = range_.side(moment);
     if (side == MomentRange::Side::within) return found_ = true;

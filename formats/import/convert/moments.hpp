@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/import/convert/moment_range.hpp"
+#include "formats/import/convert/repeated_moments.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "formats/import/facts/told_cell.hpp"
 
@@ -11,7 +12,7 @@
 
 namespace grseg {
 
-/// The moments of an archive between --from and --to, one after another; with --drop-incomplete they
+/// The moments of an archive between --begin and --end, in order of time; with --drop-incomplete they
 /// end before one that is incomplete.
 class Moments {
  public:
@@ -25,6 +26,7 @@ class Moments {
 
   const Archive& archive() const { return *archive_; }
   const MomentRange& range() const { return range_; }
+  const RepeatedMoments& repeated() const { return repeated_; }
 
  private:
   using Read = bool (Archive::*)(ArchiveMoment&);
@@ -36,6 +38,7 @@ class Moments {
   std::optional<double> step_, interval_;  // --step, --frame-interval
   bool drop_incomplete_;
   std::vector<ToldCell> cells_;
+  RepeatedMoments repeated_;
   MomentRange range_;
   bool found_ = false, ended_ = false;
 };

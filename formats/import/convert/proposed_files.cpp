@@ -3,6 +3,7 @@
 
 #include "formats/import/common/file_list.hpp"
 #include "formats/import/common/file_start.hpp"
+#include "formats/import/common/text_source.hpp"
 #include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
@@ -13,25 +14,27 @@
 namespace grseg {
 namespace {
 
-/// Files by what they hold for one format.
+/// Files that were named without an option, by what they hold for one format.
 struct Roles {
   std::vector<std::string> grains, contacts, restart;
+  bool any_grains = false;  // also in files that were named with an option
 };
 
-/// None where the format does not know one of the files, or none of them holds grains.
-std::optional<Roles> roles_for(const ArchiveFormat& format, const std::vector<std::string>& paths,
+/// None where the format does not know one of the files.
+std::optional<Roles> roles_for(const ArchiveFormat& format, const std::vector<std::string>& unnamed,
                                const std::vector<FileStart>& starts)
 {
   Roles roles;
-  for (std::size_t k = 0; k < paths.size(); ++k) {
+  for (std::size_t k = 0; k < starts.size(); ++k) {
     const auto role = format.role(starts[k]);
     if (role == FileRole::none) return std::nullopt;
+    roles.any_grains = roles.any_grains || role == FileRole::grains;
+    if (k >= unnamed.size()) continue;
     (role == FileRole::grains     ? roles.grains
      : role == FileRole::contacts ? roles.contacts
                                   : roles.restart)
-        .push_back(paths[k]);
+        .push_back(unnamed[k]);
   }
-  if (roles.grains.empty() && roles.restart.empty()) return std::nullopt;
   return roles;
 }
 
@@ -72,31 +75,7 @@ std::string listed(const std::vector<std::string>& names)
   return fmt::format("{}", fmt::join(quoted, " "));
 }
 
-/// The first format that knows all files; the one that was named, if any.
-const ArchiveFormat* recognize(const std::string& named, const std::vector<std::string>& paths,
-                               Roles& roles)
-{
-  if (paths.empty()) return nullptr;
-  std::vector<FileStart> starts;
-  for (const auto& path : paths) {
-    starts.push_back(read_start(path));
-    const auto& groups = starts.back().groups;
-    if (std::find(groups.begin(), groups.end(), "h5md") != groups.end())
-      throw UsageError(fmt::format(
-          "{} is a trajectory of grseg already; grseg-stress and the other tools read it as it is",
-          path));
-  }
-  for (const auto* format : archive_formats()) {
-    if (!named.empty() && named != format->name) continue;
-    if (const auto found = roles_for(*format, paths, starts)) {
-      roles = *found;
-      return format;
-    }
-  }
-  return nullptr;
-}
-
-/// One of many files is enough to see what they are.
+/// One of many files is enough to see what they are; first those without an option.
 std::vector<std::string> samples_of(const ArchiveFiles& files)
 {
   std::vector<std::string> names = files.unnamed;
@@ -104,6 +83,46 @@ std::vector<std::string> samples_of(const ArchiveFiles& files)
     if (!list->empty()) names.push_back(archive_files(*list, "--grains").front());
   if (!files.restart.empty()) names.push_back(archive_files({files.restart}, "--restart").front());
   return names;
+}
+
+/// UsageError naming a file without an option of which no format knows what it holds.
+[[noreturn]] void refuse_unknown(const std::string& named, const std::vector<std::string>& unnamed,
+                                 const std::vector<FileStart>& starts)
+{
+  const auto formats = archive_formats();
+  for (std::size_t k = 0; k < unnamed.size(); ++k) {
+    const bool is_known = std::any_of(formats.begin(), formats.end(), [&](const auto* format) {
+      return (named.empty() || named == format->name) && format->role(starts[k]) != FileRole::none;
+    });
+    if (is_known) continue;
+    throw UsageError(fmt::format(
+        "{}: what it holds{} is not known{}; name it with --grains or --contacts{}", unnamed[k],
+        named.empty() ? "" : " of --format " + named,
+        starts[k].lines.empty() ? "" : " by its first line, " + in_quotes(starts[k].lines.front()),
+        named.empty() ? ", and its --format" : ""));
+  }
+  throw UsageError(
+      "the files are not of one program; name its --format, and the files with --grains and --contacts");
+}
+
+/// The first format that knows all files; the one that was named, if any. Null where there is none and
+/// all files were named with an option.
+const ArchiveFormat* recognize(const std::string& named, const ArchiveFiles& files, Roles& roles)
+{
+  std::vector<FileStart> starts;
+  for (const auto& path : samples_of(files)) starts.push_back(read_start(path));
+  if (starts.empty()) return nullptr;
+  for (const auto* format : archive_formats()) {
+    if (!named.empty() && named != format->name) continue;
+    const bool may_be = !named.empty() || format->is_of_program == nullptr ||
+                        std::all_of(starts.begin(), starts.end(), format->is_of_program);
+    const auto found = may_be ? roles_for(*format, files.unnamed, starts) : std::nullopt;
+    if (!found) continue;
+    roles = *found;
+    return format;
+  }
+  if (!files.unnamed.empty()) refuse_unknown(named, files.unnamed, starts);
+  return nullptr;
 }
 
 std::string known_formats()
@@ -130,13 +149,31 @@ bool names_all_files(const ImportSettings& settings)
          (!files.contacts.empty() || !needs_contacts(settings));
 }
 
-/// Asks for files that were not given an option, and takes what is proposed.
+/// Takes files for what they hold, and says so in a question, if there are any to ask.
 void take(std::vector<std::string>& place, const std::vector<std::string>& found,
-          const Question& question, Questions& questions)
+          const Question& question, Questions* questions)
 {
-  if (!place.empty() || found.empty()) return;
-  questions.ask({question.what, question.option + " " + listed(found), question.reason});
+  if (found.empty()) return;
+  if (!place.empty())
+    throw UsageError(fmt::format("{} is among {}, too: name it behind {}", found.front(),
+                                 question.what, question.option));
+  if (questions != nullptr)
+    questions->ask({question.what, question.option + " " + listed(found), question.reason});
   place = found;
+}
+
+void take_all(const Roles& roles, const ArchiveFormat& format, ArchiveFiles& files,
+              Questions* questions)
+{
+  take(files.grains, roles.grains, {"the files with the grains", "--grains", ""}, questions);
+  if (format.takes_contacts && (roles.any_grains || roles.restart.empty()))
+    take(files.contacts, roles.contacts, {"the files with the contacts", "--contacts", ""},
+         questions);  // restart files alone hold them
+  std::vector<std::string> restart;
+  if (files.restart.empty())
+    take(restart, roles.restart, {"the restart file", "--restart", ""}, questions);
+  if (!restart.empty()) files.restart = restart.size() == 1 ? restart.front() : pattern_of(restart);
+  files.unnamed.clear();
 }
 
 /// What cannot be proposed. Without it nothing can be read.
@@ -152,32 +189,33 @@ void ask_for_the_rest(const ImportSettings& settings, Questions& questions)
 
 }  // namespace
 
+ImportSettings with_known_files(const ImportSettings& settings)
+{
+  if (settings.format.empty() || settings.files.unnamed.empty()) return settings;
+  require_format(settings.format);
+  auto known = settings;
+  Roles roles;
+  const auto* format = recognize(settings.format, settings.files, roles);
+  take_all(roles, *format, known.files, nullptr);
+  return known;
+}
+
 ImportSettings with_proposed_files(const ImportSettings& settings, Questions& questions)
 {
-  auto proposed = settings;
   if (settings.output.empty()) questions.ask({"the trajectory to write", "-o run.h5", ""});
   if (!settings.format.empty()) require_format(settings.format);
-  if (names_all_files(settings)) return proposed;
+  auto proposed = with_known_files(settings);
+  if (names_all_files(proposed)) return proposed;
 
-  auto& files = proposed.files;
   Roles roles;
-  const auto* format = recognize(settings.format, samples_of(files), roles);
+  const auto* format = recognize(proposed.format, proposed.files, roles);
   if (settings.format.empty())
     questions.ask({"the program that wrote it",
                    fmt::format("--format {}", format == nullptr ? "NAME" : format->name),
                    format == nullptr ? known_formats() : "by the look of its files"});
   if (format != nullptr) {
     proposed.format = format->name;
-    take(files.grains, roles.grains, {"the files with the grains", "--grains", ""}, questions);
-    if (format->takes_contacts && !roles.grains.empty())  // restart files alone hold them
-      take(files.contacts, roles.contacts, {"the files with the contacts", "--contacts", ""},
-           questions);
-    std::vector<std::string> restart;
-    if (files.restart.empty())
-      take(restart, roles.restart, {"the restart file", "--restart", ""}, questions);
-    if (!restart.empty())
-      files.restart = restart.size() == 1 ? restart.front() : pattern_of(restart);
-    files.unnamed.clear();
+    take_all(roles, *format, proposed.files, &questions);
   }
   ask_for_the_rest(proposed, questions);
   return proposed;

@@ -25,6 +25,7 @@ class Collector {
     roster_.most = std::max(roster_.most, now.size());
     for (std::size_t g = 0; g < now.size(); ++g) add_grain(moment, g);
     if (now.size() > 0) roster_.all.grains.missing = now.missing;
+    roster_.all.grains.type_names = now.type_names;
     if (now.size() > 0) counts_periods_ = counts_periods_ && now.counts_periods();
   }
   Roster finish();
@@ -103,8 +104,8 @@ void Collector::add_new(const ArchiveMoment& moment, std::size_t g)
   const auto require = [&](const auto& values, const char* what) {
     if (!values.empty() && values.size() != all.size())
       throw FormatError(fmt::format(
-          "{}: some moments have {} of grains and some do not; import them separately, with --from "
-          "and --to",
+          "{}: some moments have {} of grains and some do not; import them separately, with --begin "
+          "and --end",
           moment.place, what));
   };
   require(all.type, "types");
@@ -172,13 +173,13 @@ void require_same_grain(const ArchiveGrains& known, std::size_t row, const Archi
   };
   constexpr const char* used_again =
       "was its id used again after a grain had been removed? Then import the moments before and "
-      "after it separately, with --from and --to";
+      "after it separately, with --begin and --end";
   constexpr const char* later =
       "was its mass set only after it had been poured in, or its id used again after a removal? Then "
-      "import the moments before and after it separately, with --from and --to";
+      "import the moments before and after it separately, with --begin and --end";
   constexpr const char* frozen =
       "grains that are frozen or let go later are another bed: import the phases separately, with "
-      "--from and --to";
+      "--begin and --end";
   const auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(a)); };
   const auto compare = [&](const auto& before, const auto& after, const char* what,
                            const auto& different, const char* remedy) {

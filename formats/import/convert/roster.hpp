@@ -20,7 +20,7 @@ struct Roster {
   bool grains_change() const { return fewest < all.grains.size(); }
 };
 
-/// Reads the grains of all moments between --from and --to. FormatError naming moment and grain
+/// Reads the grains of all moments between --begin and --end. FormatError naming moment and grain
 /// where an id occurs twice at a moment or changes what a grain keeps (require_same_grain).
 Roster read_roster(const ImportSettings& settings);
 

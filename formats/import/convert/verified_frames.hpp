@@ -40,6 +40,7 @@ class VerifiedFrames {
   const Archive& archive() const { return opened_.archive(); }
   const std::shared_ptr<const Roster>& roster() const { return opened_.roster(); }
   const MomentRange& range() const { return opened_.range(); }
+  const RepeatedMoments& repeated() const { return opened_.repeated(); }
   const RunFacts& facts() const { return opened_.facts; }
   const FrameBuilder& builder() const { return *builder_; }
   /// Those of --wall; null where there are none.

@@ -9,9 +9,11 @@
 #include "formats/import/csv/csv_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <sstream>
 
@@ -41,17 +43,26 @@ enum Column : std::size_t {
   fy,
   fz
 };
-constexpr CsvTable::Column columns[] = {
-    {"time|t", false},      {"step|timestep|iteration|cycle", false},
-    {"id", true},           {"x", true},
-    {"y", false},           {"z", false},
-    {"radius|r", false},    {"diameter|d", false},
-    {"vx", true},           {"vy", false},
-    {"vz", false},          {"wx|omegax", false},
-    {"wy|omegay", false},   {"omega|wz|omegaz", false},
-    {"mass|m", false},      {"type|species", false},
-    {"fixed", false, true}, {"fx", false},
-    {"fy", false},          {"fz", false}};
+constexpr CsvTable::Column columns[] = {{"time|t", false},
+                                        {"step|timestep|iteration|cycle", false},
+                                        {"id", true, CsvTable::Column::ids},
+                                        {"x", true},
+                                        {"y", false},
+                                        {"z", false},
+                                        {"radius|r", false},
+                                        {"diameter|d", false},
+                                        {"vx", true},
+                                        {"vy", false},
+                                        {"vz", false},
+                                        {"wx|omegax", false},
+                                        {"wy|omegay", false},
+                                        {"omega|wz|omegaz", false},
+                                        {"mass|m", false},
+                                        {"type|species", false, CsvTable::Column::words},
+                                        {"fixed", false, CsvTable::Column::truth},
+                                        {"fx", false},
+                                        {"fy", false},
+                                        {"fz", false}};
 }  // namespace of_grain
 
 namespace of_contact {
@@ -89,24 +100,27 @@ void add_missing(const CsvTable& table, std::size_t x, const std::array<const ch
 std::int64_t whole_number_at(const CsvTable& table, std::size_t row, std::size_t column,
                              const char* what)
 {
+  constexpr double most = 9e15;  // beyond 2^53 a double cannot represent every whole number
   const double value = table.value(row, column);
-  if (!(std::abs(value) < 2147483648.0) || std::trunc(value) != value)
+  if (!(std::abs(value) < most) || std::trunc(value) != value)
     fail_at(table, row, fmt::format("{:g} is not {}", value, what));
   return static_cast<std::int64_t>(value);
 }
 
-std::vector<std::string> all_names()
+std::int32_t wall_at(const CsvTable& table, std::size_t row, std::int64_t j)
+{
+  if (j < std::numeric_limits<std::int32_t>::min())
+    fail_at(table, row, fmt::format("{} is not a wall", j));
+  return j < 0 ? static_cast<std::int32_t>(-j - 1) : -1;
+}
+
+std::vector<std::string> all_names(std::span<const CsvTable::Column> columns)
 {
   std::vector<std::string> names;
-  const auto add = [&names](std::span<const CsvTable::Column> columns) {
-    for (const auto& column : columns) {
-      std::istringstream words(column.names);
-      for (std::string word; std::getline(words, word, '|');)
-        if (std::find(names.begin(), names.end(), word) == names.end()) names.push_back(word);
-    }
-  };
-  add(of_grain::columns);
-  add(of_contact::columns);
+  for (const auto& column : columns) {
+    std::istringstream words(column.names);
+    for (std::string word; std::getline(words, word, '|');) names.push_back(word);
+  }
   return names;
 }
 
@@ -127,24 +141,27 @@ class CsvArchive : public Archive {
 
  private:
   bool next_of_both();
-  void fill(ArchiveGrains& grains) const;
+  void require_no_moments();
+  void fill(ArchiveGrains& grains);
   void fill(ArchiveContacts& contacts) const;
 
-  CsvMap map_;
+  CsvMap grains_map_, contacts_map_;
   CsvTable grains_, contacts_;
   CsvComments comments_;
   ArchiveFacts facts_;
   std::size_t grains_alone_ = 0, contacts_alone_ = 0;
+  bool any_of_both_ = false;
 };
 
 CsvArchive::CsvArchive(const ArchiveFiles& files)
-    : map_(files.map, all_names()),
-      grains_(csv_files(files.grains, "--grains"), of_grain::columns, map_),
-      contacts_(csv_files(files.contacts, "--contacts"), of_contact::columns, map_),
+    : grains_map_(files.map, all_names(of_grain::columns), all_names(of_contact::columns)),
+      contacts_map_(files.map, all_names(of_contact::columns), all_names(of_grain::columns)),
+      grains_(csv_files(files.grains, "--grains"), of_grain::columns, grains_map_),
+      contacts_(csv_files(files.contacts, "--contacts"), of_contact::columns, contacts_map_),
       comments_(read_csv_comments(grains_.comments())),
       facts_(comments_.facts)
 {
-  map_.require_all_used();
+  grains_map_.require_all_used(contacts_map_);
   require_y_or_z(grains_, of_grain::x, "y");
   require_y_or_z(grains_, of_grain::vx, "vy");
   require_y_or_z(contacts_, of_contact::fx, "fy");
@@ -165,7 +182,9 @@ bool CsvArchive::next_of_both()
           contacts_.moment().is_step ? "steps" : "times",
           grains_.moment().is_step ? "steps" : "times"));
     const double a = grains_.moment().value, b = contacts_.moment().value;
-    if (std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b))) return true;
+    const double scale =
+        std::max({std::abs(a), std::abs(b), grains_.interval(), contacts_.interval()});
+    if (std::abs(a - b) <= 1e-9 * scale) return any_of_both_ = true;
     if (a < b) {
       ++grains_alone_;
       more_grains = grains_.next();
@@ -174,7 +193,24 @@ bool CsvArchive::next_of_both()
       more_contacts = contacts_.next();
     }
   }
+  if (!any_of_both_) require_no_moments();
   return false;
+}
+
+/// Where both tables have moments, but none in common.
+void CsvArchive::require_no_moments()
+{
+  constexpr std::size_t enough = 3;
+  for (auto* table : {&grains_, &contacts_})
+    while (table->first_moments().size() < enough && table->next()) {
+    }
+  const auto &of_grains = grains_.first_moments(), &of_contacts = contacts_.first_moments();
+  if (of_grains.empty() || of_contacts.empty()) return;
+  throw FormatError(fmt::format(
+      "no moment is in both tables: {0} of the grains begin with {1:.10g}, those of the contacts with "
+      "{2:.10g}; write the same {0} in both",
+      grains_.moment().is_step ? "steps" : "times", fmt::join(of_grains, ", "),
+      fmt::join(of_contacts, ", ")));
 }
 
 bool CsvArchive::next(ArchiveMoment& moment)
@@ -199,10 +235,11 @@ bool CsvArchive::next(ArchiveMoment& moment)
   return true;
 }
 
-void CsvArchive::fill(ArchiveGrains& grains) const
+void CsvArchive::fill(ArchiveGrains& grains)
 {
   using namespace of_grain;
-  const auto& table = grains_;
+  auto& table = grains_;
+  std::vector<double> types;
   for (std::size_t k = 0; k < table.rows(); ++k) {
     grains.id.push_back(whole_number_at(table, k, id, "an id"));
     grains.position.push_back(vector_at(table, k, x));
@@ -212,11 +249,11 @@ void CsvArchive::fill(ArchiveGrains& grains) const
                                                 : table.value(k, diameter) / 2);
     if (has_any(table, wx)) grains.angular_velocity.push_back(vector_at(table, k, wx));
     if (table.has(mass)) grains.mass.push_back(table.value(k, mass));
-    if (table.has(type))
-      grains.type.push_back(static_cast<std::int32_t>(whole_number_at(table, k, type, "a type")));
+    if (table.has(type)) types.push_back(table.value(k, type));
     if (table.has(fixed)) grains.fixed.push_back(table.value(k, fixed) != 0);
     if (has_any(table, fx)) grains.force.push_back(vector_at(table, k, fx));
   }
+  table.words().fill(types, table.begin(), grains);
   add_missing(table, x, {"x", "y", "z"}, grains.missing);
   add_missing(table, vx, {"vx", "vy", "vz"}, grains.missing);
   add_missing(table, wx, {"wx", "wy", "wz"}, grains.missing);
@@ -233,7 +270,7 @@ void CsvArchive::fill(ArchiveContacts& contacts) const
       fail_at(table, k, "a contact with a wall needs its branch, columns bx and by (and bz)");
     contacts.i.push_back(whole_number_at(table, k, i, "an id"));
     contacts.j.push_back(second);
-    contacts.wall.push_back(second < 0 ? static_cast<std::int32_t>(-second - 1) : -1);
+    contacts.wall.push_back(wall_at(table, k, second));
     contacts.force.push_back(vector_at(table, k, fx));
     if (table.has(overlap)) contacts.overlap.push_back(table.value(k, overlap));
     if (has_any(table, bx)) contacts.branch.push_back(vector_at(table, k, bx));
@@ -266,7 +303,7 @@ FileRole role_of(const FileStart& start)
                          [&](std::string_view known) { return plain_name(known) == name; });
     };
     if (has("j") || has("id2")) return FileRole::contacts;
-    return has("x") && has("y") ? FileRole::grains : FileRole::none;
+    return has("x") && (has("y") || has("z")) ? FileRole::grains : FileRole::none;
   }
   return FileRole::none;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/csv/csv_comments.hpp"
 
-#include "formats/import/common/text_source.hpp"
+#include "formats/import/common/number_row.hpp"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,19 @@
 namespace grseg {
 namespace {
 
+/// NaN where the next word is not a number.
+double next_number(std::istream& text)
+{
+  std::string word;
+  double number = NAN;
+  return text >> word && read_number(word, number) ? number : NAN;
+}
+
 bool read_period(std::istream& text, CsvComments& found)
 {
   std::string axis;
-  double low = NAN, high = NAN;
-  text >> axis >> low >> high;
+  text >> axis;
+  const double low = next_number(text), high = next_number(text);
   const auto k = std::string_view("xyz").find(axis);
   if (axis.size() != 1 || k == std::string_view::npos || !(low < high)) return false;
   found.periodic[k] = true;
@@ -27,17 +35,16 @@ bool read_period(std::istream& text, CsvComments& found)
 bool read_gravity(std::istream& text, CsvComments& found)
 {
   Vec3 gravity;
-  text >> gravity.x() >> gravity.y() >> gravity.z();
+  for (double& component : gravity) component = next_number(text);
   found.facts.gravity = gravity;
-  return !text.fail() && gravity.allFinite();
+  return gravity.allFinite();
 }
 
 bool read_step(std::istream& text, CsvComments& found)
 {
-  double step = 0;
-  text >> step;
+  const double step = next_number(text);
   found.facts.step = step;
-  return step > 0 && std::isfinite(step);
+  return step > 0;
 }
 
 bool read_units(std::istream& text, CsvComments& found)

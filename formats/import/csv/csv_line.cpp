@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/csv/csv_line.hpp"
 
+#include "formats/import/common/number_row.hpp"
+
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace grseg {
 namespace {
@@ -56,10 +56,8 @@ bool CsvNumbers::read(std::string_view field, double& number)
 {
   const auto comma = may_have_comma_ ? field.find(',') : std::string_view::npos;
   const bool has_comma = comma != std::string_view::npos, has_point = field.find('.') != field.npos;
-  if (has_comma || has_point) {
-    if (sign_ == 0) sign_ = has_comma ? ',' : '.';
-    if (has_comma == has_point || (sign_ == ',') != has_comma) return false;
-  }
+  const char sign = has_comma ? ',' : has_point ? '.' : sign_;
+  if ((has_comma && has_point) || (sign_ != 0 && sign != sign_)) return false;
   char text[64];
   if (has_comma) {
     if (field.size() > sizeof text) return false;
@@ -67,9 +65,9 @@ bool CsvNumbers::read(std::string_view field, double& number)
     text[comma] = '.';
     field = {text, field.size()};
   }
-  if (field.starts_with('+')) field.remove_prefix(1);
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-  return error == std::errc() && end == field.data() + field.size() && std::isfinite(number);
+  const bool is_number = read_number(field, number);
+  if (is_number) sign_ = sign;
+  return is_number;
 }
 
 const char* CsvNumbers::why_not(std::string_view field) const

@@ -15,8 +15,8 @@ char csv_separator(std::string_view names);
 /// around a field go. They are views into `line`.
 void split_csv(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
-/// Numbers with a point or, where commas do not separate columns, with a comma, the same in the
-/// whole table.
+/// Numbers as C or Fortran writes them (number_row.hpp), with a point or, where commas do not separate
+/// columns, with a comma, the same in the whole table.
 class CsvNumbers {
  public:
   explicit CsvNumbers(char separator = ' ') : may_have_comma_(separator != ',') {}

@@ -8,9 +8,41 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <iterator>
+#include <set>
 #include <sstream>
 
 namespace grseg {
+namespace {
+
+bool is_in(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_row(const std::string& name)
+{
+  return name == "row" || name == "row+1";
+}
+
+std::vector<std::string> of_both(std::vector<std::string> names,
+                                 const std::vector<std::string>& others)
+{
+  std::copy_if(others.begin(), others.end(), std::back_inserter(names),
+               [&](const std::string& other) { return !is_in(names, other); });
+  return names;
+}
+
+/// 0: the name is not a number.
+std::size_t column_number(const std::string& name)
+{
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end == name.data() + name.size() ? number : 0;
+}
+
+}  // namespace
 
 std::string bare_name(std::string_view text)
 {
@@ -26,24 +58,71 @@ std::string plain_name(std::string_view text)
   return bare_name(text.substr(0, text.find_first_of("[(")));
 }
 
-CsvMap::CsvMap(const std::vector<std::string>& given, const std::vector<std::string>& known)
+CsvMap::CsvMap(const std::vector<std::string>& given, const std::vector<std::string>& known,
+               const std::vector<std::string>& elsewhere)
+    : known_(known), elsewhere_(elsewhere)
 {
-  for (const auto& list : given) {
-    std::istringstream parts(list);
-    for (std::string part; std::getline(parts, part, ',');) {
-      const auto sign = part.rfind('=');
-      const auto name = bare_name(part.substr(0, sign));
-      if (sign == std::string::npos || name.empty())
-        throw UsageError(fmt::format(
-            "--map '{}' is not NAME=COLUMN, such as particle1=i, or NAME= for a column to leave out",
-            part));
-      const auto column = bare_name(part.substr(sign + 1));
-      if (!column.empty() && std::find(known.begin(), known.end(), column) == known.end())
-        throw UsageError(unknown_word("--map " + part.substr(0, sign + 1), column, known));
-      names_[name] = column;
-      as_given_[name] = part;
-    }
+  for (const auto& list : given) add_list(list);
+}
+
+void CsvMap::add_list(const std::string& list)
+{
+  std::vector<Part> parts;
+  std::istringstream words(list);
+  for (std::string part; std::getline(words, part, ',');) {
+    const auto sign = part.rfind('=');
+    const auto name = bare_name(part.substr(0, sign));
+    if (sign == std::string::npos || name.empty())
+      throw UsageError(fmt::format(
+          "--map '{}' is not NAME=COLUMN, such as particle1=i, or NAME= for a column to leave out",
+          part));
+    const auto column = bare_name(part.substr(sign + 1));
+    if (!column.empty() && !is_in(known_, column) && !is_in(elsewhere_, column))
+      throw UsageError(
+          unknown_word("--map " + part.substr(0, sign + 1), column, of_both(known_, elsewhere_)));
+    if (is_row(name) && column != "id")
+      throw UsageError(fmt::format("--map {}: the number of a row can be an id alone", part));
+    parts.push_back({name, column, part, column_number(name)});
   }
+  if (is_of_the_other_table(parts))
+    std::erase_if(parts, [](const Part& part) { return part.number > 0; });
+  parts_.insert(parts_.end(), parts.begin(), parts.end());
+}
+
+/// Whether the names that the list gives to numbers of columns belong to the other table.
+bool CsvMap::is_of_the_other_table(const std::vector<Part>& list) const
+{
+  const auto has = [&](const auto& these, const auto& those) {
+    return std::any_of(list.begin(), list.end(), [&](const Part& part) {
+      return part.number > 0 && is_in(these, part.column) && !is_in(those, part.column);
+    });
+  };
+  return has(elsewhere_, known_) && !has(known_, elsewhere_);
+}
+
+/// The last of the parts that say what a column of this table is, but rather one whose name the
+/// other table may not have. All of them count as used.
+template <class IsIt>
+const CsvMap::Part* CsvMap::last_that(const IsIt& is_it)
+{
+  const Part* found = nullptr;
+  for (auto& part : parts_) {
+    const bool is_shared = is_in(elsewhere_, part.column);
+    if (!is_it(part) || !(part.column.empty() || is_in(known_, part.column))) continue;
+    part.used = true;
+    if (found == nullptr || !is_shared || is_in(elsewhere_, found->column)) found = &part;
+  }
+  return found;
+}
+
+/// By its name, with its unit or without, or else by its number.
+const CsvMap::Part* CsvMap::part_of(const std::string& name, std::size_t number)
+{
+  for (const auto& text : {bare_name(name), plain_name(name)})
+    if (const auto* part =
+            last_that([&](const Part& p) { return p.number == 0 && p.name == text; }))
+      return part;
+  return last_that([&](const Part& p) { return p.number == number; });
 }
 
 std::vector<std::string> CsvMap::renamed(const std::vector<std::string>& header)
@@ -51,25 +130,40 @@ std::vector<std::string> CsvMap::renamed(const std::vector<std::string>& header)
   std::vector<std::string> names(header.size());
   std::set<std::string> taken;
   std::vector<bool> told(header.size());
-  for (std::size_t k = 0; k < header.size(); ++k)
-    for (const auto& name : {bare_name(header[k]), plain_name(header[k])}) {
-      const auto found = names_.find(name);
-      if (told[k] || found == names_.end()) continue;
-      told[k] = true;
-      names[k] = found->second;
-      taken.insert(found->second);
-      used_.insert(name);
-    }
+  for (std::size_t k = 0; k < header.size(); ++k) {
+    const auto* const part = part_of(header[k], k + 1);
+    if (part == nullptr) continue;
+    told[k] = true;
+    names[k] = part->column;
+    taken.insert(part->column);
+  }
+  if (first_row()) taken.insert("id");
   for (std::size_t k = 0; k < header.size(); ++k)
     if (!told[k] && !taken.contains(plain_name(header[k]))) names[k] = plain_name(header[k]);
   return names;
 }
 
-void CsvMap::require_all_used() const
+std::optional<std::int64_t> CsvMap::first_row()
 {
-  for (const auto& [name, part] : as_given_)
-    if (!used_.contains(name))
-      throw UsageError(fmt::format("--map {}: no table has a column of that name", part));
+  for (auto& part : parts_) {
+    if (!is_row(part.name) || !is_in(known_, part.column)) continue;
+    part.used = true;
+    return part.name == "row" ? 0 : 1;
+  }
+  return std::nullopt;
+}
+
+void CsvMap::require_all_used(const CsvMap& other) const
+{
+  const auto uses = [](const std::vector<Part>& parts, const std::string& as_given) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Part& part) { return part.used && part.as_given == as_given; });
+  };
+  for (const auto* parts : {&parts_, &other.parts_})
+    for (const auto& part : *parts)
+      if (!uses(parts_, part.as_given) && !uses(other.parts_, part.as_given))
+        throw UsageError(
+            fmt::format("--map {}: no table has a column of that name", part.as_given));
 }
 
 }  // namespace grseg

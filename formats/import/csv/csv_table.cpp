@@ -23,6 +23,20 @@ std::vector<std::string> words_between_bars(std::string_view names)
   return words;
 }
 
+void drop_empty_end(std::vector<std::string_view>& fields)
+{
+  while (!fields.empty() && fields.back().empty()) fields.pop_back();
+}
+
+std::size_t numbers_among(const std::vector<std::string_view>& fields, char separator)
+{
+  CsvNumbers numbers(separator);
+  double number = 0;
+  return static_cast<std::size_t>(
+      std::count_if(fields.begin(), fields.end(),
+                    [&](std::string_view field) { return numbers.read(field, number); }));
+}
+
 bool is_comment(std::string_view line)
 {
   return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
@@ -58,12 +72,8 @@ bool CsvTable::open_next()
 /// The next line of the file at hand that is not a comment.
 bool CsvTable::next_line()
 {
-  constexpr std::string_view mark = "\xef\xbb\xbf";
   while (source_->next()) {
     line_ = source_->line();
-    if (line_.starts_with("\xff\xfe") || line_.starts_with("\xfe\xff"))
-      fail("the table is in UTF-16; save it as UTF-8");
-    if (line_.starts_with(mark)) line_.remove_prefix(mark.size());
     if (is_comment(line_) && header_.empty()) comments_.emplace_back(line_);
     if (!is_comment(line_) && line_.find_first_not_of(" \t,;") != std::string_view::npos)
       return true;
@@ -73,18 +83,66 @@ bool CsvTable::next_line()
 
 void CsvTable::read_names()
 {
-  separator_ = csv_separator(line_);
+  row_waits_ = is_row_of_numbers();
+  if (!row_waits_) {
+    separator_ = csv_separator(line_);
+    split_csv(line_, separator_, fields_);
+    drop_empty_end(fields_);
+  }
   numbers_ = CsvNumbers(separator_);
-  split_csv(line_, separator_, fields_);
-  while (!fields_.empty() && fields_.back().empty()) fields_.pop_back();
-  header_.assign(fields_.begin(), fields_.end());
-  find_columns(map_.renamed(header_));
+  name_columns();
   require_a_moment();
+}
+
+/// Whether all fields of the line, which should be names, are numbers, or more than half of them.
+bool CsvTable::is_row_of_numbers()
+{
+  for (const bool all : {true, false})
+    for (const char separator : {';', '\t', ',', ' '}) {
+      split_csv(line_, separator, fields_);
+      drop_empty_end(fields_);
+      const auto numbers = numbers_among(fields_, separator), fields = fields_.size();
+      if (fields < 2 || (all ? numbers < fields : 2 * numbers <= fields)) continue;
+      separator_ = separator;
+      return true;
+    }
+  return false;
+}
+
+void CsvTable::name_columns()
+{
+  header_.assign(fields_.begin(), fields_.end());
+  if (row_waits_ && !take_names_of_comment())
+    for (std::size_t k = 0; k < header_.size(); ++k) header_[k] = std::to_string(k + 1);
+  const auto names = map_.renamed(header_);
+  if (names == header_ && header_.front() == "1") {
+    std::string example;
+    for (std::size_t k = 0, number = 0; k < columns_.size() && number < 2; ++k)
+      if (columns_[k].needed)
+        example += fmt::format("{}={},", ++number, words_between_bars(columns_[k].names)[0]);
+    fail(fmt::format("the first line holds numbers, not names: give --map {}... for the columns",
+                     example));
+  }
+  find_columns(names);
+}
+
+/// The comment right above the rows, if it has a word for each column.
+bool CsvTable::take_names_of_comment()
+{
+  if (comments_.empty()) return false;
+  const std::string_view comment = comments_.back();
+  const auto names = comment.substr(std::min(comment.find_first_not_of("#%/ \t"), comment.size()));
+  std::vector<std::string_view> words;
+  split_csv(names, csv_separator(names), words);
+  if (words.size() != header_.size() || numbers_among(words, ' ') > 0) return false;
+  header_.assign(words.begin(), words.end());
+  return true;
 }
 
 void CsvTable::find_columns(const std::vector<std::string>& names)
 {
   place_.clear();
+  first_row_.reset();
   for (const auto& column : columns_) {
     place_.push_back(-1);
     const auto known = words_between_bars(column.names);
@@ -97,9 +155,17 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
                         known[0]));
       place_.back() = static_cast<int>(k);
     }
-    if (column.needed && place_.back() < 0)
-      fail(fmt::format("no column {} among {}; --map NAME={} tells which it is",
-                       fmt::join(known, " or "), this->names(), known[0]));
+    if (place_.back() >= 0) continue;
+    const bool may_be_row = column.holds == Column::ids;
+    if (may_be_row) first_row_ = map_.first_row();
+    if (may_be_row && first_row_)
+      row_column_ = place_.size() - 1;
+    else if (column.needed)
+      fail(fmt::format("no column {0} among {1}; --map NAME={2} tells which it is{3}",
+                       fmt::join(known, " or "), this->names(), known[0],
+                       may_be_row ? ", and --map row=id that the number of the row is it, from 0 "
+                                    "on (row+1=id: from 1)"
+                                  : ""));
   }
 }
 
@@ -125,9 +191,10 @@ bool CsvTable::is_header() const
   return true;
 }
 
-/// Fills row_; false at the end.
-bool CsvTable::next_row()
+/// Goes to the next line that is a row; false at the end.
+bool CsvTable::go_to_row()
 {
+  if (std::exchange(row_waits_, false)) return true;
   while (!next_line()) {
     ends_in_rows_ |= !source_->line_is_whole();
     if (!open_next()) return false;
@@ -135,7 +202,15 @@ bool CsvTable::next_row()
     split_csv(line_, separator_, fields_);
     if (!is_header()) break;
     read_names();
+    if (std::exchange(row_waits_, false)) break;
   }
+  return true;
+}
+
+/// Fills row_; false at the end.
+bool CsvTable::next_row()
+{
+  if (!go_to_row()) return false;
   if (!source_->line_is_whole() && opened_ == files_.size() && !ends_in_rows_)
     throw TruncatedArchive(
         fmt::format("{}: the table ends inside a line; copy it again, or leave out the incomplete "
@@ -156,13 +231,29 @@ void CsvTable::read_fields()
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     if (place_[k] < 0) continue;
     const auto at = static_cast<std::size_t>(place_[k]);
+    if (columns_[k].holds == Column::words) {
+      read_word(k, fields_[at]);
+      continue;
+    }
     if (numbers_.read(fields_[at], row_[k])) continue;
-    const auto word = columns_[k].truth ? bare_name(fields_[at]) : std::string();
+    const auto word = columns_[k].holds == Column::truth ? bare_name(fields_[at]) : std::string();
     if (word != "true" && word != "false")
       fail(fmt::format("{} in column {} ({}) is not a finite number{}", in_quotes(fields_[at]),
                        at + 1, in_quotes(header_[at]), numbers_.why_not(fields_[at])));
     row_[k] = word == "true";
   }
+}
+
+/// A whole number, or a word that stands for one.
+void CsvTable::read_word(std::size_t column, std::string_view field)
+{
+  if (numbers_.read(field, row_[column]) && TypeNames::is_type(row_[column])) return;
+  const auto number = words_.read(field);
+  if (!number)
+    fail(fmt::format("{} in column {} ({}) is neither a whole number nor a word", in_quotes(field),
+                     place_[column] + 1,
+                     in_quotes(header_[static_cast<std::size_t>(place_[column])])));
+  row_[column] = *number;
 }
 
 void CsvTable::wait_for_next_row()
@@ -186,6 +277,7 @@ bool CsvTable::next()
   if (!waiting_) return false;
   begin_ = waiting_place_;
   moment_ = moment_of_row();
+  if (first_moments_.size() < 3) first_moments_.push_back(moment_.value);
   values_ = row_;
   rows_ = 1;
   for (wait_for_next_row(); waiting_ && moment_of_row().value == moment_.value;
@@ -193,6 +285,9 @@ bool CsvTable::next()
     values_.insert(values_.end(), row_.begin(), row_.end());
     ++rows_;
   }
+  for (std::size_t row = 0; first_row_ && row < rows_; ++row)
+    values_[row * columns_.size() + row_column_] =
+        static_cast<double>(row) + static_cast<double>(*first_row_);
   if (!waiting_) return true;
   if (const auto later = moment_of_row(); later.value < moment_.value)
     fail(fmt::format("{0} {1:g} comes after {0} {2:g}: rows must be in order of time",

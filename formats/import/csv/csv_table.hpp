@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/import/common/text_source.hpp"
+#include "formats/import/common/type_names.hpp"
 #include "formats/import/csv/csv_files.hpp"
 #include "formats/import/csv/csv_line.hpp"
 #include "formats/import/csv/csv_map.hpp"
@@ -21,8 +22,9 @@ struct CsvMoment {
 
 /// A plain table in one file or many, each beginning with a line of column names (or, behind the
 /// first, going on without one), then rows: separated by commas, semicolons, tabs or blanks
-/// (csv_line.hpp), with a byte-order mark or none, lines ending as in Windows or not. Empty lines and
-/// lines that begin with #, % or // are skipped; those above the first names are kept. Only columns
+/// (csv_line.hpp), with a byte-order mark or none, lines ending as in Windows or not. Names may stand
+/// in the comment above the rows, and where there are none --map names columns by number. Empty lines
+/// and lines that begin with #, % or // are skipped; those above the first names are kept. Only columns
 /// that are asked for must be numbers.
 ///
 /// Rows are read in blocks of equal time, or of equal step; in a table that has neither column each
@@ -33,7 +35,12 @@ class CsvTable {
   struct Column {
     const char* names;
     bool needed;
-    bool truth = false;  // "true" and "false" may stand for 1 and 0
+    enum Holds {
+      numbers,
+      truth,  // "true" and "false" may stand for 1 and 0
+      words,  // words may stand for numbers (type_names.hpp)
+      ids,    // --map may take the number of the row for it
+    } holds = numbers;
   };
 
   /// `columns[0]` is the time, `columns[1]` the step; of each the table may have none. UsageError
@@ -42,7 +49,11 @@ class CsvTable {
   CsvTable(std::vector<CsvFile> files, std::span<const Column> columns, CsvMap& map);
 
   bool has(std::size_t column) const { return place_[column] >= 0; }
+  /// What the words in a column of words mean.
+  TypeNames& words() { return words_; }
   const std::vector<std::string>& comments() const { return comments_; }
+  /// For a sentence: its first moments, at most three, as far as they have been read.
+  const std::vector<double>& first_moments() const { return first_moments_; }
   /// For a sentence: the names at hand.
   std::string names() const;
   [[noreturn]] void fail(const std::string& why) const;
@@ -51,6 +62,8 @@ class CsvTable {
   /// damaged or of a moment before that of the row above.
   bool next();
   CsvMoment moment() const { return moment_; }
+  /// To the next moment; 0 at the end.
+  double interval() const { return waiting_ ? moment_of_row().value - moment_.value : 0; }
   std::size_t rows() const { return rows_; }
   /// 0 where the table has no such column.
   double value(std::size_t row, std::size_t column) const
@@ -64,11 +77,16 @@ class CsvTable {
   bool open_next();
   bool next_line();
   bool is_header() const;
+  bool is_row_of_numbers();
+  void name_columns();
+  bool take_names_of_comment();
   void read_names();
   void find_columns(const std::vector<std::string>& names);
   void require_a_moment() const;
+  bool go_to_row();
   bool next_row();
   void read_fields();
+  void read_word(std::size_t column, std::string_view field);
   void wait_for_next_row();
   CsvMoment moment_of_row() const;
 
@@ -81,9 +99,14 @@ class CsvTable {
   std::vector<std::string> comments_, header_;
   char separator_ = ' ';
   CsvNumbers numbers_;
-  std::vector<int> place_;  // of the columns asked for; -1: missing
+  bool row_waits_ = false;  // it is the line at hand, which should have been names
+  TypeNames words_;
+  std::vector<int> place_;                 // of the columns asked for; -1: missing
+  std::optional<std::int64_t> first_row_;  // where the numbers of rows stand for a column
+  std::size_t row_column_ = 0;             // this one
   std::vector<std::string_view> fields_;
   std::vector<double> row_, values_;  // of the columns asked for
+  std::vector<double> first_moments_;
   bool started_ = false;
   bool waiting_ = false;       // row_ is the first of the next moment
   bool ends_in_rows_ = false;  // files before this one have no line end behind their last row

@@ -66,7 +66,7 @@ class DumpArchive : public Archive {
   }
 
  private:
-  void read_walls(DumpReader& dump, ArchiveMoment& moment)
+  void read_walls(JoinedDumps& dump, ArchiveMoment& moment)
   {
     if (moment.grains.size() == 0) return;
     const auto& header = dump.header();
@@ -81,10 +81,10 @@ class DumpArchive : public Archive {
       moment.contacts = {};
       return;
     }
-    if (header.find("id") && (header.find("x") || header.find("xu") || header.find("xs")))
+    if (header.label == "ATOMS" && header.find("id"))
       throw FormatError(fmt::format(
-          "{}: these are grains, with id and position, and not contacts; name them with "
-          "--grains, and the dump local with --contacts",
+          "{}: these are grains (ITEM: ATOMS), and not contacts; name them with --grains, and the dump "
+          "local with --contacts",
           header.place));
     if (!columns_ || header.columns != header_.columns) {
       if (columns_text_.empty()) columns_text_ = dialect_.assumed(header, moment.grains);
@@ -133,6 +133,21 @@ class DumpArchive : public Archive {
   ArchiveFacts facts_;
 };
 
+/// Of the first block: "ATOMS" and its columns; none where the file is no dump.
+std::pair<std::string, std::vector<std::string>> label_and_columns(const FileStart& start)
+{
+  std::pair<std::string, std::vector<std::string>> found{"ENTRIES", {}};
+  if (start.lines.empty() || !start.lines.front().starts_with("ITEM:")) return found;
+  for (const auto& line : start.lines) {
+    const auto words = words_of(line);
+    if (words.size() == 4 && line.starts_with("ITEM: NUMBER OF ")) found.first = words[3];
+    if (words.size() < 3 || words[0] != "ITEM:" || words[1] != found.first) continue;
+    found.second.assign(words.begin() + 2, words.end());
+    break;
+  }
+  return found;
+}
+
 }  // namespace
 
 ArchiveFacts facts_of_late_forces(const std::string& program)
@@ -146,19 +161,16 @@ ArchiveFacts facts_of_late_forces(const std::string& program)
   return facts;
 }
 
-FileRole role_of_dump(const FileStart& start,
-                      bool (*is_of_program)(const std::vector<std::string>& columns))
+FileRole role_of_dump(const FileStart& start)
 {
-  if (start.lines.empty() || !start.lines.front().starts_with("ITEM:")) return FileRole::none;
-  std::string label = "ENTRIES";
-  for (const auto& line : start.lines) {
-    const auto words = words_of(line);
-    if (words.size() == 4 && line.starts_with("ITEM: NUMBER OF ")) label = words[3];
-    if (words.size() < 3 || words[0] != "ITEM:" || words[1] != label) continue;
-    if (label == "ATOMS") return FileRole::grains;
-    return is_of_program({words.begin() + 2, words.end()}) ? FileRole::contacts : FileRole::none;
-  }
-  return FileRole::none;
+  const auto [label, columns] = label_and_columns(start);
+  if (columns.empty()) return FileRole::none;
+  return label == "ATOMS" ? FileRole::grains : FileRole::contacts;
+}
+
+std::vector<std::string> columns_of_dump(const FileStart& start)
+{
+  return label_and_columns(start).second;
 }
 
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect)

@@ -30,10 +30,11 @@ struct DumpDialect {
 /// than those that moved the grains.
 ArchiveFacts facts_of_late_forces(const std::string& program);
 
-/// Grains where a dump holds ATOMS, contacts where it holds other rows, which are those of the
-/// program if `columns` says so of their names.
-FileRole role_of_dump(const FileStart& start,
-                      bool (*is_of_program)(const std::vector<std::string>& columns));
+/// Grains where a dump holds ATOMS, contacts where it holds other rows.
+FileRole role_of_dump(const FileStart& start);
+
+/// The names of the columns of the first block.
+std::vector<std::string> columns_of_dump(const FileStart& start);
 
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect);
 

@@ -91,11 +91,10 @@ void DumpGrains::look_up(const DumpHeader& header)
   missing_.clear();
   id_ = want(header, "id");
   if (id_ < 0)
-    throw FormatError(
-        fmt::format("{}: the grains have no column id, by which contacts name them; are these the "
-                    "contacts, --contacts?",
-                    header.place));
-  type_ = want(header, "type");
+    throw FormatError(fmt::format(
+        "{}: the grains have no column id, by which contacts name them{}", header.place,
+        header.label == "ENTRIES" ? "; these are contacts (ITEM: ENTRIES), --contacts" : ""));
+  type_ = want(header, header.find("type") ? "type" : "typelabel");
   mass_ = want(header, "mass");
   radius_ = want(header, "radius");
   diameter_ = radius_ < 0 ? want(header, "diameter") : -1;
@@ -117,7 +116,8 @@ void DumpGrains::take(const Triple& columns, std::vector<Vec3>& out) const
   }
 }
 
-void DumpGrains::read(DumpReader& dump, ArchiveGrains& grains, const std::vector<std::size_t>& more)
+void DumpGrains::read(JoinedDumps& dump, ArchiveGrains& grains,
+                      const std::vector<std::size_t>& more)
 {
   const auto header = dump.header();
   look_up(header);
@@ -128,7 +128,7 @@ void DumpGrains::read(DumpReader& dump, ArchiveGrains& grains, const std::vector
   if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
     throw UsageError(fmt::format("--wall-columns: column {} ({}) of {} would be two things at once",
                                  *twice + 1, header.columns[*twice], header.place));
-  dump.read_rows(all, values_);
+  dump.read_rows(all, values_, {type_, &types_});
   const auto column = [&](int k) -> const std::vector<double>& {
     static const std::vector<double> none;
     return k < 0 ? none : values_[static_cast<std::size_t>(k)];
@@ -136,9 +136,7 @@ void DumpGrains::read(DumpReader& dump, ArchiveGrains& grains, const std::vector
   grains.id.clear();
   for (const double id : column(id_))
     grains.id.push_back(whole_number<std::int64_t>(id, "id", header.place));
-  grains.type.clear();
-  for (const double type : column(type_))
-    grains.type.push_back(whole_number<std::int32_t>(type, "type", header.place));
+  types_.fill(column(type_), header.place, grains);
   grains.mass = column(mass_);
   grains.radius = column(radius_ >= 0 ? radius_ : diameter_);
   if (diameter_ >= 0)

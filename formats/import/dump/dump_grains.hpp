@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/import/dump/dump_reader.hpp"
+#include "formats/import/dump/joined_dumps.hpp"
 
 #include <array>
 #include <vector>
@@ -15,7 +15,7 @@ namespace grseg {
 class DumpGrains {
  public:
   /// Reads the rows of the current block of `dump`, and `more` columns of them, by number.
-  void read(DumpReader& dump, ArchiveGrains& grains, const std::vector<std::size_t>& more = {});
+  void read(JoinedDumps& dump, ArchiveGrains& grains, const std::vector<std::size_t>& more = {});
   /// The values of more[k] of these rows.
   const std::vector<double>& more(std::size_t k) const { return values_[wanted_.size() + k]; }
 
@@ -36,6 +36,7 @@ class DumpGrains {
   Positions positions_ = Positions::plain;
   bool unwrapped_ = false;
   std::vector<std::string> missing_;  // components
+  TypeNames types_;
   std::vector<std::vector<double>> values_;
 };
 

@@ -2,14 +2,17 @@
 #include "formats/import/dump/dump_pair.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace grseg {
 namespace {
 
+constexpr std::size_t enough_steps = 3;  // for a sentence
+
 /// From the first two blocks, read ahead of the import.
 std::optional<double> step_by_times(const std::vector<std::string>& files)
 {
-  DumpReader dump(files);
+  JoinedDumps dump(files);
   if (!dump.next() || !dump.header().time) return std::nullopt;
   const auto first = dump.header();
   if (!dump.next() || !dump.header().time) return std::nullopt;
@@ -37,10 +40,24 @@ DumpPair::DumpPair(const std::vector<std::string>& grain_files,
 bool DumpPair::next()
 {
   while (next_pair()) {
-    if (!walls_ || walls_have(grains_.header().step)) return true;
+    if (!walls_ || walls_have(grains_.header().step)) return any_ = true;
     without_walls_.add(grains_.header().step);
   }
+  if (!any_) require_no_steps();
   return false;
+}
+
+/// Where all dumps have steps, but none in common.
+void DumpPair::require_no_steps()
+{
+  for (auto [dump, steps] : {std::pair{&grains_, &grain_steps_}, {&contacts_, &contact_steps_}})
+    while (steps->size() < enough_steps && dump->next()) steps->push_back(dump->header().step);
+  if (grain_steps_.empty() || contact_steps_.empty()) return;
+  throw FormatError(fmt::format(
+      "no step is in all dumps: those of the grains begin with {}, those of the contacts with {}{}; "
+      "write them at the same steps",
+      fmt::join(grain_steps_, ", "), fmt::join(contact_steps_, ", "),
+      without_walls_.count > 0 ? ", and those of the contacts with walls are others" : ""));
 }
 
 bool DumpPair::walls_have(std::int64_t step)
@@ -54,17 +71,23 @@ bool DumpPair::walls_have(std::int64_t step)
 
 bool DumpPair::next_pair()
 {
-  bool more_grains = grains_.next(), more_contacts = contacts_.next();
+  const auto next_of = [](JoinedDumps& dump, std::vector<std::int64_t>& steps) {
+    const bool more = dump.next();
+    if (more && steps.size() < enough_steps) steps.push_back(dump.header().step);
+    return more;
+  };
+  bool more_grains = next_of(grains_, grain_steps_);
+  bool more_contacts = next_of(contacts_, contact_steps_);
   while (more_grains || more_contacts) {
     const bool both = more_grains && more_contacts;
     const auto g = grains_.header().step, c = contacts_.header().step;
     if (both && g == c) return true;
     if (!more_contacts || (both && g < c)) {
       grains_alone_.add(g);
-      more_grains = grains_.next();
+      more_grains = next_of(grains_, grain_steps_);
     } else {
       contacts_alone_.add(c);
-      more_contacts = contacts_.next();
+      more_contacts = next_of(contacts_, contact_steps_);
     }
   }
   return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/import/dump/dump_reader.hpp"
+#include "formats/import/dump/joined_dumps.hpp"
 
 #include <optional>
 #include <string>
@@ -17,12 +17,13 @@ class DumpPair {
            const std::vector<std::string>& contact_files,
            const std::vector<std::string>& wall_files = {});
 
-  /// Advances to the next step that both have; false at the end. Then the rows can be read.
+  /// Advances to the next step that both have; false at the end. Then the rows can be read. FormatError
+  /// with their first steps where there is no such step at all.
   bool next();
-  DumpReader& grains() { return grains_; }
-  DumpReader& contacts() { return contacts_; }
+  JoinedDumps& grains() { return grains_; }
+  JoinedDumps& contacts() { return contacts_; }
   /// Null where there are no files of contacts with walls.
-  DumpReader* walls() { return walls_ ? &*walls_ : nullptr; }
+  JoinedDumps* walls() { return walls_ ? &*walls_ : nullptr; }
 
   /// The length of a step from ITEM: TIME of the first blocks of the grains, if they have it.
   const std::optional<double>& step() const { return step_; }
@@ -41,11 +42,14 @@ class DumpPair {
     }
   };
   bool next_pair();
+  void require_no_steps();
   bool walls_have(std::int64_t step);
 
-  DumpReader grains_, contacts_;
-  std::optional<DumpReader> walls_;
+  JoinedDumps grains_, contacts_;
+  std::optional<JoinedDumps> walls_;
   bool more_walls_ = false, walls_begun_ = false;
+  std::vector<std::int64_t> grain_steps_, contact_steps_;  // the first three
+  bool any_ = false;                                       // step that all have
   Unmatched grains_alone_, contacts_alone_, without_walls_;
   std::optional<double> step_;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/dump_reader.hpp"
 
+#include "formats/import/common/number_row.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,7 +45,11 @@ void DumpReader::fail(const std::string& why) const
 
 void DumpReader::next_line(const char* what)
 {
-  const bool there = source_.next();
+  require_line(source_.next(), what);
+}
+
+void DumpReader::require_line(bool there, const char* what) const
+{
   if (there && source_.line_is_whole()) return;
   throw TruncatedArchive(
       fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete moment "
@@ -73,6 +79,7 @@ bool DumpReader::next()
 void DumpReader::read_header()
 {
   header_ = {};
+  header_.file = source_.file();
   header_.place = source_.place();
   std::string label;
   for (bool has_step = false, has_box = false;; next_line("a header")) {
@@ -92,6 +99,7 @@ void DumpReader::read_header()
         header_.columns.emplace_back(name);
       if (!has_step || !has_box) fail("TIMESTEP or BOX BOUNDS is missing above the rows");
       if (header_.columns.empty()) fail("names no columns");
+      header_.label = label;
       return;
     }
     has_step = has_step || item == "TIMESTEP";
@@ -104,6 +112,7 @@ void DumpReader::read_item(std::string_view item, std::string& label)
 {
   constexpr std::string_view number_of = "NUMBER OF ";
   if (item == "UNITS") return read_units();
+  if (item.starts_with("BOX BOUNDS abc origin")) return read_general_box(item);
   if (item.starts_with("BOX BOUNDS")) return read_box(item);
   if (item.starts_with(number_of)) {
     label = item.substr(number_of.size());
@@ -117,12 +126,12 @@ void DumpReader::read_item(std::string_view item, std::string& label)
     const auto step = parse<std::int64_t>(source_.line());
     if (!step) fail(fmt::format("{} is not a time step", in_quotes(source_.line())));
     header_.step = *step;
-    require_a_later_step();
   } else if (item == "TIME") {
     next_line("a header");
-    header_.time = parse<double>(source_.line());
-    if (!header_.time || !std::isfinite(*header_.time))
+    double time = 0;
+    if (!read_number(source_.line(), time))
       fail(fmt::format("{} is not a time", in_quotes(source_.line())));
+    header_.time = time;
   } else {
     fail(fmt::format("{} is not part of a dump", in_quotes(source_.line())));
   }
@@ -138,14 +147,34 @@ void DumpReader::read_units()
   units_ = now;
 }
 
-void DumpReader::require_a_later_step()
+/// "BOX BOUNDS abc origin pp ff pp"; then a line per axis: an edge of the cell, and a coordinate of its
+/// origin.
+void DumpReader::read_general_box(std::string_view item)
 {
-  if (last_step_ && header_.step <= *last_step_)
-    fail(
-        fmt::format("step {} comes after step {}: steps must increase; remove the duplicate "
-                    "moment (from a restart), or name the files in order of time",
-                    header_.step, *last_step_));
-  last_step_ = header_.step;
+  constexpr double round_off = 1e-12;  // of a turned cell
+  const auto letters = words_of(item);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    next_line("a header");
+    const auto words = words_of(source_.line());
+    std::array<double, 4> value{};
+    bool good = words.size() == value.size();
+    for (std::size_t k = 0; good && k < value.size(); ++k) good = read_number(words[k], value[k]);
+    if (!good || value[axis] < 0)
+      fail(fmt::format("{} is not an edge of the cell and its origin", in_quotes(source_.line())));
+    for (std::size_t k = 0; k < 3; ++k)
+      if (k != axis && std::abs(value[k]) > round_off * value[axis]) refuse_tilted_cell();
+    header_.periodic[axis] = letters.size() > 4 + axis && letters[4 + axis] == "pp";
+    const auto k = static_cast<Eigen::Index>(axis);
+    header_.low[k] = value[3];
+    header_.high[k] = value[3] + value[axis];
+  }
+}
+
+void DumpReader::refuse_tilted_cell() const
+{
+  fail(
+      "the cell is tilted; only rectangular cells are imported: write the run in one (`change_box all "
+      "ortho`, where nothing tilts it)");
 }
 
 /// "BOX BOUNDS pp ff pp" or, tilted, "BOX BOUNDS xy xz yz pp ff pp"; then a line per axis.
@@ -165,35 +194,46 @@ void DumpReader::read_box(std::string_view item)
     std::array<double, 3> value{};
     bool good = bounds.size() == 2 || bounds.size() == 3;
     for (std::size_t k = 0; good && k < bounds.size(); ++k) {
-      const auto number = parse<double>(bounds[k]);
-      good = number && std::isfinite(*number);
-      if (good) value[k] = *number;
+      good = read_number(bounds[k], value[k]);
     }
     if (!good || value[0] > value[1])
       fail(fmt::format("{} is not a pair of bounds of the cell", in_quotes(source_.line())));
-    if (value[2] != 0)
-      fail(
-          "the cell is tilted; only rectangular cells are imported: write the run in one (`change_box "
-          "all ortho`, where nothing tilts it)");
+    if (value[2] != 0) refuse_tilted_cell();
     header_.low[axis] = value[0];
     header_.high[axis] = value[1];
   }
 }
 
 void DumpReader::read_rows(std::span<const std::size_t> wanted,
-                           std::vector<std::vector<double>>& values)
+                           std::vector<std::vector<double>>& values, const TypeColumn& types)
 {
   std::vector<int> role(header_.columns.size(), -1);
   for (std::size_t k = 0; k < wanted.size(); ++k) role.at(wanted[k]) = static_cast<int>(k);
   values.resize(wanted.size());
-  for (auto& column : values) column.clear();
+  while (has_rows_alone_ && source_.next()) {
+    require_line(true, "a row");
+    read_row(role, values, types);
+  }
   for (; rows_left_ > 0; --rows_left_) {
     next_line("a row");
-    read_row(role, values);
+    read_row(role, values, types);
   }
 }
 
-void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<double>>& values)
+/// Of a word that is not simply a number to its end.
+double DumpReader::number_in(std::string_view word, std::size_t column, TypeNames* names) const
+{
+  double value = 0;
+  if (names == nullptr && read_number(word, value)) return value;
+  if (names != nullptr)
+    if (const auto type = names->read(word)) return *type;
+  fail(fmt::format("{} in column {} ({}) is not {}", in_quotes(word), column + 1,
+                   header_.columns[column],
+                   names == nullptr ? "a finite number" : "a type, a whole number or a word"));
+}
+
+void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<double>>& values,
+                          const TypeColumn& types)
 {
   const auto line = source_.line();
   const char *at = line.data(), *const end = at + line.size();
@@ -206,10 +246,12 @@ void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<dou
       double value = 0;
       const auto parsed = std::from_chars(at, end, value);
       at = parsed.ptr;
-      if (parsed.ec != std::errc() || !std::isfinite(value) || (at < end && !is_blank(*at)))
-        fail(fmt::format("{} in column {} ({}) is not a finite number",
-                         in_quotes({word, std::find_if(word, end, is_blank)}), column + 1,
-                         header_.columns[column]));
+      const bool is_type = role[column] == types.place;
+      if (parsed.ec != std::errc() || !std::isfinite(value) || is_type ||
+          (at < end && !is_blank(*at))) {
+        at = std::find_if(word, end, is_blank);
+        value = number_in({word, at}, column, is_type ? types.names : nullptr);
+      }
       values[static_cast<std::size_t>(role[column])].push_back(value);
     } else {
       while (at < end && !is_blank(*at)) ++at;

@@ -3,6 +3,7 @@
 
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/text_source.hpp"
+#include "formats/import/common/type_names.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,23 +23,35 @@ struct DumpHeader {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   std::array<bool, 3> periodic{};
   std::array<bool, 3> shrinks{};     // the bounds follow the grains (boundary s or m)
+  std::string label;                 // of the rows: ATOMS, ENTRIES
   std::vector<std::string> columns;  // names
-  std::string place;                 // "atoms.dump, line 1"
+  std::string file, place;           // "atoms.dump", "atoms.dump, line 1"
 
   /// 0-based, of the column of this name.
   std::optional<std::size_t> find(std::string_view name) const;
+};
+
+/// A column of types, whose words stand for numbers.
+struct TypeColumn {
+  int place = -1;  // among those that are wanted; -1: there is none
+  TypeNames* names = nullptr;
 };
 
 /// The blocks of text dumps (`dump custom`, `dump local`) of LAMMPS and LIGGGHTS, by the grammar of
 /// LAMMPS' doc/src/dump.rst:
 ///   [ITEM: UNITS] [ITEM: TIME] ITEM: TIMESTEP, ITEM: NUMBER OF label, ITEM: BOX BOUNDS,
 ///   ITEM: label names of columns, rows,
-/// label being ATOMS, ENTRIES or what `dump_modify label` makes of it. Steps must increase.
+/// label being ATOMS, ENTRIES or what `dump_modify label` makes of it.
 /// FormatError naming file, line and remedy where a block is damaged, TruncatedArchive where the
 /// archive ends in it.
 class DumpReader {
  public:
   explicit DumpReader(std::vector<std::string> files) : source_(std::move(files)) {}
+  /// Of files that hold nothing but rows of the block with this header, all of which can be read.
+  DumpReader(std::vector<std::string> files, DumpHeader header)
+      : source_(std::move(files)), header_(std::move(header)), has_rows_alone_(true)
+  {
+  }
 
   /// Advances to the next block, skipping rows that were not read; false at the end.
   bool next();
@@ -46,25 +59,30 @@ class DumpReader {
   /// From ITEM: UNITS, which only the first block has.
   const std::optional<std::string>& units() const { return units_; }
 
-  /// Reads the rows of the block: values[k] becomes column `wanted[k]` of all rows. Other
-  /// columns are counted but not parsed.
-  void read_rows(std::span<const std::size_t> wanted, std::vector<std::vector<double>>& values);
+  /// Reads the rows of the block: column `wanted[k]` of all rows is added to values[k]. Other columns
+  /// are counted but not parsed.
+  void read_rows(std::span<const std::size_t> wanted, std::vector<std::vector<double>>& values,
+                 const TypeColumn& types = {});
 
  private:
   [[noreturn]] void fail(const std::string& why) const;
   void next_line(const char* what);
+  void require_line(bool there, const char* what) const;
   void read_header();
   void read_item(std::string_view item, std::string& label);
   void read_units();
   void read_box(std::string_view item);
-  void read_row(std::span<const int> role, std::vector<std::vector<double>>& values);
-  void require_a_later_step();
+  void read_general_box(std::string_view item);
+  [[noreturn]] void refuse_tilted_cell() const;
+  void read_row(std::span<const int> role, std::vector<std::vector<double>>& values,
+                const TypeColumn& types);
+  double number_in(std::string_view word, std::size_t column, TypeNames* names) const;
 
   TextSource source_;
   DumpHeader header_;
   std::optional<std::string> units_;
-  std::optional<std::int64_t> last_step_;
   std::size_t rows_left_ = 0;
+  bool has_rows_alone_ = false;
 };
 
 }  // namespace grseg

@@ -132,7 +132,7 @@ WallRows::WallRows(const std::string& mapping) : map_(row_words(), mapping)
         row_words().example));
 }
 
-void WallRows::read(DumpReader& dump, ArchiveMoment& moment)
+void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
 {
   const auto header = dump.header();
   if (header.columns != names_) map_.look_up(header.columns, header.place);

@@ -3,7 +3,7 @@
 
 #include "formats/import/common/archive.hpp"
 #include "formats/import/dump/column_map.hpp"
-#include "formats/import/dump/dump_reader.hpp"
+#include "formats/import/dump/joined_dumps.hpp"
 
 #include <string>
 #include <vector>
@@ -61,7 +61,7 @@ class WallRows {
   explicit WallRows(const std::string& mapping);
 
   /// Adds the rows of the current block of `dump` to the contacts.
-  void read(DumpReader& dump, ArchiveMoment& moment);
+  void read(JoinedDumps& dump, ArchiveMoment& moment);
 
  private:
   ColumnMap map_;

@@ -37,20 +37,25 @@ po::options_description archive_options(ImportSettings& s)
   po::options_description archive("The archive");
   archive.add_options()("format", po::value(&s.format)->value_name("NAME"), formats.c_str())(
       "grains", files(s.files.grains),
-      "files with the grains, plain, .gz or .zst; '*' stands for the step of many")(
-      "contacts", files(s.files.contacts), "files with the contacts, likewise")(
+      "files with the grains, plain, .gz, .bz2, .xz or .zst; '*' stands for the step of many, '%' "
+      "for the processor")("contacts", files(s.files.contacts),
+                           "files with the contacts, likewise")(
       "restart", po::value(&s.files.restart)->value_name("FILE"), restart.c_str())(
       "columns", po::value(&s.files.columns)->value_name("MAP"),
       "what the columns of the contacts mean, e.g. i=2,j=3,dist=4,force=5,tangential=8")(
-      "from", optional(s.from, "T"),
+      "begin", optional(s.begin, "T"),
       "leave out what comes before this time, in the archive's units, or before step:N")(
-      "to", optional(s.to, "T"), "leave out what comes after, likewise")(
+      "end", optional(s.end, "T"), "leave out this time and what comes after, likewise")(
+      "repeated", optional(s.repeated, "WHICH"),
+      "where a job that began from an earlier checkpoint repeats moments otherwise: first or last, "
+      "the job that counts")(
       "wall-contacts", files(s.files.wall_contacts),
       "liggghts only: files with the contacts with meshes (compute wall/gran/local)")(
       "wall-columns", po::value(&s.files.wall_columns)->value_name("MAP"),
       "what their columns mean; lammps: columns of fix wall/gran in the grains, floor=f_floor[1]")(
       "map", po::value(&s.files.map)->composing()->value_name("NAME=COLUMN"),
-      "csv only: what other names of columns mean, e.g. particle1=i,Fx=fx; NAME= leaves one out")(
+      "csv only: what other names of columns mean, e.g. particle1=i,Fx=fx, or their numbers, 1=id,2=x; "
+      "NAME= leaves one out; row=id numbers the rows")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
       "import a text archive that ends inside a moment up to that moment");
   return archive;

@@ -34,7 +34,8 @@ struct ImportSettings {
   std::vector<std::string> walls;  // wall_planes.hpp
   std::vector<std::string> cells;  // told_cell.hpp
 
-  std::optional<std::string> from, to;       // moment_range.hpp
+  std::optional<std::string> begin, end;     // moment_range.hpp
+  std::optional<std::string> repeated;       // repeated_moments.hpp
   std::vector<std::string> accept_residual;  // finding.hpp
   bool strict = false;                       // refuse what is undecided
   bool drop_incomplete = false;

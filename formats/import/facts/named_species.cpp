@@ -2,7 +2,7 @@
 #include "formats/import/facts/named_species.hpp"
 
 #include "formats/import/common/text_source.hpp"
-#include "formats/import/facts/number_list.hpp"
+#include "formats/import/facts/type_list.hpp"
 
 #include <fmt/format.h>
 
@@ -17,14 +17,14 @@ namespace {
 /// A species on the command line, and the range of diameters of its grains.
 struct Named {
   std::string name, types;
-  NumberList numbers;
+  TypeList list;
   double given = 0;  // nominal diameter; 0: not given
   double low = INFINITY, high = 0;
 
   bool holds_all() const { return types == "all"; }
   bool contains(const ArchiveGrains& grains, std::size_t g) const
   {
-    return holds_all() || numbers.contains(grains.type[g]);
+    return holds_all() || list.contains(grains.type[g]);
   }
   double nominal() const { return given > 0 ? given : (low + high) / 2; }
 };
@@ -46,7 +46,7 @@ double diameter_in(const std::string& word, const std::string& text)
   return value;
 }
 
-Named parse(const std::string& text)
+Named parse(const std::string& text, const ArchiveGrains& grains)
 {
   const auto equals = text.find('='), colon = text.find(':', equals);
   if (equals == std::string::npos)
@@ -57,15 +57,15 @@ Named parse(const std::string& text)
   const auto name = text.substr(0, equals);
   require_a_name(name, text);
   const auto types = text.substr(equals + 1, colon - equals - 1);
-  return {name, types, NumberList(types == "all" ? "none" : types, "--species"),
+  return {name, types, TypeList(types == "all" ? "none" : types, "--species", grains),
           colon == std::string::npos ? 0 : diameter_in(text.substr(colon + 1), text)};
 }
 
-std::vector<Named> parse_all(const std::vector<std::string>& texts)
+std::vector<Named> parse_all(const std::vector<std::string>& texts, const ArchiveGrains& grains)
 {
   std::vector<Named> all;
   for (const auto& text : texts) {
-    all.push_back(parse(text));
+    all.push_back(parse(text, grains));
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
       if (all[k].name == all.back().name)
         throw UsageError(
@@ -82,7 +82,7 @@ std::size_t place_of(const ArchiveGrains& grains, std::size_t g, const std::vect
   if (found == all.end())
     throw UsageError(fmt::format(
         "type {} of grain {} is in no --species; every type of a mobile grain must be in one",
-        grains.type[g], grains.id[g]));
+        grains.type_word(grains.type[g]), grains.id[g]));
   const auto other = std::find_if(found + 1, all.end(), is_it);
   if (other != all.end())
     throw UsageError(fmt::format(
@@ -102,7 +102,7 @@ std::string in_words(const Named& species)
 NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
                                   const std::vector<std::string>& texts)
 {
-  auto all = parse_all(texts);
+  auto all = parse_all(texts, grains);
   if (grains.type.empty() &&
       !std::all_of(all.begin(), all.end(), [](const Named& s) { return s.holds_all(); }))
     throw UsageError(

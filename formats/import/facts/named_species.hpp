@@ -10,7 +10,7 @@
 namespace grseg {
 
 /// Any number of species by type, each as --species gives it: NAME=TYPES or NAME=TYPES:DIAMETER,
-/// where TYPES are numbers and ranges or "all", and DIAMETER is nominal, in the archive's units.
+/// where TYPES are a list (type_list.hpp) or "all", and DIAMETER is nominal, in the archive's units.
 struct NamedSpecies {
   SpeciesList list;              // in order of nominal diameters; 0 where it was not given
   std::vector<Species> species;  // of every grain

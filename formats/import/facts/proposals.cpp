@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/proposals.hpp"
 
+#include "formats/cli/shell_word.hpp"
+#include "formats/core/species.hpp"
 #include "formats/import/facts/dimension.hpp"
 
 #include <fmt/format.h>
@@ -68,12 +70,13 @@ std::string range_in_words(double low, double high)
 }
 
 /// "type 1: 300 grains of diameters 0.9 to 1.1"
-std::string in_words(const std::map<std::int32_t, OfType>& types)
+std::string in_words(const ArchiveGrains& grains, const std::vector<bool>& resting)
 {
+  const auto types = types_of(grains, resting);
   constexpr std::size_t most = 8;
   std::vector<std::string> parts;
   for (const auto& [type, of] : types) {
-    parts.push_back(fmt::format("type {}: {} grain{}, {} wide{}", type, of.count,
+    parts.push_back(fmt::format("type {}: {} grain{}, {} wide{}", grains.type_word(type), of.count,
                                 of.count == 1 ? "" : "s", range_in_words(of.low, of.high),
                                 of.resting == of.count ? ", at rest" : ""));
     if (parts.size() < most || types.size() == most) continue;
@@ -153,15 +156,16 @@ Question question_of_base(const ArchiveGrains& grains, const std::vector<bool>& 
   const bool has_types = !grains.type.empty();
   Question question{"which grains are the base",
                     has_types ? "--boundary TYPES" : "--boundary-ids IDS", "or --boundary none"};
-  if (has_types) question.reason += "; " + in_words(types_of(grains, resting));
+  if (has_types) question.reason += "; " + in_words(grains, resting);
   if (resting.empty()) return question;
   question.option = "--boundary none";
   if (has_types) {
-    std::vector<std::int32_t> types;
+    std::vector<std::string> types;
     for (const auto& [type, of] : types_of(grains, resting))
-      if (of.resting == of.count) types.push_back(type);
-    if (!types.empty()) question.option = fmt::format("--boundary {}", fmt::join(types, ","));
-    question.reason = in_words(types_of(grains, resting));
+      if (of.resting == of.count) types.push_back(grains.type_word(type));
+    if (!types.empty())
+      question.option = "--boundary " + shell_word(fmt::format("{}", fmt::join(types, ",")));
+    question.reason = in_words(grains, resting);
   } else if (const auto ids = ids_at_rest(grains, resting); !ids.empty()) {
     question.option = "--boundary-ids " + ids;
     question.reason = "they are at rest, others are not";
@@ -185,10 +189,13 @@ Question question_of_species(const ArchiveGrains& grains, const std::vector<bool
   mobile.erase(std::unique(mobile.begin(), mobile.end()), mobile.end());
   if (mobile.size() < 2 || mobile.size() > 20) return question;
   question.option.clear();
-  for (const auto type : mobile)
-    question.option +=
-        fmt::format("{}--species type{}={}", question.option.empty() ? "" : " ", type, type);
-  question.reason = in_words(types_of(grains, {})) + "; or --species grains=all";
+  for (const auto type : mobile) {
+    const auto word = grains.type_word(type);
+    const bool is_name = !grains.type_names.empty() && is_species_name(word);
+    question.option += fmt::format("{}--species {}={}", question.option.empty() ? "" : " ",
+                                   is_name ? word : fmt::format("type{}", type), shell_word(word));
+  }
+  question.reason = in_words(grains, {}) + "; or --species grains=all";
   return question;
 }
 

@@ -4,6 +4,7 @@
 #include "formats/import/facts/named_species.hpp"
 #include "formats/import/facts/number_list.hpp"
 #include "formats/import/facts/proposals.hpp"
+#include "formats/import/facts/type_list.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,7 @@ std::vector<bool> boundary_grains(const ArchiveGrains& grains, const SpeciesSett
     for (std::size_t g = 0; g < grains.size(); ++g) boundary[g] = ids.contains(grains.id[g]);
     how = "ids " + *settings.boundary_ids;
   } else if (settings.boundary) {
-    const NumberList types(*settings.boundary, "--boundary");
+    const TypeList types(*settings.boundary, "--boundary", grains);
     if (*settings.boundary != "none") require_types(grains, "--boundary");
     for (std::size_t g = 0; g < grains.type.size(); ++g)
       boundary[g] = types.contains(grains.type[g]);
@@ -69,14 +70,14 @@ std::optional<double> gap_between_sizes(std::vector<double> diameter)
   return (diameter[widest - 1] + diameter[widest]) / 2;
 }
 
-Species by_type(const ArchiveGrains& grains, std::size_t g, const NumberList& small,
-                const NumberList& large)
+Species by_type(const ArchiveGrains& grains, std::size_t g, const TypeList& small,
+                const TypeList& large)
 {
   const auto type = grains.type[g];
   if (small.contains(type) == large.contains(type))
     throw UsageError(fmt::format(
         "type {} of grain {} is {}; every type of a mobile grain must be in exactly one of them",
-        type, grains.id[g],
+        grains.type_word(type), grains.id[g],
         small.contains(type) ? "in --small and in --large" : "neither in --small nor in --large"));
   return large.contains(type) ? Species::large : Species::small;
 }
@@ -124,7 +125,7 @@ SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& 
   if (settings.small || settings.large) {
     require_types(grains, settings.small ? "--small" : "--large");
     const auto small = settings.small.value_or("none"), large = settings.large.value_or("none");
-    const NumberList small_types(small, "--small"), large_types(large, "--large");
+    const TypeList small_types(small, "--small", grains), large_types(large, "--large", grains);
     for (std::size_t g = 0; g < grains.size(); ++g)
       found.species.push_back(boundary[g] ? Species::boundary
                                           : by_type(grains, g, small_types, large_types));

@@ -2,6 +2,7 @@
 #include "formats/import/lammps/lammps_archive.hpp"
 
 #include "formats/import/dump/dump_archive.hpp"
+#include "formats/import/dump/named_columns.hpp"
 #include "formats/import/liggghts/liggghts_columns.hpp"
 
 #include <fmt/format.h>
@@ -12,19 +13,9 @@ namespace {
 constexpr const char* recipe = "i=2,j=3,dist=4,force=5,tangential=8";
 constexpr std::size_t recipe_columns = 10;
 
-/// The mapping where the columns of the header are named by the words of --columns.
-std::string columns_by_name(const DumpHeader& header)
-{
-  std::string text;
-  for (const char* word :
-       {"i", "j", "fx", "fy", "fz", "tx", "ty", "tz", "bx", "by", "bz", "dist", "overlap"})
-    if (header.find(word)) text += fmt::format("{}{}={}", text.empty() ? "" : ",", word, word);
-  return header.find("i") && header.find("j") && header.find("fx") ? text : "";
-}
-
 std::string assumed_columns(const DumpHeader& header, const ArchiveGrains& grains)
 {
-  if (auto named = columns_by_name(header); !named.empty()) return named;
+  if (auto named = columns_by_name(header, PlainForce::normal); !named.empty()) return named;
   return header.columns.size() >= recipe_columns && !grains.force.empty() ? recipe : "";
 }
 
@@ -42,10 +33,9 @@ std::vector<std::string> other_columns(const DumpHeader& header)
   return others;
 }
 
-FileRole role_of(const FileStart& start)
+bool is_of_lammps(const FileStart& start)
 {
-  return role_of_dump(
-      start, [](const std::vector<std::string>& columns) { return !are_of_one_compute(columns); });
+  return role_of_dump(start) == FileRole::grains || !are_of_liggghts(columns_of_dump(start));
 }
 
 }  // namespace
@@ -62,7 +52,8 @@ std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
 const ArchiveFormat lammps_format{
     .name = "lammps",
     .open = open_lammps,
-    .role = role_of,
+    .role = role_of_dump,
+    .is_of_program = is_of_lammps,
     .takes_wall_columns = true,
     .examples =
         "  grseg-import --format lammps --grains atoms.dump --contacts contacts.dump \\\n"

@@ -2,6 +2,7 @@
 #include "formats/import/liggghts/liggghts_columns.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/import/dump/named_columns.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -127,7 +128,11 @@ class Dumped {
   explicit Dumped(const DumpHeader& header) : count_(header.columns.size())
   {
     for (const auto& name : header.columns) numbers_.push_back(number_in(name));
-    numbered_ = count_ > 0 && std::find(numbers_.begin(), numbers_.end(), 0U) == numbers_.end();
+    // `index` counts rows and is not the compute's.
+    const bool has_index = count_ > 1 && header.find("index");
+    const auto unknown = std::count(numbers_.begin(), numbers_.end(), 0U);
+    numbered_ = count_ > 0 && unknown == (has_index ? 1 : 0);
+    if (numbered_ && has_index) --count_;
   }
   /// From 1; 0: it was not dumped.
   std::size_t column(std::size_t of_compute) const
@@ -136,6 +141,8 @@ class Dumped {
     const auto at = std::find(numbers_.begin(), numbers_.end(), of_compute);
     return at == numbers_.end() ? 0 : static_cast<std::size_t>(at - numbers_.begin()) + 1;
   }
+  /// How many are of the compute.
+  std::size_t count() const { return count_; }
   /// Whether they may be of a compute of so many columns: of all, or of a selection by name.
   bool fits(std::size_t columns) const
   {
@@ -214,19 +221,36 @@ std::string liggghts_wall_mapping(const std::string& columns, const DumpHeader& 
   return mapping;
 }
 
-bool are_of_one_compute(const std::vector<std::string>& columns)
+bool are_of_liggghts(const std::vector<std::string>& columns)
 {
-  const auto compute = columns.front().substr(0, columns.front().find('['));
-  return std::all_of(columns.begin(), columns.end(), [&](const std::string& name) {
-    return number_in(name) > 0 && name.substr(0, name.find('[')) == compute;
-  });
+  constexpr std::size_t more_than_of_lammps = 12;
+  std::vector<std::string> names;
+  std::size_t last = 0;
+  bool has_index = false, of_one = true;
+  std::string compute;
+  for (const auto& column : columns) {
+    names.push_back(compared_name(column));
+    if (column == "index") {
+      has_index = true;
+      continue;
+    }
+    const auto name = column.substr(0, column.find('['));
+    of_one = of_one && number_in(column) > 0 && (compute.empty() || compute == name);
+    compute = name;
+    last = std::max(last, number_in(column));
+  }
+  if (of_one && last > 0) return !has_index || last >= more_than_of_lammps;
+  const auto has = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return has("periodic") || (has("x1") && has("x2"));
 }
 
 std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts)
 {
   std::vector<std::string> fitting;
   const Dumped dumped(contacts);
-  const auto count = contacts.columns.size();
+  const auto count = dumped.count();
   for (const auto& preset : presets)
     if (layout_of(preset.first).columns == count && dumped.fits(count))
       fitting.emplace_back(preset.first);

@@ -25,8 +25,10 @@ std::string liggghts_mapping(const std::string& columns, const DumpHeader& conta
 /// mesh, triangle and grain, and force is that on the grain. "" is pos,id,force, which is needed.
 std::string liggghts_wall_mapping(const std::string& columns, const DumpHeader& walls);
 
-/// Whether all columns are of one compute, c_cp[1] c_cp[2] ...: LAMMPS takes two, for ids and forces.
-bool are_of_one_compute(const std::vector<std::string>& columns);
+/// Whether columns are those of pair/gran/local: all of one compute, c_cp[1] c_cp[2] ..., while LAMMPS
+/// takes two, for ids and forces; or named after what LIGGGHTS alone has, the positions of both grains
+/// or whether they touch across a period.
+bool are_of_liggghts(const std::vector<std::string>& columns);
 
 /// Presets and lists of keywords that have as many columns as the header.
 std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts);

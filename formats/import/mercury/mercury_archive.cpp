@@ -68,6 +68,7 @@ class MercuryTables : public Archive {
   MercuryForces forces_;
   std::optional<double> last_time_;
   Unmatched grains_alone_, forces_alone_;
+  bool any_of_both_ = false;
 };
 
 /// Equal to the digits of the text, of which .data and .fstat have ten and old files eight or six.
@@ -81,7 +82,7 @@ bool MercuryTables::next_of_both(ArchiveMoment& moment)
 {
   bool more_grains = grains_->next(moment), more_forces = fstat_.next(forces_);
   while (more_grains && more_forces) {
-    if (same_time(*moment.time, forces_.time)) return true;
+    if (same_time(*moment.time, forces_.time)) return any_of_both_ = true;
     if (*moment.time < forces_.time) {
       grains_alone_.add(*moment.time);
       more_grains = grains_->next(moment);
@@ -90,6 +91,14 @@ bool MercuryTables::next_of_both(ArchiveMoment& moment)
       more_forces = fstat_.next(forces_);
     }
   }
+  if (any_of_both_) return false;
+  if (more_grains) grains_alone_.add(*moment.time);
+  if (more_forces) forces_alone_.add(forces_.time);
+  if (grains_alone_.count > 0 && forces_alone_.count > 0)
+    throw FormatError(fmt::format(
+        "no time is in both tables: those of the grains begin with {:.10g}, those of .fstat with {:.10g}; "
+        "write both at the same times",
+        grains_alone_.first, forces_alone_.first));
   return false;
 }
 

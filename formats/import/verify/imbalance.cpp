@@ -171,7 +171,7 @@ std::string likely_cause(const Grains& grains, const Box& box, const Frame<D>& f
   if (static_cast<double>(overlapping) >= most * static_cast<double>(unbalanced.size()))
     return fmt::format(
         "; {} of the {} grains that do not balance overlap others by more than {} of a radius: a bed "
-        "that is still being filled; begin later with --from",
+        "that is still being filled; begin later with --begin",
         overlapping, unbalanced.size(), deep);
   return "";
 }

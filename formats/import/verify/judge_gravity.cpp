@@ -103,7 +103,7 @@ Finding turning(const CheckSeries& series, const CheckContext& context,
   return {
       "gravity", Verdict::failed,
       fmt::format("gravity changes within the archive, from {} (t = {:.6g} to {:.6g}) to {} (t = "
-                  "{:.6g} to {:.6g}): import moments of one gravity, with --from and --to",
+                  "{:.6g} to {:.6g}): import moments of one gravity, with --begin and --end",
                   text_of(context, halves.first.value), time(0), time(middle - 1),
                   text_of(context, halves.second.value), time(middle), time(series.size() - 1)),
       (halves.second.value - halves.first.value).norm() / scale};

@@ -2,6 +2,7 @@
 #include "sim/scene/keys/scene_file.hpp"
 
 #include "formats/cli/words.hpp"
+#include "formats/core/byte_order_mark.hpp"
 #include "formats/core/files.hpp"
 #include "sim/scene/keys/keys.hpp"
 #include "sim/scene/keys/resolve.hpp"
@@ -19,10 +20,19 @@ namespace {
 
 namespace po = boost::program_options;
 
+/// The text of a file without a byte-order mark.
+std::string text_of(const std::string& path)
+{
+  std::ifstream file(path);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  return text;
+}
+
 /// "file:12" of the line that sets `key`, or "file" where none does.
 std::string place_of(const std::string& path, const std::string& key)
 {
-  std::ifstream file(path);
+  std::istringstream file(text_of(path));
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
@@ -79,10 +89,8 @@ void read_keys(const std::string& text, const std::string& name,
 void read_scene_file(const std::string& path, po::variables_map& values)
 {
   require_file(path);
-  std::ifstream file(path);
   read_keys(
-      std::string(std::istreambuf_iterator<char>(file), {}), path,
-      [&](const std::string& key) { return place_of(path, key); }, {}, values);
+      text_of(path), path, [&](const std::string& key) { return place_of(path, key); }, {}, values);
 }
 
 void read_scene_text(const std::string& text, const std::string& name,

@@ -83,12 +83,12 @@ TEST_F(DamagedArchive, NotANumber)
   expect_refusal("a NaN", exit_content, "contacts.dump, line 22: 'nan' in column 4 (c_pl[1])");
 }
 
-TEST_F(DamagedArchive, ADuplicateMoment)
+TEST_F(DamagedArchive, AMomentTwiceWithOtherPositions)
 {
   contacts += contacts_at(100);
-  grains += grains_at(100);
-  expect_refusal("a duplicate moment", exit_content,
-                 "step 100 comes after step 100: steps must increase");
+  grains += block("ATOMS", 100, grain_columns, grain_rows(0.06));
+  expect_refusal("a moment twice, with other positions", exit_usage,
+                 "step 100 comes after 100, and its grains are elsewhere than the first time");
 }
 
 TEST_F(DamagedArchive, UnitsThatDiffer)

@@ -83,7 +83,7 @@ TEST_F(PeriodsOfAnArchive, AreNotForgottenHalfWay)
   EXPECT_TRUE(
       mentions(refused.sentence,
                "moments before tell how often grains have crossed the periods, and this one "
-               "does not; import them separately, with --from and --to"));
+               "does not; import them separately, with --begin and --end"));
 }
 
 }  // namespace

@@ -88,7 +88,8 @@ TEST_F(ImportOfGrainsThatComeAndGo, LeavesTheOthersAsTheyWouldBeAlone)
   auto s = one_leaves_and_comes_back();
   import_archive(s, "");
   const auto among = frame_of(s, 1);
-  s.from = s.to = "step:100";
+  s.begin = "step:100";
+  s.end = "step:200";
   s.grains = "discs";
   s.species.small = "1";
   s.species.large = "2";
@@ -134,7 +135,7 @@ TEST_F(ImportOfGrainsThatComeAndGo, RefusesAnIdThatIsUsedAgain)
       mentions(refused.sentence,
                "the radius of grain 4 changes from 0.0025 to 0.003; was its id used again "
                "after a grain had been removed? Then import the moments before and after it "
-               "separately, with --from and --to"));
+               "separately, with --begin and --end"));
 }
 
 TEST_F(ImportOfGrainsThatComeAndGo, RefusesABedThatIsFrozenLater)
@@ -148,7 +149,7 @@ TEST_F(ImportOfGrainsThatComeAndGo, RefusesABedThatIsFrozenLater)
   EXPECT_TRUE(mentions(refused.sentence,
                        "the type of grain 7 changes from 2 to 3; grains that are "
                        "frozen or let go later are another bed: import the "
-                       "phases separately, with --from and --to"));
+                       "phases separately, with --begin and --end"));
 }
 
 TEST_F(ImportOfGrainsThatComeAndGo, RefusesAContactOfOneThatIsNotThere)
@@ -177,12 +178,12 @@ class RangeOfMoments : public ArchiveThatChanges {
     return settings(folder, grains_at(0) + grains_at(100) + grains_at(200) + grains_at(300),
                     contacts_at(0) + contacts_at(100) + contacts_at(200) + contacts_at(300));
   }
-  std::vector<std::int64_t> steps_of(const std::optional<std::string>& from,
-                                     const std::optional<std::string>& to)
+  std::vector<std::int64_t> steps_of(const std::optional<std::string>& begin,
+                                     const std::optional<std::string>& end)
   {
     auto s = four_moments();
-    s.from = from;
-    s.to = to;
+    s.begin = begin;
+    s.end = end;
     s.overwrite = true;
     import_archive(s, "");
     return TrajectoryReader(s.output).steps();
@@ -191,44 +192,44 @@ class RangeOfMoments : public ArchiveThatChanges {
 
 using Steps = std::vector<std::int64_t>;
 
-TEST_F(RangeOfMoments, IncludesBothEnds)
+TEST_F(RangeOfMoments, IncludesItsBeginButNotItsEnd)
 {
-  EXPECT_EQ(steps_of("step:100", "step:200"), (Steps{100, 200}));
+  EXPECT_EQ(steps_of("step:100", "step:200"), (Steps{100}));
   EXPECT_EQ(steps_of("step:101", std::nullopt), (Steps{200, 300}));
-  EXPECT_EQ(steps_of(std::nullopt, "step:199"), (Steps{0, 100}));
+  EXPECT_EQ(steps_of(std::nullopt, "step:101"), (Steps{0, 100}));
 }
 
 // 3 x 1e-5 x 100 is not 0.003 to the last bit.
-TEST_F(RangeOfMoments, InTimesIncludesBothEndsWhateverTheRounding)
+TEST_F(RangeOfMoments, InTimesIsTheSameWhateverTheRounding)
 {
-  EXPECT_EQ(steps_of("0.001", "0.003"), (Steps{100, 200, 300}));
+  EXPECT_EQ(steps_of("0.001", "0.003"), (Steps{100, 200}));
   EXPECT_EQ(steps_of("0.0010001", "2.9e-3"), Steps{200});
 }
 
 TEST_F(RangeOfMoments, IsRecordedInTheFile)
 {
   auto s = four_moments();
-  s.from = "0.001";
-  s.to = "step:200";
+  s.begin = "0.001";
+  s.end = "step:200";
   import_archive(s, "");
   const auto parameters = TrajectoryReader(s.output).parameters();
-  EXPECT_EQ(parameters.text("import_from"), "0.001");
-  EXPECT_EQ(parameters.text("import_to"), "step:200");
-  EXPECT_TRUE(mentions(parameters.text("import_remarks"), "--from 0.001 --to step:200"));
+  EXPECT_EQ(parameters.text("import_begin"), "0.001");
+  EXPECT_EQ(parameters.text("import_end"), "step:200");
+  EXPECT_TRUE(mentions(parameters.text("import_remarks"), "--begin 0.001 --end step:200"));
 }
 
 TEST_F(RangeOfMoments, WithoutMomentsNamesTheRangeOfTheArchive)
 {
   auto s = four_moments();
-  s.from = "1";
+  s.begin = "1";
   EXPECT_EQ(refusal(s).sentence,
-            "no moment lies in the range --from 1: the archive has 4 moments "
+            "no moment lies in the range --begin 1: the archive has 4 moments "
             "from step 0 to step 300");
   EXPECT_EQ(refusal(s).code, exit_usage);
-  s.from = "step:101";
-  s.to = "step:199";
+  s.begin = "step:101";
+  s.end = "step:199";
   EXPECT_TRUE(mentions(refusal(s).sentence,
-                       "no moment lies in the range --from step:101 --to "
+                       "no moment lies in the range --begin step:101 --end "
                        "step:199: the archive has 4 moments"));
 }
 
@@ -236,7 +237,7 @@ TEST_F(RangeOfMoments, ThatIsNeitherATimeNorAStepIsRefused)
 {
   auto s = four_moments();
   for (const char* text : {"step:1.5", "soon", "1s", "nan", ""}) {
-    s.to = text;
+    s.end = text;
     EXPECT_TRUE(
         mentions(refusal(s).sentence, "is neither a time in the archive's units, as in 12.5"))
         << text;
@@ -247,9 +248,9 @@ TEST_F(RangeOfMoments, InTimesNeedsTheLengthOfAStepWhereTheArchiveHasStepsOnly)
 {
   auto s = four_moments();
   s.step.reset();
-  s.from = "0.001";
+  s.begin = "0.001";
   EXPECT_TRUE(mentions(refusal(s).sentence,
-                       "--from is a time, but the archive has steps only, and "
+                       "--begin is a time, but the archive has steps only, and "
                        "the length of a time step is not known: pass it with "
                        "--step"));
 }

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace grseg {
 namespace {
@@ -226,7 +227,7 @@ TEST_F(CsvPerStep, TimesAndStepsDoNotMatchAndNamesWithoutEitherAreRefused)
 TEST_F(CsvPerStep, FilesInUtf16AreNamed)
 {
   write("g1.csv", std::string("\xff\xfei\0d\0", 6));
-  EXPECT_NE(complaint_of(named("g1.csv", "g1.csv")).find("is in UTF-16; save it as UTF-8"),
+  EXPECT_NE(complaint_of(named("g1.csv", "g1.csv")).find("is text in UTF-16: save it as UTF-8"),
             std::string::npos);
 }
 
@@ -338,6 +339,164 @@ TEST_F(Csv, AColumnThatIsMissingIsAskedForByMap)
                 .find("no column i or id1 among 'time a j fx fy'"
                       "; --map NAME=i tells which it is"),
             std::string::npos);
+}
+
+TEST_F(Csv, NumbersMayBeThoseOfFortran)
+{
+  const auto with_d = [](std::string table) {
+    return with(with(table, "0.5,", "5.0D-01,"), "0.05,", "0.05D0,");
+  };
+  const auto moments = read("# step: 1.0D-05\n# periodic: x 0.0D0 0.35D0\n" + with_d(grain_table),
+                            with(with_d(contact_table), "0.25", "2.5-001"));
+  ASSERT_EQ(moments.size(), 2u);
+  EXPECT_EQ(*moments[0].time, 0.5);
+  EXPECT_EQ(moments[0].high.x(), 0.35);
+  EXPECT_EQ(moments[0].grains.radius, (std::vector<double>{0.05, 0.05}));
+  EXPECT_DOUBLE_EQ(moments[0].contacts.force[0].x(), 0.25);
+}
+
+TEST_F(Csv, IdsMayBeBeyondTheIntegersOfMostPrograms)
+{
+  const auto moments = read(with(grain_table, ",7,0.1", ",4294967303,0.1"),
+                            with(contact_table, "7,9", "4294967303,9"));
+  EXPECT_EQ(moments.at(0).grains.id[0], 4294967303);
+  EXPECT_EQ(moments.at(0).contacts.i[0], 4294967303);
+  EXPECT_NE(
+      complaint(with(grain_table, ",7,0.1", ",1e16,0.1"), contact_table).find("1e+16 is not an id"),
+      std::string::npos);
+}
+
+TEST_F(Csv, MomentsThatDoNotMatchAreNamed)
+{
+  const auto said = complaint(grain_table, with(contact_table, "0.5,7", "0.500003,7"));
+  EXPECT_EQ(said, "no complaint") << "those of 0.6 match";
+  const auto later = with(with(contact_table, "0.5,7", "0.500003,7"), "0.6,7", "0.600003,7");
+  EXPECT_EQ(
+      complaint(grain_table, later),
+      "no moment is in both tables: times of the grains begin with 0.5, 0.6, those of the contacts "
+      "with 0.500003, 0.600003; write the same times in both");
+  EXPECT_EQ(complaint(grain_table, "time,i,j,fx,fy\n"), "no complaint")
+      << "there is nothing to match";
+}
+
+// A time that one program writes as 0 and another as what is left of it.
+TEST_F(Csv, TimesAreTheSameToABillionthOfWhatIsBetweenThem)
+{
+  const auto at = [](const std::string& table, const char* time) {
+    return with(table, "0.5,", time);
+  };
+  EXPECT_EQ(read(at(grain_table, "0,"), at(contact_table, "1.0-101,")).size(), 2u);
+  EXPECT_EQ(read(at(grain_table, "0,"), at(contact_table, "1e-9,")).size(), 1u);
+}
+
+TEST_F(Csv, TypesMayBeWords)
+{
+  const auto typed = [](const std::string& types) {
+    std::istringstream words(types);
+    std::string table = "time,id,x,y,vx,vy,Particle Type\n", word;
+    for (const char* row :
+         {"0.5,7,0.1,0.2,1,2,", "0.5,9,0.1,0.1,0,0,", "0.6,7,0.1,0.2,1,2,", "0.6,9,0.1,0.1,0,0,"}) {
+      words >> word;
+      table += row + word + "\n";
+    }
+    return table;
+  };
+  const auto grains_of = [&](const std::string& types, std::size_t moment) {
+    auto all = files(typed(types), contact_table);
+    all.map = {"ParticleType=type"};
+    return all_of(*open_csv(all)).at(moment).grains;
+  };
+  const auto words = grains_of("coarse fine coarse fine", 1);
+  EXPECT_EQ(words.type, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(words.type_names, (std::vector<std::string>{"coarse", "fine"}));
+  const auto both = grains_of("3 wall 3.0 wall", 1);
+  EXPECT_EQ(both.type_word(both.type[0]) + both.type_word(both.type[1]), "3wall");
+  const auto numbers = grains_of("3 4 3.0 4", 1);
+  EXPECT_EQ(numbers.type, (std::vector<std::int32_t>{3, 4}));
+  EXPECT_TRUE(numbers.type_names.empty());
+  for (const char* types : {"1.5 2 1.5 2", "nan fine nan fine", "1e10 2 1e10 2"})
+    EXPECT_THROW(grains_of(types, 0), FormatError) << types;
+  EXPECT_THROW(grains_of("3 4 3 wall", 1), FormatError) << "words after numbers";
+}
+
+/// Tables without a line of names.
+class CsvWithoutNames : public Csv {
+ protected:
+  const std::string contact_rows = contact_table.substr(contact_table.find('\n') + 1);
+  std::vector<ArchiveMoment> mapped(const std::vector<std::string>& map,
+                                    const std::string& separator = ",") const
+  {
+    auto all = files(with(grain_rows, ",", separator), with(contact_rows, ",", separator));
+    all.map = map;
+    return all_of(*open_csv(all));
+  }
+};
+
+TEST_F(CsvWithoutNames, ColumnsAreNamedByNumber)
+{
+  for (const char* separator : {",", ";", "\t", " "}) {
+    const auto moments = mapped(
+        {"1=time,2=id,3=x,4=y,5=radius,6=vx,7=vy,8=omega", "1=time,2=i,3=j,4=fx,5=fy,6=overlap"},
+        separator);
+    ASSERT_EQ(moments.size(), 2u);
+    EXPECT_EQ(moments[0].grains.size(), 2u) << "the first line is a row";
+    EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
+    EXPECT_TRUE(moments[0].grains.force.empty()) << "column 4 is fx in the other table";
+    EXPECT_EQ(moments[0].contacts.force[0], Vec3(0.25, -4, 0));
+  }
+}
+
+TEST_F(CsvWithoutNames, OneListForBothTablesIsDividedByTheNamesThatOneAloneHas)
+{
+  const auto moments = mapped({"1=time,2=id,3=x,4=y,5=radius,6=vx,7=vy,8=omega,2=i,3=j,4=fx,5=fy"});
+  ASSERT_EQ(moments.size(), 2u);
+  EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
+  EXPECT_EQ(moments[0].contacts.force[0], Vec3(0.25, -4, 0));
+}
+
+TEST_F(CsvWithoutNames, ArePointedOutUntilTheirColumnsAreNamed)
+{
+  EXPECT_NE(
+      complaint(grain_rows, contact_table)
+          .find("line 1: the first line holds numbers, not names: give --map 1=id,2=x,... for "
+                "the columns"),
+      std::string::npos);
+  EXPECT_NE(complaint(grain_table, contact_rows).find("give --map 1=i,2=j,... for"),
+            std::string::npos);
+  auto all = files(grain_table, contact_table);
+  all.map = {"3=x,12=y"};
+  EXPECT_THROW(open_csv(all), UsageError) << "there is no column 12";
+}
+
+TEST_F(CsvWithoutNames, MayHaveThemInTheCommentAbove)
+{
+  for (const char* sign : {"# ", "#", "% "}) {
+    const auto moments = read(sign + with(grain_table, ",", " "),
+                              "# by hand\n" + (sign + with(contact_table, ",", " ")));
+    ASSERT_EQ(moments.size(), 2u) << sign;
+    EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
+    EXPECT_EQ(moments[0].contacts.force[0], Vec3(0.25, -4, 0));
+  }
+}
+
+TEST_F(Csv, TheNumberOfARowMayBeTheId)
+{
+  const auto grains = with(with(grain_table, ",7,0.1", ",0.1"), ",9,0.1", ",0.1");
+  auto all = files(with(grains, ",id", ""), contact_table);
+  const auto ids = [&](const std::string& map) {
+    all.map = {map};
+    std::vector<std::int64_t> found;
+    for (const auto& moment : all_of(*open_csv(all)))
+      found.insert(found.end(), moment.grains.id.begin(), moment.grains.id.end());
+    return found;
+  };
+  EXPECT_EQ(ids("row=id"), (std::vector<std::int64_t>{0, 1, 0, 1}));
+  EXPECT_EQ(ids("row+1=id"), (std::vector<std::int64_t>{1, 2, 1, 2}));
+  EXPECT_THROW(ids("row=x"), UsageError);
+  EXPECT_NE(complaint(with(grains, ",id", ""), contact_table).find("--map row=id"),
+            std::string::npos);
+  all = files(grain_table, contact_table);
+  EXPECT_EQ(ids("row=id"), (std::vector<std::int64_t>{0, 1, 0, 1})) << "the table has other ids";
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/dump_reader.hpp"
 
+#include "formats/import/common/file_list.hpp"
 #include "formats/import/dump/dump_grains.hpp"
 #include "formats/import/dump/dump_pair.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 namespace grseg {
@@ -19,7 +21,7 @@ class Dump : public testing::Test {
 
   ArchiveGrains grains_of(const std::string& text)
   {
-    DumpReader dump({folder.write("atoms.dump", text)});
+    JoinedDumps dump({folder.write("atoms.dump", text)});
     EXPECT_TRUE(dump.next());
     ArchiveGrains grains;
     DumpGrains().read(dump, grains);
@@ -115,7 +117,6 @@ TEST_F(Dump, SentencesNameTheLine)
   EXPECT_TRUE(mentions(with("0 0.1", "0 0.1 0.02"), "line 6: the cell is tilted"));
   EXPECT_TRUE(
       mentions(with("ITEM: NUMBER", "ITEM: SUM"), "line 3: 'ITEM: SUM OF ATOMS' is not part"));
-  EXPECT_TRUE(mentions(complaint(good + good), "line 13: step 5 comes after step 5"));
   EXPECT_TRUE(mentions(complaint("ITEM: UNITS\nsi\n" + good + "ITEM: UNITS\ncgs\n"),
                        "line 15: units 'cgs' after units 'si'"));
 }
@@ -148,6 +149,159 @@ TEST_F(Dump, TimesGiveTheLengthOfAStep)
   const auto grains = folder.write("a", at("0.5", 1000) + at("0.75", 2000));
   const auto contacts = folder.write("c", block("ENTRIES", 1000, "i j", {}));
   EXPECT_EQ(DumpPair({grains}, {contacts}).step(), 0.25 / 1000);
+}
+
+TEST_F(Dump, StepsThatNoDumpSharesAreNamed)
+{
+  const auto blocks = [&](const char* name, const std::vector<int>& steps) {
+    std::string text;
+    for (const int step : steps) text += block(name, step, "id x", {"1 0.5"});
+    return folder.write(name, text);
+  };
+  DumpPair pair({blocks("ATOMS", {0, 100, 200, 300})}, {blocks("ENTRIES", {50, 150})});
+  try {
+    pair.next();
+    FAIL() << "no step is in both";
+  } catch (const FormatError& error) {
+    EXPECT_TRUE(mentions(error.what(),
+                         "those of the grains begin with 0, 100, 200, those of the "
+                         "contacts with 50, 150; write them at the same steps"));
+  }
+}
+
+TEST_F(Dump, NumbersMayBeThoseOfFortranAndIdsBeyond32Bits)
+{
+  const auto grains =
+      grains_of(block("ATOMS", 0, "id x y radius", {"4294967303 0.5D-01 2.0-102 1.0D0"}));
+  EXPECT_EQ(grains.id[0], 4294967303);
+  EXPECT_EQ(grains.position[0], Vec3(0.05, 2e-102, 0));
+  EXPECT_EQ(grains.radius[0], 1);
+}
+
+TEST_F(Dump, TypesMayBeWords)
+{
+  for (const char* column : {"type", "typelabel"}) {
+    const auto grains = grains_of(block("ATOMS", 0, std::string("id x ") + column,
+                                        {"1 0.5 glass", "2 0.5 sand", "3 0.5 glass"}));
+    EXPECT_EQ(grains.type, (std::vector<std::int32_t>{0, 1, 0})) << column;
+    EXPECT_EQ(grains.type_names, (std::vector<std::string>{"glass", "sand"})) << column;
+  }
+  const auto both = grains_of(block("ATOMS", 0, "id x type typelabel", {"1 0.5 3 glass"}));
+  EXPECT_EQ(both.type, (std::vector<std::int32_t>{3}));
+  EXPECT_TRUE(both.type_names.empty());
+  EXPECT_THROW(grains_of(block("ATOMS", 0, "id x type", {"1 0.5 1.5"})), FormatError);
+}
+
+// `dump_modify triclinic/general yes`: edges of the cell, each with a coordinate of its origin.
+TEST_F(Dump, ACellGivenByItsEdgesIsReadWhereItIsRectangular)
+{
+  const auto dump = [](const std::string& edges) {
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS abc origin pp ff ps\n" +
+           edges + "ITEM: ATOMS id x\n1 0.5\n";
+  };
+  DumpReader reader({folder.write("a.dump", dump("2 0 1e-16 -1\n0 3 0 0.5\n0 0 4 -2\n"))});
+  ASSERT_TRUE(reader.next());
+  EXPECT_EQ(reader.header().low, Vec3(-1, 0.5, -2));
+  EXPECT_EQ(reader.header().high, Vec3(1, 3.5, 2));
+  EXPECT_EQ(reader.header().periodic, (std::array<bool, 3>{true, false, false}));
+  EXPECT_TRUE(mentions(complaint(dump("2 0 0 -1\n0.5 3 0 0\n0 0 4 0\n")),
+                       "line 7: the cell is tilted; only rectangular cells are imported"));
+  EXPECT_TRUE(mentions(complaint(dump("2 0 0 -1\n-3 0 0 0\n0 0 4 0\n")), "the cell is tilted"));
+  EXPECT_TRUE(mentions(complaint(dump("2 0 -1\n0 3 0\n0 0 4\n")),
+                       "line 6: '2 0 -1' is not an edge of the cell and its origin"));
+}
+
+/// Two steps of two grains and two contacts, as two processors write them.
+class DumpOfProcessors : public Dump {
+ protected:
+  std::string write(const std::string& name, const std::string& label,
+                    const std::vector<int>& steps, const std::string& row)
+  {
+    std::string text;
+    for (const int step : steps)
+      text += block(label, step, label == "ATOMS" ? "id x" : "i j fx", {row});
+    return folder.write(name, text);
+  }
+  /// "0: 1 2; 100: 1 2; " for the first column of the rows at each step.
+  static std::string first_column(const std::vector<std::string>& files)
+  {
+    JoinedDumps dump(files);
+    std::string text;
+    std::vector<std::vector<double>> values;
+    while (dump.next()) {
+      dump.read_rows(std::vector<std::size_t>{0}, values);
+      text += fmt::format("{}: {}; ", dump.header().step, fmt::join(values[0], " "));
+    }
+    return text;
+  }
+  static std::string complaint_about(const std::vector<std::string>& files)
+  {
+    try {
+      first_column(files);
+    } catch (const FormatError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  }
+};
+
+TEST_F(DumpOfProcessors, PartsOfAStepAreJoined)
+{
+  const auto a = write("a.0.dump", "ATOMS", {0, 100}, "1 0.5");
+  const auto b = write("a.1.dump", "ATOMS", {0, 100}, "2 0.5");
+  EXPECT_EQ(first_column({a, b}), "0: 1 2; 100: 1 2; ");
+  std::vector<std::string> files;
+  for (const int step : {0, 100})
+    for (const int processor : {0, 1})
+      files.push_back(write(fmt::format("s.{}.{}", step, processor), "ATOMS", {step},
+                            fmt::format("{} 0.5", processor + 1)));
+  EXPECT_EQ(first_column(files), "0: 1 2; 100: 1 2; ");
+  EXPECT_EQ(archive_files({folder / "s.*.%"}, "--grains"), files);
+  std::swap(files[1], files[2]);
+  EXPECT_EQ(first_column(files), "0: 1 2; 100: 1 2; ") << "processor by processor";
+  EXPECT_EQ(first_column({write("e.0", "ATOMS", {0}, "1 0.5"), folder.write("e.1", "")}), "0: 1; ")
+      << "a processor without grains";
+}
+
+TEST_F(DumpOfProcessors, FilesThatFollowOneAnotherAreInOrderOfTheirSteps)
+{
+  EXPECT_EQ(
+      first_column({write("b", "ATOMS", {200, 300}, "3 0"), write("c", "ATOMS", {0, 100}, "4 0")}),
+      "0: 4; 100: 4; 200: 3; 300: 3; ");
+}
+
+// LAMMPS writes the header of a dump local for the first processor alone.
+TEST_F(DumpOfProcessors, RowsWithoutAHeaderBelongToTheStepInTheirName)
+{
+  std::vector<std::string> files;
+  for (const int step : {0, 100}) {
+    files.push_back(write(fmt::format("c.{}.0", step), "ENTRIES", {step}, "1 2 0"));
+    files.push_back(
+        folder.write(fmt::format("c.{}.1", step), fmt::format("{} 4 0\n5 6 0\n", step + 3)));
+    files.push_back(folder.write(fmt::format("c.{}.2", step), ""));
+  }
+  EXPECT_EQ(first_column(files), "0: 1 3 5; 100: 1 103 5; ");
+  const auto all = write("d.0", "ENTRIES", {0, 100}, "1 2 0");
+  const auto rows = folder.write("d.1", "3 4 0\n");
+  EXPECT_TRUE(mentions(
+      complaint_about({all, rows}),
+      rows + " has no header, which LAMMPS writes for the first processor alone, and " + all));
+}
+
+TEST_F(DumpOfProcessors, AFileThatIsDamagedIsNotLeftOut)
+{
+  const auto a = write("a", "ATOMS", {0}, "1 0.5");
+  EXPECT_TRUE(mentions(complaint_about({a, folder.write("b.gz", "\x1f\x8b cut off")}),
+                       "the compressed data is damaged or truncated"));
+}
+
+TEST_F(DumpOfProcessors, WhatIsNotPartOfOneDumpIsNamed)
+{
+  const auto a = write("a", "ATOMS", {0, 100}, "1 0.5");
+  EXPECT_TRUE(mentions(complaint_about({a, write("c", "ENTRIES", {0, 100}, "1 2 0")}),
+                       "these files begin with the same step, but are not the parts of one dump"));
+  EXPECT_TRUE(mentions(complaint_about({a, write("b", "ATOMS", {0}, "2 0.5")}),
+                       "this part of the dump ends behind step 0"));
 }
 
 }  // namespace

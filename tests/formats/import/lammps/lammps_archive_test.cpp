@@ -2,6 +2,7 @@
 #include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -405,6 +406,71 @@ TEST_F(Lammps, TheMissingForceOfARealArchiveIsTheDampingOfItsInput)
   const auto elastic = import_archive(s, "");
   EXPECT_EQ(elastic.frames, 4u);
   EXPECT_LT(*elastic.largest_residual, 1e-13);
+}
+
+// `dump_modify colname`, or a script: fn and ft are the parts of the force, t1 and t2 something else.
+TEST_F(Lammps, ColumnsMayBeNamedAsPeopleNameThem)
+{
+  for (const char* names : {"n id1 id2 distance fnx fny fnz ftx fty ftz",
+                            "Index iD_1 ID_2 dist Fn_x Fn_y Fn_z Ft_x Ft_y Ft_z",
+                            "index patom1 patom2 dist fx fy fz p1 p2 p3",
+                            "t1 particle1 particle2 t2 fx fy fz ftx fty ftz"}) {
+    auto s = settings(folder, grains_at(0), block("ENTRIES", 0, names, contact_rows()));
+    s.overwrite = true;
+    EXPECT_EQ(refusal(s).code, 0) << names << ": " << refusal(s).sentence;
+  }
+  auto s = settings(folder, grains_at(0),
+                    block("ENTRIES", 0, "n id1 id2 dist fnx fny fnz ftx fty ftz", contact_rows()));
+  s.overwrite = true;
+  EXPECT_EQ(import_archive(s, "").columns,
+            "i=id1,j=id2,fx=fnx,fy=fny,fz=fnz,tx=ftx,ty=fty,tz=ftz,dist=dist");
+}
+
+TEST_F(Lammps, IdsThatATrajectoryCannotHoldAreNumberedAndKeptBeside)
+{
+  std::vector<std::string> grains, contacts;
+  for (const auto& row : grain_rows()) grains.push_back("400000000" + row);
+  contacts.push_back("1 4000000004 4000000007" + contact_rows()[0].substr(5));
+  contacts.push_back("1 4000000009 4000000007" + contact_rows()[1].substr(5));
+  auto s = settings(folder, block("ATOMS", 0, grain_columns, grains),
+                    block("ENTRIES", 0, contact_columns, contacts));
+  const auto report = import_archive(s, "");
+  EXPECT_TRUE(
+      mentions(fmt::format("{}", fmt::join(report.remarks, " ")), "/parameters/import_ids"));
+  const TrajectoryReader run(s.output);
+  EXPECT_EQ(run.grains().id, (std::vector<std::int32_t>{1, 2, 3}));
+  EXPECT_EQ(run.parameters().numbers.at("import_ids"),
+            (std::vector<double>{4000000004, 4000000007, 4000000009}));
+  EXPECT_EQ(run.grains().radius[0], 0.0025);
+  s.overwrite = true;
+  s.species.boundary.reset();
+  s.species.boundary_ids = "4000000009";
+  EXPECT_EQ(refusal(s).code, 0) << refusal(s).sentence;
+}
+
+TEST_F(Lammps, TypesThatAreWordsNameSpeciesAndBase)
+{
+  const auto typed = [](std::string text) {
+    for (const auto& [number, word] :
+         {std::pair{"9 3 ", "9 base "}, {"4 1 ", "4 fine "}, {"7 2 ", "7 coarse "}})
+      text.replace(text.find(number), 4, word);
+    return text;
+  };
+  auto s = settings(folder, typed(grains_at(0)), contacts_at(0));
+  s.overwrite = true;
+  s.species.boundary = "base";
+  s.species.named = {"c=coarse", "f=fine"};
+  EXPECT_EQ(refusal(s).code, 0) << refusal(s).sentence;
+  const TrajectoryReader run(s.output);
+  EXPECT_EQ(run.species()[0].name + run.species()[1].name, "fc");
+  EXPECT_EQ(run.parameters().text("import_base"), "types base");
+  s.species.boundary = "bsae";
+  EXPECT_TRUE(mentions(refusal(s).sentence, "'bsae'"));
+  s.species.boundary.reset();
+  EXPECT_TRUE(mentions(refusal(s).sentence, "type base: 1 grain"));
+  s.species.boundary = "base";
+  s.species.named = {"f=fine"};
+  EXPECT_TRUE(mentions(refusal(s).sentence, "type coarse of grain 7 is in no --species"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "formats/import/liggghts/liggghts_archive.hpp"
 
 #include "formats/import/convert/importer.hpp"
+#include "formats/import/dump/named_columns.hpp"
 #include "formats/import/liggghts/liggghts_columns.hpp"
 #include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/archive_balance.hpp"
@@ -12,6 +13,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 
 namespace grseg {
 namespace {
@@ -213,6 +216,62 @@ TEST_F(Liggghts, NamesOfColumnsThatDoNotFitTheRowsAreNotAskedForAMapping)
   } catch (const FormatError& error) {
     EXPECT_EQ(error.what(), damaged + ", line 10: a row of 35 columns, but the header names 34");
   }
+}
+
+DumpHeader named_header(const std::string& names)
+{
+  DumpHeader header;
+  header.place = "contacts.dump, line 1";
+  std::istringstream words(names);
+  for (std::string word; words >> word;) header.columns.push_back(word);
+  return header;
+}
+
+const std::string first_18 = "x1 y1 z1 x2 y2 z2 vx1 vy1 vz1 vx2 vy2 vz2 id1 id2 periodic fx fy fz ";
+
+TEST(LiggghtsColumns, AreToldFromThoseOfLammps)
+{
+  const auto is_of_liggghts = [](const std::string& names) {
+    return are_of_liggghts(named_header(names).columns);
+  };
+  EXPECT_TRUE(is_of_liggghts("c_cp[13] c_cp[14] c_cp[16] c_cp[17] c_cp[18]"));
+  EXPECT_TRUE(is_of_liggghts("index c_cp[7] c_cp[8] c_cp[10] c_cp[11] c_cp[12]"));
+  EXPECT_TRUE(is_of_liggghts(first_18 + "delta"));
+  EXPECT_TRUE(is_of_liggghts("id1 id2 periodic fx fy fz"));
+  EXPECT_FALSE(is_of_liggghts("index c_pr[1] c_pr[2] c_pl[1] c_pl[2]"));
+  EXPECT_FALSE(is_of_liggghts("index c_pl[1] c_pl[2] c_pl[3] c_pl[4]"));
+  EXPECT_FALSE(is_of_liggghts("n id1 id2 t1 t2 dist fnx fny fnz ftx fty ftz ft"));
+}
+
+TEST(LiggghtsColumns, OfTheComputeMayStandBesideTheIndex)
+{
+  const auto header = named_header("index c_cp[7] c_cp[8] c_cp[10] c_cp[11] c_cp[12]");
+  EXPECT_EQ(liggghts_mapping("pos,id,force", header), "i=2,j=3,fx=4,fy=5,fz=6");
+}
+
+// Names that fit a preset in ids and force, but not in what stands behind them, of which the preset
+// knows the order.
+TEST_F(Liggghts, NamesOfColumnsChooseAmongTheKnownOnes)
+{
+  auto all = files("contacts-full35.dump");
+  std::ifstream in(all.contacts[0]);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const auto columns_of = [&](const std::string& names) {
+    auto renamed = text;
+    for (auto at = renamed.find("c_cp[1]"); at != std::string::npos; at = renamed.find("c_cp[1]"))
+      renamed.replace(at, renamed.find('\n', at) - at, names);
+    all.contacts = {(folder / "named.dump").string()};
+    std::ofstream(all.contacts[0]) << renamed;
+    const auto archive = open_liggghts(all);
+    ArchiveMoment moment;
+    EXPECT_TRUE(archive->next(moment));
+    EXPECT_TRUE(moment.questions.empty());
+    return archive->columns();
+  };
+  const std::string rest = "fnx fny fnz ftx fty ftz tx ty tz a b c h1 h2 h3 area delta";
+  EXPECT_EQ(columns_of(first_18 + rest), "liggghts-full35");
+  EXPECT_EQ(columns_by_name(named_header("id1 id2 fx fy fz " + rest), PlainForce::whole),
+            "i=id1,j=id2,fx=fx,fy=fy,fz=fz,overlap=delta");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "tests/formats/import/flow_in_space.hpp"
 #include "tests/formats/import/mercury_files.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -225,6 +226,21 @@ TEST_F(Mercury, BlocksAreMatchedByTimeNotByOrder)
   ASSERT_EQ(archive->remarks().size(), 1u);
   EXPECT_NE(archive->remarks()[0].find("1 moments are in .fstat but not in the grains' files"),
             std::string::npos);
+}
+
+TEST_F(Mercury, TimesThatNoTableSharesAreNamed)
+{
+  auto all = files({});
+  Frame<2> late = frames[2];
+  late.time += 0.01;
+  all.contacts = {file("late.fstat", mercury_files::fstat(run.grains(), late, {}))};
+  EXPECT_NE(
+      complaint(all).find(fmt::format(
+          "no time is in both tables: those of the grains begin with {:.10g}, those of .fstat with "
+          "{:.10g}",
+          frames[0].time, late.time)),
+      std::string::npos)
+      << complaint(all);
 }
 
 TEST_F(Mercury, WithoutRestartPairsAcrossThePeriodAreRefused)

@@ -273,6 +273,14 @@ TEST_F(SceneFile, TheCommandLineWins)
   EXPECT_EQ(scene.friction, 0.3);
 }
 
+TEST_F(SceneFile, MayBeginWithAByteOrderMark)
+{
+  const std::string mark = "\xef\xbb\xbf";
+  std::ofstream(path) << mark + "slope = 21\n";
+  EXPECT_EQ(resolve_scene(path, parse({})).slope, 21);
+  EXPECT_EQ(complaint(mark + "slope = steep\n"), path + ":1: slope: 'steep' is not a number");
+}
+
 TEST_F(SceneFile, ThatDoesNotExistIsAUsageError)
 {
   auto values = parse({});

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/proposed_files.hpp"
+
+#include "tests/formats/import/lammps_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grseg {
+namespace {
+
+using namespace lammps_text;
+
+/// Files whose names say the opposite of what they hold.
+class NamedFiles : public testing::Test {
+ protected:
+  Folder folder;
+  const std::string grains = folder.write("contacts.dump", grains_at(0));
+  const std::string contacts = folder.write("atoms.dump", contacts_at(0));
+
+  ImportSettings unnamed(const std::string& format, const std::vector<std::string>& files) const
+  {
+    ImportSettings s;
+    s.format = format;
+    s.output = folder / "run.h5";
+    s.files.unnamed = files;
+    return s;
+  }
+  std::string asked(const ImportSettings& s) const
+  {
+    Questions questions;
+    try {
+      with_proposed_files(s, questions);
+      questions.report();
+    } catch (const OpenQuestions& open) {
+      return open.options();
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(NamedFiles, OfAKnownProgramAreTakenForWhatTheyHold)
+{
+  for (const char* format : {"lammps", "liggghts"}) {
+    const auto s = with_known_files(unnamed(format, {contacts, grains}));
+    EXPECT_EQ(s.files.grains, std::vector{grains}) << format;
+    EXPECT_EQ(s.files.contacts, std::vector{contacts}) << format;
+    EXPECT_TRUE(s.files.unnamed.empty());
+    EXPECT_EQ(asked(unnamed(format, {contacts, grains})), "");
+  }
+}
+
+TEST_F(NamedFiles, AreNotAskedForAgain)
+{
+  EXPECT_EQ(asked(unnamed("", {contacts})),
+            "--format lammps --contacts " + contacts + " --grains FILES");
+  EXPECT_EQ(asked(unnamed("lammps", {contacts})), "--grains FILES");
+  EXPECT_EQ(asked(unnamed("lammps", {grains})), "--contacts FILES");
+}
+
+TEST_F(NamedFiles, OfLammpsAndLiggghtsAreToldByTheirColumns)
+{
+  const auto written_by = [&](const std::string& columns) {
+    const auto said =
+        asked(unnamed("", {grains, folder.write("c", block("ENTRIES", 0, columns, {}))}));
+    return said.substr(0, said.find(" --grains"));
+  };
+  EXPECT_EQ(written_by("n id1 id2 t1 t2 dist fnx fny fnz ftx fty ftz"), "--format lammps");
+  EXPECT_EQ(written_by("index c_a[1] c_a[2] c_b[1] c_b[2]"), "--format lammps");
+  EXPECT_EQ(written_by("x1 y1 z1 x2 y2 z2 id1 id2 periodic fx fy fz"), "--format liggghts");
+  EXPECT_EQ(written_by("c_c[1] c_c[2] c_c[3] c_c[4] c_c[5] c_c[6]"), "--format liggghts");
+}
+
+TEST_F(NamedFiles, ThatNoFormatKnowsAreNamedWithTheirFirstLine)
+{
+  const auto text = folder.write("notes.txt", "what I did\n");
+  EXPECT_TRUE(
+      mentions(asked(unnamed("", {grains, text})),
+               text + ": what it holds is not known by its first line, 'what I did'; name it with "
+                      "--grains or --contacts, and its --format"));
+  EXPECT_TRUE(
+      mentions(asked(unnamed("liggghts", {grains, text})), "of --format liggghts is not known"));
+  const auto table = folder.write("c.csv", "i,j,fx,fy\n");
+  EXPECT_TRUE(mentions(asked(unnamed("", {grains, table})), "the files are not of one program"));
+  auto s = unnamed("lammps", {grains});
+  s.files.grains = {folder.write("more.dump", grains_at(100))};
+  EXPECT_TRUE(mentions(
+      asked(s), grains + " is among the files with the grains, too: name it behind --grains"));
+}
+
+}  // namespace
+}  // namespace grseg

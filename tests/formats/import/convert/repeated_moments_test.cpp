@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/trajectory/reader.hpp"
+#include "tests/formats/import/lammps_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+/// Two jobs, the second of which began from a checkpoint of the first.
+namespace grseg {
+namespace {
+
+using namespace lammps_text;
+
+constexpr double first_place = 0.05, other_place = 0.06;  // m, of all grains along x
+
+std::string grains_of_job(const std::vector<int>& steps, double x)
+{
+  std::string text;
+  for (const int step : steps) text += block("ATOMS", step, grain_columns, grain_rows(x));
+  return text;
+}
+
+std::string contacts_of_job(const std::vector<int>& steps)
+{
+  std::string text;
+  for (const int step : steps) text += contacts_at(step);
+  return text;
+}
+
+/// The step of each frame, and whether its grains are in the second job's place.
+using Kept = std::vector<std::pair<std::int64_t, bool>>;
+
+class TwoJobs : public testing::Test {
+ protected:
+  Folder folder;
+
+  ImportSettings jobs(const std::vector<int>& first, const std::vector<int>& second,
+                      double second_place)
+  {
+    return settings(folder, grains_of_job(first, first_place) + grains_of_job(second, second_place),
+                    contacts_of_job(first) + contacts_of_job(second));
+  }
+  static Kept kept(ImportSettings s, const std::optional<std::string>& repeated = {})
+  {
+    s.repeated = repeated;
+    s.overwrite = true;
+    import_archive(s, "");
+    const TrajectoryReader run(s.output);
+    Kept all;
+    Frame<2> frame;
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      run.read(k, frame);
+      all.emplace_back(frame.step, frame.position[0].x() > 0.055);
+    }
+    return all;
+  }
+};
+
+const Kept four_alike{{0, false}, {100, false}, {200, false}, {300, false}};
+
+TEST_F(TwoJobs, ThatWroteTheSameMomentsCountThemOnce)
+{
+  const auto s = jobs({0, 100, 200}, {100, 200, 300}, first_place);
+  EXPECT_EQ(kept(s), four_alike);
+  EXPECT_TRUE(mentions(TrajectoryReader(s.output).parameters().text("import_remarks"),
+                       "2 moments come twice, the same; each counts once"));
+}
+
+TEST_F(TwoJobs, MayHaveFilesOfTheirOwn)
+{
+  auto s = jobs({0, 100, 200}, {}, first_place);
+  s.files.grains.push_back(
+      folder.write("atoms.2.dump", grains_of_job({100, 200, 300}, first_place)));
+  s.files.contacts.push_back(folder.write("contacts.2.dump", contacts_of_job({100, 200, 300})));
+  EXPECT_EQ(kept(s), four_alike);
+}
+
+TEST_F(TwoJobs, ThatWroteOtherMomentsAtTheSameStepsAreAskedAbout)
+{
+  const auto s = jobs({0, 100, 200}, {100, 200, 300}, other_place);
+  EXPECT_EQ(refusal(s).code, exit_usage);
+  EXPECT_TRUE(mentions(refusal(s).sentence,
+                       "step 100 comes after 200, and its grains are elsewhere than the first "
+                       "time: if a job began again from an earlier checkpoint, --repeated first"));
+  EXPECT_EQ(kept(s, "first"), (Kept{{0, false}, {100, false}, {200, false}, {300, true}}));
+  EXPECT_EQ(kept(s, "last"), (Kept{{0, false}, {100, true}, {200, true}, {300, true}}));
+  EXPECT_TRUE(mentions(TrajectoryReader(s.output).parameters().text("import_remarks"),
+                       "2 moments of a job that another one repeats are left out"));
+}
+
+TEST_F(TwoJobs, MayHaveWrittenBetweenEachOthersMoments)
+{
+  const auto s = jobs({0, 100, 200}, {150, 250}, other_place);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "step 150 comes after 200: if a job began again"));
+  EXPECT_EQ(kept(s, "first"), (Kept{{0, false}, {100, false}, {200, false}, {250, true}}));
+  EXPECT_EQ(kept(s, "last"), (Kept{{0, false}, {100, false}, {150, true}, {250, true}}));
+}
+
+// Contacts are written half as often: of 400 there is one pair.
+TEST_F(TwoJobs, GoOnWhereGrainsAreWrittenMoreOftenThanContacts)
+{
+  const auto s = settings(folder,
+                          grains_of_job({0, 100, 200, 300, 400, 500}, first_place) +
+                              grains_of_job({300, 400, 500, 600}, other_place),
+                          contacts_of_job({0, 200, 400}) + contacts_of_job({400, 600}));
+  EXPECT_EQ(kept(s), (Kept{{0, false}, {200, false}, {400, false}, {600, true}}));
+}
+
+TEST_F(TwoJobs, AreNotToldApartByAnotherWord)
+{
+  auto s = jobs({0, 100}, {100, 200}, first_place);
+  s.repeated = "lasst";
+  EXPECT_TRUE(mentions(refusal(s).sentence, "unknown --repeated 'lasst'"));
+}
+
+}  // namespace
+}  // namespace grseg
