@@ -30,6 +30,9 @@ constexpr double farthest_by_load = 0.1;
 // Masses of a large grain, in those of a small one, up to which the presets do. Beyond them heavy
 // grains sink into light ones, or light ones lift them (docs/studies/hard-cases.md).
 constexpr double heaviest_large = 16;
+// The same of a plate, over each small grain that finds room under it. A bed that sweeps compress in
+// several steps throws a heavier one back (docs/studies/numerics.md).
+constexpr double heaviest_plate = 1;
 constexpr double most_sweeps_factor = 16;
 // Above this restitution pairs rebound in the step in which they meet: the speculative law changes
 // the energy of a gas (docs/studies/numerics.md).
@@ -87,15 +90,20 @@ void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
                       scene.frame_interval, scene.step));
 }
 
-/// By how much sweeps must grow, and their tolerance shrink, where grains of one species bear much
-/// heavier ones: a sweep gives a heavy grain only as much of an impulse as stops a light one.
+/// By how much sweeps must grow, and their tolerance shrink, where grains bear much heavier ones, or a
+/// heavy plate: a sweep gives a heavy body only as much of an impulse as stops a light one.
 int more_sweeps(const Scene& scene)
 {
+  double contrast = 1;
   const bool two_species =
       scene.large_grains ? *scene.large_grains > 0 : scene.phi_large > 0 && scene.phi_large < 1;
-  if (!two_species) return 1;
   const double masses = scene.density_ratio * scene.size_ratio * scene.size_ratio;
-  const double contrast = std::max(masses / heaviest_large, 1 / masses);
+  if (two_species) contrast = std::max(masses / heaviest_large, 1 / masses);
+  if (scene.geometry->has_free_body()) {
+    const double small = scene.density * std::numbers::pi / 4 * std::pow(scene.small_diameter, 2);
+    const double under_it = scene.length / scene.small_diameter;
+    contrast = std::max(contrast, scene.plate_mass / (under_it * small) / heaviest_plate);
+  }
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(contrast)), 1.0, most_sweeps_factor));
 }
 

@@ -204,6 +204,21 @@ TEST(Scene, GrainsUnderMuchHeavierOnesGetMoreSweeps)
   EXPECT_EQ(sweeps({"--size-ratio", "10", "--density-ratio", "1000", "--max-sweeps", "20"}), 20);
 }
 
+TEST(Scene, GrainsUnderAHeavyPlateGetMoreSweeps)
+{
+  // Twenty small discs of 0.0785 kg find room under it.
+  const auto sweeps = [](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"--geometry", "shear", "--phi-large",      "0",
+                                 "--density",  "1000",  "--small-diameter", "0.01",
+                                 "--length",   "20dS",  "--plate-pressure", "100"};
+    all.insert(all.end(), words.begin(), words.end());
+    return scene_from(all).solver.min_sweeps;
+  };
+  EXPECT_EQ(sweeps({"--plate-mass", "1.5"}), 8);  // 0.95 masses over each
+  EXPECT_EQ(sweeps({}), 2 * 8);                   // 2: of beads twice as large
+  EXPECT_EQ(sweeps({"--plate-mass", "14"}), 3 * 8);
+}
+
 TEST(Scene, ValuesOutOfRangeAreRefusedByName)
 {
   for (const auto& [key, value] :
