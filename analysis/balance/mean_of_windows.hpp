@@ -12,7 +12,7 @@ struct MeanOfWindows {
   double mean, error;
 };
 MeanOfWindows mean_of_windows(const std::vector<double>& values);
-/// What the errors of such means are, in words: "standard errors over 8 windows".
+/// The kind of the errors of such means, in words: "standard errors over 8 windows".
 std::string errors_over(const std::vector<double>& values);
 
 }  // namespace grseg

@@ -66,7 +66,8 @@ std::string share_words(const FitReport& report, std::size_t mixture);
 /// What each kind of interval in the report is over, in words.
 std::vector<std::pair<Over, std::string>> estimands(const FitReport& report);
 
-/// What limits the intervals: of the tables, then a sentence per rule and one for the scan, mostly none.
+/// Reasons why intervals may be too narrow, mostly none: those of the tables, one for each rule, one for
+/// the scan.
 /// Both forms below contain them.
 std::vector<std::string> doubts(const FitReport& report);
 

@@ -31,7 +31,7 @@ bool goes_on(const std::vector<std::string>& a, const std::vector<std::string>& 
   return (one && other) || (one && y == b.end()) || (other && x == a.end());
 }
 
-/// What two beds with the same grains have in common.
+/// The kinship of two beds with the same grains.
 Kinship kinship_of_beds(const Bed& a, const Bed& b)
 {
   const bool seeds = !a.seed.empty() && !b.seed.empty();

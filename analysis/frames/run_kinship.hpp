@@ -10,20 +10,20 @@
 
 namespace grseg {
 
-/// What a table says of a run that it is made of.
+/// A run, as a table that is made of it describes it.
 struct RunSource {
   std::string input;                 // its digest; "" where the table names none
   std::optional<Bed> bed;            // not of tables made before there was such a line
   std::vector<std::string> history;  // of the run, without what made the table
 
-  /// That of the scene, as far as the bed or the command says it; else "".
+  /// The scene's seed; "" where neither the bed nor the command names it.
   std::string seed() const;
 };
 
 /// The runs of a table, several where it was merged; at least one.
 std::vector<RunSource> sources_of(const Table& table);
 
-/// What two runs have in common.
+/// The things that two runs share.
 enum class Kinship {
   none,         ///< other grains, or another seed
   untold,       ///< nothing that is recorded tells

@@ -31,7 +31,7 @@ struct WindowSettings {
 
 /// The option --window of a tool: a time in s, or "all".
 po::typed_value<std::string>* window_option(WindowSettings& settings);
-/// What that option was given: "1.25" or "all".
+/// The value of --window, "1.25" or "all".
 std::string window_text(const WindowSettings& settings);
 
 /// The times of a run as its file has them.
