@@ -40,19 +40,20 @@ DrivingForces driving_forces(const MomentumBalance<D>& balance, std::size_t laye
   const Shared kinetic{small.momentum_flux(1, 1), large.momentum_flux(1, 1), -small.kinetic.y(),
                        -large.kinetic.y()};
   DrivingForces of{};
-  of.phi = large.density / (small.density + large.density);
-  if (!(of.phi > least_part && of.phi < 1 - least_part)) of.phi = nan;
+  of.phi = large.content / (small.content + large.content);
+  of.mass_share = large.density / (small.density + large.density);
+  if (!(of.phi > least_part && of.phi < 1 - least_part)) of.phi = of.mass_share = nan;
   of.psi = contact.part();
   of.psi_kinetic = kinetic.part();
   of.b = (of.psi - of.phi) / (of.phi * (1 - of.phi));
   of.b_kinetic = (of.psi_kinetic - of.phi) / (of.phi * (1 - of.phi));
-  of.push = contact.push(of.phi);
-  of.push_kinetic = kinetic.push(of.phi);
-  of.spread = contact.spread(of.phi);
-  of.spread_kinetic = kinetic.spread(of.phi);
+  of.push = contact.push(of.mass_share);
+  of.push_kinetic = kinetic.push(of.mass_share);
+  of.spread = contact.spread(of.mass_share);
+  of.spread_kinetic = kinetic.spread(of.mass_share);
 
   const auto beyond_mixture = [&](const Vector<D>& of_large, const Vector<D>& of_small) {
-    return of_large.y() - of.phi * (of_large + of_small).y();
+    return of_large.y() - of.mass_share * (of_large + of_small).y();
   };
   const double change =
       beyond_mixture(balance.change(layer, Species::large), balance.change(layer, Species::small));
@@ -97,8 +98,8 @@ RuleForces rule_forces(const DrivingForces& forces, const PartitionedBalance<D>&
   of.psi = mixture.stress > 0 ? large.stress(1, 1) / mixture.stress : nan;
   const bool adds_up = contacts.rules()[rule].adds_up();
   of.b = adds_up ? (of.psi - forces.phi) / (forces.phi * (1 - forces.phi)) : nan;
-  of.push = push_of(of.psi, forces.phi, mixture.stress, mixture.slope);
-  of.spread = -(large.contact + large.base).y() - forces.phi * mixture.slope + of.push;
+  of.push = push_of(of.psi, forces.mass_share, mixture.stress, mixture.slope);
+  of.spread = -(large.contact + large.base).y() - forces.mass_share * mixture.slope + of.push;
   of.drag = forces.drag + forces.push - of.push;
   return of;
 }
@@ -111,7 +112,7 @@ PushOverShare push_over_share(const DrivingForces& forces, const PartitionedBala
   const double own = contacts.unmixed_stress(layer, Species::large)(1, 1);
   const double mixed = contacts.mixed_stress(layer)(1, 1);
   const auto push = [&](double stress) {
-    return push_of(stress / mixture.stress, forces.phi, mixture.stress, mixture.slope);
+    return push_of(stress / mixture.stress, forces.mass_share, mixture.stress, mixture.slope);
   };
   return {push(own), push(own + mixed)};
 }

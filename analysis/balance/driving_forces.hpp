@@ -7,17 +7,16 @@
 namespace grseg {
 
 /// The forces that drive segregation, with mixed contacts cut at the contact point: the large grains'
-/// momentum balance along y less the share phi_L = rho^L/rho of the mixture's, so that gravity
-/// drops out (phi_L is a share of the mass, and of the area if both species have the same density).
-/// Means over a layer; force densities on the large grains, N/m^2 or N/m^3, upward positive; the
+/// momentum balance along y less the share m_L = rho^L/rho of the mixture's, so that gravity drops out.
+/// phi_L, their share of the area or volume, is the same where all grains have one density. Means over a layer; force densities on the large grains, N/m^2 or N/m^3, upward positive; the
 /// small grains feel the opposite. sigma and K are the yy components of contact stress and momentum
 /// flux of the mixture, psi and psi_K the large grains' shares of them, beta the interaction on large
 /// grains and ' = d/dy. sigma' and (psi sigma)' leave out the force of the base, since the jump of
 /// stress at the wall is not a pressure gradient. Then, to round-off,
 ///
-///   rate^L - phi_L rate = push + push_kinetic + beta - spread - spread_kinetic
-///   push         = -(psi - phi_L) sigma' = -phi_L phi_S B sigma'
-///   push_kinetic = -(psi_K - phi_L) K'   = -phi_L phi_S B_K K'
+///   rate^L - m_L rate = push + push_kinetic + beta - spread - spread_kinetic
+///   push         = -(psi - m_L) sigma' = -phi_L phi_S B sigma' - (phi_L - m_L) sigma'
+///   push_kinetic = -(psi_K - m_L) K'   = -phi_L phi_S B_K K' - (phi_L - m_L) K'
 ///   spread = (psi sigma)' - psi sigma',  spread_kinetic = (psi_K K)' - psi_K K'
 ///
 /// with psi = phi_L (1 + B phi_S), psi_K likewise with B_K (Staron & Phillips 2015, eqs. 3 and 6).
@@ -28,14 +27,14 @@ namespace grseg {
 /// far more than these terms, and so does beta; but the change over the window that the rates
 /// sample is known (MomentumBalance::change), and with it the mean drag:
 ///
-///   drag    = change^L - phi_L change - push - push_kinetic
-///   scatter = rate^L - phi_L rate less the same of `change`, of mean 0
+///   drag    = change^L - m_L change - push - push_kinetic
+///   scatter = rate^L - m_L rate less the same of `change`, of mean 0
 ///   beta    = spread + spread_kinetic + drag + scatter,   to round-off
 ///
 /// K is taken in the frame of the base; along y the mean motion is only the dilation of the bed.
 /// NaN where a species is missing; without a stress to share, the share is NaN and the push 0.
 struct DrivingForces {
-  double phi, psi, psi_kinetic;
+  double phi, mass_share, psi, psi_kinetic;
   double b, b_kinetic;
   double push, push_kinetic, spread, spread_kinetic, drag, scatter;
   double drift;  // kg/(m s) or kg/(m^2 s), rho^L (v^L - v) along y

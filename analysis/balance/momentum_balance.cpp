@@ -28,6 +28,7 @@ template <int D>
 SpeciesMomentum<D>& SpeciesMomentum<D>::operator+=(const SpeciesMomentum& other)
 {
   density += other.density;
+  content += other.content;
   for (const auto member : tensors<D>) this->*member += other.*member;
   for (const auto member : vectors<D>) this->*member += other.*member;
   return *this;
@@ -37,6 +38,7 @@ template <int D>
 SpeciesMomentum<D>& SpeciesMomentum<D>::operator*=(double factor)
 {
   density *= factor;
+  content *= factor;
   for (const auto member : tensors<D>) this->*member *= factor;
   for (const auto member : vectors<D>) this->*member *= factor;
   return *this;
@@ -60,6 +62,7 @@ void MomentumBalance<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   assert(frame.force.size() == grains.size());
   ++frames_;
+  if (!one_density_) one_density_ = have_one_density<D>(grains);
   // The layers of this frame alone, so that its sums do not depend on the frames before it.
   const std::size_t count = layers_.count(grains, frame);
   sums_.resize(std::max(sums_.size(), count), std::vector<SpeciesMomentum<D>>(species_));
@@ -131,24 +134,27 @@ void MomentumBalance<D>::add_grain(const Grains& grains, const Frame<D>& frame, 
 {
   const std::size_t species = index(grains.species[grain]), count = before.momentum.size();
   const double mass = grains.mass[grain], y = frame.position[grain].y();
+  const double h = step_of_force(frame, step_);
+  const double content = *one_density_ ? mass : grain_volume<D>(grains.radius[grain]);
   const Vector<D>&velocity = frame.velocity[grain], &force = frame.force[grain];
-  const Vector<D> momentum = mass * velocity, momentum_before = momentum - step_ * force;
+  const Vector<D> momentum = mass * velocity, momentum_before = momentum - h * force;
   share_kernel(layers_, kernel_, y, y, count, [&](std::size_t n, double share) {
     auto& sums = sums_[n][species];
     sums.density += share * mass;
+    sums.content += share * content;
     sums.momentum += share * momentum;
     sums.momentum_flux += share * momentum * velocity.transpose();
     sums.gravity += share * mass * gravity;
     sums.contact += share * pull_[grain];
     sums.force += share * force;
-    sums.rate -= share / step_ * momentum_before;
-    sums.kinetic -= share / step_ * momentum;
+    sums.rate -= share / h * momentum_before;
+    sums.kinetic -= share / h * momentum;
     before.momentum[n][species] += share * momentum_before;
   });
-  const double y_next = y + step_ * velocity.y();
+  const double y_next = y + h * velocity.y();
   share_kernel(layers_, kernel_, y_next, y_next, count, [&](std::size_t n, double share) {
-    sums_[n][species].rate += share / step_ * momentum;
-    sums_[n][species].kinetic += share / step_ * momentum;
+    sums_[n][species].rate += share / h * momentum;
+    sums_[n][species].kinetic += share / h * momentum;
   });
 }
 

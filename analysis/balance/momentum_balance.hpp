@@ -15,7 +15,8 @@ namespace grseg {
 /// force densities, N/m^2 or N/m^3, change its momentum density.
 template <int D>
 struct SpeciesMomentum {
-  double density = 0;                            // kg/m^2 or kg/m^3
+  double density = 0;  // kg/m^2 or kg/m^3
+  double content = 0;  // solid fraction, times a density where all grains have it
   Vector<D> momentum = Vector<D>::Zero();        // kg/(m s) or kg/(m^2 s)
   Tensor<D> contact_stress = Tensor<D>::Zero();  // N/m or Pa, compression positive
   Tensor<D> momentum_flux = Tensor<D>::Zero();   // N/m or Pa, m v (x) v
@@ -103,6 +104,7 @@ class MomentumBalance {
   double step_;
   std::size_t species_;
   std::size_t frames_ = 0;
+  std::optional<bool> one_density_;                    // of all grains, once some are added
   std::vector<std::vector<SpeciesMomentum<D>>> sums_;  // by layer and species, times V
   std::optional<Instant> first_, last_;
   bool same_grains_ = true;      // in all frames

@@ -47,7 +47,9 @@ void ForceBalance<D>::add(const Grains& grains, const Frame<D>& frame)
     else
       now.torque[g] = no_spin<D>();
   }
-  if (!last_.inertia_times_spin.empty()) add_torques(last_, now);
+  // A part of a step does not show what the torques of the others have done.
+  const bool is_whole = step_of_force(frame, step_) > 0.99 * step_;
+  if (is_whole && !last_.inertia_times_spin.empty()) add_torques(last_, now);
   last_ = std::move(now);
 }
 

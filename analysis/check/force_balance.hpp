@@ -28,7 +28,8 @@ class ForceBalance {
 
   /// |defect| over the frame's largest force, weights included; by grain.
   const WorstCase& forces() const { return forces_; }
-  /// |defect| over that force times the largest radius; empty where no frames are consecutive.
+  /// |defect| over that force times the largest radius; empty where no frames are consecutive,
+  /// or their steps were taken in parts.
   const WorstCase& torques() const { return torques_; }
 
  private:

@@ -83,15 +83,11 @@ PhysicsCheck<D>::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings
       partials_(run.box(), run.species().size()),
       contacts_(rules_),
       base_force_(base_force_of<D>(run)),
-      energy_defect_(observable_of(run, "energy_defect")),
-      frame_step_(observable_of(run, "frame_step"))
+      energy_defect_(observable_of(run, "energy_defect"))
 {
   tolerances_.require_valid();
   try {
-    windows_ = cut_into_windows({run.steps(), run.step(),
-                                 run.parameters().find_number("frame_interval").value_or(0)},
-                                settings.windows)
-                   .list;
+    windows_ = cut_into_windows(times_of(run), settings.windows).list;
   } catch (const RunError&) {
     // A run too short for a window is still checked for all that needs none.
   }
@@ -138,7 +134,7 @@ void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
   has_force_ = has_force_ && !frame.force.empty();
   forces_.add(grains, frame);
   partials_.add(grains, frame);
-  if (!frame_step_.empty()) contacts_.use_step(frame_step_[index]);
+  contacts_.use_step(step_of_force(frame, run_.step()));
   contacts_.add(grains, frame);
   if (!energy_defect_.empty())
     energy_.add(at_rest(total) ? 0 : energy_defect_[index], frame.time, 0);

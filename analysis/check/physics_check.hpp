@@ -74,7 +74,6 @@ class PhysicsCheck {
   WorstCase energy_;
   std::vector<Vector<D>> base_force_;  // N, by frame; empty where the file does not have it
   std::vector<double> energy_defect_;  // by frame; empty where the file does not have it
-  std::vector<double> frame_step_;     // s, likewise: a step may have been taken in parts
 
   std::size_t window_ = 0;                // to which frames are being added
   std::optional<WeightSums<D>> weights_;  // of this window

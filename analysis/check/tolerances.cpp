@@ -23,7 +23,7 @@ const std::array<CheckTolerances::Option, 12>& CheckTolerances::options()
        {"false-alarm", &T::false_alarm,
         "probability that a statistical check fails by chance alone"},
        {"weight", &T::weight, "load of a layer against the weight above it, relative"},
-       {"slope", &T::slope, "stress ratio of a layer against the tangent of the slope"},
+       {"stress-ratio", &T::slope, "stress ratio of a layer against the tangent of the slope"},
        {"overlap-drift", &T::overlap_drift, "change of the mean overlap over the run, d_S"},
        {"x-drift", &T::x_drift, "mean velocity by positions less that by velocities, sqrt(g d_S)"},
        {"least-load", &T::least_load, "leave out layers with less than this part of the load"}}};

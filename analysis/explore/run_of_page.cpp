@@ -30,7 +30,7 @@ Json fitted(const PartitionInput& input, PartitionSettings settings, const std::
             BinaryArrays& arrays)
 {
   const auto word = base.empty() ? header_or(input.sums.front(), "base", "contact-point") : base;
-  settings.fit.base = choose(word, "--base", base_parts);
+  settings.fit.base = choose(word, "--base-part", base_parts);
   try {
     return {{"fit", partition_data(input, settings, arrays)}};
   } catch (const RunError& nothing) {

@@ -61,7 +61,7 @@ std::string fit_options(const ExploreSettings& own, bool given)
   if (given) add_times(options, own.frames.windows);
   options.add("--heights", own.partition.filters.heights, std::string());
   options.add("--component", own.component, usual.component);
-  options.add("--base", own.base, usual.base);
+  options.add("--base-part", own.base, usual.base);
   options.add("--bootstrap", own.bootstrap, usual.bootstrap);
   options.add("--seed", own.seed, usual.seed);
   return options.text();

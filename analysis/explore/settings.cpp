@@ -35,7 +35,7 @@ void ExploreSettings::add_to(po::options_description& options)
       "rules that the report compares (default: stock, those of published codes)");
   add("component", po::value(&component)->default_value(component)->value_name("NAME"),
       list_of(components).c_str());
-  add("base", po::value(&base)->value_name("NAME"),
+  add("base-part", po::value(&base)->value_name("NAME"),
       ("part of contacts with base and walls: " + list_of(base_parts) +
        " (default: as in the table)")
           .c_str());
@@ -57,7 +57,7 @@ void ExploreSettings::check(const po::variables_map& values)
     throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", bootstrap));
   if (seed < 0) throw UsageError("--seed must not be negative");
   partition.fit.component = choose(component, "--component", components);
-  if (!base.empty()) choose(base, "--base", base_parts);
+  if (!base.empty()) choose(base, "--base-part", base_parts);
   parse_heights(partition.filters.heights, {1, 1});
   const auto first = parse_rule(start);
   if (first.kind == PartitionRule::Kind::power &&

@@ -26,26 +26,31 @@ namespace {
 
 using SumsOfRow = std::function<ContactSums<3>(std::size_t)>;
 
-/// Kinetic sums as contact sums in which nothing is mixed; "contents" are masses.
+/// Kinetic sums as contact sums in which nothing is mixed. Where all grains have one density the table
+/// has no areas or volumes, and masses have the same ratios.
 SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
 {
   const auto column = [&table](const std::string& name) {
     return find_column(table, name, "--quantity kinetic needs a table of grseg-kinetic");
   };
   struct Columns {
-    std::size_t mass;
+    std::size_t content;
     std::vector<std::size_t> diagonal;
   };
   std::vector<Columns> columns;
   for (const auto& word : column_words(species)) {
-    auto& own = columns.emplace_back(Columns{column(fmt::format("mass_{}[kg]", word)), {}});
+    const auto content = fmt::format("{}_{}", dimension_of(table) == 3 ? "volume" : "area", word);
+    auto& own = columns.emplace_back(Columns{table.has_column(content)
+                                                 ? table.column(content)
+                                                 : column(fmt::format("mass_{}[kg]", word)),
+                                             {}});
     for (const auto& [suffix, row, col] : tensor_components(dimension_of(table)))
       if (row == col) own.diagonal.push_back(column(fmt::format("K_{}{}[J]", word, suffix)));
   }
   return [&table, columns](std::size_t row) {
     ContactSums<3> sums(columns.size());
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      sums.content[k] = non_negative_cell(table, row, columns[k].mass);
+      sums.content[k] = non_negative_cell(table, row, columns[k].content);
       for (std::size_t axis = 0; axis < columns[k].diagonal.size(); ++axis) {
         const auto place = static_cast<Eigen::Index>(axis);
         sums.of(OwnSum::inside, k)(place, place) =

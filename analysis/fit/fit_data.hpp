@@ -112,14 +112,14 @@ struct FitTable {
   std::size_t run = 0;  // the same of tables of one run
 };
 
-/// Reads tables of grseg-stress (contact) or grseg-kinetic; the latter's "contents" are masses.
+/// Reads tables of grseg-stress (contact) or grseg-kinetic.
 /// FormatError where a table lacks what is asked of it or has other species than the first;
 /// UsageError where two tables hold the same windows of the same run.
 std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity quantity,
                                       const std::vector<PartitionRule>& rules);
 
 /// The layers and windows of all tables that pass the filters, with the samples of `pairs`; the windows
-/// of tables of one run and mixture stand in line (table_windows.hpp). phi is made of areas or volumes (contact) or masses (kinetic; all species have
+/// of tables of one run and mixture stand in line (table_windows.hpp). phi is made of areas or volumes, or of masses (kinetic, where all species have
 /// one density). RunError, saying what removed them, where nothing is left.
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs);

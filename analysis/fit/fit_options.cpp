@@ -56,7 +56,7 @@ po::options_description FitOptions::description()
   add("component", text(component, "NAME")->default_value("yy"), list_of(components).c_str());
   add("quantity", text(quantity, "NAME")->default_value("contact"),
       (list_of(quantities) + " stress").c_str());
-  add("base", text(base, "NAME"),
+  add("base-part", text(base, "NAME"),
       ("part of contacts with base and walls: " + list_of(base_parts) +
        " (default: as in the table)")
           .c_str());
@@ -113,7 +113,7 @@ void FitOptions::check(const po::variables_map& values)
   parse_heights(filters.heights, {1, 1});
   if (!scan.empty()) parse_scan(scan);
   if (quantity == "kinetic")
-    for (const char* option : {"partition", "scan", "base"})
+    for (const char* option : {"partition", "scan", "base-part"})
       if (values.contains(option) && !values[option].defaulted())
         throw UsageError(
             fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));

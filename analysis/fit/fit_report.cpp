@@ -313,11 +313,20 @@ std::string used_by(const FitReport& report, const RuleFit& fit)
 
 std::vector<std::string> doubts(const FitReport& report)
 {
+  std::vector<std::pair<std::string, std::string>> of_fits;  // a doubt, and whose it is
+  const auto add = [&](const std::string& name, const std::string& doubt) {
+    if (doubt.empty()) return;
+    const auto same = std::find_if(of_fits.begin(), of_fits.end(),
+                                   [&](const auto& known) { return known.first == doubt; });
+    if (same == of_fits.end())
+      of_fits.emplace_back(doubt, name);
+    else
+      same->second += ", " + name;
+  };
+  for (const auto& fit : report.rules) add(row_name(report, fit), fit.doubt);
+  if (report.scan) add("scan", report.scan->fits.front().doubt);
   auto all = report.doubts_of_tables;
-  for (const auto& fit : report.rules)
-    if (!fit.doubt.empty()) all.push_back(fmt::format("{}: {}", row_name(report, fit), fit.doubt));
-  if (report.scan && !report.scan->fits.front().doubt.empty())
-    all.push_back("scan: " + report.scan->fits.front().doubt);
+  for (const auto& [doubt, names] : of_fits) all.push_back(fmt::format("{}: {}", names, doubt));
   return all;
 }
 

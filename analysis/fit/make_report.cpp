@@ -145,7 +145,7 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   FitReport report;
   report.quantity = choose(s.quantity, "--quantity", quantities);
   report.component = choose(s.component, "--component", components);
-  const FitSettings settings{report.component, choose(base, "--base", base_parts),
+  const FitSettings settings{report.component, choose(base, "--base-part", base_parts),
                              s.over.empty() ? Over::automatic : choose(s.over, "--over", overs)};
   const auto rules = rules_of(s, tables[0]);
   auto read = rules;

@@ -10,6 +10,7 @@
 #include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
+#include "formats/core/species.hpp"
 #include "formats/core/text.hpp"
 #include "formats/export/map_file.hpp"
 
@@ -20,6 +21,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <limits>
 #include <thread>
@@ -73,14 +75,6 @@ Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
         "axis; take {}",
         options.bins, plane ? "xy" : "layers"));
   return Layers::annuli(thickness, box.length_x, *axis, width);
-}
-
-RunTimes times_of(const TrajectoryReader& run)
-{
-  const auto& numbers = run.parameters().numbers;
-  const auto interval = numbers.find("frame_interval");
-  const bool known = interval != numbers.end() && interval->second.size() == 1;
-  return {run.steps(), run.step(), known ? interval->second[0] : 0};
 }
 
 }  // namespace
@@ -247,6 +241,7 @@ Table FrameLoop::make_table(const std::string& command,
                             const std::vector<std::pair<std::string, std::string>>& settings,
                             const std::vector<std::string>& columns) const
 {
+  require_memory(columns.size());
   Table table;
   auto& header = table.header;
   header = provenance(info_, preset_, run_, command);
@@ -266,6 +261,12 @@ Table FrameLoop::make_table(const std::string& command,
     if (!set_by_tool) header.emplace_back(key, number_or_unknown(run_.parameters(), key));
   }
   with_dimension(dimension(), [&](auto d) {
+    if (!have_one_density<d>(grains())) {
+      add("mean_density", mean_density<d>(grains()));
+      for (std::size_t k = 0; k < species().size(); ++k)
+        add(fmt::format("density_{}", column_words(species())[k]).c_str(),
+            mean_density<d>(grains(), static_cast<Species>(k)));
+    }
     const auto gravity = run_.gravity<d>();
     constexpr std::array keys{"gravity_x", "gravity_y", "gravity_z"};
     for (int axis = 0; axis < d; ++axis)
@@ -327,6 +328,15 @@ std::vector<double> FrameLoop::bed_row(const Window& window, double height,
 
 namespace {
 
+/// Bytes that programs can still get.
+double free_memory()
+{
+  std::ifstream lines("/proc/meminfo");
+  for (std::string name, rest; lines >> name && std::getline(lines, rest);)
+    if (name == "MemAvailable:") return 1024 * std::strtod(rest.c_str(), nullptr);
+  return std::numeric_limits<double>::infinity();
+}
+
 /// What the header of a part of a table has more than that of the whole.
 HeaderLine part_line(const OutputPart& part)
 {
@@ -361,6 +371,23 @@ Table read_part(const Table& table, const OutputPart& part, const std::string& p
 
 }  // namespace
 
+void FrameLoop::require_memory(std::size_t columns) const
+{
+  const auto& map = layers_.map();
+  const auto cells = map ? static_cast<double>(map->cells())
+                         : std::ceil(run_.box().length_y / layers_.thickness());
+  // The sums of the window, and those that every thread adds to them.
+  const double need =
+      cells * static_cast<double>(columns) * sizeof(double) * (1 + options_.threads);
+  const double free = free_memory();
+  if (need < free) return;
+  throw UsageError(fmt::format(
+      "{:.3g} {} with {} numbers each need about {:.1f} GB, and {:.1f} GB are free; choose thicker "
+      "--layer{}",
+      cells, map ? "cells" : "layers", columns, need / 1e9, free / 1e9,
+      options_.threads > 1 ? " or fewer --threads" : ""));
+}
+
 Table FrameLoop::joined(const Table& table) const
 {
   auto all = table;
@@ -372,14 +399,28 @@ Table FrameLoop::joined(const Table& table) const
   return all;
 }
 
-void FrameLoop::write(const Table& table, const std::string& next)
+void FrameLoop::add(Table& table, std::vector<double> row)
+{
+  table.rows.push_back(std::move(row));
+  const auto& path = options_.output.path;
+  const bool in_pieces = !options_.json && !is_map_file(path) && !is_device(path) &&
+                         options_.parts.join == 0 && !options_.parts.part;
+  if (!in_pieces || !GrowingTable::is_large(table)) return;
+  if (!growing_) growing_.emplace(options_.output);
+  growing_->add(table);
+}
+
+void FrameLoop::write(Table table, const std::string& next)
 {
   progress_.clear();
-  auto whole = options_.parts.join > 0 ? joined(table) : table;
-  if (options_.parts.part) whole.header.push_back(part_line(*options_.parts.part));
+  if (options_.parts.join > 0) table = joined(table);
+  if (options_.parts.part) table.header.push_back(part_line(*options_.parts.part));
   if (is_map_file(options_.output.path))
-    return write_map_file(whole, options_.output, {run_.path()});
-  write_whole(options_.output, options_.json ? whole.to_json() : whole.to_text());
+    return write_map_file(table, options_.output, {run_.path()});
+  if (growing_)
+    growing_->finish(std::move(table));
+  else
+    write_whole(options_.output, options_.json ? table.to_json() : table.to_text());
   if (next.empty() || options_.output.path.empty() || options_.json || options_.parts.part) return;
   say_next(fmt::format("{} {}", next, shell_word(options_.output.path)), options_.quiet);
 }

@@ -5,6 +5,7 @@
 #include "analysis/frames/in_order.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/frames/windows.hpp"
+#include "formats/cli/growing_table.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/part.hpp"
 #include "formats/cli/progress.hpp"
@@ -98,14 +99,19 @@ class FrameLoop {
   /// nan for a bed whose top lies below y = 0, as in a hopper that runs out.
   std::vector<double> bed_row(const Window& window, double height,
                               const std::vector<double>& values) const;
+  /// Adds a row. Where there are many, they are written and removed, so that a table of any size needs
+  /// little memory; JSON, files of maps and tables of parts keep theirs.
+  void add(Table& table, std::vector<double> row);
   /// To the file of --output, or to standard output. A map may become a file for other programs
   /// (formats/export/map_file.hpp).
   /// `next` is what a reader of that file runs, without its name: "grseg-fit".
-  void write(const Table& table, const std::string& next = "");
+  void write(Table table, const std::string& next = "");
 
  private:
   template <int D>
   void read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields);
+  /// UsageError where the sums of one window need more memory than there is.
+  void require_memory(std::size_t columns) const;
   /// The table with the rows of all parts.
   Table joined(const Table& table) const;
   /// The cells that hold the grains of all windows, whose frames are read for that.
@@ -121,6 +127,7 @@ class FrameLoop {
   Windows windows_;
   ProgressBar progress_;
   std::size_t frames_done_ = 0;
+  std::optional<GrowingTable> growing_;
   std::mutex reading_;  // the HDF5 library knows no threads
 };
 

@@ -53,6 +53,10 @@ Groups parse_groups(const SpeciesList& species, const std::vector<std::string>& 
   for (const auto& option : options) {
     const auto sign = option.find('=');
     const auto name = option.substr(0, sign);
+    if (sign != std::string::npos && (name == "b" || name == name_of_boundary))
+      throw UsageError(
+          fmt::format("--group {}: '{}' stands for boundary grains in columns; choose another name",
+                      option, name));
     if (sign == std::string::npos || !is_species_name(name))
       throw UsageError(fmt::format(
           "--group {}: write NAME=LIST, as in AM=1,2, with a name of at most 15 letters, digits, "
@@ -92,29 +96,51 @@ std::vector<double> parse_edges(const std::string& text, LengthUnits units)
   return edges;
 }
 
-/// Diameters that divide the mobile grains into classes of equal volume.
-std::vector<double> edges_of_classes(const Grains& grains, int dimension, int classes)
+/// A size that some mobile grains have, and what part of all volume smaller ones have.
+struct Size {
+  double diameter, below;
+};
+
+std::vector<Size> sizes_of(const Grains& grains, int dimension)
 {
+  constexpr double digits = 1e-9;  // of diameters that are meant to be the same
   std::vector<double> diameters;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g)) diameters.push_back(2 * grains.radius[g]);
   std::sort(diameters.begin(), diameters.end());
-  double all = 0;
-  for (const double d : diameters) all += std::pow(d, dimension);
-  std::vector<double> edges;
+  std::vector<Size> sizes;
   double below = 0;
-  for (std::size_t k = 0; k + 1 < diameters.size(); ++k) {
-    below += std::pow(diameters[k], dimension);
-    // An edge lies between grains of different sizes, at the one nearest to its share.
-    const double next = std::pow(diameters[k + 1], dimension);
-    const double share = all * static_cast<double>(edges.size() + 1) / classes;
-    if (below + next / 2 > share && diameters[k + 1] > diameters[k] &&
-        edges.size() + 1 < static_cast<std::size_t>(classes))
-      edges.push_back(diameters[k + 1]);
+  for (const double d : diameters) {
+    if (sizes.empty() || d > sizes.back().diameter * (1 + digits)) sizes.push_back({d, below});
+    below += std::pow(d, dimension);
   }
-  if (edges.size() + 1 != static_cast<std::size_t>(classes))
-    throw UsageError(fmt::format(
-        "--classes {}: the mobile grains have too few different diameters; give --edges", classes));
+  for (auto& size : sizes) size.below /= below;
+  return sizes;
+}
+
+/// Diameters that divide the mobile grains into classes whose volumes are as equal as their sizes allow:
+/// each edge is the size that divides nearest to its share.
+std::vector<double> edges_of_classes(const Grains& grains, int dimension, int classes)
+{
+  const auto sizes = sizes_of(grains, dimension);
+  const auto count = static_cast<std::size_t>(classes);
+  if (sizes.size() < count)
+    throw UsageError(
+        fmt::format("--classes {}: the mobile grains have {} different diameters; take at most as "
+                    "many classes, or give --edges",
+                    classes, sizes.size()));
+  std::vector<double> edges;
+  std::size_t first = 1;
+  for (std::size_t k = 1; k < count; ++k) {
+    const double share = static_cast<double>(k) / classes;
+    const auto begin = sizes.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = sizes.end() - static_cast<std::ptrdiff_t>(count - 1 - k);  // edges to come
+    const auto nearest = std::min_element(begin, end, [&](const Size& a, const Size& b) {
+      return std::abs(a.below - share) < std::abs(b.below - share);
+    });
+    edges.push_back(nearest->diameter);
+    first = static_cast<std::size_t>(nearest - sizes.begin()) + 1;
+  }
   return edges;
 }
 

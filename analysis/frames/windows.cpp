@@ -9,18 +9,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace grseg {
 namespace {
 
 using Step = std::int64_t;
 
-/// Steps between two frames of the file.
-Step spacing(const RunTimes& run)
+constexpr double hole = 0.1;  // of a window at most
+
+/// From one frame to the next.
+std::vector<Step> gaps_of(const RunTimes& run)
 {
-  const auto n = run.steps.size();
-  if (n > 1) return run.steps[n - 1] - run.steps[n - 2];
-  return std::max<Step>(1, std::llround(run.frame_interval / run.step));
+  std::vector<Step> gaps(run.steps.size());
+  std::adjacent_difference(run.steps.begin(), run.steps.end(), gaps.begin());
+  gaps.erase(gaps.begin());
+  return gaps;
+}
+
+/// The longest time between two frames that are used, one in `stride`, holes left out.
+Step between_used(const RunTimes& run, int stride, Step longest)
+{
+  const auto gaps = gaps_of(run);
+  Step all = 0, most = gaps.empty() ? longest : 0;
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    all += std::min(gaps[k], longest);
+    const auto before = static_cast<std::size_t>(stride);
+    if (k >= before) all -= std::min(gaps[k - before], longest);
+    most = std::max(most, all);
+  }
+  return most;
 }
 
 Step first_step(const RunTimes& run, const WindowSettings& settings)
@@ -41,11 +60,33 @@ void check(const RunTimes& run, const WindowSettings& settings)
 /// Where windows lie, in steps.
 struct Grid {
   Step begin = 0, end = 0, length = 0;
-  Step used = 0;  // between the frames that are used
+  Step longest = 0;  // that a frame stands for
+  Step used = 0;     // between the frames that are used
 
-  /// True where the run has begun when the first window does.
-  bool begins_in(const RunTimes& run) const { return begin > run.steps.front() - spacing(run); }
+  Step begin_of(Step window) const { return begin + window * length; }
+  /// True where the run has begun by then.
+  bool has_begun(const RunTimes& run, Step at) const { return at > run.steps.front() - longest; }
 };
+
+/// For how long no frame stands in this window. What precedes the first frame counts as filled.
+Step empty_part(const RunTimes& run, const Grid& grid, Step window)
+{
+  const Step begin = grid.begin_of(window), end = begin + grid.length;
+  auto next = std::upper_bound(run.steps.begin(), run.steps.end(), begin);
+  Step filled = next == run.steps.begin() ? run.steps.front() : *(next - 1) + grid.longest,
+       empty = 0;
+  for (; next != run.steps.end() && *next < end; ++next) {
+    empty += std::max<Step>(0, *next - std::max(filled, begin));
+    filled = *next + grid.longest;
+  }
+  return empty + std::max<Step>(0, end - std::max(filled, begin));
+}
+
+bool has_hole(const RunTimes& run, const Grid& grid, Step window)
+{
+  return static_cast<double>(empty_part(run, grid, window)) >
+         hole * static_cast<double>(grid.length);
+}
 
 /// As few digits of a time as give these steps again.
 std::string typed(Step steps, double step)
@@ -68,7 +109,8 @@ std::string typed(Step steps, double step)
         "no frame lies between --begin and --end; the run goes from {:.6g} s to {:.6g} s",
         seconds(run.steps.front()), seconds(run.steps.back())));
   const Step longest = grid.end - grid.begin;
-  const bool fits = grid.begins_in(run) && longest >= grid.used;
+  const bool fits = grid.has_begun(run, grid.begin) && longest >= grid.used &&
+                    !has_hole(run, {grid.begin, grid.end, longest, grid.longest, grid.used}, 0);
   throw RunError(fmt::format(
       "no window of {:g} s is filled: frames used reach from {:.6g} s to {:.6g} s; choose {}--window "
       "all{}",
@@ -81,9 +123,10 @@ Grid grid_of(const RunTimes& run, const WindowSettings& settings)
 {
   Grid grid;
   grid.begin = first_step(run, settings);
-  grid.end = run.steps.back() + spacing(run);
+  grid.longest = longest_interval(run);
+  grid.end = run.steps.back() + grid.longest;
   if (settings.end) grid.end = std::min(grid.end, whole_steps(*settings.end, run.step, "--end"));
-  grid.used = spacing(run) * settings.stride;
+  grid.used = between_used(run, settings.stride, grid.longest);
   if (settings.length == all_frames) {
     grid.begin = std::max(grid.begin, run.steps.front());
     grid.length = grid.end - grid.begin;
@@ -127,6 +170,30 @@ std::string window_text(const WindowSettings& settings)
   return settings.length == all_frames ? "all" : fmt::format("{}", settings.length);
 }
 
+RunTimes times_of(const TrajectoryReader& run)
+{
+  const auto& parameters = run.parameters();
+  // Of an import it is a mean.
+  const bool imported = parameters.texts.contains("import_format");
+  return {run.steps(), run.step(),
+          imported ? 0 : parameters.find_number("frame_interval").value_or(0)};
+}
+
+std::int64_t longest_interval(const RunTimes& run)
+{
+  auto gaps = gaps_of(run);
+  std::sort(gaps.begin(), gaps.end(), std::greater<>());
+  const auto interval = std::llround(run.frame_interval / run.step);
+  if (interval > 0) {
+    const auto found =
+        std::find_if(gaps.begin(), gaps.end(), [&](Step g) { return g <= interval; });
+    return found != gaps.end() && 2 * *found >= interval ? *found : interval;
+  }
+  for (std::size_t k = 0; k + 2 < gaps.size(); ++k)
+    if (2 * gaps[k + 2] >= gaps[k]) return gaps[k];
+  return gaps.empty() ? 1 : gaps.front();
+}
+
 Windows cut_into_windows(const RunTimes& run, const WindowSettings& settings)
 {
   check(run, settings);
@@ -136,20 +203,22 @@ Windows cut_into_windows(const RunTimes& run, const WindowSettings& settings)
 
   Windows windows{length_of(run, settings, grid), {}};
   Step last = -1;
+  bool is_filled = false;
   const auto first = static_cast<std::size_t>(
       std::lower_bound(run.steps.begin(), run.steps.end(), grid.begin) - run.steps.begin());
   for (auto k = first; k < run.steps.size(); k += static_cast<std::size_t>(settings.stride)) {
     const Step n = (run.steps[k] - grid.begin) / grid.length;
-    if (grid.begin + (n + 1) * grid.length > grid.end) break;
-    if (grid.begin + n * grid.length <= run.steps.front() - spacing(run))
-      continue;  // the run begins inside it
-    if (windows.list.empty() || n != last) {
-      const auto number = static_cast<double>(n);
-      windows.list.push_back(
-          {origin + number * windows.length, origin + (number + 1) * windows.length, {}});
+    if (grid.begin_of(n + 1) > grid.end) break;
+    if (n != last) {
       last = n;
+      is_filled = grid.has_begun(run, grid.begin_of(n)) &&
+                  (settings.length == all_frames || !has_hole(run, grid, n));
+      const auto number = static_cast<double>(n);
+      if (is_filled)
+        windows.list.push_back(
+            {origin + number * windows.length, origin + (number + 1) * windows.length, {}});
     }
-    windows.list.back().frames.push_back(k);
+    if (is_filled) windows.list.back().frames.push_back(k);
   }
   if (windows.list.empty()) refuse_unfilled(run, settings, grid);
   return windows;

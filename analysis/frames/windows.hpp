@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/cli/tool.hpp"
+#include "formats/trajectory/reader.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -38,8 +39,13 @@ std::string window_text(const WindowSettings& settings);
 struct RunTimes {
   std::vector<std::int64_t> steps;  // of the frames, increasing
   double step = 0;                  // s
-  double frame_interval = 0;        // s, used where there is a single frame only; 0: unknown
+  double frame_interval = 0;  // s, of the scene, from one burst of frames to the next; 0: unknown
 };
+RunTimes times_of(const TrajectoryReader& run);
+
+/// How many steps a frame stands for at most: the longest time between two frames that is not a hole.
+/// It is at most that of the scene; where this is not known, two others are at least half as long.
+std::int64_t longest_interval(const RunTimes& run);
 
 /// Windows of one run, each `length` long (s).
 struct Windows {
@@ -49,9 +55,12 @@ struct Windows {
 
 /// Window n holds the frames with n W <= t - begin < (n+1) W. Times are compared in whole steps, so
 /// that no rounding moves a frame into the next window; a length W that is not a whole number of steps
-/// is rounded to one. Windows that the run does not fill, mostly the last, are dropped: frame k
-/// stands for the time up to frame k+1. RunError where nothing is left, UsageError where a window
-/// would be shorter than the time between the frames that are used; both say what would fit.
+/// is rounded to one. All frames of a window count alike, however close they are.
+/// A frame of the file stands for the time up to the next one, and at most for longest_interval().
+/// Windows that the run does not fill, mostly the last, are dropped: those that begin that long before
+/// its first frame, end behind the time of its last one, or have no frame for a tenth of their time.
+/// RunError where nothing is left, UsageError where a window would be shorter than the time that a used
+/// frame stands for; both say what would fit.
 Windows cut_into_windows(const RunTimes& run, const WindowSettings& settings);
 
 }  // namespace grseg

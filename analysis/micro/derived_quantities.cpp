@@ -104,7 +104,7 @@ void add_forces(Derivation<D>& to)
     const double f = to.sums().mean_force(species, to.settings.measure);
     const double below = depth - height_of(to, species);
     const double pressure =
-        below > 0 ? -run.density * run.gravity_y * below * perimeter<D>(d) : nan;
+        below > 0 ? -run.mean_density * run.gravity_y * below * perimeter<D>(d) : nan;
     const double neutral =
         pi * perimeter<D>(small ? 1 : to.size_ratio()) / to.sums().coordination(species);
     const char* name = small ? "S" : "L";

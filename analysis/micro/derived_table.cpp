@@ -61,7 +61,7 @@ void require_same_constants(const Table& first, const Table& other)
                           "friction", "layer", "composition"})
     if (!same_setting(first.header_text(key), other.header_text(key)))
       refuse_difference(first, other, key);
-  for (const char* key : {"gravity_z", "species"})  // not in all tables
+  for (const char* key : {"gravity_z", "species", "mean_density"})  // not in all tables
     if (!same_setting(header_or(first, key, ""), header_or(other, key, "")))
       refuse_difference(first, other, key);
 }

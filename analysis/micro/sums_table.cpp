@@ -67,13 +67,15 @@ RunConstants read_run_constants(const Table& table)
   if (species.size() != 2)
     throw FormatError(fmt::format("{}: --derived compares two species, and the table has {}",
                                   table.name, species.size()));
+  const bool densities_differ = table.has_header("mean_density");
   return {.small_diameter = species[0].diameter,
           .large_diameter = species[1].diameter,
           .gravity_x = table.header_number("gravity_x"),
           .gravity_y = table.header_number("gravity_y"),
-          .density = number_or_unknown(table, "density"),
+          .density = number_or_unknown(table, densities_differ ? "density_S" : "density"),
           .friction = number_or_unknown(table, "friction"),
-          .gravity_z = dimension_of(table) == 3 ? table.header_number("gravity_z") : 0};
+          .gravity_z = dimension_of(table) == 3 ? table.header_number("gravity_z") : 0,
+          .mean_density = number_or_unknown(table, densities_differ ? "mean_density" : "density")};
 }
 
 template <int D>

@@ -31,6 +31,7 @@ struct RunConstants {
   double gravity_x, gravity_y;            // m/s^2
   double density, friction;               // kg/m^2 or kg/m^3, and 1; NaN where unknown
   double gravity_z = 0;                   // m/s^2, in three dimensions
+  double mean_density = density;  // of all grains, where `density` is that of the small ones
 };
 
 /// Diameters are those of the two species, with --group of the groups. FormatError where a line is

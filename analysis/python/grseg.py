@@ -570,6 +570,30 @@ def _whole_steps(time, step):
     return int(math.copysign(math.floor(abs(time / step) + 0.5), time))
 
 
+def _longest_interval(run, gaps):
+    """How many steps a frame stands for at most: longest_interval() of analysis/frames/windows.cpp."""
+    gaps = sorted((int(gap) for gap in gaps), reverse=True)
+    interval = 0
+    if "import_format" not in run.parameters:  # of an import it is a mean
+        interval = _whole_steps(run.parameters.get("frame_interval", 0.0), run.step)
+    if interval > 0:
+        found = next((gap for gap in gaps if gap <= interval), 0)
+        return found if 2 * found >= interval else interval
+    regular = (gap for k, gap in enumerate(gaps[:-2]) if 2 * gaps[k + 2] >= gap)
+    return next(regular, gaps[0] if gaps else 1)
+
+
+def _empty_part(steps, longest, begin, length):
+    """For how many steps of a window no frame stands; what precedes the first one counts as filled."""
+    end, next_one = begin + length, int(np.searchsorted(steps, begin, side="right"))
+    filled = int(steps[0]) if next_one == 0 else int(steps[next_one - 1]) + longest
+    empty = 0
+    for step in steps[next_one:int(np.searchsorted(steps, end))]:
+        empty += max(0, int(step) - max(filled, begin))
+        filled = int(step) + longest
+    return empty + max(0, end - max(filled, begin))
+
+
 def _cut_into_windows(run, length, begin, end, stride):
     """The length of the windows and these, as cut_into_windows() of analysis/frames/windows.cpp has them."""
     length = math.inf if length == "all" else length
@@ -578,13 +602,15 @@ def _cut_into_windows(run, length, begin, end, stride):
     steps = run.steps
     if len(steps) == 0:
         run._fail("the run has no frames")
-    between = int(steps[-1] - steps[-2]) if len(steps) > 1 else max(
-        1, _whole_steps(run.parameters.get("frame_interval", 0.0), run.step))
+    gaps = np.diff(steps)
+    longest = _longest_interval(run, gaps)
+    within = np.minimum(gaps, longest)
+    used = max([longest] if len(gaps) == 0 else [within[k:k + stride].sum() for k in range(max(1, len(gaps) - stride + 1))])
     if begin is None:
         first = int(steps[0]) if steps[-1] < 0 else max(0, int(steps[0]))
     else:
         first = _whole_steps(begin, run.step)
-    last = int(steps[-1]) + between
+    last = int(steps[-1]) + longest
     if end is not None:
         last = min(last, _whole_steps(end, run.step))
     if not ((steps >= first) & (steps < last)).any():
@@ -593,8 +619,8 @@ def _cut_into_windows(run, length, begin, end, stride):
     if length == math.inf:
         first = max(first, int(steps[0]))
     whole = last - first if length == math.inf else _whole_steps(length, run.step)
-    if whole < between * stride and length < math.inf:
-        raise ValueError(f"a window of {length} s is shorter than the {between * stride * run.step:g} s between the "
+    if whole < used and length < math.inf:
+        raise ValueError(f"a window of {length} s is shorter than the {used * run.step:g} s between the "
                          f"frames of {run.path} that are used; give that, a longer one, or \"all\"")
     exact = whole * run.step
     width = length if abs(exact - length) < 1e-9 * exact else exact
@@ -604,8 +630,10 @@ def _cut_into_windows(run, length, begin, end, stride):
         n = (int(steps[k]) - first) // whole
         if first + (n + 1) * whole > last:
             break
-        if first + n * whole > steps[0] - between:  # otherwise the run begins inside it
-            frames_of[n].append(k)
+        frames_of[n].append(k)
+    frames_of = {n: frames for n, frames in frames_of.items()
+                 if first + n * whole > steps[0] - longest  # otherwise the run begins inside it
+                 and (length == math.inf or _empty_part(steps, longest, first + n * whole, whole) <= 0.1 * whole)}
     if not frames_of:
         run._fail(f"no window of {length} s is filled: frames used reach from {origin:g} s to {last * run.step:g} s; "
                   "choose a shorter window, \"all\", or another begin and end")
@@ -807,7 +835,19 @@ def _kinetic_columns(run):
     names = _Names(run.species, run.dimension)
     return ([f"mass_{word}[kg]" for word in names.words] + ["u[m/s]", "v[m/s]", "du_dy[1/s]"]
             + _with_components([f"K_{word}" for word in names.words], names.axes, "J")
-            + [f"Kr_{word}[J]" for word in names.words] + [f"grains_{word}" for word in names.words])
+            + [f"Kr_{word}[J]" for word in names.words] + [f"grains_{word}" for word in names.words]
+            + ([] if _has_one_density(run) else [f"{name}[m^{run.dimension}]" for name in names.contents]))
+
+
+def _content(run):
+    """Area or volume of each grain."""
+    return math.pi * run.radius**2 if run.dimension == 2 else 4 * math.pi / 3 * run.radius**3
+
+
+def _has_one_density(run):
+    """Whether masses have the ratios of areas or volumes, but for the digits of archives."""
+    density = (run.mass / _content(run))[run.mobile]
+    return density.max(initial=0) <= density.min(initial=math.inf) * (1 + 1e-5)
 
 
 def _moving(run, block):
@@ -821,8 +861,9 @@ def _moving(run, block):
 def _kinetic_sums(run, layers, frames, mean):
     """By layer the columns of _kinetic_columns."""
     d, species = run.dimension, len(run.species)
+    content_of = _content(run)
     mean_at = (_profile if mean == "profile" else _mean_of_layers)(run, layers, frames)
-    sums, flow = np.zeros((0, species, 3 + d * d)), np.zeros((0, 1, 6))
+    sums, flow = np.zeros((0, species, 4 + d * d)), np.zeros((0, 1, 6))
     for block in run._blocks(frames):
         most = layers.counts(block).max(initial=1)
         sums, flow = _grow(sums, most), _grow(flow, most)
@@ -834,11 +875,11 @@ def _kinetic_sums(run, layers, frames, mean):
         inertia = (0.5 if d == 2 else 0.4) * m * run.radius[grain]**2
         products = [m * excess[a] * excess[b] for a in range(d) for b in range(d)]
         rotation = inertia * (excess[d:]**2).sum(axis=0)
-        _book(sums, n * species + run.kind[grain], [m, np.ones_like(m), rotation, *products])
+        _book(sums, n * species + run.kind[grain], [m, np.ones_like(m), rotation, content_of[grain], *products])
     sums /= len(frames)
-    mass, grains, rotation, kinetic = sums[..., 0], sums[..., 1], sums[..., 2], sums[..., 3:]
-    return np.concatenate([mass, _mean_flow(flow[:, 0], layers.h), kinetic.reshape(len(sums), -1), rotation, grains],
-                          axis=1)
+    mass, grains, rotation, content, kinetic = *(sums[..., k] for k in range(4)), sums[..., 4:]
+    return np.concatenate([mass, _mean_flow(flow[:, 0], layers.h), kinetic.reshape(len(sums), -1), rotation, grains]
+                          + ([] if _has_one_density(run) else [content]), axis=1)
 
 
 def _mean_flow(flow, h):
@@ -1352,7 +1393,8 @@ class Points:
     def _contents(self, table):
         """Areas, volumes or masses of the species [rows, K], and their mean numbers of grains or None."""
         names = _Names(table.species, table.dimension)
-        if self.quantity == "kinetic":
+        one_density = f"mass_{names.words[0]}" not in table or names.contents[0] not in table
+        if self.quantity == "kinetic" and one_density:
             contents = np.stack([table[f"mass_{word}"] for word in names.words], axis=1)
         else:
             contents = np.stack([table[name] for name in names.contents], axis=1)

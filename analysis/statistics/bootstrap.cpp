@@ -14,6 +14,9 @@ namespace grseg {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+// With fewer, the correlation time comes out too short now and then, and hides that there are too few
+// independent ones (docs/studies/uncertainty.md).
+constexpr std::size_t enough_windows = 120;
 
 using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
 
@@ -180,6 +183,11 @@ std::string Bootstrap::doubt_of_windows(const Dependence& dependence) const
   const double per_run = dependence.independent_windows() / static_cast<double>(runs_.size());
   // 7.95 and more are printed as 8.
   if (dependence.independent_windows() >= 7.95) {
+    if (windows() < enough_windows)
+      return fmt::format(
+          "{} windows are too few to tell how long they depend on each other; with fewer than {} an "
+          "interval of 95 % over windows holds the truth less often if that is longer than it seems",
+          windows(), enough_windows);
     if (runs_.size() == 1 || per_run >= 4.95) return {};
     return fmt::format(
         "the windows of each run are worth {:.2g} independent ones; with fewer than 5 an interval of "

@@ -35,7 +35,8 @@ void ContactAssignmentOptions::add_to(po::options_description& options)
   const auto where = "the layer to which a contact counts: " + list_of(assignments);
   options.add_options()("assign", po::value(&assign)->default_value(assign)->value_name("WORD"),
                         where.c_str());
-  options.add_options()("width", po::value(&width)->default_value(width)->value_name("LENGTH"),
+  options.add_options()("kernel-width",
+                        po::value(&width)->default_value(width)->value_name("LENGTH"),
                         "of the kernel: standard deviation of gauss, half the support of lucy and "
                         "heaviside");
   options.add_options()("composition", po::value(&composition)->value_name("WORD"),
@@ -53,7 +54,7 @@ ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variabl
   chosen.area = choose(composition, "--composition", grain_areas);
   for (const auto& [given, option] :
        {std::pair{chosen.area == GrainArea::kernel, "--composition kernel"},
-        {!values["width"].defaulted(), "--width"}})
+        {!values["kernel-width"].defaulted(), "--kernel-width"}})
     if (given && !chosen.shape)
       throw UsageError(fmt::format("{} needs a kernel: --assign gauss, lucy or heaviside", option));
   return chosen;
@@ -63,7 +64,7 @@ std::optional<Kernel> ContactAssignmentOptions::kernel(const ContactAssignment& 
                                                        const LengthUnits& units) const
 {
   if (!chosen.shape) return {};
-  return Kernel(*chosen.shape, parse_length(width, "--width", units));
+  return Kernel(*chosen.shape, parse_length(width, "--kernel-width", units));
 }
 
 }  // namespace grseg

@@ -23,13 +23,13 @@ struct ContactAssignment {
 struct ContactAssignmentOptions {
   std::string assign = "contact-point", width = "1dS", composition;
 
-  /// Adds --assign --width --composition.
+  /// Adds --assign --kernel-width --composition.
   void add_to(po::options_description& options);
   /// UsageError for an unknown word, or a width without a kernel. Sets `composition` to what
   /// follows from `assign`, or to `otherwise`, where it was not given.
   ContactAssignment contact_assignment(const po::variables_map& values,
                                        const std::string& otherwise = "clipped");
-  /// The kernel of `contact_assignment`, if it has one; UsageError where --width is not a length.
+  /// The kernel of `contact_assignment`, if it has one; UsageError where --kernel-width is not a length.
   std::optional<Kernel> kernel(const ContactAssignment& chosen, const LengthUnits& units) const;
 };
 

@@ -65,15 +65,6 @@ std::vector<TensorComponent> tensor_components(int dimension)
   return components;
 }
 
-std::vector<std::string> column_words(const SpeciesList& species)
-{
-  if (species.size() == 2) return {"S", "L"};
-  std::vector<std::string> words;
-  words.reserve(species.size());
-  for (const auto& one : species) words.push_back(one.name);
-  return words;
-}
-
 std::vector<NamedSum> named_sums(const SpeciesList& species, InTables in)
 {
   const auto words = column_words(species);

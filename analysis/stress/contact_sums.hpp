@@ -145,9 +145,6 @@ struct TensorComponent {
 };
 std::vector<TensorComponent> tensor_components(int dimension);
 
-/// What the names of columns call species: S and L where there are two, otherwise their names.
-std::vector<std::string> column_words(const SpeciesList& species);
-
 /// A sum of one species or pair, and the name of its columns without component and unit: "A_SS",
 /// "Msize"; of other than two species "A_AM", "Msize_AM+SE", "A_AM+b".
 struct NamedSum {

@@ -81,6 +81,7 @@ template <int D>
 typename KineticStress<D>::Mean& KineticStress<D>::Mean::operator+=(const Mean& other)
 {
   mass += other.mass;
+  content += other.content;
   grains += other.grains;
   left_out += other.left_out;
   about_mean += other.about_mean;
@@ -152,6 +153,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
       continue;
     }
     own.mass += mass;
+    own.content += grain_volume<D>(radius);
     own.grains += 1;
     if (unbiased) {
       const auto product = unbiased->of(layer, mass, motion);
@@ -179,8 +181,8 @@ typename KineticStress<D>::Mean KineticStress<D>::mean(std::size_t layer, Specie
 {
   const auto& sum = sums_[layer].species[static_cast<std::size_t>(species)];
   const auto frames = static_cast<double>(frames_);
-  return {sum.mass / frames, sum.grains / frames, sum.left_out / frames, sum.about_mean / frames,
-          sum.layer_bias / frames};
+  return {sum.mass / frames,     sum.content / frames,    sum.grains / frames,
+          sum.left_out / frames, sum.about_mean / frames, sum.layer_bias / frames};
 }
 
 template <int D>

@@ -47,6 +47,7 @@ class KineticStress {
   /// Of one species in one layer.
   struct Mean {
     double mass = 0;      // kg
+    double content = 0;   // m^2 or m^3, area or volume
     double grains = 0;    // number
     double left_out = 0;  // number: those that are too few for the mean; not among `grains`
     Fluctuations<D> about_mean;

@@ -24,8 +24,8 @@ constexpr ToolInfo info{
     "momentum balance of each species by layer and window, and the forces that drive segregation.",
     "grseg-balance run.h5 [options] > balance.tsv",
     "  grseg-balance run.h5 -o balance.tsv              layers of 4 dS, Gaussian of 1 dS\n"
-    "  grseg-balance run.h5 --layer 1dS --width 0.5dS   finer profiles\n"
-    "  grseg-balance run.h5 --kernel lucy --width 3dS   a kernel of compact support\n"
+    "  grseg-balance run.h5 --layer 1dS --kernel-width 0.5dS   finer profiles\n"
+    "  grseg-balance run.h5 --kernel lucy --kernel-width 3dS   a kernel of compact support\n"
     "  grseg-balance run.h5 --begin 20 -o /dev/null     only the sentence of the summary\n"
     "  grseg-balance run.h5 --partition stock           push, interaction and drag under each rule\n"
     "                                                   beside N, which no rule changes\n",
@@ -42,7 +42,8 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   options.add_options()("kernel", po::value(&s.kernel)->default_value(s.kernel)->value_name("WORD"),
                         "coarse-graining function over height: gauss, lucy or heaviside");
-  options.add_options()("width", po::value(&s.width)->default_value(s.width)->value_name("LENGTH"),
+  options.add_options()("kernel-width",
+                        po::value(&s.width)->default_value(s.width)->value_name("LENGTH"),
                         "width of the kernel: standard deviation of gauss, half the support of the "
                         "others");
   const auto partition =
@@ -105,7 +106,7 @@ void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::
   const auto& run = loop.run();
   const auto& species = loop.species();
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
-  const Kernel kernel(shape, parse_length(s.width, "--width", units));
+  const Kernel kernel(shape, parse_length(s.width, "--kernel-width", units));
   const auto rules = rules_of(s);
   auto columns = balance_columns<D>(species);
   if (!rules.empty())
@@ -123,7 +124,7 @@ void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::
       auto row = balance_row(balance, layer);
       if (!rules.empty())
         for (const double value : partition_row(balance, contacts, layer)) row.push_back(value);
-      table.rows.push_back(loop.row(window, layer, row));
+      loop.add(table, loop.row(window, layer, row));
     }
     summary.add(balance);
     if (!rules.empty()) by_rule.add(balance, contacts);
@@ -131,7 +132,7 @@ void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::
   if (s.frames.json && !rules.empty())
     write_json(s, table, by_rule.to_json());
   else
-    loop.write(table);
+    loop.write(std::move(table));
   if (s.frames.quiet) return;
   fmt::print(stderr, "{}: {}\n", info.name, summary.sentence());
   if (!rules.empty()) fmt::print(stderr, "{}: {}\n", info.name, by_rule.text());

@@ -114,7 +114,7 @@ struct OfVelocity {
   {
     if (which == VelocityInStep::after) return sums.add(grains, frame);
     Frame<D> middle = frame;
-    to_middle_of_step(grains, step, turning, middle);
+    to_middle_of_step(grains, step_of_force(frame, step), turning, middle);
     sums.add(grains, middle);
   }
   void merge(const OfVelocity& others) { sums.merge(others.sums); }
@@ -159,12 +159,23 @@ void require_forces(const TrajectoryReader& run)
                     run.path()));
 }
 
+/// Areas or volumes, which masses do not tell where densities differ.
+template <int D>
+void add_contents(std::vector<Cell>& cells, const SpeciesList& species,
+                  const KineticStress<D>& stress, std::optional<std::size_t> layer)
+{
+  const auto columns = content_columns(species, D);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    cells.push_back({columns[k], layer ? stress.mean(*layer, static_cast<Species>(k)).content : 0});
+}
+
 /// Of a layer or cell, or their names without one.
 template <int D>
 std::vector<Cell> cells(const FrameLoop& loop, const KineticStress<D>& stress,
                         std::optional<std::size_t> layer)
 {
   auto cells = stress.cells(loop.species(), layer);
+  if (!have_one_density<D>(loop.grains())) add_contents(cells, loop.species(), stress, layer);
   if (!loop.layers().map()) return cells;
   typename KineticStress<D>::Mean all;
   Vector<D> velocity = Vector<D>::Zero();
@@ -192,11 +203,11 @@ void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, VelocityInStep 
   for (const auto& window : loop.windows()) {
     const auto stress = sum(loop, window, flow, which, no_grains);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
-      table.rows.push_back(loop.row(window, layer, values_of(cells(loop, stress, layer))));
+      loop.add(table, loop.row(window, layer, values_of(cells(loop, stress, layer))));
     bias.add(stress, species.size());
     left_out.add(stress, species.size(), window.frames.size());
   }
-  loop.write(table, loop.layers().map() ? "" : "grseg-fit --quantity kinetic");
+  loop.write(std::move(table), loop.layers().map() ? "" : "grseg-fit --quantity kinetic");
   if (flow == MeanFlow::layer && !loop.layers().map() && !s.frames.quiet) bias.report();
   if (left_out.grains > 0 && !s.frames.quiet) left_out.report();
 }

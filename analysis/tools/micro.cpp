@@ -123,11 +123,11 @@ void tabulate(FrameLoop& loop, const Settings& s, GrainArea area, const std::str
     const auto [micro] = loop.sum<D>(window, {.velocity = false, .contacts = true},
                                      StructureByLayer<D>(loop.layers(), area, friction));
     for (std::size_t layer = 0; layer < micro.layers(); ++layer)
-      table.rows.push_back(loop.row(
-          window, layer, map ? values_of(map_cells(micro.mean(layer))) : micro.row(layer)));
-    if (!map) table.rows.push_back(loop.bed_row(window, micro.heights().bed, micro.bed_row()));
+      loop.add(table, loop.row(window, layer,
+                               map ? values_of(map_cells(micro.mean(layer))) : micro.row(layer)));
+    if (!map) loop.add(table, loop.bed_row(window, micro.heights().bed, micro.bed_row()));
   }
-  loop.write(table, map ? "" : "grseg-micro --derived");
+  loop.write(std::move(table), map ? "" : "grseg-micro --derived");
 }
 
 void tabulate(Settings s, const po::variables_map& values, const std::string& command)
@@ -151,11 +151,11 @@ void distribute(FrameLoop& loop, const Settings& s, ForceUnit unit, const std::s
     const auto [forces] =
         loop.sum<D>(window, contacts, ForceDistribution<D>(loop.layers(), mean, unit, s.bin));
     for (std::size_t layer = 0; layer < forces.layers(); ++layer)
-      for (const auto& row : forces.rows(layer)) table.rows.push_back(loop.row(window, layer, row));
+      for (const auto& row : forces.rows(layer)) loop.add(table, loop.row(window, layer, row));
     for (const auto& row : forces.bed_rows())
-      table.rows.push_back(loop.bed_row(window, std::numeric_limits<double>::quiet_NaN(), row));
+      loop.add(table, loop.bed_row(window, std::numeric_limits<double>::quiet_NaN(), row));
   }
-  loop.write(table);
+  loop.write(std::move(table));
 }
 
 void distribute(const Settings& s, const po::variables_map& values, const std::string& command)

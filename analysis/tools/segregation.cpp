@@ -110,11 +110,11 @@ void tabulate(FrameLoop& loop, const Settings& s, const RateFilter& filter,
         SegregationFlux<D>(loop.layers(), window, small_diameter, large_diameter));
     run.add(loop.grains(), series, flux);
     for (std::size_t layer = 0; layer < run.layers(); ++layer)
-      table.rows.push_back(loop.row(window, layer, run.row(layer)));
-    table.rows.push_back(loop.bed_row(window, run.bed(), run.bed_row()));
+      loop.add(table, loop.row(window, layer, run.row(layer)));
+    loop.add(table, loop.bed_row(window, run.bed(), run.bed_row()));
   }
   if (s.summary) return write_summary(s, run.summary(filter), table.header);
-  loop.write(table);
+  loop.write(std::move(table));
 }
 
 void tabulate(const Settings& s, const po::variables_map& values, const std::string& command)

@@ -25,7 +25,7 @@ constexpr ToolInfo info{
     "grseg-stress run.h5 [options] > sums.tsv\n       grseg-stress --merge a.tsv b.tsv > sums.tsv",
     "  grseg-stress run.h5 -o sums.tsv                  layers of 4 dS, windows of 1.25 s\n"
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
-    "  grseg-stress run.h5 --assign gauss --width 1dS   coarse grained by a Gaussian\n"
+    "  grseg-stress run.h5 --assign gauss --kernel-width 1dS   coarse grained by a Gaussian\n"
     "  grseg-stress drum.h5 --bins radius --layer 2dS   annuli about the axis of a drum\n"
     "  grseg-stress drum.h5 --bins xy --layer 2dS -o map.h5           a map, for h5py or xarray\n"
     "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n"
@@ -50,7 +50,7 @@ po::options_description options_into(Settings& s)
   const auto volume = "likewise, the volume of a stress: " + list_of(stress_volumes);
   options.add_options()("partition", word(s.partition),
                         "default rule of grseg-fit for this table; power:Q adds columns Mpower_*");
-  options.add_options()("base", word(s.base), base.c_str());
+  options.add_options()("base-part", word(s.base), base.c_str());
   options.add_options()("volume", word(s.volume), volume.c_str());
   options.add_options()("merge", po::bool_switch(&s.merge),
                         "of tables instead of a run: means weighted by frames, window by window");
@@ -62,12 +62,12 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-/// What --partition, --base and --volume say: how maps make stress of sums. Of layers it is only
+/// What --partition, --base-part and --volume say: how maps make stress of sums. Of layers it is only
 /// passed on to grseg-fit, except for the exponent of Mpower_*.
 MapStress stress_of(Settings& s)
 {
   const auto volume = choose(s.volume, "--volume", stress_volumes);
-  const auto base = choose(s.base, "--base", base_parts);
+  const auto base = choose(s.base, "--base-part", base_parts);
   const auto rule = parse_rule(s.partition);
   s.partition = rule.name();
   return {rule, base, volume};
@@ -147,10 +147,10 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
       if (map)
         row = joined(row,
                      values_of(map_fields<D>(loop, how, contents, stress.mean(layer).sums, layer)));
-      table.rows.push_back(loop.row(window, layer, row));
+      loop.add(table, loop.row(window, layer, row));
     }
   }
-  loop.write(table, map ? "" : "grseg-fit");
+  loop.write(std::move(table), map ? "" : "grseg-fit");
 }
 
 void tabulate(Settings s, const po::variables_map& values, const std::string& command)

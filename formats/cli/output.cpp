@@ -5,15 +5,6 @@
 #include <utility>
 
 namespace grseg {
-namespace {
-
-bool is_standard_output(const std::string& path)
-{
-  return path.empty() || path == "-";
-}
-
-}  // namespace
-
 void add_overwrite_to(po::options_description& options, bool& overwrite)
 {
   options.add_options()("overwrite", po::bool_switch(&overwrite),
@@ -28,7 +19,7 @@ void OutputOptions::add_to(po::options_description& options, const char* help)
 
 void OutputOptions::check(const po::variables_map& values) const
 {
-  if (is_standard_output(path) || is_device(path)) return;
+  if (is_standard_output() || is_device(path)) return;
   const bool none = values.count("input") == 0;
   auto inputs = none ? std::vector<std::string>{} : values["input"].as<std::vector<std::string>>();
   std::erase(inputs, "-");
@@ -44,7 +35,7 @@ Output::Output(std::string path, bool overwrite, const std::vector<std::string>&
 void write_whole(const OutputOptions& output, std::string_view text)
 {
   const auto& path = output.path;
-  if (is_standard_output(path)) {
+  if (output.is_standard_output()) {
     std::cout << text;
     return;
   }

@@ -18,6 +18,7 @@ struct OutputOptions {
   std::string path;  ///< "" or "-": standard output
   bool overwrite = false;
 
+  bool is_standard_output() const { return path.empty() || path == "-"; }
   /// Adds --output, with `help`, and --overwrite.
   void add_to(po::options_description& options, const char* help = "instead of standard output");
   /// Before work begins: UsageError where the file is one of the inputs that `values` name, a

@@ -61,10 +61,9 @@ double Table::header_positive(const std::string& key) const
 
 std::string Table::to_text() const
 {
-  std::vector<std::vector<std::string>> cells;
-  cells.reserve(rows.size());
-  for (const auto& row : rows) cells.push_back(format_numbers(row));
-  return table_text(header, columns, cells);
+  auto text = table_head(header, columns);
+  add_rows(text, rows);
+  return text + end_line(text, rows.size()) + '\n';
 }
 
 std::string Table::to_json() const

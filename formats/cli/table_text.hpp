@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,12 +17,19 @@ std::string table_text(const std::vector<std::pair<std::string, std::string>>& h
                        const std::vector<std::string>& columns,
                        const std::vector<std::vector<std::string>>& rows);
 
+/// What precedes the rows.
+std::string table_head(const std::vector<std::pair<std::string, std::string>>& header,
+                       const std::vector<std::string>& columns);
+/// The lines of rows, behind `text`.
+void add_rows(std::string& text, const std::vector<std::vector<double>>& rows);
+
 /// How the line that ends a table begins.
 inline constexpr std::string_view end_mark = "# end: ";
 
 /// "# end: 3 rows, xxh3 0123456789abcdef": the number of rows, and the xxh3 (64 bit) of all bytes
 /// before this line, which `head -n -1 table.tsv | xxhsum -H3` prints, too.
 std::string end_line(std::string_view before, std::size_t rows);
+std::string end_line(std::size_t rows, std::uint64_t digest_before);
 
 /// 17 significant digits, shortest of %g; "nan" for any NaN.
 std::string format_number(double value);

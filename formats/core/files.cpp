@@ -136,9 +136,13 @@ std::string temporary_path(const std::string& path)
   return fmt::format("{}.tmp.{}", path, getpid());
 }
 
-void write_file(const std::string& path, std::string_view content, const std::string& name)
+namespace {
+
+/// Opens the file with this mode beside that to write and create it.
+void write_with(int mode, const std::string& path, std::string_view content,
+                const std::string& name)
 {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | mode | O_CLOEXEC, 0666);
   if (file < 0) throw RunError(fmt::format("cannot create {}: {}", name, reason(errno)));
   const auto fail = [&name](int error) {
     throw RunError(fmt::format("cannot write {}: {}", name, reason(error)));
@@ -154,6 +158,18 @@ void write_file(const std::string& path, std::string_view content, const std::st
     }
   }
   if (close(file) != 0) fail(errno);
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view content, const std::string& name)
+{
+  write_with(O_TRUNC, path, content, name);
+}
+
+void append_to_file(const std::string& path, std::string_view content, const std::string& name)
+{
+  write_with(O_APPEND, path, content, name);
 }
 
 void flush_to_disk(const std::string& path)

@@ -45,6 +45,9 @@ std::string temporary_path(const std::string& path);
 /// failure.
 void write_file(const std::string& path, std::string_view content, const std::string& name);
 
+/// The same, behind what the file holds.
+void append_to_file(const std::string& path, std::string_view content, const std::string& name);
+
 /// Waits until the file `path` is on disk. RunError on failure.
 void flush_to_disk(const std::string& path);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/frame.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace grseg {
@@ -27,6 +28,36 @@ void ContactList<D>::reserve(std::size_t contacts)
 
 template struct ContactList<2>;
 template struct ContactList<3>;
+
+template <int D>
+double mean_density(const Grains& grains, std::optional<Species> species)
+{
+  double mass = 0, content = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g) || (species && grains.species[g] != *species)) continue;
+    mass += grains.mass[g];
+    content += grain_volume<D>(grains.radius[g]);
+  }
+  return content > 0 ? mass / content : 0;
+}
+
+template <int D>
+bool have_one_density(const Grains& grains)
+{
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g)) continue;
+    const double density = grains.mass[g] / grain_volume<D>(grains.radius[g]);
+    least = std::min(least, density);
+    most = std::max(most, density);
+  }
+  return most <= least * (1 + 1e-5);
+}
+
+template double mean_density<2>(const Grains&, std::optional<Species>);
+template double mean_density<3>(const Grains&, std::optional<Species>);
+template bool have_one_density<2>(const Grains&);
+template bool have_one_density<3>(const Grains&);
 
 template <int D>
 std::size_t number_present(const Frame<D>& frame)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -69,6 +70,16 @@ double grain_volume(double radius)
     return 4 * std::numbers::pi / 3 * radius * radius * radius;
 }
 
+/// Mass of the mobile grains over their area or volume, kg/m^2 or kg/m^3; of one species where it is
+/// given. 0 without grains.
+template <int D>
+double mean_density(const Grains& grains, std::optional<Species> species = std::nullopt);
+
+/// Whether the densities of all mobile grains agree but for the digits of archives (1e-5). Then shares
+/// of their masses are shares of their areas or volumes.
+template <int D>
+bool have_one_density(const Grains& grains);
+
 /// Moment of inertia of a grain over its mass times the square of its radius: a disc or a sphere.
 template <int D>
 inline constexpr double inertia_factor = D == 2 ? 0.5 : 0.4;
@@ -100,8 +111,10 @@ struct ContactList {
 /// has NaN in position, velocity, spin and force; no contact names it.
 template <int D>
 struct Frame {
-  std::int64_t step = 0;                           // time = (step + 1/2) h
-  double time = 0;                                 // s, 0 at the tilt
+  std::int64_t step = 0;  // time = (step + 1/2) h
+  double time = 0;        // s, 0 at the tilt
+  double part = 0;  // s, length of the step, or of its last part if it was taken in parts, which is
+                    // then the h of `force`; 0 where it was not read
   std::vector<Vector<D>> position;                 // m, wrapped into the cell
   std::vector<std::array<std::int32_t, D>> image;  // periods to add to `position`
   std::vector<Vector<D>> velocity;                 // m/s
@@ -109,6 +122,13 @@ struct Frame {
   std::vector<Vector<D>> force;                    // N; empty where an import had none
   ContactList<D> contacts;
 };
+
+/// The h in which `force` has changed the velocities; `step` s unless the frame says otherwise.
+template <int D>
+double step_of_force(const Frame<D>& frame, double step)
+{
+  return frame.part > 0 ? frame.part : step;
+}
 
 /// Whether grain g is there in this frame.
 template <int D>

@@ -44,6 +44,15 @@ SpeciesList parse_species(const std::string& text)
   return list;
 }
 
+std::vector<std::string> column_words(const SpeciesList& species)
+{
+  if (species.size() == 2) return {"S", "L"};
+  std::vector<std::string> words;
+  words.reserve(species.size());
+  for (const auto& one : species) words.push_back(one.name);
+  return words;
+}
+
 bool is_species_name(const std::string& name)
 {
   return !name.empty() && name.size() < longest_species_name && name != name_of_boundary &&

@@ -44,6 +44,7 @@ struct TrajectoryReader::Impl : StoredRun {
   Seal::Numbers seal{};
   bool closed = false;
   mutable bool observables_verified = false;
+  mutable std::vector<double> parts;  // observable frame_step, once a frame with forces is read
 
   void read_seal();
   std::string damage_of_run() const;
@@ -318,6 +319,11 @@ TrajectoryReader::Packed TrajectoryReader::load(std::size_t index, Frame<D>& fra
 {
   const auto& my = *impl_;
   auto packed = my.load(index, frame, fields);
+  frame.part = 0;
+  if (fields.force && has_observable("frame_step")) {
+    if (my.parts.empty()) my.parts = observable("frame_step");
+    frame.part = my.parts.at(index);
+  }
   if (my.verify == Verify::yes && !my.has_field_digests()) my.verify_whole(index);
   return packed;
 }

@@ -71,6 +71,7 @@ void print_one_run(double rho, std::size_t windows)
   std::vector<Tally> estimates;
   for (const auto place : shown) estimates.emplace_back(truth.*place);
   int doubted = 0;
+  Tally undoubted(truth.B_half), few_doubts(truth.B_half);
   for (int trial = 0; trial < trials; ++trial) {
     const Bootstrap bootstrap({windows}, samples, static_cast<unsigned long>(trial) + 1);
     const auto of_mean = mean_of(noise.series(static_cast<Eigen::Index>(windows)), bootstrap);
@@ -83,12 +84,16 @@ void print_one_run(double rho, std::size_t windows)
     for (std::size_t k = 0; k < std::size(shown); ++k)
       estimates[k].add(fit.value.*shown[k], of(fit, shown[k]));
     doubted += !fit.doubt.empty();
+    if (fit.doubt.empty()) undoubted.add(fit.value.B_half, of(fit, &Estimators::B_half));
+    if (fit.dependence.independent_windows() >= 8)
+      few_doubts.add(fit.value.B_half, of(fit, &Estimators::B_half));
   }
   fmt::print("{:3} {:7} {:10.3f} {:6.3f} {:10.3f} {:6.3f}", rho, windows, plain_mean.coverage(),
              mean.coverage(), plain.coverage(), estimates[0].coverage());
   for (std::size_t k = 1; k < std::size(shown); ++k)
     fmt::print(" {:8.3f}", estimates[k].coverage());
-  fmt::print(" {:6.2f} {:8.3f}\n", estimates[0].width(), static_cast<double>(doubted) / trials);
+  fmt::print(" {:6.2f} {:8.3f} {:9.3f} {:9.3f}\n", estimates[0].width(),
+             static_cast<double>(doubted) / trials, undoubted.coverage(), few_doubts.coverage());
   std::fflush(stdout);
 }
 
@@ -222,13 +227,15 @@ void print_all()
 {
   fmt::print(
       "# {} trials of {} samples each; width: median, 1 = 1.96 standard deviations of the\n"
-      "# estimates; doubt: share of the trials in which the tool warns\n",
+      "# estimates; doubt: share of the trials in which the tool warns; coverage of B_half where it does\n"
+      "# not, and where the windows seem to be worth 8 independent ones\n",
       trials, samples);
   fmt::print(
       "# one run\n# rho windows plain_mean   mean plain_B_half B_half B_linear exponent "
-      "B_direct  width    doubt\n");
+      "B_direct  width    doubt undoubted worth_8\n");
   for (const double rho : {0.0, 0.5, 0.8})
-    for (const std::size_t windows : {24u, 48u, 120u, 480u}) print_one_run(rho, windows);
+    for (const std::size_t windows : {3u, 6u, 12u, 24u, 48u, 120u, 480u})
+      print_one_run(rho, windows);
   fmt::print(
       "# one run whose layers segregate, under a rule whose B depends on composition\n"
       "# rho windows  time plain_B_half width B_half  width\n");

@@ -161,7 +161,7 @@ def check_all_fits(sample):
     run_tool("stress", sample, *stress, "--end", "10", "-o", "first.tsv")
     run_tool("stress", sample, *stress, "--begin", "10", "-o", "second.tsv")
     check_fits(["first.tsv"])
-    check_fits(["first.tsv", "second.tsv"], ["--component", "pressure", "--base", "half"], component="pressure",
+    check_fits(["first.tsv", "second.tsv"], ["--component", "pressure", "--base-part", "half"], component="pressure",
                base="half")
     check_fits(["second.tsv"], ["--heights", "4dS:16dS", "--ratio-range", "0.2:5", "--min-solid", "0.8", "--begin", "12",
                                 "--min-grains", "5"],

@@ -118,6 +118,12 @@ struct ArchiveFacts {
   std::string tolerance_reason;
 };
 
+/// A value of --columns, and to what part of the contact forces the forces on grains then add up.
+struct ColumnFit {
+  std::string columns;
+  double residual;
+};
+
 /// Reads an archive moment by moment, in order of time, holding one moment in memory.
 class Archive {
  public:
@@ -133,17 +139,22 @@ class Archive {
   /// How the columns of the contacts are read, as --columns would give it; "" where the format
   /// fixes it.
   virtual std::string columns() const { return ""; }
-  /// Other possible values of --columns; where grains do not balance with `columns()` they are
-  /// tried, to suggest one that works. Valid after `next`.
-  virtual std::vector<std::string> other_columns() const { return {}; }
+  /// Where the forces on grains do not add up with `columns()` under this gravity (in the archive's
+  /// axes), but do with another value of --columns: that with which they do best. Valid after `next`.
+  virtual std::optional<ColumnFit> fitting_columns(const Vec3& /*gravity*/) const
+  {
+    return std::nullopt;
+  }
   /// What has been left out so far, a sentence each: unmatched moments, rows.
   virtual std::vector<std::string> remarks() const { return {}; }
 };
 
-/// The archive ends in the middle of a moment; all moments before are complete. With
-/// --drop-incomplete the import ends there.
+/// The archive ends in the middle of a moment, or a job did, behind whose last moment the next job
+/// goes on; all moments before are complete. With --drop-incomplete this one is left out.
 struct TruncatedArchive : FormatError {
   using FormatError::FormatError;
+  TruncatedArchive(const std::string& sentence, bool more) : FormatError(sentence), goes_on(more) {}
+  bool goes_on = false;  // `next`, given the same moment, reads the one behind it
 };
 
 /// What the command line gives to a reader.

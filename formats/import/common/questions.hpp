@@ -3,6 +3,7 @@
 
 #include "formats/core/errors.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,14 +33,17 @@ struct OpenQuestions : UsageError {
 class Questions {
  public:
   void ask(Question question) { open_.push_back(std::move(question)); }
-  /// Runs `answer` and keeps the questions that it throws.
+  /// Runs `answer` and keeps the questions that it throws, each once.
   template <class Function>
   void collect(Function&& answer)
   {
     try {
       answer();
     } catch (const OpenQuestions& open) {
-      open_.insert(open_.end(), open.questions.begin(), open.questions.end());
+      for (const auto& question : open.questions) {
+        const auto is_same = [&](const Question& asked) { return asked.what == question.what; };
+        if (std::none_of(open_.begin(), open_.end(), is_same)) ask(question);
+      }
     }
   }
   bool any() const { return !open_.empty(); }

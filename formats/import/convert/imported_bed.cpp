@@ -158,17 +158,6 @@ void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
   }
 }
 
-/// The lowest point of the grains is proposed.
-template <class Height>
-Question question_of_origin(const ArchiveGrains& grains, const Height& height)
-{
-  double lowest = infinity;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    lowest = std::min(lowest, height(g) - grains.radius[g]);
-  return {"the height in the archive that is y = 0", fmt::format("--origin {:.6g}", lowest),
-          "no base grains lie below the others; this is the lowest point of the grains"};
-}
-
 /// The highest of the boundary grains, or, where there are none, of the walls, below the middle of
 /// the others.
 void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& text)
@@ -201,7 +190,18 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
         std::abs(up) > 1 - 1e-6 && up * wall.position * static_cast<double>(mobile) <= sum;
     if (!has_base && is_floor) origin = std::max(origin, up * wall.position);
   }
-  if (!std::isfinite(origin)) throw OpenQuestions(question_of_origin(first.grains, height));
+  if (!std::isfinite(origin))
+    throw OpenQuestions(
+        Question{"the height in the archive that is y = 0", proposed_origin(first.grains, axes),
+                 "no base grains lie below the others; this is the lowest point of the grains"});
+}
+
+std::string proposed_origin(const ArchiveGrains& grains, const Axes& axes)
+{
+  double lowest = infinity;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    lowest = std::min(lowest, axes.components<2>(grains.position[g]).y() - grains.radius[g]);
+  return fmt::format("--origin {:.6g}", lowest);
 }
 
 }  // namespace grseg

@@ -51,4 +51,7 @@ struct ImportedBed {
   void find_origin(const ArchiveMoment& first, const std::string& text);
 };
 
+/// The option that puts y = 0 at the lowest point of the grains.
+std::string proposed_origin(const ArchiveGrains& grains, const Axes& axes);
+
 }  // namespace grseg

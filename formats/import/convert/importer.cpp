@@ -42,19 +42,6 @@ double mid_range(const Grains& grains, Species species)
   return high > 0 ? (low + high) / 2 : 0;
 }
 
-/// Mass over area or volume of the mobile grains, kg/m^2 or kg/m^3.
-template <int D>
-double density(const Grains& grains)
-{
-  double mass = 0, content = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (grains.species[g] == Species::boundary) continue;
-    mass += grains.mass[g];
-    content += grain_volume<D>(grains.radius[g]);
-  }
-  return content > 0 ? mass / content : 0;
-}
-
 /// The species with nominal diameters in m. Of small and large, one without grains gets the
 /// diameter of the other.
 SpeciesList with_diameters(SpeciesList list, const Grains& grains, const Units& units)
@@ -91,7 +78,7 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   numbers["gravity"] = {gravity.begin(), gravity.end()};
   numbers["slope"] = {std::atan2(gravity.x(), -gravity.y()) * 180 / std::numbers::pi};
   numbers["step"] = {facts.step * units.time};
-  numbers["density"] = {density<D>(run.grains)};
+  numbers["density"] = {mean_density<D>(run.grains)};
   run.species = with_diameters(frames.builder().bed().species.list, run.grains, units);
   numbers["small_diameter"] = {run.species.front().diameter};
   numbers["large_diameter"] = {run.species.back().diameter};
@@ -137,14 +124,25 @@ std::vector<std::string> inputs_of(const ArchiveFiles& files)
   return files_meant(names);
 }
 
+Vec3 gravity_in_archive(const RunFacts& facts)
+{
+  Vec3 gravity;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    gravity[axis] =
+        facts.orientation.gravity.dot(facts.orientation.axes.components<3>(Vec3::Unit(axis)));
+  return gravity;
+}
+
 template <int D>
-[[noreturn]] void refuse(const VerifiedFrames<D>& frames, const ImportSettings& settings,
-                         const Judgement& judgement, std::size_t moments)
+[[noreturn]] void refuse(const VerifiedFrames<D>& frames, const Judgement& judgement)
 {
   const auto& complaint = *frames.complaint();
-  const auto fitting = complaint.of_columns
-                           ? columns_that_fit(settings, frames.archive(), moments, frames.roster())
-                           : std::string();
+  const auto fit = complaint.of_columns
+                       ? frames.archive().fitting_columns(gravity_in_archive(frames.facts()))
+                       : std::nullopt;
+  const auto fitting =
+      fit ? fmt::format("; with --columns {} they balance to {:.2g}", fit->columns, fit->residual)
+          : std::string();
   const auto others = fitting.empty() && !complaint.spoils_gravity
                           ? judgement.also_failed(in_si(frames.moment(), frames.facts().units))
                           : std::string();
@@ -158,12 +156,7 @@ template <int D>
 template <int D>
 std::vector<std::string> remarks_of(const VerifiedFrames<D>& frames)
 {
-  auto remarks = frames.archive().remarks();
-  if (!frames.range().is_all())
-    remarks.push_back(
-        fmt::format("only moments in the range {} are imported", frames.range().text()));
-  if (auto repeated = frames.repeated().remark(); !repeated.empty())
-    remarks.push_back(std::move(repeated));
+  auto remarks = frames.remarks();
   if (const auto& roster = frames.roster())
     remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} present",
                                   roster->all.grains.size(), roster->fewest, roster->most));
@@ -223,7 +216,7 @@ ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settin
   ProgressBar progress(program, {.things = "moments"}, settings.quiet);
   for (Frame<D> frame; frames.next(frame);) {
     stop_if_interrupted();
-    if (frames.complaint()) refuse(frames, settings, closing.judgement(), report.frames + 1);
+    if (frames.complaint()) refuse(frames, closing.judgement());
     frames.facts().units.convert(frame);
     count(report, frame);
     const auto record = record_of(frames);
@@ -261,7 +254,7 @@ ImportReport write_part(VerifiedFrames<D> frames, PartPlace place, const ImportS
                        settings.quiet);
   for (auto left = place.end - place.begin; left > 0 && frames.next(frame); --left) {
     stop_if_interrupted();
-    if (frames.complaint()) refuse(frames, settings, judgement, place.begin + report.frames + 1);
+    if (frames.complaint()) refuse(frames, judgement);
     frames.facts().units.convert(frame);
     count(report, frame);
     const auto record = record_of(frames);

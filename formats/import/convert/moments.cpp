@@ -49,15 +49,28 @@ Moments::Moments(const ImportSettings& settings, const std::string& columns)
 
 bool Moments::read_one(ArchiveMoment& moment, Read read)
 {
-  try {
-    if (!((*archive_).*read)(moment)) return false;
-    if (interval_) set_time(moment);
-    for (const auto& cell : cells_) tell(cell, moment);
-    return true;
-  } catch (const TruncatedArchive&) {
-    if (!drop_incomplete_) throw;
-    return false;
-  }
+  for (;;) try {
+      if (!((*archive_).*read)(moment)) return false;
+      if (interval_) set_time(moment);
+      for (const auto& cell : cells_) tell(cell, moment);
+      return true;
+    } catch (const TruncatedArchive& incomplete) {
+      if (!drop_incomplete_) throw;
+      ++dropped_;
+      if (!incomplete.goes_on) return false;
+    }
+}
+
+std::vector<std::string> Moments::remarks() const
+{
+  std::vector<std::string> remarks;
+  if (!range_.is_all())
+    remarks.push_back(fmt::format("only moments in the range {} are imported", range_.text()));
+  if (dropped_ > 0)
+    remarks.push_back(fmt::format("{} incomplete moment{} left out (--drop-incomplete)", dropped_,
+                                  dropped_ == 1 ? " is" : "s are"));
+  if (auto repeated = repeated_.remark(); !repeated.empty()) remarks.push_back(std::move(repeated));
+  return remarks;
 }
 
 /// The number of a moment times --frame-interval.

@@ -12,8 +12,8 @@
 
 namespace grseg {
 
-/// The moments of an archive between --begin and --end, in order of time; with --drop-incomplete they
-/// end before one that is incomplete.
+/// The moments of an archive between --begin and --end, in order of time; with --drop-incomplete
+/// those that are incomplete are left out.
 class Moments {
  public:
   Moments(const ImportSettings& settings, const std::string& columns);
@@ -22,11 +22,15 @@ class Moments {
   /// are others outside the range.
   bool next(ArchiveMoment& moment) { return advance(moment, &Archive::next); }
   /// The same with the grains alone; contacts may be there or not.
-  bool next_grains(ArchiveMoment& moment) { return advance(moment, &Archive::next_grains); }
+  bool next_grains(ArchiveMoment& moment)
+  {
+    // Contacts, too, may be what is incomplete.
+    return advance(moment, drop_incomplete_ ? &Archive::next : &Archive::next_grains);
+  }
 
   const Archive& archive() const { return *archive_; }
-  const MomentRange& range() const { return range_; }
-  const RepeatedMoments& repeated() const { return repeated_; }
+  /// Which moments are left out so far, and why, a sentence each.
+  std::vector<std::string> remarks() const;
 
  private:
   using Read = bool (Archive::*)(ArchiveMoment&);
@@ -37,6 +41,7 @@ class Moments {
   void set_time(ArchiveMoment& moment) const;
   std::optional<double> step_, interval_;  // --step, --frame-interval
   bool drop_incomplete_;
+  int dropped_ = 0;  // moments
   std::vector<ToldCell> cells_;
   RepeatedMoments repeated_;
   MomentRange range_;

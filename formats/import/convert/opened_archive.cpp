@@ -28,6 +28,15 @@ void propose_base(const Question& question, SpeciesSettings& settings)
       question.option.substr(blank + 1);
 }
 
+SpeciesSettings with_one_species(const SpeciesSettings& settings)
+{
+  SpeciesSettings one;
+  one.named = {"grains=all"};
+  one.boundary = settings.boundary;
+  one.boundary_ids = settings.boundary_ids;
+  return one;
+}
+
 }  // namespace
 
 OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& columns,
@@ -94,13 +103,20 @@ void OpenedArchive::ask_for_the_bed(const ImportSettings& settings,
   const bool has_walls = !facts.walls.empty();
   if (base_is_open(grains, trial) && (!has_walls || !resting.empty())) {
     trial.species.boundary = "none";
-    if (resting.empty())
+    auto question = question_of_base(grains, resting);
+    if (resting.empty()) {
+      const auto origin = proposed_origin(grains, facts.orientation.axes);
+      question.reason.insert(std::string("or --boundary none").size(), " " + origin);
+      questions.ask(question);
       trial.origin = "0";
-    else
-      propose_base(question_of_base(grains, resting), trial.species);
+    } else {
+      propose_base(question, trial.species);
+    }
   }
   ask_for_the_cell(settings, questions);
   try {
+    questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
+    trial.species = with_one_species(trial.species);  // else open species hide an open origin
     questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
   } catch (const ToolError&) {
     if (!questions.any()) throw;

@@ -27,8 +27,7 @@ class OpenedArchive {
   bool next_grains() { return moments_.next_grains(moment); }
 
   const Archive& archive() const { return moments_.archive(); }
-  const MomentRange& range() const { return moments_.range(); }
-  const RepeatedMoments& repeated() const { return moments_.repeated(); }
+  std::vector<std::string> remarks() const { return moments_.remarks(); }
   /// Of all moments; null where they all have the grains of the first one.
   const std::shared_ptr<const Roster>& roster() const { return roster_; }
   /// A moment with all grains of the run: the roster's, or as long as it has not been left the first.

@@ -83,7 +83,8 @@ bool RepeatedMoments::comes_again(const ArchiveMoment& moment, double time)
 std::string RepeatedMoments::remark() const
 {
   if (same_ > 0 && dropped_ == 0)
-    return fmt::format("{} come twice, the same; each counts once", counted(same_, "moment"));
+    return fmt::format("{} {} twice, the same; each counts once", counted(same_, "moment"),
+                       same_ == 1 ? "comes" : "come");
   if (dropped_ > 0)
     return fmt::format("{} of a job that another one repeats are left out",
                        counted(same_ + dropped_, "moment"));

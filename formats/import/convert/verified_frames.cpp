@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/convert/verified_frames.hpp"
 
-#include "formats/cli/interruption.hpp"
-#include "formats/core/dimension.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -85,53 +82,5 @@ bool VerifiedFrames<D>::next(Frame<D>& frame)
 
 template class VerifiedFrames<2>;
 template class VerifiedFrames<3>;
-
-namespace {
-
-/// The largest residual of the first moments if all of them verify.
-template <int D>
-std::optional<double> largest_residual(VerifiedFrames<D> frames, std::size_t moments)
-{
-  Frame<D> frame;
-  std::optional<double> largest;
-  for (std::size_t k = 0; k < moments && frames.next(frame); ++k) {
-    if (frames.complaint()) return std::nullopt;
-    if (frames.residual()) largest = std::max(largest.value_or(0), frames.residual()->unexplained);
-  }
-  return largest;
-}
-
-/// The same with these columns; nothing where the archive is refused with them.
-std::optional<double> residual_with(const ImportSettings& settings, const std::string& columns,
-                                    std::size_t moments,
-                                    const std::shared_ptr<const Roster>& roster)
-{
-  try {
-    OpenedArchive opened(settings, columns, roster);
-    return with_dimension(opened.facts.dimension, [&](auto d) {
-      return largest_residual(VerifiedFrames<d>(std::move(opened), settings), moments);
-    });
-  } catch (const Interruption&) {
-    throw;
-  } catch (const ToolError&) {
-    return std::nullopt;
-  }
-}
-
-}  // namespace
-
-std::string columns_that_fit(const ImportSettings& settings, const Archive& archive,
-                             std::size_t moments, const std::shared_ptr<const Roster>& roster)
-{
-  std::string best;
-  double least = INFINITY;
-  for (const auto& columns : archive.other_columns()) {
-    const auto residual = residual_with(settings, columns, moments, roster);
-    if (!residual || *residual >= least) continue;
-    least = *residual;
-    best = fmt::format("; with --columns {} they balance to {:.2g}", columns, *residual);
-  }
-  return best;
-}
 
 }  // namespace grseg

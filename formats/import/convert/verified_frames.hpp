@@ -39,8 +39,13 @@ class VerifiedFrames {
 
   const Archive& archive() const { return opened_.archive(); }
   const std::shared_ptr<const Roster>& roster() const { return opened_.roster(); }
-  const MomentRange& range() const { return opened_.range(); }
-  const RepeatedMoments& repeated() const { return opened_.repeated(); }
+  /// What is left out of the archive so far, a sentence each.
+  std::vector<std::string> remarks() const
+  {
+    auto remarks = archive().remarks();
+    for (auto& of_moments : opened_.remarks()) remarks.push_back(std::move(of_moments));
+    return remarks;
+  }
   const RunFacts& facts() const { return opened_.facts; }
   const FrameBuilder& builder() const { return *builder_; }
   /// Those of --wall; null where there are none.
@@ -62,10 +67,5 @@ class VerifiedFrames {
   std::optional<std::pair<std::int64_t, double>> last_;  // step and time of the frame before
   bool first_ = true, has_force_ = false, has_angular_velocity_ = false;
 };
-
-/// The value of --columns with which the first `moments` moments of the archive balance best, as
-/// part of a sentence; "" where there is none.
-std::string columns_that_fit(const ImportSettings& settings, const Archive& archive,
-                             std::size_t moments, const std::shared_ptr<const Roster>& roster);
 
 }  // namespace grseg

@@ -5,6 +5,7 @@
 #include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/dump/dump_grains.hpp"
 #include "formats/import/dump/dump_pair.hpp"
+#include "formats/import/dump/fitting_columns.hpp"
 #include "formats/import/dump/wall_contacts.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +21,8 @@ class DumpArchive : public Archive {
               const DumpDialect& dialect)
       : dialect_(dialect),
         dumps_(grains, contacts, walls),
+        grain_files_(grains),
+        contact_files_(contacts),
         columns_text_(files.columns),
         wall_text_(files.wall_columns),
         wall_columns_(walls.empty() ? files.wall_columns : "none"),
@@ -31,12 +34,20 @@ class DumpArchive : public Archive {
   const ArchiveFacts& facts() const override { return facts_; }
   std::string columns() const override { return columns_text_; }
   std::vector<std::string> remarks() const override { return dumps_.remarks(); }
-  std::vector<std::string> other_columns() const override { return dialect_.others(header_); }
+  std::optional<ColumnFit> fitting_columns(const Vec3& gravity) const override
+  {
+    return fit_of_columns(columns_text_, gravity);
+  }
 
   bool next(ArchiveMoment& moment) override
   {
     if (!next_grains(moment)) return false;
-    read_contacts(moment);
+    try {
+      read_contacts(moment);
+    } catch (const TruncatedArchive&) {
+      dumps_.keep_grains();
+      throw;
+    }
     if (dumps_.walls()) read_walls(*dumps_.walls(), moment);
     wall_columns_.add_to(
         moment, [&](std::size_t k) -> const auto& { return grains_.more(k); });
@@ -61,7 +72,13 @@ class DumpArchive : public Archive {
     wall_columns_.look_up(header);
     facts_.walls = wall_columns_.walls();
     if (dumps_.walls()) facts_.walls = {"of the rows of --wall-contacts"};
-    grains_.read(dumps_.grains(), moment.grains, wall_columns_.wanted());
+    try {
+      if (dumps_.grains_are_new())
+        grains_.read(dumps_.grains(), moment.grains, wall_columns_.wanted());
+    } catch (const TruncatedArchive&) {
+      dumps_.keep_contacts();
+      throw;
+    }
     return true;
   }
 
@@ -87,11 +104,8 @@ class DumpArchive : public Archive {
           "local with --contacts",
           header.place));
     if (!columns_ || header.columns != header_.columns) {
-      if (columns_text_.empty()) columns_text_ = dialect_.assumed(header, moment.grains);
-      if (columns_text_.empty()) {
-        columns_text_ = proposed_columns(header);
-        moment.questions.push_back(question_of_columns(header));
-      }
+      grains_have_forces_ = !moment.grains.force.empty();
+      if (columns_text_.empty()) find_columns(header, moment);
       if (columns_text_.empty()) {
         dumps_.contacts().read_rows({}, values_);  // a header that does not fit its rows is damaged
         moment.contacts = {};
@@ -105,6 +119,36 @@ class DumpArchive : public Archive {
     columns_->fill(values_, header.place, moment.contacts);
   }
 
+  /// Those that forces show where names and their number do not, or where these are wrong. What is not
+  /// sure becomes a question.
+  void find_columns(const DumpHeader& header, ArchiveMoment& moment)
+  {
+    columns_text_ = dialect_.assumed(header, moment.grains);
+    const auto fit = fit_of_columns(columns_text_, std::nullopt);
+    if (!fit && !columns_text_.empty()) return;
+    columns_text_ = fit ? fit->columns : proposed_columns(header);
+    const auto why =
+        fit ? fmt::format(
+                  "with these the forces on grains add up but for {:.2g} of a contact force",
+                  fit->residual)
+            : fmt::format("as in {}", dialect_.example);
+    moment.questions.push_back(
+        {fmt::format("what the {} columns of {} mean", header.columns.size(), header.place),
+         "--columns " + (columns_text_.empty() ? "MAP" : columns_text_),
+         fmt::format("they are {}; {}", fmt::join(header.columns, " "), why)});
+  }
+
+  std::optional<ColumnFit> fit_of_columns(const std::string& in_use,
+                                          const std::optional<Vec3>& gravity) const
+  {
+    if (!grains_have_forces_) return std::nullopt;
+    try {
+      return grseg::fitting_columns(grain_files_, contact_files_, dialect_, in_use, gravity);
+    } catch (const FormatError&) {  // a column of words, or damage
+      return std::nullopt;
+    }
+  }
+
   /// The only list of keywords that has as many columns; "" where there is none.
   std::string proposed_columns(const DumpHeader& header) const
   {
@@ -113,15 +157,10 @@ class DumpArchive : public Archive {
     return lists ? others.front() : "";
   }
 
-  Question question_of_columns(const DumpHeader& header) const
-  {
-    return {fmt::format("what the {} columns of {} mean", header.columns.size(), header.place),
-            "--columns " + (columns_text_.empty() ? "MAP" : columns_text_),
-            fmt::format("they are {}; as in {}", fmt::join(header.columns, " "), dialect_.example)};
-  }
-
   const DumpDialect& dialect_;
   DumpPair dumps_;
+  std::vector<std::string> grain_files_, contact_files_;
+  bool grains_have_forces_ = false;
   DumpGrains grains_;
   std::string columns_text_;  // as --columns gives it
   std::optional<ContactColumns> columns_;

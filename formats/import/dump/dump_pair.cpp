@@ -22,6 +22,32 @@ std::optional<double> step_by_times(const std::vector<std::string>& files)
 
 }  // namespace
 
+bool DumpOfJobs::next()
+{
+  if (!dump.next()) return false;
+  const auto step = dump.header().step;
+  begins_job = !first_steps.empty() && step <= at.second;
+  at.second = step;
+  if (first_steps.size() < enough_steps) first_steps.push_back(step);
+  return true;
+}
+
+namespace {
+
+/// How many jobs have written it, by the headers alone.
+int jobs_of(const std::vector<std::string>& files)
+{
+  DumpOfJobs dump(files);
+  int jobs = 1;
+  try {
+    while (dump.next()) jobs += dump.begins_job ? 1 : 0;
+  } catch (const FormatError&) {  // to be reported when it is that block's turn
+  }
+  return jobs;
+}
+
+}  // namespace
+
 DumpPair::DumpPair(const std::vector<std::string>& grain_files,
                    const std::vector<std::string>& contact_files,
                    const std::vector<std::string>& wall_files)
@@ -40,8 +66,8 @@ DumpPair::DumpPair(const std::vector<std::string>& grain_files,
 bool DumpPair::next()
 {
   while (next_pair()) {
-    if (!walls_ || walls_have(grains_.header().step)) return any_ = true;
-    without_walls_.add(grains_.header().step);
+    if (!walls_ || walls_have_it()) return any_ = true;
+    without_walls_.add(grains_.at.second);
   }
   if (!any_) require_no_steps();
   return false;
@@ -50,44 +76,55 @@ bool DumpPair::next()
 /// Where all dumps have steps, but none in common.
 void DumpPair::require_no_steps()
 {
-  for (auto [dump, steps] : {std::pair{&grains_, &grain_steps_}, {&contacts_, &contact_steps_}})
-    while (steps->size() < enough_steps && dump->next()) steps->push_back(dump->header().step);
-  if (grain_steps_.empty() || contact_steps_.empty()) return;
+  for (auto* dump : {&grains_, &contacts_})
+    while (dump->first_steps.size() < enough_steps && dump->next()) {
+    }
+  if (grains_.first_steps.empty() || contacts_.first_steps.empty()) return;
   throw FormatError(fmt::format(
       "no step is in all dumps: those of the grains begin with {}, those of the contacts with {}{}; "
       "write them at the same steps",
-      fmt::join(grain_steps_, ", "), fmt::join(contact_steps_, ", "),
+      fmt::join(grains_.first_steps, ", "), fmt::join(contacts_.first_steps, ", "),
       without_walls_.count > 0 ? ", and those of the contacts with walls are others" : ""));
 }
 
-bool DumpPair::walls_have(std::int64_t step)
+bool DumpPair::walls_have_it()
 {
-  while (more_walls_ && (!walls_begun_ || walls_->header().step < step)) {
+  while (more_walls_ && (!walls_begun_ || walls_->at < grains_.at)) {
     walls_begun_ = true;
-    more_walls_ = walls_->next();
+    more_walls_ = advance(*walls_);
   }
-  return more_walls_ && walls_->header().step == step;
+  return more_walls_ && walls_->at == grains_.at;
+}
+
+/// To the next block, or again to one that waits.
+bool DumpPair::advance(DumpOfJobs& dump)
+{
+  if (std::exchange(dump.waits, false)) return true;
+  if (!dump.next()) return false;
+  if (!dump.begins_job) return true;
+  if (!by_jobs_) {
+    const auto jobs = jobs_of(grains_.files);
+    by_jobs_ = jobs == jobs_of(contacts_.files) && (!walls_ || jobs == jobs_of(walls_->files));
+  }
+  if (*by_jobs_) ++dump.at.first;
+  return true;
 }
 
 bool DumpPair::next_pair()
 {
-  const auto next_of = [](JoinedDumps& dump, std::vector<std::int64_t>& steps) {
-    const bool more = dump.next();
-    if (more && steps.size() < enough_steps) steps.push_back(dump.header().step);
-    return more;
-  };
-  bool more_grains = next_of(grains_, grain_steps_);
-  bool more_contacts = next_of(contacts_, contact_steps_);
+  grains_are_new_ = !grains_.waits;
+  bool more_grains = advance(grains_);
+  bool more_contacts = advance(contacts_);
   while (more_grains || more_contacts) {
     const bool both = more_grains && more_contacts;
-    const auto g = grains_.header().step, c = contacts_.header().step;
-    if (both && g == c) return true;
-    if (!more_contacts || (both && g < c)) {
-      grains_alone_.add(g);
-      more_grains = next_of(grains_, grain_steps_);
+    if (both && grains_.at == contacts_.at) return true;
+    if (!more_contacts || (both && grains_.at < contacts_.at)) {
+      grains_alone_.add(grains_.at.second);
+      more_grains = advance(grains_);
+      grains_are_new_ = true;
     } else {
-      contacts_alone_.add(c);
-      more_contacts = next_of(contacts_, contact_steps_);
+      contacts_alone_.add(contacts_.at.second);
+      more_contacts = advance(contacts_);
     }
   }
   return false;
@@ -95,12 +132,12 @@ bool DumpPair::next_pair()
 
 std::optional<std::string> DumpPair::units() const
 {
-  const auto &a = grains_.units(), &b = contacts_.units();
+  const auto &a = grains_.dump.units(), &b = contacts_.dump.units();
   if (a && b && *a != *b)
     throw FormatError(fmt::format(
         "{}: the grains are in units {} and the contacts in units {}: they are not from "
         "the same run",
-        contacts_.header().place, in_quotes(*a), in_quotes(*b)));
+        contacts_.dump.header().place, in_quotes(*a), in_quotes(*b)));
   return a ? a : b;
 }
 

@@ -3,13 +3,31 @@
 
 #include "formats/import/dump/joined_dumps.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grseg {
 
-/// The dumps of grains and of contacts, matched by time step; other blocks of either are skipped.
+/// A dump block by block.
+struct DumpOfJobs {
+  explicit DumpOfJobs(const std::vector<std::string>& names) : files(names), dump(names) {}
+  /// Advances to the next block; false at the end.
+  bool next();
+  /// Where a step is not later than the one before: the next job, which began from an earlier checkpoint.
+  bool begins_job = false;
+
+  std::vector<std::string> files;
+  JoinedDumps dump;
+  std::pair<int, std::int64_t> at{0, 0};  // job, from 0, and step of the block; in this order
+  bool waits = false;                     // the block belongs to the next pair, too
+  std::vector<std::int64_t> first_steps;  // three at most
+};
+
+/// The dumps of grains and of contacts, matched by time step, and by job where all dumps have as many;
+/// other blocks of either are skipped.
 class DumpPair {
  public:
   /// `wall_files` of contacts with walls, which then every step needs, too; may be empty.
@@ -20,10 +38,15 @@ class DumpPair {
   /// Advances to the next step that both have; false at the end. Then the rows can be read. FormatError
   /// with their first steps where there is no such step at all.
   bool next();
-  JoinedDumps& grains() { return grains_; }
-  JoinedDumps& contacts() { return contacts_; }
+  /// False where the grains are those of the pair before, whose contacts were incomplete.
+  bool grains_are_new() const { return grains_are_new_; }
+  /// The block of one dump has turned out to be incomplete: that of the other stays for the next pair.
+  void keep_contacts() { contacts_.waits = true; }
+  void keep_grains() { grains_.waits = true; }
+  JoinedDumps& grains() { return grains_.dump; }
+  JoinedDumps& contacts() { return contacts_.dump; }
   /// Null where there are no files of contacts with walls.
-  JoinedDumps* walls() { return walls_ ? &*walls_ : nullptr; }
+  JoinedDumps* walls() { return walls_ ? &walls_->dump : nullptr; }
 
   /// The length of a step from ITEM: TIME of the first blocks of the grains, if they have it.
   const std::optional<double>& step() const { return step_; }
@@ -43,13 +66,15 @@ class DumpPair {
   };
   bool next_pair();
   void require_no_steps();
-  bool walls_have(std::int64_t step);
+  bool walls_have_it();
+  bool advance(DumpOfJobs& dump);
 
-  JoinedDumps grains_, contacts_;
-  std::optional<JoinedDumps> walls_;
+  DumpOfJobs grains_, contacts_;
+  std::optional<DumpOfJobs> walls_;
   bool more_walls_ = false, walls_begun_ = false;
-  std::vector<std::int64_t> grain_steps_, contact_steps_;  // the first three
-  bool any_ = false;                                       // step that all have
+  bool any_ = false;  // step that all have
+  bool grains_are_new_ = true;
+  std::optional<bool> by_jobs_;  // once a job has ended
   Unmatched grains_alone_, contacts_alone_, without_walls_;
   std::optional<double> step_;
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -48,29 +49,70 @@ void DumpReader::next_line(const char* what)
   require_line(source_.next(), what);
 }
 
-void DumpReader::require_line(bool there, const char* what) const
+/// A line without its end is the last of its file.
+void DumpReader::require_line(bool there, const char* what)
 {
   if (there && source_.line_is_whole()) return;
+  const auto place = source_.place();
+  if (there && source_.next()) {
+    if (source_.line().starts_with(item_word)) fail_at_next_block(0);
+    throw FormatError(
+        fmt::format("{}: the file ends in {}, and {} does not begin with a block; copy it again",
+                    place, what, source_.file()));
+  }
+  rows_left_ = 0;
   throw TruncatedArchive(
       fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete moment "
                   "with --drop-incomplete",
-                  source_.place(), what));
+                  place, what));
+}
+
+/// A job that was killed leaves its last block incomplete; the next one goes on behind it, in the same
+/// file or in another. Its first line may follow a part of a row.
+void DumpReader::fail_at_next_block(std::size_t begin)
+{
+  next_block_ = begin;
+  const auto missing = std::exchange(rows_left_, 0);
+  throw TruncatedArchive(
+      fmt::format(
+          "{}: {} of {} rows of step {} are missing where a new block begins (a job that was "
+          "killed, and the next one?); leave out the incomplete moment with --drop-incomplete",
+          source_.place(), missing, header_.rows, header_.step),
+      true);
+}
+
+/// Rows that nobody reads may be incomplete where another block follows.
+void DumpReader::skip_rows()
+{
+  for (; rows_left_ > 0; --rows_left_) {
+    try {
+      next_line("a row");
+    } catch (const TruncatedArchive& at_its_end) {
+      if (!at_its_end.goes_on) throw;
+    }
+    if (const auto begin = source_.line().find(item_word); begin != std::string_view::npos)
+      next_block_ = begin;
+    if (next_block_) break;
+  }
 }
 
 bool DumpReader::next()
 {
-  for (; rows_left_ > 0; --rows_left_) next_line("a row");
-  do {
-    if (!source_.next()) return false;
-  } while (source_.line().empty());
-  if (!source_.line_is_whole()) {
-    rows_left_ = 0;
-    throw TruncatedArchive(
-        fmt::format("{}: the archive ends in a header; copy it again, or leave out the incomplete "
-                    "moment with --drop-incomplete",
-                    source_.place()));
+  skip_rows();
+  if (!next_block_) {
+    do {
+      if (!source_.next()) return false;
+    } while (source_.line().empty());
+    next_block_ = 0;
   }
-  read_header();
+  rows_left_ = 0;
+  try {
+    require_line(true, "a header");
+    read_header();
+  } catch (const TruncatedArchive& at_its_end) {
+    if (!at_its_end.goes_on) throw;
+    return next();
+  }
   rows_left_ = header_.rows;
   return true;
 }
@@ -83,7 +125,8 @@ void DumpReader::read_header()
   header_.place = source_.place();
   std::string label;
   for (bool has_step = false, has_box = false;; next_line("a header")) {
-    const auto line = source_.line();
+    const auto line = source_.line().substr(next_block_.value_or(0));
+    next_block_.reset();
     const bool is_text = std::all_of(line.begin(), line.end(), [](char c) {
       return is_blank(c) || c == '\r' || static_cast<unsigned char>(c) >= ' ';
     });
@@ -221,12 +264,14 @@ void DumpReader::read_rows(std::span<const std::size_t> wanted,
 }
 
 /// Of a word that is not simply a number to its end.
-double DumpReader::number_in(std::string_view word, std::size_t column, TypeNames* names) const
+double DumpReader::number_in(std::string_view word, std::size_t column, TypeNames* names)
 {
   double value = 0;
   if (names == nullptr && read_number(word, value)) return value;
   if (names != nullptr)
     if (const auto type = names->read(word)) return *type;
+  if (const auto begin = source_.line().find(item_word); begin != std::string_view::npos)
+    fail_at_next_block(begin);
   fail(fmt::format("{} in column {} ({}) is not {}", in_quotes(word), column + 1,
                    header_.columns[column],
                    names == nullptr ? "a finite number" : "a type, a whole number or a word"));
@@ -236,6 +281,7 @@ void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<dou
                           const TypeColumn& types)
 {
   const auto line = source_.line();
+  if (line.starts_with(item_word)) fail_at_next_block(0);
   const char *at = line.data(), *const end = at + line.size();
   std::size_t column = 0;
   for (;; ++column) {
@@ -258,8 +304,8 @@ void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<dou
     }
   }
   if (column == role.size()) return;
-  if (line.starts_with(item_word))
-    fail(fmt::format("a new block begins with {} of {} rows missing", rows_left_, header_.rows));
+  if (const auto begin = line.find(item_word); begin != std::string_view::npos)
+    fail_at_next_block(begin);
   fail(fmt::format("a row of {} columns, but the header names {}", column, role.size()));
 }
 

@@ -43,7 +43,7 @@ struct TypeColumn {
 ///   ITEM: label names of columns, rows,
 /// label being ATOMS, ENTRIES or what `dump_modify label` makes of it.
 /// FormatError naming file, line and remedy where a block is damaged, TruncatedArchive where the
-/// archive ends in it.
+/// archive ends in it or where the block of the next job begins.
 class DumpReader {
  public:
   explicit DumpReader(std::vector<std::string> files) : source_(std::move(files)) {}
@@ -67,7 +67,9 @@ class DumpReader {
  private:
   [[noreturn]] void fail(const std::string& why) const;
   void next_line(const char* what);
-  void require_line(bool there, const char* what) const;
+  void skip_rows();
+  [[noreturn]] void fail_at_next_block(std::size_t begin);
+  void require_line(bool there, const char* what);
   void read_header();
   void read_item(std::string_view item, std::string& label);
   void read_units();
@@ -76,12 +78,14 @@ class DumpReader {
   [[noreturn]] void refuse_tilted_cell() const;
   void read_row(std::span<const int> role, std::vector<std::vector<double>>& values,
                 const TypeColumn& types);
-  double number_in(std::string_view word, std::size_t column, TypeNames* names) const;
+  double number_in(std::string_view word, std::size_t column, TypeNames* names);
 
   TextSource source_;
   DumpHeader header_;
   std::optional<std::string> units_;
   std::size_t rows_left_ = 0;
+  // Where the first line of the next block begins in the line that the source stands at.
+  std::optional<std::size_t> next_block_;
   bool has_rows_alone_ = false;
 };
 

@@ -57,7 +57,7 @@ po::options_description archive_options(ImportSettings& s)
       "csv only: what other names of columns mean, e.g. particle1=i,Fx=fx, or their numbers, 1=id,2=x; "
       "NAME= leaves one out; row=id numbers the rows")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
-      "import a text archive that ends inside a moment up to that moment");
+      "leave out moments that a text archive, or a job whose files another one continues, ends in");
   return archive;
 }
 

@@ -190,10 +190,10 @@ void FactFinder::find_base()
   if (settings_.species.boundary || settings_.species.boundary_ids ||
       !look_.all.grains.fixed.empty())
     return;
+  if (look_.resting.empty()) return;  // without walls it is asked beside the origin
   const auto question = question_of_base(look_.all.grains, look_.resting);
   // With walls there need not be a base, unless there are grains that never move.
-  const bool seems_none = look_.resting.empty() || question.option == "--boundary none";
-  if (facts_.walls.empty() || !seems_none) questions_.ask(question);
+  if (facts_.walls.empty() || question.option != "--boundary none") questions_.ask(question);
 }
 
 /// Where it is missing, what is proposed.

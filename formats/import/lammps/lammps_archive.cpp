@@ -19,6 +19,7 @@ std::string assumed_columns(const DumpHeader& header, const ArchiveGrains& grain
   return header.columns.size() >= recipe_columns && !grains.force.empty() ? recipe : "";
 }
 
+/// First what is most likely: of some that fit equally well, as without friction, the first counts.
 std::vector<std::string> other_columns(const DumpHeader& header)
 {
   std::vector<std::string> others;
@@ -26,9 +27,13 @@ std::vector<std::string> other_columns(const DumpHeader& header)
   for (const std::size_t i : {2U, 1U})
     for (auto f = i + 2; f + 2 <= last; ++f) {
       const auto force = fmt::format("i={},j={},force={}", i, i + 1, f);
+      const auto with_tangential = [&](std::size_t t) {
+        if (t + 2 <= last) others.push_back(fmt::format("{},tangential={}", force, t));
+      };
+      with_tangential(f + 3);
       others.push_back(force);
       for (auto t = i + 2; t + 2 <= last; ++t)
-        if (t >= f + 3 || f >= t + 3) others.push_back(fmt::format("{},tangential={}", force, t));
+        if (t > f + 3 || f >= t + 3) with_tangential(t);
     }
   return others;
 }

@@ -11,12 +11,19 @@
 namespace grseg {
 namespace {
 
-[[noreturn]] void fail_truncated(const TextSource& source, const char* what)
+/// Moments of the files behind this one must not be lost with --drop-incomplete.
+[[noreturn]] void fail_truncated(TextSource& source, const char* what)
 {
+  const auto place = source.place();
+  if (source.next())
+    throw FormatError(
+        fmt::format("{}: the file ends in {}, and {} goes on; copy it again, or cut the "
+                    "incomplete moment off",
+                    place, what, source.file()));
   throw TruncatedArchive(
       fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete "
                   "moment with --drop-incomplete",
-                  source.place(), what));
+                  place, what));
 }
 
 Vec3 three(const std::vector<double>& numbers, std::size_t first)

@@ -31,14 +31,15 @@ TEST(CommandsOf, AllThatChangesTheNumberIsSaidWhereItIsUsed)
             "grseg-stress 'my run.h5' --layer 2dS --window 2.5 --begin 1 --end 9.5 --stride 3 "
             "--group S=1 --group L=2,3 --trust");
   EXPECT_EQ(made["file"], "sums-2.tsv");
-  EXPECT_EQ(made["fit"], " --heights 4dS: --component pressure --base half --bootstrap 0 --seed 7");
+  EXPECT_EQ(made["fit"],
+            " --heights 4dS: --component pressure --base-part half --bootstrap 0 --seed 7");
   Table given;
   given.name = "kept.tsv";
   const auto of_table = commands_of("my run.h5", &given, settings, 1);
   EXPECT_EQ(of_table["sums"], "");
   EXPECT_EQ(of_table["file"], "kept.tsv");
   EXPECT_EQ(of_table["fit"],
-            " --begin 1 --end 9.5 --heights 4dS: --component pressure --base half "
+            " --begin 1 --end 9.5 --heights 4dS: --component pressure --base-part half "
             "--bootstrap 0 --seed 7");
 }
 

@@ -290,6 +290,22 @@ TEST(FitData, KineticStressesAreFittedWithMassesForComposition)
               1e-13);
 }
 
+// Large grains of twice the density: their part of the mass is larger than phi_L.
+TEST(FitData, CompositionOfAKineticTableIsThatOfItsAreas)
+{
+  const auto by_area = fit(read({kinetic_table(1.44)}, {}, Quantity::kinetic), "size").value;
+  auto table = kinetic_table(1.44);
+  const auto small = table.column("mass_S"), large = table.column("mass_L");
+  table.columns.insert(table.columns.end(), {"area_S[m^2]", "area_L[m^2]"});
+  for (auto& row : table.rows) {
+    row.insert(row.end(), {row[small], row[large]});
+    row[large] *= 2;
+  }
+  const auto dense = fit(read({table}, {}, Quantity::kinetic), "size").value;
+  EXPECT_EQ(dense.B_half, by_area.B_half);
+  EXPECT_EQ(dense.exponent, by_area.exponent);
+}
+
 TEST(FitData, GrainsOfAKineticTableAreCountedOrUnknown)
 {
   auto table = kinetic_table(1.44);

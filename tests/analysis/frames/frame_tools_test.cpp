@@ -92,6 +92,39 @@ TEST_F(FrameTools, StressHasTheSumsOfTheThreeGrains)
               1e-18);
 }
 
+// Four times the force in a quarter of the step leaves the velocity in the middle what it is.
+TEST_F(FrameTools, TheMiddleOfAStepInPartsIsThatOfItsLastPart)
+{
+  const auto whole = table(kinetic, "--velocity middle --mean layer");
+  auto description = three_grains::description();
+  description.observables.push_back({"frame_step", "s"});
+  const double step = description.parameters.numbers.at("step")[0];
+  {
+    TrajectoryWriter writer(file, description);
+    for (int k = 0; k < 60; ++k) {
+      auto frame = three_grains::frame(k);
+      for (auto& force : frame.force) force *= 4;
+      for (auto& force : frame.contacts.force) force *= 4;  // torques
+      std::vector<double> observables(description.observables.size(), 0);
+      observables.back() = step / 4;
+      writer.append(frame, observables);
+    }
+    writer.close();
+  }
+  const auto parts = table(kinetic, "--velocity middle --mean layer");
+  ASSERT_EQ(parts.columns, whole.columns);
+  bool differs = false;
+  const auto after = table(kinetic, "--mean layer");
+  for (std::size_t row = 0; row < whole.rows.size(); ++row)
+    for (std::size_t c = 0; c < whole.columns.size(); ++c) {
+      const double a = whole.rows[row][c], b = parts.rows[row][c];
+      EXPECT_TRUE(a == b || std::abs(a - b) <= 1e-12 * std::abs(a) || std::isnan(a))
+          << whole.columns[c];
+      differs = differs || std::abs(a - after.rows[row][c]) > 1e-6 * std::abs(a);
+    }
+  EXPECT_TRUE(differs) << "the force has an effect";
+}
+
 // The three grains lie straight below the axis, where outward is down and clockwise is up-slope:
 // the mixed contact 12.5 mm from it, that with the boundary 22.5 mm.
 TEST_F(FrameTools, AnnuliLieAboutTheAxisOfADrum)
@@ -125,7 +158,7 @@ TEST_F(FrameTools, AssignmentsGiveTheSameTotals)
 {
   const auto a = table(stress, "--layer 6mm"), b = table(stress, "--layer 6mm --assign branch"),
              c = table(stress, "--layer 6mm --assign grain"),
-             d = table(stress, "--layer 6mm --assign lucy --width 2dL");
+             d = table(stress, "--layer 6mm --assign lucy --kernel-width 2dL");
   for (const char* column : {"M_yy", "Msize_yy", "Mcp_xy", "A_Lb_yy", "F_Lb_yy", "area_L"}) {
     const auto total = [&](const Table& t) {
       return cell(t, 0, column) + cell(t, 1, column) + cell(t, 2, column);
@@ -141,7 +174,7 @@ TEST_F(FrameTools, AssignmentsGiveTheSameTotals)
 // The mixed contact reaches from y = 5 mm to 12.5 mm: half of the Gaussian's 8.75 mm.
 TEST_F(FrameTools, CoarseGrainingSpreadsContactsAndGrainsByTheSameKernel)
 {
-  const auto t = table(stress, "--layer 8.75mm --assign gauss --width 0.5dS");
+  const auto t = table(stress, "--layer 8.75mm --assign gauss --kernel-width 0.5dS");
   EXPECT_NEAR(cell(t, 0, "M_yy"), 0.75e-6, 1e-18);
   EXPECT_NEAR(cell(t, 1, "M_yy"), 0.75e-6, 1e-18);
   const double below = std::erfc((0.0125 - 0.00875) / 0.0025 / std::numbers::sqrt2) / 2;
@@ -301,7 +334,7 @@ TEST_F(FrameTools, MicroDistributesForcesByTheirMean)
 
 TEST_F(FrameTools, TheHeaderTellsWhatLaterToolsNeed)
 {
-  const auto t = table(stress, "--partition power:2 --base half --volume solid");
+  const auto t = table(stress, "--partition power:2 --base-part half --volume solid");
   EXPECT_EQ(t.header_number("small_diameter"), 0.005);
   EXPECT_EQ(t.header_number("large_diameter"), 0.01);
   EXPECT_EQ(t.header_number("gravity_y"), -9);
@@ -430,9 +463,9 @@ TEST_F(FrameTools, TroubleHasItsExitCodeAndASentence)
   EXPECT_EQ(code(file + " " + file), 2);
   EXPECT_EQ(code((folder / "absent.h5").string()), 2);
   EXPECT_EQ(code(file + " --assign gaussian"), 2);
-  EXPECT_EQ(code(file + " --assign gauss --width 0"), 2);
-  EXPECT_EQ(code(file + " --assign gauss --width wide"), 2);
-  EXPECT_EQ(code(file + " --assign branch --width 1dS"), 2);
+  EXPECT_EQ(code(file + " --assign gauss --kernel-width 0"), 2);
+  EXPECT_EQ(code(file + " --assign gauss --kernel-width wide"), 2);
+  EXPECT_EQ(code(file + " --assign branch --kernel-width 1dS"), 2);
   EXPECT_EQ(code(file + " --composition kernel"), 2);
   EXPECT_EQ(code(file + " --all-windows"), 2);
   EXPECT_EQ(code("--merge"), 2);
@@ -442,7 +475,7 @@ TEST_F(FrameTools, TroubleHasItsExitCodeAndASentence)
   EXPECT_EQ(code(file + " --layer 4dX"), 2);
   EXPECT_EQ(code(file + " --layer 0"), 2);
   EXPECT_EQ(code(file + " --partition thirds"), 2);
-  EXPECT_EQ(code(file + " --base all"), 2);
+  EXPECT_EQ(code(file + " --base-part all"), 2);
   EXPECT_EQ(code(file + " --volume wet"), 2);
   EXPECT_EQ(code(file + " --windows 2"), 2);
   EXPECT_EQ(code(file + " --window 1e-3"), 2);

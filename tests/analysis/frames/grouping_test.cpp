@@ -92,6 +92,39 @@ TEST_F(Grouping, OfClassesHaveEqualVolumes)
   EXPECT_EQ(numbers(grouped({.classes = 1})), (std::vector{0, 0, 0, 0, 0, -1}));
 }
 
+/// How many grains each class of such a run holds, from the smallest.
+std::vector<std::size_t> grains_of_classes(const std::string& path,
+                                           const std::vector<double>& radii, int classes)
+{
+  const std::vector<int> one(radii.size(), 0);
+  const auto result = group_grains(run_of(path, {{"all", 2}}, one, radii), {.classes = classes});
+  std::vector<std::size_t> counts(static_cast<std::size_t>(classes));
+  for (const int number : numbers(result))
+    if (number >= 0) ++counts[static_cast<std::size_t>(number)];
+  return counts;
+}
+
+// 28 % of the volume in 28 small grains, 40 % in five, 32 % in one; of diameters equal to round-off.
+TEST_F(Grouping, OfAsManyClassesAsSizesHasOneSizeInEach)
+{
+  std::vector<double> radii(28, 0.5);
+  radii[3] += 1e-16;
+  radii.insert(radii.end(), 5, 1.0);
+  radii.push_back(std::cbrt(32) / 2);
+  EXPECT_EQ(grains_of_classes(path("sizes.h5"), radii, 3), (std::vector<std::size_t>{28, 5, 1}));
+  EXPECT_EQ(grains_of_classes(path("sizes2.h5"), radii, 2), (std::vector<std::size_t>{33, 1}));
+}
+
+// Up to the second size lie 48 % of the volume, up to the third 58 %.
+TEST_F(Grouping, ByClassesDividesAtTheSizeNearestToItsShare)
+{
+  std::vector<double> radii(8, 0.5);                // 8 of 100
+  radii.insert(radii.end(), 5, 1.0);                // 40
+  radii.insert(radii.end(), 1, std::cbrt(10) / 2);  // 10, of diameter 2.15
+  radii.insert(radii.end(), 1, std::cbrt(42) / 2);  // 42
+  EXPECT_EQ(grains_of_classes(path("nearest.h5"), radii, 2), (std::vector<std::size_t>{13, 2}));
+}
+
 TEST_F(Grouping, ByEdgesDividesAtDiameters)
 {
   const auto result = grouped({.edges = "2.1,4,5"});
@@ -110,10 +143,10 @@ TEST_F(Grouping, ThatCannotBeIsRefusedInOneSentence)
   says({.groups = {"A=1,2", "B=2,3"}}, "species 2 is in two groups");
   says({.groups = {"A=1,4"}}, "no species '4'; it has 1 fine, 2 AM, 3 SE");
   says({.groups = {"A+B=1,2,3"}}, "NAME=LIST");
-  says({.groups = {"b=1,2,3"}}, "NAME=LIST");
+  says({.groups = {"b=1,2,3"}}, "'b' stands for boundary grains");
   says({.groups = {"A=1", "A=2,3"}}, "given twice");
   says({.groups = {"A=1,2,3"}, .classes = 2}, "exclude each other");
-  says({.classes = 9}, "too few different diameters");
+  says({.classes = 9}, "have 5 different diameters");
   says({.classes = -1}, "must be 1 to 100");
   says({.edges = "4,2"}, "increasing order");
   says({.edges = "1,4"}, "no mobile grain belongs to c1");

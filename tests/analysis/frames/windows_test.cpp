@@ -95,6 +95,81 @@ TEST(Windows, ASingleFrameStandsForOneInterval)
   EXPECT_THROW(cut_into_windows(run_of(1), {.length = 0.1}), RunError);
 }
 
+/// Frames at these numbers of steps of 1 ms; the scene says nothing of their interval.
+RunTimes run_at(std::vector<std::int64_t> steps)
+{
+  return {std::move(steps), 1e-3, 0};
+}
+
+std::vector<std::int64_t> every(std::int64_t by, std::int64_t begin, std::int64_t end)
+{
+  std::vector<std::int64_t> steps;
+  for (auto step = begin; step < end; step += by) steps.push_back(step);
+  return steps;
+}
+
+std::vector<double> begins(const RunTimes& run, double length)
+{
+  std::vector<double> begins;
+  for (const auto& window : cut_into_windows(run, {.length = length}).list)
+    begins.push_back(window.begin);
+  return begins;
+}
+
+// 2 s, every 0.1 s three frames one step apart.
+TEST(Windows, BurstsStandForTheTimeToTheNextBurst)
+{
+  std::vector<std::int64_t> steps;
+  for (const auto begin : every(100, 0, 2000))
+    for (const int k : {0, 1, 2}) steps.push_back(begin + k);
+  auto run = run_at(steps);
+  for (const double interval : {0.0, 0.1}) {
+    run.frame_interval = interval;
+    EXPECT_EQ(longest_interval(run), 98);
+    EXPECT_EQ(begins(run, 0.5), (std::vector{0.0, 0.5, 1.0, 1.5}));
+    EXPECT_EQ(begins(run, 2), std::vector{0.0});
+    EXPECT_EQ(cut_into_windows(run, {.length = 0.5}).list[0].frames.size(), 15u);
+    EXPECT_THROW(cut_into_windows(run, {.length = 0.02}), UsageError);
+  }
+}
+
+TEST(Windows, TwoBurstsStandForTheIntervalOfTheScene)
+{
+  auto run = run_at({0, 1, 2, 100, 101, 102});
+  run.frame_interval = 0.1;
+  EXPECT_EQ(begins(run, 0.1), (std::vector{0.0, 0.1}));
+}
+
+// Every 0.05 s, then every 0.01 s, and one frame a second later, which stands for 0.05 s.
+TEST(Windows, AFrameBehindAHoleFillsNoWindow)
+{
+  auto steps = every(50, 0, 500);
+  for (const auto step : every(10, 500, 601)) steps.push_back(step);
+  steps.push_back(1600);
+  const auto run = run_at(steps);
+  EXPECT_EQ(longest_interval(run), 50);
+  const auto windows = begins(run, 0.2);
+  ASSERT_EQ(windows.size(), 3u);
+  EXPECT_DOUBLE_EQ(windows[2], 0.4);
+  EXPECT_THROW(cut_into_windows(run, {.length = 1}), RunError);
+}
+
+TEST(Windows, AnExtraFrameAtTheEndTakesNoWindowAway)
+{
+  auto steps = every(50, 0, 1000);
+  steps.push_back(955);
+  EXPECT_EQ(begins(run_at(steps), 0.2).size(), 5u);
+}
+
+// Every 0.01 s for 10 s; 30 frames are missing.
+TEST(Windows, MayHaveAHoleOfATenth)
+{
+  auto steps = every(10, 0, 3000);
+  for (const auto step : every(10, 3300, 10000)) steps.push_back(step);
+  EXPECT_EQ(begins(run_at(steps), 1).size(), 9u);
+  EXPECT_EQ(begins(run_at(steps), 5).size(), 2u);
+}
+
 TEST(Windows, AllIsOneWindowOverTheFramesUsed)
 {
   const auto all = cut_into_windows(run_of(50), {.length = all_frames});

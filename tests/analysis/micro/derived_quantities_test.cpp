@@ -88,7 +88,7 @@ TEST(DerivedQuantities, OfTheWholeBedThePressureIsTakenAtTheCentresOfMass)
 TEST(DerivedQuantities, WithoutDensityForcesHaveNoScaleAndWithoutFrictionContactsNoLimit)
 {
   auto unknown = constants;
-  unknown.density = unknown.friction = nan;
+  unknown.density = unknown.mean_density = unknown.friction = nan;
   const auto cells = derived_quantities(layer(0.5), unknown, over_ends);
   EXPECT_TRUE(std::isnan(value(cells, "f_weight_S")));
   EXPECT_TRUE(std::isnan(value(cells, "f_depth_S")));

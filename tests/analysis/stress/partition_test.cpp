@@ -279,7 +279,7 @@ TEST(PartitionRule, WrongTextIsAnsweredWithTheNearestRule)
   EXPECT_NE(sentence_of("uniform:").find("not a number"), std::string::npos);
   EXPECT_NE(sentence_of("").find("choose size"), std::string::npos);
   EXPECT_THROW(parse_rules({"size,,half"}), UsageError);
-  EXPECT_THROW(choose("point", "--base", base_parts), UsageError);
+  EXPECT_THROW(choose("point", "--base-part", base_parts), UsageError);
 }
 
 /// Tables of two dimensions are read with zeros in z.

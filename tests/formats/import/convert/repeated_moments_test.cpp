@@ -97,14 +97,95 @@ TEST_F(TwoJobs, MayHaveWrittenBetweenEachOthersMoments)
   EXPECT_EQ(kept(s, "last"), (Kept{{0, false}, {100, false}, {150, true}, {250, true}}));
 }
 
-// Contacts are written half as often: of 400 there is one pair.
+// Contacts are written half as often; the moment 400 is in both jobs.
 TEST_F(TwoJobs, GoOnWhereGrainsAreWrittenMoreOftenThanContacts)
 {
   const auto s = settings(folder,
                           grains_of_job({0, 100, 200, 300, 400, 500}, first_place) +
                               grains_of_job({300, 400, 500, 600}, other_place),
                           contacts_of_job({0, 200, 400}) + contacts_of_job({400, 600}));
-  EXPECT_EQ(kept(s), (Kept{{0, false}, {200, false}, {400, false}, {600, true}}));
+  EXPECT_TRUE(mentions(refusal(s).sentence, "step 400 comes after 400"));
+  EXPECT_EQ(kept(s, "first"), (Kept{{0, false}, {200, false}, {400, false}, {600, true}}));
+  EXPECT_EQ(kept(s, "last"), (Kept{{0, false}, {200, false}, {400, true}, {600, true}}));
+}
+
+TEST_F(TwoJobs, DoNotLendEachOtherTheirContacts)
+{
+  const auto s = settings(
+      folder,
+      grains_of_job({0, 100, 200}, first_place) + grains_of_job({100, 200, 300}, other_place),
+      contacts_of_job({0, 100}) + contacts_of_job({100, 200, 300}));
+  EXPECT_EQ(kept(s, "first"), (Kept{{0, false}, {100, false}, {200, true}, {300, true}}));
+}
+
+/// `text` without its last bytes.
+std::string cut(std::string text, std::size_t bytes)
+{
+  text.resize(text.size() - bytes);
+  return text;
+}
+
+const std::size_t one_row = grain_rows(first_place).back().size() + 2;
+
+class KilledJob : public TwoJobs {
+ protected:
+  const std::string sentence = "rows of step 200 are missing where a new block begins";
+
+  void expect_is_left_out(ImportSettings s)
+  {
+    s.overwrite = true;
+    EXPECT_EQ(refusal(s).code, exit_content);
+    EXPECT_TRUE(mentions(refusal(s).sentence, sentence));
+    s.drop_incomplete = true;
+    EXPECT_EQ(kept(s), four_alike);
+    EXPECT_TRUE(mentions(TrajectoryReader(s.output).parameters().text("import_remarks"),
+                         "1 incomplete moment is left out (--drop-incomplete)"));
+  }
+};
+
+TEST_F(KilledJob, LeavesTheRestOfAMomentToTheNextOneInTheSameFile)
+{
+  for (const auto missing : {one_row, one_row + 8})  // to the end of a row, and inside one
+    expect_is_left_out(settings(folder,
+                                cut(grains_of_job({0, 100, 200}, first_place), missing) +
+                                    grains_of_job({200, 300}, first_place),
+                                contacts_of_job({0, 100, 200}) + contacts_of_job({200, 300})));
+}
+
+TEST_F(KilledJob, LeavesTheRestOfAMomentToTheNextOneInAnotherFile)
+{
+  for (const auto missing : {one_row, one_row + 8}) {
+    auto s = settings(folder, cut(grains_of_job({0, 100, 200}, first_place), missing),
+                      contacts_of_job({0, 100, 200}));
+    s.files.grains.push_back(folder.write("atoms.2.dump", grains_of_job({200, 300}, first_place)));
+    s.files.contacts.push_back(folder.write("contacts.2.dump", contacts_of_job({200, 300})));
+    expect_is_left_out(s);
+  }
+}
+
+// The contacts of that moment are not written yet.
+TEST_F(KilledJob, LeavesGrainsIncompleteBeforeTheirContacts)
+{
+  for (const auto missing : {one_row, one_row + 8})
+    expect_is_left_out(settings(folder,
+                                cut(grains_of_job({0, 100, 200}, first_place), missing) +
+                                    grains_of_job({200, 300}, first_place),
+                                contacts_of_job({0, 100}) + contacts_of_job({200, 300})));
+}
+
+// The grains of that moment are in one job alone.
+TEST_F(KilledJob, LeavesContactsIncompleteOfGrainsThatComeOnce)
+{
+  expect_is_left_out(
+      settings(folder, grains_of_job({0, 100, 200, 300}, first_place),
+               cut(contacts_of_job({0, 100, 200}), 12) + contacts_of_job({200, 300})));
+}
+
+TEST_F(KilledJob, LeavesContactsIncomplete)
+{
+  expect_is_left_out(settings(
+      folder, grains_of_job({0, 100, 200}, first_place) + grains_of_job({200, 300}, first_place),
+      cut(contacts_of_job({0, 100, 200}), 12) + contacts_of_job({200, 300})));
 }
 
 TEST_F(TwoJobs, AreNotToldApartByAnotherWord)

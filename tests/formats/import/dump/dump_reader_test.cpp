@@ -108,7 +108,7 @@ TEST_F(Dump, SentencesNameTheLine)
   };
   EXPECT_TRUE(
       mentions(with("2 0.5", "2 0.5 3"), "line 11: a row of 3 columns, but the header names 2"));
-  EXPECT_TRUE(mentions(with("2 0.5", "ITEM: T"), "line 11: 'ITEM:' in column 1 (id)"));
+  EXPECT_TRUE(mentions(with("2 0.5", "ITEM: T"), "line 11: 1 of 2 rows of step 5 are missing"));
   EXPECT_TRUE(mentions(with("1 0.5", "0x1 0.5"), "line 10: '0x1' in column 1 (id)"));
   EXPECT_TRUE(mentions(with("ATOMS\n2", "ATOMS\n3"), "line 11: the archive ends in a row"));
   EXPECT_TRUE(mentions(with("ATOMS\n2", "ATOMS\n-2"), "line 4: '-2' is not a number of rows"));
