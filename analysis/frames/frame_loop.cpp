@@ -376,7 +376,7 @@ void FrameLoop::require_memory(std::size_t columns) const
   const auto& map = layers_.map();
   const auto cells = map ? static_cast<double>(map->cells())
                          : std::ceil(run_.box().length_y / layers_.thickness());
-  // The sums of the window, and those that every thread adds to them.
+  // The window has sums of its own, and every thread adds its sums to them.
   const double need =
       cells * static_cast<double>(columns) * sizeof(double) * (1 + options_.threads);
   const double free = free_memory();

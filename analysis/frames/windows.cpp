@@ -173,7 +173,7 @@ std::string window_text(const WindowSettings& settings)
 RunTimes times_of(const TrajectoryReader& run)
 {
   const auto& parameters = run.parameters();
-  // Of an import it is a mean.
+  // An import states the mean of the times between its frames.
   const bool imported = parameters.texts.contains("import_format");
   return {run.steps(), run.step(),
           imported ? 0 : parameters.find_number("frame_interval").value_or(0)};

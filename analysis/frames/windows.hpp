@@ -57,8 +57,9 @@ struct Windows {
 /// that no rounding moves a frame into the next window; a length W that is not a whole number of steps
 /// is rounded to one. All frames of a window count alike, however close they are.
 /// A frame of the file stands for the time up to the next one, and at most for longest_interval().
-/// Windows that the run does not fill, mostly the last, are dropped: those that begin that long before
-/// its first frame, end behind the time of its last one, or have no frame for a tenth of their time.
+/// A window is dropped if the run does not fill it. Mostly this is the last one. A window that is filled
+/// begins less than longest_interval() before the first frame and ends within the time of the last one,
+/// and frames stand for at least nine tenths of it.
 /// RunError where nothing is left, UsageError where a window would be shorter than the time that a used
 /// frame stands for; both say what would fit.
 Windows cut_into_windows(const RunTimes& run, const WindowSettings& settings);

@@ -845,7 +845,7 @@ def _content(run):
 
 
 def _has_one_density(run):
-    """Whether masses have the ratios of areas or volumes, but for the digits of archives."""
+    """True if all mobile grains have one density, to the digits of archives (1e-5)."""
     density = (run.mass / _content(run))[run.mobile]
     return density.max(initial=0) <= density.min(initial=math.inf) * (1 + 1e-5)
 

@@ -62,8 +62,8 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-/// What --partition, --base-part and --volume say: how maps make stress of sums. Of layers it is only
-/// passed on to grseg-fit, except for the exponent of Mpower_*.
+/// The choices of --partition, --base-part and --volume, by which maps make stress of sums. A table of
+/// layers only passes them on to grseg-fit, except for the exponent of Mpower_*.
 MapStress stress_of(Settings& s)
 {
   const auto volume = choose(s.volume, "--volume", stress_volumes);

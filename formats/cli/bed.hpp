@@ -9,7 +9,7 @@
 
 namespace grseg {
 
-/// What tells runs apart whatever their files hold of them: the line "bed" of a table, as in
+/// The line "bed" of a table. It tells one run from another, whichever frames their files hold:
 ///
 ///   grains 205, sizes 203, crc32 0a1b2c3d, seed 1, flow 9f8e7d6c
 ///
@@ -34,7 +34,7 @@ struct Bed {
 bool acts_on_motion(std::string_view key);
 
 Bed bed_of(const TrajectoryReader& run);
-/// What a line "bed" says; nothing where it is not to be understood.
+/// The bed that a line describes; nothing if the line cannot be read.
 std::optional<Bed> parse_bed(const std::string& text);
 
 }  // namespace grseg

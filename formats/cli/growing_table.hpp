@@ -19,7 +19,7 @@ class GrowingTable {
   explicit GrowingTable(OutputOptions output);
   ~GrowingTable();
 
-  /// Whether the rows of `table` are so many that they should be written.
+  /// True if `table` has so many rows that they should be written now.
   static bool is_large(const Table& table);
   /// Writes the rows of `table`, and before the first ones its header and columns; removes the rows.
   void add(Table& table);
