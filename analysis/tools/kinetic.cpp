@@ -171,11 +171,11 @@ void add_contents(std::vector<Cell>& cells, const SpeciesList& species,
 
 /// Of a layer or cell, or their names without one.
 template <int D>
-std::vector<Cell> cells(const FrameLoop& loop, const KineticStress<D>& stress,
+std::vector<Cell> cells(const FrameLoop& loop, const KineticStress<D>& stress, bool with_contents,
                         std::optional<std::size_t> layer)
 {
   auto cells = stress.cells(loop.species(), layer);
-  if (!have_one_density<D>(loop.grains())) add_contents(cells, loop.species(), stress, layer);
+  if (with_contents) add_contents(cells, loop.species(), stress, layer);
   if (!loop.layers().map()) return cells;
   typename KineticStress<D>::Mean all;
   Vector<D> velocity = Vector<D>::Zero();
@@ -195,7 +195,9 @@ void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, VelocityInStep 
   const auto& species = loop.species();
   const MeanVelocity<D> no_grains(loop.layers(), loop.run().small_diameter() / 2, species.size());
   const KineticStress<D> nothing(loop.layers(), flow, no_grains, species.size());
-  auto table = loop.make_table(command, settings, columns_of(cells(loop, nothing, std::nullopt)));
+  const bool with_contents = !have_one_density<D>(loop.grains());
+  auto table = loop.make_table(command, settings,
+                               columns_of(cells(loop, nothing, with_contents, std::nullopt)));
 
   loop.expect_passes(2);
   LayerBias bias;
@@ -203,7 +205,8 @@ void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, VelocityInStep 
   for (const auto& window : loop.windows()) {
     const auto stress = sum(loop, window, flow, which, no_grains);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
-      loop.add(table, loop.row(window, layer, values_of(cells(loop, stress, layer))));
+      loop.add(table,
+               loop.row(window, layer, values_of(cells(loop, stress, with_contents, layer))));
     bias.add(stress, species.size());
     left_out.add(stress, species.size(), window.frames.size());
   }
