@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace grseg {
 
@@ -30,7 +31,7 @@ void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
     const auto& position = frame.position[g];
     const double y = layers_.height<D>(position), mass = grains.mass[g];
     const Sum own{mass, mass * motion_of<D>(layers_, frame, g)};
-    if (profile) of_bin_[bins_.at(y)] += {own, mass * y};
+    if (profile) of_bin_[bins_.at(y)].add(1, y, mass, own.momentum / mass);
     of_layer_[layers_.holding<D>(position, y)][static_cast<std::size_t>(grains.species[g])] += own;
   }
 }
@@ -48,7 +49,51 @@ typename MeanVelocity<D>::BinSum& MeanVelocity<D>::BinSum::operator+=(const BinS
 {
   motion += other.motion;
   moment += other.moment;
+  grains += other.grains;
+  squares += other.squares;
+  squares_y += other.squares_y;
+  squares_yy += other.squares_yy;
+  weighted += other.weighted;
+  weighted_y += other.weighted_y;
+  product += other.product;
   return *this;
+}
+
+/// Adds a grain, or takes it away with the sign -1.
+template <int D>
+typename MeanVelocity<D>::BinSum& MeanVelocity<D>::BinSum::add(double sign, double y, double mass,
+                                                               const Motion<D>& own)
+{
+  motion += {sign * mass, sign * mass * own};
+  moment += sign * mass * y;
+  grains += sign > 0 ? 1 : -1;
+  const double square = sign * mass * mass;
+  squares += square;
+  squares_y += square * y;
+  squares_yy += square * y * y;
+  weighted += square * own;
+  weighted_y += square * y * own;
+  product += symmetric_product<D>(square, own, own);
+  return *this;
+}
+
+/// The mean, and the covariance of the mean from the scatter about a line with this slope.
+template <int D>
+MotionOfOthers<D> MeanVelocity<D>::BinSum::mean(const Motion<D>& slope) const
+{
+  const Motion<D> mean = velocity();
+  const double y = height();
+  const double pairs = motion.mass * motion.mass - squares;  // sum of m_j m_k, j != k
+  // With d = y - its mean: sum m^2 d, m^2 d^2, m^2 d (v - mean).
+  const double d = squares_y - y * squares;
+  const double dd = squares_yy - y * (2 * squares_y - y * squares);
+  const Motion<D> dv = weighted_y - y * weighted - d * mean;
+  auto scatter = product;
+  scatter += symmetric_product<D>(-2, weighted, mean);
+  scatter += symmetric_product<D>(squares, mean, mean);
+  scatter += symmetric_product<D>(-2, dv, slope);
+  scatter += symmetric_product<D>(dd, slope, slope);
+  return {mean, {scatter.velocities / pairs, scatter.spins / pairs}};
 }
 
 template <int D>
@@ -61,8 +106,12 @@ void MeanVelocity<D>::merge(const MeanVelocity& others)
 template <int D>
 void MeanVelocity<D>::finish()
 {
-  for (const auto& [sum, moment] : of_bin_)
-    if (sum.mass > 0) profile_.push_back({moment / sum.mass, sum.momentum / sum.mass});
+  for (std::size_t b = 0; b < of_bin_.size(); ++b) {
+    const auto& bin = of_bin_[b];
+    if (bin.motion.mass > 0) profile_.push_back({bin.height(), bin.velocity()});
+    if (bin.grains > 2) full_.push_back(b);
+  }
+  for (std::size_t k = 0; k < full_.size(); ++k) slope_.push_back(slope_at(k));
   for (const auto& layer : of_layer_) mean_of_layer_.push_back(mean(layer));
 }
 
@@ -106,6 +155,71 @@ Motion<D> MeanVelocity<D>::on_profile(double y) const
   return line(profile_[above - 1], profile_[above]);
 }
 
+/// The slope between the neighbours of a full bin, or between it and the only one.
+template <int D>
+Motion<D> MeanVelocity<D>::slope_at(std::size_t k) const
+{
+  const auto& below = of_bin_[full_[k == 0 ? 0 : k - 1]];
+  const auto& above = of_bin_[full_[std::min(k + 1, full_.size() - 1)]];
+  if (&below == &above) return Motion<D>::Zero();
+  return (above.velocity() - below.velocity()) / (above.height() - below.height());
+}
+
+template <int D>
+std::optional<MotionOfOthers<D>> MeanVelocity<D>::on_profile_of_others(
+    double y, double mass, const Motion<D>& motion) const
+{
+  const auto n = full_.size();
+  if (n == 0) return std::nullopt;
+  const auto own = bins_.at(y);
+  const auto others = [&](std::size_t k) {
+    BinSum bin = of_bin_[full_[k]];
+    if (full_[k] == own) bin.add(-1, y, mass, motion);
+    return bin;
+  };
+  if (n == 1) return others(0).mean(slope_[0]);
+  // The first point above y.
+  auto above =
+      static_cast<std::size_t>(std::lower_bound(full_.begin(), full_.end(), own) - full_.begin());
+  if (above < n && full_[above] == own && others(above).height() <= y) ++above;
+  const auto ends = above == 0
+                        ? std::pair<std::size_t, std::size_t>(0, std::min<std::size_t>(2, n - 1))
+                    : above == n ? std::pair(n - 1, n - std::min<std::size_t>(3, n))
+                                 : std::pair(above - 1, above);
+  const auto a = others(ends.first), b = others(ends.second);
+  const double part = (y - a.height()) / (b.height() - a.height());
+  const auto of_a = a.mean(slope_[ends.first]), of_b = b.mean(slope_[ends.second]);
+  MotionOfOthers<D> found{of_a.mean + part * (of_b.mean - of_a.mean), {}};
+  const auto add = [&](double weight, const MotionProduct<D>& covariance) {
+    found.covariance +=
+        {weight * weight * covariance.velocities, weight * weight * covariance.spins};
+  };
+  add(1 - part, of_a.covariance);
+  add(part, of_b.covariance);
+  return found;
+}
+
+template <int D>
+MotionProduct<D>& MotionProduct<D>::operator+=(const MotionProduct& other)
+{
+  velocities += other.velocities;
+  spins += other.spins;
+  return *this;
+}
+
+template <int D>
+MotionProduct<D> symmetric_product(double weight, const Motion<D>& a, const Motion<D>& b)
+{
+  const Vector<D> u = a.template head<D>(), v = b.template head<D>();
+  const auto spins = a.size() - D;
+  return {weight / 2 * (u * v.transpose() + v * u.transpose()),
+          weight * a.tail(spins).dot(b.tail(spins))};
+}
+
+template struct MotionProduct<2>;
+template struct MotionProduct<3>;
+template MotionProduct<2> symmetric_product<2>(double, const Motion<2>&, const Motion<2>&);
+template MotionProduct<3> symmetric_product<3>(double, const Motion<3>&, const Motion<3>&);
 template class MeanVelocity<2>;
 template class MeanVelocity<3>;
 

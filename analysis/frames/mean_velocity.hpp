@@ -5,13 +5,17 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace grseg {
 
 /// About which mean velocity fluctuations are counted. The paper does not say.
 enum class MeanFlow {
-  profile,  ///< a fine profile over height, over all frames
+  profile,  ///< a fine profile over height, over all frames; takes away m_i/M of each grain's
+            ///< fluctuations, M being the mass that a bin of the profile holds over all frames
+  profile_unbiased,  ///< the same profile without the grain itself
   layer,    ///< the layer's mean over all frames; leaves the mean shear inside the layer in K_xx,
             ///< nu rho (du/dy h)^2/12
   instant,  ///< the layer's mean in each frame; leaves the same shear, takes away what the whole
@@ -22,6 +26,9 @@ enum class MeanFlow {
 inline constexpr Choice<MeanFlow> mean_flows[] = {
     {"profile", MeanFlow::profile,
      "over the window, in bins of at most half a dS, at the grain's own height"},
+    {"profile-unbiased", MeanFlow::profile_unbiased,
+     "the same from all other grains, without the fluctuations that these give it: for windows of few "
+     "frames"},
     {"layer", MeanFlow::layer, "over the window"},
     {"instant", MeanFlow::instant, "of the layer in each frame"},
     {"instant-unbiased", MeanFlow::instant_unbiased,
@@ -49,6 +56,27 @@ Motion<D> motion_of(const Layers& layers, const Frame<D>& frame, std::size_t g)
                       layers.turned_spin<D>(frame.angular_velocity[g], position));
 }
 
+/// A product of two motions: of the velocities, m^2/s^2, and of the spins, summed over their
+/// components, 1/s^2.
+template <int D>
+struct MotionProduct {
+  Tensor<D> velocities = Tensor<D>::Zero();
+  double spins = 0;
+
+  MotionProduct& operator+=(const MotionProduct& other);
+};
+/// The symmetric part of a (x) b, times a weight.
+template <int D>
+MotionProduct<D> symmetric_product(double weight, const Motion<D>& a, const Motion<D>& b);
+
+/// The mean motion at the place of a grain by others, and the covariance that their fluctuations
+/// give it.
+template <int D>
+struct MotionOfOthers {
+  Motion<D> mean;
+  MotionProduct<D> covariance;
+};
+
 /// Mass-weighted mean motion of the mobile grains over the frames that were added: as a profile
 /// over height (not of a map), by layer, and by layer and species.
 ///
@@ -70,6 +98,18 @@ class MeanVelocity {
 
   /// At height y; NaN without grains.
   Motion<D> on_profile(double y) const;
+  /// The profile at a grain that was added, from the others: its bin is left without it, and bins with
+  /// fewer than two others have no point. With a share a_j of V for each other grain, its
+  /// covariance is sum a_j^2 var(v_j), which the scatter within a bin, sum m^2 e (x) e/(M^2 - Q),
+  /// estimates (Q = sum m^2; e: from the line through the bin's mean with the slope between its
+  /// neighbours); so that of velocities about one linear profile that
+  /// are independent, (v_i - V) (x) (v_i - V) less the covariance has the variance of v_i, but for
+  /// terms of the order (m/M)^2. Nothing where there is no such point.
+  std::optional<MotionOfOthers<D>> on_profile_of_others(double y, double mass,
+                                                        const Motion<D>& motion) const;
+  /// The part of a grain in the mean of its bin, by which the profile makes its fluctuations too small:
+  /// an upper bound, as straight lines mix two points.
+  double own_part(double y, double mass) const { return mass / of_bin_[bins_.at(y)].motion.mass; }
   /// Of a layer, and of one species in it; of layers with grains that were added only.
   Motion<D> of_layer(std::size_t layer) const;
   Motion<D> of_species(std::size_t layer, Species species) const;
@@ -84,8 +124,18 @@ class MeanVelocity {
   struct BinSum {
     Sum motion;
     double moment = 0;  // kg m
+    std::size_t grains = 0;
+    // sum m^2, m^2 y, m^2 y^2, m^2 v, m^2 y v, m^2 v (x) v
+    double squares = 0, squares_y = 0, squares_yy = 0;
+    Motion<D> weighted = Motion<D>::Zero(), weighted_y = Motion<D>::Zero();
+    MotionProduct<D> product;
     BinSum& operator+=(const BinSum& other);
+    BinSum& add(double sign, double y, double mass, const Motion<D>& motion);
+    double height() const { return moment / motion.mass; }
+    Motion<D> velocity() const { return motion.momentum / motion.mass; }
+    MotionOfOthers<D> mean(const Motion<D>& slope) const;
   };
+  Motion<D> slope_at(std::size_t k) const;
   struct Point {
     double y;
     Motion<D> motion;
@@ -97,6 +147,8 @@ class MeanVelocity {
   std::vector<std::vector<Sum>> of_layer_;  // by species
   // Once they are taken.
   std::vector<Point> profile_;
+  std::vector<std::size_t> full_;  // bins of three grains or more
+  std::vector<Motion<D>> slope_;   // of the profile through them, at each
   std::vector<Motion<D>> mean_of_layer_;
 };
 

@@ -16,7 +16,7 @@ inline constexpr PresetOption stress[] = {
     {"volume", "solid", "bulk"},
 };
 inline constexpr PresetOption kinetic[] = {
-    {"mean", "layer", "profile"},  // the mean of a layer leaves the shear inside it
+    {"mean", "layer", "profile-unbiased"},  // the mean of a layer leaves the shear inside it
 };
 inline constexpr PresetOption micro[] = {
     {"composition", "clipped", "clipped"},

@@ -41,6 +41,23 @@ Fluctuations<D> operator-(Fluctuations<D> a, const Fluctuations<D>& b)
   return a;
 }
 
+/// Of a grain that moves so, beside others.
+template <int D>
+std::optional<MotionProduct<D>> about_others(const std::optional<MotionOfOthers<D>>& others,
+                                             const Motion<D>& motion)
+{
+  if (!others) return std::nullopt;
+  const Motion<D> excess = motion - others->mean;
+  auto product = symmetric_product<D>(1, excess, excess);
+  product += {-others->covariance.velocities, -others->covariance.spins};
+  return product;
+}
+
+bool is_unbiased(MeanFlow flow)
+{
+  return flow == MeanFlow::instant_unbiased || flow == MeanFlow::profile_unbiased;
+}
+
 /// "x", "y", in three dimensions "z", and "r" for rotation.
 template <int D>
 std::vector<std::string> freedoms()
@@ -84,6 +101,7 @@ typename KineticStress<D>::Mean& KineticStress<D>::Mean::operator+=(const Mean& 
   content += other.content;
   grains += other.grains;
   left_out += other.left_out;
+  own_part += other.own_part;
   about_mean += other.about_mean;
   layer_bias += other.layer_bias;
   return *this;
@@ -111,6 +129,7 @@ Motion<D> KineticStress<D>::mean_in(std::size_t layer, Species species,
 {
   switch (flow_) {
     case MeanFlow::profile:
+    case MeanFlow::profile_unbiased:
     case MeanFlow::instant_unbiased:
       break;  // have no mean by layer
     case MeanFlow::layer:
@@ -148,23 +167,29 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer),
                                       motion.template head<D>());
     auto& own = sums_[layer].species[static_cast<std::size_t>(species)];
-    if (unbiased && !unbiased->has(layer)) {
+    std::optional<MotionProduct<D>> product;  // where the mean is without the grain
+    if (unbiased && unbiased->has(layer)) product = unbiased->of(layer, mass, motion);
+    if (flow_ == MeanFlow::profile_unbiased)
+      product = about_others(mean_velocity_.on_profile_of_others(y, mass, motion), motion);
+    if (is_unbiased(flow_) && !product) {
       own.left_out += 1;
       continue;
     }
     own.mass += mass;
     own.content += grain_volume<D>(radius);
     own.grains += 1;
-    if (unbiased) {
-      const auto product = unbiased->of(layer, mass, motion);
+    if (product) {
       own.about_mean +=
-          {mass * product.velocities, moment_of_inertia<D>(mass, radius) * product.spins};
+          {mass * product->velocities, moment_of_inertia<D>(mass, radius) * product->spins};
     } else if (flow_ != MeanFlow::profile) {
       own.about_mean += about(mean_in(layer, species, now));
     }
     if (!has_profile) continue;
     const auto about_profile = about(mean_velocity_.on_profile(y));
-    if (flow_ == MeanFlow::profile) own.about_mean += about_profile;
+    if (flow_ == MeanFlow::profile) {
+      own.about_mean += about_profile;
+      own.own_part += mass * mean_velocity_.own_part(y, mass);
+    }
     own.layer_bias += about(mean_velocity_.of_layer(layer)) - about_profile;
   }
 }
@@ -181,8 +206,9 @@ typename KineticStress<D>::Mean KineticStress<D>::mean(std::size_t layer, Specie
 {
   const auto& sum = sums_[layer].species[static_cast<std::size_t>(species)];
   const auto frames = static_cast<double>(frames_);
-  return {sum.mass / frames,     sum.content / frames,    sum.grains / frames,
-          sum.left_out / frames, sum.about_mean / frames, sum.layer_bias / frames};
+  return {sum.mass / frames,      sum.content / frames,  sum.grains / frames,
+          sum.left_out / frames,  sum.own_part / frames, sum.about_mean / frames,
+          sum.layer_bias / frames};
 }
 
 template <int D>
@@ -246,8 +272,7 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
       cells.push_back({fmt::format("equipartition_{}", all_freedoms[f]),
                        quotient[static_cast<Eigen::Index>(f)]});
   }
-  if (flow_ == MeanFlow::instant_unbiased)
-    each("left_out_{}", [](const Mean& own) { return own.left_out; });
+  if (is_unbiased(flow_)) each("left_out_{}", [](const Mean& own) { return own.left_out; });
   if (layers_.map()) return cells;
   for (std::size_t k = 0; k < words.size(); ++k) {
     for (const auto& [suffix, row, column] : components)

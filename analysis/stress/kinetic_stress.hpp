@@ -37,7 +37,8 @@ struct Fluctuations {
 ///
 /// About MeanFlow::instant_unbiased a grain needs two others in its layer or cell and frame. Where
 /// there are fewer it counts in the mean flow but not in the sums, its mass and its number included,
-/// so that temperatures and ratios are those of the grains that count; `left_out` has the others.
+/// so that temperatures and ratios are those of the grains that count; `left_out` has the others. The
+/// same holds of MeanFlow::profile_unbiased where no bin of the profile has two others.
 ///
 /// The frames of a window are read twice: first for the mean flow, then for the fluctuations.
 template <int D>
@@ -50,6 +51,7 @@ class KineticStress {
     double content = 0;   // m^2 or m^3, area or volume
     double grains = 0;    // number
     double left_out = 0;  // number: those that are too few for the mean; not among `grains`
+    double own_part = 0;  // kg: mass times MeanVelocity::own_part(); about MeanFlow::profile only
     Fluctuations<D> about_mean;
     Fluctuations<D> layer_bias;
 

@@ -2,30 +2,6 @@
 #include "analysis/stress/unbiased_fluctuations.hpp"
 
 namespace grseg {
-namespace {
-
-template <int D>
-using Product = typename UnbiasedFluctuations<D>::Product;
-
-/// (a (x) b + b (x) a)/2 of velocities, a . b of spins, times a weight.
-template <int D>
-Product<D> symmetric(double weight, const Motion<D>& a, const Motion<D>& b)
-{
-  const Vector<D> u = a.template head<D>(), v = b.template head<D>();
-  const auto spins = a.size() - D;
-  return {weight / 2 * (u * v.transpose() + v * u.transpose()),
-          weight * a.tail(spins).dot(b.tail(spins))};
-}
-
-template <int D>
-void add(Product<D>& sum, double weight, const Product<D>& other)
-{
-  sum.velocities += weight * other.velocities;
-  sum.spins += weight * other.spins;
-}
-
-}  // namespace
-
 template <int D>
 UnbiasedFluctuations<D>::UnbiasedFluctuations(const Layers& layers, const Grains& grains,
                                               const Frame<D>& frame)
@@ -50,7 +26,7 @@ UnbiasedFluctuations<D>::UnbiasedFluctuations(const Layers& layers, const Grains
   each([](CellSums& cell, double mass, const Motion<D>& motion) {
     const Motion<D> excess = motion - cell.mean;
     cell.weighted += mass * mass * excess;
-    add<D>(cell.product, mass * mass, symmetric<D>(1, excess, excess));
+    cell.product += symmetric_product<D>(mass * mass, excess, excess);
   });
 }
 
@@ -63,9 +39,10 @@ typename UnbiasedFluctuations<D>::Product UnbiasedFluctuations<D>::of(std::size_
   const Motion<D> excess = motion - cell.mean;
   const double pairs =
       (cell.mass - mass) * (cell.mass - mass) - cell.squares + mass * mass;  // sum of m_j m_k
-  Product product = symmetric<D>((cell.mass * cell.mass - cell.squares) / pairs, excess, excess);
-  add<D>(product, 2 / pairs, symmetric<D>(1, excess, cell.weighted));
-  add<D>(product, -1 / pairs, cell.product);
+  auto product =
+      symmetric_product<D>((cell.mass * cell.mass - cell.squares) / pairs, excess, excess);
+  product += symmetric_product<D>(2 / pairs, excess, cell.weighted);
+  product += {-1 / pairs * cell.product.velocities, -1 / pairs * cell.product.spins};
   return product;
 }
 

@@ -36,11 +36,7 @@ namespace grseg {
 template <int D>
 class UnbiasedFluctuations {
  public:
-  /// m^2/s^2, and of spins, summed over their components, 1/s^2.
-  struct Product {
-    Tensor<D> velocities = Tensor<D>::Zero();
-    double spins = 0;
-  };
+  using Product = MotionProduct<D>;
 
   UnbiasedFluctuations(const Layers& layers, const Grains& grains, const Frame<D>& frame);
 

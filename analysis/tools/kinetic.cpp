@@ -21,6 +21,7 @@ constexpr ToolInfo info{
     "sums of m dv (x) dv by layer, window and species: kinetic stress, and the mean flow.",
     "grseg-kinetic run.h5 [options] > kinetic.tsv",
     "  grseg-kinetic run.h5 -o kinetic.tsv              about a fine profile of mean velocity\n"
+    "  grseg-kinetic run.h5 --mean profile-unbiased     about that of all other grains\n"
     "  grseg-kinetic run.h5 --mean layer                about the mean of each layer\n"
     "  grseg-kinetic run.h5 --mean instant-unbiased     about the layer's mean in each frame\n"
     "  grseg-kinetic run.h5 --velocity middle           of the middle of each step\n"
@@ -99,6 +100,35 @@ struct LeftOut {
                "{}: {:.0f} of {:.0f} grains (summed over frames) have fewer than two others in "
                "their layer or cell and do not count; the columns left_out have their number\n",
                info.name, grains, of);
+  }
+};
+
+/// How much of its own motion a grain finds in the mean profile; reports it where it is not little.
+struct OwnPart {
+  double largest = 0;      // of a species in a window
+  std::size_t frames = 0;  // of that window
+
+  template <int D>
+  void add(const KineticStress<D>& stress, std::size_t number_of_species, std::size_t of_frames)
+  {
+    for (std::size_t k = 0; k < number_of_species; ++k) {
+      typename KineticStress<D>::Mean all;
+      for (std::size_t layer = 0; layer < stress.layers(); ++layer)
+        all += stress.mean(layer, static_cast<Species>(k));
+      const double part = all.own_part / all.mass;
+      if (part > largest) largest = part, frames = of_frames;
+    }
+  }
+  void report() const
+  {
+    constexpr double little = 0.01;
+    if (largest <= little) return;
+    fmt::print(
+        stderr,
+        "{}: with {} {} in a window {:.2g} % of the mean velocity at a grain are that of the grain "
+        "itself, and its fluctuations are too small by up to as much; --mean "
+        "profile-unbiased leaves the grain out\n",
+        info.name, frames, frames == 1 ? "frame" : "frames", 100 * largest);
   }
 };
 
@@ -202,6 +232,7 @@ void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, VelocityInStep 
   loop.expect_passes(2);
   LayerBias bias;
   LeftOut left_out;
+  OwnPart own;
   for (const auto& window : loop.windows()) {
     const auto stress = sum(loop, window, flow, which, no_grains);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
@@ -209,20 +240,23 @@ void tabulate(FrameLoop& loop, const Settings& s, MeanFlow flow, VelocityInStep 
                loop.row(window, layer, values_of(cells(loop, stress, with_contents, layer))));
     bias.add(stress, species.size());
     left_out.add(stress, species.size(), window.frames.size());
+    own.add(stress, species.size(), window.frames.size());
   }
   loop.write(std::move(table), loop.layers().map() ? "" : "grseg-fit --quantity kinetic");
   if (flow == MeanFlow::layer && !loop.layers().map() && !s.frames.quiet) bias.report();
   if (left_out.grains > 0 && !s.frames.quiet) left_out.report();
+  if (!s.frames.quiet) own.report();
 }
 
 /// Maps have no profile: unless it was asked for, the mean is that of the cell.
 void choose_mean_of_map(Settings& s, const po::variables_map& values)
 {
-  if (!s.frames.map() || s.mean != "profile") return;
+  if (!s.frames.map() || (s.mean != "profile" && s.mean != "profile-unbiased")) return;
   if (!values["mean"].defaulted())
-    throw UsageError(
-        "--mean profile is a profile over height, which a map does not have; take layer, instant or "
-        "instant-unbiased, the mean of the cell");
+    throw UsageError(fmt::format(
+        "--mean {} is a profile over height, which a map does not have; take layer, instant or "
+        "instant-unbiased, the mean of the cell",
+        s.mean));
   s.mean = word_of(MeanFlow::layer, mean_flows);
 }
 

@@ -21,32 +21,32 @@ checksums: $(TABLES) cost.tsv
 run.h5: scene.ini
 	$(run) $(scripts)/simulate $(bin)/grseg-sim $(call quote,$(CHECKPOINT_EVERY))
 
-options_stress-branch := --assign branch
-options_stress-grain := --assign grain
-options_stress-gauss := --assign gauss
-options_stress-centre := --composition centre
-options_stress-2dS := --layer 2dS
-options_stress-8dS := --layer 8dS
+# What a word in the name of a table, behind its tool, asks for; strideN: one frame of N.
+word_branch := --assign branch
+word_grain := --assign grain
+word_gauss := --assign gauss
+word_centre := --composition centre
+word_2dS := --layer 2dS
+word_8dS := --layer 8dS
 # Its labels were drawn anew, so the seal of the trajectory does not hold.
-options_stress-random := --trust
-options_stress-stride2 := --stride 2
-options_stress-stride5 := --stride 5
-options_kinetic-layer := --mean layer
-options_kinetic-instant := --mean instant
-options_balance-rules := --partition size,half,drop
-options_kinetic-unbiased := --mean instant-unbiased
-options_kinetic-middle := --velocity middle
-options_kinetic-unbiased-middle := --mean instant-unbiased --velocity middle
-options_check := --physics
-options_segregation-summary := --summary --heights 4dS:56dS
+word_random := --trust
+word_layer := --mean layer
+word_instant := --mean instant
+word_unbiased := --mean instant-unbiased
+word_others := --mean profile-unbiased
+word_middle := --velocity middle
+word_rules := --partition size,half,drop
+word_summary := --summary --heights 4dS:56dS
+options_of = $(if $(filter check,$(1)),--physics) \
+  $(foreach word,$(wordlist 2,9,$(subst -, ,$(1))),$(or $(word_$(word)),$(patsubst stride%,--stride %,$(filter stride%,$(word)))))
 
 # Among equal grains any half may be labelled large.
 trajectory_stress-random := random.h5.part
 
-extracts := record.tsv observables.tsv snapshots.tsv
+extracts := $(filter record.tsv observables.tsv snapshots.tsv,$(TABLES))
 sums := $(filter-out $(extracts),$(TABLES))
 # command_of TABLE: as recorded in the history of that table.
-command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_$(1)) --quiet)
+command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_of) --quiet)
 
 # Tables that were made by another command are made again.
 outdated := $(shell $(scripts)/outdated $(call quote,$(AGAIN)) $(extracts) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))

@@ -169,8 +169,9 @@ TEST(AbsentGrains, HaveNoPartInTheMeanVelocityAndTheKineticStress)
 {
   auto compact = with_absent_grains();
   for (auto& packing : compact) packing = compacted(packing);
-  for (const auto flow : {MeanFlow::profile, MeanFlow::layer, MeanFlow::instant,
-                          MeanFlow::instant_unbiased, MeanFlow::species}) {
+  for (const auto flow :
+       {MeanFlow::profile, MeanFlow::layer, MeanFlow::instant, MeanFlow::instant_unbiased,
+        MeanFlow::profile_unbiased, MeanFlow::species}) {
     KineticStress<2> with_rows(unit_layers, flow, mean_of(with_absent_grains()));
     KineticStress<2> without_rows(unit_layers, flow, mean_of(compact));
     for (const auto& packing : with_absent_grains()) with_rows.add(packing.grains, packing.frame);

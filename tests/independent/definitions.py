@@ -305,6 +305,59 @@ def unbiased_fluctuations(run, frames, h, layers):
     return kinetic, rotational, mass, left_out
 
 
+def about_profile_of_others(run, frames, h, layers):
+    """About the profile through the bins that hold three grains, each bin without the grain itself; less
+    the covariance of that mean, from the scatter in its bins about lines with the slope between their
+    neighbours. Sums, masses and grains left out, as above."""
+    d = run.dimension
+    kinetic, rotational = by_layer(layers, d, d), by_layer(layers)
+    mass, left_out = by_layer(layers), by_layer(layers)
+    bin_height = h / math.ceil(h / (run.small_diameter / 2) - 1e-9)
+    members = collections.defaultdict(list)
+    grains = list(mobile_grains(run, frames))
+    for k, (_, y, _) in enumerate(grains):
+        members[layer_of(y, bin_height)].append(k)
+    full = sorted(b for b, of_bin in members.items() if len(of_bin) > 2)
+
+    def line(b):
+        """Mass, height and motion of the grains of a bin."""
+        m = np.array([run.mass[grains[k][0]] for k in b])
+        return m, np.array([grains[k][1] for k in b]), np.array([grains[k][2] for k in b])
+
+    def means(b):
+        m, heights, motions = line(b)
+        return m @ heights / m.sum(), m @ motions / m.sum()
+
+    slopes = {}
+    for at, b in enumerate(full):
+        (y0, v0), (y1, v1) = (means(members[full[min(max(k, 0), len(full) - 1)]]) for k in (at - 1, at + 1))
+        slopes[b] = (v1 - v0) / (y1 - y0) if y1 > y0 else 0 * v0
+
+    def point(b, without):
+        others = [k for k in members[b] if k != without]
+        y, v = means(others)
+        m, heights, motions = line(others)
+        away = motions - v - np.outer(heights - y, slopes[b])
+        return y, v, np.einsum("j,ja,jb->ab", m**2, away, away) / (m.sum()**2 - (m**2).sum())
+
+    for k, (g, y, motion) in enumerate(grains):
+        n, s, own = layer_of(y, h), run.species[g], layer_of(y, bin_height)
+        if not full:
+            left_out[s][n] += 1 / len(frames)
+            continue
+        above = sum(b < own or (b == own and point(b, k)[0] <= y) for b in full)
+        last = len(full) - 1
+        a, b = (0, min(2, last)) if above == 0 else (last, max(last - 2, 0)) if above > last else (above - 1, above)
+        (ya, va, ca), (yb, vb, cb) = point(full[a], k), point(full[b], k)
+        part = (y - ya) / (yb - ya) if last else 0
+        away = motion - va - part * (vb - va)
+        products = np.outer(away, away) - (1 - part)**2 * ca - part**2 * cb
+        kinetic[s][n] += run.mass[g] * products[:d, :d] / len(frames)
+        rotational[s][n] += run.inertia(g) * np.trace(products[d:, d:]) / len(frames)
+        mass[s][n] += run.mass[g] / len(frames)
+    return kinetic, rotational, mass, left_out
+
+
 def coordination_and_force(run, frames, h, layers):
     """z: contact ends per grain, both where the grain's centre is. f: mean modulus of the contacts
     with at least one grain of the species, where they touch. The last entry is the whole bed."""

@@ -33,7 +33,7 @@ SYNTHETIC = ((2, "small,large"), (2, "fine,middle,coarse"), (3, "small,large"),
              (3, "fine,middle,coarse", "changing"))
 RULES = ("size", "contact-point", "half", "drop", f"power:{by_definition.POWER:g}")
 ASSIGNMENTS = ("contact-point", "branch", "grain")
-MEANS = ("profile", "layer", "instant", "instant-unbiased")
+MEANS = ("profile", "layer", "instant", "instant-unbiased", "profile-unbiased")
 compared = 0
 
 
@@ -120,6 +120,8 @@ class Window:
         of = (self.run, frames, self.h, self.layers)
         if mean == "instant-unbiased":
             return by_definition.unbiased_fluctuations(*of)
+        if mean == "profile-unbiased":
+            return by_definition.about_profile_of_others(*of)
         if mean == "instant":
             return by_definition.about_each_frame(*of)
         mean_at = {"profile": by_definition.profile, "layer": by_definition.layer_mean}[mean]

@@ -261,25 +261,35 @@ class Stages(Pipeline):
 class Denser(Pipeline):
     """c of the closure, from a weight that the large grains alone have."""
 
-    def point(self, excess, value):
-        return {"D": excess, "value": value, "p_zero": 0.65, "dc_dp": 5000.0}
+    PHI = 0.45
 
-    def test_a_flux_that_falls_by_a_thousandth_of_the_driving_has_a_c_of_a_thousand(self):
-        points = [self.point(excess, 3e-4 - 1e-3 * excess) for excess in (-0.2, 0, 0.2, 1)]
-        found = {row["of"]: row for row in denser.conclusions(points)}
-        for name, value in {"slope": -1e-3, "c": 1000, "at_zero": 3e-4, "B": 0.3, "share": 0.65 + 1000 / 5000}.items():
-            self.assertAlmostEqual(found[name]["value"] / value, 1, 9, name)
+    def point(self, excess, value):
+        return {"D": excess, "phi": self.PHI, "value": value, "p_zero": 0.65, "dc_dp": 5000.0}
+
+    def test_level_and_slope_of_the_driving_give_back_b_and_c(self):
+        """c q = (B (1 + phi D) - D) X, for every B from 0 to 1."""
+        for b in np.linspace(0, 1, 11):
+            c = 1000 * (1 + b)
+            points = [self.point(excess, (b * (1 + self.PHI * excess) - excess) / c) for excess in (-0.2, 0, 0.2, 1)]
+            found = {row["of"]: row["value"] for row in denser.conclusions(points)}
+            expected = {"slope": -(1 - b * self.PHI) / c, "at_zero": b / c, "c": c, "B": b, "stops": 1 + b / (1 - b * self.PHI), "share": 0.65 + c / 5000}
+            for name, value in expected.items():
+                self.assertAlmostEqual(found[name], value, 9, f"{name} where B is {b}")
 
     def test_intervals_are_those_of_runs_that_scatter_about_the_line(self):
-        points = [self.point(excess, 3e-4 - 1e-3 * excess + off) for excess, off in ((-1, 1e-5), (0, -2e-5), (1, 1e-5))]
-        found = {row["of"]: row for row in denser.conclusions(points)}
+        def line(level, slope):
+            return {row["of"]: row for row in denser.conclusions(
+                [self.point(excess, level + slope * excess + off) for excess, off in ((-1, 1e-5), (0, -2e-5), (1, 1e-5))])}
+
+        found = line(3e-4, -1e-3)
         # Residuals of 1, -2, 1 over one degree of freedom, t = 12.706: 6e-10; the sum of squares of D is 2.
         of_slope, of_level = 12.706 * math.sqrt(6e-10 / 2), 12.706 * math.sqrt(6e-10 / 3)
-        reach = {name: row["value_high"] - row["value"] for name, row in found.items()}
-        self.assertAlmostEqual(reach["slope"] / of_slope, 1, 6)
-        self.assertAlmostEqual(reach["c"] / (1e6 * of_slope), 1, 6)
-        self.assertAlmostEqual(reach["share"] / (1e6 * of_slope / 5000), 1, 6)
-        self.assertAlmostEqual(reach["B"] / math.hypot(1000 * of_level, 1e6 * 3e-4 * of_slope), 1, 6)
+        small = 1e-9
+        for name, row in found.items():
+            by_level = (line(3e-4 + small, -1e-3)[name]["value"] - row["value"]) / small
+            by_slope = (line(3e-4, -1e-3 + small)[name]["value"] - row["value"]) / small
+            reach = math.hypot(by_level * of_level, by_slope * of_slope)  # level and slope are independent: the mean D is 0
+            self.assertAlmostEqual((row["value_high"] - row["value"]) / reach, 1, 4, name)
 
     def test_a_ratio_is_the_mean_of_its_runs_as_sure_as_their_scatter_about_the_line(self):
         points = [self.point(excess, 1e-4 * value) for excess, value in ((0, 3), (0, 5), (1, 1), (1, 3))]
@@ -300,7 +310,7 @@ class Denser(Pipeline):
         rows = {row["of"]: row for row in self.campaign.made_by("denser", "--flow", "phi0.50-s23-mixed")}
         self.assertAlmostEqual(rows["D = -0.5"]["value"], 6e-4)  # by volume instead of mass
         self.assertEqual(rows["D = 0"]["value"], 4e-4)
-        self.assertAlmostEqual(rows["c"]["value"], 2500, 3)
+        self.assertAlmostEqual(rows["c"]["value"], 1 / (0.5 * 4e-4 + 4e-4), 3)
 
 
 class RigidLimit(unittest.TestCase):

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <limits>
 
 namespace grseg {
 namespace {
@@ -170,9 +171,12 @@ void FrameBuilder::place(const ArchiveMoment& moment, std::size_t g, std::size_t
       ++periods;
     }
     if (!from.image.empty()) {
-      const auto image = from.image[g][static_cast<std::size_t>(axis)];
+      const double image = from.image[g][static_cast<std::size_t>(axis)];
       periods += forward ? image : -image;
     }
+    if (!(std::abs(periods) <= std::numeric_limits<std::int32_t>::max()))
+      throw FormatError(fmt::format("{}: grain {} is {:.3g} periods from the cell, more than 2^31",
+                                    moment.place, from.id[g], periods));
     frame.image[row][static_cast<std::size_t>(direction)] = static_cast<std::int32_t>(periods);
   }
   frame.position[row] = x;

@@ -44,8 +44,8 @@ struct CheckMoment {
   double time = 0;  // s
 
   // Of contacts that bear a force, in units of the smaller radius: the largest difference between
-  // the distance that the archive states and that of the positions, the widest gap, the deepest
-  // overlap. Fraction of the normal force that pulls.
+  // the distance that the archive states and that of the positions, the widest gap beyond what the
+  // two may part in a step, the deepest overlap. Fraction of the normal force that pulls.
   double distance = 0, gap = 0, overlap = 0, pull = 0;
 
   /// Pairs that overlap and have no contact: the deepest overlap in units of the smaller radius, and

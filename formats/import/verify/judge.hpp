@@ -22,7 +22,8 @@ Finding judge_sizes(const CheckContext& context);
 Finding judge_time(const CheckSeries& series, const CheckContext& context);
 
 /// In units of the smaller radius: by how much a distance may differ from radii and overlap (digits
-/// of the text), how far apart grains that bear a force may be, and how deep they may overlap.
+/// of the text), how far apart grains that bear a force may be beyond what they may part in a step, and
+/// how deep they may overlap.
 inline constexpr double largest_distance = 0.01, widest_gap = 0.05, deepest_overlap = 0.3;
 /// Part of the mobile grains that may seem to belong to rigid bodies, by chance; and what the
 /// measure of completeness then is. Otherwise it is the overlap of pairs that are not listed, over

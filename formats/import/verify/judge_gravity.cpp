@@ -81,8 +81,10 @@ std::string remedy(const CheckContext& context, const Estimate& estimate)
     ways.push_back(fmt::format(
         "masses are {:.3g} times {}", ratio,
         context.masses_are_given ? "what --density makes them" : "those that the archive states"));
-  if (!estimate.medians) ways.emplace_back("contacts with the base or a wall are missing");
-  std::string text = ways.size() > 1 ? "either " : "";
+  ways.emplace_back(estimate.medians
+                        ? "a force that is not listed acts on all grains, such as a drag"
+                        : "contacts with the base or a wall are missing");
+  std::string text = "either ";
   for (std::size_t k = 0; k < ways.size(); ++k) text += (k > 0 ? ", or " : "") + ways[k];
   return text;
 }

@@ -111,17 +111,6 @@ std::string text_of(const Grains& grains, const std::vector<PairForce>& pairs)
             "listed contacts");
 }
 
-/// Pairs of grains that bear a force in the list, as listed_pairs() gives them.
-template <int D>
-ListedPairs pushing_pairs(const ContactList<D>& contacts)
-{
-  ListedPairs pairs;
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    if (!contacts.force[c].isZero(0)) pairs.push_back(std::minmax(contacts.i[c], contacts.j[c]));
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
 /// k of the drag -k x on each grain that leaves the least of what is missing on the grains that do not
 /// balance, and the part of the squares that it explains.
 template <int D>
@@ -146,24 +135,32 @@ template <int D>
 UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame<D>& frame,
                                const Imbalance<D>& imbalance)
 {
-  auto momentum = frame.velocity;
-  for (std::size_t g = 0; g < grains.size(); ++g) momentum[g] *= grains.mass[g];
+  auto momentum = frame.velocity, weight = frame.velocity;
+  Vector<D> missing = Vector<D>::Zero();  // over the mass, summed over grains
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    momentum[g] *= grains.mass[g];
+    if (counts<D>(grains, frame, imbalance, g)) missing += imbalance.defect[g] / grains.mass[g];
+  }
+  for (std::size_t g = 0; g < grains.size(); ++g) weight[g] = grains.mass[g] * missing;
+  const bool as_weight = drag_along<D>(weight, grains, frame, imbalance).second >= most;
   const std::pair<const std::vector<Vector<D>>&, const char*> drags[] = {
       {momentum, "momentum"}, {frame.velocity, "velocity"}};
   for (const auto& [x, name] : drags) {
     const auto [factor, explained] = drag_along<D>(x, grains, frame, imbalance);
     if (explained < most || factor <= 0) continue;
     return {
-        fmt::format("; what is missing is {:.4g} times the {} of each grain, against it: a drag "
-                    "on all grains, which is no contact force and no other gravity",
-                    factor, name),
-        true};
+        fmt::format("; what is missing is {:.4g} times the {} of each grain, against it: {}",
+                    factor, name,
+                    as_weight ? "a drag on all grains, or another gravity, which cannot be told "
+                                "apart where grains move alike"
+                              : "a drag on all grains, which is no contact force and no other "
+                                "gravity"),
+        !as_weight};
   }
-  const auto pushing = pushing_pairs<D>(frame.contacts);
+  const ListedPairs pushing(frame.contacts, true);
   for (const double reach : reaches) {
-    auto pairs = near_pairs<D>(grains, box, frame, reach);
-    std::erase_if(pairs, [&](const NearPair& pair) {
-      return std::binary_search(pushing.begin(), pushing.end(), std::pair(pair.i, pair.j));
+    const auto pairs = near_pairs<D>(grains, box, frame, reach, [&](const NearPair& pair) {
+      return !pushing.contains(pair.i, pair.j);
     });
     if (pairs.empty()) continue;
     const auto [forces, explained] = forces_between<D>(pairs, grains, box, frame, imbalance);

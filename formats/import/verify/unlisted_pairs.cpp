@@ -20,15 +20,23 @@ constexpr double same_motion = 1e-4;
 
 constexpr double errors = 3, part_of_median = 0.25;
 
-double cross(double spin, const Vec2& b, Vec2& velocity)
+Vec2 cross(double spin, const Vec2& b)
 {
-  velocity = {-spin * b.y(), spin * b.x()};
+  return {-spin * b.y(), spin * b.x()};
+}
+
+Vec3 cross(const Vec3& spin, const Vec3& b)
+{
+  return spin.cross(b);
+}
+
+double size(double spin)
+{
   return std::abs(spin);
 }
 
-double cross(const Vec3& spin, const Vec3& b, Vec3& velocity)
+double size(const Vec3& spin)
 {
-  velocity = spin.cross(b);
   return spin.norm();
 }
 
@@ -38,16 +46,16 @@ template <int D>
 bool moves_as_one(const Box& box, const Frame<D>& frame, const NearPair& pair, bool joined)
 {
   const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+  const double spin = size(frame.angular_velocity[i]);
+  const Spin<D> other = frame.angular_velocity[i] - frame.angular_velocity[j];
+  const double differing = size(other);
+  if (differing > same_motion * spin) return false;
   const Vector<D> branch = minimum_image<D>(box, frame.position[i] - frame.position[j]);
   const Vector<D> relative = frame.velocity[i] - frame.velocity[j];
-  Vector<D> turning, difference;
-  const double spin = cross(frame.angular_velocity[i], branch, turning);
-  const Spin<D> other = frame.angular_velocity[i] - frame.angular_velocity[j];
-  const double differing = cross(other, branch, difference);
-  if (spin == 0 && differing == 0)
+  if (spin == 0)
     return joined && std::abs(relative.dot(branch)) < same_motion * relative.norm() * branch.norm();
-  const double rim = spin * branch.norm();
-  return differing <= same_motion * spin && (relative - turning).norm() <= same_motion * rim;
+  const Vector<D> turning = cross(frame.angular_velocity[i], branch);
+  return (relative - turning).norm() <= same_motion * spin * branch.norm();
 }
 
 /// Whether normal forces grow with overlaps, as a rank correlation. Per moment it was 0.79 to 1 in
@@ -92,31 +100,19 @@ double part_of_mobile(const Grains& grains, const std::vector<NearPair>& pairs)
 }  // namespace
 
 template <int D>
-ListedPairs listed_pairs(const ContactList<D>& contacts)
-{
-  ListedPairs pairs;
-  pairs.reserve(contacts.size());
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    pairs.push_back(std::minmax(contacts.i[c], contacts.j[c]));
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
-template <int D>
 UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Frame<D>& frame,
                                 const ListedPairs& listed, double error)
 {
   UnlistedPairs found;
   std::vector<double> overlaps;
-  std::vector<NearPair> open;
-  auto row = listed.begin();
-  for (const auto& pair : near_pairs<D>(grains, box, frame, widest)) {  // in the order of the list
-    while (row != listed.end() && *row < std::pair(pair.i, pair.j)) ++row;
-    if (row == listed.end() || *row != std::pair(pair.i, pair.j))
-      open.push_back(pair);
-    else if (pair.gap < 0)
-      overlaps.push_back(-pair.gap);
-  }
+  const auto is_open = [&](const NearPair& pair) {
+    if (!listed.contains(pair.i, pair.j))
+      return pair.gap < 0 || moves_as_one<D>(box, frame, pair, true);
+    if (pair.gap < 0) overlaps.push_back(-pair.gap);
+    return false;
+  };
+  const auto open = near_pairs<D>(grains, box, frame, widest, is_open);
+  if (open.empty()) return found;
   const double least = std::max(errors * error, part_of_median * median_overlap(overlaps));
   for (const auto& pair : open) {
     const bool overlaps_without = -pair.gap > least;
@@ -133,8 +129,6 @@ UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Fram
   return found;
 }
 
-template ListedPairs listed_pairs<2>(const ContactList<2>&);
-template ListedPairs listed_pairs<3>(const ContactList<3>&);
 template UnlistedPairs unlisted_pairs_of<2>(const Grains&, const Box&, const Frame<2>&,
                                             const ListedPairs&, double);
 template UnlistedPairs unlisted_pairs_of<3>(const Grains&, const Box&, const Frame<3>&,

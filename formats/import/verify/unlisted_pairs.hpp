@@ -2,20 +2,13 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
+#include "formats/import/verify/listed_pairs.hpp"
 #include "formats/import/verify/near_pairs.hpp"
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace grseg {
-
-/// Rows of the two grains of each contact, the lower one first, sorted. Contacts with walls have a
-/// negative one.
-using ListedPairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
-
-template <int D>
-ListedPairs listed_pairs(const ContactList<D>& contacts);
 
 /// What the list of contacts of a moment leaves out. Pairs are those near_pairs() finds.
 struct UnlistedPairs {

@@ -60,7 +60,7 @@ std::optional<Complaint> Verification<D>::check(const Frame<D>& frame, bool has_
   residual_ = residual_with(frame, sums);
   auto complaint = distance_moved(frame);
   if (auto other = geometry(frame); !complaint) complaint = other;
-  const auto listed = listed_pairs<D>(frame.contacts);
+  const auto listed = ListedPairs(frame.contacts);
   if (!complaint) complaint = double_rows(listed);
   if (auto other = completeness(frame, listed); !complaint) complaint = other;
   if (auto other = pull(frame); !complaint) complaint = other;
@@ -107,12 +107,15 @@ std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::s
   const double radii = grains_.radius[i] + grains_.radius[j];
   const auto between = minimum_image<D>(box_, frame.position[i] - frame.position[j]);
   const double stated = radii + contacts.gap[c], apart = between.norm();
-  const double gap = contacts.gap[c] / smaller;
+  // Contact dynamics finds contacts where a step begins; grains may part until it ends.
+  const double parted = (frame.velocity[i] - frame.velocity[j]).norm() * accuracy_.step;
+  const double gap = (contacts.gap[c] - parted) / smaller;
+  const double overlap = -contacts.gap[c] / smaller;
   const double distance =
       std::max(std::abs(apart - stated), (contacts.branch[c] - between).norm()) / smaller;
   moment_.distance = std::max(moment_.distance, distance);
   moment_.gap = std::max(moment_.gap, gap);
-  moment_.overlap = std::max(moment_.overlap, -gap);
+  moment_.overlap = std::max(moment_.overlap, overlap);
   const bool as_stated = distance <= waivers_.limit("contacts", largest_distance);
   if (!as_stated || gap > waivers_.limit("contacts", widest_gap))
     return Complaint{
@@ -123,7 +126,7 @@ std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::s
             pair_of(contacts.i[c], contacts.j[c]), apart, radii,
             as_stated ? "" : fmt::format(" while the archive states a distance of {:.6g}", stated)),
         true};
-  if (-gap > waivers_.limit("overlap", deepest_overlap))
+  if (overlap > waivers_.limit("overlap", deepest_overlap))
     return Complaint{
         "overlap",
         fmt::format(
@@ -131,7 +134,8 @@ std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::s
             "the radii add up to {:.6g}: are radii and ids read as they are meant? Where "
             "grains are that soft, or a bed is being filled, --accept-residual overlap={:.1g} "
             "imports it",
-            pair_of(contacts.i[c], contacts.j[c]), -gap, apart, radii, std::ceil(-gap * 10) / 10),
+            pair_of(contacts.i[c], contacts.j[c]), overlap, apart, radii,
+            std::ceil(overlap * 10) / 10),
         true};
   return std::nullopt;
 }
@@ -139,8 +143,8 @@ std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::s
 template <int D>
 std::optional<Complaint> Verification<D>::double_rows(const ListedPairs& listed) const
 {
-  const auto twice = std::adjacent_find(listed.begin(), listed.end());
-  if (twice == listed.end()) return std::nullopt;
+  const auto twice = listed.twice();
+  if (!twice) return std::nullopt;
   return Complaint{"contacts",
                    fmt::format("the contact of {} appears twice; each must be listed once",
                                pair_of(twice->first, twice->second)),

@@ -41,7 +41,7 @@ struct Complaint {
 struct OutputAccuracy {
   double tolerance = 0;      // largest residual not explained by late damping
   bool late_forces = false;  // late_damping.hpp
-  double step = 0;           // of the integration, then needed
+  double step = 0;           // of the integration; then needed
   double inertia = 0.5;      // I/(m r^2) of the grains, likewise
   bool lists_all = true;     // every pair that overlaps has a row, also one that bears no force
 };

@@ -424,7 +424,7 @@ TEST_F(FrameTools, APresetIsRecordedAndWhatIsGivenGoesBefore)
   EXPECT_EQ(own.header_text("partition"), "uniform:0.66667");
   EXPECT_EQ(own.header_text("volume"), "bulk");
   EXPECT_EQ(table(kinetic, "--preset paper").header_text("mean"), "layer");
-  EXPECT_EQ(table(kinetic, "--preset rigorous").header_text("mean"), "profile");
+  EXPECT_EQ(table(kinetic, "--preset rigorous").header_text("mean"), "profile-unbiased");
   EXPECT_EQ(table(kinetic, "--preset paper --mean species").header_text("mean"), "species");
   for (const char* preset : {"paper", "rigorous"})
     EXPECT_EQ(table(micro, std::string("--preset ") + preset).header_text("preset"), preset);

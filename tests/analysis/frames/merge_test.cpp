@@ -121,8 +121,9 @@ TEST(Merge, PartsOfTheKineticStressAndItsMeanMakeTheWhole)
   const auto whole = sum(empty, scenes, 0, 7);
   auto parts = sum(empty, scenes, 0, 3);
   parts.merge(sum(empty, scenes, 3, 7));
-  for (const auto flow : {MeanFlow::profile, MeanFlow::layer, MeanFlow::instant,
-                          MeanFlow::instant_unbiased, MeanFlow::species}) {
+  for (const auto flow :
+       {MeanFlow::profile, MeanFlow::layer, MeanFlow::instant, MeanFlow::instant_unbiased,
+        MeanFlow::profile_unbiased, MeanFlow::species}) {
     expect_parts_make_the_whole(KineticStress<2>(layers, flow, whole));
     const auto about_whole = numbers(sum(KineticStress<2>(layers, flow, whole), scenes, 0, 7));
     const auto about_parts = numbers(sum(KineticStress<2>(layers, flow, parts), scenes, 0, 7));

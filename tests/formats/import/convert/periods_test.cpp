@@ -49,6 +49,18 @@ TEST_F(PeriodsOfAnArchive, AreKnownFromUnwrappedPositions)
   EXPECT_NEAR(frame.position[0].x(), 0.05, 1e-15);
 }
 
+TEST_F(PeriodsOfAnArchive, AreRefusedWhereTheirNumberDoesNotFitIntoAnImage)
+{
+  for (const double x : {1e12, -1e300}) {
+    const auto refused = refusal(settings(folder, grains(0, "xu yu", "", x), contacts_at(0)));
+    EXPECT_EQ(refused.code, exit_content) << refused.sentence;
+    EXPECT_TRUE(mentions(refused.sentence, "periods from the cell, more than 2^31"));
+  }
+  EXPECT_EQ(refusal(settings(folder, grains(0, "x y", " -2147483648 0"), contacts_at(0))).code,
+            exit_content);
+  EXPECT_EQ(refusal(settings(folder, grains(0, "x y", " 2147483647 0"), contacts_at(0))).code, 0);
+}
+
 TEST_F(PeriodsOfAnArchive, AreUnknownFromWrappedPositionsAlone)
 {
   EXPECT_EQ(images_of(grains(0, "x y"), grains(100, "x y")), "unknown");

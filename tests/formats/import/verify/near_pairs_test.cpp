@@ -53,7 +53,8 @@ void expect_all_pairs()
       if (between.norm() <= grains.radius[i] + grains.radius[j] + 0.1 * smaller)
         expected.emplace_back(i, j);
     }
-  for (const auto& pair : near_pairs<D>(grains, box, frame, 0.1))
+  for (const auto& pair :
+       near_pairs<D>(grains, box, frame, 0.1, [](const NearPair&) { return true; }))
     found.emplace_back(pair.i, pair.j);
   EXPECT_GT(expected.size(), 100u);
   EXPECT_EQ(found, expected);

@@ -342,17 +342,49 @@ TEST(Verification, OppositeForcesOnNeighboursWithoutARowAreContactsThatPull)
   EXPECT_TRUE(mentions(scene.complaint(), "(the largest: grains 1 and 2): contacts that pull"));
 }
 
-// Three discs that fly, each slowed down by twice its momentum.
-TEST(Verification, ADragOnAllGrainsIsNamedAndIsNoOtherGravity)
+// The disc leaves the base by 1 in a step of 0.1: its contact bore a force while they touched.
+TEST(Verification, GrainsThatPartWithinAStepHaveTouchedWhereItBegan)
+{
+  Scene scene;
+  scene.frame.velocity[1] = {0, 10};
+  scene.frame.position[1].y() = 3;
+  scene.frame.contacts.branch = {{0, 3}};
+  scene.frame.contacts.gap = {1};
+  EXPECT_TRUE(mentions(scene.complaint(), "are listed as touching, but their centres are 3 apart"));
+  const auto with_step = [&](double step) {
+    return Verification<2>(scene.grains, scene.box, scene.gravity, {1e-10, false, step, 0.5})
+        .check(scene.frame);
+  };
+  EXPECT_FALSE(with_step(0.1));
+  EXPECT_TRUE(with_step(0.09));
+}
+
+/// Three discs that fly, each slowed down by twice its momentum.
+Scene flight(const std::vector<Vec2>& velocity)
 {
   Scene scene;
   scene.frame.contacts.clear();
   scene.grains.fixed[2] = 0;
   scene.grains.species[2] = Species::large;
   scene.frame.position = {{5, 5}, {1, 2}, {8, 8}};
-  scene.frame.velocity = {{1, 2}, {-3, 1}, {0.5, -4}};
+  scene.frame.velocity = velocity;
   for (std::size_t g = 0; g < 3; ++g)
-    scene.frame.force[g] = scene.grains.mass[g] * (scene.gravity - 2 * scene.frame.velocity[g]);
+    scene.frame.force[g] = scene.grains.mass[g] * (scene.gravity - 2 * velocity[g]);
+  return scene;
+}
+
+TEST(Verification, ADragIsNotToldFromAnotherGravityWhereGrainsMoveAlike)
+{
+  const auto scene = flight({{1, 2}, {1, 2}, {1, 2}});
+  const auto complaint = scene.verification().check(scene.frame);
+  ASSERT_TRUE(complaint);
+  EXPECT_TRUE(mentions(complaint->sentence, "a drag on all grains, or another gravity"));
+  EXPECT_FALSE(complaint->spoils_gravity);
+}
+
+TEST(Verification, ADragOnAllGrainsIsNamedAndIsNoOtherGravity)
+{
+  const auto scene = flight({{1, 2}, {-3, 1}, {0.5, -4}});
   const auto complaint = scene.verification().check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(
