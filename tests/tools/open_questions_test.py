@@ -155,7 +155,7 @@ class Closures(Pipeline):
         self.assertEqual((sixty["c_size"], sixty["c_size_low"]), (105, 104.5))
         asked = self.campaign.asked()[0]
         self.assertEqual(sum(word.endswith("/segregation.tsv") for word in asked), 2)
-        self.assertEqual(asked[asked.index("--heights") + 1], "4dS:56dS")
+        self.assertEqual(asked[asked.index("--heights") + 1], "12dS:56dS")
 
 
 def points(j, k, shape, n=400, seed=1):
@@ -372,6 +372,15 @@ class Answers(unittest.TestCase):
         before = "one\n<!-- stages -->\nold\n<!-- /stages -->\ntwo\n"
         _, after = self.rewritten(before, stages=[stage])
         self.assertEqual(after, "one\n<!-- stages -->\n| model |  | value | 95 % over |\n|---|---|---|---|\n| both | k | 0.123 [0.100, 0.200] | 2 runs |\n<!-- /stages -->\ntwo\n")
+
+    def test_runs_with_and_without_a_trapped_row_make_no_interval(self):
+        def row_of(trapped, reach):
+            row = {"flow": "phi0.30-s23", "runs": 4, **{name + end: 0.1 for name in ("B", "B_all", "K") for end in ("", "_low", "_high")},
+                   **{name + end: 0.5 for name in ("yL_end", "f_ratio", "rate") for end in ("", "_reach")}, "trapped": trapped, "trapped_reach": reach}
+            return answers.beds([row], ".*").splitlines()[-1].split(" | ")
+        self.assertEqual(row_of(26.0, 27.0)[3:8], ["0.100 ¹", "0.100 [0.100, 0.100]", "0.500 ¹", "26.0 ¹", "0.50 ¹"])
+        for trapped, reach in ((35.0, 0.5), (0.8, 1.6)):
+            self.assertEqual(row_of(trapped, reach)[3], "0.100 [0.100, 0.100]")
 
     def test_each_table_stands_in_one_of_several_documents(self):
         with tempfile.TemporaryDirectory() as work:
