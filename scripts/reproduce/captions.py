@@ -16,5 +16,6 @@ CAPTIONS = {
     "b-of-flows": "B and −B_κ of each flow, early and late",
     "balance":
         "Which mechanism pushes the large grains of Φ_L = 0.30 in which direction ([balance.md](balance.md))",
+    "combinations": "Of the combinations with a choice the part that meets each number of the paper",
     "step": "Contacts per grain, mean force, and their product over the time step",
 }

@@ -49,7 +49,8 @@ slopes := $(foreach slope,21 22 23 24 25 26,phi0.45-s$(slope))
 # The figures that these flows allow.
 names := $(if $(call of,phi0.30-s23,stress),snapshots pressure-profile kinetic-profile balance) \
   $(if $(call of,$(mixtures),stress),stress-ratio mixed-share kinetic-ratio pressure-estimates b-of-p b-of-flows) \
-  $(if $(call of,phi0.45-s23,stress),micro-over-time step) $(if $(call of,$(slopes),stress),kinetic-shear-rate)
+  $(if $(call of,phi0.45-s23,stress),micro-over-time step) $(if $(call of,$(slopes),stress),kinetic-shear-rate) \
+  $(if $(wildcard $(KEPT)/combinations.tsv),combinations)
 pictures := $(names:%=$(work)/%.png)
 figures: $(pictures)
 .PHONY: $(names:%=figures/%.png)
@@ -95,6 +96,11 @@ $(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
 # The tables behind the choices are not kept, only their result.
 $(work)/choices.tsv: $(every) choices $(scripts) | $(work)
 	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
+# What it took trajectories to make.
+$(work)/combinations.tsv: $(KEPT)/combinations.tsv | $(work)
+	cp $< $@
+$(work)/combined.tsv: $(work)/combinations.tsv combined.py combinations
+	./combinations $< --figure $@ > /dev/null
 $(work)/numbers.tsv: $(every) numbers rise.py $(scripts) | $(work)
 	./numbers $(tables) -o $@ --bin $(bin)
 
@@ -109,6 +115,7 @@ $(work)/pressure-estimates.png: $(work)/paper.tsv $(work)/ends.tsv
 $(work)/micro-over-time.png: $(work)/time.tsv
 $(work)/b-of-p.png: $(work)/scan.tsv $(work)/stock.tsv
 $(work)/b-of-flows.png: $(work)/fits.tsv
+$(work)/combinations.png: $(work)/combined.tsv
 $(work)/balance.png: $(work)/balance-profile.tsv
 $(filter-out $(work)/kinetic-ratio.png,$(pictures)): $(work)/%.png: $(gp)/%.gp
 	$(call draw,$*)
@@ -118,7 +125,7 @@ $(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/str
 choices.tsv: $(work)/choices.tsv
 
 # The document and its annex: only their generated parts are replaced.
-reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv)
+reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv combinations.tsv)
 	mkdir -p $(PICTURES)
 	cp $(pictures) $(PICTURES)
 	./document $(work) $(DOCUMENT) $(ANNEX)

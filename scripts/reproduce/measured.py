@@ -2,6 +2,7 @@
 import math
 import os
 
+import combined
 import tables
 
 
@@ -51,6 +52,9 @@ class Measured:
         self.fits, self.flows, numbers = at("fits")[1], at("flows")[1], at("numbers")[1]
         self.scan, _ = at("scan")
         self.choices = at("choices")[1]
+        path = os.path.join(folder, "combinations.tsv")
+        self.combinations = combined.read(path) if os.path.exists(path) else []
+        self.likely = combined.meeting_most(self.combinations) if self.combinations else None
         self._numbers = {(row["of"], row["name"]): row for row in numbers}
 
     def number(self, of, name):

@@ -1,14 +1,15 @@
 """The one rule by which measured numbers meet a statement of the paper.
 
-*agrees* where the whole 95 % interval lies in the statement's range, *differs* where it lies wholly outside,
-*undecided* where it crosses an edge or does not exist. Several points (a line, "always") are judged by the worst.
+A statement is met by our choices where the whole 95 % interval lies in its range, not where it lies wholly outside,
+and undecided where it crosses an edge or does not exist. What our choices do not meet may be met by those that meet most of the paper's
+numbers (combined.py). Several points (a line, "always") are judged by the worst.
 Beside it stands the difference from the paper's value in standard errors, which asks for more: it knows no room
 for what the paper leaves open.
 """
 import math
 
-AGREES, UNDECIDED, DIFFERS, NOT_YET = "agrees", "undecided", "**differs**", "not measured yet"
-FROM_BEST_TO_WORST = (AGREES, UNDECIDED, DIFFERS, NOT_YET)
+AGREES, LIKELY, UNDECIDED, DIFFERS, NOT_YET = "met by our choices", "met by the likely choices", "undecided", "**met by neither**", "not measured yet"
+FROM_BEST_TO_WORST = (AGREES, LIKELY, UNDECIDED, DIFFERS, NOT_YET)
 
 
 def verdict(value, statement):

@@ -54,8 +54,8 @@ class Fits(unittest.TestCase):
         for form in combinations.FORMS:
             self.assertAlmostEqual(combinations.proportional(self.x, 0.966 * self.x, self.x, form), 0.966, 12)
             a, b = combinations.power(self.x, PREFACTOR * self.x**EXPONENT, self.x, form)
-            self.assertAlmostEqual(a, PREFACTOR, 9)
-            self.assertAlmostEqual(b, EXPONENT, 9)
+            self.assertAlmostEqual(a, PREFACTOR, 7)
+            self.assertAlmostEqual(b, EXPONENT, 7)
 
     def test_least_squares_is_ruled_by_large_y_and_logarithms_are_not(self):
         y = np.where(self.x > 5, 2 * self.x, self.x)
@@ -66,6 +66,13 @@ class Fits(unittest.TestCase):
 
     def test_a_difference_counts_in_errors_of_both(self):
         self.assertAlmostEqual(combined.pull("slope", 0.966 + 0.005, 0.004), 1)
+
+    def test_what_is_known_worse_than_the_paper_s_room_meets_nothing(self):
+        room = 0.035  # of the slope
+        row = lambda value, error: {"slope": value, "slope error": error}
+        self.assertTrue(combined.meets(row(0.975, 0.01), "slope"))
+        self.assertFalse(combined.meets(row(0.990, 0.01), "slope"))
+        self.assertFalse(combined.meets(row(0.966, 1.01 * room / 1.96), "slope"))
 
     def test_one_run_scatters_with_the_error_of_the_mean_besides(self):
         scatter = {}
@@ -90,7 +97,7 @@ class Folder(unittest.TestCase):
                     write(os.path.join(folder, f"kinetic-{mean}{velocity}{stride}.tsv"), rows_of(False, phi, 0.03 * (slope - 23)))
             with open(os.path.join(folder, "checksums"), "w"):
                 pass
-        cls.found = list(combinations.rows(cls.work.name))
+        cls.found = [combined.judged(row) for row in combinations.rows(cls.work.name)]
 
     @classmethod
     def tearDownClass(cls):
@@ -122,8 +129,8 @@ class Folder(unittest.TestCase):
 
     def test_the_report_counts_what_is_met(self):
         text = "\n".join(combined.report(self.found))
-        self.assertIn(f"{len([row for row in self.found if row['mean'] in combined.TRIED])} combinations, 11 numbers", text)
-        self.assertIn("| prefactor | 1.4413 | 1.441 ± 0 (-0.0)", text.replace("+0.0", "-0.0"))
+        self.assertIn(f"Of {len([row for row in self.found if row['mean'] in combined.TRIED])} combinations", text)
+        self.assertIn("| prefactor | 1.4413 | 1.441 ± 0 (−0.0)", text.replace("+0.0", "−0.0"))
 
 
 if __name__ == "__main__":

@@ -135,26 +135,26 @@ class Reproduction(unittest.TestCase):
     def test_a_statement_is_met_where_the_whole_interval_lies_in_its_range(self):
         value, about = measured.Value, statements.number("0.1", 0.1, 0.05, "")
         verdict = lambda *numbers: verdicts.verdict(value(*numbers), about)
-        self.assertEqual(verdict(0.08, 0.06, 0.14), "agrees")
-        self.assertEqual(verdict(0.04, 0.03, 0.045), "**differs**")
-        self.assertEqual(verdict(0.2, 0.16, 0.24), "**differs**")
+        self.assertEqual(verdict(0.08, 0.06, 0.14), verdicts.AGREES)
+        self.assertEqual(verdict(0.04, 0.03, 0.045), verdicts.DIFFERS)
+        self.assertEqual(verdict(0.2, 0.16, 0.24), verdicts.DIFFERS)
         # Crossing an edge, also both of them, decides nothing, wherever the value itself lies.
-        self.assertEqual(verdict(0.1, 0.04, 0.12), "undecided")
-        self.assertEqual(verdict(0.2, 0.14, 0.26), "undecided")
-        self.assertEqual(verdict(0.04, 0.02, 0.06), "undecided")
-        self.assertEqual(verdict(0.1, -0.2, 0.4), "undecided")
+        self.assertEqual(verdict(0.1, 0.04, 0.12), verdicts.UNDECIDED)
+        self.assertEqual(verdict(0.2, 0.14, 0.26), verdicts.UNDECIDED)
+        self.assertEqual(verdict(0.04, 0.02, 0.06), verdicts.UNDECIDED)
+        self.assertEqual(verdict(0.1, -0.2, 0.4), verdicts.UNDECIDED)
         # A value without interval is not judged by itself.
-        self.assertEqual(verdict(0.1), "undecided")
+        self.assertEqual(verdict(0.1), verdicts.UNDECIDED)
         self.assertEqual(verdict(math.nan), "not measured yet")
         self.assertEqual(value(-0.0001, -0.02, 0.01).text(2), "0.00 [−0.02, 0.01]")
 
     def test_a_claim_is_met_by_its_edge_alone(self):
         value = measured.Value
         more_than_ten = statements.above("more than 10 times", 10, "")
-        self.assertEqual(verdicts.verdict(value(1000, 11, 2000), more_than_ten), "agrees")
-        self.assertEqual(verdicts.verdict(value(10.5, 9, 12), more_than_ten), "undecided")
-        self.assertEqual(verdicts.verdict(value(7.3, 7.1, 7.5), more_than_ten), "**differs**")
-        self.assertEqual(verdicts.verdict(value(-5, -6, -4), statements.below("less than 9", 9, "")), "agrees")
+        self.assertEqual(verdicts.verdict(value(1000, 11, 2000), more_than_ten), verdicts.AGREES)
+        self.assertEqual(verdicts.verdict(value(10.5, 9, 12), more_than_ten), verdicts.UNDECIDED)
+        self.assertEqual(verdicts.verdict(value(7.3, 7.1, 7.5), more_than_ten), verdicts.DIFFERS)
+        self.assertEqual(verdicts.verdict(value(-5, -6, -4), statements.below("less than 9", 9, "")), verdicts.AGREES)
 
     def test_the_difference_is_in_standard_errors_of_both_sides(self):
         ours = measured.Value(3, -5, 11, 3)
@@ -182,6 +182,20 @@ class Reproduction(unittest.TestCase):
         self.assertIs(verdicts.worst([inside, (value(0), about)])[0].has_interval(), False)
         self.assertIsNone(verdicts.worst([]))
 
+    def test_forms_of_one_statement_count_once_and_by_the_worst(self):
+        about = statements.number("", 0, 1, "")
+        value = lambda x: measured.Value(x, x - 0.1, x + 0.1, 0.05)
+        target = lambda x, one_of, *numbers: targets.Target("name", about, "", [(value(x), about)], "", one_of, numbers)
+        inside, outside, uncounted, made = target(0, "a"), target(5, "a"), target(5, ""), target(5, "b", "slope")
+
+        class Measured:
+            likely = {"slope": 0.966 + 1.9 * 0.005, "slope error": 0.004}  # with the paper's 0.003: 0.005
+        found = list(targets.judged(Measured, lambda m: [inside, outside, uncounted, made]))
+        self.assertEqual([one.verdict() for one in found], [verdicts.AGREES, verdicts.DIFFERS, verdicts.DIFFERS, verdicts.LIKELY])
+        self.assertEqual(targets.independent(found), [verdicts.DIFFERS, verdicts.LIKELY])
+        Measured.likely["slope"] = 0.966 - 2 * 0.005
+        self.assertEqual([one.verdict() for one in targets.judged(Measured, lambda m: [inside, made])], [verdicts.AGREES, verdicts.DIFFERS])
+
     def test_the_paper_meets_its_own_statements_and_every_range_has_a_source(self):
         each = [x for x in vars(statements).values() if isinstance(x, statements.Statement)]
         each += [*statements.RULES.values(), *statements.RULES_LESS_SIZE.values(), statements.figure_4(0.5)]
@@ -191,7 +205,7 @@ class Reproduction(unittest.TestCase):
             self.assertTrue(statement.source and statement.text)
             self.assertLess(statement.low, statement.high)
             if not math.isnan(statement.value):
-                self.assertEqual(verdicts.verdict(measured.Value(*[statement.value] * 3), statement), "agrees")
+                self.assertEqual(verdicts.verdict(measured.Value(*[statement.value] * 3), statement), verdicts.AGREES)
 
     def test_figure_4_is_judged_by_its_points_not_by_slope_and_level_of_a_fitted_line(self):
         # These points rise with the shear rate, and slope and level of their line are near the paper's.
@@ -207,14 +221,14 @@ class Reproduction(unittest.TestCase):
                 return measured.Value(*(-low[k] - self.lift + off for off in (0, -0.01, 0.01)), 0.005)
 
         target, rises = targets.shear_rate(Flows())
-        self.assertEqual((target.verdict(), rises.verdict()), ("**differs**", "agrees"))
+        self.assertEqual((target.verdict(), rises.verdict()), (verdicts.DIFFERS, verdicts.AGREES))
         # The line is 0.3715, 0.4125, 0.4535 there.
         self.assertEqual(target.ours, "−0.100 [−0.110, −0.090] to −0.095 [−0.105, −0.085]")
         self.assertAlmostEqual(target.difference(), -0.1 / math.hypot(0.005, 0.001 / math.sqrt(12)), 3)
         Flows.lift = 0.09
-        self.assertEqual(next(targets.shear_rate(Flows())).verdict(), "agrees")
+        self.assertEqual(next(targets.shear_rate(Flows())).verdict(), verdicts.AGREES)
         Flows.lift = 0.065  # two points lie 0.035 below the line, with intervals of 0.01
-        self.assertEqual(next(targets.shear_rate(Flows())).verdict(), "undecided")
+        self.assertEqual(next(targets.shear_rate(Flows())).verdict(), verdicts.UNDECIDED)
 
     def test_neutral_contacts_have_no_B_and_what_large_grains_get_beyond_is_its_cause(self):
         mixed = [contacts(4 * k * D, phi) for k, phi in enumerate((0.3, 0.1, 0.4, 0.7))]
@@ -297,7 +311,8 @@ class Reproduction(unittest.TestCase):
                 def path(self, _):
                     return bed_table
 
-            return numbers.separation(None, numbers.Part([One()]))
+            part = numbers.Part([One()])
+            return {**numbers.separation(None, part), **numbers.trapped(None, part)}
 
         bed_table = self.table
         for large_at, way, mixed in ((lambda k: float(k >= 7), 1, 0), (lambda k: 0.3, 0.5, 1),
