@@ -505,6 +505,7 @@ class Frame:
     force [N, D]                N, m (v_after - v_before)/h: contact forces and weight; not of all imports
     present [N]                 mobile grains that are there; all mobile ones, unless grains come and go
     contacts                    Contacts
+    coordination() [N]          contacts of each grain that bear a force, those with base and walls too
     """
 
     def __init__(self, block, k):
@@ -521,15 +522,22 @@ class Frame:
     present = property(lambda self: self._block.present[self._k])
     contacts = property(lambda self: Contacts(self._block, self._k))
 
+    def coordination(self):
+        contacts = self.contacts
+        rows = np.concatenate([contacts.i[contacts.pushing], contacts.j[contacts.pushing]])
+        return np.bincount(rows[rows >= 0], minlength=len(self._block.run.radius))
+
 
 class Contacts:
-    """The contacts of a frame. Pairs that touch without force may be among them.
+    """The contacts of a frame. Pairs without force are among them, of contact dynamics also pairs that may soon touch: a mean over
+    contacts is one over those that push.
 
     i [C]            row of the first grain, a mobile one
     j [C]            row of the second; j < 0: straight wall number -j-1
     force [C, D]     N, ON i FROM j
     branch [C, D]    m, x_i - x_j, nearest image; at a wall x_i less the contact point
     gap [C]          m, negative where the two overlap
+    pushing [C]      whether they bear a force, as all contacts that the tools count
     kind_i, kind_j [C]    numbers of their species; len(species) for base and walls
     share_i [C]      part of the branch between the centre of i and the contact point; 1 at a wall
     point [C, D]     m, where they touch: x_i - share_i branch
@@ -549,6 +557,7 @@ class Contacts:
     force = property(lambda self: self._block.contacts("force")[self._rows])
     branch = property(lambda self: self._block.contacts("branch")[self._rows])
     gap = property(lambda self: self._block.contacts("gap")[self._rows])
+    pushing = property(lambda self: self.force.any(axis=1))
     kind_i = property(lambda self: self._block.run.kind[self.i])
     kind_j = property(lambda self: self._block.run._partner_kind[np.maximum(self.j, -1)])
     share_i = property(lambda self: _share_of_first(self._block.run, self.i, self.j, self.gap))

@@ -125,9 +125,9 @@ struct OwnPart {
     if (largest <= little) return;
     fmt::print(
         stderr,
-        "{}: with {} {} in a window {:.2g} % of the mean velocity at a grain are that of the grain "
-        "itself, and its fluctuations are too small by up to as much; --mean "
-        "profile-unbiased leaves the grain out\n",
+        "{}: with {} {} in a window the mean velocity at a grain is made of the grain itself by up to "
+        "{:.2g} %, and its fluctuations are too small by as much; --mean profile-unbiased leaves "
+        "the grain out\n",
         info.name, frames, frames == 1 ? "frame" : "frames", 100 * largest);
   }
 };

@@ -24,14 +24,19 @@ for frame in run.frames(stride=max(1, len(run) // 8)):
     words = ", ".join(f"{species.name} {height:.1f} d_S" for species, height in zip(run.species, heights))
     print(f"t = {frame.time:6.2f} s: {speed:.3f} m/s; mean heights: {words}")
 
-# %% Who presses on whom: the mean contact force of each pair of species
+# %% Who presses on whom: contacts per grain, and the mean contact force of each pair of species
 names = [species.name for species in run.species] + ["base"]
 force, number = np.zeros((2, len(names), len(names)))
+ends, grains = np.zeros((2, len(run.species)))
 for frame in run.frames():
     contacts = frame.contacts
-    pair = np.sort([contacts.kind_i, contacts.kind_j], axis=0)
-    np.add.at(force, tuple(pair), np.linalg.norm(contacts.force, axis=1))
+    pushing = contacts.pushing      # the others bear no force
+    pair = np.sort([contacts.kind_i[pushing], contacts.kind_j[pushing]], axis=0)
+    np.add.at(force, tuple(pair), np.linalg.norm(contacts.force[pushing], axis=1))
     np.add.at(number, tuple(pair), 1)
+    np.add.at(ends, run.kind[frame.present], frame.coordination()[frame.present])
+    np.add.at(grains, run.kind[frame.present], 1)
+print("contacts per grain: " + ", ".join(f"{name} {z:.3f}" for name, z in zip(names, ends / grains)))
 for a, b in np.argwhere(number):
     print(f"{names[a]}-{names[b]}: {force[a, b] / number[a, b]:.6g} N, {number[a, b] / len(run):.1f} contacts per frame")
 

@@ -92,6 +92,22 @@ def check_kinetic_sums(run, window):
         }.get(column.split("_")[0], 0.0))
 
 
+def check_contacts(run):
+    """Contacts per frame of the smallest species and of the others, and all forces, of the whole bed."""
+    grouped = ("--group", "S=1", "--group", "L=2,3") if len(run.species) > 2 else ()
+    tools = table_of("micro", run.path, {"window": "all", "layer": "2dS"}, *grouped)
+    bed = dict(zip(tools.columns, tools.values[-1]))
+    ends, sums, frames = np.zeros(2), np.zeros(2), 0
+    for frame in run.frames():
+        contacts, there = frame.contacts, frame.present
+        ends += np.bincount(np.minimum(run.kind[there], 1), frame.coordination()[there], minlength=2)
+        sums += contacts.pushing.sum(), np.linalg.norm(contacts.force[contacts.pushing], axis=1).sum()
+        frames += 1
+    agree(f"{run.path}, contact ends", ends / frames, [bed[name] for name in ("ends_S", "ends_L")])
+    pairs = [name.removeprefix("sum_f_") for name in bed if name.startswith("sum_f_")]
+    agree(f"{run.path}, contacts and forces", sums / frames, [sum(bed[f"{what}_{pair}"] for pair in pairs) for what in ("n", "sum_f")])
+
+
 def rows_of(path):
     """Of a table of grseg-fit, and its header."""
     with open(path) as file:
@@ -154,6 +170,7 @@ def check_run(path, *windows, unfinished=False):
         for window in windows:
             check_contact_sums(run, window)
             check_kinetic_sums(run, window)
+        check_contacts(run)
 
 
 def check_all_fits(sample):
@@ -190,6 +207,10 @@ def no_shares(run, i, j, gap):
     return np.full(len(i), 0.5)
 
 
+def all_contacts(contacts):
+    return np.ones(len(contacts), bool)
+
+
 def edges_moved(layers, y, at=grseg._Layers.at):
     return at(layers, y + 1e-4)
 
@@ -207,6 +228,7 @@ FAULTS = {
     "contact points in the middle of the branch": ("_share_of_first", no_shares),
     "edges of layers moved by a tenth of a millimetre": ("_Layers.at", edges_moved),
     "force and branch exchanged": ("_Block.contacts", transposed),
+    "contacts without force counted": ("Contacts.pushing", property(all_contacts)),
     "the largest species first": ("Run._read_grains", largest_first),
     "grains not cut by layers": ("_part_below", lambda dimension, r, height: 0 * r),
     "a profile that is flat beyond its ends": ("_profile", grseg._mean_of_layers),
