@@ -91,12 +91,13 @@ class Folder(unittest.TestCase):
         for phi, slope, variant, seed in mixtures + slopes:
             folder = os.path.join(cls.work.name, f"phi{phi:.2f}-s{slope}-{variant}seed{seed}")
             os.mkdir(folder)
-            for stride in combinations.FRAMES.values():
+            for stride in ("stride1", "stride12"):
                 write(os.path.join(folder, f"stress-{stride}.tsv"), rows_of(True, phi))
                 for mean, velocity in [("", ""), ("layer-", ""), ("instant-", ""), ("others-", ""), ("", "middle-"), ("layer-", "middle-")]:
                     write(os.path.join(folder, f"kinetic-{mean}{velocity}{stride}.tsv"), rows_of(False, phi, 0.03 * (slope - 23)))
             with open(os.path.join(folder, "checksums"), "w"):
                 pass
+        combinations.FRAMES = {frames: combinations.FRAMES[frames] for frames in ("25", "2")}
         cls.found = [combined.judged(row) for row in combinations.rows(cls.work.name)]
 
     @classmethod

@@ -16,7 +16,7 @@ from known_campaign import D, G, Pipeline, program, scripts  # noqa: E402
 import numpy as np  # noqa: E402
 import tables  # noqa: E402
 
-questions, stages, rigid_limit, answers, denser = map(program, ("questions", "stages", "rigid-limit", "answers", "denser"))
+questions, stages, rigid_limit, answers, denser, mixtures = map(program, ("questions", "stages", "rigid-limit", "answers", "denser", "mixtures"))
 SPEED = math.sqrt(G * D)
 BEADS = math.pi / 4 * (2 * D) ** 2  # area of a large grain
 
@@ -311,6 +311,19 @@ class Denser(Pipeline):
         self.assertAlmostEqual(rows["D = -0.5"]["value"], 6e-4)  # by volume instead of mass
         self.assertEqual(rows["D = 0"]["value"], 4e-4)
         self.assertAlmostEqual(rows["c"]["value"], 1 / (0.5 * 4e-4 + 4e-4), 3)
+
+
+class Mixtures(Pipeline):
+    """B of each mixture under every rule."""
+
+    def test_neutral_contacts_are_weighed_as_b_by_sums(self):
+        # r = 2. At phi_L = 1/2 m = 3/4/(3/2) = 1/2 over 1/4; at 1/5 m = 3 x 0.16/1.8 = 4/15 over 0.16; the lowest layer and the surface are out.
+        rows = [{"t0": 0, "t1": 1, "y0": y0 * D, "y1": (y0 + 4) * D, "frames": frames, "area_S": 1 - large, "area_L": large}
+                for y0, frames, large in ((0, 9, 0.3), (4, 10, 0.5), (8, 30, 0.2), (52, 5, 1.0), (56, 9, 0.3))]
+        self.campaign.run("phi0.50-s23-seed1", stress=rows)
+        mixed, p_neutral = mixtures.neutral(tables.runs_in(self.campaign.tables))
+        self.assertAlmostEqual(mixed, (10 / 2 + 30 * 4 / 15) / (10 / 4 + 30 * 0.16), 12)
+        self.assertAlmostEqual(p_neutral, 2 / 3, 12)
 
 
 class RigidLimit(unittest.TestCase):
