@@ -43,14 +43,14 @@ std::optional<Vec2> axis_of(const TrajectoryReader& run, const std::string& bins
     const auto centre = numbers.find("drum_centre");
     if (centre == numbers.end() || centre->second.size() != 2)
       throw UsageError(fmt::format(
-          "--bins {0}: the run has no drum; give the axis, as in --bins {0}:0.1,0.2", word));
+          "--bins {0}: the run has no drum; give the axis, as in --bins {0}:0.1m,0.2m", word));
     return Vec2(centre->second[0], centre->second[1]);
   }
   const std::string place = bins.substr(word.size() + 1);
   const auto comma = place.find(',');
   if (comma == std::string::npos)
     throw UsageError(
-        fmt::format("--bins {}: an axis has two coordinates, as in {}:0.1,0.2", bins, word));
+        fmt::format("--bins {}: an axis has two coordinates, as in {}:0.1m,0.2m", bins, word));
   const auto option = "--bins " + word + ":";
   return Vec2(parse_length(place.substr(0, comma), option, units),
               parse_length(place.substr(comma + 1), option, units));

@@ -11,8 +11,13 @@ struct LengthUnits {
   double large_diameter = 0;
 };
 
-/// Metres from "0.02", "20mm", "2cm", "0.02m", "4dS" or "35dL". UsageError with `option`'s name
-/// and the accepted units where the text is not a length.
+/// Metres from "20mm", "2cm", "0.02m", "4dS", "35dL" or "0", as a user writes them. UsageError with
+/// `option`'s name and the accepted units where the text is not a length, and where a number has no
+/// unit: 4 may be meant as four diameters.
 double parse_length(const std::string& text, const std::string& option, LengthUnits units);
+
+/// The same where a number without a unit is in metres.
+double parse_length_or_metres(const std::string& text, const std::string& option,
+                              LengthUnits units);
 
 }  // namespace grseg

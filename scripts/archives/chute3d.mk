@@ -125,7 +125,7 @@ $(OUT)/stress/%.tsv: $(OUT)/runs/%.h5
 
 # Fits: of layers 4 m thick, which is 4 dS but for classes, whose smallest is larger than the smallest grain
 
-windows := --layer 4 --window 17.6 --begin 308 --quiet --overwrite
+windows := --layer 4dS --window 17.6 --begin 308 --quiet --overwrite
 classes := 2 4 8
 $(OUT)/sums/%.stress.tsv: $(OUT)/runs/%.h5
 	mkdir -p $(@D)
@@ -140,7 +140,7 @@ $(classes:%=$(OUT)/sums/any-%.tsv): $(OUT)/sums/any-%.tsv: $(OUT)/runs/any-1.h5
 
 two_sizes := long mix70
 tables = $(foreach seed,$(seeds_$(1)),$(2:%=$(OUT)/sums/$(1)-$(seed).%.tsv))
-fit := $(BIN)/grseg-fit --heights 4:20 --quiet --overwrite
+fit := $(BIN)/grseg-fit --heights 4dS:20dS --quiet --overwrite
 many := --exponent --partition stock,uniform:0.8
 
 fits: $(foreach what,stock scan pressure kinetic fractions,$(two_sizes:%=$(OUT)/fits/%.$(what).tsv)) \

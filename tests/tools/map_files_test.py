@@ -148,7 +148,7 @@ def check_refusals():
         assert done.returncode == code and sentence in done.stderr, (words, done)
 
     refused([stress, run, "-o", "sums.h5"], 2, "only maps become such files; take --bins xy")
-    for bins in "xz", "rz:0.1,0.1":
+    for bins in "xz", "rz:0.1m,0.1m":
         refused([stress, run, "--bins", bins], 2, "the run has two dimensions; take --bins xy")
     refused([stress, run, "--bins", "yx"], 2, "unknown --bins 'yx'")
     refused([stress, run, "--bins", "xy:1,2"], 2, "unknown --bins 'xy:1,2'")
@@ -160,7 +160,7 @@ def check_refusals():
     refused([micro, run, "--bins", "radius:0,0"], 2, "grseg-micro knows layers, xy and xz")
     refused([micro, run, "--bins", "xy", "--distribution"], 2, "has no effect on --distribution")
     refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "take layer, instant or instant-unbiased")
-    refused([stress, run, "--bins", "xy", "--layer", "1e-6"], 1, "are the cells too small?")
+    refused([stress, run, "--bins", "xy", "--layer", "1e-6m"], 1, "are the cells too small?")
     refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json prints text")
     assert call(stress, run, *MAP, "-o", "map.tsv").returncode == 0
     refused([fit, "map.tsv"], 3, "map.tsv: a map (bins: xy), whose rows are cells, not layers")

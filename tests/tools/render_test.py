@@ -95,7 +95,7 @@ def near(colour, expected, most=1):
 def check_pixels():
     """The last frame: the large grain at (0.053, 0.005) mm, seen here 3 mm from the left, with the small one on it
     at y = 12.5 mm, over the boundary grain at y = -5 mm."""
-    view = ["--region", "0.05:0.1,-0.01:0.02", "--width", "500", *BARE]
+    view = ["--region", "0.05m:0.1m,-0.01m:0.02m", "--width", "500", *BARE]
     picture = Picture(made("three.png", *view))
     # 482.4 x 3/5 + 2 x 8.8 = 307.04, rounded up
     assert (picture.width, picture.height) == (500, 308), (picture.width, picture.height)
@@ -106,14 +106,14 @@ def check_pixels():
     for x, y in (0.003 + 0.0053, 0.005), (0.003 + 0.0028, 0.0125), (0.003, 0.0153):
         assert near(picture.at(*place(x, y)), WHITE), (x, y)
     assert "history: three grains by hand\n" in picture.text, picture.text
-    assert "--region 0.05:0.1,-0.01:0.02" in picture.text, picture.text
+    assert "--region 0.05m:0.1m,-0.01m:0.02m" in picture.text, picture.text
     dark = Picture(made("dark.png", *view, "--theme", "dark"))
     assert dark.at(2, 2) == (0x14, 0x17, 0x1C) and near(dark.at(*place(0.003, 0.0125)), SMALL)
 
 
 def check_split():
     """The branch runs from y = 5 to 12.5 mm: by size it is split at 10, by halves at 8.75 mm."""
-    view = ["--region", "0.05:0.1,-0.01:0.02", "--width", "500", *BARE, "--forces", "--force-width", "5mm"]
+    view = ["--region", "0.05m:0.1m,-0.01m:0.02m", "--width", "500", *BARE, "--forces", "--force-width", "5mm"]
     # The stronger contact, of 1e-3 N, is 5 mm wide; this one, of 2e-4 N, is 1 mm wide.
     for rule, split in ("size", 10), ("half", 8.75), ("uniform:0.8", 11), ("contact-point", 10):
         picture = Picture(made(f"{rule}.png", *view, "--partition", rule))
@@ -137,9 +137,9 @@ def check_vectors():
     """The large grain in frame 0 at x = 0.05: from 0.051 it is cut, and from -0.35 on it is there twice."""
     svg = open(made("once.svg", *BARE)).read()
     assert [circles(svg, c) for c in (SMALL, LARGE, BOUNDARY)] == [1, 1, 1]
-    twice = open(made("twice.svg", *BARE, "--region", "-0.35:0.35,:")).read()
+    twice = open(made("twice.svg", *BARE, "--region", "-0.35m:0.35m,:")).read()
     assert [circles(twice, c) for c in (SMALL, LARGE, BOUNDARY)] == [2, 2, 2]
-    cut = open(made("cut.svg", *BARE, "--region", "0.055:0.4,:")).read()
+    cut = open(made("cut.svg", *BARE, "--region", "0.055m:0.4m,:")).read()
     # The small one, 2.5 mm, ends at 0.0555; all three come again 0.35 m further on, at 0.403.
     assert [circles(cut, c) for c in (SMALL, LARGE, BOUNDARY)] == [1, 2, 2]
     assert "<desc>program: grseg-render" in svg
@@ -190,9 +190,9 @@ def check_refusals():
     refused(2, "--force-width must be positive", three, "--forces", "--force-width", "0", *output)
     # 64 - 2 x 8.8 = 46.4 pixels for 0.01 mm, and the two margins.
     refused(2, "the picture would be 64 x 4640018 pixels; choose a smaller --width or another --region", three,
-            "--width", "64", "--region", "0:1e-5,0:1", *BARE, *output)
+            "--width", "64", "--region", "0:1e-5m,0:1m", *BARE, *output)
     refused(2, "the picture is too narrow for its height; choose another --width or --region", three, "--region",
-            "0:1e-5,0:1", *output)
+            "0:1e-5m,0:1m", *output)
     open("text.h5", "w").write("no run")
     refused(3, "text.h5: is not an HDF5 file, or is truncated or damaged", "text.h5", *output)
 
@@ -209,7 +209,7 @@ def fake(name, text):
 def check_film_frames():
     """What ffmpeg is given: four frames of three.h5, whose grains move by a millimetre."""
     keeps = fake("keeps", 'cat > "$file"; printf "%s\\n" "$@" > arguments')
-    view = ["--region", "0.05:0.1,-0.01:0.02", "--width", "500", *BARE]
+    view = ["--region", "0.05m:0.1m,-0.01m:0.02m", "--width", "500", *BARE]
     raw = open(made("film.mp4", *view, path=keeps), "rb").read()
     arguments = open("arguments").read().split("\n")
     assert arguments[arguments.index("-s") + 1] == "500x308", arguments

@@ -37,7 +37,7 @@ class Run:
 
 
 def b_of(table):
-    fit = subprocess.run([os.path.join(programs, "grseg-fit"), table, "--heights", f"{HEIGHTS[0]}:{HEIGHTS[1]}",
+    fit = subprocess.run([os.path.join(programs, "grseg-fit"), table, "--heights", f"{HEIGHTS[0]}m:{HEIGHTS[1]}m",
                           "--bootstrap", "0", "--json", "--quiet"], check=True, capture_output=True, text=True)
     rule = json.loads(fit.stdout)["rules"][0]
     return {"half": rule["B_half"], "sums": rule["estimators"]["B_sums"]["value"]}

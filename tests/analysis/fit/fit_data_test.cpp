@@ -163,8 +163,8 @@ TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
   EXPECT_EQ(used(":"), 4u);
   EXPECT_EQ(used("4dS:"), 3u);
   EXPECT_EQ(used("4dS:12dS"), 2u);
-  EXPECT_EQ(used(":0.059"), 2u);
-  const auto sentence = sentence_of<RunError>({stress_table(rows)}, {.heights = "1:"});
+  EXPECT_EQ(used(":0.059m"), 2u);
+  const auto sentence = sentence_of<RunError>({stress_table(rows)}, {.heights = "1m:"});
   EXPECT_TRUE(holds(sentence, "4 outside --heights"));
   EXPECT_THROW(used("4:five"), UsageError);
   EXPECT_THROW(used("4dS"), UsageError);

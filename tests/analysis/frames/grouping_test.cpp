@@ -127,7 +127,7 @@ TEST_F(Grouping, ByClassesDividesAtTheSizeNearestToItsShare)
 
 TEST_F(Grouping, ByEdgesDividesAtDiameters)
 {
-  const auto result = grouped({.edges = "2.1,4,5"});
+  const auto result = grouped({.edges = "2.1m,4m,5m"});
   EXPECT_EQ(numbers(result), (std::vector{0, 2, 2, 3, 1, -1}));
   EXPECT_NEAR(result.species[1].diameter, 2.2, 1e-14);
   EXPECT_EQ(numbers(grouped({.edges = "1.05dS"})), (std::vector{0, 1, 1, 1, 1, -1}));
@@ -148,8 +148,8 @@ TEST_F(Grouping, ThatCannotBeIsRefusedInOneSentence)
   says({.groups = {"A=1,2,3"}, .classes = 2}, "exclude each other");
   says({.classes = 9}, "have 5 different diameters");
   says({.classes = -1}, "must be 1 to 100");
-  says({.edges = "4,2"}, "increasing order");
-  says({.edges = "1,4"}, "no mobile grain belongs to c1");
+  says({.edges = "4m,2m"}, "increasing order");
+  says({.edges = "1m,4m"}, "no mobile grain belongs to c1");
 }
 
 }  // namespace

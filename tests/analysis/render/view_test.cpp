@@ -106,7 +106,7 @@ TEST(View, ASlabHoldsCentresAndGoesAcrossThePeriod)
 TEST(View, ARegionIsTypedInLengthsAndMayLeaveOutEnds)
 {
   const Region whole{{0, 0}, {10, 5}};
-  const auto region = parse_region("-2dS:40mm,:1", view_2d(), whole, units);
+  const auto region = parse_region("-2dS:40mm,:1m", view_2d(), whole, units);
   EXPECT_EQ(region.low, Vec2(-0.01, 0));
   EXPECT_EQ(region.high, Vec2(0.04, 1));
 }
@@ -120,13 +120,14 @@ TEST(View, RegionsThatCannotBeAreRefused)
   };
   EXPECT_EQ(refused("0:1"),
             "--region '0:1': give both axes of the picture, as in 0:40dS,0:20dS or :,0:20dS");
-  EXPECT_EQ(refused("1:1,:"),
-            "--region '1:1': it begins at 1 m and ends at 1 m; the first must be the smaller one");
-  EXPECT_EQ(refused("0:201,:"), "--region '0:201,:': that is more than 20 periods of 10 m");
+  EXPECT_EQ(
+      refused("1m:1m,:"),
+      "--region '1m:1m': it begins at 1 m and ends at 1 m; the first must be the smaller one");
+  EXPECT_EQ(refused("0:201m,:"), "--region '0:201m,:': that is more than 20 periods of 10 m");
   EXPECT_EQ(refused("0,1"), "--region '0': write where it begins and ends, as in 0:20dS");
   EXPECT_EQ(refused("0:4dX,:"),
-            "--region '4dX' is not a length: give a number in metres or with a unit, as in 0.02, "
-            "20mm, 4dS, 2dL");
+            "--region '4dX' is not a length: give a number with a unit, as in 0.02m, 20mm, "
+            "4dS, 2dL");
 }
 
 TEST(Projection, TheMiddleOfTheRegionLiesInTheMiddleOfThePanelAndYPointsUp)
