@@ -529,8 +529,8 @@ class Frame:
 
 
 class Contacts:
-    """The contacts of a frame. Pairs without force are among them, of contact dynamics also pairs that may soon touch: a mean over
-    contacts is one over those that push.
+    """The contacts of a frame. Pairs without force are among them, of contact dynamics also pairs that may soon touch: take means
+    over the contacts that push.
 
     i [C]            row of the first grain, a mobile one
     j [C]            row of the second; j < 0: straight wall number -j-1

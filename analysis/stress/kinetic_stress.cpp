@@ -41,7 +41,7 @@ Fluctuations<D> operator-(Fluctuations<D> a, const Fluctuations<D>& b)
   return a;
 }
 
-/// Of a grain that moves so, beside others.
+/// The product of fluctuations of a grain with this motion, about the mean of others.
 template <int D>
 std::optional<MotionProduct<D>> about_others(const std::optional<MotionOfOthers<D>>& others,
                                              const Motion<D>& motion)

@@ -17,7 +17,7 @@ std::string table_text(const std::vector<std::pair<std::string, std::string>>& h
                        const std::vector<std::string>& columns,
                        const std::vector<std::vector<std::string>>& rows);
 
-/// What precedes the rows.
+/// The lines above the rows.
 std::string table_head(const std::vector<std::pair<std::string, std::string>>& header,
                        const std::vector<std::string>& columns);
 /// The lines of rows, behind `text`.

@@ -75,8 +75,8 @@ double grain_volume(double radius)
 template <int D>
 double mean_density(const Grains& grains, std::optional<Species> species = std::nullopt);
 
-/// Whether the densities of all mobile grains agree but for the digits of archives (1e-5). Then shares
-/// of their masses are shares of their areas or volumes.
+/// True where all mobile grains have one density, to the digits of archives (1e-5): shares of mass are
+/// then shares of area or volume.
 template <int D>
 bool have_one_density(const Grains& grains);
 

@@ -16,7 +16,7 @@ struct LengthUnits {
 /// unit: 4 may be meant as four diameters.
 double parse_length(const std::string& text, const std::string& option, LengthUnits units);
 
-/// The same where a number without a unit is in metres.
+/// As parse_length(), but a number without a unit is in metres.
 double parse_length_or_metres(const std::string& text, const std::string& option,
                               LengthUnits units);
 

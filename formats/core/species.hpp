@@ -33,7 +33,7 @@ bool names_species(const SpeciesList& species);
 std::string species_text(const SpeciesList& species);
 SpeciesList parse_species(const std::string& text);
 
-/// What the names of columns call species: S and L where there are two, otherwise their names.
+/// The names of species in columns: S and L where there are two, otherwise their own.
 std::vector<std::string> column_words(const SpeciesList& species);
 
 /// Whether a name can stand in files, command lines and names of columns: 1 to 15 of A-Z a-z 0-9 _ -

@@ -12,8 +12,8 @@
 
 namespace grseg {
 
-/// The moments of an archive between --begin and --end, in order of time; with --drop-incomplete
-/// those that are incomplete are left out.
+/// The moments of an archive between --begin and --end, in order of time. --drop-incomplete leaves out
+/// incomplete ones.
 class Moments {
  public:
   Moments(const ImportSettings& settings, const std::string& columns);

@@ -39,7 +39,7 @@ class VerifiedFrames {
 
   const Archive& archive() const { return opened_.archive(); }
   const std::shared_ptr<const Roster>& roster() const { return opened_.roster(); }
-  /// What is left out of the archive so far, a sentence each.
+  /// Sentences on the parts of the archive that are left out so far.
   std::vector<std::string> remarks() const
   {
     auto remarks = archive().remarks();

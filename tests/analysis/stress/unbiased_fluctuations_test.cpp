@@ -3,6 +3,7 @@
 
 #include "analysis/stress/kinetic_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"
+#include "tests/analysis/stress/kinetic_of_frames.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,11 +22,7 @@ const Layers unit_layers(1, 10);
 
 KineticStress<2> kinetic(const std::vector<Packing>& frames, MeanFlow flow)
 {
-  MeanVelocity<2> mean(unit_layers, 0.5);
-  for (const auto& packing : frames) mean.add(packing.grains, packing.frame);
-  KineticStress<2> stress(unit_layers, flow, mean);
-  for (const auto& packing : frames) stress.add(packing.grains, packing.frame);
-  return stress;
+  return kinetic_of(frames, flow, 0.5);
 }
 
 /// Grains of all masses in one layer that move and turn at random.

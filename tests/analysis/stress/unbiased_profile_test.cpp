@@ -2,6 +2,7 @@
 #include "analysis/frames/mean_velocity.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"
+#include "tests/analysis/stress/kinetic_of_frames.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,11 +41,7 @@ struct Shear {
 
 KineticStress<2> kinetic(const std::vector<Packing>& frames, MeanFlow flow)
 {
-  MeanVelocity<2> mean(unit_layers, bin);
-  for (const auto& packing : frames) mean.add(packing.grains, packing.frame);
-  KineticStress<2> stress(unit_layers, flow, mean);
-  for (const auto& packing : frames) stress.add(packing.grains, packing.frame);
-  return stress;
+  return kinetic_of(frames, flow, bin);
 }
 
 TEST(UnbiasedProfile, TheMeanOfOthersIsTheProfileThatWasMadeWithoutTheGrain)
