@@ -21,6 +21,8 @@ void add_run_options(po::options_description& options, RunOptions& run)
       "unknown name lists all); results are bitwise identical");
   add("strict", po::bool_switch(&run.strict),
       "exit code 4 if a step missed the tolerance or grains overlapped by more than 0.25 d_S");
+  add("force", po::bool_switch(&run.force),
+      "begin although the run is expected to need more memory or disk than is free");
   add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
       "write the state to this file regularly, at the end, and on a signal that ends the run: "

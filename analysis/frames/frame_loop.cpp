@@ -9,6 +9,7 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/free_memory.hpp"
 #include "formats/core/length.hpp"
 #include "formats/core/species.hpp"
 #include "formats/core/text.hpp"
@@ -327,15 +328,6 @@ std::vector<double> FrameLoop::bed_row(const Window& window, double height,
 }
 
 namespace {
-
-/// Bytes that programs can still get.
-double free_memory()
-{
-  std::ifstream lines("/proc/meminfo");
-  for (std::string name, rest; lines >> name && std::getline(lines, rest);)
-    if (name == "MemAvailable:") return 1024 * std::strtod(rest.c_str(), nullptr);
-  return std::numeric_limits<double>::infinity();
-}
 
 /// What the header of a part of a table has more than that of the whole.
 HeaderLine part_line(const OutputPart& part)

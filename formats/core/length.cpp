@@ -10,32 +10,26 @@
 
 namespace grseg {
 
-double parse_length_or_metres(const std::string& text, const std::string& option, LengthUnits units)
+double parse_length(const std::string& text, const std::string& option, LengthUnits units)
 {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const std::string unit = end;
   double factor = 0;
-  if (unit.empty() || unit == "m") factor = 1;
+  if (unit == "m" || (unit.empty() && number == 0)) factor = 1;
   if (unit == "mm") factor = 1e-3;
   if (unit == "cm") factor = 1e-2;
   if (unit == "dS") factor = units.small_diameter;
   if (unit == "dL") factor = units.large_diameter;
+  if (unit.empty() && end != text.c_str() && std::isfinite(number) && number != 0)
+    throw UsageError(units.small_diameter > 0
+                         ? fmt::format("{0} {1} has no unit: {1}dS, {1}dL or {1}m?", option, text)
+                         : fmt::format("{0} {1} has no unit: {1}m or {1}mm?", option, text));
   if (end == text.c_str() || factor <= 0 || !std::isfinite(number))
     throw UsageError(
         fmt::format("{} '{}' is not a length: give a number with a unit, as in 0.02m, 20mm{}",
                     option, text, units.small_diameter > 0 ? ", 4dS, 2dL" : ""));
   return number * factor;
-}
-
-double parse_length(const std::string& text, const std::string& option, LengthUnits units)
-{
-  const double metres = parse_length_or_metres(text, option, units);
-  const bool has_unit = text.find_first_of("mSL") != std::string::npos;
-  if (metres == 0 || has_unit) return metres;
-  throw UsageError(units.small_diameter > 0
-                       ? fmt::format("{0} {1} has no unit: {1}dS, {1}dL or {1}m?", option, text)
-                       : fmt::format("{0} {1} has no unit: {1}m or {1}mm?", option, text));
 }
 
 }  // namespace grseg

@@ -16,8 +16,4 @@ struct LengthUnits {
 /// unit: 4 may be meant as four diameters.
 double parse_length(const std::string& text, const std::string& option, LengthUnits units);
 
-/// As parse_length(), but a number without a unit is in metres.
-double parse_length_or_metres(const std::string& text, const std::string& option,
-                              LengthUnits units);
-
 }  // namespace grseg

@@ -166,8 +166,8 @@ def add_units(dice, keys, depth):
         keys["plate-pressure"] = number(pressure)
         gravity = pressure / (density * small * depth)  # the default
     if any_size:
-        keys |= {"small-diameter": number(small), "density": number(density)}
-        small, density = float(keys["small-diameter"]), float(keys["density"])
+        keys |= {"small-diameter": number(small) + "m", "density": number(density)}
+        small, density = float(number(small)), float(number(density))
         if keys["geometry"] != "shear":
             keys["gravity"] = number(gravity)
     return Units(small, gravity)

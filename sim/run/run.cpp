@@ -5,6 +5,7 @@
 #include "formats/cli/progress.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "sim/run/expected_cost.hpp"
 #include "sim/run/provenance.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/run/run_files.hpp"
@@ -186,6 +187,30 @@ void record_deposition(const Scene& scene, TrajectoryWriter& writer)
   deposit(scene, {.each_step = {}, .slowed = {}, .record = record});
 }
 
+/// Says what the run from `begin`, s, on will take, and refuses it where there is no room.
+void announce(const Scene& scene, double begin, const RunOptions& options)
+{
+  const auto cost = expected_cost(scene, begin);
+  if (!options.quiet) tell(fmt::format("grseg-sim: {}\n", to_text(cost)));
+  if (!options.force) require_room(cost, options.output);
+}
+
+/// The bed at rest; `slowed_from` becomes the time, s, from which its grains had to be slowed down.
+Simulation deposit_visibly(const Scene& scene, const RunOptions& options, double& slowed_from)
+{
+  ProgressBar progress(
+      program,
+      {.things = "s of deposition", .total = expected_time_to_rest(scene), .from = 0, .digits = 2},
+      options.quiet);
+  progress.say("depositing the bed");
+  const auto step = [&](double time) {
+    if (interrupted()) throw interruption("interrupted while the bed was deposited");
+    progress.show(time);
+  };
+  const auto slowed = [&](double time) { slowed_from = slowed_from > 0 ? slowed_from : time; };
+  return deposit(scene, {.each_step = step, .slowed = slowed, .record = {}});
+}
+
 }  // namespace
 
 void simulate(const Scene& scene, const RunOptions& options)
@@ -198,15 +223,9 @@ void simulate(const Scene& scene, const RunOptions& options)
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
   listen();
 
-  const ProgressBar progress(program, {}, options.quiet);
-  progress.say("depositing the bed");
-  const auto stop = [] {
-    if (interrupted()) throw interruption("interrupted while the bed was deposited");
-  };
+  announce(scene, 0, options);
   double slowed_from = 0;
-  const auto slowed = [&](double time) { slowed_from = slowed_from > 0 ? slowed_from : time; };
-  const auto deposited = deposit(scene, {.each_step = stop, .slowed = slowed, .record = {}});
-  progress.clear();
+  const auto deposited = deposit_visibly(scene, options, slowed_from);
   const auto simulation = release(deposited, scene);
   Run run{simulation,
           new_trajectory(scene, simulation, provenance(scene, options), part),
@@ -241,6 +260,7 @@ void resume(const Checkpoint& checkpoint, const Scene& given, const RunOptions& 
   require_writable(part);
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
   listen();
+  announce(scene, simulation.time(), options);
 
   const auto history = fmt::format("{}\n{} (from t = {:g} s)", checkpoint.history,
                                    options.command_line, simulation.time());

@@ -10,8 +10,9 @@ namespace grseg {
 
 /// What a caller may have done during a deposition.
 struct DepositionHooks {
-  /// Called after every step; what it throws ends the deposition.
-  std::function<void()> each_step;
+  /// Called after every step with the time, s, since this attempt began; what it throws ends the
+  /// deposition.
+  std::function<void(double)> each_step;
   /// Called with the time, s, where the grains of a bed that does not rest are slowed down.
   std::function<void(double)> slowed;
   /// Where set, the accepted deposition is run once more with the clock below 0, and this is called
@@ -32,6 +33,12 @@ struct DepositionHooks {
 /// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
 /// gravity points straight down; release (release.hpp) starts the flow.
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks = {});
+
+/// Number of grains that deposit() tries first, the boundary's included.
+double expected_grains(const Scene& scene);
+
+/// s that a bed falls until it rests, about; an attempt of deposit() takes as long.
+double expected_time_to_rest(const Scene& scene);
 
 /// Sets everything in `world` that follows from `scene` but its grains, walls and box; gravity
 /// points straight down.

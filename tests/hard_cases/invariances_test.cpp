@@ -80,7 +80,7 @@ TEST(Units, TwelveDecadesOfDiametersGiveTheSameFlow)
 std::vector<double> seen_of_a_chute(int k)
 {
   const double length = std::ldexp(1, 2 * k), time = std::ldexp(1, k);
-  const auto scene = small_chute::scene({"--small-diameter", fmt::format("{}", 0.005 * length),
+  const auto scene = small_chute::scene({"--small-diameter", fmt::format("{}m", 0.005 * length),
                                          "--frame-interval", fmt::format("{}", 0.05 * time)});
   auto simulation = small_chute::bed(scene);
   Frame<2> frame;

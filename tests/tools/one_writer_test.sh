@@ -26,19 +26,19 @@ refused() {
 # With and without the locks of HDF5, which some file systems do not know.
 for locking in TRUE FALSE; do
   export HDF5_USE_FILE_LOCKING=$locking
-  begin --duration 1e6 -o run.h5
+  begin --duration 1e6 --force -o run.h5
   refused run.h5 $small --overwrite -o run.h5
   refused ./run.h5 $small --overwrite -o ./run.h5 --checkpoint other.chk
   refused run.h5 --restart run.chk -o run.h5
   refused run.h5 --restart run.chk --checkpoint run.chk --overwrite -o run.h5
   refused run.chk $small --overwrite --checkpoint run.chk -o other.h5
-  refused run.chk --restart run.chk --checkpoint run.chk --duration 2e6 -o other.h5
+  refused run.chk --restart run.chk --checkpoint run.chk --duration 2e6 --force -o other.h5
   kill -0 $run || fail "the run was disturbed: $(cat words)"
   kill -9 $run
   wait $run || true
   [ -e run.h5.lock ] || fail "there was no lock"
   code=0
-  timeout --preserve-status -s INT 1 "$bin/grseg-sim" --quiet --restart run.chk -o run.h5 2>words || code=$?
+  timeout --preserve-status -s INT 1 "$bin/grseg-sim" --quiet --force --restart run.chk -o run.h5 2>words || code=$?
   [ $code = 130 ] || fail "the restart of a killed run says: $(cat words)"
   [ ! -e run.h5.lock ] || fail "the lock outlived its run"
   rm run* other* 2>/dev/null || true

@@ -36,8 +36,7 @@ bool read_switch(const std::string& key, const std::string& text)
 double read_length(const std::string& key, const std::string& text, const Scene& scene)
 {
   try {
-    return parse_length_or_metres(text, key,
-                                  {scene.small_diameter, scene.small_diameter * scene.size_ratio});
+    return parse_length(text, key, {scene.small_diameter, scene.small_diameter * scene.size_ratio});
   } catch (const UsageError& wrong) {
     throw SceneError(key, wrong.what());
   }

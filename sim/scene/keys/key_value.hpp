@@ -38,7 +38,7 @@ KeyValue number(Member member, double low, double high)
   return value;
 }
 
-/// In metres. Bounds are written as a user writes lengths: "1e-9", "4dL".
+/// In metres. Bounds are written as a user writes lengths: "1e-9m", "4dL".
 template <class Member>
 KeyValue length(Member member, const char* low, const char* high)
 {

@@ -62,7 +62,7 @@ std::vector<SceneKey> bed_keys()
   using enum KeyRole;
   using enum InParameters;
   return {
-    {"small-diameter", "5mm", length(&Scene::small_diameter, "1e-9", "1e6"), bed, yes,
+    {"small-diameter", "5mm", length(&Scene::small_diameter, "1e-9m", "1e6m"), bed, yes,
      "nominal diameter d_S of the small grains"},
     {"size-ratio", "2", number(&Scene::size_ratio, 1, 100), bed, no,
      "nominal d_L/d_S"},
@@ -160,11 +160,11 @@ std::vector<SceneKey> boundary_keys()
      "of a shear cell's plate on the grains, N/m"},
     {"plate-mass", "", number(&Scene::plate_mass, 1e-60, 1e60), flow, no,
      "of a shear cell's plate, kg (default: that of its grains)"},
-    {"column-width", "40dS", length(&Scene::column_width, "1dS", "1e12"), bed, no,
+    {"column-width", "40dS", length(&Scene::column_width, "1dS", "1e12m"), bed, no,
      "of a column before its gate opens; at least 1dL"},
-    {"outlet", "16dS", length(&Scene::outlet, "1dS", "1e12"), bed, no,
+    {"outlet", "16dS", length(&Scene::outlet, "1dS", "1e12m"), bed, no,
      "width of a hopper's outlet"},
-    {"shake-amplitude", "0", length(&Scene::shake_amplitude, "0", "1e12"), flow, no,
+    {"shake-amplitude", "0", length(&Scene::shake_amplitude, "0", "1e12m"), flow, no,
      "of a bed's base, vertical"},
     {"shake-frequency", "0", number(&Scene::shake_frequency, 0, 1e9), flow, no,
      "of a bed's base, Hz"},
@@ -225,6 +225,11 @@ std::vector<SceneKey> all_keys()
 
 }  // namespace
 
+std::string SceneKey::with_unit(const std::string& text) const
+{
+  return value.kind == "length" ? text + "m" : text;
+}
+
 const std::vector<SceneKey>& scene_keys()
 {
   static const auto keys = all_keys();
@@ -234,8 +239,8 @@ const std::vector<SceneKey>& scene_keys()
 po::options_description scene_options()
 {
   po::options_description options(
-      "Keys of a scene file, and options (the command line wins).\nLengths are metres or carry a "
-      "unit: 5mm, 60dS, 35dL");
+      "Keys of a scene file, and options (the command line wins).\nLengths carry a unit: 5mm, 0.3m, "
+      "60dS, 35dL");
   for (const auto& key : scene_keys()) {
     auto help = key.help;
     if (key.value.kind == "choice" || (key.value.kind == "switch" && !key.value.is_flag))

@@ -17,7 +17,8 @@ struct KeyValue {
   std::string allowed;  ///< the range or the words
   /// Sets the scene's value from what the user wrote; SceneError where the key cannot have it.
   std::function<void(const std::string& key, const std::string& text, Scene&)> read;
-  /// The scene's value as a scene file states it, in SI; "" where it has none.
+  /// The scene's value in SI, without a unit; "" where it has none. read() of a length asks for a unit:
+  /// with_unit().
   std::function<std::string(const Scene&)> text;
   /// The scene's value as a number, 1 for on; of a choice, empty.
   std::function<double(const Scene&)> number;
@@ -46,6 +47,9 @@ struct SceneKey {
   /// KeyRole::machine are in /parameters/scene.
   InParameters stored;
   std::string help;
+
+  /// What KeyValue::text gave, as a scene file states it: a length with its "m".
+  std::string with_unit(const std::string& text) const;
 };
 
 /// The table of all keys: options, --help, scene files, range checks, /parameters, what a restart

@@ -44,16 +44,33 @@ std::string place_of(const std::string& path, const std::string& key)
   return path;
 }
 
+/// "file:12" of the first line that is neither 'key = value' nor a comment, or "file".
+std::string place_of_bad_line(const std::string& text, const std::string& name)
+{
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const auto words = line.substr(0, line.find('#'));
+    if (words.find_first_not_of(" \t\r") != std::string::npos &&
+        words.find('=') == std::string::npos)
+      return fmt::format("{}:{}", name, number);
+  }
+  return name;
+}
+
 std::string without_dashes(std::string option)
 {
   option.erase(0, option.find_first_not_of('-'));
   return option;
 }
 
-/// Stores the keys that `text` sets, but those in `leave_out`. `place` gives the line of a key.
+using ParsedKeys = po::parsed_options;
+
+/// Stores the keys that `text` sets, after `change` had a look at them. `place` gives the line of a key.
 void read_keys(const std::string& text, const std::string& name,
                const std::function<std::string(const std::string&)>& place,
-               const std::vector<std::string>& leave_out, po::variables_map& values)
+               const std::function<void(ParsedKeys&)>& change, po::variables_map& values)
 {
   if (const auto word = placeholder_in(text); !word.empty())
     throw FormatError(fmt::format("{}: no key and no value may hold {}", name, word));
@@ -61,9 +78,7 @@ void read_keys(const std::string& text, const std::string& name,
   std::istringstream in(text);
   try {
     auto parsed = po::parse_config_file(in, keys);
-    std::erase_if(parsed.options, [&](const auto& option) {
-      return std::find(leave_out.begin(), leave_out.end(), option.string_key) != leave_out.end();
-    });
+    change(parsed);
     po::store(parsed, values);
     po::notify(values);
   } catch (const po::unknown_option& unknown) {
@@ -75,13 +90,22 @@ void read_keys(const std::string& text, const std::string& name,
                                   suggestion.empty()
                                       ? "; grseg-sim --help lists all"
                                       : fmt::format(", did you mean '{}'?", suggestion)));
+  } catch (const po::invalid_config_file_syntax&) {
+    throw FormatError(
+        fmt::format("{}: lines are 'key = value' or '# comment'", place_of_bad_line(text, name)));
   } catch (const po::error_with_option_name& wrong) {
     throw FormatError(
         fmt::format("{}: {}", place(without_dashes(wrong.get_option_name())), wrong.what()));
-  } catch (const po::error& wrong) {
-    throw FormatError(
-        fmt::format("{}: {}; lines are 'key = value' or '# comment'", name, wrong.what()));
   }
+}
+
+/// Gives the lengths of a text in SI their unit.
+void add_units(ParsedKeys& parsed)
+{
+  for (auto& option : parsed.options)
+    for (const auto& key : scene_keys())
+      if (option.string_key == key.name && !option.value.empty())
+        option.value[0] = key.with_unit(option.value[0]);
 }
 
 }  // namespace
@@ -90,14 +114,21 @@ void read_scene_file(const std::string& path, po::variables_map& values)
 {
   require_file(path);
   read_keys(
-      text_of(path), path, [&](const std::string& key) { return place_of(path, key); }, {}, values);
+      text_of(path), path, [&](const std::string& key) { return place_of(path, key); },
+      [](ParsedKeys&) {}, values);
 }
 
 void read_scene_text(const std::string& text, const std::string& name,
                      const std::vector<std::string>& leave_out, po::variables_map& values)
 {
+  const auto change = [&](ParsedKeys& parsed) {
+    std::erase_if(parsed.options, [&](const auto& option) {
+      return std::find(leave_out.begin(), leave_out.end(), option.string_key) != leave_out.end();
+    });
+    add_units(parsed);
+  };
   read_keys(
-      text, name, [&](const std::string&) { return name; }, leave_out, values);
+      text, name, [&](const std::string&) { return name; }, change, values);
 }
 
 Scene resolve_scene(const std::string& path, const po::variables_map& given)

@@ -47,7 +47,7 @@ Scene without_round_off(Scene now, const Scene& before)
   for (const auto& key : scene_keys()) {
     const auto text = key.value.text(before);
     if (key.value.text(now) != text && same_setting(key.value.text(now), text))
-      key.value.read(key.name, text, now);
+      key.value.read(key.name, key.with_unit(text), now);
   }
   return now;
 }

@@ -34,7 +34,7 @@ TEST(Length, WithoutAUnitIsRefusedWithWhatItMayMean)
 {
   EXPECT_EQ(refusal("4", paper), "--layer 4 has no unit: 4dS, 4dL or 4m?");
   EXPECT_EQ(refusal("4e-2", {}), "--layer 4e-2 has no unit: 4e-2m or 4e-2mm?");
-  EXPECT_DOUBLE_EQ(parse_length_or_metres("0.02", "layer", paper), 0.02);
+  EXPECT_EQ(parse_length("0", "--layer", paper), 0);
 }
 
 TEST(Length, WithoutKnownDiametersHasNoDiameterUnits)

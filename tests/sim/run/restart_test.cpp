@@ -313,11 +313,11 @@ TEST(Restart, ALengthInOtherUnitsIsNoOtherBed)
   const auto chute = scene({"--length", "70dS"});
   Checkpoint checkpoint;
   checkpoint.scene = to_text(chute);
-  for (const char* length : {"0.35", "350mm", "35cm"}) {
+  for (const char* length : {"0.35m", "350mm", "35cm"}) {
     const auto now = without_round_off(with_words(checkpoint, {"--length", length}), chute);
     EXPECT_EQ(to_text(now), to_text(chute)) << length;
   }
-  const auto longer = without_round_off(with_words(checkpoint, {"--length", "0.351"}), chute);
+  const auto longer = without_round_off(with_words(checkpoint, {"--length", "0.351m"}), chute);
   EXPECT_EQ(longer.length, 0.351);
 }
 
@@ -335,7 +335,7 @@ TEST(Restart, OnlyDurationAndStorageLeaveTheMotionAsItWas)
 TEST(Restart, ATextOfTheSceneGivesTheSameSceneForAnyRatio)
 {
   for (int k = 0; k < 200; ++k) {
-    const auto chute = scene({"--size-ratio", std::to_string(1.1 + 0.0137 * k), "--length", "1"});
+    const auto chute = scene({"--size-ratio", std::to_string(1.1 + 0.0137 * k), "--length", "1m"});
     Checkpoint checkpoint;
     checkpoint.scene = to_text(chute);
     const auto again = scene_of(checkpoint, "run.chk");

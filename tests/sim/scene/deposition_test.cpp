@@ -201,7 +201,7 @@ TEST(Deposition, EndsWhenItIsAskedTo)
 {
   const auto scene = scene_from({"--accuracy", "draft"});
   int steps = 0;
-  const auto listen = [&] {
+  const auto listen = [&](double) {
     if (++steps == 10) throw ToolError(exit_signal, "interrupted");
   };
   EXPECT_THROW(deposit(scene, {.each_step = listen, .slowed = {}, .record = {}}), ToolError);

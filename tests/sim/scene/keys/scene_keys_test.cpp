@@ -177,16 +177,12 @@ TEST(Scene, ItsTextMakesTheSameScene)
 {
   const std::vector<std::string> one{"--phi-large", "0.45", "--slope",      "21.5",
                                      "--rotation",  "off",  "--slope-rate", "0.25"};
-  const std::vector<std::string> tiny{"--small-diameter", "1e-7", "--density",        "1e-3",
-                                      "--duration",       "1e-3", "--frame-interval", "1e-5"};
+  const std::vector<std::string> tiny{"--small-diameter", "1e-7m", "--density",        "1e-3",
+                                      "--duration",       "1e-3",  "--frame-interval", "1e-5"};
   for (const auto& words : {one, tiny}) {
     const auto scene = scene_from(words);
-    const auto path =
-        (fs::temp_directory_path() / ("grseg_scene_" + std::to_string(getpid()) + ".ini")).string();
-    std::ofstream(path) << to_text(scene);
     auto values = parse({});
-    read_scene_file(path, values);
-    fs::remove(path);
+    read_scene_text(to_text(scene), "the scene's text", {}, values);
     EXPECT_EQ(to_text(resolve_scene(values)), to_text(scene));
   }
 }
@@ -209,7 +205,7 @@ TEST(Scene, GrainsUnderAHeavyPlateGetMoreSweeps)
   // Twenty small discs of 0.0785 kg find room under it.
   const auto sweeps = [](const std::vector<std::string>& words) {
     std::vector<std::string> all{"--geometry", "shear", "--phi-large",      "0",
-                                 "--density",  "1000",  "--small-diameter", "0.01",
+                                 "--density",  "1000",  "--small-diameter", "0.01m",
                                  "--length",   "20dS",  "--plate-pressure", "100"};
     all.insert(all.end(), words.begin(), words.end());
     return scene_from(all).solver.min_sweeps;
@@ -226,6 +222,7 @@ TEST(Scene, ValuesOutOfRangeAreRefusedByName)
                                                         {"restitution", "-0.1"},
                                                         {"friction", "nan"},
                                                         {"depth", "0"},
+                                                        {"depth", "60"},
                                                         {"length", "3dL"},
                                                         {"slope", "91"},
                                                         {"step", "0.1"},
@@ -247,6 +244,17 @@ TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLineAndTheNearestKnownOne)
 {
   EXPECT_EQ(complaint("# a chute\nslope = 23\nfrction = 0.5\n"),
             path + ":3: unknown key 'frction', did you mean 'friction'?");
+}
+
+TEST_F(SceneFile, ALengthWithoutAUnitIsNamedWithItsLine)
+{
+  EXPECT_EQ(complaint("# a chute\ndepth = 60\n"),
+            path + ":2: depth 60 has no unit: 60dS, 60dL or 60m?");
+}
+
+TEST_F(SceneFile, ALineThatIsNoKeyAndNoCommentIsNamedByItsNumber)
+{
+  EXPECT_EQ(complaint("slope = 23\n\n  # steeper?\nfriction 0.5\n").find(path + ":4: "), 0);
 }
 
 /// Boost.ProgramOptions would put such a word in its own place again and again.
@@ -313,7 +321,7 @@ std::string reference_of_keys()
   page
       << "# Keys of a scene\n\n"
          "Each key is a line `key = value` of a scene file and an option `--key value` of\n"
-         "`grseg-sim`; the command line wins. Lengths are metres or carry a unit: `5mm`, `2cm`,\n"
+         "`grseg-sim`; the command line wins. Lengths carry a unit: `5mm`, `2cm`, `0.3m`,\n"
          "`60dS`, `35dL` (nominal diameters of the small and large grains). \"Restart\" says\n"
          "whether `--restart` may change the key. The table is that of `sim/scene/keys/keys.cpp`;\n"
          "a test keeps this page equal to it.\n\n"
@@ -357,7 +365,7 @@ TEST(SceneKeys, OfASceneAreReadBackAsTheyAreWritten)
   Scene again;
   for (const auto& key : scene_keys())
     if (const auto text = key.value.text(scene); !text.empty())
-      key.value.read(key.name, text, again);
+      key.value.read(key.name, key.with_unit(text), again);
   EXPECT_EQ(to_text(again), to_text(scene));
 }
 

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run/expected_cost.hpp"
+
+#include "formats/core/errors.hpp"
+#include "formats/core/free_memory.hpp"
+#include "sim/scene/deposition.hpp"
+#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/release.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+namespace grseg {
+namespace {
+
+// Measured on chutes of 3,400 and 13,600 grains.
+constexpr double memory_without_grains = 25e6, memory_of_grain = 5500;  // bytes
+constexpr double contacts_per_grain = 1.7;
+constexpr double usual_grain_step = 4e-7;                   // s, for the choice whether to measure
+constexpr double worth_measuring = 60, measured_for = 0.3;  // s
+
+double bytes_of_frame(const Scene& scene, double grains)
+{
+  const double number = scene.float32 ? 4 : 8, whole = 4;
+  return grains * (7 * number + 2 * whole) + contacts_per_grain * grains * (5 * number + 2 * whole);
+}
+
+/// A small bed of the same grains, which flows as the scene does where that is a chute.
+Scene small_bed(const Scene& scene)
+{
+  auto small = scene;
+  small.geometry = &bed_geometry();
+  small.lateral = Scene::Lateral::periodic;
+  small.base = Scene::Base::wall;
+  small.large_grains = std::nullopt;
+  small.length = 20 * scene.large_diameter;
+  small.depth = std::min(scene.depth, 15 * scene.large_diameter);
+  return small;
+}
+
+/// s for one step of one grain, where the small bed comes to rest.
+std::optional<double> measured_grain_step(const Scene& scene)
+try {
+  using clock = std::chrono::steady_clock;
+  const auto small = small_bed(scene);
+  auto simulation = release(deposit(small), small);
+  const auto begin = clock::now();
+  std::chrono::duration<double> passed{};
+  double steps = 0;
+  while (passed.count() < measured_for) {
+    simulation.advance();
+    ++steps;
+    passed = clock::now() - begin;
+  }
+  return passed.count() / steps / static_cast<double>(simulation.world().grains.size());
+} catch (const ToolError&) {
+  return std::nullopt;
+}
+
+/// Its value with the unit that leaves two or three digits.
+std::string bytes_in_words(double bytes)
+{
+  const char* units[] = {"kB", "MB", "GB", "TB"};
+  int unit = 0;
+  for (bytes /= 1000; bytes >= 999.5 && unit < 3; ++unit) bytes /= 1000;
+  return fmt::format("{:.{}f} {}", bytes, bytes < 9.95 ? 1 : 0, units[unit]);
+}
+
+std::string seconds_in_words(double seconds)
+{
+  if (seconds < 99.5) return fmt::format("{:.0f} seconds", seconds);
+  if (seconds < 5970) return fmt::format("{:.0f} minutes", seconds / 60);
+  return fmt::format("{:.0f} hours", seconds / 3600);
+}
+
+}  // namespace
+
+ExpectedCost expected_cost(const Scene& scene, double begin)
+{
+  ExpectedCost cost;
+  cost.grains = expected_grains(scene);
+  cost.memory = memory_without_grains + memory_of_grain * cost.grains;
+  const double flow = std::max(0.0, scene.duration - begin);
+  const double frames = (flow / scene.frame_interval) *
+                        static_cast<double>(std::min(scene.burst, scene.steps_per_frame()));
+  cost.file = frames * bytes_of_frame(scene, cost.grains);
+  const double deposition = begin > 0 ? 0 : expected_time_to_rest(scene);
+  const double grain_steps = cost.grains * (flow + deposition) / scene.step;
+  if (grain_steps * usual_grain_step < worth_measuring) return cost;
+  cost.seconds = measured_grain_step(scene);
+  if (cost.seconds) *cost.seconds *= grain_steps;
+  return cost;
+}
+
+std::string to_text(const ExpectedCost& cost)
+{
+  auto text = fmt::format("{:.0f} grains, {} of memory, a file of {}", cost.grains,
+                          bytes_in_words(cost.memory), bytes_in_words(cost.file));
+  if (cost.seconds) text += ", about " + seconds_in_words(*cost.seconds);
+  return text;
+}
+
+void require_room(const ExpectedCost& cost, const std::string& output)
+{
+  const auto require = [](double needed, double free, const std::string& where) {
+    if (needed > free)
+      throw UsageError(fmt::format(
+          "this run needs about {} {}, where {} are free; choose a smaller scene, or --force it",
+          bytes_in_words(needed), where, bytes_in_words(free)));
+  };
+  require(cost.memory, free_memory(), "of memory");
+  std::error_code error;
+  const auto folder = std::filesystem::absolute(output, error).parent_path();
+  const auto space = std::filesystem::space(folder, error);
+  if (!error) require(cost.file, static_cast<double>(space.available), "on the disk of " + output);
+}
+
+}  // namespace grseg

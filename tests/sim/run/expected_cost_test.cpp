@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/run/expected_cost.hpp"
+
+#include "formats/trajectory/reader.hpp"
+#include "sim/run/run.hpp"
+#include "tests/folder.hpp"
+#include "tests/sim/small_chute.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace grseg {
+namespace {
+
+TEST(ExpectedCost, OfAChuteIsThatOfItsFileWithinAFactorOfOneAndAHalf)
+{
+  const auto scene = small_chute::scene({"--depth", "40dS", "--length", "20dL", "--duration", "2"});
+  const auto cost = expected_cost(scene);
+  RunOptions options;
+  options.output = "expected_cost.h5";
+  options.overwrite = options.quiet = true;
+  simulate(scene, options);
+  const auto file = static_cast<double>(std::filesystem::file_size(options.output));
+  EXPECT_LT(std::abs(std::log(cost.file / file)), std::log(1.5));
+  const auto grains = TrajectoryReader(options.output).grains().size();
+  EXPECT_NEAR(cost.grains, static_cast<double>(grains), 0.05 * static_cast<double>(grains));
+  std::filesystem::remove(options.output);
+}
+
+TEST(ExpectedCost, OfARestartLeavesOutWhatIsDone)
+{
+  const auto scene = small_chute::scene({"--duration", "100"});
+  EXPECT_NEAR(expected_cost(scene, 75).file, expected_cost(scene).file / 4,
+              1e-9 * expected_cost(scene).file);
+}
+
+/// 24 million grains in 0.12 million layers would need 132 GB.
+TEST(ExpectedCost, ABedThatDoesNotFitIntoMemoryIsRefusedUnlessItIsForced)
+{
+  ExpectedCost cost;
+  cost.memory = 1e18;
+  try {
+    require_room(cost, "run.h5");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()).find("this run needs about 1000000 TB of memory"), 0)
+        << error.what();
+  }
+  cost = {};
+  cost.file = 1e18;
+  EXPECT_THROW(require_room(cost, "run.h5"), UsageError);
+  cost.file = 1e3;
+  EXPECT_NO_THROW(require_room(cost, "run.h5"));
+}
+
+TEST(ExpectedCost, IsSaidInFewWords)
+{
+  EXPECT_EQ(to_text(ExpectedCost{3357, 43.4e6, 1.46e9, 190.0}),
+            "3357 grains, 43 MB of memory, a file of 1.5 GB, about 3 minutes");
+  EXPECT_EQ(to_text(ExpectedCost{100, 26e6, 9960, std::nullopt}),
+            "100 grains, 26 MB of memory, a file of 10 kB");
+}
+
+}  // namespace
+}  // namespace grseg
