@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/partition_data.hpp"
 
-#include "analysis/fit/mixtures.hpp"
+#include "analysis/fit/flows.hpp"
 #include "analysis/fit/over.hpp"
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/table_doubts.hpp"
@@ -71,7 +71,6 @@ void add_points(const FitData& data, const FitSettings& settings, const std::str
     arrays.add(prefix + name, list(points, of));
   };
   add("phi_large", [](const FitPoint& p) { return p.phi_large; });
-  add("weight", [](const FitPoint& p) { return p.weight; });
   add("frames", [](const FitPoint& p) { return p.frames; });
   add("window", [](const FitPoint& p) { return static_cast<double>(p.window); });
   const auto add_key = [&](const char* name, double LayerKey::*value) {
@@ -120,7 +119,7 @@ FitData layer_means(const std::vector<FitTable>& tables, const SpeciesPair& pair
 /// What tables of one kind come to: the samples of the fit, and the layers.
 struct Selected {
   std::vector<FitTable> tables;
-  std::vector<Mixture> mixtures;
+  std::vector<Flow> flows;
   FitData samples, layers;
 };
 Selected select(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
@@ -130,7 +129,7 @@ Selected select(const std::vector<Table>& tables, const std::vector<PartitionRul
   const auto& species = all.tables.front().species;
   if (species.size() < 2)
     throw RunError("there is one species of grains, and B compares two; make them with --classes");
-  all.mixtures = find_mixtures(all.tables, "auto");
+  all.flows = find_flows(all.tables, "auto");
   const auto pair = settings.pair.empty() ? SpeciesPair{} : parse_pair(settings.pair, species);
   all.samples = select_fit_data(all.tables, Quantity::contact, settings.filters, {pair});
   all.layers = layer_means(all.tables, pair);
@@ -155,33 +154,27 @@ void add_powers(const PartitionInput& input, const PartitionSettings& settings,
   arrays.add("layer_power_large", of_layers);
 }
 
-Json with_interval(double value, double low, double high)
-{
-  return Json::array({value, low, high});
-}
-Json with_interval(const RuleFit& fit, double Estimators::*place)
-{
-  return with_interval(fit.value.*place, fit.low.*place, fit.high.*place);
-}
 Json with_interval(const Estimate& estimate)
 {
-  return with_interval(estimate.value, estimate.low, estimate.high);
+  return Json::array({estimate.value, estimate.low, estimate.high});
+}
+Json b_with_interval(const RuleFit& fit)
+{
+  return with_interval({fit.value.B, fit.low.B, fit.high.B});
 }
 
-Json rule_object(const RuleFit& fit, const std::vector<Mixture>& mixtures)
+Json rule_object(const RuleFit& fit, const std::vector<Flow>& flows)
 {
-  Json object{{"name", fit.rule.name()},
-              {"mixture", fit.mixture            ? mixtures[*fit.mixture].name
-                          : mixtures.size() == 1 ? ""
-                                                 : "all mixtures"},
-              {"used_by", fit.rule.used_by()},
-              {"share", fit.share},
-              {"points", fit.points},
-              {"not_positive", fit.not_positive},
-              {"over", word_of(fit.over, overs)},
-              {"doubt", fit.doubt}};
-  for (const auto& [name, place] : estimator_columns) object[name] = with_interval(fit, place);
-  return object;
+  return {{"name", fit.rule.name()},
+          {"flow", fit.flow            ? flows[*fit.flow].name
+                   : flows.size() == 1 ? ""
+                                       : "all flows"},
+          {"used_by", fit.rule.used_by()},
+          {"share", fit.share},
+          {"points", fit.points},
+          {"over", word_of(fit.over, overs)},
+          {"doubt", fit.doubt},
+          {"B", b_with_interval(fit)}};
 }
 
 /// B over the share p with its band, and of two species where it is 0.
@@ -190,15 +183,10 @@ Json scan_object(const Selected& selected, const PartitionSettings& settings)
   const Bootstrap bootstrap(selected.samples.runs, settings.resampling.samples,
                             settings.resampling.seed);
   const auto scan = scan_partition(selected.samples, grid, settings.fit, bootstrap);
-  Json object{{"p", grid.shares()}, {"B_sums", Json::array()}, {"B_half", Json::array()}};
-  for (const auto& fit : scan.fits) {
-    object["B_sums"].push_back(with_interval(fit, &Estimators::B_sums));
-    object["B_half"].push_back(with_interval(fit, &Estimators::B_half));
-  }
-  if (selected.samples.species.size() > 2) return object;
-  object["p_zero"] =
-      with_interval(scan.p_zero, scan.p_zero_interval.low, scan.p_zero_interval.high);
-  object["p_zero_sums"] = with_interval(scan.p_zero_sums.estimate());
+  Json object{{"p", grid.shares()}, {"B", Json::array()}};
+  for (const auto& fit : scan.fits) object["B"].push_back(b_with_interval(fit));
+  if (selected.samples.species.size() <= 2)
+    object["p_zero"] = with_interval(scan.line.p_zero.estimate());
   return object;
 }
 
@@ -209,7 +197,7 @@ Json settings_object(const Selected& selected, const PartitionSettings& settings
   Json object{{"component", word_of(settings.fit.component, components)},
               {"base", word_of(settings.fit.base, base_parts)},
               {"ratio_range", fmt::format("{:g}:{:g}", filters.ratio_low, filters.ratio_high)},
-              {"heights", filters.heights.empty() ? "all" : filters.heights},
+              {"heights", heights_in_words(filters.heights)},
               {"min_solid", format_number(filters.min_solid)},
               {"rows", data.count.sentence()},
               {"runs", fmt::format("{}", data.runs.size())},
@@ -261,11 +249,11 @@ Json partition_data(const PartitionInput& input, const PartitionSettings& settin
   for (auto& fit : fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
                              settings.rules, settings.fit, settings.resampling, false)) {
     for (const auto& doubt : doubts) add_doubt(fit, doubt);
-    object["rules"].push_back(rule_object(fit, selected.mixtures));
+    object["rules"].push_back(rule_object(fit, selected.flows));
   }
   const auto over = object["rules"].back()["over"].get<std::string>();
   object["over"] = over;
-  object["over_words"] = estimand_words(choose(over, "over", overs), selected.mixtures.size());
+  object["over_words"] = estimand_words(choose(over, "over", overs), selected.flows.size());
   return object;
 }
 

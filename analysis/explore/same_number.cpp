@@ -59,7 +59,7 @@ std::string fit_options(const ExploreSettings& own, bool given)
   const ExploreSettings usual;
   Options options;
   if (given) add_times(options, own.frames.windows);
-  options.add("--heights", own.partition.filters.heights, std::string());
+  options.add("--heights", own.partition.filters.heights, std::string(inside_the_bed));
   options.add("--component", own.component, usual.component);
   options.add("--base-part", own.base, usual.base);
   options.add("--bootstrap", own.bootstrap, usual.bootstrap);

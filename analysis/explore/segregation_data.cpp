@@ -53,8 +53,7 @@ Json segregation_of(FrameLoop& loop, const RateFilter& filter)
 Json segregation_data(FrameLoop& loop, const std::string& heights)
 {
   if (loop.species().size() != 2) return nullptr;
-  const LengthUnits units{loop.run().small_diameter(), loop.run().large_diameter()};
-  const RateFilter filter{parse_heights(heights, units)};
+  const RateFilter filter{heights};
   return with_dimension(loop.dimension(), [&](auto d) { return segregation_of<d>(loop, filter); });
 }
 

@@ -41,8 +41,9 @@ void ExploreSettings::add_to(po::options_description& options)
           .c_str());
   add("pair", po::value(&partition.pair)->value_name("A,B"),
       "of more than two species the two that are compared, by name or number (default: 1,2)");
-  add("heights", po::value(&partition.filters.heights)->value_name("y0:y1"),
-      "B is of the layers between, e.g. 4dS:56dS or 4dS: (default: all)");
+  add("heights",
+      po::value(&partition.filters.heights)->value_name("y0:y1")->default_value(inside_the_bed),
+      fmt::format("layers of which B is made: {}", heights_help).c_str());
   add("bootstrap", po::value(&bootstrap)->default_value(bootstrap)->value_name("N"),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", po::value(&seed)->default_value(seed)->value_name("N"), "seed of the samples");
@@ -58,7 +59,7 @@ void ExploreSettings::check(const po::variables_map& values)
   if (seed < 0) throw UsageError("--seed must not be negative");
   partition.fit.component = choose(component, "--component", components);
   if (!base.empty()) choose(base, "--base-part", base_parts);
-  parse_heights(partition.filters.heights, {1, 1});
+  check_heights(partition.filters.heights);
   const auto first = parse_rule(start);
   if (first.kind == PartitionRule::Kind::power &&
       !(first.value >= 0 && first.value <= highest_power))

@@ -61,24 +61,6 @@ SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
   };
 }
 
-/// The columns that count the grains of each species; none where one of them is missing.
-std::vector<std::size_t> grain_columns(const Table& table, const SpeciesList& species)
-{
-  std::vector<std::size_t> columns;
-  for (const auto& word : column_words(species)) {
-    const auto name = fmt::format("grains_{}", word);
-    if (!table.has_column(name)) return {};
-    columns.push_back(table.column(name));
-  }
-  return columns;
-}
-
-/// What a grain of nominal diameter covers, m^2 or m^3.
-double content_of_grain(double diameter, int dimension)
-{
-  return dimension == 3 ? grain_volume<3>(diameter / 2) : grain_volume<2>(diameter / 2);
-}
-
 std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Quantity quantity,
                               const std::vector<PartitionRule>& rules)
 {
@@ -90,23 +72,11 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
 
   const auto keys = read_layer_keys(table, "a table of grseg-stress or grseg-kinetic has it");
   const auto bottom = table.column("y0");
-  const auto counts = grain_columns(table, species);
-  const auto grains_in = [&](std::size_t row, const std::vector<double>& content) {
-    std::vector<double> grains;
-    grains.reserve(species.size());
-    for (const auto column : counts) grains.push_back(non_negative_cell(table, row, column));
-    if (!counts.empty() || quantity == Quantity::kinetic) return grains;
-    for (std::size_t k = 0; k < species.size(); ++k)
-      grains.push_back(content[k] / content_of_grain(species[k].diameter, dimension_of(table)));
-    return grains;
-  };
   std::vector<FitRow> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     finite_cell(table, row, bottom);  // these tables have no row for the whole bed
-    auto& added = rows.emplace_back(FitRow{keys[row], sums(row), {}});
-    added.sums.volume = keys[row].volume;
-    added.grains = grains_in(row, added.sums.content);
+    rows.emplace_back(FitRow{keys[row], sums(row)}).sums.volume = keys[row].volume;
   }
   return rows;
 }
@@ -131,16 +101,12 @@ bool passes(const FitRow& row, const SpeciesPair& pair, const FitFilters& filter
   };
   ++count.rows;
   if (!range.holds_window(row.key)) return goes_to(count.outside_times);
-  if (!range.holds_layer(row.key)) return goes_to(count.outside_heights);
   if (!(small + large > 0) || !(row.key.frames > 0)) return goes_to(count.without_grains);
   if (!(small > 0)) return goes_to(count.without_small);
   if (!(large > 0)) return goes_to(count.without_large);
+  if (!range.holds_layer(row.key)) return goes_to(count.outside_heights);
   if (ratio < filters.ratio_low || ratio > filters.ratio_high) return goes_to(count.outside_ratio);
   if (row.solid() < filters.min_solid * median_solid) return goes_to(count.below_solid);
-  if (row.grains.empty())
-    ++count.uncounted;
-  else if (std::min(row.grains[pair.smaller], row.grains[pair.larger]) < filters.min_grains)
-    return goes_to(count.few_grains);
   ++count.used;
   return true;
 }
@@ -170,7 +136,11 @@ UsedRows used_rows(const FitTable& run, const FitFilters& filters,
   const auto& table = *run.table;
   const LengthUnits units{table.header_positive("small_diameter"),
                           table.header_positive("large_diameter")};
-  const RowRange range{filters.begin, filters.end, parse_heights(filters.heights, units)};
+  std::vector<LayerSolid> layers;
+  layers.reserve(run.rows.size());
+  for (const auto& row : run.rows)
+    layers.push_back({row.key.bottom, row.key.top, row.key.frames, row.solid()});
+  const RowRange range{filters.begin, filters.end, parse_heights(filters.heights, units, layers)};
   UsedRows used;
   for (const auto& row : run.rows)
     for (const auto& pair : pairs)
@@ -184,11 +154,11 @@ using Observations = std::map<std::pair<const Table*, Span>, std::size_t>;
 Observations observations_of(const std::vector<FitTable>& tables, const std::vector<UsedRows>& used,
                              FitData& data)
 {
-  using Run = std::pair<std::size_t, std::size_t>;  // and mixture
+  using Run = std::pair<std::size_t, std::size_t>;  // and flow
   std::vector<Run> order;
   std::map<Run, std::vector<TableWindow>> windows_of_run;
   for (std::size_t k = 0; k < tables.size(); ++k) {
-    const Run run(tables[k].run, tables[k].mixture);
+    const Run run(tables[k].run, tables[k].flow);
     if (!windows_of_run.contains(run)) order.push_back(run);
     auto& windows = windows_of_run[run];
     std::set<Span> spans;
@@ -206,7 +176,7 @@ Observations observations_of(const std::vector<FitTable>& tables, const std::vec
     first += line.count;
     data.still += line.still;
     data.runs.push_back(line.count);
-    data.mixtures.push_back(run.second);
+    data.flows.push_back(run.second);
   }
   return numbers;
 }
@@ -260,16 +230,16 @@ double FitRow::solid() const
   return std::accumulate(sums.content.begin(), sums.content.end(), 0.0) / sums.volume;
 }
 
-std::size_t FitData::number_of_mixtures() const
+std::size_t FitData::number_of_flows() const
 {
-  return std::max<std::size_t>(1, std::set(mixtures.begin(), mixtures.end()).size());
+  return std::max<std::size_t>(1, std::set(flows.begin(), flows.end()).size());
 }
 
-std::vector<std::size_t> FitData::mixtures_of_windows() const
+std::vector<std::size_t> FitData::flows_of_windows() const
 {
   std::vector<std::size_t> all;
   for (std::size_t run = 0; run < runs.size(); ++run)
-    all.insert(all.end(), runs[run], mixture_of(run));
+    all.insert(all.end(), runs[run], flow_of(run));
   return all;
 }
 
@@ -280,13 +250,12 @@ std::string FilterCount::sentence() const
     if (n > 0) text += fmt::format(", {} {}", n, why);
   };
   add(outside_times, "outside --begin and --end");
-  add(outside_heights, "outside --heights");
   add(without_grains, "without grains");
   add(without_small, "without small grains");
   add(without_large, "without large grains");
+  add(outside_heights, "outside --heights");
   add(outside_ratio, "outside --ratio-range");
   add(below_solid, "below --min-solid");
-  add(few_grains, "with fewer grains of the rarer species than --min-grains");
   return text;
 }
 
@@ -322,9 +291,16 @@ FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
   if (data.samples.empty()) {
     const auto& count = data.count;
     const bool one_species = count.without_small + count.without_large > 0 &&
-                             count.outside_ratio + count.below_solid == 0;
-    throw RunError(fmt::format("no usable points: {}{}", count.sentence(),
-                               one_species ? "; B needs layers that hold both species" : ""));
+                             count.outside_heights + count.outside_ratio + count.below_solid == 0;
+    const bool shallow = filters.heights == inside_the_bed && count.outside_heights > 0 &&
+                         count.outside_ratio + count.below_solid == 0;
+    throw RunError(fmt::format(
+        "no usable points: {}{}", count.sentence(),
+        one_species ? "; B needs layers that hold both species"
+        : shallow
+            ? "; the bed is too shallow to leave out 4 d_S at its base and under its surface: take "
+              "--heights all, or a smaller --layer of the sums"
+            : ""));
   }
   return data;
 }

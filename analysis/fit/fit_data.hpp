@@ -27,15 +27,12 @@ inline constexpr Choice<Component> components[] = {
 
 /// Which rows of the tables are points of the fit.
 struct FitFilters {
-  double ratio_low = 0.01, ratio_high = 100;  // of phi_S/phi_L
-  double min_solid = 0.5;                     // of the run's median solid fraction
-  // Of the rarer species of the two in a layer, mean over the window. With one or two of them the
-  // mean of ln(y/x) is off: half the relative variance of a species' stress goes into it.
-  // Off unless asked for: a choice by the grains of each window selects by chance, too.
-  double min_grains = 0;
+  double ratio_low = 0.01, ratio_high = 100;                // of phi_S/phi_L
+  double min_solid = 0.5;                                   // of the run's median solid fraction
   double begin = -std::numeric_limits<double>::infinity();  // s, windows lie in [begin, end]
   double end = std::numeric_limits<double>::infinity();
-  std::string heights{};  // between which layers lie, as on the command line: "4dS:56dS"; "": all
+  std::string heights =
+      "all";  // between which layers lie, as on the command line (height_range.hpp)
 
   bool all_times() const { return std::isinf(begin) && std::isinf(end); }
 };
@@ -63,8 +60,7 @@ struct LayerSample {
 /// How many rows were used, and why the others were not.
 struct FilterCount {
   std::size_t rows = 0, outside_times = 0, without_grains = 0, without_small = 0, without_large = 0,
-              outside_ratio = 0, below_solid = 0, outside_heights = 0, few_grains = 0, used = 0;
-  std::size_t uncounted = 0;  // of those used, how many had no number of grains to judge
+              outside_ratio = 0, below_solid = 0, outside_heights = 0, used = 0;
 
   /// "320 rows, 20 without grains, ...": names the options that removed them.
   std::string sentence() const;
@@ -73,42 +69,38 @@ struct FilterCount {
 struct FitData {
   Quantity quantity = Quantity::contact;
   int dimension = 2;
-  RunLengths runs;                    // observations of each run: windows with samples, in line
-  std::vector<std::size_t> mixtures;  // of each run (mixtures.hpp); empty: all are of one
-  std::size_t still = 0;              // windows that add no observation, since nothing moved
-  std::vector<std::string> tables;    // their names
-  SpeciesList species;                // of the first; those of the others have the same names
-  double window = 0;                  // s, the first one's length
+  RunLengths runs;                  // observations of each run: windows with samples, in line
+  std::vector<std::size_t> flows;   // of each run (flows.hpp); empty: all are of one
+  std::size_t still = 0;            // windows that add no observation, since nothing moved
+  std::vector<std::string> tables;  // their names
+  SpeciesList species;              // of the first; those of the others have the same names
+  double window = 0;                // s, the first one's length
   std::vector<ContactSums<3>>
       rows;  // kinetic: species alone, nothing mixed, so every rule gives the
              // same
   std::vector<LayerSample> samples;
   FilterCount count;
 
-  std::size_t mixture_of(std::size_t run) const { return mixtures.empty() ? 0 : mixtures[run]; }
-  std::size_t number_of_mixtures() const;  // that have runs
-  std::vector<std::size_t> mixtures_of_windows() const;
+  std::size_t flow_of(std::size_t run) const { return flows.empty() ? 0 : flows[run]; }
+  std::size_t number_of_flows() const;  // that have runs
+  std::vector<std::size_t> flows_of_windows() const;
 };
 
 /// A row of a table and the window and layer it belongs to.
 struct FitRow {
   LayerKey key;
   ContactSums<3> sums;
-  std::vector<double> grains;  // mean number by species; empty where it is not known
 
   double solid() const;  // solid fraction
 };
 
 /// The rows of one table, its run's median solid fraction and its species.
-///
-/// Grains: as counted, where the table has columns "grains_S", "grains_L"; otherwise the species'
-/// area or volume over that of a grain of nominal diameter; of masses without a count unknown.
 struct FitTable {
   const Table* table;
   SpeciesList species;
   std::vector<FitRow> rows;
   double median_solid = 0;
-  std::size_t mixture = 0;
+  std::size_t flow = 0;
   std::size_t run = 0;  // the same of tables of one run
 };
 
@@ -119,7 +111,7 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
                                       const std::vector<PartitionRule>& rules);
 
 /// The layers and windows of all tables that pass the filters, with the samples of `pairs`; the windows
-/// of tables of one run and mixture stand in line (table_windows.hpp). phi is made of areas or volumes, or of masses (kinetic, where all species have
+/// of tables of one run and flow stand in line (table_windows.hpp). phi is made of areas or volumes, or of masses (kinetic, where all species have
 /// one density). RunError, saying what removed them, where nothing is left.
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs);

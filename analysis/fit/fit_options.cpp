@@ -56,6 +56,9 @@ po::options_description FitOptions::description()
   add("component", text(component, "NAME")->default_value("yy"), list_of(components).c_str());
   add("quantity", text(quantity, "NAME")->default_value("contact"),
       (list_of(quantities) + " stress").c_str());
+  add("fit", text(fit, "paper"),
+      "also what Staron & Phillips (2015) fit: the slope s of sigma^S/sigma^L over phi_S/phi_L, B of "
+      "it, and k (phi_S/phi_L)^a");
   add("base-part", text(base, "NAME"),
       ("part of contacts with base and walls: " + list_of(base_parts) +
        " (default: as in the table)")
@@ -67,24 +70,21 @@ po::options_description FitOptions::description()
   add("scan", text(scan, "p0:p1:dp"), "print B over the share p instead of the rules");
   add("over", text(over, "NAME"),
       ("what intervals are over, in one row per rule: " + list_of(overs) +
-       " (default: windows of one run, runs of one mixture; of several mixtures a row of each over "
-       "its runs, then one of all over mixtures)")
+       " (default: windows of one run, runs of one flow; of several flows each over its runs, then "
+       "all over flows)")
           .c_str());
-  add("mixtures", text(mixtures, "N,N,...")->default_value("auto"),
-      "how many of the tables, in their order, are runs of each mixture; auto: those that agree in "
+  add("flows", text(flows, "N,N,...")->default_value("auto"),
+      "how many of the tables, in their order, are runs of each flow; auto: those that agree in "
       "what they record of the flow and in overall composition");
   add("bootstrap", number(bootstrap, "N")->default_value(1000),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", number(seed, "N")->default_value(1), "seed of the samples");
   add("ratio-range", text(ratio_range, "a:b")->default_value("0.01:100"),
       "phi_S/phi_L of the layers that take part");
-  add("heights", text(filters.heights, "y0:y1"),
-      "layers that take part lie between, e.g. 4dS:56dS or 4dS: (default: all)");
+  add("heights", text(filters.heights, "y0:y1")->default_value(inside_the_bed),
+      fmt::format("layers that take part: {}", heights_help).c_str());
   add("min-solid", number(filters.min_solid, "X")->default_value(0.5, "0.5"),
       "least solid fraction of a layer, in units of the run's median");
-  add("min-grains", number(filters.min_grains, "N")->default_value(0),
-      "least grains of the rarer species in a layer, mean over the window; 0: off, because choosing "
-      "by a number that fluctuates is a bias of its own (B_sums needs no such choice)");
   add("begin", number(filters.begin, "s"), "first time of the windows that take part");
   add("end", number(filters.end, "s"), "last time of the windows that take part");
   add("short", po::bool_switch(&short_form),
@@ -106,11 +106,11 @@ void FitOptions::check(const po::variables_map& values)
   if (std::isnan(filters.begin) || std::isnan(filters.end))
     throw UsageError("--begin and --end are times in seconds");
   if (!(filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
-  if (!(filters.min_grains >= 0)) throw UsageError("--min-grains must not be negative");
   if (json && short_form) throw UsageError("--short and --json exclude each other");
   if (!over.empty()) choose(over, "--over", overs);
+  if (!fit.empty() && fit != "paper") throw UsageError(unknown_word("--fit", fit, {"paper"}));
   parse_rules(partition);
-  parse_heights(filters.heights, {1, 1});
+  check_heights(filters.heights);
   if (!scan.empty()) parse_scan(scan);
   if (quantity == "kinetic")
     for (const char* option : {"partition", "scan", "base-part"})

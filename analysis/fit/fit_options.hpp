@@ -13,7 +13,7 @@ namespace grseg {
 /// What the command line of grseg-fit says, mostly as typed.
 struct FitOptions {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range, pair, over, mixtures;
+  std::string component, quantity, base, scan, ratio_range, pair, over, flows, fit;
   OutputOptions output;
   int bootstrap = 0;
   long seed = 0;
@@ -23,7 +23,7 @@ struct FitOptions {
   po::options_description description();
   /// Refuses what cannot be meant, before any table is read, and sets `filters` from the words.
   void check(const po::variables_map& values);
-  /// Whether a short table is printed: on a terminal, 17 digits of 48 columns are of no use.
+  /// Whether a short table is printed: on a terminal, 17 digits are of no use.
   bool prints_short() const;
 };
 

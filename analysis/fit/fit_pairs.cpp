@@ -45,9 +45,9 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
   for (const auto& rule : rules) {
     const auto first = fits.size();
     for (const auto& pair : pairs) {
-      auto of_pair = fit_mixtures(
-          pairs.size() == 1 ? data : select_fit_data(tables, quantity, filters, {pair}), rule,
-          settings, resampling);
+      auto of_pair =
+          fit_flows(pairs.size() == 1 ? data : select_fit_data(tables, quantity, filters, {pair}),
+                    rule, settings, resampling);
       if (settings.over == Over::automatic)
         fits.insert(fits.end(), of_pair.of_each.begin(), of_pair.of_each.end());
       fits.push_back(std::move(of_pair.all));
@@ -55,7 +55,7 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
     if (!with_exponent || !rule.adds_up()) continue;
     const auto exponent = size_exponent(data, rule, settings, resampling);
     for (auto fit = first; fit < fits.size(); ++fit)
-      if (!fits[fit].mixture) fits[fit].size_exponent = exponent;
+      if (!fits[fit].flow) fits[fit].size_exponent = exponent;
   }
   return fits;
 }

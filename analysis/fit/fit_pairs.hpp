@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
-#include "analysis/fit/fit_mixtures.hpp"
+#include "analysis/fit/fit_flows.hpp"
 #include "analysis/fit/rule_fit.hpp"
 
 #include <string>
@@ -16,7 +16,7 @@ SpeciesPair parse_pair(const std::string& text, const SpeciesList& species);
 
 /// Every rule for every pair, rule by rule, each pair over its own layers and windows; and, if
 /// asked for, the exponent of sizes of each rule over all of these pairs. Where there are several
-/// mixtures and `settings` leaves open what intervals are over, each mixture has its own fit before
+/// flows and `settings` leaves open what intervals are over, each flow has its own fit before
 /// that of all.
 std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity quantity,
                                const FitFilters& filters, const std::vector<SpeciesPair>& pairs,

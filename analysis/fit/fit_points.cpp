@@ -60,12 +60,6 @@ std::vector<FitPoint> points_of(const FitData& data, const PartitionRule& rule,
 
 }  // namespace
 
-bool has_stresses(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
-{
-  const auto points = points_of(data, rule, settings);
-  return std::all_of(points.begin(), points.end(), is_finite);
-}
-
 std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings)
 {

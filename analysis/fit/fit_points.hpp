@@ -33,9 +33,6 @@ struct FitSettings {
   Over over = Over::automatic;  // what intervals are over
 };
 
-/// Whether every sum that the rule and the component need was kept.
-bool has_stresses(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
-
 /// FormatError, naming the table, where a stress is not finite because a sum was not kept.
 std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings);

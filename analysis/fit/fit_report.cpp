@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <set>
 
 namespace grseg {
@@ -19,63 +18,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A number of a rule's row behind the estimators. To add one is to add a line here (and a key in
-/// rule_object, where JSON is to have it).
-struct RuleColumn {
-  const char* name;
-  double (*of)(const RuleFit&);
-};
-constexpr RuleColumn rule_columns[] = {
-    {"neutral", [](const RuleFit& fit) { return fit.neutral; }},
-    {"minus_size", [](const RuleFit& fit) { return fit.minus_size.value; }},
-    {"minus_size_low", [](const RuleFit& fit) { return fit.minus_size.interval().low; }},
-    {"minus_size_high", [](const RuleFit& fit) { return fit.minus_size.interval().high; }},
-    {"not_positive", [](const RuleFit& fit) { return static_cast<double>(fit.not_positive); }},
-    {"autocorrelation_time[windows]", [](const RuleFit& fit) { return fit.dependence.time; }},
-    {"block_length[windows]",
-     [](const RuleFit& fit) { return static_cast<double>(fit.dependence.block); }},
-    {"effective_windows", [](const RuleFit& fit) { return fit.dependence.effective_windows; }},
-    {"B_half_windows_low", [](const RuleFit& fit) { return fit.B_half_windows.low; }},
-    {"B_half_windows_high", [](const RuleFit& fit) { return fit.B_half_windows.high; }},
-    {"share", [](const RuleFit& fit) { return fit.share; }},
-    {"B_yy", [](const RuleFit& fit) { return fit.B_yy.value; }},
-    {"B_yy_low", [](const RuleFit& fit) { return fit.B_yy.low; }},
-    {"B_yy_high", [](const RuleFit& fit) { return fit.B_yy.high; }},
-    {"B_pressure", [](const RuleFit& fit) { return fit.B_pressure.value; }},
-    {"B_pressure_low", [](const RuleFit& fit) { return fit.B_pressure.low; }},
-    {"B_pressure_high", [](const RuleFit& fit) { return fit.B_pressure.high; }},
-    {"p_zero_sums", [](const RuleFit& fit) { return fit.p_zero_sums.value; }},
-    {"p_zero_sums_low", [](const RuleFit& fit) { return fit.p_zero_sums.interval().low; }},
-    {"p_zero_sums_high", [](const RuleFit& fit) { return fit.p_zero_sums.interval().high; }},
-    {"B_sums_windows_low", [](const RuleFit& fit) { return fit.B_sums_windows.low; }},
-    {"B_sums_windows_high", [](const RuleFit& fit) { return fit.B_sums_windows.high; }},
-};
-
-/// The names of a mixture's tables; "-" where one is not known.
-std::vector<std::string> tables_of(const FitReport& report, const Mixture& mixture)
+/// The names of a flow's tables; "-" where one is not known.
+std::vector<std::string> tables_of(const FitReport& report, const Flow& flow)
 {
   std::vector<std::string> names;
-  names.reserve(mixture.tables.size());
-  for (const auto table : mixture.tables)
+  names.reserve(flow.tables.size());
+  for (const auto table : flow.tables)
     names.push_back(table < report.table_names.size() ? printable(report.table_names[table]) : "-");
   return names;
 }
 
-/// "Phi_L = 0.06, 4 tables, 1.7 % of the weight of B_half, 3.1 % of that of B_sums: a.tsv b.tsv"
-std::string mixture_line(const FitReport& report, std::size_t m)
+/// "Phi_L = 0.06, 4 tables, 3.1 % of the weight: a.tsv b.tsv"
+std::string flow_line(const FitReport& report, std::size_t m)
 {
-  const auto& mixture = report.mixtures[m];
-  return fmt::format("{}, {}, {}: {}", mixture.name, counted(mixture.tables.size(), "table"),
-                     share_words(report, m), fmt::join(tables_of(report, mixture), " "));
-}
-
-/// B_half of a population, its columns "B_equal_mixtures", "B_equal_mixtures_low" ...; of B_sums
-/// with `stem` "B_sums_".
-std::string column_of_population(const char* stem, Over over)
-{
-  std::string name = std::string(stem) + word_of(over, overs);
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
+  const auto& flow = report.flows[m];
+  return fmt::format("{}, {}, {}: {}", flow.name, counted(flow.tables.size(), "table"),
+                     share_words(report, m), fmt::join(tables_of(report, flow), " "));
 }
 
 Header header_of(const FitReport& report)
@@ -84,8 +42,8 @@ Header header_of(const FitReport& report)
   for (const auto& input : report.inputs) lines.emplace_back("input", input);
   lines.insert(lines.end(), report.trust.begin(), report.trust.end());
   for (const auto& line : report.history) lines.emplace_back("history", line);
-  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
-    lines.emplace_back("mixture", mixture_line(report, m));
+  for (std::size_t m = 0; m < report.flows.size(); ++m)
+    lines.emplace_back("flow", flow_line(report, m));
   for (const auto& names : report.shared_runs)
     lines.emplace_back("one run", fmt::format("{}", fmt::join(names, " ")));
   for (const auto& [over, words] : estimands(report))
@@ -94,80 +52,119 @@ Header header_of(const FitReport& report)
   return lines;
 }
 
-/// Those that have columns of their own; of windows there is B_half_windows_low and _high.
-constexpr Over populations[] = {Over::runs, Over::mixtures, Over::equal_mixtures,
-                                Over::random_mixtures, Over::compositions};
-
 /// Of all tables together that of all their grains is not known: not a number, unless there is one
-/// mixture.
+/// flow.
 double phi_large_of(const FitReport& report, const RuleFit& fit)
 {
-  if (!fit.mixture && report.mixtures.size() != 1) return Estimators::nan;
-  return report.mixtures[fit.mixture.value_or(0)].phi_large();
+  if (!fit.flow && report.flows.size() != 1) return Estimators::nan;
+  return report.flows[fit.flow.value_or(0)].phi_large();
 }
 
 double share_of(const FitReport& report, const RuleFit& fit)
 {
-  return fit.mixture ? report.shares.half[*fit.mixture] : 1;
+  return fit.flow ? report.shares[*fit.flow] : 1;
 }
 
-std::vector<std::string> rule_table_columns(const FitReport& report)
-{
-  std::vector<std::string> columns{"rule"};
-  const auto add_with_interval = [&columns](const std::string& name) {
-    columns.insert(columns.end(), {name, name + "_low", name + "_high"});
-  };
-  if (report.is_by_mixture()) columns.emplace_back("mixture");
-  if (report.names_pairs()) columns.insert(columns.end(), {"smaller", "larger"});
-  columns.emplace_back("points");
-  for (const auto& [name, place] : estimator_columns) add_with_interval(name);
-  for (const auto& column : rule_columns) columns.emplace_back(column.name);
-  if (report.has_exponent()) add_with_interval("size_exponent");
-  columns.insert(columns.end(), {"over", "runs", "degrees_of_freedom", "Phi_L", "weight_share"});
-  for (const char* stem : {"B_", "B_sums_"})
-    for (const auto& population : populations)
-      add_with_interval(column_of_population(stem, population));
-  columns.emplace_back("used_by");
-  return columns;
-}
-
-/// The cells of one fit, in the order of those columns.
-std::vector<std::string> rule_table_row(const FitReport& report, const RuleFit& fit)
-{
-  std::vector<std::string> row{rule_name(report, fit)};
-  const auto add = [&row](std::initializer_list<double> numbers) {
-    for (const double number : numbers) row.push_back(format_number(number));
-  };
-  if (report.is_by_mixture()) row.push_back(mixture_name(report, fit));
-  if (report.names_pairs())
-    row.insert(row.end(),
-               {report.species[fit.pair.smaller].name, report.species[fit.pair.larger].name});
-  add({static_cast<double>(fit.points)});
-  for (const auto& [name, place] : estimator_columns)
-    add({fit.value.*place, fit.low.*place, fit.high.*place});
-  for (const auto& column : rule_columns) add({column.of(fit)});
-  if (report.has_exponent()) {
-    const auto exponent = fit.size_exponent.value_or(Estimate{});
-    add({exponent.value, exponent.low, exponent.high});
+/// Adds the numbers of one fit to a list.
+class NumbersOf {
+ public:
+  NumbersOf(const FitReport& report, const RuleFit& fit, std::vector<NumberRow>& rows)
+      : report_(report), fit_(fit), rows_(rows)
+  {
   }
-  row.emplace_back(word_of(fit.over, overs));
-  add({static_cast<double>(fit.runs), fit.degrees, phi_large_of(report, fit),
-       share_of(report, fit)});
-  for (const auto* over : {&fit.B_over, &fit.B_sums_over})
-    for (const auto& population : populations) {
-      const auto& b = (*over)[static_cast<std::size_t>(population)];
-      add({b.value, b.low, b.high});
-    }
-  row.push_back(used_by(report, fit));
-  return row;
+
+  void add_all(bool of_first_rule)
+  {
+    if (fit_.rule.adds_up()) add_b();
+    const auto over = fit_.over;
+    add("share", {fit_.share});
+    add("neutral", {fit_.neutral});
+    add_measured("B_minus_size", fit_.minus_size);
+    if (fit_.size_exponent) add("size_exponent", *fit_.size_exponent, over);
+    if (report_.with_paper)
+      for (const auto& [name, place] : estimator_columns)
+        if (std::string(name).starts_with("paper_"))
+          add(name, {fit_.value.*place, fit_.low.*place, fit_.high.*place}, over);
+    add("effective_windows", {fit_.dependence.effective_windows});
+    add("autocorrelation_time[windows]", {fit_.dependence.time});
+    if (!of_first_rule) return;
+    rule_ = "-";
+    add("Phi_L", {phi_large_of(report_, fit_)});
+    add("weight_share", {share_of(report_, fit_)});
+    add("runs", {static_cast<double>(fit_.runs)});
+    add("points", {static_cast<double>(fit_.points)});
+    add_measured("p_zero", fit_.line.p_zero);
+    add_measured("dB_dp", fit_.line.dB_dp);
+  }
+
+ private:
+  /// Over what the fit is, then over all others.
+  void add_b()
+  {
+    add("B", {fit_.value.B, fit_.low.B, fit_.high.B}, fit_.over, fit_.degrees);
+    for (const auto& [word, population, meaning] : overs)
+      if (population != fit_.over) add("B", fit_.at(population), population);
+  }
+  void add_measured(const char* quantity, const Measured& measured)
+  {
+    add(quantity, measured.estimate(), fit_.over, measured.error.degrees);
+  }
+  /// Nothing where there is no number.
+  void add(const std::string& quantity, const Estimate& number, Over over = Over::automatic,
+           double degrees = Estimators::nan)
+  {
+    if (!std::isfinite(number.value)) return;
+    const bool has_interval = std::isfinite(number.low);
+    rows_.push_back({.rule = rule_,
+                     .flow = flow_name(report_, fit_),
+                     .pair = pair_name(report_, fit_),
+                     .quantity = quantity,
+                     .over = has_interval ? word_of(over, overs) : "-",
+                     .of_flow = fit_.flow,
+                     .number = number,
+                     .degrees = has_interval ? degrees : Estimators::nan});
+  }
+
+  const FitReport& report_;
+  const RuleFit& fit_;
+  std::vector<NumberRow>& rows_;
+  std::string rule_ = rule_name(report_, fit_);
+};
+
+/// Of the settings in which flows differ, those of a row; NaN of all flows together.
+std::vector<double> settings_of(const FitReport& report, const NumberRow& row)
+{
+  std::vector<double> values;
+  for (std::size_t k = 0; k < report.flows.front().settings.size(); ++k)
+    values.push_back(row.of_flow ? report.flows[*row.of_flow].settings[k].second : Estimators::nan);
+  return values;
+}
+
+std::vector<std::string> names_of_settings(const FitReport& report)
+{
+  std::vector<std::string> names;
+  if (report.flows.empty()) return names;
+  for (const auto& [name, value] : report.flows.front().settings) names.push_back(name);
+  return names;
 }
 
 std::string rule_table(const FitReport& report)
 {
+  std::vector<std::string> columns{"rule", "flow",  "pair", "component", "quantity",
+                                   "over", "value", "low",  "high",      "degrees_of_freedom"};
+  const auto names = names_of_settings(report);
+  columns.insert(columns.end(), names.begin(), names.end());
   std::vector<std::vector<std::string>> rows;
-  rows.reserve(report.rules.size());
-  for (const auto& fit : report.rules) rows.push_back(rule_table_row(report, fit));
-  return table_text(header_of(report), rule_table_columns(report), rows);
+  for (const auto& row : number_rows(report)) {
+    auto& cells = rows.emplace_back(std::vector<std::string>{row.rule, row.flow, row.pair,
+                                                             word_of(report.component, components),
+                                                             row.quantity, row.over});
+    for (const double number : {row.number.value, row.number.low, row.number.high, row.degrees})
+      cells.push_back(format_number(number));
+    if (!names.empty())
+      for (const double number : settings_of(report, row)) cells.push_back(format_number(number));
+  }
+  return table_text(header_of(report), columns, rows);
 }
 
 std::string scan_table(const FitReport& report)
@@ -175,90 +172,48 @@ std::string scan_table(const FitReport& report)
   const auto& scan = *report.scan;
   Table table;
   table.header = header_of(report);
-  const auto zero_of_sums = scan.p_zero_sums.estimate();
-  for (const auto& [key, value] : {std::pair{"p_zero", scan.p_zero},
-                                   {"p_zero_low", scan.p_zero_interval.low},
-                                   {"p_zero_high", scan.p_zero_interval.high},
-                                   {"dB_dp", scan.dB_dp},
-                                   {"dB_dp_low", scan.dB_dp_interval.low},
-                                   {"dB_dp_high", scan.dB_dp_interval.high},
-                                   {"p_zero_sums", zero_of_sums.value},
-                                   {"p_zero_sums_low", zero_of_sums.low},
-                                   {"p_zero_sums_high", zero_of_sums.high},
-                                   {"autocorrelation_time", scan.dependence.time},
-                                   {"block_length", static_cast<double>(scan.dependence.block)}})
+  const auto zero = scan.line.p_zero.estimate(), slope = scan.line.dB_dp.estimate();
+  for (const auto& [key, value] : {std::pair{"p_zero", zero.value},
+                                   {"p_zero_low", zero.low},
+                                   {"p_zero_high", zero.high},
+                                   {"dB_dp", slope.value},
+                                   {"dB_dp_low", slope.low},
+                                   {"dB_dp_high", slope.high}})
     table.header.emplace_back(key, format_number(value));
-  table.columns = {
-      "p",       "B",      "low",        "high",       "B_direct", "B_direct_low", "B_direct_high",
-      "neutral", "B_sums", "B_sums_low", "B_sums_high"};
+  table.columns = {"p", "B", "low", "high", "neutral"};
   for (const auto& fit : scan.fits)
-    table.rows.push_back({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half,
-                          fit.value.B_direct, fit.low.B_direct, fit.high.B_direct, fit.neutral,
-                          fit.value.B_sums, fit.low.B_sums, fit.high.B_sums});
+    table.rows.push_back({fit.rule.value, fit.value.B, fit.low.B, fit.high.B, fit.neutral});
   return table.to_text();
 }
 
-Json pair(const Interval& interval)
+Json row_object(const FitReport& report, const NumberRow& row)
 {
-  return Json::array({interval.low, interval.high});
-}
-
-Json of_estimate(const Estimate& estimate)
-{
-  return {{"value", estimate.value}, {"interval", {estimate.low, estimate.high}}};
-}
-
-Json rule_object(const FitReport& report, const RuleFit& fit)
-{
-  Json estimators = Json::object();
-  for (const auto& [name, place] : estimator_columns)
-    estimators[name] = {{"value", fit.value.*place},
-                        {"interval", {fit.low.*place, fit.high.*place}}};
-  Json object{{"rule", rule_name(report, fit)},
-              {"used_by", used_by(report, fit)},
-              {"component", word_of(report.component, components)},
-              {"quantity", word_of(report.quantity, quantities)},
-              {"slope", fit.value.slope},
-              {"slope_interval", {fit.low.slope, fit.high.slope}},
-              {"exponent", fit.value.exponent},
-              {"B_half", fit.value.B_half},
-              {"B_mean", fit.value.B_mean},
-              {"B_direct", fit.value.B_direct},
-              {"B_interval", {fit.low.B_half, fit.high.B_half}},
-              {"B_windows_interval", pair(fit.B_half_windows)},
-              {"B_yy", of_estimate(fit.B_yy)},
-              {"B_pressure", of_estimate(fit.B_pressure)},
-              {"share", fit.share},
-              {"neutral", fit.neutral},
-              {"minus_size", fit.minus_size.value},
-              {"minus_size_interval", pair(fit.minus_size.interval())},
-              {"points", fit.points},
-              {"not_positive", fit.not_positive},
-              {"autocorrelation_time", fit.dependence.time},
-              {"block_length", fit.dependence.block},
-              {"effective_windows", fit.dependence.effective_windows},
-              {"estimators", estimators}};
-  object["over"] = word_of(fit.over, overs);
-  object["mixture"] = mixture_name(report, fit);
-  object["runs"] = fit.runs;
-  object["degrees_of_freedom"] = fit.degrees;
-  object["weight_share"] = share_of(report, fit);
-  object["populations"]["windows"] = of_estimate(fit.at(Over::windows));
-  for (const auto& population : populations)
-    object["populations"][word_of(population, overs)] = of_estimate(fit.at(population));
-  object["populations_of_B_sums"]["windows"] = of_estimate(fit.sums_at(Over::windows));
-  for (const auto& population : populations)
-    object["populations_of_B_sums"][word_of(population, overs)] =
-        of_estimate(fit.sums_at(population));
-  object["p_zero_sums"] = of_estimate(fit.p_zero_sums.estimate());
-  if (report.names_pairs())
-    object["species"] = {report.species[fit.pair.smaller].name,
-                         report.species[fit.pair.larger].name};
-  if (fit.size_exponent) object["size_exponent"] = of_estimate(*fit.size_exponent);
+  Json object{{"rule", row.rule},          {"flow", row.flow},
+              {"pair", row.pair},          {"component", word_of(report.component, components)},
+              {"quantity", row.quantity},  {"over", row.over},
+              {"value", row.number.value}, {"low", row.number.low},
+              {"high", row.number.high},   {"degrees_of_freedom", row.degrees}};
+  if (row.of_flow)
+    for (const auto& [name, value] : report.flows[*row.of_flow].settings) object[name] = value;
   return object;
 }
 
 }  // namespace
+
+std::vector<NumberRow> number_rows(const FitReport& report)
+{
+  std::vector<NumberRow> rows;
+  const auto first = report.rules.empty() ? "" : rule_name(report, report.rules.front());
+  for (const auto& fit : report.rules)
+    NumbersOf(report, fit, rows).add_all(rule_name(report, fit) == first);
+  return rows;
+}
+
+std::string pair_name(const FitReport& report, const RuleFit& fit)
+{
+  if (report.species.empty()) return "S+L";
+  return report.species[fit.pair.smaller].name + '+' + report.species[fit.pair.larger].name;
+}
 
 std::string rule_name(const FitReport& report, const RuleFit& fit)
 {
@@ -268,24 +223,21 @@ std::string rule_name(const FitReport& report, const RuleFit& fit)
 std::string row_name(const FitReport& report, const RuleFit& fit)
 {
   auto name = rule_name(report, fit);
-  if (report.names_pairs())
-    name += fmt::format(" {}+{}", report.species[fit.pair.smaller].name,
-                        report.species[fit.pair.larger].name);
-  if (report.is_by_mixture()) name += ", " + mixture_name(report, fit);
+  if (report.names_pairs()) name += " " + pair_name(report, fit);
+  if (report.is_by_flow()) name += ", " + flow_name(report, fit);
   return name;
 }
 
-std::string share_words(const FitReport& report, std::size_t mixture)
+std::string share_words(const FitReport& report, std::size_t flow)
 {
-  if (mixture >= report.shares.half.size()) return "weight unknown";
-  return fmt::format("{:.3g} % of the weight of B_half, {:.3g} % of that of B_sums",
-                     100 * report.shares.half[mixture], 100 * report.shares.sums[mixture]);
+  if (flow >= report.shares.size()) return "weight unknown";
+  return fmt::format("{:.3g} % of the weight", 100 * report.shares[flow]);
 }
 
-std::string mixture_name(const FitReport& report, const RuleFit& fit)
+std::string flow_name(const FitReport& report, const RuleFit& fit)
 {
-  if (fit.mixture) return report.mixtures[*fit.mixture].name;
-  return report.mixtures.size() == 1 ? report.mixtures.front().name : "all";
+  if (fit.flow) return report.flows[*fit.flow].name;
+  return report.flows.size() == 1 ? report.flows.front().name : "all";
 }
 
 std::vector<std::pair<Over, std::string>> estimands(const FitReport& report)
@@ -297,11 +249,11 @@ std::vector<std::pair<Over, std::string>> estimands(const FitReport& report)
       if (std::isfinite(fit.at(population).low)) used.insert(population);
   }
   if (report.scan) used = {report.scan->fits.front().over};
-  const auto mixtures = static_cast<std::size_t>(std::count_if(
-      report.shares.half.begin(), report.shares.half.end(), [](double s) { return s > 0; }));
+  const auto flows = static_cast<std::size_t>(
+      std::count_if(report.shares.begin(), report.shares.end(), [](double s) { return s > 0; }));
   std::vector<std::pair<Over, std::string>> words;
   words.reserve(used.size());
-  for (const auto over : used) words.emplace_back(over, estimand_words(over, mixtures));
+  for (const auto over : used) words.emplace_back(over, estimand_words(over, flows));
   return words;
 }
 
@@ -338,29 +290,20 @@ std::string to_tsv(const FitReport& report)
 std::string to_json(const FitReport& report)
 {
   Json all;
-  all["rules"] = Json::array();
-  for (const auto& fit : report.rules) all["rules"].push_back(rule_object(report, fit));
+  all["numbers"] = Json::array();
+  for (const auto& row : number_rows(report)) all["numbers"].push_back(row_object(report, row));
   if (report.scan) {
     all["scan"] = Json::array();
     for (const auto& fit : report.scan->fits)
-      all["scan"].push_back(
-          Json::array({fit.rule.value, fit.value.B_half, fit.low.B_half, fit.high.B_half}));
-    all["p_zero"] = report.scan->p_zero;
-    all["p_zero_interval"] = pair(report.scan->p_zero_interval);
-    all["dB_dp"] = report.scan->dB_dp;
-    all["dB_dp_interval"] = pair(report.scan->dB_dp_interval);
-    all["autocorrelation_time"] = report.scan->dependence.time;
-    all["p_zero_sums"] = of_estimate(report.scan->p_zero_sums.estimate());
-    all["block_length"] = report.scan->dependence.block;
+      all["scan"].push_back(Json::array({fit.rule.value, fit.value.B, fit.low.B, fit.high.B}));
   }
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
-  all["mixtures"] = Json::array();
-  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
-    all["mixtures"].push_back({{"name", report.mixtures[m].name},
-                               {"Phi_L", report.mixtures[m].phi_large()},
-                               {"weight_share", report.shares.half[m]},
-                               {"weight_share_sums", report.shares.sums[m]},
-                               {"tables", tables_of(report, report.mixtures[m])}});
+  all["flows"] = Json::array();
+  for (std::size_t m = 0; m < report.flows.size(); ++m)
+    all["flows"].push_back({{"name", report.flows[m].name},
+                            {"Phi_L", report.flows[m].phi_large()},
+                            {"weight_share", report.shares[m]},
+                            {"tables", tables_of(report, report.flows[m])}});
   if (!report.shared_runs.empty()) all["one_run"] = report.shared_runs;
   for (const auto& [over, words] : estimands(report))
     all["estimands"][word_of(over, overs)] = words;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
-#include "analysis/fit/mixtures.hpp"
+#include "analysis/fit/flows.hpp"
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/rule_fit.hpp"
 
@@ -15,53 +15,48 @@
 
 namespace grseg {
 
-/// What grseg-fit prints. Rows name their pair of species where there are more than two, and the
-/// exponent of sizes where it was fitted.
+/// What grseg-fit prints.
 struct FitReport {
   std::vector<std::pair<std::string, std::string>> header;  // settings, as "# key: value"
   std::vector<std::string> inputs, history;
   std::vector<std::pair<std::string, std::string>> trust;  // what of the inputs was verified
   Quantity quantity = Quantity::contact;
   Component component = Component::yy;
-  SpeciesList species;            // of the tables
-  std::vector<Mixture> mixtures;  // of the tables
-  WeightShares shares;            // of each mixture in the weight of all
+  SpeciesList species;         // of the tables
+  std::vector<Flow> flows;     // of the tables
+  std::vector<double> shares;  // of each flow in the weight of all
   std::vector<std::string> table_names;
   std::vector<std::vector<std::string>>
       shared_runs;                            // names of the tables of each run with several
   std::vector<std::string> doubts_of_tables;  // on what the tables are of
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
-  // For the short table only: how much data there is, and p* of contact stress.
-  bool names_pairs() const { return species.size() > 2; }
-  bool has_exponent() const
-  {
-    return std::any_of(rules.begin(), rules.end(),
-                       [](const RuleFit& fit) { return fit.size_exponent.has_value(); });
-  }
-  /// Whether rows are of one mixture each, beside those of all.
-  bool is_by_mixture() const
-  {
-    return std::any_of(rules.begin(), rules.end(),
-                       [](const RuleFit& fit) { return fit.mixture.has_value(); });
-  }
+  bool with_paper = false;  // whether what the paper fits is printed, too
   std::size_t number_of_runs = 0, number_of_windows = 0;
-  std::optional<ZeroOfB> zero;
+  bool names_pairs() const { return species.size() > 2; }
+  /// Whether rows are of one flow each, beside those of all.
+  bool is_by_flow() const
+  {
+    return std::any_of(rules.begin(), rules.end(),
+                       [](const RuleFit& fit) { return fit.flow.has_value(); });
+  }
 };
 
+/// "S+L", the smaller species first.
+std::string pair_name(const FitReport& report, const RuleFit& fit);
 /// The rule as typed; "kinetic" for kinetic stress, which no rule concerns.
 std::string rule_name(const FitReport& report, const RuleFit& fit);
-/// The same, with the pair of species where there are more than two, and the mixture where there
+/// The same, with the pair of species where there are more than two, and the flow where there
 /// are several.
 std::string row_name(const FitReport& report, const RuleFit& fit);
 /// The codes that share mixed contacts so; "-" where none is known.
 std::string used_by(const FitReport& report, const RuleFit& fit);
 
-/// The name of the mixture that a row is of; "all" of all of them.
-std::string mixture_name(const FitReport& report, const RuleFit& fit);
+/// The name of the flow that a row is of; "all" of all of them.
+std::string flow_name(const FitReport& report, const RuleFit& fit);
 
-/// "1.7 % of the weight of B_half, 3.1 % of that of B_sums".
-std::string share_words(const FitReport& report, std::size_t mixture);
+/// "3.1 % of the weight".
+std::string share_words(const FitReport& report, std::size_t flow);
 
 /// What each kind of interval in the report is over, in words.
 std::vector<std::pair<Over, std::string>> estimands(const FitReport& report);
@@ -71,8 +66,22 @@ std::vector<std::pair<Over, std::string>> estimands(const FitReport& report);
 /// Both forms below contain them.
 std::vector<std::string> doubts(const FitReport& report);
 
-/// A table (table_text.hpp) with a row per rule, whose name stands first; with a scan instead a row
-/// per share p, with p_zero and dB_dp in the header.
+/// A number of the report.
+struct NumberRow {
+  std::string rule, flow, pair, quantity, over;  // "-" where it is of all rules, or has no interval
+  std::optional<std::size_t> of_flow;            // that it is of
+  Estimate number;
+  double degrees = Estimators::nan;  // of freedom of the interval
+};
+
+/// All numbers, in the order of the table. Quantities of a rule: B, over each population that is known,
+/// that of RuleFit::over first; share, neutral, B_minus_size, size_exponent; with_paper: paper_s,
+/// paper_B, paper_k, paper_a; effective_windows, autocorrelation_time[windows]. Of all rules ("-"):
+/// p_zero, dB_dp, and of the data Phi_L, weight_share, runs and points (layers and windows).
+std::vector<NumberRow> number_rows(const FitReport& report);
+
+/// A table (table_text.hpp) with a row per number (number_rows); with a scan instead a row per share
+/// p, with p_zero and dB_dp in the header.
 std::string to_tsv(const FitReport& report);
 /// The same as one JSON object; what is not a number is null.
 std::string to_json(const FitReport& report);

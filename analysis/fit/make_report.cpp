@@ -26,16 +26,6 @@ std::vector<PartitionRule> rules_of(const FitOptions& s, const Table& first)
   return {parse_rule(header_or(first, "partition", "size"))};
 }
 
-void add_for_short_table(FitReport& report, const FitData& data, const FitSettings& settings,
-                         const Bootstrap& bootstrap)
-{
-  report.number_of_runs = data.runs.size();
-  report.number_of_windows = bootstrap.windows();
-  if (settings.over == Over::equal_mixtures || settings.over == Over::random_mixtures) return;
-  if (report.quantity == Quantity::contact && !report.scan && !report.names_pairs())
-    report.zero = find_zero_of_b(data, {0, 1, 0.05}, settings, bootstrap);
-}
-
 /// UsageError where the species of the tables do not make a pair, or too many for a scan.
 std::vector<SpeciesPair> pairs_of(const FitOptions& s, const SpeciesList& species)
 {
@@ -49,61 +39,46 @@ std::vector<SpeciesPair> pairs_of(const FitOptions& s, const SpeciesList& specie
   return all_pairs(species.size());
 }
 
-/// Where the numbers of grains come from.
-std::string grains_words(const std::vector<FitTable>& tables, const FitData& data)
-{
-  if (data.count.uncounted > 0)
-    return fmt::format(
-        "unknown in {} of the rows used, whose tables give masses without counts; --min-grains does "
-        "not apply to them",
-        data.count.uncounted);
-  const bool counted = std::all_of(tables.begin(), tables.end(), [](const FitTable& table) {
-    return table.table->has_column(fmt::format("grains_{}", column_words(table.species)[0]));
-  });
-  return counted ? "as counted" : "areas or volumes over those of a grain of nominal diameter";
-}
-
-/// UsageError where the runs and mixtures at hand cannot be the population asked for.
+/// UsageError where the runs and flows at hand cannot be the population asked for.
 void require_population(const FitOptions& s, const FitData& data)
 {
   if (s.over.empty()) return;
   const auto over = choose(s.over, "--over", overs);
-  const auto mixtures = data.number_of_mixtures();
-  if (over == Over::runs && mixtures > 1)
+  const auto flows = data.number_of_flows();
+  if (over == Over::runs && flows > 1)
     throw UsageError(
-        fmt::format("--over runs: the tables hold runs of {} mixtures; without --over each has its "
-                    "own interval, --over mixtures gives one number for all, and --mixtures tells "
+        fmt::format("--over runs: the tables hold runs of {} flows; without --over each has its "
+                    "own interval, --over flows gives one number for all, and --flows tells "
                     "which tables belong together",
-                    mixtures));
+                    flows));
   if ((over == Over::runs || over == Over::compositions) && data.runs.size() < 2)
     throw UsageError(fmt::format(
         "--over {}: there is one run; give the tables of several, or --over windows", s.over));
-  const bool of_mixtures =
-      over == Over::mixtures || over == Over::equal_mixtures || over == Over::random_mixtures;
-  if (of_mixtures && mixtures < 2)
+  const bool of_flows =
+      over == Over::flows || over == Over::equal_flows || over == Over::random_flows;
+  if (of_flows && flows < 2)
     throw UsageError(fmt::format(
-        "--over {}: all tables are of one mixture; leave the option out, or tell with --mixtures "
+        "--over {}: all tables are of one flow; leave the option out, or tell with --flows "
         "which tables belong together",
         s.over));
-  if (!s.scan.empty() && (over == Over::equal_mixtures || over == Over::random_mixtures))
+  if (!s.scan.empty() && (over == Over::equal_flows || over == Over::random_flows))
     throw UsageError(
-        fmt::format("--scan: B(p) has no intervals over {}; choose --over mixtures or windows, or "
-                    "scan each mixture by itself",
+        fmt::format("--scan: B(p) has no intervals over {}; choose --over flows or windows, or "
+                    "scan each flow by itself",
                     s.over));
 }
 
-/// What the rows' intervals are over: "runs", or "runs, then mixtures" of mixtures one by one.
+/// What the rows' intervals are over: "runs", or "runs, then flows" of flows one by one.
 std::string over_words(const FitReport& report)
 {
   const auto of = [](const RuleFit& fit) { return std::string(word_of(fit.over, overs)); };
   const auto& rows = report.scan ? report.scan->fits : report.rules;
-  return rows.front().mixture ? of(rows.front()) + ", then " + of(rows.back()) : of(rows.back());
+  return rows.front().flow ? of(rows.front()) + ", then " + of(rows.back()) : of(rows.back());
 }
 
 /// The lines that say how the fit was made.
 Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& preset,
-                 const std::vector<Table>& tables, const FitReport& report, const FitData& data,
-                 const std::string& grains)
+                 const std::vector<Table>& tables, const FitReport& report, const FitData& data)
 {
   return {
       program_line(info),
@@ -111,12 +86,10 @@ Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& p
       {"quantity", s.quantity},
       {"component", s.component},
       {"ratio_range", s.ratio_range},
-      {"heights", s.filters.heights.empty() ? "all" : s.filters.heights},
+      {"heights", heights_in_words(s.filters.heights)},
       {"times",
        s.filters.all_times() ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
       {"min_solid", format_number(s.filters.min_solid)},
-      {"min_grains", format_number(s.filters.min_grains)},
-      {"grains", grains},
       {"rows", data.count.sentence()},
       {"runs", fmt::format("{}", data.runs.size())},
       {"windows", fmt::format("{}", number_of_windows(data.runs))},
@@ -124,7 +97,7 @@ Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& p
       {"seed", fmt::format("{}", s.seed)},
       {"interval", "95 %"},
       {"over", over_words(report)},
-      {"mixtures", grouping_words(s.mixtures, tables)}};
+      {"flows", grouping_words(s.flows, tables)}};
 }
 
 PartitionScan scan(const char* program, const FitData& data, const ScanRange& range,
@@ -151,14 +124,14 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   auto read = rules;
   if (!s.scan.empty()) read.push_back({PartitionRule::Kind::uniform});
   auto all = read_fit_tables(tables, report.quantity, read);
-  report.mixtures = find_mixtures(all, s.mixtures);
+  report.flows = find_flows(all, s.flows);
   for (const auto& table : tables) report.table_names.push_back(table.name);
   report.shared_runs = find_runs(tables).shared(tables);
   report.species = all.front().species;
   const auto pairs = pairs_of(s, report.species);
   const auto data = select_fit_data(all, report.quantity, s.filters, pairs);
   require_population(s, data);
-  report.shares = weight_shares(data, report.mixtures.size());
+  report.shares = weight_shares(data, report.flows.size());
   const Resampling resampling{static_cast<std::size_t>(s.bootstrap),
                               static_cast<unsigned long>(s.seed)};
   const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
@@ -166,9 +139,11 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
                            s.exponent || report.names_pairs());
   if (!s.scan.empty())
     report.scan = scan(info.name, data, parse_scan(s.scan), settings, bootstrap, s.quiet);
-  if (s.prints_short()) add_for_short_table(report, data, settings, bootstrap);
+  report.with_paper = s.fit == "paper";
+  report.number_of_runs = data.runs.size();
+  report.number_of_windows = bootstrap.windows();
 
-  report.header = header_of(info, s, preset, tables, report, data, grains_words(all, data));
+  report.header = header_of(info, s, preset, tables, report, data);
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
   if (names_species(report.species))
     report.header.emplace_back("species", species_text(report.species));

@@ -5,20 +5,18 @@
 
 namespace grseg {
 
-Over resolved(Over over, std::size_t runs, std::size_t mixtures)
+Over resolved(Over over, std::size_t runs, std::size_t flows)
 {
   if (over == Over::compositions && runs < 2) return Over::windows;
   if (over != Over::automatic) return over;
-  if (mixtures > 1) return Over::mixtures;
+  if (flows > 1) return Over::flows;
   return runs > 1 ? Over::runs : Over::windows;
 }
 
-std::string estimand_words(Over over, std::size_t mixtures)
+std::string estimand_words(Over over, std::size_t flows)
 {
-  const std::string within = "over all their runs; from the scatter of runs within mixtures";
-  const std::string weighted =
-      "weighted as they are (B_half by frames x grains of the rarer species, B_sums by frames x "
-      "phi_L phi_S), ";
+  const std::string within = "over all their runs; from the scatter of runs within flows";
+  const std::string weighted = "weighted as they are (by frames x phi_L phi_S), ";
   switch (over) {
     case Over::automatic:
       break;
@@ -26,22 +24,21 @@ std::string estimand_words(Over over, std::size_t mixtures)
       return "B of these very runs, had they lasted longer; from the scatter of windows inside runs: "
              "how other runs would differ is not in it";
     case Over::runs:
-      return "B of one mixture, over all its runs; from the scatter of runs";
-    case Over::mixtures:
-      return fmt::format("B of these {} mixtures, {}{}", mixtures, weighted, within);
-    case Over::equal_mixtures:
-      return fmt::format("mean B of these {} mixtures, each counting the same, {}", mixtures,
-                         within);
-    case Over::random_mixtures:
+      return "B of one flow, over all its runs; from the scatter of runs";
+    case Over::flows:
+      return fmt::format("B of these {} flows, {}{}", flows, weighted, within);
+    case Over::equal_flows:
+      return fmt::format("mean B of these {} flows, each counting the same, {}", flows, within);
+    case Over::random_flows:
       return fmt::format(
-          "mean B of all mixtures of which these {} are a random sample, each counting the same; "
-          "from the scatter between mixtures. Mixtures that were chosen are not a sample of that kind",
-          mixtures);
+          "mean B of all flows of which these {} are a random sample, each counting the same; "
+          "from the scatter between flows. Flows that were chosen are not a sample of that kind",
+          flows);
     case Over::compositions:
       return fmt::format(
-          "B of these layers' compositions, {}if ln(sigma^S/sigma^L) is one function of composition "
+          "B of these layers' compositions, {}if B is one function of composition "
           "for all runs; from the scatter of runs about its regression on ln(phi_S/phi_L) and phi_L, "
-          "which is taken out before runs are drawn: how mixtures differ beyond it counts as "
+          "which is taken out before runs are drawn: how flows differ beyond it counts as "
           "scatter of runs",
           weighted);
   }

@@ -9,29 +9,29 @@
 namespace grseg {
 
 /// What an interval is over: the population from which runs are taken to come, and what of it is
-/// estimated. A mixture is what runs have in common that differ in their seed alone.
+/// estimated. A flow is what runs have in common that differ in their seed alone.
 enum class Over {
-  automatic,        ///< windows of one run, runs of one mixture, these mixtures of several
-  windows,          ///< these very runs, had they lasted longer
-  runs,             ///< one mixture, over all its runs
-  mixtures,         ///< these mixtures, weighted as they are, over all their runs
-  equal_mixtures,   ///< these mixtures, each counting the same, over all their runs
-  random_mixtures,  ///< the mean over all mixtures of which these are a random sample
-  compositions,     ///< runs about one function of composition that is common to all mixtures
+  automatic,     ///< windows of one run, runs of one flow, these flows of several
+  windows,       ///< these very runs, had they lasted longer
+  runs,          ///< one flow, over all its runs
+  flows,         ///< these flows, weighted as they are, over all their runs
+  equal_flows,   ///< these flows, each counting the same, over all their runs
+  random_flows,  ///< the mean over all flows of which these are a random sample
+  compositions,  ///< runs about one function of composition that is common to all flows
 };
 inline constexpr Choice<Over> overs[] = {
     {"windows", Over::windows, "these runs, had they lasted longer"},
-    {"runs", Over::runs, "one mixture, over all its runs"},
-    {"mixtures", Over::mixtures, "these mixtures, weighted as they are"},
-    {"equal-mixtures", Over::equal_mixtures, "these mixtures, each counting the same"},
-    {"random-mixtures", Over::random_mixtures, "all mixtures of which these are a random sample"},
+    {"runs", Over::runs, "one flow, over all its runs"},
+    {"flows", Over::flows, "these flows, weighted as they are"},
+    {"equal-flows", Over::equal_flows, "these flows, each counting the same"},
+    {"random-flows", Over::random_flows, "all flows of which these are a random sample"},
     {"compositions", Over::compositions,
      "these compositions, as if B were one function of composition"}};
 
-/// The automatic one of so many runs and mixtures; the others stand for themselves.
-Over resolved(Over over, std::size_t runs, std::size_t mixtures);
+/// The automatic one of so many runs and flows; the others stand for themselves.
+Over resolved(Over over, std::size_t runs, std::size_t flows);
 
-/// The population and what is estimated, as a sentence without its full stop; of so many mixtures.
-std::string estimand_words(Over over, std::size_t mixtures);
+/// The population and what is estimated, as a sentence without its full stop; of so many flows.
+std::string estimand_words(Over over, std::size_t flows);
 
 }  // namespace grseg

@@ -17,25 +17,8 @@ namespace {
 void remove_b(RuleFit& fit)
 {
   for (auto* all : {&fit.value, &fit.low, &fit.high, &fit.error})
-    for (const auto& [name, place] : estimator_columns)
-      if (name[0] == 'B') all->*place = Estimators::nan;
-  fit.B_half_windows = fit.B_sums_windows = {Estimators::nan, Estimators::nan};
+    all->B = all->paper_B = Estimators::nan;
   fit.B_over.fill({});
-  fit.B_sums_over.fill({});
-}
-
-/// Weighted mean of what a rule gives to the large grains, over that of all mixed stress.
-double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
-                      const FitSettings& settings)
-{
-  const auto none = fit_points(data, {PartitionRule::Kind::uniform, 0}, settings);
-  const auto all = fit_points(data, {PartitionRule::Kind::uniform, 1}, settings);
-  double given = 0, mixed = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    given += points[k].weight * (points[k].large - none[k].large);
-    mixed += points[k].weight * (all[k].large - none[k].large);
-  }
-  return given / mixed;
 }
 
 std::vector<Estimators> replicate(const Eigen::MatrixXd& times, const WindowSums& windows)
@@ -62,7 +45,7 @@ StandardError window_error(const std::vector<Estimators>& of_blocks, double Esti
   return bootstrap.window_error(column_of(of_blocks, place), fit.dependence);
 }
 
-/// Errors over windows, over runs within mixtures and over runs about one function of composition;
+/// Errors over windows, over runs within flows and over runs about one function of composition;
 /// those that the fit is over become its intervals.
 void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
                    const Bootstrap& bootstrap)
@@ -70,30 +53,25 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
   const auto of_blocks = replicate(bootstrap.blocks(fit.dependence.block), windows);
   const auto of_runs = replicate(bootstrap.whole_runs(), windows);
   const auto influences = influences_of(windows);
-  const RunErrors run_errors(data, windows.weight());
+  const RunErrors of_b(data, windows.weight()), of_logarithms(data, windows.weight_of_logarithms());
   for (const auto& [name, place] : estimator_columns) {
+    const bool is_b = place == &Estimators::B;
     const auto column = column_of_estimator(place);
     const auto over_windows = window_error(of_blocks, place, fit, bootstrap);
     const auto about_one_function = bootstrap.run_error(column_of(of_runs, place), fit.dependence);
     const auto within =
-        run_errors.within_mixtures(influences.sums.col(column), influences.noise.col(column));
+        (is_b ? of_b : of_logarithms)
+            .within_flows(influences.sums.col(column), influences.noise.col(column));
     set_error(fit, place,
               fit.over == Over::windows        ? over_windows
               : fit.over == Over::compositions ? about_one_function
                                                : within);
-    if (place != &Estimators::B_half && place != &Estimators::B_sums) continue;
-    auto& over = place == &Estimators::B_half ? fit.B_over : fit.B_sums_over;
-    const double value = fit.value.*place;
-    const auto set = [&](Over population, const StandardError& error) {
-      over[static_cast<std::size_t>(population)] = error.around(value);
-    };
-    set(Over::windows, over_windows);
+    if (!is_b) continue;
+    fit.at(Over::windows) = over_windows.around(fit.value.B);
     if (fit.runs < 2) continue;
-    set(Over::compositions, about_one_function);
-    set(data.number_of_mixtures() > 1 ? Over::mixtures : Over::runs, within);
+    fit.at(Over::compositions) = about_one_function.around(fit.value.B);
+    fit.at(data.number_of_flows() > 1 ? Over::flows : Over::runs) = within.around(fit.value.B);
   }
-  fit.B_half_windows = {fit.at(Over::windows).low, fit.at(Over::windows).high};
-  fit.B_sums_windows = {fit.sums_at(Over::windows).low, fit.sums_at(Over::windows).high};
 }
 
 StandardError error_of_minus_size(const RuleFit& fit, const FitData& data,
@@ -103,65 +81,68 @@ StandardError error_of_minus_size(const RuleFit& fit, const FitData& data,
   if (fit.over == Over::windows || fit.over == Over::compositions) {
     const auto& times =
         fit.over == Over::windows ? bootstrap.blocks(fit.dependence.block) : bootstrap.whole_runs();
-    const Eigen::VectorXd samples = column_of(replicate(times, windows), &Estimators::B_direct) -
-                                    column_of(replicate(times, by_size), &Estimators::B_direct);
+    const Eigen::VectorXd samples = column_of(replicate(times, windows), &Estimators::B) -
+                                    column_of(replicate(times, by_size), &Estimators::B);
     return fit.over == Over::windows ? bootstrap.window_error(samples, fit.dependence)
                                      : bootstrap.run_error(samples, fit.dependence);
   }
-  const auto direct = column_of_estimator(&Estimators::B_direct);
+  const auto column = column_of_estimator(&Estimators::B);
   const auto own = influences_of(windows), others = influences_of(by_size);
   return RunErrors(data, windows.weight())
-      .within_mixtures(own.sums.col(direct) - others.sums.col(direct),
-                       own.noise.col(direct) - others.noise.col(direct));
+      .within_flows(own.sums.col(column) - others.sums.col(column),
+                    own.noise.col(column) - others.noise.col(column));
 }
 
 Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& windows,
                     const std::vector<FitPoint>& size_points, const Bootstrap& bootstrap)
 {
-  const double difference = fit.value.B_direct - estimators_of(size_points).B_direct;
+  const double difference = fit.value.B - estimators_of(size_points).B;
   if (bootstrap.count() == 0) return {difference};
   return {difference, error_of_minus_size(fit, data, windows,
                                           window_sums(size_points, bootstrap.runs()), bootstrap)};
 }
 
-/// Of the differences between mixtures, how many degrees of freedom the noise lacks.
+/// Of the differences between flows, how many degrees of freedom the noise lacks.
 double degrees_taken_by_composition(const FitData& data)
 {
   const auto size = static_cast<Eigen::Index>(data.samples.size());
-  const auto mixture_of_window = data.mixtures_of_windows();
+  const auto flow_of_window = data.flows_of_windows();
   Eigen::VectorXd phi_large(size), weight(size);
-  std::vector<std::size_t> mixture;
-  mixture.reserve(data.samples.size());
+  std::vector<std::size_t> flow;
+  flow.reserve(data.samples.size());
   for (const auto& sample : data.samples) {
-    const auto place = static_cast<Eigen::Index>(mixture.size());
+    const auto place = static_cast<Eigen::Index>(flow.size());
     phi_large[place] = sample.phi_large;
-    weight[place] = sample.weight;
-    mixture.push_back(mixture_of_window[sample.window]);
+    weight[place] = sample.frames * sample.phi_large * (1 - sample.phi_large);
+    flow.push_back(flow_of_window[sample.window]);
   }
-  return degrees_of_composition(phi_large, weight, mixture);
+  return degrees_of_composition(phi_large, weight, flow);
 }
 
 /// What limits the interval, mostly nothing.
 std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& windows,
                      const Bootstrap& bootstrap)
 {
+  if (!std::isfinite(fit.value.B))
+    return fmt::format("in none of {} layers and windows does either species bear a stress",
+                       fit.points);
   if (bootstrap.count() == 0) return {};
   if (fit.over == Over::windows) return bootstrap.doubt_of_windows(fit.dependence);
-  const auto mixtures = data.number_of_mixtures();
-  if (mixtures == 1) return bootstrap.doubt_of_runs(fit.dependence);
+  const auto flows = data.number_of_flows();
+  if (flows == 1) return bootstrap.doubt_of_runs(fit.dependence);
   const RunErrors errors(data, windows.weight());
   if (fit.over == Over::compositions) {
-    const auto column = column_of_estimator(&Estimators::B_half);
+    const auto column = column_of_estimator(&Estimators::B);
     const double chance = errors.chance_of_likeness(influences_of(windows).noise.col(column),
                                                     degrees_taken_by_composition(data));
     if (chance >= 0.05) return bootstrap.doubt_of_runs(fit.dependence);
     return fmt::format(
-        "mixtures differ by more than one function of composition explains (Fisher's test: {:.2g}): "
-        "over compositions the interval is too wide for these mixtures and too narrow for others; "
-        "see those over mixtures, equal-mixtures and random-mixtures",
+        "flows differ by more than one function of composition explains (Fisher's test: {:.2g}): "
+        "over compositions the interval is too wide for these flows and too narrow for others; "
+        "see those over flows, equal-flows and random-flows",
         chance);
   }
-  return doubt_of_mixtures(fit, errors.single_runs(), mixtures);
+  return doubt_of_flows(fit, errors.single_runs(), flows);
 }
 
 }  // namespace
@@ -172,58 +153,21 @@ void set_error(RuleFit& fit, double Estimators::*place, const StandardError& err
   fit.low.*place = interval.low;
   fit.high.*place = interval.high;
   fit.error.*place = error.error;
-  if (place == &Estimators::B_half) fit.degrees = error.degrees;
+  if (place == &Estimators::B) fit.degrees = error.degrees;
 }
 
-// sigma^L is linear in the share p, so that the sum over frames of psi_L - phi_L is zero at
-// p* = -D(0)/(D(1) - D(0)); what a window adds to p* is its D(p*) over that slope.
-Measured zero_of_sums(const FitData& data, const FitSettings& settings, const Bootstrap& bootstrap,
-                      Over over, const Dependence& how_dependent)
-{
-  if (data.quantity != Quantity::contact || data.species.size() > 2) return {};
-  const auto sum_at = [&](double share) {
-    double sum = 0;
-    for (const auto& point : fit_points(data, {PartitionRule::Kind::uniform, share}, settings))
-      if (point.total > 0) sum += point.frames * point.excess();
-    return sum;
-  };
-  const double none = sum_at(0), slope = sum_at(1) - none, zero = -none / slope;
-  if (bootstrap.count() == 0 || !std::isfinite(zero)) return {zero};
-  const auto windows = window_sums(fit_points(data, {PartitionRule::Kind::uniform, zero}, settings),
-                                   bootstrap.runs());
-  const Eigen::VectorXd sums = windows.excess() / -slope, noise = windows.excess_noise() / -slope;
-  return {zero,
-          over == Over::windows
-              ? bootstrap.window_error(bootstrap.blocks(how_dependent.block) * noise, how_dependent)
-          : over == Over::compositions
-              ? bootstrap.run_error(bootstrap.whole_runs() * noise, how_dependent)
-              : RunErrors(data, windows.weight()).within_mixtures(sums, noise)};
-}
-
-std::string doubt_of_mixtures(const RuleFit& fit, std::size_t single_runs, std::size_t mixtures)
+std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::size_t flows)
 {
   if (single_runs > 0)
     return fmt::format(
-        "{} of {} mixtures {} one run: the scatter of its windows stands for that of runs, which "
+        "{} of {} flows {} one run: the scatter of its windows stands for that of runs, which "
         "is too narrow where runs differ",
-        single_runs, mixtures, single_runs == 1 ? "has" : "have");
+        single_runs, flows, single_runs == 1 ? "has" : "have");
   if (!(fit.degrees <= 3.5)) return {};
   return fmt::format(
-      "{} runs of {} mixtures leave {:.2g} degrees of freedom; more runs of each "
+      "{} runs of {} flows leave {:.2g} degrees of freedom; more runs of each "
       "give a narrower interval",
-      fit.runs, mixtures, fit.degrees);
-}
-
-std::string doubt_of_logarithms(const RuleFit& fit, double window)
-{
-  const double apart = std::abs(fit.value.B_half - fit.value.B_sums);
-  const double reach = (fit.high.B_half - fit.low.B_half + fit.high.B_sums - fit.low.B_sums) / 2;
-  if (!(std::abs(fit.neutral) < 1e-3) || !(apart > reach)) return {};
-  return fmt::format(
-      "B_half = {:.4f} and B_sums = {:.4f} differ by more than their intervals: in windows of {:g} s "
-      "the mean of ln(y/x) suffers from few grains, or B differs between layers or mixtures, which "
-      "the two weigh differently",
-      fit.value.B_half, fit.value.B_sums, window);
+      fit.runs, flows, fit.degrees);
 }
 
 void add_doubt(RuleFit& fit, const std::string& doubt)
@@ -246,32 +190,24 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   RuleFit fit;
   fit.rule = rule;
   fit.pair = data.samples.front().pair;
-  fit.points = static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_logarithm(); }));
-  fit.not_positive = points.size() - fit.points;
+  fit.points = points.size();
   fit.value = estimators_of(points);
   fit.dependence = common ? *common : dependence(windows, data.runs, rule.adds_up());
   fit.runs = data.runs.size();
-  fit.over = resolved(settings.over, fit.runs, data.number_of_mixtures());
+  fit.over = resolved(settings.over, fit.runs, data.number_of_flows());
   if (bootstrap.count() > 0) add_intervals(fit, data, windows, bootstrap);
-  fit.doubt = fit.points > 0 ? doubt_of(fit, data, windows, bootstrap)
-                             : fmt::format(
-                                   "in none of {} layers and windows do both species bear a "
-                                   "positive stress, so that their ratio has no value",
-                                   points.size());
+  fit.doubt = doubt_of(fit, data, windows, bootstrap);
   if (!rule.adds_up()) {
     remove_b(fit);
-  } else if (data.quantity == Quantity::contact) {
-    if (data.species.size() <= 2) {
-      fit.share = share_of_large(data, points, settings);
-      fit.neutral = neutral_mean(points, rule);
-      if (!common)
-        fit.p_zero_sums = zero_of_sums(data, settings, bootstrap, fit.over, fit.dependence);
-    }
-    add_doubt(fit, doubt_of_logarithms(fit, data.window));
-    fit.minus_size =
-        minus_size(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
+    return fit;
   }
+  if (data.quantity == Quantity::kinetic) return fit;
+  fit.minus_size =
+      minus_size(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
+  if (data.species.size() > 2) return fit;
+  fit.share = share_of_large(data, points, settings);
+  fit.neutral = neutral_mean(points, rule);
+  if (!common) fit.line = line_over_share(data, settings, bootstrap, fit.over, fit.dependence);
   return fit;
 }
 

@@ -56,12 +56,12 @@ RunErrors::RunErrors(const FitData& data, const Eigen::VectorXd& weight) : weigh
   std::map<std::size_t, Group> groups;
   std::size_t first = 0;
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    auto& group = groups[data.mixture_of(run)];
+    auto& group = groups[data.flow_of(run)];
     group.first.push_back(first);
     group.length.push_back(data.runs[run]);
     first += data.runs[run];
   }
-  for (auto& [mixture, group] : groups) {
+  for (auto& [flow, group] : groups) {
     group.weight.resize(static_cast<Eigen::Index>(group.first.size()));
     for (std::size_t k = 0; k < group.first.size(); ++k)
       group.weight[static_cast<Eigen::Index>(k)] =
@@ -73,8 +73,8 @@ RunErrors::RunErrors(const FitData& data, const Eigen::VectorXd& weight) : weigh
   }
 }
 
-StandardError RunErrors::within_mixtures(const Eigen::VectorXd& sums,
-                                         const Eigen::VectorXd& noise) const
+StandardError RunErrors::within_flows(const Eigen::VectorXd& sums,
+                                      const Eigen::VectorXd& noise) const
 {
   std::vector<StandardError> parts;
   for (const auto& group : groups_) {

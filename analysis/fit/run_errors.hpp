@@ -21,8 +21,8 @@ Influences influences_of(const WindowSums& windows);
 /// Where an estimator stands in them.
 Eigen::Index column_of_estimator(double Estimators::*place);
 
-/// Errors of statistics over whole runs, the mixtures being fixed: those of the mixtures added. Of a
-/// mixture with a single run the scatter of its windows stands for that of runs, about what each
+/// Errors of statistics over whole runs, the flows being fixed: those of the flows added. Of a
+/// flow with a single run the scatter of its windows stands for that of runs, about what each
 /// window would add if it were like the run, which goes by its weight.
 class RunErrors {
  public:
@@ -30,13 +30,13 @@ class RunErrors {
   RunErrors(const FitData& data, const Eigen::VectorXd& weight);
 
   /// Of a statistic whose deviation is the sum of the windows' influences.
-  StandardError within_mixtures(const Eigen::VectorXd& sums, const Eigen::VectorXd& noise) const;
-  /// The chance that runs of like mixtures differ between mixtures as much as these do, by Fisher's
-  /// test of the mean squares of influence over weight between and within mixtures; 1 where it cannot
-  /// be told. `fitted`: of the differences between mixtures, how many degrees of freedom were taken
+  StandardError within_flows(const Eigen::VectorXd& sums, const Eigen::VectorXd& noise) const;
+  /// The chance that runs of like flows differ between flows as much as these do, by Fisher's
+  /// test of the mean squares of influence over weight between and within flows; 1 where it cannot
+  /// be told. `fitted`: of the differences between flows, how many degrees of freedom were taken
   /// out of the influence beforehand; at least one counts as left.
   double chance_of_likeness(const Eigen::VectorXd& influence, double fitted) const;
-  /// Mixtures with a single run.
+  /// Flows with a single run.
   std::size_t single_runs() const;
 
  private:

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -22,17 +22,32 @@ std::string rounded(double value)
   return text == "-0.000" ? "0.000" : text;
 }
 
-std::string interval_text(double low, double high)
+/// The first words of a text; a table is to fit 100 columns.
+std::string shortened(const std::string& text)
 {
-  if (!std::isfinite(low) || !std::isfinite(high)) return "-";
-  return fmt::format("{:>6} to {:>6}", rounded(low), rounded(high));
+  constexpr std::size_t most = 44;
+  return text.size() <= most ? text : text.substr(0, text.rfind(' ', most - 4)) + " ...";
 }
 
-std::string with_interval(double value, const Interval& interval)
+/// A sentence in lines of a hundred columns at most, those after the first indented.
+std::string wrapped(const std::string& sentence)
 {
-  if (!std::isfinite(interval.low)) return rounded(value);
-  return fmt::format("{} ({} to {})", rounded(value), rounded(interval.low),
-                     rounded(interval.high));
+  constexpr std::size_t most = 100;
+  std::string text;
+  std::size_t column = 0;
+  std::istringstream words(sentence);
+  for (std::string word; words >> word;) {
+    if (column > 0 && column + 1 + word.size() > most) {
+      text += "\n  ";
+      column = 2;
+    } else if (column > 0) {
+      text += ' ';
+      ++column;
+    }
+    text += word;
+    column += word.size();
+  }
+  return text + '\n';
 }
 
 using Line = std::vector<std::string>;  // all of the same length
@@ -54,43 +69,37 @@ std::string aligned(const std::vector<Line>& lines)
   return text;
 }
 
-/// B of the component that the report is not about; none where no rule has it.
-struct OtherComponent {
-  const char* title;
-  Estimate RuleFit::*b;
-};
-std::optional<OtherComponent> other_component(const FitReport& report)
+std::string b_text(const Estimate& b)
 {
-  const OtherComponent other = report.component == Component::yy
-                                   ? OtherComponent{"B_half, pressure", &RuleFit::B_pressure}
-                                   : OtherComponent{"B_half, yy", &RuleFit::B_yy};
-  const bool any = std::any_of(report.rules.begin(), report.rules.end(), [&](const RuleFit& fit) {
-    return std::isfinite((fit.*other.b).value);
-  });
-  return any ? std::optional(other) : std::nullopt;
+  return std::isfinite(b.low)
+             ? fmt::format("{} [{}, {}]", rounded(b.value), rounded(b.low), rounded(b.high))
+             : rounded(b.value);
 }
 
 std::string rules_text(const FitReport& report)
 {
-  const auto other = other_component(report);
-  const bool by_mixture = report.is_by_mixture();
-  std::vector<Line> lines{{by_mixture ? "rule, mixture" : "rule", "B_half", "95 % interval",
-                           "B_sums", "95 % interval"}};
-  if (other) lines.back().insert(lines.back().end(), {other->title, "95 % interval"});
-  lines.back().insert(lines.back().end(), {"share", "points", "used by"});
-  for (const auto& fit : report.rules) {
-    Line line{row_name(report, fit), rounded(fit.value.B_half),
-              interval_text(fit.low.B_half, fit.high.B_half), rounded(fit.value.B_sums),
-              interval_text(fit.low.B_sums, fit.high.B_sums)};
-    if (other) {
-      const Estimate& b = fit.*other->b;
-      line.insert(line.end(), {rounded(b.value), interval_text(b.low, b.high)});
-    }
-    line.insert(line.end(),
-                {rounded(fit.share), fmt::format("{}", fit.points), used_by(report, fit)});
-    lines.push_back(line);
-  }
+  std::vector<Line> lines{
+      {report.is_by_flow() ? "rule, flow" : "rule", "B [95 %]", "share", "used by"}};
+  for (const auto& fit : report.rules)
+    lines.push_back({row_name(report, fit), b_text({fit.value.B, fit.low.B, fit.high.B}),
+                     rounded(fit.share), shortened(used_by(report, fit))});
   return aligned(lines);
+}
+
+/// What the paper fits: sigma^S/sigma^L = s phi_S/phi_L, or k (phi_S/phi_L)^a.
+std::string paper_text(const FitReport& report)
+{
+  if (!report.with_paper) return "";
+  std::vector<Line> lines{
+      {"as the paper fits", "s [95 %]", "B of s [95 %]", "k [95 %]", "a [95 %]"}};
+  for (const auto& fit : report.rules) {
+    const auto text = [&](double Estimators::*place) {
+      return b_text({fit.value.*place, fit.low.*place, fit.high.*place});
+    };
+    lines.push_back({row_name(report, fit), text(&Estimators::paper_s), text(&Estimators::paper_B),
+                     text(&Estimators::paper_k), text(&Estimators::paper_a)});
+  }
+  return '\n' + aligned(lines);
 }
 
 /// B of every pair under a rule, the larger species along the lines.
@@ -106,13 +115,13 @@ std::string matrix_text(const FitReport& report, const std::string& rule)
   for (std::size_t b = 1; b < species.size(); ++b) {
     text += fmt::format("\n{:<{}}", species[b].name, width);
     for (const auto& fit : report.rules)
-      if (rule_name(report, fit) == rule && fit.pair.larger == b && !fit.mixture)
-        text += fmt::format("{:>{}}", rounded(fit.value.B_half), width);
+      if (rule_name(report, fit) == rule && fit.pair.larger == b && !fit.flow)
+        text += fmt::format("{:>{}}", rounded(fit.value.B), width);
   }
   return text + '\n';
 }
 
-/// The numbers for all mixtures together under the rules that have B, and what each of them is.
+/// The numbers for all flows together under the rules that have B, and what each of them is.
 std::string populations_text(const FitReport& report)
 {
   std::string text;
@@ -120,26 +129,23 @@ std::string populations_text(const FitReport& report)
   for (const auto& fit : report.rules)
     for (const auto& [word, population, meaning] : overs) {
       const auto& b = fit.at(population);
-      if (report.shares.half.size() < 2 || fit.mixture || !std::isfinite(b.value)) continue;
-      const auto& sums = fit.sums_at(population);
-      lines.push_back({row_name(report, fit), rounded(b.value), interval_text(b.low, b.high),
-                       rounded(sums.value), interval_text(sums.low, sums.high), word});
+      if (report.shares.size() < 2 || fit.flow || !std::isfinite(b.value)) continue;
+      lines.push_back({row_name(report, fit), b_text(b), word});
     }
   if (!lines.empty()) {
-    lines.insert(lines.begin(),
-                 {"all together", "B_half", "95 % interval", "B_sums", "95 % interval", "over"});
+    lines.insert(lines.begin(), {"all together", "B [95 %]", "over"});
     text += '\n' + aligned(lines);
   }
   const auto words = estimands(report);
-  if (!words.empty() && !report.mixtures.empty()) text += '\n';
-  if (!report.mixtures.empty())
+  if (!words.empty() && !report.flows.empty()) text += '\n';
+  if (!report.flows.empty())
     for (const auto& [over, sentence] : words)
-      text += fmt::format("over {}: {}\n", word_of(over, overs), sentence);
-  if (report.mixtures.size() < 2) return text;
+      text += wrapped(fmt::format("over {}: {}", word_of(over, overs), sentence));
+  if (report.flows.size() < 2) return text;
   text += '\n';
-  for (std::size_t m = 0; m < report.mixtures.size(); ++m)
-    text += fmt::format("{}: {}, {}\n", report.mixtures[m].name,
-                        counted(report.mixtures[m].tables.size(), "table"), share_words(report, m));
+  for (std::size_t m = 0; m < report.flows.size(); ++m)
+    text += fmt::format("{}: {}, {}\n", report.flows[m].name,
+                        counted(report.flows[m].tables.size(), "table"), share_words(report, m));
   return text;
 }
 
@@ -165,60 +171,31 @@ std::string pairs_text(const FitReport& report)
         [&](const auto& other) { return rule_name(report, other) == rule && other.size_exponent; });
     if (of_all == report.rules.end()) continue;
     if (const auto& a = of_all->size_exponent)
-      text += fmt::format("{}: a = {}: sigma^nu/sigma = phi^nu s^a/sum(phi s^a)\n", rule,
-                          with_interval(a->value, {a->low, a->high}));
+      text +=
+          fmt::format("{}: a = {}: sigma^nu/sigma = phi^nu s^a/sum(phi s^a)\n", rule, b_text(*a));
   }
   return text;
 }
 
-std::string scan_text(const PartitionScan& scan)
-{
-  const auto &first = scan.fits.front(), &last = scan.fits.back();
-  return fmt::format("B(p) at {} shares: {} at p = {:g} to {} at p = {:g}\n", scan.fits.size(),
-                     rounded(first.value.B_half), first.rule.value, rounded(last.value.B_half),
-                     last.rule.value);
-}
-
-std::string zero_text(const ZeroOfB& zero)
-{
-  if (std::isnan(zero.p_zero)) return "p*: B has no zero at any share looked at\n";
-  return fmt::format("p* = {}: with this share of every mixed contact B = 0; dB/dp = {} there\n",
-                     with_interval(zero.p_zero, zero.p_zero_interval),
-                     with_interval(zero.dB_dp, zero.dB_dp_interval));
-}
-
-/// p* of the sums, of each mixture and of all, which no rule changes.
-std::string zeros_of_sums_text(const FitReport& report)
+/// p* and dB/dp of each flow and of all, which no rule changes.
+std::string line_text(const FitReport& report)
 {
   std::string text;
   const auto name = report.rules.empty() ? "" : rule_name(report, report.rules.front());
   for (const auto& fit : report.rules)
-    if (rule_name(report, fit) == name && std::isfinite(fit.p_zero_sums.value))
-      text += fmt::format("p* by sums = {}: with this share B_sums = 0{}\n",
-                          with_interval(fit.p_zero_sums.value, fit.p_zero_sums.interval()),
-                          report.is_by_mixture() ? "; " + mixture_name(report, fit) : "");
-  return text;
+    if (rule_name(report, fit) == name && std::isfinite(fit.line.p_zero.value))
+      text += wrapped(fmt::format(
+          "B = 0 where the large grain gets p* = {} of every mixed contact; dB/dp = {}{}",
+          b_text(fit.line.p_zero.estimate()), b_text(fit.line.dB_dp.estimate()),
+          report.is_by_flow() ? "; " + flow_name(report, fit) : ""));
+  return text.empty() ? "" : '\n' + text;
 }
 
-/// Each doubt once, with the rules that it is about.
 std::string doubts_text(const FitReport& report)
 {
-  std::vector<std::pair<std::string, std::string>> names_of;  // doubt and rules, in order
-  const auto add = [&](const std::string& name, const std::string& doubt) {
-    if (doubt.empty()) return;
-    const auto known = std::find_if(names_of.begin(), names_of.end(),
-                                    [&](const auto& entry) { return entry.first == doubt; });
-    if (known == names_of.end())
-      names_of.emplace_back(doubt, name);
-    else
-      known->second += ", " + name;
-  };
-  for (const auto& fit : report.rules) add(row_name(report, fit), fit.doubt);
-  if (report.scan) add("scan", report.scan->fits.front().doubt);
-  std::string text = names_of.empty() && report.doubts_of_tables.empty() ? "" : "\n";
-  for (const auto& doubt : report.doubts_of_tables) text += fmt::format("doubt: {}\n", doubt);
-  for (const auto& [doubt, names] : names_of) text += fmt::format("doubt: {}: {}\n", names, doubt);
-  return text;
+  std::string text;
+  for (const auto& doubt : doubts(report)) text += wrapped("doubt: " + doubt);
+  return text.empty() ? "" : '\n' + text;
 }
 
 }  // namespace
@@ -226,20 +203,14 @@ std::string doubts_text(const FitReport& report)
 std::string short_table(const FitReport& report)
 {
   std::string text = fmt::format(
-      "B of the {} stress ({}), B_half: at phi_L = 1/2, B_sums: mean with weight phi_L phi_S, from {} "
-      "of {}{}\n\n",
+      "B of the {} stress ({}), a mean with the weight phi_L phi_S, from {} of {}{}\n\n",
       word_of(report.quantity, quantities), word_of(report.component, components),
       counted(report.number_of_windows, "window"), counted(report.number_of_runs, "run"),
-      report.mixtures.size() > 1 ? fmt::format(" of {} mixtures", report.mixtures.size()) : "");
+      report.flows.size() > 1 ? fmt::format(" of {} flows", report.flows.size()) : "");
   text += rules_text(report);
+  text += paper_text(report);
   text += pairs_text(report);
-  if (report.scan || report.zero) text += '\n';
-  if (report.scan) text += scan_text(*report.scan);
-  if (report.scan)
-    text += zero_text(*report.scan);
-  else if (report.zero)
-    text += zero_text(*report.zero);
-  text += zeros_of_sums_text(report);
+  text += line_text(report);
   text += populations_text(report);
   for (const auto& names : report.shared_runs)
     text += fmt::format("one run: {}\n", fmt::join(names, " "));

@@ -2,7 +2,7 @@
 #include "analysis/fit/size_exponent.hpp"
 
 #include "analysis/fit/estimators.hpp"
-#include "analysis/fit/mixtures.hpp"
+#include "analysis/fit/flows.hpp"
 #include "analysis/fit/rule_fit.hpp"
 #include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/window_sums.hpp"
@@ -15,7 +15,7 @@
 namespace grseg {
 namespace {
 
-/// Points of which B_mean, minus the weighted mean of ln(y/x), is a: the logarithms over ln r, and
+/// Points of which minus the weighted mean of ln(y/x) is a: the logarithms over ln r, and
 /// weights that give the least-squares slope.
 std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
 {
@@ -38,16 +38,16 @@ StandardError error_of(const WindowSums& windows, const FitData& data, Over over
 {
   if (over != Over::windows && over != Over::compositions) {
     const auto influences = influences_of(windows);
-    const auto column = column_of_estimator(&Estimators::B_mean);
-    return RunErrors(data, windows.weight())
-        .within_mixtures(influences.sums.col(column), influences.noise.col(column));
+    const auto column = column_of_estimator(&Estimators::minus_ln_s);
+    return RunErrors(data, windows.weight_of_logarithms())
+        .within_flows(influences.sums.col(column), influences.noise.col(column));
   }
   const auto& times =
       over == Over::windows ? bootstrap.blocks(how_dependent.block) : bootstrap.whole_runs();
   const Eigen::MatrixXd totals = windows.totals(times);
   Eigen::VectorXd samples(totals.rows());
   for (Eigen::Index k = 0; k < samples.size(); ++k)
-    samples[k] = estimators_from_sums(totals.row(k)).B_mean;
+    samples[k] = estimators_from_sums(totals.row(k)).minus_ln_s;
   return over == Over::windows ? bootstrap.window_error(samples, how_dependent)
                                : bootstrap.run_error(samples, how_dependent);
 }
@@ -57,9 +57,9 @@ Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
                          const FitSettings& settings, const Resampling& resampling)
 {
   const auto points = points_per_size(fit_points(data, rule, settings));
-  const double a = estimators_of(points).B_mean;
+  const double a = estimators_of(points).minus_ln_s;
   if (points.empty() || resampling.samples == 0) return {a};
-  const auto over = resolved(settings.over, data.runs.size(), data.number_of_mixtures());
+  const auto over = resolved(settings.over, data.runs.size(), data.number_of_flows());
   return {a, error_of(window_sums(points, data.runs), data, over, dependence(data, rule, settings),
                       Bootstrap(data.runs, resampling.samples, resampling.seed))};
 }
@@ -69,16 +69,16 @@ Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
 Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                        const Resampling& resampling)
 {
-  const bool equal = settings.over == Over::equal_mixtures,
-             random = settings.over == Over::random_mixtures;
-  if (data.number_of_mixtures() == 1 || (!equal && !random))
+  const bool equal = settings.over == Over::equal_flows,
+             random = settings.over == Over::random_flows;
+  if (data.number_of_flows() == 1 || (!equal && !random))
     return pooled_exponent(data, rule, settings, resampling).estimate();
   auto of_one = settings;
   of_one.over = Over::automatic;
   std::vector<Measured> of_each;
-  of_each.reserve(data.number_of_mixtures());
-  for (const auto mixture : std::set(data.mixtures.begin(), data.mixtures.end()))
-    of_each.push_back(pooled_exponent(of_mixture(data, mixture), rule, of_one, resampling));
+  of_each.reserve(data.number_of_flows());
+  for (const auto flow : std::set(data.flows.begin(), data.flows.end()))
+    of_each.push_back(pooled_exponent(of_flow(data, flow), rule, of_one, resampling));
   const auto mean = mean_of_equals(of_each);
   return (equal ? mean.by_errors : mean.by_scatter).around(mean.value);
 }

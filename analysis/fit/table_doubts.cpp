@@ -10,15 +10,15 @@
 namespace grseg {
 namespace {
 
-/// Where tables of one run are of several mixtures.
-std::string doubt_of_mixtures(const std::vector<FitTable>& tables)
+/// Where tables of one run are of several flows.
+std::string doubt_of_flows(const std::vector<FitTable>& tables)
 {
   for (const auto& one : tables)
     for (const auto& other : tables)
-      if (one.run == other.run && one.mixture < other.mixture)
+      if (one.run == other.run && one.flow < other.flow)
         return fmt::format(
-            "{} and {} are of different mixtures, but begin from one bed: what is over several "
-            "mixtures takes their errors for independent",
+            "{} and {} are of different flows, but begin from one bed: what is over several "
+            "flows takes their errors for independent",
             one.table->name, other.table->name);
   return "";
 }
@@ -39,7 +39,7 @@ std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
 {
   std::vector<std::string> doubts;
   for (auto&& doubt :
-       {find_runs(tables).doubt(tables), doubt_of_mixtures(read), doubt_of_stillness(data)})
+       {find_runs(tables).doubt(tables), doubt_of_flows(read), doubt_of_stillness(data)})
     if (!doubt.empty()) doubts.push_back(doubt);
   return doubts;
 }

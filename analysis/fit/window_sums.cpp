@@ -12,20 +12,7 @@ namespace {
 
 /// The additive sums of a window: w = weight, f = frames, X = ln x, Y = ln y, D = psi_L - phi_L and
 /// Q = phi_L phi_S.
-enum Sum : Eigen::Index {
-  sum_w,
-  sum_wX,
-  sum_wY,
-  sum_wXX,
-  sum_wXY,
-  sum_xx,
-  sum_xy,
-  sum_wQD,
-  sum_wQQ,
-  sum_fD,
-  sum_fQ,
-  number_of_sums
-};
+enum Sum : Eigen::Index { sum_fD, sum_fQ, sum_w, sum_wX, sum_wY, sum_wXX, sum_wXY, number_of_sums };
 
 /// A power law wants points at different x.
 bool spread_out(double w, double wX, double wXX)
@@ -33,9 +20,8 @@ bool spread_out(double w, double wX, double wXX)
   return wXX * w - wX * wX > 1e-12 * w * w;
 }
 
-/// One statistic as a weighted mean over points: of ln(y/x), of y/x with weight x^2 (the line
-/// through the origin) or of (psi_L - phi_L)/(phi_L phi_S) with weight w (phi_L phi_S)^2 or, of the
-/// sums, f phi_L phi_S.
+/// One statistic as a weighted mean over points: of ln(y/x), or of (psi_L - phi_L)/(phi_L phi_S) with
+/// weight f phi_L phi_S.
 struct WeightedMean {
   std::vector<const FitPoint*> points;
   std::vector<double> phi_large, value, weight;
@@ -69,29 +55,19 @@ Eigen::Index window_of(const FitPoint& point)
 
 Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index windows)
 {
-  WeightedMean logarithm, linear, direct, of_sums;
+  WeightedMean logarithm, b;
   for (const auto& point : points) {
-    if (point.has_logarithm()) {
-      const double x = point.ratio(), slope = point.small / point.large / x;
-      logarithm.add(point, std::log(slope), point.weight);
-      linear.add(point, slope, x * x);
-    }
-    const double q = point.product();
-    if (!(point.total > 0)) continue;
-    direct.add(point, point.excess() / q, point.weight * q * q);
-    of_sums.add(point, point.excess() / q, point.frames * q);
+    if (point.has_logarithm())
+      logarithm.add(point, std::log(point.small / point.large / point.ratio()), point.weight);
+    if (point.total > 0)
+      b.add(point, point.excess() / point.product(), point.frames * point.product());
   }
   Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(windows, number_of_sums);
   logarithm.for_noise([&](const FitPoint& point, double part) {
     noise(window_of(point), sum_wY) += part;
     noise(window_of(point), sum_wXY) += part * std::log(point.ratio());
   });
-  linear.for_noise(
-      [&](const FitPoint& point, double part) { noise(window_of(point), sum_xy) += part; });
-  direct.for_noise(
-      [&](const FitPoint& point, double part) { noise(window_of(point), sum_wQD) += part; });
-  of_sums.for_noise(
-      [&](const FitPoint& point, double part) { noise(window_of(point), sum_fD) += part; });
+  b.for_noise([&](const FitPoint& point, double part) { noise(window_of(point), sum_fD) += part; });
   return noise;
 }
 
@@ -103,31 +79,30 @@ WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& ru
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(windows, number_of_sums);
   for (const auto& point : points) {
     auto row = sums.row(window_of(point));
-    const double w = point.weight;
-    if (point.has_logarithm()) {
-      const double x = point.ratio(), y = point.small / point.large;
-      const double ln_x = std::log(x), ln_y = std::log(y);
-      row[sum_w] += w;
-      row[sum_wX] += w * ln_x;
-      row[sum_wY] += w * ln_y;
-      row[sum_wXX] += w * ln_x * ln_x;
-      row[sum_wXY] += w * ln_x * ln_y;
-      row[sum_xx] += x * x;
-      row[sum_xy] += x * y;
-    }
     if (point.total > 0) {
-      row[sum_wQD] += w * point.product() * point.excess();
-      row[sum_wQQ] += w * point.product() * point.product();
       row[sum_fD] += point.frames * point.excess();
       row[sum_fQ] += point.frames * point.product();
     }
+    if (!point.has_logarithm()) continue;
+    const double w = point.weight, ln_x = std::log(point.ratio()),
+                 ln_y = std::log(point.small / point.large);
+    row[sum_w] += w;
+    row[sum_wX] += w * ln_x;
+    row[sum_wY] += w * ln_y;
+    row[sum_wXX] += w * ln_x * ln_x;
+    row[sum_wXY] += w * ln_x * ln_y;
   }
   return {std::move(sums), window_noise(points, windows)};
 }
 
 Eigen::VectorXd WindowSums::weight() const
 {
-  return sums.col(sums.col(sum_w).any() ? sum_w : sum_wQQ);
+  return sums.col(sum_fQ);
+}
+
+Eigen::VectorXd WindowSums::weight_of_logarithms() const
+{
+  return sums.col(sum_w);
 }
 
 Eigen::VectorXd WindowSums::excess() const
@@ -149,22 +124,18 @@ Eigen::MatrixXd WindowSums::totals(const Eigen::MatrixXd& times) const
 Estimators estimators_from_sums(const Eigen::RowVectorXd& total)
 {
   const double w = total[sum_w], w_x = total[sum_wX], w_y = total[sum_wY];
-  double prefactor = Estimators::nan, exponent = Estimators::nan;
+  double k = Estimators::nan, a = Estimators::nan;
   if (spread_out(w, w_x, total[sum_wXX])) {
-    exponent = (w * total[sum_wXY] - w_x * w_y) / (w * total[sum_wXX] - w_x * w_x);
-    prefactor = std::exp((w_y - exponent * w_x) / w);
+    a = (w * total[sum_wXY] - w_x * w_y) / (w * total[sum_wXX] - w_x * w_x);
+    k = std::exp((w_y - a * w_x) / w);
   }
-  return estimators_from_slopes((w_y - w_x) / w, total[sum_xy] / total[sum_xx], prefactor, exponent,
-                                total[sum_wQD] / total[sum_wQQ], total[sum_fD] / total[sum_fQ]);
+  return estimators_from(total[sum_fD] / total[sum_fQ], (w_y - w_x) / w, k, a);
 }
 
 Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up)
 {
-  const auto of_log = dependence(windows.noise.col(sum_wY), windows.sums.col(sum_w), runs);
-  if (!adds_up) return of_log;
-  const auto of_psi = worse(dependence(windows.noise.col(sum_wQD), windows.sums.col(sum_wQQ), runs),
-                            dependence(windows.noise.col(sum_fD), windows.sums.col(sum_fQ), runs));
-  return windows.sums.col(sum_w).any() ? worse(of_log, of_psi) : of_psi;
+  return adds_up ? dependence(windows.noise.col(sum_fD), windows.sums.col(sum_fQ), runs)
+                 : dependence(windows.noise.col(sum_wY), windows.sums.col(sum_w), runs);
 }
 
 }  // namespace grseg

@@ -35,12 +35,19 @@ PartitionRule rule_of(const DerivedOptions& options)
   return rule;
 }
 
-RowFilter filter_of(const DerivedOptions& options, const FrameOptions& frames, LengthUnits units)
+/// Heights: a profile has all layers, what pools them those inside the bed.
+std::string heights_of(const DerivedOptions& options)
+{
+  if (!options.heights.empty()) return options.heights;
+  return options.pool == "composition" ? inside_the_bed : "all";
+}
+
+RowFilter filter_of(const DerivedOptions& options, const FrameOptions& frames)
 {
   RowFilter filter;
   filter.begin = frames.windows.begin.value_or(filter.begin);
   filter.end = frames.windows.end.value_or(filter.end);
-  filter.heights = parse_heights(options.heights, units);
+  filter.heights = heights_of(options);
   return filter;
 }
 
@@ -81,7 +88,7 @@ Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
   for (const auto& line : settings_of(tables[0]))
     if (line.first != "preset") header.push_back(line);
   const std::string depth = options.depth.empty() ? "height of the bed" : options.depth;
-  const std::string heights = options.heights.empty() ? "all" : options.heights;
+  const std::string heights = heights_in_words(heights_of(options));
   for (const auto& [key, value] : {std::pair{"force", options.force},
                                    {"average", options.average},
                                    {"partition", options.partition},
@@ -136,7 +143,10 @@ void DerivedOptions::add_to(po::options_description& options)
       "with --derived: H of the pressure at H - y by which forces are divided (default: height of "
       "the bed)");
   add("heights", po::value(&heights)->value_name("y0:y1"),
-      "with --derived: use layers between these heights, e.g. 4dS:56dS or 4dS: (default: all)");
+      fmt::format(
+          "with --derived: layers that take part: {} (default: inside of layers that are pooled by composition, else all)",
+          heights_help)
+          .c_str());
 }
 
 void refuse_options(const po::variables_map& values, const std::vector<const char*>& options,
@@ -159,6 +169,7 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
       options.pool, "--pool",
       {{"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}});
   frames.output.check(values);
+  if (!options.heights.empty()) check_heights(options.heights);
   DerivedSettings settings{measure_of(options), rule_of(options), 0};
   const auto tables = read_tables(info, values, frames.quiet);
   if (tables.empty())
@@ -171,8 +182,8 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
     const LengthUnits units{constants.small_diameter, constants.large_diameter};
     if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
     table = empty_table(info, tables, options, preset_of(values), command);
-    const auto filter = filter_of(options, frames, units);
-    for (const auto& row : pooled(filtered(std::move(rows), filter), pool))
+    const auto filter = filter_of(options, frames);
+    for (const auto& row : pooled(filtered(std::move(rows), filter, units), pool))
       add_row(table, row, derived_quantities(row, constants, settings));
   });
   if (table.rows.empty())

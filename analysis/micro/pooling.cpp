@@ -81,12 +81,18 @@ double pool_key(const SumsRow<D>& row, Pool pool)
 }  // namespace
 
 template <int D>
-std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter)
+std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter,
+                                 LengthUnits units)
 {
+  std::vector<LayerSolid> layers;
+  for (const auto& row : rows)
+    if (!row.is_bed())
+      layers.push_back({row.bottom, row.top, row.frames, row.sums.content() / row.volume});
+  const auto heights = parse_heights(filter.heights, units, layers);
   std::erase_if(rows, [&](const SumsRow<D>& row) {
     const double time_slack = 1e-9 * (1 + std::abs(row.begin) + std::abs(row.end));
     return row.begin < filter.begin - time_slack || row.end > filter.end + time_slack ||
-           !filter.heights.holds(row.bottom, row.top);
+           !heights.holds(row.bottom, row.top);
   });
   return rows;
 }
@@ -106,8 +112,8 @@ std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool)
   return result;
 }
 
-template std::vector<SumsRow<2>> filtered(std::vector<SumsRow<2>>, const RowFilter&);
-template std::vector<SumsRow<3>> filtered(std::vector<SumsRow<3>>, const RowFilter&);
+template std::vector<SumsRow<2>> filtered(std::vector<SumsRow<2>>, const RowFilter&, LengthUnits);
+template std::vector<SumsRow<3>> filtered(std::vector<SumsRow<3>>, const RowFilter&, LengthUnits);
 template std::vector<SumsRow<2>> pooled(const std::vector<SumsRow<2>>&, Pool);
 template std::vector<SumsRow<3>> pooled(const std::vector<SumsRow<3>>&, Pool);
 

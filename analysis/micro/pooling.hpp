@@ -14,10 +14,11 @@ namespace grseg {
 struct RowFilter {
   double begin = -std::numeric_limits<double>::infinity();  // s
   double end = std::numeric_limits<double>::infinity();
-  HeightRange heights = {};
+  std::string heights = "all";  // as on the command line (height_range.hpp)
 };
 template <int D>
-std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter);
+std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter,
+                                 LengthUnits units);
 
 /// Which rows are merged.
 enum class Pool {

@@ -68,6 +68,8 @@ struct StructureSums {
   /// Contacts between mobile grains: SS, LS and LL together.
   PairSums<D> between_grains() const;
 
+  /// Of all grains, m^2 or m^3.
+  double content() const { return species[0].content + species[1].content; }
   /// phi_L by area or volume; NaN without grains.
   double phi_large() const;
   /// z_S, z_L: contact ends per grain; NaN without grains.

@@ -7,7 +7,7 @@
         for frame in run.frames(begin=5):
             print(frame.time, frame.contacts.force.shape)
         sums = run.contact_sums(layer="4dS", window=1.25)
-    print(grseg.Points(sums).fit("size").B_half)
+    print(grseg.Points(sums).fit("size").B)
 
 Units are SI; x points down the slope, y up from the base, z across; D is 2 (discs) or 3 (spheres);
 stress is in N/m or Pa, positive in compression (formats/README.md). Sums are those of grseg-stress
@@ -1258,36 +1258,21 @@ def partial_stress(table, rule="size", base=None):
 
 @dataclasses.dataclass
 class Fit:
-    """What a rule makes of two species: y = sigma^S/sigma^L over x = phi_S/phi_L, and the segregation strength B of
-    psi_L = phi_L (1 + B phi_S). Names and definitions are those of grseg-fit; NaN where one is not defined. Values
-    only: intervals are those of grseg-fit.
-
-    B_half is that of the paper's logarithmic fit at phi_L = 1/2, B_sums a ratio of sums, which does not suffer where
-    windows hold few grains; p_zero_sums is the share of all mixed contacts at which B_sums is 0.
+    """What a rule makes of two species: the segregation strength B of psi_L = phi_L (1 + B phi_S), a mean over layers and
+    frames with the weight phi_L phi_S. Names and definitions are those of grseg-fit; NaN where one is not defined.
+    Values only: intervals are those of grseg-fit.
     """
 
     rule: str
-    points: int             # with both stresses positive
-    not_positive: int       # the others, which take part in B_direct and B_sums
-    slope: float            # s = exp(weighted mean of ln(y/x))
-    B_half: float           # 2 (1 - s)/(1 + s)
-    B_mean: float           # -ln s, the mean over phi_L
-    B_pure_large: float     # 1 - s
-    B_pure_small: float     # (1 - s)/s
-    B_paper: float          # half the sum of these two
-    slope_linear: float     # least squares through the origin, unweighted
-    B_linear: float
-    prefactor_power: float  # y = k x^a, weighted least squares of the logarithms
-    exponent: float
-    B_power: float
-    B_direct: float         # sum w (psi_L - phi_L) phi_L phi_S / sum w (phi_L phi_S)^2
-    B_sums: float           # sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
-    share: float            # of the mixed contacts' stress that the rule gives to large grains
-    p_zero_sums: float
-
-
-Zero = collections.namedtuple("Zero", "share slope")
-Zero.__doc__ = "p*, the share of mixed contacts at which B_half is 0 (NaN: it is nowhere), and dB/dp there."
+    points: int      # layers and windows
+    B: float         # sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
+    share: float     # of all mixed contacts that gives the same B
+    p_zero: float    # the share at which B is 0, whatever the rule
+    dB_dp: float     # of B over the share, there
+    paper_s: float   # what the paper fits: sigma^S/sigma^L = s phi_S/phi_L, as a mean of logarithms
+    paper_B: float   # half the sum of 1 - s and (1 - s)/s
+    paper_k: float   # sigma^S/sigma^L = k (phi_S/phi_L)^a, weighted least squares of the logarithms
+    paper_a: float
 
 
 class Points:
@@ -1300,9 +1285,8 @@ class Points:
     base           part of contacts with the base; default: as in the first table
     pair           names of the two species, where the tables have more
     ratio_range    of phi_S/phi_L
-    heights        between which layers lie, "4dS:56dS" or "4dS:"
+    heights        of the layers: "inside" (without 4 d_S at the base and under the surface), "all", "4dS:56dS" or "4dS:"
     min_solid      least solid fraction of a layer, in units of the run's median
-    min_grains     least mean number of grains of the rarer species
     begin, end     s, between which windows lie
 
     Of each point [n]: x = phi_S/phi_L, phi_large, weight (frames times grains of the rarer species), frames,
@@ -1313,7 +1297,7 @@ class Points:
     """
 
     def __init__(self, tables, quantity="contact", component="yy", base=None, pair=None, ratio_range=(0.01, 100.0),
-                 heights=None, min_solid=0.5, min_grains=0.0, begin=-math.inf, end=math.inf):
+                 heights="inside", min_solid=0.5, begin=-math.inf, end=math.inf):
         self.tables = [tables] if isinstance(tables, Table) else list(tables)
         if not self.tables or quantity not in ("contact", "kinetic") or component not in ("yy", "pressure"):
             raise ValueError("Points wants tables, quantity contact or kinetic, component yy or pressure")
@@ -1321,7 +1305,7 @@ class Points:
         self.base = base or self.tables[0].header.get("base", "contact-point")
         self.pair = self._find_pair(pair)
         self._ratio_range, self._heights = ratio_range, heights
-        self._least = {"solid": min_solid, "grains": min_grains}
+        self._min_solid = min_solid
         self._times = begin, end
         runs, untold = _find_runs(self.tables)
         self.untold = [self.tables[k].name for k in untold]
@@ -1353,39 +1337,27 @@ class Points:
     def fit(self, rule="size"):
         """The Fit of a rule; kinetic stress knows none."""
         small, large, total = self.stresses(rule)
-        ok = (small > 0) & (large > 0)
-        slopes = _log_slopes(self.x[ok], small[ok] / large[ok], self.weight[ok])
-        direct, sums = self._direct(large, total)
-        share, zero = (math.nan, math.nan) if self.quantity == "kinetic" or len(self.tables[0].species) > 2 else (
-            self._share(large), self._zero_of_sums())
-        fit = Fit(rule, int(ok.sum()), int((~ok).sum()), **slopes, B_direct=direct, B_sums=sums, share=share,
-                  p_zero_sums=zero)
-        if self.quantity == "contact" and rule == "drop":  # its stresses do not add up
-            for field in dataclasses.fields(Fit):
-                if field.name.startswith("B_") or field.name in ("share", "p_zero_sums"):
-                    setattr(fit, field.name, math.nan)
-        return fit
+        adds_up = self.quantity == "kinetic" or rule != "drop"
+        b = self._strength(large, total) if adds_up else math.nan
+        share = zero = slope = math.nan
+        if self.quantity == "contact" and len(self.tables[0].species) == 2:
+            zero, slope = self._zero()
+            if adds_up:
+                none, everything = (self._b_at(p) for p in (0.0, 1.0))
+                share = (b - none) / (everything - none) if everything != none else math.nan
+        paper = _fits_of_the_paper(self.x, small, large, self.weight)
+        if not adds_up:
+            paper["paper_B"] = math.nan
+        return Fit(rule, len(self), b, share, zero, slope, **paper)
+
+    def _b_at(self, share):
+        """B where the larger grain of every mixed contact gets this share."""
+        _, large, total = self.stresses(f"uniform:{float(share)!r}")
+        return self._strength(large, total)
 
     def b_of_p(self, shares):
-        """B_half [n] where the larger grain of every mixed contact gets these shares [n]."""
-        return np.array([self.fit(f"uniform:{share!r}").B_half for share in np.asarray(shares, float).tolist()])
-
-    def zero(self, shares=None):
-        """p* and dB/dp there, a Zero, looked for between `shares` (default: 0, 0.05 ... 1)."""
-        shares = np.arange(21) / 20 if shares is None else np.asarray(shares, dtype=float)
-        means = np.array([self._log_mean(share)[0] for share in shares])
-        crossing = np.flatnonzero(means[:-1] * means[1:] <= 0)
-        if len(crossing) == 0:
-            return Zero(math.nan, math.nan)
-        share = float(shares[crossing[0] + 1])
-        for _ in range(8):  # Newton's method
-            mean, slope = self._log_mean(share)
-            if not math.isfinite(mean / slope):
-                break
-            share -= mean / slope
-            if abs(mean / slope) < 1e-14:
-                break
-        return Zero(share, -self._log_mean(share)[1])
+        """B [n] where the larger grain of every mixed contact gets these shares [n]."""
+        return np.array([self._b_at(share) for share in np.asarray(shares, float).tolist()])
 
     def _find_pair(self, pair):
         names = [one.name for one in self.tables[0].species]
@@ -1400,35 +1372,26 @@ class Points:
         return a, b
 
     def _contents(self, table):
-        """Areas, volumes or masses of the species [rows, K], and their mean numbers of grains or None."""
+        """Areas, volumes or masses of the species [rows, K]."""
         names = _Names(table.species, table.dimension)
         one_density = f"mass_{names.words[0]}" not in table or names.contents[0] not in table
         if self.quantity == "kinetic" and one_density:
-            contents = np.stack([table[f"mass_{word}"] for word in names.words], axis=1)
-        else:
-            contents = np.stack([table[name] for name in names.contents], axis=1)
-        counts = [f"grains_{word}" for word in names.words]
-        if all(name in table for name in counts):
-            return contents, np.stack([table[name] for name in counts], axis=1)
-        if self.quantity == "kinetic":
-            return contents, None
-        r = np.array([one.diameter for one in table.species]) / 2
-        return contents, contents / (math.pi * r**2 if table.dimension == 2 else 4 * math.pi / 3 * r**3)
+            return np.stack([table[f"mass_{word}"] for word in names.words], axis=1)
+        return np.stack([table[name] for name in names.contents], axis=1)
 
     def _select(self, table):
         """The rows of a table that take part, as select_fit_data() of analysis/fit/fit_data.cpp chooses them."""
         if table.header.get("bins", "layers").split(" ")[0] in ("xy", "xz", "rz"):
             raise Error(f"{table.name}: a map, whose rows are cells, not layers; make the table without --bins")
-        contents, grains = self._contents(table)
+        contents = self._contents(table)
         small, large = (contents[:, k] for k in self.pair)
         solid = contents.sum(axis=1) / table["V"]
+        median = np.median(solid[solid > 0]) if (solid > 0).any() else 0
         with np.errstate(invalid="ignore", divide="ignore"):
             ratio = small / large
-            use = self._in_range(table) & (small > 0) & (large > 0) & (table["frames"] > 0)
+            use = self._in_range(table, solid, median) & (small > 0) & (large > 0) & (table["frames"] > 0)
             use &= (ratio >= self._ratio_range[0]) & (ratio <= self._ratio_range[1])
-        use &= solid >= self._least["solid"] * (np.median(solid[solid > 0]) if (solid > 0).any() else 0)
-        if grains is not None:
-            use &= grains[:, self.pair].min(axis=1) >= self._least["grains"]
+        use &= solid >= self._min_solid * median
         d_small, d_large = (table.species[k].diameter for k in self.pair)
         power = table.dimension
         rarer = np.minimum(small / d_small**power, large / d_large**power)[use]
@@ -1436,19 +1399,35 @@ class Points:
         return {"row": np.flatnonzero(use), "phi_large": large[use] / (small + large)[use], "weight": frames * rarer,
                 "frames": frames, "size_ratio": np.full(len(frames), d_large / d_small)}
 
-    def _in_range(self, table):
+    def _in_range(self, table, solid, median):
+        """Whether rows lie in the times and heights that take part."""
         t0, t1, y0, y1 = (table[name] for name in ("t0", "t1", "y0", "y1"))
         slack = 1e-9 * (1 + abs(t0) + abs(t1))
         good = (t0 >= self._times[0] - slack) & (t1 <= self._times[1] + slack)
-        if self._heights is not None:
-            sizes = table.number("small_diameter"), table.number("large_diameter")
+        low, high = self._height_range(table, solid, median)
+        slack = 1e-9 * (y1 - y0)
+        return good & (y0 >= low - slack) & (y1 <= high + slack)
+
+    def _height_range(self, table, solid, median):
+        """m, as parse_heights() of analysis/frames/height_range.hpp has it."""
+        sizes = table.number("small_diameter"), table.number("large_diameter")
+        if self._heights == "all":
+            return -math.inf, math.inf
+        if self._heights != "inside":
             low, colon, high = self._heights.partition(":")
             if not colon:
-                raise ValueError(f"heights = {self._heights!r}: write low:high, e.g. 4dS:56dS or 4dS:")
-            slack = 1e-9 * (y1 - y0)
-            good &= y0 >= (_metres(low, *sizes) if low else -math.inf) - slack
-            good &= y1 <= (_metres(high, *sizes) if high else math.inf) + slack
-        return good
+                raise ValueError(f"heights = {self._heights!r}: write inside, all, or low:high, e.g. 4dS:56dS or 4dS:")
+            return _metres(low, *sizes) if low else -math.inf, _metres(high, *sizes) if high else math.inf
+        bottoms, layer = np.unique(table["y0"], return_inverse=True)
+        frames = np.bincount(layer, table["frames"])
+        with np.errstate(invalid="ignore", divide="ignore"):
+            filled = np.nan_to_num(np.bincount(layer, table["frames"] * np.nan_to_num(solid)) / frames / median)
+        if not (filled >= 0.5).any():
+            return math.inf, -math.inf
+        tops = np.zeros(len(bottoms))
+        tops[layer] = table["y1"]
+        base = bottoms[filled >= 0.5].min()
+        return base + 4 * sizes[0], base + (filled * (tops - bottoms)).sum() - 4 * sizes[0]
 
     def _stresses_of(self, table, rule):
         """The component of each species [rows, K] and of all [rows]."""
@@ -1462,57 +1441,41 @@ class Points:
             return of_species[..., 1, 1], of_all[..., 1, 1]
         return (np.trace(tensor, axis1=-2, axis2=-1) / table.dimension for tensor in (of_species, of_all))
 
-    def _direct(self, large, total):
+    def _strength(self, large, total):
         ok = total > 0
-        if not ok.any():
-            return math.nan, math.nan
-        phi, w, f = self.phi_large[ok], self.weight[ok], self.frames[ok]
-        excess, product = large[ok] / total[ok] - phi, phi * (1 - phi)
-        return (float((w * product * excess).sum() / (w * product**2).sum()),
-                float((f * excess).sum() / (f * product).sum()))
+        phi, f = self.phi_large[ok], self.frames[ok]
+        product = (f * phi * (1 - phi)).sum()
+        return float((f * (large[ok] / total[ok] - phi)).sum() / product) if ok.any() else math.nan
 
-    def _share(self, large):
-        none, everything = self.stresses("uniform:0")[1], self.stresses("uniform:1")[1]
-        return float((self.weight * (large - none)).sum() / (self.weight * (everything - none)).sum())
-
-    def _zero_of_sums(self):
-        """The sum over frames of psi_L - phi_L is linear in the share."""
-        excess = []
-        for rule in ("uniform:0", "uniform:1"):
-            _, large, total = self.stresses(rule)
-            ok = total > 0
-            excess.append((self.frames[ok] * (large[ok] / total[ok] - self.phi_large[ok])).sum())
-        return float(-excess[0] / (excess[1] - excess[0]))
-
-    def _log_mean(self, share):
-        """The weighted mean of ln(y/x) where all mixed contacts have this share, and its derivative."""
+    def _zero(self):
+        """p* and dB/dp there, by Newton's method; one step where B over the share is straight."""
         none, everything = self.stresses("uniform:0"), self.stresses("uniform:1")
-        from_small, to_large = none[0] - everything[0], everything[1] - none[1]
-        small, large = none[0] - share * from_small, none[1] + share * to_large
-        ok = (small > 0) & (large > 0)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            weight = self.weight[ok] / self.weight[ok].sum()
-            value = np.log(small[ok] / large[ok] / self.x[ok])
-            slope = -from_small[ok] / small[ok] - to_large[ok] / large[ok]
-        return float((weight * value).sum()), float((weight * slope).sum())
+        change = [all_to - none_to for none_to, all_to in zip(none, everything)]
+        weight, share = self.frames * self.phi_large * (1 - self.phi_large), 0.5
+        for _ in range(8):
+            _, large, total = (at + share * of for at, of in zip(none, change))
+            ok = total > 0
+            psi = large[ok] / total[ok]
+            excess = (self.frames[ok] * (psi - self.phi_large[ok])).sum()
+            slope = (self.frames[ok] * (change[1][ok] - psi * change[2][ok]) / total[ok]).sum()
+            if not slope:
+                return math.nan, math.nan
+            share -= excess / slope
+            if abs(excess / slope) < 1e-14:
+                break
+        return float(share), float(slope / weight[ok].sum())
 
 
-def _log_slopes(x, y, weight):
-    """The estimators that follow from y(x), as estimators_of() of analysis/fit/estimators.cpp has them."""
-    log_slope = linear = prefactor = exponent = math.nan
-    if len(x):
-        ln_x, ln_y, w = np.log(x), np.log(y), weight / weight.sum()
+def _fits_of_the_paper(x, small, large, weight):
+    """What estimators_of() of analysis/fit/estimators.cpp takes from points with both stresses positive."""
+    ok = (small > 0) & (large > 0)
+    log_slope = prefactor = exponent = math.nan
+    if ok.any():
+        ln_x, ln_y, w = np.log(x[ok]), np.log(small[ok] / large[ok]), weight[ok] / weight[ok].sum()
         log_slope = float((w * (ln_y - ln_x)).sum())
-        linear = float((x * y).sum() / (x * x).sum())
-        if len(x) > 1 and ((ln_x - ln_x[0])**2).sum() / (len(x) - 1) > 1e-12:
+        if len(w) > 1 and ((ln_x - ln_x[0])**2).sum() / (len(w) - 1) > 1e-12:
             dx, dy = ln_x - (w * ln_x).sum(), ln_y - (w * ln_y).sum()
             exponent = float((w * dx * dy).sum() / (w * dx * dx).sum())
             prefactor = math.exp((w * ln_y).sum() - exponent * (w * ln_x).sum())
     s = math.exp(log_slope)
-    return {"slope": s, "B_half": _at_half(s), "B_mean": -log_slope, "B_pure_large": 1 - s, "B_pure_small": (1 - s) / s,
-            "B_paper": (1 - s + (1 - s) / s) / 2, "slope_linear": linear, "B_linear": _at_half(linear),
-            "prefactor_power": prefactor, "exponent": exponent, "B_power": _at_half(prefactor)}
-
-
-def _at_half(slope):
-    return 2 * (1 - slope) / (1 + slope)
+    return {"paper_s": s, "paper_B": (1 - s + (1 - s) / s) / 2, "paper_k": prefactor, "paper_a": exponent}

@@ -325,8 +325,12 @@ void RunReader::read()
   const LengthUnits units{tables_.segregation->header_positive("small_diameter"),
                           tables_.segregation->header_positive("large_diameter")};
   RowRange range = filter_.range;
-  range.heights = parse_heights(filter_.heights, units);
   const auto list = motions_of(*tables_.segregation, data_.has_kinetic);
+  std::vector<LayerSolid> layers;
+  layers.reserve(list.size());
+  for (const auto& motion : list)
+    layers.push_back({motion.key.bottom, motion.key.top, motion.key.frames, motion.solid()});
+  range.heights = parse_heights(filter_.heights, units, layers);
   const double least_solid = filter_.min_solid * median_solid(list);
   std::map<Place, Motion> motions;
   for (const auto& motion : list) motions.emplace(place_of(motion.key), motion);

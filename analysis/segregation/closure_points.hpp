@@ -67,8 +67,8 @@ inline constexpr Choice<Instruments> instrument_choices[] = {
 /// Which layers and windows take part.
 struct ClosureFilter {
   RowRange range = {};
-  std::string heights{};   // as on the command line; "": all
-  double min_solid = 0.5;  // least solid fraction over the median of the run
+  std::string heights = "all";  // as on the command line (height_range.hpp)
+  double min_solid = 0.5;       // least solid fraction over the median of the run
   Instruments instruments = Instruments::previous;
 };
 

@@ -96,15 +96,21 @@ Estimate quotient(const Regression& a, const Regression& b, double factor)
 
 }  // namespace
 
-std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter)
+std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter,
+                                LengthUnits units)
 {
   std::vector<double> solid;
   solid.reserve(points.size());
-  for (const auto& point : points) solid.push_back(point.solid);
+  std::vector<LayerSolid> layers;
+  layers.reserve(points.size());
+  for (const auto& point : points) {
+    solid.push_back(point.solid);
+    layers.push_back({point.bottom, point.top, 1, point.solid});
+  }
+  const auto heights = parse_heights(filter.heights, units, layers);
   const double median = median_of_positive(std::move(solid));
   std::erase_if(points, [&](const RatePoint& point) {
-    return !filter.heights.holds(point.bottom, point.top) ||
-           !(point.solid >= filter.min_solid * median);
+    return !heights.holds(point.bottom, point.top) || !(point.solid >= filter.min_solid * median);
   });
   return points;
 }

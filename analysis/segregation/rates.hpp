@@ -21,10 +21,11 @@ struct RatePoint {
 
 /// Which layers take part.
 struct RateFilter {
-  HeightRange heights = {};
-  double min_solid = 0.5;  // least solid fraction over the median of all points
+  std::string heights = "all";  // as on the command line (height_range.hpp)
+  double min_solid = 0.5;       // least solid fraction over the median of all points
 };
-std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter);
+std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter,
+                                LengthUnits units);
 
 /// Segregation velocity, diffusivities and Peclet number of a whole run, over the layers and
 /// windows given, by the law of Gray & Chugunov (2006), q_L = S phi_L phi_S - D d phi_L/dy:

@@ -104,7 +104,7 @@ template <int D>
 SegregationSummary SegregationRun<D>::summary(const RateFilter& filter) const
 {
   auto summary = segregation_times(series_.moments(), windows_);
-  summary.append(segregation_rates(filtered(points_, filter)));
+  summary.append(segregation_rates(filtered(points_, filter, {small_diameter_, large_diameter_})));
   return summary;
 }
 

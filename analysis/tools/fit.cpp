@@ -27,10 +27,10 @@ constexpr ToolInfo info{
     "grseg-fit sums.tsv ... | - [options]",
     "  grseg-fit sums.tsv                               B by size, the default\n"
     "  grseg-fit sums.tsv --partition stock             B by the rules of published codes\n"
-    "  grseg-fit sums.tsv --short -o fit.tsv            a table to read, and all columns in a file\n"
+    "  grseg-fit sums.tsv --short -o fit.tsv            a table to read, and all numbers in a file\n"
     "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
-    "  grseg-fit phi*/*.tsv                             B of each mixture, then of all\n"
-    "  grseg-fit phi*/*.tsv --over equal-mixtures       one number, each mixture counting the same\n"
+    "  grseg-fit phi*/*.tsv                             B of each flow, then of all\n"
+    "  grseg-fit phi*/*.tsv --over equal-flows          one number, each flow counting the same\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
     "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n",
@@ -63,12 +63,17 @@ void remark(const std::vector<Table>& tables, const FitReport& report, bool with
 /// RunError, saying why, where there is no number to print.
 void require_numbers(const FitReport& report)
 {
-  const auto has_number = [](const RuleFit& fit) {
-    return std::isfinite(fit.value.slope) || std::isfinite(fit.value.B_direct);
+  const auto has_number = [&](const RuleFit& fit) {
+    return std::isfinite(fit.value.B) || (report.with_paper && std::isfinite(fit.value.paper_s));
   };
   const auto& fits = report.scan ? report.scan->fits : report.rules;
-  if (std::none_of(fits.begin(), fits.end(), has_number))
-    throw RunError(fmt::format("{}: {}", rule_name(report, fits[0]), fits[0].doubt));
+  if (std::any_of(fits.begin(), fits.end(), has_number)) return;
+  const auto& first = fits.front();
+  throw RunError(fmt::format(
+      "{}: {}", rule_name(report, first),
+      first.rule.adds_up() ? first.doubt
+                           : "there is no B, since the parts do not add up to the whole stress; "
+                             "--fit paper prints what can be fitted"));
 }
 
 }  // namespace

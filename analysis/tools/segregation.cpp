@@ -56,9 +56,9 @@ po::options_description options_into(Settings& s)
                         "read tables of this tool and of grseg-stress, of one or several runs, "
                         "and regress the flux of large grains on driving and gradient: B/c, d/c, "
                         "and c under each rule");
-  options.add_options()("heights", po::value(&s.heights)->value_name("y0:y1"),
-                        "with --summary and --closure: use only layers between these heights, "
-                        "e.g. 4dS:56dS or 4dS: (default: all)");
+  options.add_options()(
+      "heights", po::value(&s.heights)->value_name("y0:y1")->default_value(inside_the_bed),
+      fmt::format("with --summary and --closure: layers that take part: {}", heights_help).c_str());
   options.add_options()(
       "min-solid", po::value(&s.min_solid)->default_value(0.5, "0.5")->value_name("X"),
       "with --summary and --closure: leave out layers whose solid fraction is less than X times "
@@ -80,15 +80,16 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-RateFilter filter_of(const Settings& s, LengthUnits units)
+RateFilter filter_of(const Settings& s)
 {
   if (!(s.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
-  return {parse_heights(s.heights, units), s.min_solid};
+  check_heights(s.heights);
+  return {s.heights, s.min_solid};
 }
 
 void write_summary(const Settings& s, const SegregationSummary& summary, Header header)
 {
-  header.emplace_back("heights", s.heights.empty() ? "all" : s.heights);
+  header.emplace_back("heights", heights_in_words(s.heights));
   header.emplace_back("min_solid", format_number(s.min_solid));
   header.emplace_back("interval", "95 %");
   if (!s.frames.quiet)
@@ -121,7 +122,7 @@ void tabulate(const Settings& s, const po::variables_map& values, const std::str
 {
   FrameLoop loop(info, values, s.frames);
   loop.require_two_species();
-  const auto filter = filter_of(s, {loop.run().small_diameter(), loop.run().large_diameter()});
+  const auto filter = filter_of(s);
   with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, filter, command); });
 }
 
@@ -156,7 +157,7 @@ void close(const Settings& s, const po::variables_map& values, const std::string
   ClosureFilter filter;
   filter.heights = s.heights;
   filter.instruments = choose(s.instruments, "--instruments", instrument_choices);
-  filter.min_solid = filter_of(s, {1, 1}).min_solid;
+  filter.min_solid = filter_of(s).min_solid;
   filter.range.begin = s.frames.windows.begin.value_or(filter.range.begin);
   filter.range.end = s.frames.windows.end.value_or(filter.range.end);
   const auto tables = read_tables(info, values, s.frames.quiet);

@@ -45,8 +45,8 @@ points = grseg.Points(run.contact_sums(layer="4dS", window=2.5, power=2))
 print(f"{len(points)} layers and windows hold both species")
 for rule in ("size", "contact-point", "half", "power:2"):
     fit = points.fit(rule)
-    print(f"B by {rule:13} = {fit.B_half:+.3f} at phi_L = 1/2, {fit.B_sums:+.3f} by sums")
-print(f"B = 0 where the larger grain of every mixed contact gets p* = {points.zero().share:.4f}")
+    print(f"B by {rule:13} = {fit.B:+.3f}")
+print(f"B = 0 where the larger grain of every mixed contact gets p* = {points.fit().p_zero:.4f}")
 
 # %% B over that share; intervals are those of grseg-fit
 shares = np.linspace(0.4, 0.9, 11)
@@ -66,7 +66,7 @@ if plt:
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
     left.loglog(points.x, small / large, "o", alpha=0.6)
     x = np.array([points.x.min(), points.x.max()])
-    left.loglog(x, points.fit("size").slope * x, "k-")
+    left.loglog(x, points.fit("size").paper_s * x, "k-")
     left.set(xlabel=r"$\phi_S/\phi_L$", ylabel=r"$\sigma^S/\sigma^L$ by size")
     right.plot(shares, b, "o-")
     right.axhline(0, color="k", linewidth=0.8)

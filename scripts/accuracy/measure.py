@@ -70,7 +70,7 @@ def of_simulator(trajectory, begin):
 def of_fit(folder, table, **options):
     arguments = [x for key, value in options.items() for x in (f"--{key}", value)]
     fit = json.loads(tool(folder, "grseg-fit", table, "--json", "--bootstrap", "0", *arguments))
-    return [rule["B_half"] for rule in fit["rules"]]
+    return [row["value"] for row in fit["numbers"] if row["quantity"] == "B"]
 
 
 def of_micro(table):

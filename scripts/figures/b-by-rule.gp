@@ -21,12 +21,12 @@ is(rule) = strcol("rule") eq rule
 set multiplot layout 1,2
 set lmargin 9
 set xlabel "share p of a mixed contact given to its large grain"
-set ylabel "B, by sums"
+set ylabel "B"
 set xrange [0.45:0.8]
 set yrange [-0.5:0.4]
 set key top left reverse Left title "Φ_L" samplen 2
-plot for [flow in flows] folder."/scan-".flow.".tsv" using "p":"B_sums_low":"B_sums_high" with filledcurves lc palette cb phi(flow) notitle, \
-     for [flow in flows] folder."/scan-".flow.".tsv" using "p":"B_sums" with lines lw 2 lc palette cb phi(flow) title phi(flow)
+plot for [flow in flows] folder."/scan-".flow.".tsv" using "p":"low":"high" with filledcurves lc palette cb phi(flow) notitle, \
+     for [flow in flows] folder."/scan-".flow.".tsv" using "p":"B" with lines lw 2 lc palette cb phi(flow) title phi(flow)
 set xlabel "large grains, Φ_L of the mixture"
 set ylabel "B"
 set xrange [0:0.82]

@@ -19,7 +19,7 @@ is(name, value) = strcol(name) eq value
 mixture(rule) = is("rule", rule) && is("stage", "all") && is("heights", "inside") && is("component", "yy") \
   && is("quantity", "contact") && column("slope") == 23 && column("phi") > 0
 rules(dummy) = mixture("size") || mixture("half") || mixture("uniform:0.8") || mixture("uniform:0.6")
-cell(rule, name) = real(system("grep -v '^#' ".quoted(stock)." | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"".name."\") at = c} $1 == \"".rule."\" {print $at}'"))
+cell(rule, quantity) = number_of(stock, rule, quantity)
 p_zero = real(system("awk '/^# p_zero:/ {print $3}' ".quoted(scan)))
 $paper << EOD
 0.5	-0.32
@@ -43,16 +43,16 @@ set ylabel "segregation strength B"
 set key bottom right reverse Left samplen 2 spacing 1.15
 set label "B > 0: large grains carry more\nthan their share of the pressure" at 0.41,0.47 tc rgb grey
 set label "B < 0: small grains do" at 0.415,-0.06 tc rgb grey
-set label "LAMMPS,\nLIGGGHTS\n(half to each)" at cell("half", "share"), cell("half", "B_half") right offset -1.5,3.2 tc rgb red
-set label "Staron \\& Phillips (by size);\nMercuryDPM, YADE, PFC\n(up to the contact point)" at cell("size", "share"), cell("size", "B_half") right offset -1.5,3.9 tc rgb red
+set label "LAMMPS,\nLIGGGHTS\n(half to each)" at cell("half", "share"), cell("half", "B") right offset -1.5,3.2 tc rgb red
+set label "Staron \\& Phillips (by size);\nMercuryDPM, YADE, PFC\n(up to the contact point)" at cell("size", "share"), cell("size", "B") right offset -1.5,3.9 tc rgb red
 set arrow from p_zero, -0.03 to p_zero, -0.135 backhead size 0.006,25 lc rgb grey
 set label sprintf("B = 0 at p* = %.3f", p_zero) at p_zero, -0.16 offset -0.5,0 tc rgb grey
 plot scan using "p":"low":"high" with filledcurves lc rgb blue notitle, \
      scan using "p":"B" with lines lw 2.5 lc rgb blue title "grseg: 24 runs of six mixtures", \
-     fits using (rules(0) ? column("share") : NaN):"B_half" with points pt 7 ps 0.7 lc rgb "#7fb3d9" title "each mixture (4 runs)", \
+     fits using (rules(0) ? column("share") : NaN):"B" with points pt 7 ps 0.7 lc rgb "#7fb3d9" title "each mixture (4 runs)", \
      $paper using 1:2 with points pt 4 ps 1.7 lw 1.5 lc rgb "black" title "Staron \\& Phillips (2015)", \
-     stock using (column("share")):(is("rule", "size") || is("rule", "half") ? column("B_half") : NaN) \
-       with points pt 7 ps 1.4 lc rgb red title "rules of published codes"
+     for [rule in "size half"] "+" using (cell(rule, "share")):(cell(rule, "B")) every ::0::0 \
+       with points pt 7 ps 1.4 lc rgb red title rule eq "size" ? "rules of published codes" : ""
 
 unset label
 unset arrow
@@ -66,6 +66,6 @@ set ylabel "B by size"
 unset key
 set label "dashed: Staron \\& Phillips,\nall mixtures" at 0.8,0.0238 right tc rgb "black"
 plot 0.0345 with lines dt 2 lc rgb "black", \
-     fits using (mixture("size") ? column("phi") : NaN):"B_sums":"B_sums_low":"B_sums_high" \
+     fits using (mixture("size") ? column("phi") : NaN):"B":"B_low":"B_high" \
        with yerrorbars pt 7 ps 1.1 lw 1.5 lc rgb blue
 unset multiplot

@@ -8,7 +8,7 @@ folder = named(ARG1)
 kinetic = ARGC > 1 && ARG2 eq "kinetic"
 sums = folder.(kinetic ? "/kinetic.tsv" : "/stress.tsv")
 fit = folder.(kinetic ? "/kinetic-fit.tsv" : "/fit.tsv")
-slope = real(system("grep -v '^#' ".quoted(fit)." | awk -F '\\t' 'NR == 1 {for (c = 1; c <= NF; ++c) if ($c == \"slope\") at = c} $1 == \"".(kinetic ? "kinetic" : "size")."\" {print $at}'"))
+slope = number_of(fit, kinetic ? "kinetic" : "size", "paper_s")
 set datafile separator tab
 set terminal pngcairo size 900,700 font "DejaVu Sans,13"
 set output folder.(kinetic ? "/kinetic-ratio.png" : "/stress-ratio.png")

@@ -70,13 +70,13 @@ $(work):
 $(work)/stress.tsv $(work)/kinetic.tsv $(work)/micro.tsv: $(work)/%.tsv: $(every) | $(work)
 	awk 'FNR == 1 { body = 0 } /^#/ { next } body++ || !named++' $(call of,$(mixtures),$*) > $@
 $(work)/fit.tsv: $(every) | $(work)
-	$(fit) $(call of,$(mixtures),stress)
+	$(fit) $(call of,$(mixtures),stress) --fit paper
 $(work)/scan.tsv: $(every) | $(work)
 	$(fit) $(call of,$(mixtures),stress) --scan 0.4:0.9:0.025
 $(work)/stock.tsv: $(every) | $(work)
-	$(fit) $(call of,$(mixtures),stress) --partition stock
+	$(fit) $(call of,$(mixtures),stress) --partition stock --fit paper
 $(work)/kinetic-fit.tsv: $(every) | $(work)
-	$(fit) $(call of,$(mixtures),kinetic) --quantity kinetic
+	$(fit) $(call of,$(mixtures),kinetic) --quantity kinetic --fit paper
 $(work)/paper.tsv: $(every) | $(work)
 	$(micro) $(call of,$(mixtures),micro) $(inside) --pool composition --preset paper
 $(work)/ends.tsv: $(every) | $(work)

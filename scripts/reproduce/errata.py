@@ -24,7 +24,7 @@ def rows(m):
         ["B from z and f (last equation of section V)",
          "correct, but with the paper's own mean forces, over contacts, f_S/f_L is too large",
          f"B at φ = 1/2: {at('contacts_B', 3)} with the paper's averages, {at('ends_B', 3)} over ends and with "
-         f"f_n, {m.fit('mixtures', component='pressure').text(3)} from P^S/P^L itself"],
+         f"f_n, {m.of_slope('mixtures', lambda s: 2 * (1 - s) / (1 + s), component='pressure').text(3)} from P^S/P^L itself"],
         ["\"about four orders of magnitude smaller\" (kinetic stress)", "less than two",
          f"σ^κ_yy/σ_yy = {steady('Kyy/syy', 4)} on average between 4 and 56 d_S"],
         ["P = ρ g (H₀ − z) (caption of figure 2)", "cosθ is missing; the text has it",
@@ -41,18 +41,17 @@ def rows(m):
         ["B_κ = −0.373 \"mean\"",
          "half the sum of the values at φ_L = 1 and φ_S = 1 (−0.4413, −0.3062); s = 1.4413 gives −0.3615 at "
          "φ = 1/2 and −0.3655 as mean over φ",
-         f"here −{plain(abs(m.fit('mixtures', 'B_paper', **kinetic).value), 3)} as half the sum, "
-         f"−{plain(abs(m.fit('mixtures', **kinetic).value), 3)} at φ = 1/2, "
-         f"{m.fit('mixtures', 'B_direct', **kinetic).text(3)} by direct fit"],
+         f"here {m.fit('mixtures', 'paper_B', **kinetic).text(3)} as half the sum, "
+         f"{m.of_slope('mixtures', lambda s: 2 * (1 - s) / (1 + s), **kinetic).text(3)} at φ = 1/2, "
+         f"{m.fit('mixtures', **kinetic).text(3)} as a ratio of sums"],
         ["a constant slope s taken as a constant B",
          "σ^S/σ^L = s φ_S/φ_L is not Gray & Thornton's law with a single B: its B runs from 1 − s to (1 − s)/s",
-         f"for 0.8 to the large grain: {m.fit('mixtures', 'B_pure_large', rule='uniform:0.8').text(3)} to "
-         f"{m.fit('mixtures', 'B_pure_small', rule='uniform:0.8').text(3)}"],
+         f"for 0.8 to the large grain: {m.of_slope('mixtures', lambda s: 1 - s, rule='uniform:0.8').text(3)} to "
+         f"{m.of_slope('mixtures', lambda s: (1 - s) / s, rule='uniform:0.8').text(3)}"],
         ["0.9660 ± 0.003, 0.034 < B < 0.035",
          "the range is the one over φ; the error is that of a fit which takes all points as independent",
-         f"with runs as the independent units B = {m.fit('mixtures').text(3)} for these six mixtures together, "
-         f"{m.range_over_mixtures(3)} by mixture; unweighted line through the origin "
-         f"{m.fit('mixtures', 'B_linear').text(3)}, dominated by layers of nearly pure small grains"],
+         f"with runs as the independent units B = {m.fit('mixtures', 'paper_B').text(3)} for these six mixtures together, "
+         f"{m.range_over_mixtures(3)} by mixture"],
         ["f/(ρ g (H₀ − y))", "has the dimension of a length in 2D, and lacks cosθ",
          "f/(ρ g cosθ (H − y) d_S) is used here"],
         ["\"the inequality [f_S < f_L] remains true\" as a property of large grains",

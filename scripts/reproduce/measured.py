@@ -72,11 +72,16 @@ class Measured:
                 return row
         return None
 
-    def fit(self, which, name="B_half", **how):
+    def fit(self, which, name="B", **how):
         row = self.row(which, **how)
         if row is None:
             return Value(math.nan)
         return of_student(row[name], row.get(f"{name}_low", math.nan), row.get(f"{name}_high", math.nan), row["degrees_of_freedom"])
+
+    def of_slope(self, which, of, **how):
+        """A number that falls with the slope s of the paper's fit."""
+        s = self.fit(which, "paper_s", **how)
+        return Value(*(math.nan if math.isnan(end) else of(end) for end in (s.value, s.high, s.low)))
 
     def flow(self, name):
         return next((row for row in self.flows if row["flow"] == name), None)

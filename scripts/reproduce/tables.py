@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import fit_numbers  # noqa: E402
 import sealed_tables  # noqa: E402
 
 # Name of a run: phi0.30-s23-seed1, phi0.45-s23-e0.5-seed2. Its tables are NAME/QUANTITY.tsv.
@@ -106,6 +107,12 @@ def program(options, name, *words, columns=None):
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())
     return parse(done.stdout, columns, name)
+
+
+def fits(options, *words):
+    """What grseg-fit prints, its fit of the paper too: one dictionary per rule and flow (fit_numbers.py)."""
+    _, rows = program(options, "grseg-fit", *words, "--fit", "paper")
+    return fit_numbers.by_rule(rows)
 
 
 def mean_and_half_width(values):

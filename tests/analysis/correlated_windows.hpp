@@ -189,31 +189,30 @@ class ScatteredStress {
   }
 };
 
-/// Runs of mixtures whose B is known, to be sent through fit_mixtures.
-struct MixtureDesign {
-  std::size_t mixtures = 6, runs = 4;  // of each mixture
-  double mixture_scatter = 0;  // standard deviation of ln s, in standard errors of one mixture
-  double run_variance = 0;     // of ln s between runs, in that of a run's mean without it
+/// Runs of flows whose B is known, to be sent through fit_flows.
+struct FlowDesign {
+  std::size_t flows = 6, runs = 4;  // of each flow
+  double flow_scatter = 0;          // standard deviation of ln s, in standard errors of one flow
+  double run_variance = 0;          // of ln s between runs, in that of a run's mean without it
 };
 
-class RunsOfMixtures {
+class RunsOfFlows {
  public:
   static constexpr std::size_t windows = 10;  // of each run
   static constexpr double rho = 0.5;
 
-  explicit RunsOfMixtures(const MixtureDesign& design, unsigned long seed = 7)
+  explicit RunsOfFlows(const FlowDesign& design, unsigned long seed = 7)
       : design_(design), noise_(rho, seed)
   {
   }
 
-  /// Runs, and B_half of what each interval is over.
+  /// Runs, and B of what each interval is over.
   struct Draw {
     FitData data;
     struct Truth {
-      double of_runs = 0, of_mixtures = 0, of_equal = 0, of_all = 0;
-      std::vector<double> of_each;  // mixture
-    };
-    Truth half, sums;  // of B_half and of B_sums
+      double of_runs = 0, of_flows = 0, of_equal = 0, of_all = 0;
+      std::vector<double> of_each;  // flow
+    } truth;
   };
 
   Draw draw()
@@ -221,37 +220,27 @@ class RunsOfMixtures {
     Draw drawn;
     drawn.data.quantity = Quantity::kinetic;  // two species and nothing mixed
     drawn.data.tables = {"synthetic"};
-    double all = 0, runs = 0, mixtures = 0;
     offset_.clear();
     own_.clear();
-    for (std::size_t m = 0; m < design_.mixtures; ++m) {
-      const double error = std::sqrt(run_variance(m)), weight = weight_of(m);
-      const double mixture = design_.mixture_scatter * error_of_mixture() * noise_.normal();
-      offset_.push_back(mixture);
+    for (std::size_t m = 0; m < design_.flows; ++m) {
+      const double error = std::sqrt(run_variance(m));
+      const double flow = design_.flow_scatter * error_of_flow() * noise_.normal();
+      offset_.push_back(flow);
       for (std::size_t run = 0; run < design_.runs; ++run) {
-        const double own = mixture + std::sqrt(design_.run_variance) * error * noise_.normal();
-        add_run(drawn.data, m, own);
-        own_.push_back(own);
-        runs += weight * own;
-        all += weight;
+        own_.push_back(flow + std::sqrt(design_.run_variance) * error * noise_.normal());
+        add_run(drawn.data, m, own_.back());
       }
-      mixtures += weight * static_cast<double>(design_.runs) * mixture;
-      drawn.half.of_each.push_back(b_half(mixture));
-      drawn.half.of_equal += b_half(mixture) / static_cast<double>(design_.mixtures);
     }
-    drawn.half.of_runs = b_half(runs / all);
-    drawn.half.of_mixtures = b_half(mixtures / all);
-    drawn.half.of_all = b_half(0);
-    drawn.sums = truth_of_sums();
+    drawn.truth = truth();
     return drawn;
   }
 
  private:
-  /// Three layers about the mixture's composition.
-  static std::vector<double> layers_of(std::size_t mixture)
+  /// Three layers about the flow's composition.
+  static std::vector<double> layers_of(std::size_t flow)
   {
     static constexpr double compositions[] = {0.1, 0.25, 0.4, 0.5, 0.6, 0.75};
-    const double phi = compositions[mixture % std::size(compositions)];
+    const double phi = compositions[flow % std::size(compositions)];
     return {phi - 0.05, phi, phi + 0.05};
   }
   /// Grains of the rarer species, up to a factor, d_L = 2 d_S.
@@ -260,43 +249,37 @@ class RunsOfMixtures {
   {
     return ScatteredStress::scatter * std::sqrt(0.5 / std::min(phi, 1 - phi));
   }
-  static double weight_of(std::size_t mixture)
+  static double weight_of(std::size_t flow)
   {
     double weight = 0;
-    for (const double phi : layers_of(mixture)) weight += layer_weight(phi);
+    for (const double phi : layers_of(flow)) weight += layer_weight(phi);
     return weight;
   }
   /// Variance of a run's mean of ln s by its windows' noise alone.
-  static double run_variance(std::size_t mixture)
+  static double run_variance(std::size_t flow)
   {
     double of_mean = 1;
     for (std::size_t lag = 1; lag < windows; ++lag)
       of_mean += 2 * (1 - static_cast<double>(lag) / windows) * std::pow(rho, lag);
     double squares = 0;
-    for (const double phi : layers_of(mixture))
+    for (const double phi : layers_of(flow))
       squares += std::pow(layer_weight(phi) * layer_scatter(phi), 2);
-    return squares / std::pow(weight_of(mixture), 2) * of_mean / windows;
+    return squares / std::pow(weight_of(flow), 2) * of_mean / windows;
   }
-  /// Standard error of a mixture's ln s, root mean square over the mixtures.
-  double error_of_mixture() const
+  /// Standard error of a flow's ln s, root mean square over the flows.
+  double error_of_flow() const
   {
     double squares = 0;
-    for (std::size_t m = 0; m < design_.mixtures; ++m)
+    for (std::size_t m = 0; m < design_.flows; ++m)
       squares += run_variance(m) * (1 + design_.run_variance) / static_cast<double>(design_.runs);
-    return std::sqrt(squares / static_cast<double>(design_.mixtures));
+    return std::sqrt(squares / static_cast<double>(design_.flows));
   }
-  static double b_half(double of_log_slope)
-  {
-    const double s = ScatteredStress::slope * std::exp(of_log_slope);
-    return 2 * (1 - s) / (1 + s);
-  }
-
-  void add_run(FitData& data, std::size_t mixture, double offset)
+  void add_run(FitData& data, std::size_t flow, double offset)
   {
     const auto first = number_of_windows(data.runs);
     data.runs.push_back(windows);
-    data.mixtures.push_back(mixture);
-    for (const double phi : layers_of(mixture)) {
+    data.flows.push_back(flow);
+    for (const double phi : layers_of(flow)) {
       const Eigen::VectorXd normal = noise_.series(windows);
       for (std::size_t k = 0; k < windows; ++k) {
         const double log_slope = offset + layer_scatter(phi) * normal[static_cast<Eigen::Index>(k)];
@@ -327,12 +310,12 @@ class RunsOfMixtures {
       return *this;
     }
   };
-  /// What a mixture's layers add to B_sums on average, where ln s is off by `offset` and scatters by
+  /// What a flow's layers add to B on average, where ln s is off by `offset` and scatters by
   /// `variance` beside its windows' noise: the mean of psi_L over the normal distribution.
-  static Ratio sums_of(std::size_t mixture, double offset, double variance)
+  static Ratio sums_of(std::size_t flow, double offset, double variance)
   {
     Ratio sums;
-    for (const double phi : layers_of(mixture)) {
+    for (const double phi : layers_of(flow)) {
       const double deviation = std::hypot(layer_scatter(phi), std::sqrt(variance));
       double psi = 0, weights = 0;
       for (double z = -6; z <= 6; z += 0.25) {
@@ -344,30 +327,29 @@ class RunsOfMixtures {
     }
     return sums;
   }
-  Draw::Truth truth_of_sums() const
+  Draw::Truth truth() const
   {
     Draw::Truth truth;
-    Ratio of_runs, of_mixtures;
-    const double between = std::pow(design_.mixture_scatter * error_of_mixture(), 2);
-    for (std::size_t m = 0; m < design_.mixtures; ++m) {
+    Ratio of_runs, of_flows;
+    const double between = std::pow(design_.flow_scatter * error_of_flow(), 2);
+    for (std::size_t m = 0; m < design_.flows; ++m) {
       const double of_run = design_.run_variance * run_variance(m);
       for (std::size_t run = 0; run < design_.runs; ++run)
         of_runs += sums_of(m, own_[m * design_.runs + run], 0);
-      const auto mixture = sums_of(m, offset_[m], of_run);
-      of_mixtures += mixture;
-      truth.of_each.push_back(mixture.value());
-      truth.of_equal += mixture.value() / static_cast<double>(design_.mixtures);
-      truth.of_all +=
-          sums_of(m, 0, of_run + between).value() / static_cast<double>(design_.mixtures);
+      const auto flow = sums_of(m, offset_[m], of_run);
+      of_flows += flow;
+      truth.of_each.push_back(flow.value());
+      truth.of_equal += flow.value() / static_cast<double>(design_.flows);
+      truth.of_all += sums_of(m, 0, of_run + between).value() / static_cast<double>(design_.flows);
     }
     truth.of_runs = of_runs.value();
-    truth.of_mixtures = of_mixtures.value();
+    truth.of_flows = of_flows.value();
     return truth;
   }
 
-  MixtureDesign design_;
+  FlowDesign design_;
   Ar1 noise_;
-  std::vector<double> offset_, own_;  // of the last draw: of each mixture and of each run
+  std::vector<double> offset_, own_;  // of the last draw: of each flow and of each run
 };
 
 }  // namespace grseg::synthetic

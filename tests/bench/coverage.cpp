@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit/fit_mixtures.hpp"
+#include "analysis/fit/fit_flows.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 using namespace synthetic;
 
 constexpr int trials = 1000;
-constexpr std::size_t samples = 1000, mixture_samples = 300;
+constexpr std::size_t samples = 1000, flow_samples = 300;
 
 /// Shares of the trials, and the half-width in units of what 95 % of the estimates stay within.
 class Tally {
@@ -55,23 +55,22 @@ Interval plain_b(const FitData& data, const RuleFit& fit, const Bootstrap& boots
   const Eigen::MatrixXd totals = bootstrap.blocks(fit.dependence.block) *
                                  window_sums(fit_points(data, {}, {}), data.runs).sums;
   Eigen::VectorXd b(totals.rows());
-  for (Eigen::Index k = 0; k < totals.rows(); ++k)
-    b[k] = estimators_from_sums(totals.row(k)).B_half;
+  for (Eigen::Index k = 0; k < totals.rows(); ++k) b[k] = estimators_from_sums(totals.row(k)).B;
   return percentiles(b);
 }
 
-constexpr double Estimators::*shown[] = {&Estimators::B_half, &Estimators::B_linear,
-                                         &Estimators::exponent, &Estimators::B_direct};
+constexpr double Estimators::*shown[] = {&Estimators::B, &Estimators::paper_B,
+                                         &Estimators::paper_a};
 
 void print_one_run(double rho, std::size_t windows)
 {
   Ar1 noise(rho);
   const auto truth = ScatteredStress::truth(0);
-  Tally mean(0), plain_mean(0), plain(truth.B_half);
+  Tally mean(0), plain_mean(0), plain(truth.B);
   std::vector<Tally> estimates;
   for (const auto place : shown) estimates.emplace_back(truth.*place);
   int doubted = 0;
-  Tally undoubted(truth.B_half), few_doubts(truth.B_half);
+  Tally undoubted(truth.B), few_doubts(truth.B);
   for (int trial = 0; trial < trials; ++trial) {
     const Bootstrap bootstrap({windows}, samples, static_cast<unsigned long>(trial) + 1);
     const auto of_mean = mean_of(noise.series(static_cast<Eigen::Index>(windows)), bootstrap);
@@ -80,13 +79,13 @@ void print_one_run(double rho, std::size_t windows)
 
     const auto data = ScatteredStress::windows({windows}, 0, noise);
     const auto fit = fit_rule(data, {}, {}, bootstrap);
-    plain.add(fit.value.B_half, plain_b(data, fit, bootstrap));
+    plain.add(fit.value.B, plain_b(data, fit, bootstrap));
     for (std::size_t k = 0; k < std::size(shown); ++k)
       estimates[k].add(fit.value.*shown[k], of(fit, shown[k]));
     doubted += !fit.doubt.empty();
-    if (fit.doubt.empty()) undoubted.add(fit.value.B_half, of(fit, &Estimators::B_half));
+    if (fit.doubt.empty()) undoubted.add(fit.value.B, of(fit, &Estimators::B));
     if (fit.dependence.independent_windows() >= 8)
-      few_doubts.add(fit.value.B_half, of(fit, &Estimators::B_half));
+      few_doubts.add(fit.value.B, of(fit, &Estimators::B));
   }
   fmt::print("{:3} {:7} {:10.3f} {:6.3f} {:10.3f} {:6.3f}", rho, windows, plain_mean.coverage(),
              mean.coverage(), plain.coverage(), estimates[0].coverage());
@@ -103,7 +102,7 @@ void print_runs(std::size_t runs, double scatter)
   constexpr std::size_t windows = 30;
   const double run_scatter = scatter * std::sqrt(3.0 / windows);
   Ar1 noise(0.5);
-  Tally mean(0), b(ScatteredStress::truth(run_scatter).B_half), inside = b;
+  Tally mean(0), b(ScatteredStress::truth(run_scatter).B), inside = b;
   const RunLengths lengths(runs, windows);
   for (int trial = 0; trial < trials; ++trial) {
     const Bootstrap bootstrap(lengths, samples, static_cast<unsigned long>(trial) + 1);
@@ -111,8 +110,9 @@ void print_runs(std::size_t runs, double scatter)
     mean.add(of_mean.estimate, of_mean.interval);
     const auto fit =
         fit_rule(ScatteredStress::windows(lengths, run_scatter, noise), {}, {}, bootstrap);
-    b.add(fit.value.B_half, of(fit, &Estimators::B_half));
-    inside.add(fit.value.B_half, fit.B_half_windows);
+    b.add(fit.value.B, of(fit, &Estimators::B));
+    const auto& of_windows = fit.at(Over::windows);
+    inside.add(fit.value.B, {of_windows.low, of_windows.high});
   }
   fmt::print("{:4} {:7} {:6.3f} {:6.3f} {:6.2f} {:13.3f} {:6.2f}\n", runs, scatter, mean.coverage(),
              b.coverage(), b.width(), inside.coverage(), inside.width());
@@ -124,14 +124,14 @@ void print_drift(double rho, std::size_t windows)
 {
   Ar1 noise(rho);
   const auto known = ScatteredStress::drifting(windows, nullptr);
-  Tally b(estimators_of(fit_points(known, {}, {})).B_half), plain = b;
+  Tally b(estimators_of(fit_points(known, {}, {})).B), plain = b;
   double time = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const Bootstrap bootstrap({windows}, samples, static_cast<unsigned long>(trial) + 1);
     const auto data = ScatteredStress::drifting(windows, &noise);
     const auto fit = fit_rule(data, {}, {}, bootstrap);
-    b.add(fit.value.B_half, of(fit, &Estimators::B_half));
-    plain.add(fit.value.B_half, plain_b(data, fit, bootstrap));
+    b.add(fit.value.B, of(fit, &Estimators::B));
+    plain.add(fit.value.B, plain_b(data, fit, bootstrap));
     time += fit.dependence.time / trials;
   }
   fmt::print("{:3} {:7} {:6.2f} {:10.3f} {:6.2f} {:6.3f} {:6.2f}\n", rho, windows, time,
@@ -139,10 +139,10 @@ void print_drift(double rho, std::size_t windows)
   std::fflush(stdout);
 }
 
-/// Of one population: B_half and B_sums for their own truth.
+/// Of one population.
 struct PopulationTally {
   Over over;
-  Tally half{0}, sums{0};
+  Tally b{0};
 };
 
 void add_to(Tally& tally, const Estimate& b, double truth)
@@ -150,100 +150,97 @@ void add_to(Tally& tally, const Estimate& b, double truth)
   tally.add(b.value - truth, {b.low - truth, b.high - truth});
 }
 
-double truth_of(Over over, const RunsOfMixtures::Draw::Truth& truth)
+double truth_of(Over over, const RunsOfFlows::Draw::Truth& truth)
 {
   switch (over) {
     case Over::windows:
       return truth.of_runs;
     case Over::runs:
       return truth.of_each[0];
-    case Over::equal_mixtures:
+    case Over::equal_flows:
       return truth.of_equal;
-    case Over::random_mixtures:
+    case Over::random_flows:
       return truth.of_all;
     default:
-      return truth.of_mixtures;
+      return truth.of_flows;
   }
 }
 
-bool is_defined(Over over, std::size_t mixtures)
+bool is_defined(Over over, std::size_t flows)
 {
-  return mixtures > 1 || over == Over::windows || over == Over::runs || over == Over::compositions;
+  return flows > 1 || over == Over::windows || over == Over::runs || over == Over::compositions;
 }
 
-void print_mixtures(const MixtureDesign& design)
+void print_flows(const FlowDesign& design)
 {
-  RunsOfMixtures source(design);
+  RunsOfFlows source(design);
   std::vector<PopulationTally> tallies;
   for (const auto& [word, over, meaning] : overs) tallies.push_back({over});
   int doubted = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const auto drawn = source.draw();
     const auto fits =
-        fit_mixtures(drawn.data, {}, {}, {mixture_samples, static_cast<unsigned long>(trial) + 1});
+        fit_flows(drawn.data, {}, {}, {flow_samples, static_cast<unsigned long>(trial) + 1});
     doubted += !fits.all.doubt.empty();
-    for (auto& [over, half, sums] : tallies) {
+    for (auto& [over, b] : tallies) {
       if (over == Over::runs && !fits.of_each.empty()) {
-        for (std::size_t m = 0; m < fits.of_each.size(); ++m) {
-          add_to(half, fits.of_each[m].at(over), drawn.half.of_each[m]);
-          add_to(sums, fits.of_each[m].sums_at(over), drawn.sums.of_each[m]);
-        }
+        for (std::size_t m = 0; m < fits.of_each.size(); ++m)
+          add_to(b, fits.of_each[m].at(over), drawn.truth.of_each[m]);
         continue;
       }
-      add_to(half, fits.all.at(over), truth_of(over, drawn.half));
-      add_to(sums, fits.all.sums_at(over), truth_of(over, drawn.sums));
+      add_to(b, fits.all.at(over), truth_of(over, drawn.truth));
     }
   }
-  fmt::print("{} x {} {:5} {:5}", design.mixtures, design.runs, design.mixture_scatter,
+  fmt::print("{} x {} {:5} {:5}", design.flows, design.runs, design.flow_scatter,
              design.run_variance);
-  for (const auto& [over, half, sums] : tallies)
-    if (is_defined(over, design.mixtures))
-      fmt::print(" | {:.3f} {:.3f} {:4.2f}", half.coverage(), sums.coverage(), half.width());
+  for (const auto& [over, b] : tallies)
+    if (is_defined(over, design.flows))
+      fmt::print(" | {:.3f} {:4.2f}", b.coverage(), b.width());
     else
-      fmt::print(" | - - -");
+      fmt::print(" | - -");
   fmt::print(" | {:.3f}\n", static_cast<double>(doubted) / trials);
   std::fflush(stdout);
 }
 
-void print_all_mixtures()
+void print_all_flows()
 {
   fmt::print(
-      "# {} trials of {} samples: runs of {} windows, rho = {}; scatter between mixtures in standard\n"
-      "# errors of a mixture, variance between runs in that of a run's mean. Of each population the\n"
-      "# coverage of B_half and of B_sums and the width for B_half; doubt: share of the trials\n"
+      "# {} trials of {} samples: runs of {} windows, rho = {}; scatter between flows in standard\n"
+      "# errors of a flow, variance between runs in that of a run's mean. Of each population the\n"
+      "# coverage and the width of the interval of B; doubt: share of the trials\n"
       "# design scatter variance",
-      trials, mixture_samples, RunsOfMixtures::windows, RunsOfMixtures::rho);
+      trials, flow_samples, RunsOfFlows::windows, RunsOfFlows::rho);
   for (const auto& [word, over, meaning] : overs) fmt::print(" | {}", word);
   fmt::print(" | doubt\n");
   std::fflush(stdout);
-  for (const auto& [mixtures, runs] :
+  for (const auto& [flows, runs] :
        {std::pair<std::size_t, std::size_t>{6, 4}, {6, 2}, {1, 4}, {1, 8}})
     for (const double variance : {0.0, 1.0, 3.0})
       for (const double scatter : {0.0, 0.5, 1.0, 2.0, 4.0})
-        print_mixtures({mixtures, runs, scatter, variance});
+        print_flows({flows, runs, scatter, variance});
 }
 
 void print_all()
 {
   fmt::print(
       "# {} trials of {} samples each; width: median, 1 = 1.96 standard deviations of the\n"
-      "# estimates; doubt: share of the trials in which the tool warns; coverage of B_half where it does\n"
+      "# estimates; doubt: share of the trials in which the tool warns; coverage of B where it does\n"
       "# not, and where the windows seem to be worth 8 independent ones\n",
       trials, samples);
   fmt::print(
-      "# one run\n# rho windows plain_mean   mean plain_B_half B_half B_linear exponent "
-      "B_direct  width    doubt undoubted worth_8\n");
+      "# one run\n# rho windows plain_mean   mean plain_B B paper_B paper_a "
+      " width    doubt undoubted worth_8\n");
   for (const double rho : {0.0, 0.5, 0.8})
     for (const std::size_t windows : {3u, 6u, 12u, 24u, 48u, 120u, 480u})
       print_one_run(rho, windows);
   fmt::print(
       "# one run whose layers segregate, under a rule whose B depends on composition\n"
-      "# rho windows  time plain_B_half width B_half  width\n");
+      "# rho windows  time plain_B width B  width\n");
   for (const double rho : {0.0, 0.5, 0.8})
     for (const std::size_t windows : {24u, 48u, 120u, 480u}) print_drift(rho, windows);
   fmt::print(
       "# several runs of 30 windows, rho = 0.5\n"
-      "# runs scatter mean B_half  width  windows_alone  width\n");
+      "# runs scatter mean B  width  windows_alone  width\n");
   for (const std::size_t runs : {2u, 3u, 4u, 8u})
     for (const double scatter : {0.0, 1.0, 3.0}) print_runs(runs, scatter);
 }
@@ -251,9 +248,9 @@ void print_all()
 }  // namespace
 }  // namespace grseg
 
-/// "mixtures": only the last table.
+/// "flows": only the last table.
 int main(int argc, char** argv)
 {
-  if (argc < 2 || std::string(argv[1]) != "mixtures") grseg::print_all();
-  grseg::print_all_mixtures();
+  if (argc < 2 || std::string(argv[1]) != "flows") grseg::print_all();
+  grseg::print_all_flows();
 }

@@ -27,7 +27,7 @@ void read(char kind, const std::string& text)
       fuzz::require(std::isfinite(parse_length(text, "--layer", units)), "a length is finite");
       break;
     case 'h':
-      parse_heights(text, units).holds(0, 1);
+      parse_heights(text, units, {}).holds(0, 1);
       break;
     case 's':
       fuzz::require(!parse_scan(text).shares().empty(), "a scan has a share");

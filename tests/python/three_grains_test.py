@@ -100,10 +100,11 @@ def fluctuations_are_about_the_mean_of_the_layer(run):
 
 
 def neutral_contacts_have_no_b_by_size():
-    points = grseg.Points(grseg.read_table(os.path.join(inputs, "neutral-sums.tsv")))
+    points = grseg.Points(grseg.read_table(os.path.join(inputs, "neutral-sums.tsv")), heights="all")
     assert is_near(points.x, [2, 1, 1 / 2])
-    assert abs(points.fit("size").B_half) < 1e-15 and abs(points.fit("size").B_sums) < 1e-15
+    assert abs(points.fit("size").B) < 1e-15 and abs(points.fit("size").paper_B) < 1e-15
     # sigma^S : sigma^L = 16 + 12 (1 - p) : 2 + 12 p, 10 + 15 (1 - p) : 5 + 15 p, 5 + 15 (1 - p) : 10 + 15 p
+    phi = np.array([1, 1.5, 2]) / 3
     for p in (0.5, 0.8):
         q = 1 - p
         logs = [math.log((16 + 12 * q) / (2 + 12 * p) / 2), math.log((10 + 15 * q) / (5 + 15 * p)),
@@ -111,15 +112,13 @@ def neutral_contacts_have_no_b_by_size():
         # Of the large grains 2, 3 and 4 quarters, of the small ones 4, 3 and 2: the rarer are 2, 3 and 4.
         s = math.exp(np.average(logs, weights=[2, 3, 4]))
         fit = points.fit(f"uniform:{p}")
-        assert is_near([fit.slope, fit.B_half, fit.share], [s, 2 * (1 - s) / (1 + s), p])
-        assert is_near(points.b_of_p([p]), fit.B_half)
+        assert is_near([fit.paper_s, fit.paper_B, fit.share], [s, (1 - s + (1 - s) / s) / 2, p])
         of_large = np.array([2 + 12 * p, 5 + 15 * p, 10 + 15 * p]) / 30
-        phi = np.array([1, 1.5, 2]) / 3
-        assert is_near(fit.B_sums, (of_large - phi).sum() / (phi * (1 - phi)).sum())
-    # dB/dp = sum w (1/sigma^S + 1/sigma^L) M/sum w at p = 2/3, where the stresses are 20 : 10, 15 : 15, 10 : 20.
-    slope = np.average([12 / 20 + 12 / 10, 2 * 15 / 15, 15 / 10 + 15 / 20], weights=[2, 3, 4])
-    assert np.allclose(points.zero(), [2 / 3, slope], rtol=1e-14), points.zero()
-    assert is_near(points.fit().p_zero_sums, 2 / 3)
+        assert is_near(fit.B, (of_large - phi).sum() / (phi * (1 - phi)).sum())
+        assert is_near(points.b_of_p([p]), fit.B)
+    # Of the whole stress, 30, mixed contacts bear 12, 15 and 15.
+    slope = (12 + 15 + 15) / 30 / (phi * (1 - phi)).sum()
+    assert np.allclose([points.fit().p_zero, points.fit().dB_dp], [2 / 3, slope], rtol=1e-14)
 
 
 with grseg.Run(os.path.join(inputs, "three-grains-1.1.h5")) as new, \

@@ -6,8 +6,10 @@ Usage: tools_test.py SOURCE BIN SYNTHETIC_RUN
 Runs: the sample of discs; imports of spheres and of discs; three grains as files of version 1.0 and 1.1; runs without
 symmetries in two and three dimensions, of two and three species, in some of which grains come and go.
 """
+import collections
 import contextlib
 import csv
+import math
 import os
 import subprocess
 import sys
@@ -116,34 +118,42 @@ def rows_of(path):
     return list(csv.DictReader((line for line in lines if not line.startswith("#")), delimiter="\t")), header
 
 
+def numbers_of(path):
+    """{rule: {quantity: value}} of all flows together; those of no rule belong to every one."""
+    found = collections.defaultdict(dict)
+    for row in rows_of(path)[0]:
+        found[row["rule"]][row["quantity"]] = float(row["value"])  # of several flows those of all stand last
+    common = found.pop("-")
+    return {rule: {**common, **numbers} for rule, numbers in found.items()}
+
+
 def check_fits(paths, options=None, **filters):
-    """Every estimator of every rule, B(p) and p*; OPTIONS are the filters as grseg-fit calls them."""
+    """Every number of every rule, B(p) and p*; OPTIONS are the filters as grseg-fit calls them."""
     tables, options = [grseg.read_table(path) for path in paths], options or []
     points = grseg.Points(tables, **filters)
     fit = [*paths, "--bootstrap", "0", *options, "-o", "fit.tsv"]
-    run_tool("fit", *fit, "--partition", ",".join(RULES))
-    for row in rows_of("fit.tsv")[0]:
-        if row.get("mixture", "all") != "all" and len(paths) > 1:
-            continue  # of several mixtures grseg-fit also fits each
-        mine, what = points.fit(row["rule"]), f"fit of {paths} {options} by {row['rule']}"
+    run_tool("fit", *fit, "--partition", ",".join(RULES), "--fit", "paper")
+    for rule, numbers in numbers_of("fit.tsv").items():
+        mine, what = points.fit(rule), f"fit of {paths} {options} by {rule}"
         for name, value in vars(mine).items():
-            if name not in ("rule", "p_zero_sums") or row["rule"] != "drop" and name != "rule":
-                agree(f"{what}, {name}", value, float(row[name]), 1.0 if name.startswith("B_") else 0.0)
+            if name != "rule":
+                agree(f"{what}, {name}", value, numbers.get(name, math.nan), 1.0 if name in ("B", "paper_B") else 0.0)
     if len(tables[0].species) > 2:
         return
     run_tool("fit", *fit, "--scan", "0:1:0.125")
     rows, header = rows_of("fit.tsv")
     shares = [float(row["p"]) for row in rows]
     agree(f"B(p) of {paths}", points.b_of_p(shares), [float(row["B"]) for row in rows], 1.0)
-    agree(f"p* of {paths}", points.zero(shares), [float(header["p_zero"]), float(header["dB_dp"])])
+    found = points.fit()
+    agree(f"p* of {paths}", [found.p_zero, found.dB_dp], [float(header["p_zero"]), float(header["dB_dp"])])
 
 
 def check_kinetic_fit(path):
-    run_tool("fit", path, "--bootstrap", "0", "--quantity", "kinetic", "--min-grains", "2", "-o", "fit.tsv")
-    mine = grseg.Points(grseg.read_table(path), quantity="kinetic", min_grains=2).fit()
-    row = rows_of("fit.tsv")[0][0]
-    for name in ("points", "slope", "B_half", "B_sums", "B_direct", "exponent"):
-        agree(f"kinetic fit of {path}, {name}", vars(mine)[name], float(row[name]))
+    run_tool("fit", path, "--bootstrap", "0", "--quantity", "kinetic", "--fit", "paper", "--heights", "all", "-o", "fit.tsv")
+    mine = grseg.Points(grseg.read_table(path), quantity="kinetic", heights="all").fit()
+    numbers = numbers_of("fit.tsv")["kinetic"]
+    for name in ("points", "B", "paper_s", "paper_B", "paper_k", "paper_a"):
+        agree(f"kinetic fit of {path}, {name}", vars(mine)[name], numbers[name])
 
 
 def make_imports():
@@ -180,15 +190,15 @@ def check_all_fits(sample):
     check_fits(["first.tsv"])
     check_fits(["first.tsv", "second.tsv"], ["--component", "pressure", "--base-part", "half"], component="pressure",
                base="half")
-    check_fits(["second.tsv"], ["--heights", "4dS:16dS", "--ratio-range", "0.2:5", "--min-solid", "0.8", "--begin", "12",
-                                "--min-grains", "5"],
-               heights="4dS:16dS", ratio_range=(0.2, 5), min_solid=0.8, begin=12, min_grains=5)
+    check_fits(["second.tsv"], ["--heights", "4dS:16dS", "--ratio-range", "0.2:5", "--min-solid", "0.8", "--begin", "12"],
+               heights="4dS:16dS", ratio_range=(0.2, 5), min_solid=0.8, begin=12)
+    check_fits(["second.tsv"], ["--heights", "all"], heights="all")
     run_tool("stress", sample, *stress, "--assign", "grain", "-o", "grain.tsv")
     check_fits(["grain.tsv"])
     run_tool("stress", sample, *stress, "--classes", "3", "-o", "classes.tsv")
     check_fits(["classes.tsv"], ["--pair", "c1,c3"], pair=("c3", "c1"))
     run_tool("stress", "synthetic-1.h5", "--partition", "power:2", "--window", "0.04", "--layer", "2dS", "-o", "spheres.tsv")
-    check_fits(["spheres.tsv"])
+    check_fits(["spheres.tsv"], ["--heights", "all"], heights="all")
     check_kinetic_fit("kinetic.tsv")
     check_runs()
 

@@ -44,6 +44,18 @@ for wanted, table in json.load(open(os.path.join(here, "answers.json"))):
 else:
     sys.exit("no answer to " + " ".join(words))
 """
+NAN = float("nan")
+
+
+def fitted(rule="size", freedom=NAN, **numbers):
+    """Rows of grseg-fit from {quantity: value or (value, low, high)}; B_windows is B over windows."""
+    rows = []
+    for name, number in numbers.items():
+        quantity, _, over = name.partition("_") if name.startswith("B_") and name != "B_minus_size" else (name, "", "runs")
+        value, low, high = number if isinstance(number, tuple) else (number, NAN, NAN)
+        rows.append({"rule": rule, "flow": "one", "pair": "small+large", "quantity": quantity, "over": over.replace("_", "-"),
+                     "value": value, "low": low, "high": high, "degrees_of_freedom": freedom})
+    return rows
 
 
 def text_of(rows, head=()):

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from known_campaign import D, G, Pipeline, program, scripts  # noqa: E402
+from known_campaign import D, G, Pipeline, fitted, program, scripts  # noqa: E402
 import numpy as np  # noqa: E402
 import tables  # noqa: E402
 
@@ -42,10 +42,8 @@ class Questions(Pipeline):
                           record=[{"name": "small_diameter", "value": D}, {"name": "summary_mean_overlap", "value": 1e-3 * D}])
 
     def answer(self, flow, value, *words, half=0.01, freedom=1.0):
-        column = {"degrees_of_freedom": freedom}
-        for name in ("B_sums", "B_half", "p_zero_sums", "B_paper"):
-            column.update({name: value, name + "_low": value - half, name + "_high": value + half})
-        self.campaign.answer("grseg-fit", f"{flow}-seed1/stress.tsv", *words, rows=[column])
+        numbers = {name: (value, value - half, value + half) for name in ("B", "paper_B", "p_zero")}
+        self.campaign.answer("grseg-fit", f"{flow}-seed1/stress.tsv", *words, rows=fitted(freedom=freedom, **numbers))
 
     def asked_of(self, flow):
         return [words for words in self.campaign.asked() if any(f"/{flow}-seed1/" in word for word in words)]
@@ -66,10 +64,10 @@ class Questions(Pipeline):
         for words in self.asked_of("phi0.30-s23"):
             self.assertEqual(words[words.index("--end") + 1], "11.0")
 
-    def test_more_rows_than_one_are_refused(self):
+    def test_more_rules_than_one_are_refused(self):
         self.run_of("phi0.30-s23-seed1")
-        self.campaign.answer("grseg-fit", "phi0.30-s23-seed1/stress.tsv", rows=[{"B_sums": 0.1}, {"B_sums": 0.2}])
-        with self.assertRaisesRegex(AssertionError, "printed 2 rows"):
+        self.campaign.answer("grseg-fit", "phi0.30-s23-seed1/stress.tsv", rows=fitted("size", B=0.1) + fitted("half", B=0.2))
+        with self.assertRaisesRegex(AssertionError, "printed 2 rules"):
             self.campaign.made_by("questions")
 
     def test_another_program_is_compared_with_the_time_from_its_start_on(self):
@@ -86,13 +84,13 @@ class Questions(Pipeline):
         self.answer(deep, 0.03)
         self.campaign.made_by("questions")
         heights = {words[words.index("--heights") + 1] for words in self.asked_of(deep) if "--heights" in words}
-        self.assertEqual(heights, {"4dS:116dS"})
+        self.assertEqual(heights, {"4dS:116dS", "all"})
 
     def test_grains_that_are_alike_are_fitted_with_random_labels(self):
         alike = "phi0.45-s23-ratio1-t60"
         self.run_of(alike + "-seed1")
         os.link(os.path.join(self.campaign.tables, alike + "-seed1", "stress.tsv"), os.path.join(self.campaign.tables, alike + "-seed1", "stress-random.tsv"))
-        self.campaign.answer("grseg-fit", "stress-random.tsv", rows=[{"B_sums": 0.001, "B_sums_low": 0.0, "B_sums_high": 0.002, "degrees_of_freedom": 3.0}])
+        self.campaign.answer("grseg-fit", "stress-random.tsv", rows=fitted(freedom=3.0, B=(0.001, 0.0, 0.002)))
         row, = self.campaign.made_by("questions")
         self.assertEqual((row["B"], row["B_high"]), (0.001, 0.002))
 
@@ -117,7 +115,7 @@ class Questions(Pipeline):
         self.assertAlmostEqual(row["trapped_reach"], 12.706 * math.sqrt(2) / math.sqrt(2), 4)
 
     def test_a_run_of_150_s_counts_instead_of_a_shorter_one_of_its_mixture(self):
-        self.answer("phi0.60-s23-e0.5-t150", 0.05, "--over", "mixtures")
+        self.answer("phi0.60-s23-e0.5-t150", 0.05, "--over", "flows")
         for flow in ("phi0.30-s23-e0.5", "phi0.60-s23-e0.5", "phi0.60-s23-e0.5-t150"):
             self.run_of(f"{flow}-seed1")
             self.answer(flow, 0.04)
@@ -126,7 +124,7 @@ class Questions(Pipeline):
         self.assertEqual((every["flow"], every["runs"], every["B"]), ("mixtures-e0.5", 2, 0.05))
 
     def test_all_mixtures_of_one_restitution_make_a_row(self):
-        self.answer("phi0.60-s23-e0.5", 0.05, "--over", "mixtures")
+        self.answer("phi0.60-s23-e0.5", 0.05, "--over", "flows")
         for phi in ("0.30", "0.60"):
             self.run_of(f"phi{phi}-s23-e0.5-seed1")
             self.answer(f"phi{phi}-s23-e0.5", 0.04)
@@ -135,7 +133,7 @@ class Questions(Pipeline):
         every = rows[-1]
         self.assertEqual((every["flow"], every["runs"], every["B"]), ("mixtures-e0.5", 3, 0.05))
         asked = [words for words in self.campaign.asked() if "--over" in words][0]
-        self.assertEqual(asked[asked.index("--mixtures") + 1], "1,2")
+        self.assertEqual(asked[asked.index("--flows") + 1], "1,2")
         self.assertTrue(math.isnan(every["phi"]))
 
 
@@ -311,19 +309,6 @@ class Denser(Pipeline):
         self.assertAlmostEqual(rows["D = -0.5"]["value"], 6e-4)  # by volume instead of mass
         self.assertEqual(rows["D = 0"]["value"], 4e-4)
         self.assertAlmostEqual(rows["c"]["value"], 1 / (0.5 * 4e-4 + 4e-4), 3)
-
-
-class Mixtures(Pipeline):
-    """B of each mixture under every rule."""
-
-    def test_neutral_contacts_are_weighed_as_b_by_sums(self):
-        # r = 2. At phi_L = 1/2 m = 3/4/(3/2) = 1/2 over 1/4; at 1/5 m = 3 x 0.16/1.8 = 4/15 over 0.16; the lowest layer and the surface are out.
-        rows = [{"t0": 0, "t1": 1, "y0": y0 * D, "y1": (y0 + 4) * D, "frames": frames, "area_S": 1 - large, "area_L": large}
-                for y0, frames, large in ((0, 9, 0.3), (4, 10, 0.5), (8, 30, 0.2), (52, 5, 1.0), (56, 9, 0.3))]
-        self.campaign.run("phi0.50-s23-seed1", stress=rows)
-        mixed, p_neutral = mixtures.neutral(tables.runs_in(self.campaign.tables))
-        self.assertAlmostEqual(mixed, (10 / 2 + 30 * 4 / 15) / (10 / 4 + 30 * 0.16), 12)
-        self.assertAlmostEqual(p_neutral, 2 / 3, 12)
 
 
 class RigidLimit(unittest.TestCase):

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from known_campaign import Campaign, D, G, HEAD, Pipeline, RHO, SLOPE, UNIT, program, scripts, text_of  # noqa: E402
+from known_campaign import Campaign, D, G, HEAD, Pipeline, RHO, SLOPE, UNIT, fitted, program, scripts, text_of  # noqa: E402
 import measured  # noqa: E402
 import profiles  # noqa: E402
 import statements  # noqa: E402
@@ -152,7 +152,7 @@ class Numbers(Pipeline):
                 "pressure" if "pressure" in words else "kinetic" if "kinetic" in words else "all"
             self.assertEqual([words[words.index(name) + 1] for name in ("--end", "--begin") if name in words],
                              {"early": ["60"], "late": ["100"]}.get(which, []))
-            return [{"B_half": b[which]}]
+            return fitted(B=b[which], paper_B=b[which])
 
         found = self.with_answers(answer, numbers.differences, self.part())
         self.assertAlmostEqual(found["early_less_late"], 0.02)
@@ -171,12 +171,12 @@ class Fits(Pipeline):
         for name in ("phi0.30-s23-seed1", "phi0.30-s23-seed2", "phi0.45-s23-seed1", "phi0.45-s21-seed1",
                      "phi0.45-s23-e0.5-seed1", "phi0.45-s23-ratio1-seed1"):
             self.campaign.run(name)
-        self.campaign.answer("grseg-fit", rows=[{"rule": "size", "slope": 0.9, "slope_low": 0.8, "slope_high": 1.0}])
+        self.campaign.answer("grseg-fit", rows=fitted(paper_s=(0.9, 0.8, 1.0)))
         rows = self.campaign.made_by("fits")
         seeds = {row["set"]: row["seeds"] for row in rows}
         self.assertEqual(seeds, {"mixtures": 3, "slopes": 2, "control": 1, "phi0.30-s23": 2, "phi0.45-s23": 1,
                                  "phi0.45-s21": 1})
-        self.assertEqual({row["s"] for row in rows}, {0.9})
+        self.assertEqual({row["paper_s"] for row in rows}, {0.9})
         asked = self.campaign.asked()
         runs = lambda words: sorted(os.path.basename(os.path.dirname(word)) for word in words if word.endswith(".tsv"))
         slopes = [words for words in asked if runs(words) == ["phi0.45-s21-seed1", "phi0.45-s23-seed1"]]
@@ -193,7 +193,7 @@ class Fits(Pipeline):
         control = [words for words in asked if runs(words) == ["phi0.45-s23-ratio1-seed1"]]
         self.assertTrue(control and all(words[1].endswith("stress-random.tsv") for words in control))
         # Without the lowest layer and the surface, except where all heights are asked for.
-        self.assertEqual({words[words.index("--heights") + 1] for words in asked if "--heights" in words}, {"4dS:56dS"})
+        self.assertEqual({words[words.index("--heights") + 1] for words in asked if "--heights" in words}, {"4dS:56dS", "all"})
 
 
 class Flows(Pipeline):
@@ -216,7 +216,7 @@ class Flows(Pipeline):
 
     def fit(self, value, heights="inside", stage="all", component="yy", quantity="contact", rule="size"):
         return {"set": "phi0.45-s23", "quantity": quantity, "stage": stage, "component": component, "heights": heights,
-                "rule": rule, "B_half": value, "B_half_low": value - 1, "B_half_high": value + 2}
+                "rule": rule, **{name + end: value + off for name in ("B", "paper_B") for end, off in (("", 0), ("_low", -1), ("_high", 2))}}
 
     def test_the_mean_shear_rate_leaves_out_the_spin_up_and_is_in_units_of_the_root_of_g_over_d(self):
         row = self.flow([self.fit(1.0)])
@@ -225,9 +225,9 @@ class Flows(Pipeline):
         self.assertAlmostEqual(row["yL0"], 0.25, 7)
         self.assertEqual((row["zf_S"], row["zf_L"]), (10, 21))
 
-    def test_a_flow_weighs_in_a_fit_by_frames_times_the_grains_of_its_rarer_species_inside(self):
-        # 13 of 15 layers of 4 d_S x 70 d_S, 0.4 of each filled by large grains of area pi d_S^2.
-        self.assertAlmostEqual(self.flow([self.fit(1.0)])["weight"], 13 * 0.4 * 280 / math.pi, 4)
+    def test_a_flow_weighs_in_a_fit_by_frames_times_the_product_of_both_parts_inside(self):
+        # 13 of 15 layers of one frame, half of each species.
+        self.assertAlmostEqual(self.flow([self.fit(1.0)])["weight"], 13 / 4, 7)
 
     def test_b_of_a_flow_is_that_by_size_of_yy_inside_whatever_else_was_fitted(self):
         row = self.flow([self.fit(1.0, heights="all"), self.fit(2.0, component="pressure"), self.fit(3.0, rule="half"),
@@ -239,7 +239,7 @@ class Choices(Pipeline):
     def test_a_choice_is_compared_with_the_same_times_of_its_own_flow(self):
         for name in ("phi0.45-s23-seed1", "phi0.45-s23-e0.5-seed1"):
             self.campaign.run(name, stress=[layer(0)], kinetic=[moving(0)], stress_branch=[layer(0)])
-        at = lambda b: [{"B_half": b, "B_half_windows_low": b - 1, "B_half_windows_high": b + 1}] * 2
+        at = lambda b: fitted("size", B_windows=(b, b - 1, b + 1)) + fitted("half", B_windows=(b, b - 1, b + 1))
         self.campaign.answer("e0.5-seed1/stress.tsv", rows=at(0.5))
         self.campaign.answer("e0.5-seed1/kinetic.tsv", rows=at(-0.5))
         self.campaign.answer("stress-branch.tsv", rows=at(0.35))
@@ -352,7 +352,7 @@ class Tables(unittest.TestCase):
                  "quantity": "contact", "seeds": 4}
         others = ({"stage": "early"}, {"stage": "late"}, {"heights": "all"}, {"component": "pressure"}, {"rule": "half"},
                   {"rule": "kinetic", "quantity": "kinetic"}, {})
-        fits = [{**usual, **other, "B_half": float(k), "B_half_low": k - 0.5, "B_half_high": k + 0.5, "degrees_of_freedom": 3.0}
+        fits = [{**usual, **other, "B": float(k), "B_low": k - 0.5, "B_high": k + 0.5, "degrees_of_freedom": 3.0}
                 for k, other in enumerate(others)]
         m = self.measured(fits, [{"flow": "none"}])
         self.assertEqual(m.fit("mixtures").value, 6)

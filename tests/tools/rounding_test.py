@@ -39,8 +39,7 @@ class Run:
 def b_of(table):
     fit = subprocess.run([os.path.join(programs, "grseg-fit"), table, "--heights", f"{HEIGHTS[0]}m:{HEIGHTS[1]}m",
                           "--bootstrap", "0", "--json", "--quiet"], check=True, capture_output=True, text=True)
-    rule = json.loads(fit.stdout)["rules"][0]
-    return {"half": rule["B_half"], "sums": rule["estimators"]["B_sums"]["value"]}
+    return next(row["value"] for row in json.loads(fit.stdout)["numbers"] if row["quantity"] == "B")
 
 
 def kept(keep, whole, path, digits):
@@ -61,17 +60,17 @@ def main():
         rounded = b_of(kept(keep, whole, os.path.join(work, "kept.tsv"), DIGITS))
         coarse = b_of(kept(keep, whole, os.path.join(work, "coarse.tsv"), 1))
         bound = rounding.of_tables([os.path.join(work, "kept.tsv")], heights=HEIGHTS)
-        for name in ("half", "sums"):
-            change, rms = rounded[name] - exact[name], bound[f"{name}_rms"]
-            print(f"B_{name} {exact[name]:.5f} rounded {rounded[name]:.5f}: {change:+.5f}, rms {rms:.5f}, worst "
-                  f"{bound[f'{name}_worst']:.5f}; one digit {coarse[name] - exact[name]:+.5f}")
-            assert change != 0, "nothing was rounded"
-            assert abs(rounded[name] - bound[name]) < 1e-6, "the points of grseg-fit are others"
-            # Errors uniform within half a unit: beyond four standard deviations once in 16,000.
-            assert abs(change) < 4 * rms, name
-            assert abs(change) < bound[f"{name}_worst"], name
-        # Half the digits are ten times as coarse: the bound of two digits does not hold for one.
-        assert any(abs(coarse[name] - exact[name]) > 4 * bound[f"{name}_rms"] for name in exact)
+        change, rms = rounded - exact, bound["rms"]
+        print(f"B {exact:.5f} rounded {rounded:.5f}: {change:+.5f}, rms {rms:.5f}, worst {bound['worst']:.5f}; "
+              f"one digit {coarse - exact:+.5f}")
+        assert change != 0, "nothing was rounded"
+        assert abs(rounded - bound["B"]) < 1e-6, "the points of grseg-fit are others"
+        # Errors uniform within half a unit: beyond four standard deviations once in 16,000.
+        assert abs(change) < 4 * rms
+        assert abs(change) < bound["worst"]
+        # Half the digits are ten times as coarse.
+        of_coarse = rounding.of_tables([os.path.join(work, "coarse.tsv")], heights=HEIGHTS)
+        assert abs(of_coarse["rms"] / rms - 10) < 2 and rms < abs(coarse - exact) < 4 * of_coarse["rms"]
 
 
 main()

@@ -35,9 +35,9 @@ export class Compare {
       row.classList.toggle("chosen", k === state.run);
       button.disabled = !fit;
       if (!fit) return;
-      const B = fitOf(fit, state.rule)[state.estimator];
-      const {interval: ends} = intervalOf(fit, state.rule, state.estimator);
-      const texts = [fixed(B), Number.isFinite(B) ? interval(ends) : "", fit.over, fixed(zeroOf(fit, state.estimator)[0])];
+      const B = fitOf(fit, state.rule).B;
+      const {interval: ends} = intervalOf(fit, state.rule);
+      const texts = [fixed(B), Number.isFinite(B) ? interval(ends) : "", fit.over, fixed(zeroOf(fit)[0])];
       texts.forEach((text, n) => (cells[n].textContent = text));
     });
   }

@@ -192,7 +192,7 @@ class Page {
   }
 
   #follow(names) {
-    if (names.has("run") || names.has("estimator")) return this.layout();
+    if (names.has("run")) return this.layout();
     if (names.has("rule")) return this.update();
     if (names.has("time")) this.transport.show();
     this.drawPlayers();
@@ -224,7 +224,7 @@ function listenToAll(page) {
   listenToPrinting();
   listenToKeys({
     fit: () => page.fit,
-    zero: () => zeroOf(page.fit, state.estimator)[0],
+    zero: () => zeroOf(page.fit)[0],
     step: (by) => page.transport.step(by),
     play: () => page.transport.toggle(),
     nextGrain: (by) => {

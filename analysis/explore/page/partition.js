@@ -95,47 +95,24 @@ export function stressOf(fit, rule, prefix = "") {
   }
 }
 
-/** B and what belongs to it, as grseg-fit prints them; `which`: the numbers of the points, if not all. */
-export function estimatorsOf(fit, stress, which = null) {
-  const {phi_large, weight, frames} = fit.arrays;
-  const {small: smalls, large: larges, total: totals} = stress;
-  let w = 0, wLog = 0, xx = 0, xy = 0, wQD = 0, wQQ = 0, fD = 0, fQ = 0, points = 0;
+/** {B, points, weight} as grseg-fit has them; `which`: the numbers of the points, if not all. */
+export function sumsOf(fit, stress, which = null) {
+  const {phi_large, frames} = fit.arrays;
+  const {large: larges, total: totals} = stress;
+  let excess = 0, weight = 0, points = 0;
   const n = (which ?? phi_large).length;
   for (let m = 0; m < n; ++m) {
     const k = which ? which[m] : m;
-    const phi = phi_large[k], small = smalls[k], large = larges[k], total = totals[k];
-    if (small > 0 && large > 0) {
-      const x = (1 - phi) / phi, y = small / large;
-      w += weight[k];
-      wLog += weight[k] * Math.log(y / x);
-      xx += x * x;
-      xy += x * y;
-      ++points;
-    }
-    if (total > 0) {
-      const Q = phi * (1 - phi), D = large / total - phi;
-      wQD += weight[k] * Q * D;
-      wQQ += weight[k] * Q * Q;
-      fD += frames[k] * D;
-      fQ += frames[k] * Q;
-    }
+    if (!(totals[k] > 0)) continue;
+    const phi = phi_large[k];
+    excess += frames[k] * (larges[k] / totals[k] - phi);
+    weight += frames[k] * phi * (1 - phi);
+    ++points;
   }
-  const slope = Math.exp(wLog / w), linear = xy / xx;
-  const atHalf = (s) => (2 * (1 - s)) / (1 + s);
-  return {
-    points,
-    slope,
-    B_half: atHalf(slope),
-    B_mean: -wLog / w,
-    slope_linear: linear,
-    B_linear: atHalf(linear),
-    B_direct: wQD / wQQ,
-    B_sums: fD / fQ,
-    weight: fQ,
-  };
+  return {B: excess / weight, points, weight};
 }
 
-/** Of two species: B_sums of contacts that ignore grain size, of nominal radii, at p (neutral_contacts.hpp). */
+/** Of two species: B of contacts that ignore grain size, of nominal radii, at p (neutral_contacts.hpp). */
 export function neutralSums(fit, p) {
   if (!fit.two) return NaN;
   const {phi_large, frames} = fit.arrays;
@@ -151,13 +128,12 @@ export function neutralSums(fit, p) {
 
 /** The same of a rule; B of `drop`, whose stresses do not add up to the whole, is not a number. */
 export function fitOf(fit, rule) {
-  const all = estimatorsOf(fit, stressOf(fit, rule));
-  if (rule.kind === "drop") for (const name of Object.keys(all)) if (name.startsWith("B_")) all[name] = NaN;
-  return all;
+  const all = sumsOf(fit, stressOf(fit, rule));
+  return rule.kind === "drop" ? {...all, B: NaN} : all;
 }
 
 /**
- * Mean share of the large grains in the stress of mixed contacts. Of more than two species it is not in the
+ * The share of all mixed contacts that gives the same B (line_over_share.hpp). Of more than two species it is not in the
  * sums of the pair, which hold contacts with the others: NaN but where the rule itself says it.
  */
 export function shareOf(fit, rule) {
@@ -166,20 +142,13 @@ export function shareOf(fit, rule) {
   if (rule.kind === "drop") return NaN;
   if (rule.kind === "power" && !hasPowers(fit)) return powerShare(fit.size_ratio, rule.value);
   if (!fit.two) return NaN;
-  const {none_large, all_large, weight} = fit.arrays;
-  const {large} = stressOf(fit, rule);
-  let given = 0, whole = 0;
-  for (let k = 0; k < large.length; ++k) {
-    given += weight[k] * (large[k] - none_large[k]);
-    whole += weight[k] * (all_large[k] - none_large[k]);
-  }
-  return given / whole;
+  const at = (p) => fitOf(fit, {kind: "uniform", value: p}).B;
+  return (fitOf(fit, rule).B - at(0)) / (at(1) - at(0));
 }
 
-/** [p*, low, high] at which B of the estimator is 0, as grseg-fit --scan says; NaN of more than two species. */
-export function zeroOf(fit, estimator) {
-  const found = estimator === "B_sums" ? fit.scan.p_zero_sums : fit.scan.p_zero;
-  return (found ?? [null, null, null]).map((value) => value ?? NaN);
+/** [p*, low, high] at which B is 0, as grseg-fit says; NaN of more than two species. */
+export function zeroOf(fit) {
+  return (fit.scan.p_zero ?? [null, null, null]).map((value) => value ?? NaN);
 }
 /** Whether a share can be p*. */
 export function isShare(p) {
@@ -187,8 +156,8 @@ export function isShare(p) {
 }
 
 /** [low, high] of the band at the share p, between the shares at which grseg-fit made it. */
-export function bandAt(fit, estimator, p) {
-  const {p: grid, [estimator]: rows} = fit.scan;
+export function bandAt(fit, p) {
+  const {p: grid, B: rows} = fit.scan;
   if (!(p >= grid[0] && p <= grid[grid.length - 1])) return [NaN, NaN];
   let k = 0;
   while (k < grid.length - 2 && grid[k + 1] < p) ++k;
@@ -205,16 +174,10 @@ export function fittedRule(fit, rule) {
   return fit.rules.filter((row) => row.name === name).pop();
 }
 
-/**
- * {interval: [low, high], of: what it is of} of a rule: its own, or as wide as that of the band at its mean
- * share and about B by this rule.
- */
-export function intervalOf(fit, rule, estimator) {
+/** {interval: [low, high], of: what it is of} of a rule: its own, or that of the band at its share. */
+export function intervalOf(fit, rule) {
   const own = fittedRule(fit, rule);
-  if (own) return {interval: own[estimator].slice(1).map((x) => x ?? NaN), of: ""};
+  if (own) return {interval: own.B.slice(1).map((x) => x ?? NaN), of: ""};
   const p = shareOf(fit, rule);
-  const uniform = {kind: "uniform", value: p};
-  const shift = fitOf(fit, rule)[estimator] - fitOf(fit, uniform)[estimator];
-  const interval = bandAt(fit, estimator, p).map((end) => end + shift);
-  return {interval, of: rule.kind === "uniform" ? "" : `as wide as that of uniform:${Number(p.toPrecision(3))}`};
+  return {interval: bandAt(fit, p), of: rule.kind === "uniform" ? "" : `that of uniform:${Number(p.toPrecision(3))}`};
 }

@@ -4,7 +4,7 @@
 import {Chart} from "./chart.js";
 import {extent, group, line, scaleLinear} from "./d3.js";
 import {byId} from "./format.js";
-import {estimatorsOf, stressOf} from "./partition.js";
+import {sumsOf, stressOf} from "./partition.js";
 import {set, state} from "./state.js";
 
 /** Calls on the layer under the pointer. */
@@ -80,7 +80,7 @@ export class Profiles {
 
   #strengths(stress) {
     const fit = this.fitOfRun();
-    return this.fitted.map(({own}) => estimatorsOf(fit, stress, own)[state.estimator]);
+    return this.fitted.map(({own}) => sumsOf(fit, stress, own).B);
   }
 
   update(stress, found) {
@@ -98,7 +98,7 @@ export class Profiles {
     const {x: xb, y: yb} = this.strength.scales;
     const seen = this.fitted.map((layer, k) => ({...layer, B: values[k]})).filter(({B}) => Number.isFinite(B));
     const {left, right, top, bottom} = this.strength.inner;
-    const B = found[state.estimator];
+    const B = found.B;
     this.all
       .attr("visibility", B >= xb.domain()[0] && B <= xb.domain()[1] ? "visible" : "hidden")
       .attr("x1", xb(B || 0))

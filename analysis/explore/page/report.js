@@ -21,10 +21,10 @@ function figure(caption, options, draw) {
 
 /** B over the share p with its band. */
 function shareFigure(fit) {
-  const [p] = zeroOf(fit, "B_sums");
-  const caption = `B by sums over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}.`;
+  const [p] = zeroOf(fit);
+  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}.`;
   return figure(caption, {labels: {x: "share p", y: "B"}}, (chart) => {
-    const grid = fit.scan.p.map((p, k) => [p, ...fit.scan.B_sums[k]]).filter(([, B]) => B !== null);
+    const grid = fit.scan.p.map((p, k) => [p, ...fit.scan.B[k]]).filter(([, B]) => B !== null);
     chart.scales.y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
     chart.layout();
     const {x, y} = chart.scales;
@@ -140,22 +140,22 @@ function estimate(triple) {
 }
 
 function fitSection(fit, heading) {
-  const columns = [["rule"], ["B by sums", "number"], ["B at φ = ½", "number"], ["share", "number"], ["points", "number"], ["used by"]];
-  const several = fit.rules.some((row) => row.mixture);
-  if (several) columns.splice(1, 0, ["mixture"], ["95 % over"]);
+  const columns = [["rule"], ["B", "number"], ["share", "number"], ["points", "number"], ["used by"]];
+  const several = fit.rules.some((row) => row.flow);
+  if (several) columns.splice(1, 0, ["flow"], ["95 % over"]);
   const rows = fit.rules.map((row) => {
-    const cells = [row.name, estimate(row.B_sums), estimate(row.B_half), fixed(row.share ?? NaN), String(row.points), row.used_by || "–"];
-    if (several) cells.splice(1, 0, row.mixture, row.over);
+    const cells = [row.name, estimate(row.B), fixed(row.share ?? NaN), String(row.points), row.used_by || "–"];
+    if (several) cells.splice(1, 0, row.flow, row.over);
     return cells;
   });
-  const zero = zeroOf(fit, "B_sums");
+  const zero = zeroOf(fit);
   const doubts = fit.rules.filter((row) => row.doubt).map((row) => `${row.name}: ${row.doubt}.`);
   return element(
     "section",
     {},
     element("h3", {}, heading),
     element("div", {class: "scroll"}, table(columns, rows)),
-    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: with this share B by sums is 0. ` : "", `${several ? "The intervals of all mixtures are" : "Intervals of 95 % are"} over ${fit.over}: ${fit.over_words}.`),
+    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: with this share B is 0. ` : "", `${several ? "The intervals of all flows are" : "Intervals of 95 % are"} over ${fit.over}: ${fit.over_words}.`),
     doubts.length ? element("ul", {class: "doubt"}, ...doubts.map((doubt) => element("li", {}, doubt))) : null,
     element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => `${key} ${value}`).join("; "), "."),
   );

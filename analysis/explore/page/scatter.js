@@ -59,14 +59,13 @@ export class Scatter {
     this.canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
-  /** Along the curve on which B is the same everywhere; by the paper's fit the slope is. */
+  /** Along the curve on which B is the same everywhere. */
   #curve(found) {
     const {x} = this.chart.scales;
     const [from, to] = x.domain();
     const points = Array.from({length: 61}, (_, k) => from * (to / from) ** (k / 60));
-    const B = found.B_sums;
+    const {B} = found;
     const at = (r) => {
-      if (state.estimator === "B_half") return found.slope * r;
       const phi = 1 / (1 + r);
       return (r * (1 - B * phi)) / (1 + B * (1 - phi));
     };
@@ -107,10 +106,10 @@ export class Scatter {
     c.restore();
     const points = this.#curve(found);
     const inside = points.filter(([, value]) => value >= y.domain()[0] && value <= y.domain()[1]);
-    this.fitted.attr("d", Number.isFinite(found[state.estimator]) ? line().x((d) => x(d[0])).y((d) => y(d[1]))(inside) : null);
+    this.fitted.attr("d", Number.isFinite(found.B) ? line().x((d) => x(d[0])).y((d) => y(d[1]))(inside) : null);
     byId("scatter-note").textContent =
       `${this.ratio.length} layers and windows; dark: the window that plays. ` +
-      (state.estimator === "B_half" ? `Line: slope ${fixed(found.slope)}.` : "Line: B the same everywhere.") +
+      "Line: B the same everywhere." +
       ` Dashed: each its share.${outside ? ` ${outside} without a positive stress are left out.` : ""}`;
   }
 

@@ -29,10 +29,9 @@ function powerOf(fit, p) {
 }
 
 /** Why there is no B. */
-function whyNot(fit, rule, stress) {
+function whyNot(rule) {
   if (rule.kind === "drop") return "the stresses of the two species do not add up to the whole";
-  if (!stress.total.some((total) => total > 0)) return "in no layer and window do the two species bear a pressure";
-  return "in no layer and window do both species bear a positive stress";
+  return "in no layer and window do the two species bear a pressure";
 }
 
 /** The names of the codes alone: "MercuryDPM; YADE, PFC". */
@@ -98,8 +97,6 @@ export class Share {
     byId("q-number").addEventListener("change", (event) => {
       if (!Number.isNaN(value(event))) set({rule: numberedRule("power", value(event))});
     });
-    for (const radio of document.getElementsByName("estimator"))
-      radio.addEventListener("change", () => set({estimator: radio.value}));
     const svg = this.chart.svg.node();
     const drag = (event) => {
       if (!(event.buttons & 1)) return;
@@ -113,16 +110,14 @@ export class Share {
     svg.addEventListener("pointermove", drag);
   }
 
-  /** What depends on the run and the estimator, not on the rule. */
+  /** What depends on the run, not on the rule. */
   layout(others) {
     const fit = this.fitOfRun();
-    const {estimator} = state;
     const {chart} = this;
     const grid = fit.scan.p;
-    this.values = grid.map((p) => fitOf(fit, uniform(p))[estimator]);
+    this.values = grid.map((p) => fitOf(fit, uniform(p)).B);
     const finite = this.values.filter(Number.isFinite);
     chart.scales.y.domain([Math.min(...finite, 0), Math.max(...finite, 0)]).nice();
-    chart.setLabels({x: "share p of the large grain", y: estimator === "B_sums" ? "B, by sums" : "B at φ = ½"});
     chart.layout();
     const {x, y} = chart.scales;
     const curveOf = (values) =>
@@ -130,17 +125,17 @@ export class Share {
         .defined((_, k) => Number.isFinite(values[k]))
         .x((_, k) => x(grid[k]))
         .y((_, k) => y(values[k]))(grid);
-    const rows = fit.scan[estimator].map(([, low, high], k) => [grid[k], low, high]);
+    const rows = fit.scan.B.map(([, low, high], k) => [grid[k], low, high]);
     const known = rows.filter(([, low]) => low !== null);
     this.band.attr("d", area().x((d) => x(d[0])).y0((d) => y(d[1])).y1((d) => y(d[2]))(known));
     this.curve.attr("d", curveOf(this.values));
-    this.neutral.attr("d", curveOf(grid.map((p) => (estimator === "B_sums" ? neutralSums(fit, p) : NaN))));
+    this.neutral.attr("d", curveOf(grid.map((p) => neutralSums(fit, p))));
     this.others
       .selectAll("path")
       .data(others)
       .join("path")
       .attr("class", "other")
-      .attr("d", (other) => curveOf(grid.map((p) => fitOf(other, uniform(p))[estimator])));
+      .attr("d", (other) => curveOf(grid.map((p) => fitOf(other, uniform(p)).B)));
     this.#drawZero(fit);
     this.#drawCodes(fit);
     // The thumb stands under the point of the plot.
@@ -154,7 +149,7 @@ export class Share {
   #drawZero(fit) {
     const {x} = this.chart.scales;
     const {top, bottom, left} = this.chart.inner;
-    const [p, low, high] = zeroOf(fit, state.estimator);
+    const [p, low, high] = zeroOf(fit);
     this.zero.selectAll("*").remove();
     if (!isShare(p)) return;
     if (Number.isFinite(low))
@@ -182,7 +177,7 @@ export class Share {
       .filter((rule) => rule.stock && rule.word !== "drop")
       .map((rule) => {
         const own = parseRule(rule.word);
-        return {name: rule.word, use: shortUse(rule.used_by), p: shareOf(fit, own), B: fitOf(fit, own)[state.estimator]};
+        return {name: rule.word, use: shortUse(rule.used_by), p: shareOf(fit, own), B: fitOf(fit, own).B};
       })
       .filter(({p, B}) => Number.isFinite(p) && Number.isFinite(B))
       .sort((a, b) => b.p - a.p);
@@ -202,8 +197,8 @@ export class Share {
   /** What follows from the rule. */
   update(stress, found) {
     const fit = this.fitOfRun();
-    const {rule, estimator} = state;
-    const p = shareOf(fit, rule), B = found[estimator];
+    const {rule} = state;
+    const p = shareOf(fit, rule), {B} = found;
     const {x, y} = this.chart.scales;
     const seen = Number.isFinite(p) && Number.isFinite(B);
     for (const mark of [this.point, this.stem]) mark.attr("visibility", seen ? "visible" : "hidden");
@@ -247,18 +242,18 @@ export class Share {
   }
 
   #updateReadout(fit, p, B, stress) {
-    const {rule, estimator} = state;
+    const {rule} = state;
     byId("b-name").textContent = `B by ${ruleName(rule)}`;
     byId("b-value").textContent = byId("dock-value").textContent = fixed(B);
     byId("dock-name").textContent = `p ${fixed(p)}, B`;
-    const {interval: band, of} = Number.isFinite(B) ? intervalOf(fit, rule, estimator) : {interval: [NaN, NaN], of: ""};
+    const {interval: band, of} = Number.isFinite(B) ? intervalOf(fit, rule) : {interval: [NaN, NaN], of: ""};
     const known = interval(band);
     byId("b-interval").textContent = known && of ? `${known}, ${of}` : known;
     byId("b-interval").title = `95 % over ${fit.over}: ${fit.over_words}`;
     const [low, high] = band;
     const sure = low > 0 || high < 0;
     byId("b-words").textContent = !Number.isFinite(B)
-      ? `No B: ${whyNot(fit, rule, stress)}.`
+      ? `No B: ${whyNot(rule)}.`
       : `${B > 0 ? "Large grains carry more than their share of the pressure" : "Large grains carry less than their share of the pressure"}, by this rule${Number.isFinite(low) && !sure ? "; but the interval holds 0" : ""}.`;
   }
 

@@ -3,7 +3,6 @@
 
 export const state = {
   rule: {kind: "size", value: NaN},
-  estimator: "B_sums",
   run: 0, // that plots are of; the number of runs: all together
   time: 0, // s
   player: 0, // the run of which a grain was chosen

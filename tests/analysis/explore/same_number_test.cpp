@@ -8,7 +8,9 @@ namespace {
 
 TEST(CommandsOf, WhatIsAsUsualIsNotSaid)
 {
-  const auto commands = commands_of("run.h5", nullptr, ExploreSettings{}, 0);
+  ExploreSettings settings;
+  settings.partition.filters.heights = "inside";
+  const auto commands = commands_of("run.h5", nullptr, settings, 0);
   EXPECT_EQ(commands["sums"], "grseg-stress run.h5");
   EXPECT_EQ(commands["file"], "sums.tsv");
   EXPECT_EQ(commands["fit"], "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
-#include "analysis/fit/fit_mixtures.hpp"
+#include "analysis/fit/fit_flows.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
@@ -88,7 +88,7 @@ TEST(FitData, ATwinAddsNoObservations)
   EXPECT_EQ(both.samples.size(), 20u);
   const auto width = [](const FitData& data) {
     const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
-    return fit.high.B_half - fit.low.B_half;
+    return fit.high.B - fit.low.B;
   };
   EXPECT_NEAR(width(both) / width(one), 1, 0.01);
 }
@@ -101,7 +101,7 @@ TEST(FitData, WindowsInWhichNothingMovesAreOneObservationWithoutAnInterval)
   EXPECT_EQ(data.still, 9u);
   EXPECT_EQ(data.samples.size(), 10u);
   const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_TRUE(std::isnan(fit.low.B_half) && std::isnan(fit.high.B_sums));
+  EXPECT_TRUE(std::isnan(fit.low.B) && std::isnan(fit.high.B));
   EXPECT_EQ(fit.doubt, "one window is one observation, too few for an interval");
 }
 
@@ -126,31 +126,6 @@ TEST(FitData, EachFilterCountsWhatItRemoves)
   EXPECT_EQ(data.samples.size(), 6u);
 }
 
-/// A layer of 2 m^2 in which `grains` grains of 0.01 m are the rarer species.
-TableRow layer_with(double grains)
-{
-  constexpr double volume = 2, solid = 0.8, area = std::numbers::pi / 4 * 0.01 * 0.01;
-  return {2, 3, 9, neutral_sums(grains * area / (solid * volume), 2, solid, volume)};
-}
-
-TEST(FitData, LayersWithFewGrainsOfTheRarerSpeciesAreLeftOutAndCounted)
-{
-  const auto table = stress_table({layer_with(2.9), layer_with(3.1), layer_with(1), layer_with(8)});
-  const auto used = [&](double grains) {
-    return read({table}, {.ratio_high = 1e6, .min_grains = grains}).count.used;
-  };
-  const auto usual = read({table}, {.ratio_high = 1e6, .min_grains = 3});
-  EXPECT_EQ(usual.count.sentence(),
-            "4 rows, 2 with fewer grains of the rarer species than --min-grains");
-  EXPECT_EQ(usual.count.used, 2u);
-  EXPECT_EQ(usual.count.uncounted, 0u);
-  EXPECT_EQ(used(0), 4u);
-  EXPECT_EQ(read({table}, {.ratio_high = 1e6}).count.used, 4u);  // off unless asked for
-  EXPECT_EQ(used(2), 3u);
-  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.ratio_high = 1e6, .min_grains = 9}),
-                    "4 with fewer grains"));
-}
-
 TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
 {
   std::vector<TableRow> rows;
@@ -159,7 +134,7 @@ TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
   const auto used = [&](const char* heights) {
     return read({stress_table(rows)}, {.heights = heights}).count.used;
   };
-  EXPECT_EQ(used(""), 4u);
+  EXPECT_EQ(used("all"), 4u);
   EXPECT_EQ(used(":"), 4u);
   EXPECT_EQ(used("4dS:"), 3u);
   EXPECT_EQ(used("4dS:12dS"), 2u);
@@ -252,7 +227,7 @@ TEST(FitData, ASumThatWasNotKeptIsRefusedWhereARuleNeedsIt)
   EXPECT_TRUE(holds(sentence_of<FormatError>({table}), "no column 'Mcp_yy'"));
   table.header.emplace_back("not kept", "n_SS Mcp_yy");
   const auto data = read({table});
-  EXPECT_GT(fit(data, "size").value.slope, 0);
+  EXPECT_GT(fit(data, "size").value.paper_s, 0);
   try {
     fit(data, "contact-point");
     ADD_FAILURE() << "the sum was made up";
@@ -282,11 +257,11 @@ TEST(FitData, KineticStressesAreFittedWithMassesForComposition)
 {
   const auto data = read({kinetic_table(1.44)}, {}, Quantity::kinetic);
   const auto yy = fit(data, "size");
-  EXPECT_NEAR(yy.value.slope, 1.44, 1e-13);
-  EXPECT_NEAR(yy.value.B_half, 2 * (1 - 1.44) / 2.44, 1e-13);
+  EXPECT_NEAR(yy.value.paper_s, 1.44, 1e-13);
+  EXPECT_NEAR(yy.value.paper_B, ((1 - 1.44) + (1 - 1.44) / 1.44) / 2, 1e-13);
   EXPECT_TRUE(std::isnan(yy.neutral));
   EXPECT_TRUE(std::isnan(yy.minus_size.value));
-  EXPECT_NEAR(fit(data, "size", {.component = Component::pressure}).value.slope, (9 + 1.44) / 2,
+  EXPECT_NEAR(fit(data, "size", {.component = Component::pressure}).value.paper_s, (9 + 1.44) / 2,
               1e-13);
 }
 
@@ -302,49 +277,8 @@ TEST(FitData, CompositionOfAKineticTableIsThatOfItsAreas)
     row[large] *= 2;
   }
   const auto dense = fit(read({table}, {}, Quantity::kinetic), "size").value;
-  EXPECT_EQ(dense.B_half, by_area.B_half);
-  EXPECT_EQ(dense.exponent, by_area.exponent);
-}
-
-TEST(FitData, GrainsOfAKineticTableAreCountedOrUnknown)
-{
-  auto table = kinetic_table(1.44);
-  const auto unknown = read({table}, {.min_grains = 1e9}, Quantity::kinetic);
-  EXPECT_EQ(unknown.count.used, compositions.size());
-  EXPECT_EQ(unknown.count.uncounted, compositions.size());
-  table.columns.insert(table.columns.end(), {"grains_S", "grains_L"});
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    table.rows[row].push_back(row < 2 ? 40 : 3);
-    table.rows[row].push_back(row < 3 ? 2 : 40);
-  }
-  const auto counted = read({table}, {.min_grains = 3}, Quantity::kinetic);
-  EXPECT_EQ(counted.count.uncounted, 0u);
-  EXPECT_EQ(counted.count.few_grains, 3u);
-}
-
-// Of the same rows B from yy and from the trace, whichever of them was asked for.
-TEST(FitData, TheOtherComponentStandsBesideTheOneAskedFor)
-{
-  const auto data = read({kinetic_table(1.44)}, {}, Quantity::kinetic);
-  const auto b_of = [](double slope) { return 2 * (1 - slope) / (1 + slope); };
-  for (const auto component : {Component::yy, Component::pressure}) {
-    const auto both = fit_mixtures(data, {}, {.component = component}, {}).all;
-    EXPECT_NEAR(both.B_yy.value, b_of(1.44), 1e-13);
-    EXPECT_NEAR(both.B_pressure.value, b_of((9 + 1.44) / 2), 1e-13);
-  }
-}
-
-TEST(FitData, WithoutTheSumsOfAComponentItHasNoB)
-{
-  auto table = stress_table(neutral_rows(0.1));
-  const auto column = table.column("M_xx");
-  table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(column));
-  for (auto& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
-  table.header.emplace_back("not kept", "M_xx");
-  const auto data = read({table});
-  const auto of_yy = fit_mixtures(data, parse_rule("half"), {}, {}).all;
-  EXPECT_EQ(of_yy.B_yy.value, of_yy.value.B_half);
-  EXPECT_TRUE(std::isnan(of_yy.B_pressure.value));
+  EXPECT_EQ(dense.B, by_area.B);
+  EXPECT_EQ(dense.paper_a, by_area.paper_a);
 }
 
 TEST(FitData, ATableOfAnotherToolIsRefusedWithTheNameOfTheRightOne)
@@ -361,9 +295,9 @@ TEST(FitData, BaseContactsCountAsFarAsTheChosenBaseSays)
   sums.of(OwnSum::base, 0) = 2 * Tensor2::Identity();
   sums.of(OwnSum::whole_base, 0) = 6 * Tensor2::Identity();
   const auto data = read({stress_table({{0, 1, 9, sums}})});
-  EXPECT_NEAR(fit(data, "size", {.base = BasePart::contact_point}).value.slope, 3, 1e-14);
-  EXPECT_NEAR(fit(data, "size", {.base = BasePart::half}).value.slope, 4, 1e-14);
-  EXPECT_NEAR(fit(data, "size", {.base = BasePart::none}).value.slope, 1, 1e-14);
+  EXPECT_NEAR(fit(data, "size", {.base = BasePart::contact_point}).value.paper_s, 3, 1e-14);
+  EXPECT_NEAR(fit(data, "size", {.base = BasePart::half}).value.paper_s, 4, 1e-14);
+  EXPECT_NEAR(fit(data, "size", {.base = BasePart::none}).value.paper_s, 1, 1e-14);
 }
 
 }  // namespace

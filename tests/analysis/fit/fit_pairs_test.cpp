@@ -70,8 +70,8 @@ std::vector<RuleFit> fits_of(const Table& table, std::size_t samples = 0)
   const std::vector<PartitionRule> rules{{}};
   const std::vector<Table> tables{table};
   const auto read = read_fit_tables(tables, Quantity::contact, rules);
-  return fit_pairs(read, Quantity::contact, {.min_grains = 0}, all_pairs(read[0].species.size()),
-                   rules, {}, {samples, 1}, true);
+  return fit_pairs(read, Quantity::contact, {}, all_pairs(read[0].species.size()), rules, {},
+                   {samples, 1}, true);
 }
 
 const SpeciesList five{{"p", 1}, {"q", 1.3}, {"r", 2}, {"s", 2.2}, {"t", 4}};
@@ -84,27 +84,27 @@ TEST(SizeExponent, ThatStressWasSharedWithIsFoundExactly)
         EXPECT_NEAR(fit.size_exponent->value, a, 1e-13);
 }
 
-TEST(SizeExponent, OfTwoSpeciesIsTheMeanOfBOverTheLogarithmOfTheirSizes)
+TEST(SizeExponent, OfTwoSpeciesIsThatOfTheirLogarithms)
 {
   for (const int dimension : {2, 3}) {
     const auto fit =
         fits_of(table_with_exponent({{"small", 1}, {"large", 2}}, 0.06, 0.3, dimension), 500)[0];
     const auto& exponent = *fit.size_exponent;
-    EXPECT_NEAR(exponent.value, fit.value.B_mean / std::log(2), 1e-14);
-    EXPECT_NEAR(exponent.low, fit.low.B_mean / std::log(2), 1e-10);
-    EXPECT_NEAR(exponent.high, fit.high.B_mean / std::log(2), 1e-10);
+    EXPECT_NEAR(exponent.value, fit.value.minus_ln_s / std::log(2), 1e-14);
+    EXPECT_NEAR(exponent.low, fit.low.minus_ln_s / std::log(2), 1e-10);
+    EXPECT_NEAR(exponent.high, fit.high.minus_ln_s / std::log(2), 1e-10);
     EXPECT_LT(exponent.low, exponent.value);
   }
 }
 
-// B_mean of two species is -ln s = a ln r (mixtures.md 1).
+// minus_ln_s of two species is -ln s = a ln r (flows.md 1).
 TEST(FitPairs, GiveBOfEveryTwoSpecies)
 {
   const auto fits = fits_of(table_with_exponent(five, 0.3, 0));
   ASSERT_EQ(fits.size(), 10u);
   for (const auto& fit : fits) {
     const double ratio = five[fit.pair.larger].diameter / five[fit.pair.smaller].diameter;
-    EXPECT_NEAR(fit.value.B_mean, 0.3 * std::log(ratio), 1e-13);
+    EXPECT_NEAR(fit.value.minus_ln_s, 0.3 * std::log(ratio), 1e-13);
     EXPECT_EQ(fit.points, 120u);
   }
   EXPECT_EQ(fits[1].pair.smaller, 0u);
@@ -117,8 +117,8 @@ TEST(FitPairs, AreNamedInTheTable)
   report.species = five;
   report.rules = fits_of(table_with_exponent(five, 0.3, 0));
   const auto text = to_tsv(report);
-  EXPECT_NE(text.find("rule\tsmaller\tlarger\tpoints"), std::string::npos);
-  EXPECT_NE(text.find("size\tq\ts\t120"), std::string::npos);
+  EXPECT_NE(text.find("\nrule\tflow\tpair\tcomponent\tquantity\t"), std::string::npos);
+  EXPECT_NE(text.find("\tq+s\tyy\tB\t"), std::string::npos);
   EXPECT_NE(to_json(report).find("\"size_exponent\""), std::string::npos);
 }
 

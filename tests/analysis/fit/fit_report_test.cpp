@@ -36,63 +36,93 @@ TEST(FitReport, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers)
   EXPECT_EQ(to_tsv(report_with_seed(3)), to_tsv(report_with_seed(3)));
 }
 
-TEST(FitReport, JsonSaysNullWhereThereIsNoNumber)
+/// The rows of a quantity of a rule, in their order.
+std::vector<NumberRow> rows_of(const FitReport& report, const std::string& rule,
+                               const std::string& quantity)
+{
+  auto rows = number_rows(report);
+  std::erase_if(rows,
+                [&](const NumberRow& row) { return row.rule != rule || row.quantity != quantity; });
+  return rows;
+}
+
+TEST(FitReport, EveryNumberHasARowWithItsIntervalAndWhatThatIsOver)
+{
+  const auto report = report_with_seed(1);
+  const auto b = rows_of(report, "size", "B");
+  ASSERT_EQ(b.size(), 1u);  // one run: over its windows alone
+  EXPECT_EQ(b[0].over, "windows");
+  EXPECT_EQ(b[0].number.value, report.rules[0].value.B);
+  EXPECT_EQ(b[0].number.low, report.rules[0].low.B);
+  EXPECT_EQ(b[0].degrees, report.rules[0].degrees);
+  EXPECT_EQ(rows_of(report, "uniform:0.8", "B_minus_size")[0].number.high,
+            report.rules[2].minus_size.interval().high);
+  EXPECT_EQ(rows_of(report, "-", "p_zero")[0].number.value, report.rules[0].line.p_zero.value);
+  EXPECT_EQ(rows_of(report, "-", "dB_dp")[0].number.low, report.rules[0].line.dB_dp.interval().low);
+  EXPECT_EQ(rows_of(report, "-", "points")[0].number.value, 210);
+  EXPECT_EQ(rows_of(report, "-", "points")[0].over, "-");
+}
+
+TEST(FitReport, ARuleWhosePartsDoNotAddUpHasNoB)
+{
+  auto report = report_with_seed(1);
+  EXPECT_TRUE(rows_of(report, "drop", "B").empty());
+  EXPECT_TRUE(rows_of(report, "drop", "paper_k").empty());  // not asked for
+  report.with_paper = true;
+  EXPECT_EQ(rows_of(report, "drop", "paper_k")[0].number.value, report.rules[1].value.paper_k);
+  EXPECT_TRUE(rows_of(report, "drop", "paper_B").empty());
+}
+
+TEST(FitReport, JsonHoldsTheRowsOfTheTable)
 {
   const auto report = report_with_seed(1);
   const auto json = nlohmann::json::parse(to_json(report));
-  ASSERT_EQ(json["rules"].size(), 3u);
-  const auto& size = json["rules"][0];
-  for (const char* key :
-       {"rule", "component", "quantity", "slope", "slope_interval", "exponent", "B_half", "B_mean",
-        "B_direct", "B_interval", "points", "estimators", "used_by", "share"})
-    EXPECT_TRUE(size.contains(key)) << key;
-  EXPECT_EQ(size["rule"], "size");
-  EXPECT_EQ(size["points"], 210);
-  EXPECT_EQ(size["B_half"], report.rules[0].value.B_half);
-  EXPECT_EQ(size["B_interval"][0], report.rules[0].low.B_half);
-  EXPECT_EQ(size["estimators"]["B_direct"]["interval"][1], report.rules[0].high.B_direct);
-  EXPECT_TRUE(json["rules"][1]["B_half"].is_null());
-  EXPECT_TRUE(json["rules"][1]["B_interval"][0].is_null());
-  EXPECT_TRUE(json["rules"][1]["slope"].is_number());
+  const auto rows = number_rows(report);
+  ASSERT_EQ(json["numbers"].size(), rows.size());
+  EXPECT_EQ(json["numbers"][0]["rule"], "size");
+  EXPECT_EQ(json["numbers"][0]["quantity"], "B");
+  EXPECT_EQ(json["numbers"][0]["value"], rows[0].number.value);
+  EXPECT_EQ(json["numbers"][1]["quantity"], "share");
+  EXPECT_TRUE(json["numbers"][1]["low"].is_null());
   EXPECT_EQ(json["scan"].size(), 4u);
   EXPECT_EQ(json["scan"][1][0], 0.6);
-  EXPECT_EQ(json["scan"][1][1], report.scan->fits[1].value.B_half);
-  EXPECT_EQ(json["p_zero"], report.scan->p_zero);
-  EXPECT_EQ(json["p_zero_interval"][0], report.scan->p_zero_interval.low);
-  EXPECT_EQ(json["dB_dp"], report.scan->dB_dp);
-  EXPECT_EQ(json["dB_dp_interval"][1], report.scan->dB_dp_interval.high);
-  EXPECT_EQ(json["rules"][2]["used_by"], "-");
+  EXPECT_EQ(json["scan"][1][1], report.scan->fits[1].value.B);
   EXPECT_EQ(json["doubts"].size(), 1u);  // too few windows, of all rules
   EXPECT_EQ(json["inputs"][0], "run.h5 0123456789abcdef");
   EXPECT_EQ(json["history"].size(), 2u);
 }
 
-TEST(FitReport, TheTablesOfAMixtureAreAListInJsonAndALineInTheTable)
+// Two slopes are two flows: a column of numbers tells them apart.
+TEST(FitReport, WhatFlowsDifferInHasAColumnWithItsUnit)
+{
+  auto report = report_with_seed(1);
+  report.scan.reset();
+  report.flows = {{"slope = 21 degrees", {0.7, 0.3}, {0}, {{"slope[degree]", 21}}},
+                  {"slope = 26 degrees", {0.7, 0.3}, {1}, {{"slope[degree]", 26}}}};
+  report.shares = {0.25, 0.75};
+  report.rules.resize(1);
+  report.rules.push_back(report.rules[0]);
+  report.rules[0].flow = 1;
+  const auto text = to_tsv(report);
+  EXPECT_TRUE(holds(text,
+                    "\nrule\tflow\tpair\tcomponent\tquantity\tover\tvalue\tlow\thigh\t"
+                    "degrees_of_freedom\tslope[degree]\n"));
+  EXPECT_TRUE(holds(text, "\nsize\tslope = 26 degrees\t"));
+  EXPECT_TRUE(holds(text, "\t26\n"));
+  EXPECT_TRUE(holds(text, "\nsize\tall\t"));
+}
+
+TEST(FitReport, TheTablesOfAFlowAreAListInJsonAndALineInTheTable)
 {
   auto report = report_with_seed(1);
   report.table_names = {"a.tsv", "b c.tsv", "d\n.tsv"};
-  report.mixtures = {{"Phi_L = 0.30", {0.7, 0.3}, {0, 2}}, {"Phi_L = 0.60", {0.4, 0.6}, {1}}};
-  report.shares = {{0.25, 0.75}, {0.5, 0.5}};
+  report.flows = {{"Phi_L = 0.30", {0.7, 0.3}, {0, 2}}, {"Phi_L = 0.60", {0.4, 0.6}, {1}}};
+  report.shares = {0.25, 0.75};
   const auto json = nlohmann::json::parse(to_json(report));
-  EXPECT_EQ(json["mixtures"][0]["tables"], nlohmann::json({"a.tsv", "d\\x0a.tsv"}));
-  EXPECT_EQ(json["mixtures"][1]["tables"], nlohmann::json({"b c.tsv"}));
+  EXPECT_EQ(json["flows"][0]["tables"], nlohmann::json({"a.tsv", "d\\x0a.tsv"}));
+  EXPECT_EQ(json["flows"][1]["tables"], nlohmann::json({"b c.tsv"}));
   EXPECT_TRUE(
-      holds(to_tsv(report),
-            "# mixture: Phi_L = 0.60, 1 table, 75 % of the weight of B_half, 50 % of that of "
-            "B_sums: b c.tsv\n"));
-}
-
-// p* of the sums is that of the data, whatever the rules beside the scan.
-TEST(FitReport, AScanHasTheZeroOfTheSumsAlsoWhereTheLastRuleDoesNotAddUp)
-{
-  auto report = report_with_seed(1);
-  const double zero = report.rules[0].p_zero_sums.value;
-  ASSERT_TRUE(std::isfinite(zero));
-  report.rules = {report.rules[1]};  // drop
-  EXPECT_EQ(Table::parse(to_tsv(report), "scan").header_number("p_zero_sums"), zero);
-  const auto json = nlohmann::json::parse(to_json(report));
-  EXPECT_EQ(json["p_zero_sums"]["value"], zero);
-  EXPECT_LT(json["p_zero_sums"]["interval"][0], zero);
+      holds(to_tsv(report), "# flow: Phi_L = 0.60, 1 table, 75 % of the weight: b c.tsv\n"));
 }
 
 TEST(FitReport, WhatLimitsTheIntervalsIsAmongTheLinesOfTheTableAndInJson)
@@ -103,19 +133,16 @@ TEST(FitReport, WhatLimitsTheIntervalsIsAmongTheLinesOfTheTableAndInJson)
   EXPECT_EQ(nlohmann::json::parse(to_json(report))["doubts"][0], "size: too few");
 }
 
-TEST(FitReport, TheTableNamesTheRuleFirstAndTheScanIsATable)
+TEST(FitReport, AScanIsATableOfBOverTheShareWithTheLineInItsHeader)
 {
-  auto report = report_with_seed(1);
+  const auto report = report_with_seed(1);
   const auto scan = Table::parse(to_tsv(report), "scan");
   ASSERT_EQ(scan.rows.size(), 4u);
-  EXPECT_EQ(scan.rows[3][scan.column("B")], report.scan->fits[3].value.B_half);
-  EXPECT_EQ(scan.header_number("p_zero"), report.scan->p_zero);
-  report.scan.reset();
-  const auto text = to_tsv(report);
-  EXPECT_TRUE(holds(text, "\nrule\tpoints\tslope\tslope_low\tslope_high\t"));
-  EXPECT_TRUE(holds(text, "\nsize\t210\t"));
-  EXPECT_TRUE(holds(text, "\nuniform:0.8\t210\t"));
-  EXPECT_TRUE(holds(text, "# history: grseg-sim chute.ini\n# history: grseg-stress run.h5\n"));
+  EXPECT_EQ(scan.rows[3][scan.column("B")], report.scan->fits[3].value.B);
+  EXPECT_EQ(scan.header_number("p_zero"), report.scan->line.p_zero.value);
+  EXPECT_EQ(scan.header_number("dB_dp_high"), report.scan->line.dB_dp.interval().high);
+  EXPECT_TRUE(
+      holds(to_tsv(report), "# history: grseg-sim chute.ini\n# history: grseg-stress run.h5\n"));
 }
 
 }  // namespace

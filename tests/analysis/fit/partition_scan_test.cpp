@@ -33,9 +33,9 @@ TEST(PartitionScan, EveryShareIsTheSingleFitOfItsRuleInBlocksOfTheScan)
   ASSERT_EQ(scan.fits.size(), 6u);
   for (const auto& one : scan.fits) {
     const auto single = fit_rule(data, uniform(one.rule.value), {}, bootstrap, scan.dependence);
-    EXPECT_NEAR(one.value.B_half, single.value.B_half, 1e-12);
-    EXPECT_NEAR(one.low.B_half, single.low.B_half, 1e-12);
-    EXPECT_NEAR(one.high.B_direct, single.high.B_direct, 1e-12);
+    EXPECT_NEAR(one.value.B, single.value.B, 1e-12);
+    EXPECT_NEAR(one.low.B, single.low.B, 1e-12);
+    EXPECT_NEAR(one.high.B, single.high.B, 1e-12);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(PartitionScan, TheBandOfBIsSmooth)
   const auto data = of_two_memories();
   const Bootstrap bootstrap(data.runs, 1000, 4);
   const auto scan = scan_partition(data, parse_scan("0.5:0.8:0.002"), {}, bootstrap);
-  const auto half_width = [](const RuleFit& fit) { return (fit.high.B_half - fit.low.B_half) / 2; };
+  const auto half_width = [](const RuleFit& fit) { return (fit.high.B - fit.low.B) / 2; };
   double jump = 0, own_jump = 0;
   for (std::size_t k = 1; k < scan.fits.size(); ++k) {
     const auto &fit = scan.fits[k], &before = scan.fits[k - 1];
@@ -78,9 +78,8 @@ TEST(PartitionScan, TheBandOfBIsSmooth)
   EXPECT_GT(own_jump, 2 * jump);
 }
 
-// B_half = 2 (1 - s)/(1 + s) has the slope of -ln s at s = 1, and there the neutral model gives
-// -d ln(y)/dp = m/(psi_S psi_L) = (1 + r)/(phi_L + r phi_S), averaged with the weights of the
-// slope.
+// The neutral model gives d(psi_L)/dp = phi_L phi_S (1 + r)/(phi_L + r phi_S), whose sum over that of
+// phi_L phi_S is the slope of B.
 TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
 {
   for (const double r : {2.0, 3.0}) {
@@ -88,12 +87,13 @@ TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
     const auto scan = scan_partition(data, parse_scan("0.4:0.9:0.005"), {}, no_bootstrap(data));
     double weight = 0, slope = 0;
     for (const auto& sample : data.samples) {
-      weight += sample.weight;
-      slope += sample.weight * (1 + r) / (sample.phi_large + r * (1 - sample.phi_large));
+      const double product = sample.frames * sample.phi_large * (1 - sample.phi_large);
+      weight += product;
+      slope += product * (1 + r) / (sample.phi_large + r * (1 - sample.phi_large));
     }
-    EXPECT_NEAR(scan.p_zero, r / (1 + r), 1e-12);
-    EXPECT_NEAR(scan.dB_dp, slope / weight, 1e-10);
-    EXPECT_TRUE(std::isnan(scan.p_zero_interval.low));
+    EXPECT_NEAR(scan.line.p_zero.value, r / (1 + r), 1e-12);
+    EXPECT_NEAR(scan.line.dB_dp.value, slope / weight, 1e-10);
+    EXPECT_TRUE(std::isnan(scan.line.p_zero.interval().low));
   }
 }
 
@@ -110,12 +110,24 @@ TEST(PartitionScan, TheSlopeAtTheZeroIsThatOfBOfPartsAtTheGrainsToo)
   }
   const auto bootstrap = no_bootstrap(data);
   const auto b_at = [&](double share) {
-    return fit_rule(data, uniform(share), {}, bootstrap).value.B_half;
+    return fit_rule(data, uniform(share), {}, bootstrap).value.B;
   };
-  const auto zero = find_zero_of_b(data, parse_scan("0:1:0.1"), {}, bootstrap);
+  const auto line = line_over_share(data, {}, bootstrap, Over::windows, {});
+  const double zero = line.p_zero.value;
   constexpr double step = 1e-5;
-  EXPECT_NEAR(b_at(zero.p_zero), 0, 1e-12);
-  EXPECT_NEAR(zero.dB_dp, (b_at(zero.p_zero + step) - b_at(zero.p_zero - step)) / (2 * step), 1e-7);
+  EXPECT_NEAR(b_at(zero), 0, 1e-12);
+  EXPECT_NEAR(line.dB_dp.value, (b_at(zero + step) - b_at(zero - step)) / (2 * step), 1e-7);
+}
+
+TEST(PartitionScan, BIsAStraightLineOverTheShare)
+{
+  const auto data = neutral_data(0.1);
+  const auto line = line_over_share(data, {}, no_bootstrap(data), Over::windows, {});
+  for (const double share : {0.0, 0.4, 1.0})
+    EXPECT_NEAR(fit_rule(data, uniform(share), {}, no_bootstrap(data)).value.B,
+                line.dB_dp.value * (share - line.p_zero.value), 1e-12);
+  const auto half = fit_rule(data, parse_rule("half"), {}, no_bootstrap(data));
+  EXPECT_NEAR(half.value.B, line.dB_dp.value * (half.share - line.p_zero.value), 1e-12);
 }
 
 TEST(PartitionScan, TheIntervalOfTheZeroHoldsIt)
@@ -123,8 +135,8 @@ TEST(PartitionScan, TheIntervalOfTheZeroHoldsIt)
   const auto data = neutral_data(0.2);
   const auto scan =
       scan_partition(data, parse_scan("0.5:0.8:0.01"), {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_LT(scan.p_zero_interval.low, scan.p_zero);
-  EXPECT_GT(scan.p_zero_interval.high, scan.p_zero);
+  EXPECT_LT(scan.line.p_zero.interval().low, scan.line.p_zero.value);
+  EXPECT_GT(scan.line.p_zero.interval().high, scan.line.p_zero.value);
 }
 
 // dB = dB/dp dp: the interval of the zero is that of B there.
@@ -133,11 +145,12 @@ TEST(PartitionScan, TheIntervalOfTheZeroIsThatOfBOverItsSlope)
   const auto data = neutral_data(0.2);
   const Bootstrap bootstrap(data.runs, 2000, 1);
   const auto scan = scan_partition(data, parse_scan("0.5:0.8:0.01"), {}, bootstrap);
-  const auto at_zero = fit_rule(data, uniform(scan.p_zero), {}, bootstrap);
-  EXPECT_NEAR(at_zero.value.B_half, 0, 1e-12);
-  EXPECT_NEAR((scan.p_zero_interval.high - scan.p_zero_interval.low) * scan.dB_dp /
-                  (at_zero.high.B_half - at_zero.low.B_half),
-              1, 0.01);
+  const auto at_zero = fit_rule(data, uniform(scan.line.p_zero.value), {}, bootstrap);
+  EXPECT_NEAR(at_zero.value.B, 0, 1e-12);
+  const auto interval = scan.line.p_zero.interval();
+  EXPECT_NEAR(
+      (interval.high - interval.low) * scan.line.dB_dp.value / (at_zero.high.B - at_zero.low.B), 1,
+      0.01);
 }
 
 /// 48 windows of seven layers of neutral contacts; each kind of contact scatters by two per cent.
@@ -163,15 +176,15 @@ TEST(PartitionScan, TheIntervalsOfZeroAndSlopeHoldTheTruth)
 {
   const auto known = neutral_data(0);
   const double slope =
-      scan_partition(known, parse_scan("0.6:0.7:0.1"), {}, no_bootstrap(known)).dB_dp;
+      scan_partition(known, parse_scan("0.6:0.7:0.1"), {}, no_bootstrap(known)).line.dB_dp.value;
   synthetic::Ar1 noise(0.5);
   double zero_held = 0, slope_held = 0;
   for (unsigned k = 1; k <= 300; ++k) {
     const auto data = scattered_neutral_data(noise);
     const auto scan =
         scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 200, k));
-    zero_held += synthetic::holds(scan.p_zero_interval, 2. / 3) / 300.;
-    slope_held += synthetic::holds(scan.dB_dp_interval, slope) / 300.;
+    zero_held += synthetic::holds(scan.line.p_zero.interval(), 2. / 3) / 300.;
+    slope_held += synthetic::holds(scan.line.dB_dp.interval(), slope) / 300.;
   }
   for (const double held : {zero_held, slope_held}) {
     EXPECT_GT(held, 0.93 - 3 * std::sqrt(0.93 * 0.07 / 300));
@@ -179,12 +192,21 @@ TEST(PartitionScan, TheIntervalsOfZeroAndSlopeHoldTheTruth)
   }
 }
 
-TEST(PartitionScan, ARangeWithoutAZeroSaysSo)
+TEST(PartitionScan, ARangeWithoutTheZeroKnowsItAllTheSame)
 {
   const auto data = neutral_data(0);
   const auto scan = scan_partition(data, parse_scan("0.7:0.9:0.1"), {}, no_bootstrap(data));
-  EXPECT_TRUE(std::isnan(scan.p_zero));
-  EXPECT_TRUE(std::isnan(scan.dB_dp));
+  EXPECT_NEAR(scan.line.p_zero.value, 2. / 3, 1e-12);
+}
+
+// Without mixed contacts no share changes anything.
+TEST(PartitionScan, WithoutMixedContactsThereIsNoZero)
+{
+  const auto data = read({stress_table(
+      {{0, 1, 10,
+        synthetic::separate_sums(0.3, synthetic::any_tensor(), synthetic::any_tensor())}})});
+  const auto line = line_over_share(data, {}, no_bootstrap(data), Over::windows, {});
+  EXPECT_TRUE(std::isnan(line.p_zero.value) && std::isnan(line.dB_dp.value));
 }
 
 TEST(PartitionScan, SharesAreExactAndIncludeTheLast)

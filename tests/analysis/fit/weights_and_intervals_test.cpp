@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Weights, filters and intervals of fits whose answer is worked out on paper.
-#include "analysis/fit/mixtures.hpp"
+#include "analysis/fit/flows.hpp"
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/size_exponent.hpp"
@@ -37,12 +37,11 @@ double half_width(const Interval& interval)
   return (interval.high - interval.low) / 2;
 }
 
-// Neutral contacts of r = 2 at phi_L = 0.2: mixed contacts carry m = 3 phi_L phi_S/(phi_L + 2 phi_S) of
-// the stress, m/psi_S = 1/3 and m/psi_L = 4/3, so that dB/dp = 5/3. Where sigma^L is larger by a
-// small part e, ln s is smaller by e, p* larger by e/(5/3), and dB/dp there smaller by e/3: the
-// large grains' part of the slope, m/sigma^L, is as before, since p* grows with sigma^L, and
-// that of the small ones falls.
-TEST(IntervalByHand, TheSlopeOfBIsThatAtTheZeroOfEachSample)
+// Neutral contacts of r = 2 at phi_L = 0.2: mixed contacts carry m = 3 phi_L phi_S/(phi_L + 2 phi_S) =
+// 4/15 of the stress, so that dB/dp = m/(phi_L phi_S) = 5/3. Where contacts of large grains alone add a
+// small part e to the whole stress, dB/dp is smaller by 5/3 e, psi_L larger by (1 - psi_L) e, and
+// p* smaller by that over m, 3 e.
+TEST(IntervalByHand, TheSlopeOfBFallsWhereOtherContactsGrow)
 {
   std::vector<TableRow> rows;
   for (int k = 0; k < 40; ++k) {
@@ -53,13 +52,13 @@ TEST(IntervalByHand, TheSlopeOfBIsThatAtTheZeroOfEachSample)
   const auto data = read({stress_table(rows)});
   const auto scan =
       scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_NEAR(scan.dB_dp, 5. / 3, 1e-4);
-  EXPECT_NEAR(half_width(scan.dB_dp_interval) / half_width(scan.p_zero_interval), 1. / 3 * 5. / 3,
-              1e-3);
+  EXPECT_NEAR(scan.line.dB_dp.value, 5. / 3, 1e-4);
+  EXPECT_NEAR(half_width(scan.line.dB_dp.interval()) / half_width(scan.line.p_zero.interval()),
+              1. / 3 * 5. / 3, 1e-3);
 }
 
 // The same of four runs, in each of which sigma^L is larger or smaller throughout.
-TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatAtTheZeroOfEachRun)
+TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatOfEachRun)
 {
   std::vector<Table> tables;
   for (int run = 0; run < 4; ++run) {
@@ -74,22 +73,22 @@ TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatAtTheZeroOfEachRun)
   const auto data = read(tables);
   const auto scan =
       scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_NEAR(half_width(scan.dB_dp_interval) / half_width(scan.p_zero_interval), 1. / 3 * 5. / 3,
-              2e-3);
+  EXPECT_NEAR(half_width(scan.line.dB_dp.interval()) / half_width(scan.line.p_zero.interval()),
+              1. / 3 * 5. / 3, 2e-3);
 }
 
-// Four runs of one mixture and one of another. The first add 3, 1, -1 and -3 (their mean is 0): 4/3 of
+// Four runs of one flow and one of another. The first add 3, 1, -1 and -3 (their mean is 0): 4/3 of
 // 20. Of the other only the noise of its twelve windows counts, whatever it adds: they are worth 12/5 (up
 // three, down three: an autocorrelation time of 5), less one fitted mean, 12 x 5 x 2.4/1.4.
-TEST(IntervalByHand, RunsOfAMixtureCountByWhatTheyAddAndASingleOneByTheNoiseOfItsWindows)
+TEST(IntervalByHand, RunsOfAFlowCountByWhatTheyAddAndASingleOneByTheNoiseOfItsWindows)
 {
   FitData data;
   data.runs = {1, 1, 1, 1, 12};
-  data.mixtures = {0, 0, 0, 0, 1};
+  data.flows = {0, 0, 0, 0, 1};
   Eigen::VectorXd sums = Eigen::VectorXd::LinSpaced(16, 100, 200), noise = sums;
   sums.head(4) << 3, 1, -1, -3;
   for (Eigen::Index k = 0; k < 12; ++k) noise[4 + k] = k / 3 % 2 == 0 ? 1 : -1;
-  const auto error = RunErrors(data, Eigen::VectorXd::Ones(16)).within_mixtures(sums, noise);
+  const auto error = RunErrors(data, Eigen::VectorXd::Ones(16)).within_flows(sums, noise);
   EXPECT_NEAR(error.error, std::sqrt(4. / 3 * 20 + 12 * 5 * 2.4 / 1.4), 1e-12);
 }
 
@@ -98,26 +97,26 @@ TEST(WeightByHand, TheOverallCompositionOfARunIsThatOfItsFrames)
   std::vector<Table> tables{
       stress_table({{0, 1, 30, neutral_sums(0.2, 2)}, {1, 2, 10, neutral_sums(0.6, 2)}})};
   auto read_tables = read_fit_tables(tables, Quantity::contact, {{}});
-  EXPECT_NEAR(find_mixtures(read_tables, "auto")[0].phi_large(), 0.3, 1e-12);
+  EXPECT_NEAR(find_flows(read_tables, "auto")[0].phi_large(), 0.3, 1e-12);
 }
 
-// While a layer becomes richer in large grains ln s grows with phi_L, at the share 0.65 from below 0 to
-// above. That follows from the composition and is no noise of the zero, nor of B there, of all windows together,
-// whose weights are phi_L.
+// While a layer becomes richer in large grains (psi_L - phi_L)/(phi_L phi_S) grows with phi_L, at the
+// share 0.65 from below 0 to above. That follows from the composition and is no noise of the zero, nor
+// of B there, of all windows together.
 TEST(IntervalByHand, WhatFollowsFromTheCompositionIsNotNoise)
 {
   const auto phi_at = [](int k) { return 0.3 + 0.4 * k / 47; };
   double weight = 0, moment = 0;
   for (int k = 0; k < 48; ++k) {
-    weight += phi_at(k);
-    moment += phi_at(k) * phi_at(k);
+    const double phi = phi_at(k);
+    weight += phi * (1 - phi);
+    moment += phi * phi * (1 - phi);
   }
   std::vector<TableRow> rows;
   for (int k = 0; k < 48; ++k) {
     const double phi = phi_at(k), mixed = 0.1;
-    const double ratio = (1 - phi) / phi * std::exp(0.1 * (phi - moment / weight));
-    const double large = 1 / (1 + ratio), small = ratio / (1 + ratio);
-    auto sums = separate_sums(phi, (small - 0.35 * mixed) * any_tensor(),
+    const double large = phi + 0.1 * phi * (1 - phi) * (phi - moment / weight);
+    auto sums = separate_sums(phi, (1 - large - 0.35 * mixed) * any_tensor(),
                               (large - 0.65 * mixed) * any_tensor());
     sums.of(PairSum::whole, 0) = mixed * any_tensor();
     rows.push_back({1.0 * k, k + 1.0, 10, sums});
@@ -125,32 +124,16 @@ TEST(IntervalByHand, WhatFollowsFromTheCompositionIsNotNoise)
   const auto data = read({stress_table(rows)});
   const auto scan =
       scan_partition(data, parse_scan("0.4:0.9:0.1"), {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_NEAR(scan.p_zero, 0.65, 1e-9);
-  EXPECT_LT(half_width(scan.p_zero_interval), 1e-9);
+  EXPECT_NEAR(scan.line.p_zero.value, 0.65, 1e-9);
+  EXPECT_LT(half_width(scan.line.p_zero.interval()), 1e-9);
   const auto fit =
       fit_rule(data, {PartitionRule::Kind::uniform, 0.65}, {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_LT(fit.high.B_half - fit.low.B_half, 1e-9);
+  EXPECT_LT(fit.high.B - fit.low.B, 1e-9);
 }
 
-// Windows of one composition, y/x = s (1 +- 0.1): the line through the origin is the mean of s, with
-// Student's interval of 40 independent windows, t = 2.0227 for 39 degrees of freedom.
-TEST(IntervalByHand, OfTheLineThroughTheOriginIsThatOfTheMeanSlope)
-{
-  std::vector<TableRow> rows;
-  for (int k = 0; k < 40; ++k)
-    rows.push_back(
-        {1.0 * k, k + 1.0, 10,
-         moved(separate_sums(0.2, 4 * (1 + 0.1 * sign(k)) * any_tensor(), any_tensor()), k)});
-  const auto data = read({stress_table(rows)}, {.min_grains = 0});
-  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
-  EXPECT_NEAR(fit.value.slope_linear, 1, 1e-12);
-  const double expected = 2.0227 * 0.1 / std::sqrt(39.);
-  EXPECT_NEAR((fit.high.slope_linear - fit.low.slope_linear) / 2 / expected, 1, 0.05);
-}
-
-// Layers of one composition and one number of frames: psi_L - phi_L over phi_L phi_S is the same number
-// whether sums are divided or lines fitted, and as uncertain: (psi_L - 0.2)/0.16 +- d, t = 2.0227.
-TEST(IntervalByHand, OfTheRatioOfSumsIsThatOfTheDirectFitWhereAllLayersAreAlike)
+// Layers of one composition and one number of frames: B is the mean of (psi_L - 0.2)/0.16 +- d, with
+// Student's interval of 40 independent windows, t = 2.0227.
+TEST(IntervalByHand, OfBWhereAllLayersAreAlikeIsThatOfAMean)
 {
   std::vector<TableRow> rows;
   for (int k = 0; k < 40; ++k) {
@@ -161,11 +144,9 @@ TEST(IntervalByHand, OfTheRatioOfSumsIsThatOfTheDirectFitWhereAllLayersAreAlike)
   }
   const auto data = read({stress_table(rows)});
   const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
-  EXPECT_NEAR(fit.value.B_sums, 0.05 / 0.16, 1e-12);
-  EXPECT_NEAR(fit.value.B_direct, 0.05 / 0.16, 1e-12);
+  EXPECT_NEAR(fit.value.B, 0.05 / 0.16, 1e-12);
   const double expected = 2.0227 * 0.01 / 0.16 / std::sqrt(39.);
-  EXPECT_NEAR((fit.high.B_sums - fit.low.B_sums) / 2 / expected, 1, 0.05);
-  EXPECT_NEAR((fit.high.B_direct - fit.low.B_direct) / 2 / expected, 1, 0.05);
+  EXPECT_NEAR((fit.high.B - fit.low.B) / 2 / expected, 1, 0.05);
 }
 
 /// Up for eight windows, down for eight.
@@ -174,7 +155,7 @@ double slow(int window)
   return window / 8 % 2 == 0 ? 1 : -1;
 }
 
-// B_mean of windows of one composition and weight is a plain mean, of -0.1 and 0.1 in turn for eight windows
+// -ln s of windows of one composition and weight is a plain mean, of -0.1 and 0.1 in turn for eight windows
 // each: drawn in blocks as a series would be.
 TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
 {
@@ -186,37 +167,15 @@ TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
         {1.0 * k, k + 1.0, 10,
          moved(separate_sums(0.5, std::exp(-series[k]) * any_tensor(), any_tensor()), k)});
   }
-  const auto data = read({stress_table(rows)}, {.min_grains = 0});
+  const auto data = read({stress_table(rows)});
   const Bootstrap bootstrap(data.runs, 500, 1);
   const auto fit = fit_rule(data, {}, {}, bootstrap);
   ASSERT_GT(fit.dependence.block, 3u);
   const auto expected = bootstrap.over_windows(
       series.mean(), bootstrap.blocks(fit.dependence.block) * series / 96, fit.dependence);
-  EXPECT_NEAR(fit.low.B_mean, expected.low, 1e-10);
-  EXPECT_NEAR(fit.high.B_mean, expected.high, 1e-10);
-  EXPECT_NEAR(fit.B_half_windows.low, fit.low.B_half, 1e-14);
-}
-
-// The direct estimate hears the even layer, which changes slowly; the logarithms hear the layer of
-// nearly pure small grains, whose ratio jumps by e^4 from window to window.
-TEST(IntervalByHand, TheSlowerOfTwoEstimatesSaysHowDependentWindowsAre)
-{
-  std::vector<TableRow> rows;
-  for (int k = 0; k < 96; ++k) {
-    rows.push_back({1.0 * k, k + 1.0, 10,
-                    separate_sums(0.5, std::exp(0.01 * slow(k)) * any_tensor(), any_tensor())});
-    rows.push_back({1.0 * k, k + 1.0, 10,
-                    separate_sums(0.02, 49 * std::exp(2 * sign(k)) * any_tensor(), any_tensor())});
-  }
-  const auto data = read({stress_table(rows)}, {.min_grains = 0});
-  const auto of_layer = [&](double low, double high) {
-    const auto only =
-        read({stress_table(rows)}, {.ratio_low = low, .ratio_high = high, .min_grains = 0});
-    return dependence(only, {}, {}).time;
-  };
-  ASSERT_GT(of_layer(0.5, 2), 5);
-  ASSERT_LT(of_layer(20, 80), 2);
-  EXPECT_GT(dependence(data, {}, {}).time, 5);
+  EXPECT_NEAR(fit.low.minus_ln_s, expected.low, 1e-10);
+  EXPECT_NEAR(fit.high.minus_ln_s, expected.high, 1e-10);
+  EXPECT_NEAR(fit.at(Over::windows).low, fit.low.B, 1e-14);
 }
 
 // A layer with few large grains changes slowly, an even one by half as much from window to window. Weighted

@@ -14,24 +14,42 @@ const LengthUnits units{0.005, 0.01};
 
 TEST(HeightRange, ReadsBothEndsInTheirUnits)
 {
-  const auto range = parse_heights("4dS:56dS", units);
+  const auto range = parse_heights("4dS:56dS", units, {});
   EXPECT_DOUBLE_EQ(range.lowest, 0.02);
   EXPECT_DOUBLE_EQ(range.highest, 0.28);
 }
 
 TEST(HeightRange, IsOpenWhereAnEndIsLeftOut)
 {
-  EXPECT_TRUE(std::isinf(parse_heights("1dL:", units).highest));
-  EXPECT_DOUBLE_EQ(parse_heights("1dL:", units).lowest, 0.01);
-  EXPECT_TRUE(std::isinf(parse_heights(":30mm", units).lowest));
-  EXPECT_DOUBLE_EQ(parse_heights(":30mm", units).highest, 0.03);
-  EXPECT_TRUE(std::isinf(parse_heights("", units).lowest));
+  EXPECT_TRUE(std::isinf(parse_heights("1dL:", units, {}).highest));
+  EXPECT_DOUBLE_EQ(parse_heights("1dL:", units, {}).lowest, 0.01);
+  EXPECT_TRUE(std::isinf(parse_heights(":30mm", units, {}).lowest));
+  EXPECT_DOUBLE_EQ(parse_heights(":30mm", units, {}).highest, 0.03);
+  EXPECT_TRUE(std::isinf(parse_heights("all", units, {}).lowest));
 }
 
 TEST(HeightRange, RefusesASingleHeightAndWhatIsNotALength)
 {
-  EXPECT_THROW(parse_heights("4dS", units), UsageError);
-  EXPECT_THROW(parse_heights("low:4dS", units), UsageError);
+  for (const char* wrong : {"4dS", "low:4dS", "", "outside", "4:8"})
+    EXPECT_THROW(check_heights(wrong), UsageError) << wrong;
+}
+
+// A bed from -0.02 m on: four layers of 0.8, one of 0.6 in the mean, spray of 0.1. It would end at
+// -0.02 + 0.02 (4 + 0.75 + 0.125) = 0.0775 m; 4 d_S are 0.02 m.
+TEST(HeightRange, InsideLeavesFourSmallDiametersAtTheBaseAndUnderTheSurface)
+{
+  std::vector<LayerSolid> layers;
+  for (int k = -1; k < 3; ++k)
+    for (int window = 0; window < 3; ++window)
+      layers.push_back({0.02 * k, 0.02 * (k + 1), 10, 0.8});
+  layers.push_back({0.06, 0.08, 30, 0.7});
+  layers.push_back({0.06, 0.08, 10, 0.3});
+  layers.push_back({0.08, 0.10, 10, 0.1});
+  layers.push_back({0.10, 0.12, 0, 0});
+  const auto range = parse_heights("inside", units, layers);
+  EXPECT_NEAR(range.lowest, 0, 1e-12);
+  EXPECT_NEAR(range.highest, 0.0575, 1e-12);
+  EXPECT_FALSE(parse_heights("inside", units, {}).holds(0, 0.02));
 }
 
 // 35 * 0.02 is larger than 0.7 in the last digit.

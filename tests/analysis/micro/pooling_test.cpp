@@ -67,9 +67,9 @@ TEST(Pooling, RowsAreChosenByWindowAndHeightButTheBedByWindowAlone)
   higher.bottom = 6;
   higher.top = 8;
   const std::vector<SumsRow<2>> rows{layer(0.5), later, higher, bed_of_height(20, 0)};
-  EXPECT_EQ(filtered(rows, {.end = 1}).size(), 3u);
-  EXPECT_EQ(filtered(rows, {.heights = {4, 6}}).size(), 3u);
-  EXPECT_EQ(filtered(rows, {.begin = 1, .heights = {.highest = 6}}).size(), 1u);
+  EXPECT_EQ(filtered(rows, {.end = 1}, {1, 2}).size(), 3u);
+  EXPECT_EQ(filtered(rows, {.heights = "4dS:6dS"}, {1, 2}).size(), 3u);
+  EXPECT_EQ(filtered(rows, {.begin = 1, .heights = ":6dS"}, {1, 2}).size(), 1u);
 }
 
 }  // namespace

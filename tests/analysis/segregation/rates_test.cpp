@@ -111,14 +111,14 @@ TEST(SegregationRates, LayersOutsideTheRangeAndSprayAreLeftOut)
   auto all = points(0);
   for (auto& point : all)
     if (point.top > 0.19) point.solid = 0.3;
-  EXPECT_EQ(filtered(all, {}).size(), 48 * 9u);
-  const auto inside = filtered(all, {.heights = {0.02, 0.1}});
+  EXPECT_EQ(filtered(all, {}, {0.005, 0.01}).size(), 48 * 9u);
+  const auto inside = filtered(all, {.heights = "0.02m:0.1m"}, {0.005, 0.01});
   EXPECT_EQ(inside.size(), 48 * 4u);
   for (const auto& point : inside) {
     EXPECT_GE(point.bottom, 0.0199);
     EXPECT_LE(point.top, 0.1001);
   }
-  EXPECT_EQ(filtered(all, {.min_solid = 0}).size(), all.size());
+  EXPECT_EQ(filtered(all, {.min_solid = 0}, {0.005, 0.01}).size(), all.size());
 }
 
 TEST(SegregationRates, WithoutLargeGrainsARemarkReplacesTheNumber)

@@ -204,13 +204,12 @@ TEST(Coverage, OfSeveralRunsIsAsSaidWhetherOrNotTheyDiffer)
 TEST(Coverage, OfTheStrengthOfSegregationIsThatOfAMean)
 {
   Ar1 noise(0.8);
-  const double truth = ScatteredStress::truth(0).B_half;
-  EXPECT_NEAR(truth, 2 * (1 - 0.966) / (1 + 0.966), 1e-12);
+  const double truth = ScatteredStress::truth(0).B;
   double share = 0;
   for (int k = 0; k < trials; ++k) {
     const auto fit = fit_rule(ScatteredStress::windows({120}, 0, noise), {}, {},
                               Bootstrap({120}, 200, 1 + static_cast<unsigned>(k)));
-    share += holds({fit.low.B_half, fit.high.B_half}, truth) / trial_count;
+    share += holds({fit.low.B, fit.high.B}, truth) / trial_count;
   }
   EXPECT_GT(share, least);
   EXPECT_LT(share, most);
@@ -223,17 +222,17 @@ TEST(Coverage, OfAFlowThatSegregatesIsThatOfASteadyOne)
 {
   Ar1 noise(0.5);
   const auto known = ScatteredStress::drifting(120, nullptr);
-  const double truth = estimators_of(fit_points(known, {}, {})).B_half;
+  const double truth = estimators_of(fit_points(known, {}, {})).B;
   double share = 0, time = 0;
   for (int k = 0; k < trials; ++k) {
     const auto fit = fit_rule(ScatteredStress::drifting(120, &noise), {}, {},
                               Bootstrap({120}, 200, 1 + static_cast<unsigned>(k)));
-    share += holds({fit.low.B_half, fit.high.B_half}, truth) / trial_count;
+    share += holds({fit.low.B, fit.high.B}, truth) / trial_count;
     time += fit.dependence.time / trial_count;
   }
   EXPECT_GT(share, least);
   EXPECT_LT(share, most);
-  EXPECT_NEAR(time, 4, 1);  // 3, and the longer of two noisy estimates
+  EXPECT_NEAR(time, 3, 1);
 }
 
 TEST(Bootstrap, CorrelatedWindowsAreDrawnInLongerBlocks)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit/mixtures.hpp"
+#include "analysis/fit/flows.hpp"
 
 #include "analysis/frames/layer_table.hpp"
 #include "formats/cli/numbers.hpp"
@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -21,24 +22,24 @@ namespace grseg {
 namespace {
 
 /// A line of a table's header that is about the flow, what it says, and how far numbers of one
-/// mixture may lie apart, relative to the larger.
+/// flow may lie apart, relative to the larger.
 struct FlowLine {
-  const char *key, *what;
+  const char *key, *unit, *what;
   double tolerance = 1e-6;
 };
-constexpr FlowLine flow_lines[] = {{"dimension", "dimension"},
-                                   {"species", "species", diameter_tolerance},
-                                   {"small_diameter", "diameters", diameter_tolerance},
-                                   {"large_diameter", "diameters", diameter_tolerance},
-                                   {"density", "density"},
-                                   {"friction", "friction"},
-                                   {"restitution", "restitution"},
-                                   {"gravity_x", "gravity"},
-                                   {"gravity_y", "gravity"},
-                                   {"gravity_z", "gravity"},
-                                   {"step", "step"},
-                                   {"length", "length of the cell"},
-                                   {"length_z", "length of the cell"}};
+constexpr FlowLine flow_lines[] = {{"dimension", "", "dimension"},
+                                   {"species", "", "species", diameter_tolerance},
+                                   {"small_diameter", "[m]", "diameters", diameter_tolerance},
+                                   {"large_diameter", "[m]", "diameters", diameter_tolerance},
+                                   {"density", "", "density"},
+                                   {"friction", "", "friction"},
+                                   {"restitution", "", "restitution"},
+                                   {"gravity_x", "[m/s^2]", "gravity"},
+                                   {"gravity_y", "[m/s^2]", "gravity"},
+                                   {"gravity_z", "[m/s^2]", "gravity"},
+                                   {"step", "[s]", "step"},
+                                   {"length", "[m]", "length of the cell"},
+                                   {"length_z", "[m]", "length of the cell"}};
 
 /// "unknown" where the table has no such line.
 std::string value_of(const Table& table, const char* key)
@@ -89,7 +90,7 @@ bool same_composition(const std::vector<double>& a, const std::vector<double>& b
   return true;
 }
 
-/// How many tables each mixture has, of "4,4,2".
+/// How many tables each flow has, of "4,4,2".
 std::vector<std::size_t> counts_of(const std::string& grouping, std::size_t tables)
 {
   std::vector<std::size_t> counts;
@@ -103,43 +104,43 @@ std::vector<std::size_t> counts_of(const std::string& grouping, std::size_t tabl
   const auto sum = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   if (std::count(counts.begin(), counts.end(), 0) > 0 || sum != tables)
     throw UsageError(fmt::format(
-        "--mixtures {}: write auto, or how many of the tables ({} here) each mixture has, in "
+        "--flows {}: write auto, or how many of the tables ({} here) are of each flow, in "
         "their order, as in 4,4,2",
         grouping, tables));
   return counts;
 }
 
-std::vector<Mixture> by_count(const std::vector<FitTable>& tables, const std::string& grouping)
+std::vector<Flow> by_count(const std::vector<FitTable>& tables, const std::string& grouping)
 {
-  std::vector<Mixture> mixtures;
+  std::vector<Flow> flows;
   std::size_t table = 0;
   for (const auto count : counts_of(grouping, tables.size())) {
-    auto& mixture = mixtures.emplace_back();
-    mixture.composition = composition_of(tables[table]);
-    for (std::size_t k = 0; k < count; ++k) mixture.tables.push_back(table++);
+    auto& flow = flows.emplace_back();
+    flow.composition = composition_of(tables[table]);
+    for (std::size_t k = 0; k < count; ++k) flow.tables.push_back(table++);
   }
-  return mixtures;
+  return flows;
 }
 
-std::vector<Mixture> by_likeness(const std::vector<FitTable>& tables)
+std::vector<Flow> by_likeness(const std::vector<FitTable>& tables)
 {
-  std::vector<Mixture> mixtures;
+  std::vector<Flow> flows;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const auto composition = composition_of(tables[k]);
-    const auto is_own = [&](const Mixture& mixture) {
-      const auto& first = *tables[mixture.tables.front()].table;
-      return same_composition(mixture.composition, composition) &&
+    const auto is_own = [&](const Flow& flow) {
+      const auto& first = *tables[flow.tables.front()].table;
+      return same_composition(flow.composition, composition) &&
              std::all_of(std::begin(flow_lines), std::end(flow_lines), [&](const FlowLine& line) {
                return agree(first, *tables[k].table, line);
              });
     };
-    const auto own = std::find_if(mixtures.begin(), mixtures.end(), is_own);
-    if (own != mixtures.end())
+    const auto own = std::find_if(flows.begin(), flows.end(), is_own);
+    if (own != flows.end())
       own->tables.push_back(k);
     else
-      mixtures.push_back({{}, composition, {k}});
+      flows.push_back({{}, composition, {k}});
   }
-  return mixtures;
+  return flows;
 }
 
 /// Of gravity to the normal of the base, degrees.
@@ -149,33 +150,45 @@ double slope_of(const Table& table)
          std::numbers::pi;
 }
 
-/// The composition, and the lines of the header in which mixtures differ.
-std::string name_of(const Mixture& mixture, const std::vector<Mixture>& all,
-                    const std::vector<FitTable>& tables)
+/// "Phi_L = 0.30", "Phi = 0.2/0.3/0.5".
+std::string composition_words(const Flow& flow)
 {
-  std::string name = fmt::format("Phi_L = {:.2f}", mixture.phi_large());
-  if (mixture.composition.size() > 2) {
-    name = "Phi = ";
-    for (std::size_t k = 0; k < mixture.composition.size(); ++k)
-      name += fmt::format("{}{:.2f}", k == 0 ? "" : "/", mixture.composition[k]);
-  }
-  const auto& own = *tables[mixture.tables.front()].table;
-  const auto differ = [&](const FlowLine& line) {
-    return std::any_of(all.begin(), all.end(), [&](const Mixture& other) {
-      return !agree(own, *tables[other.tables.front()].table, line);
+  if (flow.composition.size() <= 2) return fmt::format("Phi_L = {:.2f}", flow.phi_large());
+  std::string words = "Phi = ";
+  for (std::size_t k = 0; k < flow.composition.size(); ++k)
+    words += fmt::format("{}{:.2f}", k == 0 ? "" : "/", flow.composition[k]);
+  return words;
+}
+
+/// Adds what tells a flow from the others to its name and settings.
+void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTable>& tables)
+{
+  const auto& own = *tables[flow.tables.front()].table;
+  const auto differ = [&](const char* key) {
+    const auto& line =
+        *std::find_if(std::begin(flow_lines), std::end(flow_lines),
+                      [&](const FlowLine& one) { return one.key == std::string(key); });
+    return std::any_of(all.begin(), all.end(), [&](const Flow& other) {
+      return std::any_of(all.begin(), all.end(), [&](const Flow& one) {
+        return !agree(*tables[one.tables.front()].table, *tables[other.tables.front()].table, line);
+      });
     });
   };
+  flow.name = composition_words(flow);
   const bool inclined = dimension_of(own) == 2 && own.has_header("gravity_x") &&
-                        own.has_header("gravity_y") && differ({"gravity_x", ""}) &&
-                        differ({"gravity_y", ""});
-  if (inclined) name += fmt::format(", slope = {:.4g} degrees", slope_of(own));
-  for (const auto& line : flow_lines) {
-    if (!differ(line) || (inclined && std::string(line.key).starts_with("gravity"))) continue;
-    const auto value = value_of(own, line.key);
-    const auto number = parse_number(value);
-    name += fmt::format(", {} = {}", line.key, number ? fmt::format("{:.4g}", *number) : value);
+                        own.has_header("gravity_y") && differ("gravity_x") && differ("gravity_y");
+  if (inclined) {
+    flow.settings.emplace_back("slope[degree]", slope_of(own));
+    flow.name += fmt::format(", slope = {:.4g} degrees", slope_of(own));
   }
-  return name;
+  for (const auto& [key, unit, what, tolerance] : flow_lines) {
+    if (!differ(key) || (inclined && std::string(key).starts_with("gravity"))) continue;
+    const auto value = value_of(own, key);
+    const auto number = parse_number(value);
+    flow.settings.emplace_back(std::string(key) + unit,
+                               number.value_or(std::numeric_limits<double>::quiet_NaN()));
+    flow.name += fmt::format(", {} = {}", key, number ? fmt::format("{:.4g}", *number) : value);
+  }
 }
 
 }  // namespace
@@ -192,25 +205,25 @@ std::string grouping_words(const std::string& grouping, const std::vector<Table>
       recorded.emplace_back(line.what);
   }
   return fmt::format(
-      "runs of one mixture agree in what their tables record of the flow ({}), diameters to {:g} %, "
+      "runs of one flow agree in what their tables record of the flow ({}), diameters to {:g} %, "
       "and in overall composition, to {:g}",
       fmt::join(recorded, ", "), 100 * diameter_tolerance, composition_tolerance);
 }
 
-std::vector<Mixture> find_mixtures(std::vector<FitTable>& tables, const std::string& grouping)
+std::vector<Flow> find_flows(std::vector<FitTable>& tables, const std::string& grouping)
 {
-  auto mixtures = grouping == "auto" ? by_likeness(tables) : by_count(tables, grouping);
-  std::stable_sort(mixtures.begin(), mixtures.end(), [](const Mixture& a, const Mixture& b) {
+  auto flows = grouping == "auto" ? by_likeness(tables) : by_count(tables, grouping);
+  std::stable_sort(flows.begin(), flows.end(), [](const Flow& a, const Flow& b) {
     return std::round(100 * a.phi_large()) < std::round(100 * b.phi_large());
   });
-  for (std::size_t m = 0; m < mixtures.size(); ++m) {
-    mixtures[m].name = name_of(mixtures[m], mixtures, tables);
-    for (const auto table : mixtures[m].tables) tables[table].mixture = m;
+  for (std::size_t m = 0; m < flows.size(); ++m) {
+    describe(flows[m], flows, tables);
+    for (const auto table : flows[m].tables) tables[table].flow = m;
   }
-  return mixtures;
+  return flows;
 }
 
-FitData of_mixture(const FitData& data, std::size_t mixture)
+FitData of_flow(const FitData& data, std::size_t flow)
 {
   FitData part;
   part.quantity = data.quantity;
@@ -221,7 +234,7 @@ FitData of_mixture(const FitData& data, std::size_t mixture)
   part.count = data.count;
   std::vector<std::size_t> run_of, window_of;  // of each window: its run, its number in the part
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    const bool own = data.mixture_of(run) == mixture;
+    const bool own = data.flow_of(run) == flow;
     const auto first = number_of_windows(part.runs);
     for (std::size_t k = 0; k < data.runs[run]; ++k) {
       run_of.push_back(run);
@@ -229,11 +242,11 @@ FitData of_mixture(const FitData& data, std::size_t mixture)
     }
     if (!own) continue;
     part.runs.push_back(data.runs[run]);
-    part.mixtures.push_back(mixture);
+    part.flows.push_back(flow);
   }
   std::map<std::size_t, std::size_t> row_of;
   for (auto sample : data.samples) {
-    if (data.mixture_of(run_of[sample.window]) != mixture) continue;
+    if (data.flow_of(run_of[sample.window]) != flow) continue;
     const auto [entry, fresh] = row_of.try_emplace(sample.row, part.rows.size());
     if (fresh) part.rows.push_back(data.rows[sample.row]);
     sample.window = window_of[sample.window];
@@ -243,19 +256,14 @@ FitData of_mixture(const FitData& data, std::size_t mixture)
   return part;
 }
 
-WeightShares weight_shares(const FitData& data, std::size_t mixtures)
+std::vector<double> weight_shares(const FitData& data, std::size_t flows)
 {
-  const auto mixture_of = data.mixtures_of_windows();
-  WeightShares shares{std::vector<double>(mixtures), std::vector<double>(mixtures)};
-  for (const auto& sample : data.samples) {
-    const auto mixture = mixture_of[sample.window];
-    shares.half[mixture] += sample.weight;
-    shares.sums[mixture] += sample.frames * sample.phi_large * (1 - sample.phi_large);
-  }
-  for (auto* parts : {&shares.half, &shares.sums}) {
-    const double all = std::accumulate(parts->begin(), parts->end(), 0.0);
-    for (double& part : *parts) part /= all;
-  }
+  const auto flow_of = data.flows_of_windows();
+  std::vector<double> shares(flows);
+  for (const auto& sample : data.samples)
+    shares[flow_of[sample.window]] += sample.frames * sample.phi_large * (1 - sample.phi_large);
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= all;
   return shares;
 }
 

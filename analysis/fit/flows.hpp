@@ -5,20 +5,23 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grseg {
 
-/// Tables whose runs differ in nothing that is recorded but their seed.
-struct Mixture {
-  std::string name;                 // "Phi_L = 0.06, gravity_x = 3.51": what tells it from others
+/// A flow: tables whose runs differ in nothing that is recorded but their seed.
+struct Flow {
+  std::string name;                 // "Phi_L = 0.06, slope = 21 degrees": what tells it from others
   std::vector<double> composition;  // each species' part of the grains' area, volume or mass
   std::vector<std::size_t> tables;  // numbers in the list of tables
+  // What flows differ in but for their composition: "slope[degree]"; NaN where it is no number.
+  std::vector<std::pair<std::string, double>> settings = {};
 
   double phi_large() const { return composition.back(); }
 };
 
-/// How far the overall compositions of runs of one mixture may lie apart. Seeds change them by some
+/// How far the overall compositions of runs of one flow may lie apart. Seeds change them by some
 /// 0.001, because radii are drawn, and in cells of few hundred grains by a large one more or less.
 inline constexpr double composition_tolerance = 0.02;
 
@@ -30,24 +33,21 @@ inline constexpr double diameter_tolerance = 0.01;
 /// How these tables are told apart, for the header of the fit; names what they record.
 std::string grouping_words(const std::string& grouping, const std::vector<Table>& tables);
 
-/// The mixtures of all tables, in order of Phi_L, and in each table which of them is its own.
+/// The flows of all tables, in order of Phi_L, and in each table which of them is its own.
 ///
-/// grouping "auto": tables are of one mixture where the lines of their headers agree that are about
+/// grouping "auto": tables are of one flow where the lines of their headers agree that are about
 /// the flow (diameters, density, friction, restitution, gravity, step, length of the cell, species;
 /// numbers to 1e-6, diameters to diameter_tolerance) and so do their overall compositions, to composition_tolerance. A line that one
 /// table has and another lacks tells them apart. What tables do not record cannot: the spread of
 /// radii, the base, and in older tables density, friction and restitution. "4,4,2": the first four
-/// tables are of one mixture, and so on; UsageError where these numbers do not add up to that of the
+/// tables are of one flow, and so on; UsageError where these numbers do not add up to that of the
 /// tables.
-std::vector<Mixture> find_mixtures(std::vector<FitTable>& tables, const std::string& grouping);
+std::vector<Flow> find_flows(std::vector<FitTable>& tables, const std::string& grouping);
 
-/// The part of `data` that is of one mixture, as if it had been selected alone.
-FitData of_mixture(const FitData& data, std::size_t mixture);
+/// The part of `data` that is of one flow, as if it had been selected alone.
+FitData of_flow(const FitData& data, std::size_t flow);
 
-/// Each mixture's part of the weight of all samples: in B_half and in B_sums.
-struct WeightShares {
-  std::vector<double> half, sums;
-};
-WeightShares weight_shares(const FitData& data, std::size_t mixtures);
+/// Each flow's part of the weight of all samples in B.
+std::vector<double> weight_shares(const FitData& data, std::size_t flows);
 
 }  // namespace grseg

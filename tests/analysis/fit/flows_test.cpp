@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/flows.hpp"
+
+#include "analysis/fit/fit_flows.hpp"
+#include "analysis/fit/run_errors.hpp"
+#include "analysis/fit/size_exponent.hpp"
+#include "formats/core/errors.hpp"
+#include "tests/analysis/correlated_windows.hpp"
+#include "tests/analysis/synthetic_fits.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace grseg {
+namespace {
+
+using synthetic::neutral_sums;
+using synthetic::stress_table;
+using synthetic::TableRow;
+
+/// A run of two windows and one layer, of this composition.
+Table run_of(double phi_large, const std::string& gravity = "3.83", double scatter = 0)
+{
+  auto table = stress_table({{0, 1, 10, neutral_sums(phi_large, 2 + scatter)},
+                             {1, 2, 10, neutral_sums(phi_large, 2 - scatter / 2)}});
+  table.header.emplace_back("gravity_x", gravity);
+  table.header.emplace_back("gravity_y", "-9.02");
+  return table;
+}
+
+std::vector<FitTable> read_all(const std::vector<Table>& tables)
+{
+  return read_fit_tables(tables, Quantity::contact, {{}});
+}
+
+using Numbers = std::vector<std::size_t>;
+
+TEST(Flows, TablesThatDifferInTheirSeedAloneAreRunsOfOne)
+{
+  const std::vector<Table> tables{run_of(0.45), run_of(0.301), run_of(0.3), run_of(0.452)};
+  auto read = read_all(tables);
+  const auto flows = find_flows(read, "auto");
+  ASSERT_EQ(flows.size(), 2u);
+  EXPECT_EQ(flows[0].tables, (Numbers{1, 2}));
+  EXPECT_EQ(flows[1].tables, (Numbers{0, 3}));
+  EXPECT_EQ(flows[0].name, "Phi_L = 0.30");
+  EXPECT_NEAR(flows[1].phi_large(), 0.45, 1e-12);
+  EXPECT_EQ(read[3].flow, 1u);
+}
+
+TEST(Flows, AreToldApartByAllThatTablesRecordOfTheFlow)
+{
+  const std::vector<Table> tables{run_of(0.3), run_of(0.301, "4.3"), run_of(0.302, "3.8300001")};
+  auto read = read_all(tables);
+  const auto flows = find_flows(read, "auto");
+  ASSERT_EQ(flows.size(), 2u);
+  EXPECT_EQ(flows[0].tables, (Numbers{0, 2}));
+  EXPECT_EQ(flows[0].name, "Phi_L = 0.30, gravity_x = 3.83");
+  EXPECT_EQ(flows[1].name, "Phi_L = 0.30, gravity_x = 4.3");
+}
+
+// Of spheres the cell has a width, too. What only one of two tables records tells them apart as well.
+TEST(Flows, AreToldApartByTheirMaterialAndTheWidthOfTheCell)
+{
+  int runs = 0;
+  const auto with = [&runs](std::vector<HeaderLine> lines) {
+    auto table = run_of(0.3 + 1e-4 * runs++ / 100);
+    table.header.insert(table.header.end(), lines.begin(), lines.end());
+    return table;
+  };
+  for (const char* key : {"density", "friction", "restitution", "length_z"}) {
+    const std::vector<Table> tables{with({{key, "0.3"}}), with({{key, "0.8"}}), with({}),
+                                    with({{key, "0.3"}}), with({{key, "unknown"}})};
+    auto read = read_all(tables);
+    const auto flows = find_flows(read, "auto");
+    ASSERT_EQ(flows.size(), 3u) << key;
+    EXPECT_EQ(flows[0].tables, (Numbers{0, 3}));
+    EXPECT_EQ(flows[0].name, std::string("Phi_L = 0.30, ") + key + " = 0.3");
+    EXPECT_EQ(flows[2].name, std::string("Phi_L = 0.30, ") + key + " = unknown");
+    EXPECT_EQ(flows[2].tables, (Numbers{2, 4}));
+  }
+}
+
+TEST(Flows, TheWordsNameWhatTheTablesRecord)
+{
+  EXPECT_EQ(grouping_words("auto", {run_of(0.3)}),
+            "runs of one flow agree in what their tables record of the flow (diameters, gravity), "
+            "diameters to 1 %, and in overall composition, to 0.02");
+  auto with_friction = run_of(0.3);
+  with_friction.header.insert(with_friction.header.end(),
+                              {{"density", "unknown"}, {"friction", "0.5"}});
+  EXPECT_NE(
+      grouping_words("auto", {run_of(0.3), with_friction}).find("(diameters, friction, gravity)"),
+      std::string::npos);
+}
+
+// Nominal diameters of imported runs are measured on their grains, which differ from seed to seed.
+TEST(Flows, DiametersMeasuredOnTheGrainsOfSeedsAreThoseOfOne)
+{
+  int runs = 0;
+  const auto with = [&runs](const char* large, const char* species) {
+    auto table = run_of(0.3 + 1e-6 * runs++);
+    for (auto& [key, value] : table.header)
+      if (key == "large_diameter") value = large;
+    table.header.emplace_back("species", species);
+    return table;
+  };
+  const std::vector<Table> tables{
+      with("0.01", "S 0.005, L 0.01"), with("0.009997", "S 0.005, L 0.009997"),
+      with("0.0098", "S 0.005, L 0.0098"), with("0.01", "S 0.005, X 0.01")};
+  auto read = read_all(tables);
+  const auto flows = find_flows(read, "auto");
+  ASSERT_EQ(flows.size(), 3u);
+  EXPECT_EQ(flows[0].tables, (Numbers{0, 1}));
+}
+
+// What begins with the same number need not be the same.
+TEST(Flows, AListIsNotItsFirstNumber)
+{
+  std::vector<Table> tables{run_of(0.3), run_of(0.3001)};
+  tables[0].header.emplace_back("friction", "0.5, 0.3");
+  tables[1].header.emplace_back("friction", "0.5, 0.4");
+  auto read = read_all(tables);
+  EXPECT_EQ(find_flows(read, "auto").size(), 2u);
+}
+
+TEST(Flows, OrAsTheUserSays)
+{
+  const std::vector<Table> tables{run_of(0.3), run_of(0.301), run_of(0.5)};
+  auto read = read_all(tables);
+  const auto flows = find_flows(read, "1,2");
+  ASSERT_EQ(flows.size(), 2u);
+  EXPECT_EQ(flows[1].tables, (Numbers{1, 2}));
+  for (const char* wrong : {"2", "4", "1,2,0", "", "1,-1", "x", "1;2", "99999999999999999999"})
+    EXPECT_THROW(find_flows(read, wrong), UsageError) << wrong;
+}
+
+TEST(Flows, ThePartOfOneIsWhatItsTablesGiveAlone)
+{
+  const std::vector<Table> tables{run_of(0.3, "1", 0.2), run_of(0.5, "1", 0.4),
+                                  run_of(0.31, "1", -0.1)};
+  auto read = read_all(tables);
+  find_flows(read, "auto");
+  const auto both = select_fit_data(read, Quantity::contact, {}, {{0, 1}});
+  const auto alone = select_fit_data({read[0], read[2]}, Quantity::contact, {}, {{0, 1}});
+  const auto part = of_flow(both, 0);
+  EXPECT_EQ(part.runs, alone.runs);
+  EXPECT_EQ(part.rows.size(), alone.rows.size());
+  const PartitionRule half = parse_rule("half");
+  EXPECT_EQ(fit_rule(part, half, {}, {part.runs, 0, 1}).value.B,
+            fit_rule(alone, half, {}, {alone.runs, 0, 1}).value.B);
+  const double products = 0.3 * 0.7 + 0.31 * 0.69;
+  EXPECT_NEAR(weight_shares(both, 2)[0], products / (products + 0.25), 1e-12);
+}
+
+/// Runs of one window and one layer, each with its own -ln s, that of its flow plus -d, 0, d.
+struct KnownFlow {
+  double b, d, weight;
+};
+FitData three_runs_of_each(const std::vector<KnownFlow>& flows)
+{
+  FitData data;
+  data.quantity = Quantity::kinetic;
+  data.tables = {"runs.tsv"};
+  for (std::size_t flow = 0; flow < flows.size(); ++flow)
+    for (const double step : {-1, 0, 1}) {
+      const auto& known = flows[flow];
+      const double slope = std::exp(-known.b - step * known.d);
+      ContactSums<3> sums;
+      sums.volume = 1;
+      sums.of(OwnSum::inside, 0)(1, 1) = slope;
+      sums.of(OwnSum::inside, 1)(1, 1) = 1;
+      data.samples.push_back({.window = data.runs.size(),
+                              .phi_large = 0.5,
+                              .weight = known.weight,
+                              .frames = known.weight,
+                              .size_ratio = 2,
+                              .row = data.rows.size()});
+      data.rows.push_back(sums);
+      data.runs.push_back(1);
+      data.flows.push_back(flow);
+    }
+  return data;
+}
+
+RuleFit fit_over(const FitData& data, Over over)
+{
+  return fit_flows(data, {}, {.over = over}, {200, 1}).all;
+}
+
+double reach(const RuleFit& fit)
+{
+  return (fit.high.minus_ln_s - fit.low.minus_ln_s) / 2;
+}
+
+// Three runs -d, 0, d about their flow: the standard error of its mean is d/sqrt(3), with two
+// degrees of freedom. minus_ln_s = -ln s is linear in the runs.
+TEST(Populations, OfOneFlowAreItsRuns)
+{
+  const auto fit = fit_over(three_runs_of_each({{0.04, 0.003, 2}}), Over::automatic);
+  EXPECT_EQ(fit.over, Over::runs);
+  EXPECT_NEAR(fit.value.minus_ln_s, 0.04, 1e-15);
+  EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 2) * 0.003 / std::sqrt(3), 1e-10);
+  EXPECT_NEAR(fit.degrees, 2, 1e-12);
+  EXPECT_NEAR(fit.at(Over::runs).low, fit.low.B, 1e-15);
+}
+
+TEST(Populations, FlowsAsTheyAreCountByTheirWeights)
+{
+  const auto fit =
+      fit_over(three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}}), Over::automatic);
+  EXPECT_EQ(fit.over, Over::flows);
+  EXPECT_NEAR(fit.value.minus_ln_s, (0.03 + 3 * 0.05) / 4, 1e-15);
+  // Both flows contribute the same error: 0.003/4 and 3 x 0.001/4, over sqrt(3).
+  const double error = std::sqrt(2.0 / 3) * 0.003 / 4;
+  EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 4) * error, 1e-10);
+}
+
+TEST(Populations, EqualFlowsAreTheMeanOfTheirBs)
+{
+  const auto data = three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}, {0.07, 0.002, 9}});
+  const auto fit = fit_over(data, Over::equal_flows);
+  EXPECT_NEAR(fit.value.minus_ln_s, 0.05, 1e-15);
+  // Squares of 0.003, 0.001 and 0.002 over 27, with two degrees of freedom each.
+  const double sum = 14e-6, fourths = (81e-12 + 1e-12 + 16e-12) / (2 + 2);
+  const double degrees = sum * sum / fourths - 2;
+  EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, degrees) * std::sqrt(sum / 27), 1e-10);
+  EXPECT_NEAR(fit.degrees, degrees, 0.01);  // those of B, which is not quite linear
+  // How flows differ is not in it.
+  const auto apart = three_runs_of_each({{-0.53, 0.003, 1}, {0.05, 0.001, 3}, {0.63, 0.002, 9}});
+  EXPECT_NEAR(reach(fit_over(apart, Over::equal_flows)), reach(fit), 1e-10);
+}
+
+/// Two flows, of two runs each, that scatter by `scatter`; large grains are twice as large.
+FitData four_runs(double scatter)
+{
+  const std::vector<Table> tables{run_of(0.3, "1", scatter), run_of(0.3, "1", 2 * scatter),
+                                  run_of(0.6, "1", -scatter), run_of(0.6, "1", 3 * scatter)};
+  auto read = read_all(tables);
+  find_flows(read, "auto");
+  return select_fit_data(read, Quantity::contact, {}, {{0, 1}});
+}
+
+// Beside B stands how far it is from that by size: with either each flow counts the same.
+TEST(Populations, AllNumbersOfARowAreOfTheSameOnes)
+{
+  const auto data = four_runs(0.2);
+  for (const auto over : {Over::equal_flows, Over::random_flows}) {
+    const auto fits = fit_flows(data, parse_rule("half"), {.over = over}, {200, 1});
+    const auto &half = fits.all, &first = fits.of_each.at(0), &second = fits.of_each.at(1);
+    const auto size = fit_over(data, over);
+    EXPECT_NEAR(half.minus_size.value, half.value.B - size.value.B, 1e-14);
+    EXPECT_LT(half.minus_size.interval().low, half.minus_size.value);
+    EXPECT_NEAR(half.neutral, (first.neutral + second.neutral) / 2, 1e-15);
+    EXPECT_NEAR(half.share, 0.5, 1e-14);
+    const auto a = size_exponent(data, parse_rule("half"), {.over = over}, {200, 1});
+    EXPECT_NEAR(a.value, half.value.minus_ln_s / std::log(2), 1e-13);
+    EXPECT_NEAR(a.low, half.low.minus_ln_s / std::log(2), 1e-9 * (a.high - a.low));
+    EXPECT_NEAR(half.line.dB_dp.value, (first.line.dB_dp.value + second.line.dB_dp.value) / 2,
+                1e-15);
+  }
+}
+
+// Errors of the difference half - size of two flows of which each is known add up: 1/2 of the root of
+// the sum of their squares.
+TEST(Populations, TheDifferenceToSizeHasTheErrorsOfTheFlowsDifferences)
+{
+  const auto fits =
+      fit_flows(four_runs(0.2), parse_rule("half"), {.over = Over::equal_flows}, {200, 1});
+  const double sum = std::hypot(fits.of_each.at(0).minus_size.error.error,
+                                fits.of_each.at(1).minus_size.error.error);
+  EXPECT_GT(sum, 0);
+  EXPECT_NEAR(fits.all.minus_size.error.error, sum / 2, 1e-15);
+}
+
+// Whatever the intervals of all are over, flows are known as well as their runs tell.
+TEST(Populations, EqualFlowsAreByTheirRunsAlsoBesideIntervalsOverWindows)
+{
+  synthetic::RunsOfFlows source({3, 4, 2, 3});
+  const auto data = source.draw().data;
+  const auto by_windows = fit_over(data, Over::windows), by_runs = fit_over(data, Over::flows);
+  ASSERT_TRUE(std::isfinite(by_runs.at(Over::equal_flows).low));
+  EXPECT_EQ(by_windows.at(Over::equal_flows).low, by_runs.at(Over::equal_flows).low);
+  EXPECT_EQ(by_windows.at(Over::equal_flows).high, by_runs.at(Over::equal_flows).high);
+}
+
+// Student's interval of the mean of 0.03, 0.05 and 0.07.
+TEST(Populations, RandomFlowsScatterLikeTheirBs)
+{
+  const auto data = three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}, {0.07, 0.002, 9}});
+  const auto fit = fit_over(data, Over::random_flows);
+  EXPECT_NEAR(fit.value.minus_ln_s, 0.05, 1e-15);
+  EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 2) * 0.02 / std::sqrt(3), 1e-12);
+  EXPECT_NE(fit.doubt.find("3 flows tell little of how flows differ"), std::string::npos);
+  EXPECT_TRUE(std::isfinite(fit.at(Over::equal_flows).low));
+  EXPECT_NEAR(fit.at(Over::flows).value, fit_over(data, Over::flows).value.B, 1e-15);
+}
+
+/// The share of trials in which an interval of B holds a number.
+struct Held {
+  int trials = 0, held = 0;
+
+  void add(const Estimate& b, double truth)
+  {
+    ++trials;
+    held += b.low <= truth && truth <= b.high;
+  }
+  double share() const { return static_cast<double>(held) / trials; }
+  /// 95 % as far as so many trials can tell: 3.5 standard deviations of a binomial share.
+  void expect_95_percent(const char* what) const
+  {
+    EXPECT_NEAR(share(), 0.95, 3.5 * std::sqrt(0.95 * 0.05 / trials)) << "over " << what;
+  }
+};
+
+// Flows that differ by twice the error of one, runs by as much as their windows make them.
+TEST(Coverage, OfEachPopulationIsThatOfItsOwnNumberAndNotOfAnother)
+{
+  synthetic::RunsOfFlows source({6, 4, 2, 1});
+  Held windows, runs, flows, equal, random, equal_for_all;
+  for (unsigned long trial = 1; trial <= 300; ++trial) {
+    const auto [data, truth] = source.draw();
+    const auto fits = fit_flows(data, {}, {}, {100, trial});
+    const auto& all = fits.all;
+    windows.add(all.at(Over::windows), truth.of_runs);
+    flows.add(all.at(Over::flows), truth.of_flows);
+    equal.add(all.at(Over::equal_flows), truth.of_equal);
+    random.add(all.at(Over::random_flows), truth.of_all);
+    equal_for_all.add(all.at(Over::equal_flows), truth.of_all);
+    for (std::size_t m = 0; m < fits.of_each.size(); ++m)
+      runs.add(fits.of_each[m].at(Over::runs), truth.of_each[m]);
+  }
+  windows.expect_95_percent("windows");
+  runs.expect_95_percent("runs");
+  flows.expect_95_percent("flows");
+  equal.expect_95_percent("equal flows");
+  random.expect_95_percent("random flows");
+  // The mean of six is off by twice the error of one over sqrt(6), its own error by the root of 5 less:
+  // it holds the mean of all with the chance of |Z| < 2.1/sqrt(5).
+  EXPECT_LT(equal_for_all.share(), 0.8);
+}
+
+TEST(Coverage, OfTwoRunsOfEachFlowIsThatOfMore)
+{
+  synthetic::RunsOfFlows source({6, 2, 0, 0});
+  Held flows, equal;
+  for (unsigned long trial = 1; trial <= 300; ++trial) {
+    const auto [data, truth] = source.draw();
+    const auto all = fit_flows(data, {}, {}, {100, trial}).all;
+    flows.add(all.at(Over::flows), truth.of_flows);
+    equal.add(all.at(Over::equal_flows), truth.of_equal);
+  }
+  flows.expect_95_percent("flows");
+  equal.expect_95_percent("equal flows");
+}
+
+/// In how many of so many trials the doubt is voiced that one function of composition is not enough.
+int doubts_of_one_function(double flow_scatter, unsigned long trials)
+{
+  synthetic::RunsOfFlows source({6, 4, flow_scatter, 1});
+  int doubts = 0;
+  for (unsigned long trial = 1; trial <= trials; ++trial) {
+    const auto data = source.draw().data;
+    const auto fit =
+        fit_rule(data, {}, {.over = Over::compositions}, Bootstrap(data.runs, 100, trial));
+    doubts += fit.doubt.starts_with("flows differ by more");
+  }
+  return doubts;
+}
+
+// Fisher's test at 5 %: more often it is not wrong, and flows that differ by four times the error
+// of one, for which the ratio of mean squares is 17 on average, it misses in few of a hundred.
+TEST(Populations, OneFunctionOfCompositionIsDoubtedWhereFlowsDiffer)
+{
+  constexpr double by_chance = 0.05 * 200;
+  EXPECT_LT(doubts_of_one_function(0, 200), by_chance + 3.5 * std::sqrt(by_chance * 0.95));
+  EXPECT_GT(doubts_of_one_function(4, 100), 90);
+}
+
+// A single run does not tell how runs differ; what its windows tell is an interval with a doubt, or
+// none where they are too few for their correlation, as ten of rho = 1/2 often are.
+TEST(Populations, WindowsStandForRunsOfAFlowThatHasOne)
+{
+  synthetic::RunsOfFlows source({2, 1, 0, 0});
+  int with_interval = 0;
+  for (unsigned long trial = 1; trial <= 30; ++trial) {
+    const auto fits = fit_flows(source.draw().data, {}, {}, {100, trial});
+    ASSERT_EQ(fits.of_each.size(), 2u);
+    EXPECT_EQ(fits.of_each[0].over, Over::windows);
+    EXPECT_EQ(fits.all.over, Over::flows);
+    EXPECT_TRUE(fits.all.doubt.starts_with("2 of 2 flows have one run")) << fits.all.doubt;
+    with_interval += fits.all.low.B < fits.all.value.B;
+  }
+  EXPECT_GT(with_interval, 0);
+  EXPECT_LT(with_interval, 30);
+}
+
+// Windows of a single run that differ among themselves by +-1; that all of them are off by 7, since the
+// flow is, is no scatter. Nor is it in proportion to unequal weights. Eight values +-1/8 in an order
+// without correlation have the error of their mean, sqrt(8/7)/sqrt(8), with seven degrees of freedom.
+TEST(Populations, OfASingleRunHowItsFlowDiffersIsNoScatterOfItsWindows)
+{
+  FitData data;
+  data.runs = {8};
+  data.flows = {0};
+  Eigen::VectorXd scatter(8), weight = Eigen::VectorXd::Ones(8);
+  scatter << 1, -1, 1, 1, -1, -1, -1, 1;
+  const auto error_of = [&](const Eigen::VectorXd& noise) {
+    return RunErrors(data, weight).within_flows(noise, noise);
+  };
+  const auto alone = error_of(scatter / 8), shifted = error_of((scatter.array() + 7) / 8);
+  EXPECT_NEAR(alone.error, std::sqrt(1. / 7), 1e-14);
+  EXPECT_NEAR(alone.degrees, 7, 1e-12);
+  EXPECT_NEAR(shifted.error, alone.error, 1e-13);
+  EXPECT_NEAR(shifted.degrees, alone.degrees, 1e-12);
+  weight << 1, 2, 3, 4, 4, 3, 2, 1;
+  EXPECT_NEAR(error_of(0.3 * weight).error, 0, 1e-15);
+}
+
+// Two runs of each of four flows; their values are -3, -1, 1, 3 times `apart`, plus and minus 1 within
+// a flow: mean squares 2 x 20 apart^2/f between and 8/4 within. Where composition has taken two of the
+// three degrees, one is left, and Fisher's quantile of 5 % with 1 and 4 degrees is 7.7086, not 6.5914.
+TEST(Populations, FishersTestCountsTheDegreesThatCompositionHasTaken)
+{
+  FitData data;
+  data.runs = RunLengths(8, 1);
+  data.flows = {0, 0, 1, 1, 2, 2, 3, 3};
+  const RunErrors errors(data, Eigen::VectorXd::Ones(8));
+  const auto chance = [&](double ratio, double fitted) {
+    const double apart = std::sqrt(ratio * 2 * (4 - fitted) / 40);
+    Eigen::VectorXd value(8);
+    for (Eigen::Index k = 0; k < 8; ++k)
+      value[k] = apart * static_cast<double>(2 * (k / 2) - 3) + (k % 2 == 0 ? 1 : -1);
+    return errors.chance_of_likeness(value, fitted);
+  };
+  EXPECT_NEAR(chance(6.5914, 1), 0.05, 1e-5);
+  EXPECT_NEAR(chance(7.7086, 3), 0.05, 1e-5);
+}
+
+TEST(Populations, EachIsNamedInWordsWithItsWeights)
+{
+  EXPECT_NE(estimand_words(Over::flows, 6)
+                .find("these 6 flows, weighted as they are (by frames x phi_L phi_S)"),
+            std::string::npos);
+  EXPECT_NE(estimand_words(Over::equal_flows, 6).find("each counting the same"), std::string::npos);
+  for (const auto& [word, over, meaning] : overs)
+    EXPECT_GT(estimand_words(over, 2).size(), 40u) << word;
+}
+
+}  // namespace
+}  // namespace grseg
