@@ -6,6 +6,7 @@
 #include "analysis/explore/same_number.hpp"
 #include "analysis/explore/settings.hpp"
 #include "analysis/explore/stress_tables.hpp"
+#include "formats/cli/bed.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/next_step.hpp"
 #include "formats/cli/provenance.hpp"
@@ -36,13 +37,15 @@ Json rules_known()
 }
 
 /// As the files tell them; whether it is so is found out when a run is read.
-std::vector<std::string> digests_of(const std::vector<std::string>& runs)
+std::vector<RunIdentity> identities_of(const std::vector<std::string>& runs)
 {
-  std::vector<std::string> digests;
-  digests.reserve(runs.size());
-  for (const auto& path : runs)
-    digests.push_back("xxh3 " + format_digest(TrajectoryReader(path, Verify::no).digest()));
-  return digests;
+  std::vector<RunIdentity> identities;
+  identities.reserve(runs.size());
+  for (const auto& path : runs) {
+    const TrajectoryReader run(path, Verify::no);
+    identities.push_back({"xxh3 " + format_digest(run.digest()), bed_of(run).text()});
+  }
+  return identities;
 }
 
 /// Tells on standard error what the report of a run says against it.
@@ -62,7 +65,7 @@ void write_page(const ToolInfo& info, const po::variables_map& values, ExploreSe
   s.check(values);
   const auto inputs = inputs_of(values);
   const auto tables = read_tables(info, with_inputs(values, inputs.tables), s.frames.quiet);
-  const auto of_runs = tables_of_runs(tables, digests_of(inputs.runs));
+  const auto of_runs = tables_of_runs(tables, identities_of(inputs.runs));
   refuse_too_large(info, values, inputs.runs, s);
   std::vector<RunOfPage> runs;
   for (std::size_t k = 0; k < inputs.runs.size(); ++k)

@@ -4,6 +4,7 @@
 #include "analysis/fit/flows.hpp"
 #include "analysis/fit/over.hpp"
 #include "analysis/fit/partition_scan.hpp"
+#include "analysis/fit/start_of_flow.hpp"
 #include "analysis/fit/table_doubts.hpp"
 #include "analysis/frames/layer_table.hpp"
 
@@ -246,6 +247,9 @@ Json partition_data(const PartitionInput& input, const PartitionSettings& settin
   std::vector<std::string> doubts;
   if (settings.resampling.samples > 0)
     doubts = doubts_of_tables(input.sums, selected.tables, selected.samples);
+  if (const auto doubt = doubt_of_start(selected.samples, settings.rules.front(), settings.fit);
+      !doubt.empty())
+    doubts.push_back(doubt);
   for (auto& fit : fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
                              settings.rules, settings.fit, settings.resampling, false)) {
     for (const auto& doubt : doubts) add_doubt(fit, doubt);

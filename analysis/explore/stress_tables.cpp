@@ -91,8 +91,9 @@ StressTables make_tables(FrameLoop& loop, std::span<const double> powers,
   return tables;
 }
 
-/// The number of the one run that a table was made of.
-std::size_t run_of(const Table& table, const std::vector<std::string>& digests)
+/// The number of the one run that a table was made of: by its digest, or of another file of the same
+/// flow by its bed.
+std::size_t run_of(const Table& table, const std::vector<RunIdentity>& runs)
 {
   const auto program = header_or(table, "program", "");
   const auto name = printable(table.name);
@@ -104,13 +105,19 @@ std::size_t run_of(const Table& table, const std::vector<std::string>& digests)
   if (inputs.size() != 1)
     throw FormatError(
         fmt::format("{}: is made of {} runs; give tables of one run each", name, inputs.size()));
-  const auto found = std::find(digests.begin(), digests.end(), inputs.front());
-  if (found == digests.end())
+  const auto bed = header_or(table, "bed", "");
+  const bool known_flow = bed.find(", flow ") != std::string::npos;
+  auto found = std::find_if(runs.begin(), runs.end(),
+                            [&](const RunIdentity& run) { return run.digest == inputs.front(); });
+  if (found == runs.end() && known_flow)
+    found = std::find_if(runs.begin(), runs.end(),
+                         [&](const RunIdentity& run) { return run.bed == bed; });
+  if (found == runs.end())
     throw FormatError(fmt::format(
-        "{}: is of the run with the digest {}, which is none of those given; name that run, make the "
-        "table anew, or leave it out: sums are then made of the run",
+        "{}: is of the run with the digest {}, and neither that nor its bed is that of a run given; name "
+        "that run, make the table anew, or leave it out: sums are then made of the run",
         name, printable(inputs.front())));
-  return static_cast<std::size_t>(found - digests.begin());
+  return static_cast<std::size_t>(found - runs.begin());
 }
 
 }  // namespace
@@ -124,11 +131,11 @@ StressTables make_stress_tables(FrameLoop& loop, std::span<const double> powers,
 }
 
 std::vector<const Table*> tables_of_runs(const std::vector<Table>& tables,
-                                         const std::vector<std::string>& digests)
+                                         const std::vector<RunIdentity>& runs)
 {
-  std::vector<const Table*> of_runs(digests.size(), nullptr);
+  std::vector<const Table*> of_runs(runs.size(), nullptr);
   for (const auto& table : tables) {
-    const auto run = run_of(table, digests);
+    const auto run = run_of(table, runs);
     if (of_runs[run] != nullptr)
       throw UsageError(fmt::format("{} and {} are of the same run; give one of them",
                                    printable(of_runs[run]->name), printable(table.name)));

@@ -22,10 +22,15 @@ struct StressTables {
 StressTables make_stress_tables(FrameLoop& loop, std::span<const double> powers,
                                 const std::string& command);
 
-/// Which of `tables` is of the run: made of it alone, by grseg-stress. FormatError naming a table that
-/// is of none of the runs, whose digests are given ("xxh3 ..."), or of several.
+/// What a run is known by: "xxh3 ...", and the line "bed" of its tables (formats/cli/bed.hpp).
+struct RunIdentity {
+  std::string digest, bed;
+};
+
+/// Which of `tables` is of the run: made of it, or of another file of the same flow, alone and by
+/// grseg-stress. FormatError naming a table that is of none of the runs, or of several.
 std::vector<const Table*> tables_of_runs(const std::vector<Table>& tables,
-                                         const std::vector<std::string>& digests);
+                                         const std::vector<RunIdentity>& runs);
 
 /// UsageError with the remedy where a table tells other species apart than the run beside it.
 void require_same_species(const Table& table, const SpeciesList& species);

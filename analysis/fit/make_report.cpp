@@ -3,6 +3,7 @@
 
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/over.hpp"
+#include "analysis/fit/start_of_flow.hpp"
 #include "analysis/fit/table_doubts.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
@@ -156,6 +157,8 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   if (resampling.samples > 0)
     for (auto& doubt : doubts_of_tables(tables, all, data))
       report.doubts_of_tables.push_back(std::move(doubt));
+  if (const auto doubt = doubt_of_start(data, rules.front(), settings); !doubt.empty())
+    report.doubts_of_tables.push_back(doubt);
   report.history = header_values(tables, "history");
   return report;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_flows.hpp"
+#include "analysis/fit/start_of_flow.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 
 #include <fmt/format.h>
@@ -139,6 +140,39 @@ void print_drift(double rho, std::size_t windows)
   std::fflush(stdout);
 }
 
+/// How often a steady series seems to have a start, and one whose first tenth is off by `start` standard
+/// deviations of a window does.
+void print_starts()
+{
+  fmt::print(
+      "# share of the trials with a start: none, of 1 and of 2 standard deviations of a window\n"
+      "# rho runs windows | none  1  2 | not told\n");
+  for (const double rho : {0.0, 0.5, 0.8})
+    for (const auto& runs :
+         {RunLengths{16}, RunLengths{48}, RunLengths{120}, RunLengths{48, 48, 48, 48}}) {
+      Ar1 noise(rho);
+      int seen[3] = {}, untold = 0;
+      for (int trial = 0; trial < trials; ++trial) {
+        const auto steady = noise.series(runs, 0);
+        for (int start = 0; start < 3; ++start) {
+          auto series = steady;
+          for (std::size_t run = 0; run < runs.size(); ++run)
+            series
+                .segment(static_cast<Eigen::Index>(run * runs[0]),
+                         std::max<Eigen::Index>(1, static_cast<Eigen::Index>(runs[0] / 10)))
+                .array() += start;
+          const auto found = start_of_flow(series, runs);
+          seen[start] += found && found->chance < 0.025;
+          untold += start == 0 && !found;
+        }
+      }
+      const auto share = [](int count) { return static_cast<double>(count) / trials; };
+      fmt::print("{:3} {:4} {:7} | {:.3f} {:.3f} {:.3f} | {:.3f}\n", rho, runs.size(), runs[0],
+                 share(seen[0]), share(seen[1]), share(seen[2]), share(untold));
+    }
+  std::fflush(stdout);
+}
+
 /// Of one population.
 struct PopulationTally {
   Over over;
@@ -248,9 +282,11 @@ void print_all()
 }  // namespace
 }  // namespace grseg
 
-/// "flows": only the last table.
+/// "flows" or "starts": only this table.
 int main(int argc, char** argv)
 {
-  if (argc < 2 || std::string(argv[1]) != "flows") grseg::print_all();
-  grseg::print_all_flows();
+  const std::string only = argc < 2 ? "" : argv[1];
+  if (only.empty()) grseg::print_all();
+  if (only != "starts") grseg::print_all_flows();
+  if (only != "flows") grseg::print_starts();
 }

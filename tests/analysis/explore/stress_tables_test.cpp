@@ -18,25 +18,39 @@ Table table_of(const std::string& name, const std::string& program,
   return table;
 }
 
-const std::vector<std::string> digests{"xxh3 00000000000000aa", "xxh3 00000000000000bb"};
+const std::vector<RunIdentity> runs{{"xxh3 00000000000000aa", "grains 3, seed 1, flow 12ab34cd"},
+                                    {"xxh3 00000000000000bb", "grains 4"}};
+const std::vector<std::string> digests{runs[0].digest, runs[1].digest};
 
 TEST(TablesOfRuns, ATableBelongsToTheRunWithItsDigest)
 {
   const std::vector<Table> tables{table_of("b.tsv", "grseg-stress 0.2.0", {digests[1]})};
-  const auto found = tables_of_runs(tables, digests);
+  const auto found = tables_of_runs(tables, runs);
   EXPECT_EQ(found[0], nullptr);
   EXPECT_EQ(found[1], &tables[0]);
+}
+
+// Another file of the same flow, such as some frames of it for a film. A bed without a flow is that of
+// an import, which may be of several runs.
+TEST(TablesOfRuns, ATableBelongsToAnotherFileOfItsFlow)
+{
+  auto table = table_of("a.tsv", "grseg-stress 0.2.0", {"xxh3 00000000000000cc"});
+  table.header.emplace_back("bed", runs[0].bed);
+  EXPECT_NE(tables_of_runs({table}, runs)[0], nullptr);
+  table.header.back().second = runs[1].bed;
+  EXPECT_THROW(tables_of_runs({table}, runs), FormatError);
 }
 
 TEST(TablesOfRuns, TablesOfOtherRunsProgramsAndSeveralRunsAreRefused)
 {
   const auto refused = [](const Table& table) {
-    return complaint_of<FormatError>([&] { tables_of_runs({table}, digests); });
+    return complaint_of<FormatError>([&] { tables_of_runs({table}, runs); });
   };
   EXPECT_EQ(
       refused(table_of("c.tsv", "grseg-stress 0.2.0", {"xxh3 00000000000000cc"})),
-      "c.tsv: is of the run with the digest xxh3 00000000000000cc, which is none of those given; "
-      "name that run, make the table anew, or leave it out: sums are then made of the run");
+      "c.tsv: is of the run with the digest xxh3 00000000000000cc, and neither that nor its bed "
+      "is that of a run given; name that run, make the table anew, or leave it out: sums are then "
+      "made of the run");
   EXPECT_EQ(
       refused(table_of("k.tsv", "grseg-kinetic 0.2.0", {digests[0]})),
       "k.tsv: is a table of grseg-kinetic 0.2.0; beside runs only tables of grseg-stress are used");
@@ -51,7 +65,7 @@ TEST(TablesOfRuns, TwoTablesOfOneRunAreRefused)
 {
   const auto table = table_of("a.tsv", "grseg-stress 0.2.0", {digests[0]});
   EXPECT_EQ(complaint_of<UsageError>([&] {
-              tables_of_runs({table, table}, digests);
+              tables_of_runs({table, table}, runs);
             }),
             "a.tsv and a.tsv are of the same run; give one of them");
 }

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/start_of_flow.hpp"
+
+#include "analysis/fit/window_sums.hpp"
+#include "analysis/statistics/run_scatter.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+constexpr double rarely =
+    0.025;  // of each of two series, so that one of them shows as often as 5 %
+constexpr std::size_t fewest_windows = 10;
+constexpr double fewest_independent = 2;
+
+/// The windows of a run from `begin` on.
+Eigen::VectorXd run_from(const Eigen::VectorXd& series, std::size_t first, std::size_t length,
+                         double left_out)
+{
+  const auto begin = static_cast<std::size_t>(std::ceil(left_out * static_cast<double>(length)));
+  return series.segment(static_cast<Eigen::Index>(first + begin),
+                        static_cast<Eigen::Index>(length - begin));
+}
+
+/// Of one run: the first tenth less the last half, with its error.
+std::optional<Measured> compare(const Eigen::VectorXd& run)
+{
+  const auto n = static_cast<std::size_t>(run.size());
+  if (n < fewest_windows) return {};
+  const auto early = static_cast<Eigen::Index>(n / 10), late = static_cast<Eigen::Index>(n / 2);
+  const Eigen::VectorXd last = run.tail(late);
+  const double time = autocorrelation_time(last, {static_cast<std::size_t>(late)});
+  const double independent = static_cast<double>(late) / time;
+  if (independent < fewest_independent) return {};
+  const double squares = (last.array() - last.mean()).square().sum();
+  // Of correlated windows the sum of squares about their mean is smaller by n_eff - 1 over n_eff.
+  const double variance = squares / static_cast<double>(late) * independent / (independent - 1);
+  const double error = std::sqrt(
+      variance * (1 / std::max(1.0, static_cast<double>(early) / time) + 1 / independent));
+  return Measured{run.head(early).mean() - last.mean(), {error, independent - 1}};
+}
+
+std::optional<StartOfFlow> compare(const Eigen::VectorXd& series, const RunLengths& runs,
+                                   double left_out)
+{
+  std::vector<StandardError> errors;
+  double excess = 0;
+  std::size_t first = 0;
+  for (const auto length : runs) {
+    const auto run = compare(run_from(series, first, length, left_out));
+    first += length;
+    if (!run) return {};
+    excess += run->value;
+    errors.push_back(run->error);
+  }
+  const auto error = added(errors);
+  const double t = std::abs(excess) / error.error;
+  if (!std::isfinite(t)) return {};
+  return StartOfFlow{excess / static_cast<double>(runs.size()),
+                     2 * gsl_cdf_tdist_Q(t, error.degrees)};
+}
+
+/// s, at which the first of so many windows begins that are left out of the run that begins first.
+double time_after(const FitData& data, double left_out)
+{
+  double begin = data.samples.front().key.begin, end = begin;
+  for (const auto& sample : data.samples) {
+    begin = std::min(begin, sample.key.begin);
+    end = std::max(end, sample.key.end);
+  }
+  return begin + left_out * (end - begin);
+}
+
+/// B of each window less what its composition explains.
+Eigen::VectorXd strength_by_window(const FitData& data, const PartitionRule& rule,
+                                   const FitSettings& settings)
+{
+  const auto windows = window_sums(fit_points(data, rule, settings), data.runs);
+  return windows.excess_noise() / windows.weight().mean();
+}
+
+/// Of contacts |sigma_xy|/sigma_yy, which in a steady chute is the tangent of its slope and in one that
+/// gathers speed less; of the kinetic stress its sigma_yy, which grows with the speed.
+Eigen::VectorXd motion_by_window(const FitData& data, const PartitionRule& rule,
+                                 const FitSettings& settings)
+{
+  const auto count = static_cast<Eigen::Index>(number_of_windows(data.runs));
+  Eigen::VectorXd shear = Eigen::VectorXd::Zero(count), normal = shear;
+  for (const auto& sample : data.samples) {
+    const auto window = static_cast<Eigen::Index>(sample.window);
+    const auto stress = partial_stress(data.rows[sample.row], rule, settings.base).total;
+    shear[window] += sample.frames * stress(0, 1);
+    normal[window] += sample.frames * stress(1, 1);
+  }
+  return data.quantity == Quantity::kinetic ? normal : (shear.array() / normal.array()).abs();
+}
+
+}  // namespace
+
+std::optional<StartOfFlow> start_of_flow(const Eigen::VectorXd& series, const RunLengths& runs)
+{
+  auto found = compare(series, runs, 0);
+  if (!found || found->chance >= rarely) return found;
+  constexpr int twentieths = 10;
+  found->leave_out = 1;
+  for (int k = 1; k <= twentieths; ++k) {
+    const auto rest = compare(series, runs, k / 20.0);
+    if (!rest || rest->chance < rarely) continue;
+    found->leave_out = k / 20.0;
+    break;
+  }
+  return found;
+}
+
+std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
+                           const FitSettings& settings)
+{
+  if (!rule.adds_up()) return {};
+  const bool kinetic = data.quantity == Quantity::kinetic;
+  std::string differs;
+  double leave_out = 0;
+  const auto add = [&](const std::string& name, const Eigen::VectorXd& series) {
+    const auto found = start_of_flow(series, data.runs);
+    if (!found || !(found->chance < rarely)) return;
+    differs += fmt::format("{}{} is {} by {:.2g}", differs.empty() ? "" : " and ", name,
+                           found->excess > 0 ? "larger" : "smaller", std::abs(found->excess));
+    leave_out = std::max(leave_out, found->leave_out);
+  };
+  add(kinetic ? "the kinetic stress (yy)" : "|sigma_xy|/sigma_yy",
+      motion_by_window(data, rule, settings));
+  add("B by " + rule.name(), strength_by_window(data, rule, settings));
+  if (differs.empty()) return {};
+  const auto remedy = leave_out < 1 ? fmt::format("--begin {:.4g} leaves the start out",
+                                                  time_after(data, leave_out))
+                                    : "no later begin leaves a steady rest";
+  return fmt::format(
+      "{} in the first tenth of the time than in the last half, more than a steady flow shows in one of "
+      "twenty cases (Geweke's test); {}",
+      differs, remedy);
+}
+
+}  // namespace grseg

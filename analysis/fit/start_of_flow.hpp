@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/fit/fit_points.hpp"
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace grseg {
+
+/// How the start of runs differs from their end: Geweke's comparison (1992) of the mean of the first tenth
+/// of the windows with that of the last half, by Student's t. Variance and autocorrelation time are those
+/// of the last half, which also tells the degrees of freedom; several runs are averaged.
+struct StartOfFlow {
+  double excess = 0;  // mean of the first tenth less that of the last half
+  double chance = 1;  // that runs without a start differ as much
+  double leave_out =
+      0;  // least part of the windows, in twentieths, without which it is 2.5 % or more; 1: none
+};
+
+/// Of a series of all windows, run after run; none where the last halves are worth fewer than two
+/// independent windows, or runs have fewer than ten windows.
+std::optional<StartOfFlow> start_of_flow(const Eigen::VectorXd& series, const RunLengths& runs);
+
+/// The sentence that says so of B by a rule or of how the grains move, and from when both no longer
+/// differ; mostly empty. What the composition of the layers explains of B is taken out first
+/// (composition_noise.hpp): as the species part, B of the mixture changes, and that is no start.
+std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
+                           const FitSettings& settings);
+
+}  // namespace grseg

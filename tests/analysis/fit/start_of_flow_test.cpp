@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/start_of_flow.hpp"
+
+#include "tests/analysis/correlated_windows.hpp"
+#include "tests/analysis/synthetic_fits.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grseg {
+namespace {
+
+/// Twenty windows: 3 and 1, then nine pairs of +1 and -1, whose neighbours are anticorrelated: a time of 1.
+Eigen::VectorXd alternating()
+{
+  Eigen::VectorXd series(20);
+  for (Eigen::Index k = 0; k < 20; ++k) series[k] = k % 2 == 0 ? 1 : -1;
+  series.head(2) << 3, 1;
+  return series;
+}
+
+// The first tenth is 2 above the last half, whose ten windows have the variance 10/9; the error of the
+// difference is the root of 10/9 (1/2 + 1/10), with nine degrees of freedom.
+TEST(StartOfFlow, IsComparedWithTheLastHalfByStudentsT)
+{
+  const auto found = start_of_flow(alternating(), {20});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->excess, 2, 1e-14);
+  EXPECT_NEAR(found->chance, 2 * gsl_cdf_tdist_Q(2 / std::sqrt(10. / 9 * 0.6), 9), 1e-12);
+  EXPECT_EQ(found->leave_out, 0);  // 3.6 %: not rare enough
+}
+
+TEST(StartOfFlow, IsLeftOutByTheLeastPartThatLeavesASteadyRest)
+{
+  auto series = alternating();
+  series.head(4) << 9, 9, 8, 8;
+  const auto found = start_of_flow(series, {20});
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->chance, 1e-4);
+  EXPECT_NEAR(found->leave_out, 0.2, 1e-12);
+}
+
+TEST(StartOfFlow, IsNotToldFromFewWindows)
+{
+  EXPECT_FALSE(start_of_flow(alternating().head(9), {9}));
+  EXPECT_FALSE(start_of_flow(Eigen::VectorXd::LinSpaced(40, 0, 1), {40}));  // depend on each other
+}
+
+// Where nothing starts it shows in 2.5 % of the cases, of correlated windows and of several runs; up to
+// 3.5 standard deviations of a share of so many trials.
+TEST(StartOfFlow, ShowsInASteadySeriesAsOftenAsItSays)
+{
+  constexpr int trials = 1000;
+  const double most = 0.025 + 3.5 * std::sqrt(0.025 * 0.975 / trials);
+  for (const auto& runs : {RunLengths{120}, RunLengths{48, 48}}) {
+    synthetic::Ar1 noise(0.5);
+    int alarms = 0;
+    for (int k = 0; k < trials; ++k) {
+      const auto found = start_of_flow(noise.series(runs, 0), runs);
+      alarms += found && found->chance < 0.025;
+    }
+    EXPECT_LT(alarms, most * trials);
+    EXPECT_GT(alarms, 0);
+  }
+}
+
+// Contacts that bear nothing across the flow in the first 4 of 40 windows, as of grains that begin to move.
+TEST(StartOfFlow, IsSeenInTheShearStressOfAFlowThatGathersSpeed)
+{
+  auto rows = synthetic::neutral_rows(0.1, 2, 40);
+  const auto doubt = [&] {
+    return doubt_of_start(synthetic::read({synthetic::stress_table(rows)}), {}, {});
+  };
+  EXPECT_EQ(doubt(), "");
+  for (std::size_t k = 0; k < 4 * synthetic::compositions.size(); ++k)
+    for (const auto part : {OwnSum::inside}) {
+      for (std::size_t s = 0; s < 2; ++s) rows[k].sums.of(part, s)(0, 1) *= 0.5;
+    }
+  EXPECT_EQ(doubt().find("|sigma_xy|/sigma_yy is smaller by "), 0u) << doubt();
+  EXPECT_NE(doubt().find("--begin 5 leaves the start out"), std::string::npos) << doubt();
+}
+
+}  // namespace
+}  // namespace grseg
