@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs the four commands of README.md in an empty folder and looks at what they leave. Usage:
-# readme_test.sh SOURCE BUILD
+# Runs the three commands of README.md in an empty folder: table and page hold the same B by size, which README states.
+# Usage: readme_test.sh SOURCE BUILD
 set -eu
 source=$1 build=$2
 folder=$(mktemp -d)
@@ -9,9 +9,15 @@ mkdir "$folder/build"
 ln -s "$source/data" "$source/scripts" "$folder"
 ln -s "$build/bin" "$folder/build/bin"
 commands=$(sed -n '/^<!-- these commands are a test/,/^```$/p' "$source/README.md" | grep -v '^<!--\|^```')
-[ "$(echo "$commands" | wc -l)" = 4 ]
+[ "$(echo "$commands" | wc -l)" = 3 ]
 cd "$folder"
 sh -euc "$commands"
 [ "$(grep -vc '^#' scan.tsv)" = 102 ]
 [ "$(head -c 4 b-of-p.png | tail -c 3)" = PNG ]
 [ "$(head -c 15 explore.html)" = '<!DOCTYPE html>' ]
+[ "$(wc -c <"$source/data/sample/paper-chute.h5")" -lt 4000000 ]
+stated=$(awk -F '\t' '$1 == "size" && $5 == "B" { printf "B = %.3f [%.3f, %.3f]", $7, $8, $9 }' stock.tsv)
+grep -qF "$stated by size" "$source/README.md"
+to_ten_digits='{ printf "%.10f %.10f %.10f", $(NF - 2), $(NF - 1), $NF }'
+[ "$(awk -F '\t' '$1 == "size" && $5 == "B"' stock.tsv | cut -f 7-9 | awk "$to_ten_digits")" = \
+  "$(grep -o '"B":\[-\{0,1\}[0-9.]*,[-0-9.]*,[-0-9.]*' explore.html | head -n 1 | tr '[,' '  ' | awk "$to_ten_digits")" ]
