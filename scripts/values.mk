@@ -30,11 +30,14 @@ check = $(if $(call first_of,$(1),$(3)),$(call refuse,$(3),$(call first_of,$(1),
 blanks = $(findstring $(blank),$(call given,$(1)))$(findstring $(tab),$(call given,$(1)))
 
 # check_values, check_lists, check_names VARIABLES: make ends with one sentence if one of these values, lists
-# of names or names cannot be used, before anything is run.
+# of names or names cannot be used, before anything is run. check_unknown: also where the command line gives another
+# variable than these.
 advice := make cannot take that in names; choose another, or rename the file
-check_values = $(foreach variable,$(1),$(call check,$(in_no_value),write it without,$(variable)))
-check_lists = $(foreach variable,$(1),$(call check,$(in_no_name),$(advice),$(variable)))
+check_values = $(eval known += $(1))$(foreach variable,$(1),$(call check,$(in_no_value),write it without,$(variable)))
+check_lists = $(eval known += $(1))$(foreach variable,$(1),$(call check,$(in_no_name),$(advice),$(variable)))
 check_names = $(call check_lists,$(1))$(foreach variable,$(1),$(if $(call blanks,$(variable)),$(call refuse,$(variable),a blank,$(advice))))
 # All that is on the command line: make expands it for the environment of commands, used or not.
 on_command_line = $(filter command,$(firstword $(origin $(1))))
-$(call check_values,$(foreach variable,$(.VARIABLES),$(if $(call on_command_line,$(variable)),$(variable))))
+given_names := $(foreach variable,$(.VARIABLES),$(if $(call on_command_line,$(variable)),$(variable)))
+$(foreach variable,$(given_names),$(call check,$(in_no_value),write it without,$(variable)))
+check_unknown = $(foreach variable,$(filter-out $(known),$(given_names)),$(error $(variable) is unknown here; there are $(sort $(known))))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/output.hpp"
 #include "formats/cli/tool.hpp"
+#include "sim/run/expected_cost.hpp"
 #include "sim/run/run.hpp"
 #include "sim/scene/keys/keys.hpp"
 #include "sim/scene/keys/resolve.hpp"
@@ -23,6 +24,8 @@ void add_run_options(po::options_description& options, RunOptions& run)
       "exit code 4 if a step missed the tolerance or grains overlapped by more than 0.25 d_S");
   add("force", po::bool_switch(&run.force),
       "begin although the run is expected to need more memory or disk than is free");
+  add("estimate", po::bool_switch(&run.estimate),
+      "print how many grains, bytes and seconds the run is expected to take, and exit");
   add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
       "write the state to this file regularly, at the end, and on a signal that ends the run: "
@@ -43,11 +46,21 @@ void check(const RunOptions& run, const po::variables_map& given)
 {
   if (run.checkpoint_every < 0)
     throw UsageError("--checkpoint-every must be a time in seconds, 0 or more");
+  if (run.estimate && !run.restart.empty())
+    throw UsageError("--estimate is of a whole run; leave out --restart");
   if (run.restart.empty() && (given.count("perturb") > 0 || given.count("seed-perturbation") > 0))
     throw UsageError("--perturb displaces the grains of a checkpoint; name one with --restart");
   if (!(run.perturbation.size >= 0 && run.perturbation.size <= largest_perturbation))
     throw UsageError(fmt::format("--perturb is {:g}: it must lie between 0 and {:g} d_S",
                                  run.perturbation.size, largest_perturbation));
+}
+
+void begin(const Scene& scene, const RunOptions& run)
+{
+  if (run.estimate)
+    fmt::print("{}", to_table(expected_cost(scene, 0, Measure::always)));
+  else
+    simulate(scene, run);
 }
 
 }  // namespace
@@ -81,9 +94,10 @@ int main(int argc, char** argv)
     use_instruction_set(run.instruction_set);
     if (inputs.size() > 1 || (inputs.empty() && run.restart.empty()))
       throw UsageError("name one scene file, such as sim/scenes/chute.ini; --help shows examples");
-    if (run.output.empty()) throw UsageError("name the trajectory to write: -o run.h5");
+    if (run.output.empty() && !run.estimate)
+      throw UsageError("name the trajectory to write: -o run.h5");
     if (!inputs.empty()) run.scene_file = inputs[0];
-    if (run.restart.empty()) return simulate(resolve_scene(inputs[0], given), run);
+    if (run.restart.empty()) return begin(resolve_scene(inputs[0], given), run);
     const auto checkpoint = read_checkpoint(run.restart);
     const auto scene =
         inputs.empty() ? scene_of(checkpoint, run.restart, given) : resolve_scene(inputs[0], given);

@@ -1,4 +1,5 @@
-# One run, in its own folder: scene.ini -> run.h5 -> TABLES -> checksums. Called by Makefile.
+# One run, in its own folder: scene.ini -> run.h5 -> TABLES (and PAGE, page.html) -> checksums. Called by Makefile and by
+# ../sweep/Makefile.
 
 include $(scripts)/../values.mk
 run := $(call quote_each,$(RUN))
@@ -12,11 +13,12 @@ run := $(call quote_each,$(RUN))
 done: checksums
 	@:
 # Made last, after the trajectory is deleted: a run that has this file is finished.
-checksums: $(TABLES) cost.tsv
+checksums: $(TABLES) $(PAGE) cost.tsv
 	$(if $(KEEP),,rm -f run.chk run_prev.chk run.h5)
 	rm -f *.lock *.part
 	sha256sum $(sort $(TABLES)) > $@.new
 	mv $@.new $@
+	$(if $(PAGE),@echo '$(notdir $(CURDIR)) is finished')
 
 run.h5: scene.ini
 	$(run) $(scripts)/simulate $(bin)/grseg-sim $(call quote,$(CHECKPOINT_EVERY))
@@ -36,7 +38,8 @@ word_unbiased := --mean instant-unbiased
 word_others := --mean profile-unbiased
 word_middle := --velocity middle
 word_rules := --partition size,half,drop
-word_summary := --summary --heights 4dS:56dS
+SUMMARY_HEIGHTS ?= 4dS:56dS
+word_summary := --summary --heights $(SUMMARY_HEIGHTS)
 options_of = $(if $(filter check,$(1)),--physics) \
   $(foreach word,$(wordlist 2,9,$(subst -, ,$(1))),$(or $(word_$(word)),$(patsubst stride%,--stride %,$(filter stride%,$(word)))))
 
@@ -49,7 +52,7 @@ sums := $(filter-out $(extracts),$(TABLES))
 command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_of) --quiet)
 
 # Tables that were made by another command are made again.
-outdated := $(shell $(scripts)/outdated $(call quote,$(AGAIN)) $(extracts) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))
+outdated := $(shell $(scripts)/outdated $(call quote,$(AGAIN)) $(extracts) $(PAGE) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))
 $(if $(filter gone,$(outdated)),$(error $(notdir $(CURDIR)): $(filter-out gone,$(outdated)): missing, or made by another \
   command than now, and the trajectory was deleted; AGAIN=yes simulates the run again))
 $(outdated): FORCE
@@ -63,6 +66,10 @@ stress-random.tsv: run.h5
 	$(run) $(scripts)/relabel run.h5 $(trajectory_stress-random)
 	$(table) $(bin)/$(call command_of,$(basename $@))
 	rm $(trajectory_stress-random)
+
+# What B is made of is the table, which has no restarts in its history.
+page.html: run.h5 stress.tsv
+	$(run) $(bin)/grseg-explore run.h5 stress.tsv --quiet --overwrite -o $@
 
 # Wall times, which no checksum covers: tables are the same whether or not their run was interrupted.
 cost.tsv: run.h5 $(TABLES)

@@ -79,7 +79,7 @@ std::string seconds_in_words(double seconds)
 
 }  // namespace
 
-ExpectedCost expected_cost(const Scene& scene, double begin)
+ExpectedCost expected_cost(const Scene& scene, double begin, Measure measure)
 {
   ExpectedCost cost;
   cost.grains = expected_grains(scene);
@@ -90,7 +90,8 @@ ExpectedCost expected_cost(const Scene& scene, double begin)
   cost.file = frames * bytes_of_frame(scene, cost.grains);
   const double deposition = begin > 0 ? 0 : expected_time_to_rest(scene);
   const double grain_steps = cost.grains * (flow + deposition) / scene.step;
-  if (grain_steps * usual_grain_step < worth_measuring) return cost;
+  if (measure == Measure::where_long && grain_steps * usual_grain_step < worth_measuring)
+    return cost;
   cost.seconds = measured_grain_step(scene);
   if (cost.seconds) *cost.seconds *= grain_steps;
   return cost;
@@ -102,6 +103,13 @@ std::string to_text(const ExpectedCost& cost)
                           bytes_in_words(cost.memory), bytes_in_words(cost.file));
   if (cost.seconds) text += ", about " + seconds_in_words(*cost.seconds);
   return text;
+}
+
+std::string to_table(const ExpectedCost& cost)
+{
+  return fmt::format(
+      "grains\tmemory[bytes]\tfile[bytes]\ttime[s]\n{:.0f}\t{:.0f}\t{:.0f}\t{:.2g}\n", cost.grains,
+      cost.memory, cost.file, cost.seconds.value_or(std::nan("")));
 }
 
 void require_room(const ExpectedCost& cost, const std::string& output)

@@ -16,6 +16,7 @@ struct RunOptions {
   bool strict = false;
   bool quiet = false;
   bool force = false;            ///< begin even if memory or disk have too little room
+  bool estimate = false;         // print the cost of the run instead
   std::string instruction_set;   ///< "" for the best
   std::string checkpoint;        ///< file to write, "" for none
   double checkpoint_every = 60;  ///< s of wall time

@@ -26,6 +26,11 @@ again PARTITION=uniform:0.8 >log
   fail "another partition: $(cat log)"
 again PARTITION=uniform:0.8 LAYER=5dS >log
 [ "$(grep -c 'grseg-stress\|grseg-kinetic\|grseg-micro' log)" = 3 ] || fail "another layer: $(cat log)"
+cp reanalysis/fit.tsv before.tsv
+! again LAYER=5dS PARTITION=nonsense >log 2>&1 || fail "an unknown rule was taken"
+cmp -s reanalysis/fit.tsv before.tsv && [ -s reanalysis/fit.txt ] || fail "an unknown rule took the fit before with it: $(cat log)"
+! again PARTITIONS=size >log 2>&1 || fail "an unknown variable was taken"
+grep -q 'PARTITIONS is unknown here' log || fail "an unknown variable: $(cat log)"
 PWD=$folder make --no-print-directory -C "$source/scripts" figure BIN="$bin" WINDOW=0.5 BOOTSTRAP=0 \
   LAYER=5dS RUNS=run.h5 HEIGHTS=5dS: >log 2>&1
 [ "$(grep -c 'bin/grseg-' log)" = 2 ] && [ "$(head -c 4 reanalysis/b-of-p.png | tail -c 3)" = PNG ] ||

@@ -62,5 +62,16 @@ TEST(ExpectedCost, IsSaidInFewWords)
             "100 grains, 26 MB of memory, a file of 10 kB");
 }
 
+TEST(ExpectedCost, AnEstimateOfAShortRunStatesItsTimeToo)
+{
+  const auto scene = small_chute::scene({"--duration", "0.1"});
+  EXPECT_FALSE(expected_cost(scene).seconds);
+  const auto cost = expected_cost(scene, 0, Measure::always);
+  ASSERT_TRUE(cost.seconds);
+  EXPECT_GT(*cost.seconds, 0);
+  EXPECT_EQ(to_table({.grains = 3, .memory = 2e6, .file = 1e9, .seconds = 12.34}),
+            "grains\tmemory[bytes]\tfile[bytes]\ttime[s]\n3\t2000000\t1000000000\t12\n");
+}
+
 }  // namespace
 }  // namespace grseg
