@@ -969,7 +969,7 @@ class Table:
     values     [rows, columns]
     dimension, species    of the run
 
-    table["A_SS_yy"] is a column [rows], table.tensor("A_SS") a tensor [rows, D, D].
+    table["A_SS_yy"] is a column [rows], table.tensor("A_SS") a tensor [rows, D, D], table.to_pandas() a DataFrame.
     """
 
     def __init__(self, name, header, history, columns, values, sources=()):
@@ -1006,6 +1006,18 @@ class Table:
         if not 0 < value < math.inf:
             raise Error(f"{self.name}: its header should have a positive number '# {key}: ...'; make the table anew")
         return value
+
+    def to_pandas(self):
+        """A pandas.DataFrame with the rows and columns of the table. Its `attrs` hold the header by key, all commands as
+        "history", and the units of the columns as "units"."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("Table.to_pandas needs pandas, which is not installed: take Debian's python3-pandas, or "
+                              "pip install pandas") from error
+        frame = pandas.DataFrame(self.values, columns=self.columns, copy=True)
+        frame.attrs = self.header | {"history": list(self.history), "units": dict(self.units)}
+        return frame
 
     def _species(self):
         text = self.header.get("species")
