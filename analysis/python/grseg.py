@@ -14,7 +14,7 @@ stress is in N/m or Pa, positive in compression (formats/README.md). Sums are th
 and grseg-kinetic with their default assignment, and estimates those of grseg-fit, all to round-off.
 
 Not here, because the tools do it: digests are NOT verified (grseg-check RUN.h5 does that), nor the
-checksum in the last line of a table; intervals of B (grseg-fit); --assign, --bins, --group.
+checksum in the last line of a table; intervals over several flows (grseg-fit); --assign, --bins, --group.
 
 A file that is damaged, unfinished or none of grseg raises grseg.Error, a wrong argument ValueError.
 """
@@ -947,6 +947,8 @@ def _run_header(run, layers, length, stride):
     if run.width is not None:
         numbers["length_z"] = run.width
     numbers |= {"layer": layers.h, "window": length, "stride": stride}
+    numbers |= {key: run.parameters[key] for key in ("density", "friction", "restitution")
+                if isinstance(run.parameters.get(key), float)}
     header = {"program": "grseg.py", "input": f"xxh3 {run.digest}", "bed": _bed_line(run),
               "verified": "no, grseg.py has no digests"}
     if run.dimension == 3:
@@ -967,7 +969,7 @@ class Table:
     values     [rows, columns]
     dimension, species    of the run
 
-    table["A_SS_yy"] is a column [rows], table.tensor("A_SS") a tensor [rows, D, D].
+    table["A_SS_yy"] is a column [rows], table.tensor("A_SS") a tensor [rows, D, D], table.to_pandas() a DataFrame.
     """
 
     def __init__(self, name, header, history, columns, values, sources=()):
@@ -1004,6 +1006,18 @@ class Table:
         if not 0 < value < math.inf:
             raise Error(f"{self.name}: its header should have a positive number '# {key}: ...'; make the table anew")
         return value
+
+    def to_pandas(self):
+        """A pandas.DataFrame with the rows and columns of the table. Its `attrs` hold the header by key, all commands as
+        "history", and the units of the columns as "units"."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("Table.to_pandas needs pandas, which is not installed: take Debian's python3-pandas, or "
+                              "pip install pandas") from error
+        frame = pandas.DataFrame(self.values, columns=self.columns, copy=True)
+        frame.attrs = self.header | {"history": list(self.history), "units": dict(self.units)}
+        return frame
 
     def _species(self):
         text = self.header.get("species")
@@ -1260,7 +1274,10 @@ def partial_stress(table, rule="size", base=None):
 class Fit:
     """What a rule makes of two species: the segregation strength B of psi_L = phi_L (1 + B phi_S), a mean over layers and
     frames with the weight phi_L phi_S. Names and definitions are those of grseg-fit; NaN where one is not defined.
-    Values only: intervals are those of grseg-fit.
+
+    An interval is (low, high), 95 %, as grseg-fit has it over the windows of one run or the runs of one flow; it is NaN
+    for several flows. grseg-fit also has those over flows and those of the paper's fit, and says where an interval is in
+    doubt, for instance because few windows are independent.
     """
 
     rule: str
@@ -1273,6 +1290,11 @@ class Fit:
     paper_B: float   # half the sum of 1 - s and (1 - s)/s
     paper_k: float   # sigma^S/sigma^L = k (phi_S/phi_L)^a, weighted least squares of the logarithms
     paper_a: float
+    B_interval: tuple
+    p_zero_interval: tuple
+    dB_dp_interval: tuple
+    over: str        # what the intervals are over: "windows" or "runs"; "" of several flows
+    degrees_of_freedom: float
 
 
 class Points:
@@ -1293,7 +1315,8 @@ class Points:
     size_ratio, table and row (which table, and which row of it), run (a number).
 
     Tables of one bed, such as a run and what continues it, are one run; two that hold the same time of it raise
-    Error. `untold` names tables of which nothing tells that they are of different runs.
+    Error. `untold` names tables of which nothing tells that they are of different runs. `over` is what intervals are
+    over: "windows" of one run, "runs" of one flow, "" of several flows.
     """
 
     def __init__(self, tables, quantity="contact", component="yy", base=None, pair=None, ratio_range=(0.01, 100.0),
@@ -1318,6 +1341,9 @@ class Points:
             raise Error(f"{self.tables[0].name}: no layer and window passes the filters; B needs layers that hold both "
                         "species, and grseg-fit says what removed them")
         self.x = (1 - self.phi_large) / self.phi_large
+        self._b_weight = self.frames * self.phi_large * (1 - self.phi_large)
+        one_flow = self._is_one_flow([self.tables[k] for k in np.unique(self.table)])
+        self.over = "" if not one_flow else "runs" if len(set(self.run)) > 1 else "windows"
 
     def __len__(self):
         return len(self.run)
@@ -1338,17 +1364,27 @@ class Points:
         """The Fit of a rule; kinetic stress knows none."""
         small, large, total = self.stresses(rule)
         adds_up = self.quantity == "kinetic" or rule != "drop"
+        excess = self._excess(large, total)
         b = self._strength(large, total) if adds_up else math.nan
         share = zero = slope = math.nan
+        of_b = of_zero = of_slope = (math.nan, math.nan), math.nan
+        if adds_up:
+            of_b = self._interval(b, excess, self._b_weight[total > 0].sum(), excess)
         if self.quantity == "contact" and len(self.tables[0].species) == 2:
-            zero, slope = self._zero()
+            zero, at_zero, change = self._zero()
+            weight, gain = self._b_weight[np.isfinite(at_zero)].sum(), np.nansum(self.frames * change)
+            slope = float(gain / weight) if gain else math.nan
+            if adds_up and gain:
+                of_zero = self._interval(zero, at_zero, -gain, excess)
+                of_slope = self._interval(slope, change, weight, excess)
             if adds_up:
                 none, everything = (self._b_at(p) for p in (0.0, 1.0))
                 share = (b - none) / (everything - none) if everything != none else math.nan
         paper = _fits_of_the_paper(self.x, small, large, self.weight)
         if not adds_up:
             paper["paper_B"] = math.nan
-        return Fit(rule, len(self), b, share, zero, slope, **paper)
+        return Fit(rule, len(self), b, share, zero, slope, **paper, B_interval=of_b[0], p_zero_interval=of_zero[0],
+                   dB_dp_interval=of_slope[0], over=self.over, degrees_of_freedom=of_b[1])
 
     def _b_at(self, share):
         """B where the larger grain of every mixed contact gets this share."""
@@ -1447,23 +1483,176 @@ class Points:
         product = (f * phi * (1 - phi)).sum()
         return float((f * (large[ok] / total[ok] - phi)).sum() / product) if ok.any() else math.nan
 
+    def _excess(self, large, total):
+        """psi_L - phi_L of each point, NaN without stress."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.where(total > 0, large / total - self.phi_large, math.nan)
+
     def _zero(self):
-        """p* and dB/dp there, by Newton's method; one step where B over the share is straight."""
+        """p* by Newton's method, one step where B over the share is straight; there psi_L - phi_L of each point and
+        its derivative by the share."""
         none, everything = self.stresses("uniform:0"), self.stresses("uniform:1")
         change = [all_to - none_to for none_to, all_to in zip(none, everything)]
-        weight, share = self.frames * self.phi_large * (1 - self.phi_large), 0.5
+        share = 0.5
         for _ in range(8):
             _, large, total = (at + share * of for at, of in zip(none, change))
-            ok = total > 0
-            psi = large[ok] / total[ok]
-            excess = (self.frames[ok] * (psi - self.phi_large[ok])).sum()
-            slope = (self.frames[ok] * (change[1][ok] - psi * change[2][ok]) / total[ok]).sum()
-            if not slope:
-                return math.nan, math.nan
-            share -= excess / slope
-            if abs(excess / slope) < 1e-14:
+            excess = self._excess(large, total)
+            by_share = (change[1] - (excess + self.phi_large) * change[2]) / np.where(total > 0, total, math.nan)
+            gain = np.nansum(self.frames * by_share)
+            if not gain:
+                return math.nan, excess, by_share
+            step = np.nansum(self.frames * excess) / gain
+            share -= step
+            if abs(step) < 1e-14:
                 break
-        return float(share), float(slope / weight[ok].sum())
+        return float(share), excess, by_share
+
+    def _is_one_flow(self, tables):
+        """True where tables agree in composition and in what they record of the flow (analysis/fit/flows.cpp)."""
+        def near(a, b, part):
+            try:
+                return a == b or abs(float(a) - float(b)) <= part * max(abs(float(a)), abs(float(b)))
+            except ValueError:
+                return False
+
+        def composition(table):
+            content = table["frames"] @ self._contents(table)
+            return content / content.sum()
+        first, facts = tables[0], ("dimension", "density", "friction", "restitution", "gravity_x", "gravity_y", "gravity_z",
+                                   "step", "length", "length_z")
+        return all([one.name for one in table.species] == [one.name for one in first.species]
+                   and all(near(one.diameter, other.diameter, 0.01) for one, other in zip(table.species, first.species))
+                   and all(near(*(t.header.get(key, "unknown") for t in (table, first)), 1e-6) for key in facts)
+                   and (abs(composition(table) - composition(first)) <= 0.02).all() for table in tables[1:])
+
+    @functools.cached_property
+    def _observation(self):
+        """The number of each point's window [n], in order of time. Windows of one run that overlap, or between which
+        nothing moved, count as one (analysis/frames/table_windows.cpp)."""
+        spans = [(self.tables[k]["t0"][row], self.tables[k]["t1"][row], k) for k, row in zip(self.table, self.row)]
+        number, count, last = {}, 0, None
+        for span in sorted(set(spans)):
+            if last is None or not _is_again(self.tables, last, span):
+                last, count = span, count + 1
+            number[span] = count - 1
+        return np.array([number[span] for span in spans])
+
+    def _noise(self, excess):
+        """By window, what composition does not explain in the sum of frames * excess, and the weight of B."""
+        ok = np.isfinite(excess)
+        weight, window, count = self._b_weight[ok], self._observation[ok], self._observation.max() + 1
+        noise = weight * _composition_noise(self.phi_large[ok], self.frames[ok] * excess[ok] / weight, weight)
+        return np.bincount(window, noise, count), np.bincount(window, weight, count)
+
+    def _interval(self, value, excess, per, like):
+        """The interval of a number that moves by frames * excess / per of every point, and its degrees of freedom.
+        Windows depend on each other as they do in B with the excess `like`."""
+        error, degrees, ok = math.nan, math.nan, np.isfinite(excess)
+        if self.over == "windows" and ok.any():
+            error, degrees = _error_over_windows(self._noise(excess)[0] / per, *self._noise(like))
+        elif self.over == "runs":
+            parts = np.bincount(self.run[ok], (self.frames * excess)[ok]) / per
+            error, degrees = _error_over_runs(parts, np.bincount(self.run[ok], self._b_weight[ok]))
+        reach = _student(degrees) * error if degrees >= 0.5 else math.nan
+        return (value - reach, value + reach), degrees
+
+
+# -------------------------------------------------------------------------------------- intervals
+
+def _is_again(tables, last, window):
+    """True where a window (t0, t1, table) overlaps an earlier one, or nothing moved since: areas or volumes and stresses
+    are equal to a millionth (analysis/frames/table_windows.cpp)."""
+    if min(last[1], window[1]) - max(last[0], window[0]) > 1e-6 * min(last[1] - last[0], window[1] - window[0]):
+        return True
+    a, b = (tables[k] for _, _, k in (last, window))
+    rows = [t.values[(t["t0"] == t0) & (t["t1"] == t1)] for t, (t0, t1, _) in ((a, last), (b, window))]
+    if len(rows[0]) != len(rows[1]):
+        return False
+    columns = {unit: [name for name in a.columns if name in b and name != "V" and a.units[name] == unit]
+               for unit in ("N m", "m^2", "m^3")}
+    for names in filter(None, columns.values()):
+        x, y = (own[:, [t._place[name] for name in names]] for t, own in zip((a, b), rows))
+        largest = np.fmax.reduce(np.fmax(abs(x), abs(y)), axis=1)
+        if (np.fmax.reduce(abs(x - y), axis=1) > 1e-6 * largest).any():
+            return False
+    return any(columns.values())
+
+
+def _composition_noise(phi, value, weight):
+    """`value` less its fit by a + b ln(phi_S/phi_L) + c phi_L (analysis/statistics/composition_noise.hpp)."""
+    if len(value) < 30:
+        return value - value @ weight / weight.sum()
+    basis, root = np.column_stack([np.ones_like(phi), np.log((1 - phi) / phi), phi]), np.sqrt(weight)
+    return value - basis @ np.linalg.lstsq(root[:, None] * basis, root * value, rcond=1e-6)[0]
+
+
+def _autocorrelation_time(series):
+    """In windows, at least 1 (analysis/statistics/dependence.hpp)."""
+    n, rest = len(series), series - series.mean()
+    square = rest @ rest
+    if not square > 0:
+        return 1.0
+    summed, lag, of_neighbours = 1.0, 1, 1.0
+    while lag < n:
+        summed += 2 * (rest[:-lag] @ rest[lag:]) / square
+        if lag >= 5 * summed:
+            break
+        lag += 1
+    if n >= 4:
+        rho = min((n * (rest[:-1] @ rest[1:]) / square + 1) / (n - 3), 1 - 2 / n)
+        of_neighbours = (1 + rho) / (1 - rho)
+    return max(1.0, summed * (1 + (2 * lag + 1) / n), of_neighbours)
+
+
+def _error_over_windows(parts, like, weight):
+    """The standard error of a sum over the windows of one run, and its degrees of freedom, from a thousand samples of
+    blocks of windows; how long blocks are follows from `like` (analysis/statistics/bootstrap.hpp)."""
+    n, time = len(parts), _autocorrelation_time(like)
+    rho = (time - 1) / (time + 1)
+    best = (math.sqrt(6) * rho / (1 - rho**2))**(2 / 3) * n**(1 / 3)
+    block = max(1, min(math.ceil(best), n // 2))
+    degrees = weight.sum()**2 / (weight**2).sum() / block - 1
+    if degrees < 0.5:
+        return math.nan, degrees
+    samples, blocks = 1000, -(-n // block)
+    begin = _draw(samples * blocks, n - block + 1).reshape(samples, blocks)
+    end = begin + block
+    end[:, -1] -= blocks * block - n
+    sums = np.append(0.0, np.cumsum(parts))
+    variance = (sums[end] - sums[begin]).sum(axis=1).var(ddof=1)
+    kept = 1 - 2 * rho * (1 - rho**block) / (block * (1 - rho**2))
+    return math.sqrt(variance * (degrees + 1) / degrees / kept), degrees
+
+
+def _draw(count, below):
+    """Whole numbers from 0 to below - 1, those that GSL's mt19937 gives with seed 1."""
+    scale, random, drawn = 0xffffffff // below, np.random.RandomState(1), np.empty(0, int)
+    while len(drawn) < count:
+        more = random.randint(0, 1 << 32, count, np.uint32).astype(int) // scale
+        drawn = np.append(drawn, more[more < below])
+    return drawn[:count]
+
+
+def _error_over_runs(parts, weight):
+    """The standard error of a sum over runs, each one observation, and its degrees of freedom
+    (analysis/statistics/run_scatter.hpp)."""
+    runs = weight.sum()**2 / (weight**2).sum()
+    rest = parts - parts.sum() / weight.sum() * weight
+    return math.sqrt(runs / (runs - 1) * (rest @ rest)) if runs > 1 else math.nan, runs - 1
+
+
+@functools.lru_cache
+def _student(degrees):
+    """The 97.5 % quantile of Student's t, sqrt(degrees) tan(angle): from 0 to the angle lies 0.475 of a density that goes
+    as cos^(degrees - 1)."""
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    factor = math.exp(math.lgamma((degrees + 1) / 2) - math.lgamma(degrees / 2)) / math.sqrt(math.pi)
+    low, high = 0.0, math.pi / 2
+    for _ in range(60):
+        half = (low + high) / 4
+        below = factor * half * (weights * np.cos(half * (1 + nodes))**(degrees - 1)).sum()
+        low, high = (2 * half, high) if below < 0.475 else (low, 2 * half)
+    return math.sqrt(degrees) * math.tan(low)
 
 
 def _fits_of_the_paper(x, small, large, weight):

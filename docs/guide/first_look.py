@@ -41,14 +41,15 @@ for a, b in np.argwhere(number):
     print(f"{names[a]}-{names[b]}: {force[a, b] / number[a, b]:.6g} N, {number[a, b] / len(run):.1f} contacts per frame")
 
 # %% Sums by layer and window, and what rules make of the same forces
-points = grseg.Points(run.contact_sums(layer="4dS", window=2.5, power=2))
+points = grseg.Points(run.contact_sums(layer="4dS", window=1.25, power=2))
 print(f"{len(points)} layers and windows hold both species")
 for rule in ("size", "contact-point", "half", "power:2"):
     fit = points.fit(rule)
-    print(f"B by {rule:13} = {fit.B:+.3f}")
+    low, high = fit.B_interval
+    print(f"B by {rule:13} = {fit.B:+.3f} [{low:+.3f}, {high:+.3f}] (95 % over {fit.over})")
 print(f"B = 0 where the larger grain of every mixed contact gets p* = {points.fit().p_zero:.4f}")
 
-# %% B over that share; intervals are those of grseg-fit
+# %% B over that share
 shares = np.linspace(0.4, 0.9, 11)
 b = points.b_of_p(shares)
 for p, value in zip(shares, b):

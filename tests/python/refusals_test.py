@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -196,6 +197,9 @@ def wrong_tables():
     require(r"neutral-sums.tsv: its column Mpower_\* was not made with power:2", lambda: grseg.Points(neutral).fit("power:2"))
     require("only-small-sums.tsv: no layer and window passes the filters",
             lambda: grseg.Points(grseg.read_table(os.path.join(inputs, "only-small-sums.tsv"))))
+    with mock.patch.dict(sys.modules, pandas=None):
+        require("^Table.to_pandas needs pandas, which is not installed: take Debian's python3-pandas, or pip install pandas$",
+                neutral.to_pandas, ImportError)
 
 
 with tempfile.TemporaryDirectory() as folder:

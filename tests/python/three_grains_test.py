@@ -99,6 +99,17 @@ def fluctuations_are_about_the_mean_of_the_layer(run):
     assert abs(run.kinetic_sums(window=0.1).tensor("K_S")).max() < 1e-30
 
 
+def a_table_becomes_a_data_frame(run):
+    sums = run.contact_sums(layer="10mm", window=0.1)
+    frame = sums.to_pandas()
+    assert list(frame.columns) == sums.columns and len(frame) == len(sums) > 0
+    assert (frame.A_LL_yy.to_numpy() == sums["A_LL_yy"]).all() and frame.t1.min() == sums["t1"].min()
+    assert frame.attrs["input"] == f"xxh3 {run.digest}" and frame.attrs["history"] == sums.history
+    assert frame.attrs["units"]["A_LL_yy"] == "N m" and frame.attrs["layer"] == sums.header["layer"]
+    frame["t0"] += 1
+    assert sums["t0"].min() < 1  # the table keeps its own
+
+
 def neutral_contacts_have_no_b_by_size():
     points = grseg.Points(grseg.read_table(os.path.join(inputs, "neutral-sums.tsv")), heights="all")
     assert is_near(points.x, [2, 1, 1 / 2])
@@ -131,4 +142,5 @@ with grseg.Run(os.path.join(inputs, "three-grains-1.1.h5")) as new, \
         sums_are_force_times_branch(one)
         rules_share_the_mixed_contact(one)
         fluctuations_are_about_the_mean_of_the_layer(one)
+        a_table_becomes_a_data_frame(one)
 neutral_contacts_have_no_b_by_size()

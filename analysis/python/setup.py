@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The version is that of CMakeLists.txt, which pyproject.toml cannot read; an archive made by pip's tools has it in PKG-INFO."""
+import pathlib
+import re
+
+import setuptools
+
+home = pathlib.Path(__file__).resolve().parent
+text = next(file.read_text() for file in (home / "PKG-INFO", home / "../../CMakeLists.txt") if file.exists())
+version = re.search(r"^(?:Version: |project\(grseg VERSION )(\S+)", text, re.MULTILINE)[1]
+setuptools.setup(version=version, license="GPL-3.0-or-later")
