@@ -1,8 +1,8 @@
 # sigma^S_yy / sigma^L_yy against phi_S/phi_L for every layer and window of FOLDER/stress.tsv, mixed
 # contacts shared by size, with the fit of FOLDER/fit.tsv (Staron & Phillips 2015, figure 2b):
-#   gnuplot -c scripts/figures/stress-ratio.gp FOLDER
+#   gnuplot -c scripts/figures/stress-ratio.gp FOLDER [PICTURE]
 # or of the kinetic stress, of FOLDER/kinetic.tsv and kinetic-fit.tsv, into kinetic-ratio.png (figure 3b):
-#   gnuplot -c scripts/figures/stress-ratio.gp FOLDER kinetic
+#   gnuplot -c scripts/figures/stress-ratio.gp FOLDER kinetic [PICTURE]
 load ARG0[:strstrt(ARG0, "stress-ratio.gp") - 1]."names.gp"
 folder = named(ARG1)
 kinetic = ARGC > 1 && ARG2 eq "kinetic"
@@ -10,8 +10,7 @@ sums = folder.(kinetic ? "/kinetic.tsv" : "/stress.tsv")
 fit = folder.(kinetic ? "/kinetic-fit.tsv" : "/fit.tsv")
 slope = number_of(fit, kinetic ? "kinetic" : "size", "paper_s")
 set datafile separator tab
-set terminal pngcairo size 900,700 font "DejaVu Sans,13"
-set output folder.(kinetic ? "/kinetic-ratio.png" : "/stress-ratio.png")
+eval picture(asked(kinetic ? "ARG3" : "ARG2", folder.(kinetic ? "/kinetic-ratio.png" : "/stress-ratio.png")), 900, 700, 13, "")
 set logscale xy
 set format xy "10^{%T}"
 set xlabel "φ_S / φ_L"
