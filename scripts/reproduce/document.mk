@@ -67,8 +67,10 @@ every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
 $(work):
 	mkdir -p $@
 
-# The rows of all mixtures in one table.
-$(work)/stress.tsv $(work)/kinetic.tsv $(work)/micro.tsv: $(work)/%.tsv: $(every) | $(work)
+# All mixtures: their tables one behind the other, for fit-points, and their rows in one table.
+$(work)/stress.tsv $(work)/kinetic.tsv: $(work)/%.tsv: $(every) | $(work)
+	cat $(call of,$(mixtures),$*) > $@
+$(work)/micro.tsv: $(work)/%.tsv: $(every) | $(work)
 	awk 'FNR == 1 { body = 0 } /^#/ { next } body++ || !named++' $(call of,$(mixtures),$*) > $@
 $(work)/fit.tsv: $(every) | $(work)
 	$(fit) $(call of,$(mixtures),stress) --fit paper
@@ -119,6 +121,7 @@ $(call both,b-of-flows): $(work)/fits.tsv
 $(call both,combinations): $(work)/combined.tsv
 $(call both,balance): $(work)/balance-profile.tsv
 $(call both,kinetic-ratio): $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/stress-ratio.gp
+$(call both,stress-ratio kinetic-ratio): $(gp)/fit-points
 draw = gnuplot -c $(gp)/$(1).gp $(work) $(2) $@
 $(pictures) $(prints): $(gp)/names.gp
 $(filter-out $(work)/kinetic-ratio.%,$(pictures)): $(work)/%.png: $(gp)/%.gp
