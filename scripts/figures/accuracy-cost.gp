@@ -4,8 +4,7 @@
 load ARG0[:strstrt(ARG0, "accuracy-cost.gp") - 1]."names.gp"
 table = ARGC > 0 ? named(ARG1) : "accuracy-cost.tsv"
 out = ARGC > 1 ? named(ARG2) : "fronts.png"
-set terminal pngcairo size 1500,1500 font "DejaVu Sans,10" noenhanced
-set output out
+eval picture(out, 1500, 1500, 10, "noenhanced")
 set datafile separator "\t"
 set datafile commentschars "#"
 set logscale x

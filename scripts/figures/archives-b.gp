@@ -1,11 +1,10 @@
 # B of three flows that start from the same state, by partition rule and from the per-atom stress that the
 # programs print themselves: FOLDER/b.tsv of scripts/archives/compare.
-#   gnuplot -c scripts/figures/archives-b.gp FOLDER
+#   gnuplot -c scripts/figures/archives-b.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "archives-b.gp") - 1]."names.gp"
 folder = named(ARG1)
 set datafile separator tab
-set terminal pngcairo size 900,560 font "DejaVu Sans,12"
-set output folder."/archives-b.png"
+eval picture(asked("ARG2", folder."/archives-b.png"), 900, 560, 12, "")
 set ylabel "B at φ = 1/2"
 set xrange [0.5:4.5]
 set yrange [-0.5:0.15]

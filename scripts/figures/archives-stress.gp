@@ -1,11 +1,10 @@
 # Stress of each species over height, as printed by the program that made the flow and as computed by grseg
 # from its contacts: FOLDER/stress.tsv of scripts/archives/compare.
-#   gnuplot -c scripts/figures/archives-stress.gp FOLDER
+#   gnuplot -c scripts/figures/archives-stress.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "archives-stress.gp") - 1]."names.gp"
 folder = named(ARG1)
 set datafile separator tab
-set terminal pngcairo size 1000,560 font "DejaVu Sans,12"
-set output folder."/archives-stress.png"
+eval picture(asked("ARG2", folder."/archives-stress.png"), 1000, 560, 12, "")
 set multiplot layout 1,2
 set xlabel "σ_{yy} of the species, N/m"
 set ylabel "height, d_S"

@@ -6,8 +6,7 @@ folder = named(ARG1)
 rules = folder."/rules.tsv"
 set datafile separator tab
 set datafile missing NaN
-set terminal pngcairo size 1200,460 font "DejaVu Sans,12" background rgb "white"
-set output named(ARG2)
+eval picture(named(ARG2), 1200, 460, 12, "background rgb 'white'")
 flows = system("awk -F '\\t' '/^phi/ && !seen[$1]++ {print $1}' ".quoted(rules))
 phi(flow) = flow[4:strstrt(flow, "-s") - 1]
 set palette defined (0 "#440154", 0.25 "#3b528b", 0.5 "#21918c", 0.75 "#5ec962", 1 "#d0b000")

@@ -1,13 +1,12 @@
 # B by size and -B_kappa with 95 % intervals: by mixture, by slope and by stage, of FOLDER/fits.tsv
 # (scripts/reproduce/fits):
-#   gnuplot -c scripts/figures/b-of-flows.gp FOLDER
+#   gnuplot -c scripts/figures/b-of-flows.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "b-of-flows.gp") - 1]."names.gp"
 folder = named(ARG1)
 fits = folder."/fits.tsv"
 set datafile separator tab
 set datafile missing NaN
-set terminal pngcairo size 1300,800 font "DejaVu Sans,12"
-set output folder."/b-of-flows.png"
+eval picture(asked("ARG2", folder."/b-of-flows.png"), 1300, 800, 12, "")
 set multiplot layout 2,2
 set key top right samplen 1
 is(name, value) = stringcolumn(name) eq value

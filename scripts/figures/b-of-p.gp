@@ -1,7 +1,7 @@
 # B over the share p of a mixed contact that goes to its large grain, with its 95 % band, from
 # FOLDER/scan.tsv, with the line of neutral contacts and, if FOLDER/stock.tsv exists (grseg-fit
 # --partition stock), the rules of published codes; below: the difference from neutral contacts:
-#   gnuplot -c scripts/figures/b-of-p.gp FOLDER
+#   gnuplot -c scripts/figures/b-of-p.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "b-of-p.gp") - 1]."names.gp"
 folder = named(ARG1)
 scan = folder."/scan.tsv"
@@ -12,8 +12,7 @@ rules = "size contact-point half"
 p_zero = real(system("awk '/^# p_zero:/ {print $3}' ".quoted(scan)))
 
 set datafile separator tab
-set terminal pngcairo size 900,900 font "DejaVu Sans,12"
-set output folder."/b-of-p.png"
+eval picture(asked("ARG2", folder."/b-of-p.png"), 900, 900, 12, "")
 set xlabel "share p of a mixed contact given to its large grain"
 set xzeroaxis
 set style fill transparent solid 0.25 noborder

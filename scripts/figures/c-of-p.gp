@@ -5,8 +5,7 @@ load ARG0[:strstrt(ARG0, "c-of-p.gp") - 1]."names.gp"
 table = named(ARG1)
 set datafile separator tab
 set datafile missing NaN
-set terminal pngcairo size 1200,460 font "DejaVu Sans,12" background rgb "white"
-set output named(ARG2)
+eval picture(named(ARG2), 1200, 460, 12, "background rgb 'white'")
 set palette defined (0 "#440154", 0.25 "#3b528b", 0.5 "#21918c", 0.75 "#5ec962", 1 "#d0b000")
 unset colorbox
 set cbrange [0:0.75]

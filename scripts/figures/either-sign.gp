@@ -10,8 +10,7 @@ stock = folder."/stock.tsv"
 fits = folder."/fits.tsv"
 set datafile separator tab
 set datafile missing NaN
-set terminal pngcairo size 1200,440 font "DejaVu Sans,12" background rgb "white"
-set output named(ARG2)
+eval picture(named(ARG2), 1200, 440, 12, "background rgb 'white'")
 blue = "#1f77b4"
 red = "#d62728"
 grey = "#606060"

@@ -1,13 +1,12 @@
 # Kinetic pressure over height, time mean, for both definitions of the fluctuation, and its ratio to the
 # contact stress, from FOLDER/profile.tsv (scripts/profile with --kinetic):
-#   gnuplot -c scripts/figures/kinetic-profile.gp FOLDER
+#   gnuplot -c scripts/figures/kinetic-profile.gp FOLDER [PICTURE]
 # Per area of grains, in units of rho g d_S, beside the paper's fit (Staron & Phillips 2015, figure 3a).
 load ARG0[:strstrt(ARG0, "kinetic-profile.gp") - 1]."names.gp"
 folder = named(ARG1)
 profile = folder."/profile.tsv"
 set datafile separator tab
-set terminal pngcairo size 1200,600 font "DejaVu Sans,12"
-set output folder."/kinetic-profile.png"
+eval picture(asked("ARG2", folder."/kinetic-profile.png"), 1200, 600, 12, "")
 set multiplot layout 1,2
 y = "y/d_S"
 in(name) = column("nu") > 0.4 ? column(name) : NaN

@@ -1,12 +1,11 @@
 # -B_kappa over the mean shear rate of the flows of phi_L = 0.45 at 21 to 26 degrees, of FOLDER/flows.tsv
 # (scripts/reproduce/flows), beside the paper's trend (Staron & Phillips 2015, figure 4):
-#   gnuplot -c scripts/figures/kinetic-shear-rate.gp FOLDER
+#   gnuplot -c scripts/figures/kinetic-shear-rate.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "kinetic-shear-rate.gp") - 1]."names.gp"
 folder = named(ARG1)
 flows = folder."/flows.tsv"
 set datafile separator tab
-set terminal pngcairo size 900,700 font "DejaVu Sans,13"
-set output folder."/kinetic-shear-rate.png"
+eval picture(asked("ARG2", folder."/kinetic-shear-rate.png"), 900, 700, 13, "")
 set xlabel "mean shear rate / (g/d_S)^{1/2}"
 set ylabel "-B_κ"
 set xrange [0:*]

@@ -35,8 +35,7 @@ height = Y_max_y - Y_min_x
 scale = 600.0 / (width > height ? width : height)
 across = width * scale + 220
 up = height * scale + 110
-set terminal pngcairo size int(across), int(up) font "DejaVu Sans,11"
-set output named(ARG3)
+eval picture(named(ARG3), int(across), int(up), 11, "")
 set margins at screen 85 / across, screen (85 + width * scale) / across, screen 60 / up, screen (60 + height * scale) / up
 set xrange [X_min_x:X_max_y]
 set yrange [Y_min_x:Y_max_y]

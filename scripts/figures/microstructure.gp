@@ -1,12 +1,11 @@
 # The micro-structure beyond figures 5 and 6 of Staron & Phillips (2015): B from it, fabric and forces by type
 # of contact, from the tables that docs/studies/microstructure.md makes in FOLDER: paper.tsv, ends.tsv, forces.tsv.
-#   gnuplot -c scripts/figures/microstructure.gp FOLDER
+#   gnuplot -c scripts/figures/microstructure.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "microstructure.gp") - 1]."names.gp"
 folder = named(ARG1)
 set datafile separator tab
 set datafile missing NaN
-set terminal pngcairo size 1500,450 font "DejaVu Sans,11"
-set output folder."/microstructure.png"
+eval picture(asked("ARG2", folder."/microstructure.png"), 1500, 450, 11, "")
 small = "#1f77b4"
 large = "#d62728"
 set multiplot layout 1,3

@@ -1,11 +1,10 @@
 # Mean overlap and energy defect of the chute over a million steps at 21 and 26 degrees, of
 # FOLDER/million-steps-21.tsv and -26.tsv:
 #   GRSEG_HARD_CASES=FOLDER build/bin/million_steps_test
-#   gnuplot -c scripts/figures/million-steps.gp FOLDER
+#   gnuplot -c scripts/figures/million-steps.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "million-steps.gp") - 1]."names.gp"
 folder = named(ARG1)
-set terminal pngcairo size 1000,420 font "DejaVu Sans,11"
-set output folder."/million-steps.png"
+eval picture(asked("ARG2", folder."/million-steps.png"), 1000, 420, 11, "")
 set multiplot layout 1,2
 set xlabel "time after the tilt (s)"
 set xrange [0:250]

@@ -1,11 +1,10 @@
 # Share of mixed contacts against composition, for every layer and window of FOLDER/micro.tsv, and the
 # neutral model's curve (Staron & Phillips 2015, figure 2c):
-#   gnuplot -c scripts/figures/mixed-share.gp FOLDER
+#   gnuplot -c scripts/figures/mixed-share.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "mixed-share.gp") - 1]."names.gp"
 folder = named(ARG1)
 set datafile separator tab
-set terminal pngcairo size 900,700 font "DejaVu Sans,13"
-set output folder."/mixed-share.png"
+eval picture(asked("ARG2", folder."/mixed-share.png"), 900, 700, 13, "")
 set xlabel "φ_L"
 set ylabel "N_{LS} / (N_{LL} + N_{LS} + N_{SS})"
 set xrange [0:1]

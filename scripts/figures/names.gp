@@ -8,3 +8,12 @@ escaped(text) = strstrt(text, "'") ? text[:strstrt(text, "'") - 1]."'\\''".escap
 quoted(path) = "'".escaped(path)."'"
 # The first number of this quantity by this rule in a table of grseg-fit.
 number_of(file, rule, quantity) = real(system("awk -F '\\t' '$1 == \"".rule."\" && $5 == \"".quantity."\" {print $7; known = 1; exit} END {if (!known) print \"NaN\"}' ".quoted(file)))
+
+# asked("ARG2", DEFAULT): the picture that this argument of the figure names, DEFAULT without it.
+asked(argument, default) = exists(argument) && value(argument) ne "" ? named(value(argument)) : default
+# eval picture(PATH, WIDTH, HEIGHT, FONT, MORE): begins PATH, a PDF if it ends in .pdf, else a PNG; sizes in pixels, 96 to an inch of the PDF.
+ends_in_pdf(path) = strlen(path) > 4 && path[strlen(path) - 3:] eq ".pdf"
+terminal_of(path, width, height, font) = ends_in_pdf(path) \
+  ? sprintf("pdfcairo size %.4fin,%.4fin fontscale 0.75 pointscale 0.75 linewidth 1.5 font 'DejaVu Sans,%d'", width / 96., height / 96., font) \
+  : sprintf("pngcairo size %d,%d font 'DejaVu Sans,%d'", width, height, font)
+picture(path, width, height, font, more) = (picture_path = path, sprintf("set terminal %s %s; set output picture_path", terminal_of(path, width, height, font), more))

@@ -5,8 +5,7 @@ load ARG0[:strstrt(ARG0, "p-star.gp") - 1]."names.gp"
 rules = named(ARG1)."/rules.tsv"
 set datafile separator tab
 set datafile missing NaN
-set terminal pngcairo size 760,460 font "DejaVu Sans,12" background rgb "white"
-set output named(ARG2)
+eval picture(named(ARG2), 760, 460, 12, "background rgb 'white'")
 only(value) = strcol("rule") eq "size" ? value : NaN
 set tics nomirror
 set border 3

@@ -1,12 +1,11 @@
 # Errors of the pressures that contacts per grain and mean forces give, over composition (Staron & Phillips
 # 2015, figure 5), of FOLDER/paper.tsv and ends.tsv, as docs/studies/microstructure.md makes them:
-#   gnuplot -c scripts/figures/pressure-estimates.gp FOLDER
+#   gnuplot -c scripts/figures/pressure-estimates.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "pressure-estimates.gp") - 1]."names.gp"
 folder = named(ARG1)
 set datafile separator tab
 set datafile missing NaN
-set terminal pngcairo size 900,700 font "DejaVu Sans,13"
-set output folder."/pressure-estimates.png"
+eval picture(asked("ARG2", folder."/pressure-estimates.png"), 900, 700, 13, "")
 small = "#1f77b4"
 large = "#d62728"
 set key top right samplen 2

@@ -1,5 +1,5 @@
 # Pressure of the contacts over height, time mean, of FOLDER/profile.tsv (scripts/profile):
-#   gnuplot -c scripts/figures/pressure-profile.gp FOLDER
+#   gnuplot -c scripts/figures/pressure-profile.gp FOLDER [PICTURE]
 # Bulk pressure (voids included) and pressure per area of grains, in units of rho g d_S with rho = 1
 # kg/m^2, against the weight of the grains above (Staron & Phillips 2015, figure 2a).
 load ARG0[:strstrt(ARG0, "pressure-profile.gp") - 1]."names.gp"
@@ -11,8 +11,7 @@ H = number("height/d_S")
 set datafile separator tab
 y = "y/d_S"
 
-set terminal pngcairo size 900,700 font "DejaVu Sans,13"
-set output folder."/pressure-profile.png"
+eval picture(asked("ARG2", folder."/pressure-profile.png"), 900, 700, 13, "")
 set xlabel "P / (ρ g d_S)"
 set ylabel "y / d_S"
 set key top right

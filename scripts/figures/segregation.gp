@@ -1,7 +1,7 @@
 # How a bed segregates, from FOLDER/segregation.tsv (grseg-segregation) and FOLDER/segregation-summary.tsv
 # (the same with --summary, and the same --begin): heights of the large grains and mixing index over
 # time with the exponential fit, diffusivities over height, flux of large grains over composition.
-#   gnuplot -c scripts/figures/segregation.gp FOLDER
+#   gnuplot -c scripts/figures/segregation.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "segregation.gp") - 1]."names.gp"
 folder = named(ARG1)
 table = folder."/segregation.tsv"
@@ -14,8 +14,7 @@ set datafile separator tab
 set datafile missing NaN
 # Rows of the whole bed have y0 = nan; they are read apart from those of layers.
 rows(test) = "< awk -F '\\t' '!/^#/ && (!n++ || $3 ".test." \"nan\")' ".quoted(table)
-set terminal pngcairo size 1500,500 font "DejaVu Sans,12"
-set output folder."/segregation.png"
+eval picture(asked("ARG2", folder."/segregation.png"), 1500, 500, 12, "")
 set multiplot layout 1,3
 middle(dummy) = (column("t0[s]") + column("t1[s]")) / 2
 set xlabel "time (s)"

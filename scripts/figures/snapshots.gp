@@ -1,6 +1,6 @@
 # The grains at the instants of FOLDER/snapshots.tsv, one picture beside the other
 # (Staron & Phillips 2015, figure 1):
-#   gnuplot -c scripts/figures/snapshots.gp FOLDER
+#   gnuplot -c scripts/figures/snapshots.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "snapshots.gp") - 1]."names.gp"
 folder = named(ARG1)
 table = folder."/snapshots.tsv"
@@ -10,8 +10,7 @@ stats table using "x[m]" nooutput name "X"
 length = X_max
 stats table using "y[m]" nooutput
 top = STATS_max + 0.01
-set terminal pngcairo size 450 * words(times), 50 + int(415 * (top + 0.015) / length) font "DejaVu Sans,11"
-set output folder."/snapshots.png"
+eval picture(asked("ARG2", folder."/snapshots.png"), 450 * words(times), 50 + int(415 * (top + 0.015) / length), 11, "")
 set multiplot layout 1, words(times)
 set xrange [0:length]
 set yrange [-0.015:top]

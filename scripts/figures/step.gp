@@ -1,12 +1,11 @@
 # Contacts per grain, mean force and their product over the time step: whole bed of phi_L = 0.45 at 23 degrees
 # from 10 to 60 s, of FOLDER/flows.tsv (scripts/reproduce/flows):
-#   gnuplot -c scripts/figures/step.gp FOLDER
+#   gnuplot -c scripts/figures/step.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "step.gp") - 1]."names.gp"
 folder = named(ARG1)
 flows = folder."/flows.tsv"
 set datafile separator tab
-set terminal pngcairo size 1400,480 font "DejaVu Sans,12"
-set output folder."/step.png"
+eval picture(asked("ARG2", folder."/step.png"), 1400, 480, 12, "")
 set multiplot layout 1,3
 small = "#1f77b4"
 large = "#d62728"

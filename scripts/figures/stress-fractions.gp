@@ -1,7 +1,7 @@
 # The large grains' fraction of the contact and of the kinetic stress over their part of the grains' volume, from
 # FOLDER/FLOW.fractions.tsv (scripts/archives/stress-fractions) of the flows long and mix70, with the form
 # f = phi s^a/sum(phi s^a) for a = 0, 1 and 3 (pressure by diameter, by volume) and at the exponents that fit:
-#   gnuplot -c scripts/figures/stress-fractions.gp FOLDER A_CONTACT A_KINETIC
+#   gnuplot -c scripts/figures/stress-fractions.gp FOLDER A_CONTACT A_KINETIC [PICTURE]
 load ARG0[:strstrt(ARG0, "stress-fractions.gp") - 1]."names.gp"
 folder = named(ARG1)
 a_contact = real(ARG2)
@@ -9,8 +9,7 @@ a_kinetic = real(ARG3)
 of(flow) = folder."/".flow.".fractions.tsv"
 f(phi, a) = phi * 2**a / (phi * 2**a + 1 - phi)
 set datafile separator tab
-set terminal pngcairo size 900,640 font "DejaVu Sans,12"
-set output folder."/stress-fractions.png"
+eval picture(asked("ARG4", folder."/stress-fractions.png"), 900, 640, 12, "")
 set xlabel "φ_L"
 set ylabel "large grains' fraction of σ_{yy}"
 set xrange [0:1]

@@ -3,7 +3,7 @@
 #
 #   make -C scripts reproduction.md                    docs/studies/reproduction.md, its annex and figures, from data/reproduction
 #   make -C scripts reproduction.md TABLES=FOLDER      from the tables that make reproduce left in FOLDER
-#   make -C scripts figures/kinetic-profile.png        one figure, into WORK
+#   make -C scripts figures/kinetic-profile.png        one figure, into WORK; .pdf for a paper
 #   make -C scripts kept TABLES=FOLDER                 makes data/reproduction again from these tables
 #
 # Relative names refer to the folder where make was called.
@@ -52,9 +52,10 @@ names := $(if $(call of,phi0.30-s23,stress),snapshots pressure-profile kinetic-p
   $(if $(call of,phi0.45-s23,stress),micro-over-time step) $(if $(call of,$(slopes),stress),kinetic-shear-rate) \
   $(if $(wildcard $(KEPT)/combinations.tsv),combinations)
 pictures := $(names:%=$(work)/%.png)
+prints := $(names:%=$(work)/%.pdf)
 figures: $(pictures)
-.PHONY: $(names:%=figures/%.png)
-$(names:%=figures/%.png): figures/%.png: $(work)/%.png
+.PHONY: $(names:%=figures/%.png) $(names:%=figures/%.pdf)
+$(names:%=figures/%.png) $(names:%=figures/%.pdf): figures/%: $(work)/%
 
 inside := --heights 4dS:56dS --quiet
 # One number for all mixtures, as published (docs/studies/uncertainty.md).
@@ -66,8 +67,10 @@ every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
 $(work):
 	mkdir -p $@
 
-# The rows of all mixtures in one table.
-$(work)/stress.tsv $(work)/kinetic.tsv $(work)/micro.tsv: $(work)/%.tsv: $(every) | $(work)
+# All mixtures: their tables one behind the other, for fit-points, and their rows in one table.
+$(work)/stress.tsv $(work)/kinetic.tsv: $(work)/%.tsv: $(every) | $(work)
+	cat $(call of,$(mixtures),$*) > $@
+$(work)/micro.tsv: $(work)/%.tsv: $(every) | $(work)
 	awk 'FNR == 1 { body = 0 } /^#/ { next } body++ || !named++' $(call of,$(mixtures),$*) > $@
 $(work)/fit.tsv: $(every) | $(work)
 	$(fit) $(call of,$(mixtures),stress) --fit paper
@@ -104,23 +107,29 @@ $(work)/combined.tsv: $(work)/combinations.tsv combined.py combinations
 $(work)/numbers.tsv: $(every) numbers rise.py $(scripts) | $(work)
 	./numbers $(tables) -o $@ --bin $(bin)
 
-# Each figure and its tables.
-draw = gnuplot -c $(gp)/$(1).gp $(work)
-$(work)/snapshots.png: $(work)/snapshots.tsv
-$(work)/pressure-profile.png $(work)/kinetic-profile.png: $(work)/profile.tsv
-$(work)/stress-ratio.png: $(work)/stress.tsv $(work)/fit.tsv
-$(work)/mixed-share.png: $(work)/micro.tsv
-$(work)/kinetic-shear-rate.png $(work)/step.png: $(work)/flows.tsv
-$(work)/pressure-estimates.png: $(work)/paper.tsv $(work)/ends.tsv
-$(work)/micro-over-time.png: $(work)/time.tsv
-$(work)/b-of-p.png: $(work)/scan.tsv $(work)/stock.tsv
-$(work)/b-of-flows.png: $(work)/fits.tsv
-$(work)/combinations.png: $(work)/combined.tsv
-$(work)/balance.png: $(work)/balance-profile.tsv
-$(filter-out $(work)/kinetic-ratio.png,$(pictures)): $(work)/%.png: $(gp)/%.gp
+# Each figure and its tables; a picture is a PNG or a PDF by the end of its name.
+both = $(foreach name,$(1),$(work)/$(name).png $(work)/$(name).pdf)
+$(call both,snapshots): $(work)/snapshots.tsv
+$(call both,pressure-profile kinetic-profile): $(work)/profile.tsv
+$(call both,stress-ratio): $(work)/stress.tsv $(work)/fit.tsv
+$(call both,mixed-share): $(work)/micro.tsv
+$(call both,kinetic-shear-rate step): $(work)/flows.tsv
+$(call both,pressure-estimates): $(work)/paper.tsv $(work)/ends.tsv
+$(call both,micro-over-time): $(work)/time.tsv
+$(call both,b-of-p): $(work)/scan.tsv $(work)/stock.tsv
+$(call both,b-of-flows): $(work)/fits.tsv
+$(call both,combinations): $(work)/combined.tsv
+$(call both,balance): $(work)/balance-profile.tsv
+$(call both,kinetic-ratio): $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/stress-ratio.gp
+$(call both,stress-ratio kinetic-ratio): $(gp)/fit-points
+draw = gnuplot -c $(gp)/$(1).gp $(work) $(2) $@
+$(pictures) $(prints): $(gp)/names.gp
+$(filter-out $(work)/kinetic-ratio.%,$(pictures)): $(work)/%.png: $(gp)/%.gp
 	$(call draw,$*)
-$(work)/kinetic-ratio.png: $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/stress-ratio.gp
-	$(call draw,stress-ratio) kinetic
+$(filter-out $(work)/kinetic-ratio.%,$(prints)): $(work)/%.pdf: $(gp)/%.gp
+	$(call draw,$*)
+$(work)/kinetic-ratio.png $(work)/kinetic-ratio.pdf:
+	$(call draw,stress-ratio,kinetic)
 
 choices.tsv: $(work)/choices.tsv
 

@@ -71,4 +71,7 @@ for bad in "it's;touch pwned;'" '<touch pwned;' '|touch pwned;' '`touch pwned`';
   gnuplot -c "$source/scripts/figures/b-of-p.gp" "$bad" >log 2>&1 || fail "$bad: $(cat log)"
   nothing_ran "$bad"
   [ -s "$bad/b-of-p.png" ] || fail "$bad: no figure: $(cat log)"
+  gnuplot -c "$source/scripts/figures/b-of-p.gp" "$bad" "$bad/b.pdf" >log 2>&1 || fail "$bad/b.pdf: $(cat log)"
+  nothing_ran "$bad/b.pdf"
+  [ "$(head -c 5 "$bad/b.pdf")" = %PDF- ] || fail "$bad/b.pdf: no PDF: $(cat log)"
 done

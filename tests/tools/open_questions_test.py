@@ -397,6 +397,13 @@ class Answers(unittest.TestCase):
                 out.write("<!-- stages -->\n<!-- /stages -->\n")
             self.assertIn("once", subprocess.run(words, capture_output=True, text=True).stderr)
 
+    def test_densities_stand_in_their_order(self):
+        row = lambda ratio, value: {"flow": f"phi0.45-s23-mixed-density{ratio}-t60", "runs": 2, "end": 60,
+                                    **{name + end: value for name in ("B", "p_star", "B_half_rule") for end in ("", "_low", "_high")}}
+        lines = answers.beds_of_densities([row("2", 0.05), row("0.8", 0.03), {**row("1", 0.04), "flow": "phi0.45-s23"}]).splitlines()
+        self.assertEqual([line.split(" | ")[0].strip("| ") for line in lines[2:]], ["0.8", "2"])
+        self.assertIn("| 2 | 60 | 0.030 [0.030, 0.030] |", lines[2])
+
     def test_b_by_time_has_a_column_for_each_start(self):
         row = lambda of, what, value: {"of": of, "what": what, "value": value, "low": value - 0.01, "high": value + 0.01, "over": "4 blocks"}
         text = answers.stages([row("+q", "j", 0.2), row("a 5-20 s", "B", 0.05), row("b 5-20 s", "B", 0.03), row("a 5-20 s", "B over 3 classes", 0.04),

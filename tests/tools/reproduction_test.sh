@@ -21,4 +21,7 @@ done
 for picture in "$source"/docs/studies/figures/reproduction/*.png; do
   [ "$(head -c 4 "$folder/figures/$(basename "$picture")" | tail -c 3)" = PNG ]
 done
+# The same figure as a PDF.
+PWD=$folder make --no-print-directory -C "$source/scripts" figures/step.pdf figures/kinetic-ratio.pdf BIN="$bin" WORK="$folder/work" >>"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
+for name in step kinetic-ratio; do [ "$(head -c 5 "$folder/work/$name.pdf")" = %PDF- ]; done
 ! grep -q grseg-sim "$folder/log"
