@@ -994,8 +994,12 @@ class Table:
         return self.values[:, self._place[column]]
 
     def tensor(self, stem):
+        """[rows, D, D]; NaN where the table was kept without a component."""
+        def component(a, b):
+            name = f"{stem}_{a}{b}"
+            return self[name] if name in self or a == b else np.full(len(self), np.nan)
         axes = "xyz"[:self.dimension]
-        return np.stack([np.stack([self[f"{stem}_{a}{b}"] for b in axes], axis=-1) for a in axes], axis=-2)
+        return np.stack([np.stack([component(a, b) for b in axes], axis=-1) for a in axes], axis=-2)
 
     def number(self, key):
         """A positive number of the header."""
