@@ -3,6 +3,7 @@
 #include "formats/cli/tool.hpp"
 #include "sim/run/expected_cost.hpp"
 #include "sim/run/run.hpp"
+#include "sim/run/run_files.hpp"
 #include "sim/scene/keys/keys.hpp"
 #include "sim/scene/keys/resolve.hpp"
 #include "sim/solver/sweep.hpp"
@@ -32,6 +33,9 @@ void add_run_options(po::options_description& options, RunOptions& run)
       "SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU");
   add("checkpoint-every", po::value(&run.checkpoint_every)->default_value(60),
       "s of wall time between checkpoints");
+  add("continue", po::bool_switch(&run.continues),
+      "continue from --checkpoint where that is there, else begin: one command for a run that may be "
+      "interrupted");
   add("restart", po::value(&run.restart)->value_name("FILE"),
       "continue from this checkpoint, bitwise as an uninterrupted run; SCENE.ini may be left out. "
       "A key that differs from the checkpoint's begins a new trajectory; keys of the bed cannot "
@@ -48,11 +52,20 @@ void check(const RunOptions& run, const po::variables_map& given)
     throw UsageError("--checkpoint-every must be a time in seconds, 0 or more");
   if (run.estimate && !run.restart.empty())
     throw UsageError("--estimate is of a whole run; leave out --restart");
+  if (run.continues && (run.checkpoint.empty() || !run.restart.empty()))
+    throw UsageError("--continue goes on from --checkpoint FILE, without --restart");
   if (run.restart.empty() && (given.count("perturb") > 0 || given.count("seed-perturbation") > 0))
     throw UsageError("--perturb displaces the grains of a checkpoint; name one with --restart");
   if (!(run.perturbation.size >= 0 && run.perturbation.size <= largest_perturbation))
     throw UsageError(fmt::format("--perturb is {:g}: it must lie between 0 and {:g} d_S",
                                  run.perturbation.size, largest_perturbation));
+}
+
+/// Whether `checkpoint` is the end of the run of `scene` that is in `output`.
+bool is_finished(const Checkpoint& checkpoint, const Scene& scene, const std::string& output)
+{
+  return checkpoint.state.steps_done >= scene.steps_in_all() && holds_something(output) &&
+         !holds_something(part_of(output));
 }
 
 void begin(const Scene& scene, const RunOptions& run)
@@ -78,8 +91,7 @@ int main(int argc, char** argv)
       "  grseg-sim chute.ini --phi-large 0.45 --slope 21 --duration 60 -o slow.h5\n"
       "  grseg-sim chute.ini --accuracy draft --duration 20 -o quick.h5\n"
       "  grseg-sim chute.ini --slope 10 --slope-rate 2.5 --duration 8 -o steeper.h5\n"
-      "  grseg-sim chute.ini --checkpoint run.chk -o run.h5\n"
-      "  grseg-sim --restart run.chk -o run.h5               after an interruption\n"
+      "  grseg-sim chute.ini --checkpoint run.chk --continue -o run.h5    the same after an interruption\n"
       "  grseg-sim --restart run.chk --duration 300 -o more.h5\n"
       "  grseg-sim --restart run.chk --perturb 1e-6 --seed-perturbation 2 -o twin.h5\n"};
   RunOptions run;
@@ -97,10 +109,15 @@ int main(int argc, char** argv)
     if (run.output.empty() && !run.estimate)
       throw UsageError("name the trajectory to write: -o run.h5");
     if (!inputs.empty()) run.scene_file = inputs[0];
+    if (run.continues && holds_something(run.checkpoint)) run.restart = run.checkpoint;
     if (run.restart.empty()) return begin(resolve_scene(inputs[0], given), run);
     const auto checkpoint = read_checkpoint(run.restart);
     const auto scene =
         inputs.empty() ? scene_of(checkpoint, run.restart, given) : resolve_scene(inputs[0], given);
+    if (run.continues && is_finished(checkpoint, scene, run.output)) {
+      if (!run.quiet) fmt::print(stderr, "grseg-sim: {} is finished\n", run.output);
+      return;
+    }
     if (given.count("seed-perturbation") == 0) run.perturbation.seed = scene.seed;
     resume(checkpoint, scene, run);
   });

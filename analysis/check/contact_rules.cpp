@@ -27,6 +27,7 @@ ContactRules read_contact_rules(const TrajectoryReader& run)
   rules.friction = parameters.find_number("friction");
   rules.restitution = parameters.find_number("restitution");
   rules.step = run.step();
+  rules.accuracy = parameters.text("accuracy");
   const auto& radius = run.grains().radius;
   rules.margin = 1e-9 * 2 * *std::min_element(radius.begin(), radius.end());
   const auto law = parameters.text("contact_law");

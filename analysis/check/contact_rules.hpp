@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 namespace grseg {
 
@@ -16,8 +17,9 @@ struct ContactRules {
   /// Steps of free flight from mid-step after which a pair must touch to exert a force; 0: at
   /// mid-step.
   double look_ahead = 0;
-  double margin = 0;   // m, within which a pair counts as touching then
-  double horizon = 0;  // steps in which a pair that is still apart may close its gap; 0: may not
+  double margin = 0;     // m, within which a pair counts as touching then
+  std::string accuracy;  // preset of the solver, "" where the file names none
+  double horizon = 0;    // steps in which a pair that is still apart may close its gap; 0: may not
 };
 
 /// Of runs that name no contact law it is that of pairs that touch at mid-step. FormatError where

@@ -236,6 +236,11 @@ void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
   add(named("approach_largest"), named("approach_mean"), contacts_.approach(), small_diameter_,
       has_force_ ? no_restitution : no_velocities);
   add(named("overlap_largest"), named("overlap_mean"), contacts_.overlap(), small_diameter_);
+  if (rules_.accuracy != "draft") return;
+  for (auto& line : lines)
+    if (line.verdict == Verdict::failed &&
+        (line.quantity.starts_with("approach") || line.quantity.starts_with("overlap")))
+      line.remark += "; the tolerance is that of standard, and this run is a draft";
 }
 
 /// Why no layer can be held against the weight above it, or "".

@@ -16,7 +16,8 @@ struct RunOptions {
   bool strict = false;
   bool quiet = false;
   bool force = false;            ///< begin even if memory or disk have too little room
-  bool estimate = false;         // print the cost of the run instead
+  bool estimate = false;         ///< print the cost of the run instead
+  bool continues = false;        ///< restart from `checkpoint` if it is there
   std::string instruction_set;   ///< "" for the best
   std::string checkpoint;        ///< file to write, "" for none
   double checkpoint_every = 60;  ///< s of wall time

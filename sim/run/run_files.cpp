@@ -53,6 +53,10 @@ void check_outputs(const RunOptions& options)
             "checkpoint and trajectory cannot be one file; name another for --checkpoint");
   for (const auto& own : {checkpoint, previous_of(checkpoint)}) {
     if (same_file(checkpoint, options.restart)) break;
+    if (!options.overwrite && holds_something(own) && holds_something(part_of(options.output)))
+      throw UsageError(fmt::format(
+          "{} and {} are of an interrupted run: --continue goes on with it, --overwrite begins again",
+          own, part_of(options.output)));
     if (!same_file(own, options.restart)) check_output(own, options.overwrite, inputs);
   }
   refuse_input_as_output(part_of(checkpoint), inputs);

@@ -85,10 +85,12 @@ std::string doubts(const StepTotals& t, const Scene& scene)
 {
   std::string lines;
   if (t.missed > 0)
-    lines += line("doubt", fmt::format("{} missed the tolerance: raise --max-sweeps, now {}, "
-                                       "or choose a smaller --step",
-                                       counted(static_cast<std::size_t>(t.missed), "step"),
-                                       scene.solver.max_sweeps));
+    lines += line(
+        "doubt",
+        fmt::format(
+            "{} missed the tolerance, and forces of these steps are less exact: raise --max-sweeps, now {}, "
+            "or choose a smaller --step",
+            counted(static_cast<std::size_t>(t.missed), "step"), scene.solver.max_sweeps));
   if (t.divided > 0)
     lines += line("remark",
                   fmt::format("{} {} taken in parts, because grains might have "
@@ -96,14 +98,17 @@ std::string doubts(const StepTotals& t, const Scene& scene)
                               counted(static_cast<std::size_t>(t.divided), "step"),
                               t.divided == 1 ? "was" : "were"));
   if (t.mean_overlap() > small_overlap * scene.small_diameter)
-    lines += line("doubt", fmt::format("the mean overlap is above {:g} d_S: choose a smaller "
-                                       "--step or a larger --min-sweeps",
-                                       small_overlap));
+    lines +=
+        line("doubt", fmt::format("the mean overlap is above {:g} d_S: contacts per grain, gaps "
+                                  "and, by some per cent, velocities suffer, B and the order of "
+                                  "rules hardly; choose a smaller --step or a larger --min-sweeps",
+                                  small_overlap));
   if (t.passed_into(scene.small_diameter))
-    lines += line("doubt",
-                  fmt::format("two grains, or one and a wall, overlapped by more than {:g} d_S: "
-                              "choose a smaller --step or a larger --min-sweeps",
-                              deep_overlap));
+    lines += line(
+        "doubt",
+        fmt::format("two grains, or one and a wall, overlapped by more than {:g} d_S, "
+                    "and forces there are wrong: choose a smaller --step or a larger --min-sweeps",
+                    deep_overlap));
   return lines;
 }
 

@@ -48,6 +48,22 @@ for pair in INT:130 TERM:143 HUP:129 USR1:138 USR2:140 XCPU:152; do
 done
 mv runTERM.chk run.chk
 
+# One command begins a run, continues it after a kill, and leaves it alone when it is finished.
+# shellcheck disable=SC2086
+stopped KILL on.chk 0.05 $chute --duration 10 --continue -o on.h5
+# shellcheck disable=SC2086
+refused 2 "on.chk and on.h5.part are of an interrupted run: --continue goes on with it, --overwrite begins again" \
+  $chute --duration 10 --checkpoint on.chk -o on.h5
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 10 --checkpoint on.chk --continue -o on.h5
+content on.h5 | cmp - whole || fail "--continue changed the run"
+before=$(cksum on.h5)
+# shellcheck disable=SC2086
+$bin/grseg-sim $chute --duration 10 --checkpoint on.chk --continue -o on.h5 2>words
+grep -q '^grseg-sim: on.h5 is finished$' words && [ "$(cksum on.h5)" = "$before" ] || fail "a finished run: $(cat words)"
+# shellcheck disable=SC2086
+refused 2 "--continue goes on from --checkpoint FILE, without --restart" $chute --continue -o other.h5
+
 # nohup keeps SIGHUP from the run.
 ( trap '' HUP
   # shellcheck disable=SC2086
