@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_report.hpp"
 
+#include "formats/cli/numbers.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/core/text.hpp"
@@ -131,12 +132,12 @@ class NumbersOf {
   std::string rule_ = rule_name(report_, fit_);
 };
 
-/// Of the settings in which flows differ, those of a row; NaN of all flows together.
-std::vector<double> settings_of(const FitReport& report, const NumberRow& row)
+/// The settings of a row's flow in which flows differ; nan of all flows together.
+std::vector<std::string> settings_of(const FitReport& report, const NumberRow& row)
 {
-  std::vector<double> values;
+  std::vector<std::string> values;
   for (std::size_t k = 0; k < report.flows.front().settings.size(); ++k)
-    values.push_back(row.of_flow ? report.flows[*row.of_flow].settings[k].second : Estimators::nan);
+    values.push_back(row.of_flow ? report.flows[*row.of_flow].settings[k].second : "nan");
   return values;
 }
 
@@ -162,7 +163,7 @@ std::string rule_table(const FitReport& report)
     for (const double number : {row.number.value, row.number.low, row.number.high, row.degrees})
       cells.push_back(format_number(number));
     if (!names.empty())
-      for (const double number : settings_of(report, row)) cells.push_back(format_number(number));
+      for (auto& value : settings_of(report, row)) cells.push_back(std::move(value));
   }
   return table_text(header_of(report), columns, rows);
 }
@@ -194,7 +195,10 @@ Json row_object(const FitReport& report, const NumberRow& row)
               {"value", row.number.value}, {"low", row.number.low},
               {"high", row.number.high},   {"degrees_of_freedom", row.degrees}};
   if (row.of_flow)
-    for (const auto& [name, value] : report.flows[*row.of_flow].settings) object[name] = value;
+    for (const auto& [name, value] : report.flows[*row.of_flow].settings) {
+      const auto number = parse_number(value);
+      object[name] = number ? Json(*number) : Json(value);
+    }
   return object;
 }
 

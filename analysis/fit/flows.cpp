@@ -11,11 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace grseg {
@@ -40,6 +41,35 @@ constexpr FlowLine flow_lines[] = {{"dimension", "", "dimension"},
                                    {"step", "[s]", "step"},
                                    {"length", "[m]", "length of the cell"},
                                    {"length_z", "[m]", "length of the cell"}};
+
+/// Keys of a scene that make no other flow, and those that other lines or the composition tell.
+constexpr std::string_view keys_left_out[] = {
+    "seed",    "duration",       "frame-interval", "burst",   "keep-deposition", "compression",
+    "store",   "small-diameter", "size-ratio",     "density", "friction",        "restitution",
+    "gravity", "slope",          "step",           "length",  "phi-large",       "large-grains"};
+constexpr std::string_view keys_in_metres[] = {
+    "depth",        "base-diameter", "base-height-spread", "base-spacing", "drum-diameter",
+    "column-width", "outlet",        "shake-amplitude"};
+
+template <class List>
+bool holds(const List& list, std::string_view word)
+{
+  return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
+
+/// What the line "# scene: KEY = VALUE; ..." of a table says that tells its flow from others; nothing
+/// where it has no such line.
+std::map<std::string, std::string> scene_of(const Table& table)
+{
+  std::map<std::string, std::string> scene;
+  std::istringstream words(header_or(table, "scene", ""));
+  for (std::string word; std::getline(words >> std::ws, word, ';');) {
+    const auto equals = word.find(" = ");
+    if (equals != std::string::npos && !holds(keys_left_out, word.substr(0, equals)))
+      scene[word.substr(0, equals)] = word.substr(equals + 3);
+  }
+  return scene;
+}
 
 /// "unknown" where the table has no such line.
 std::string value_of(const Table& table, const char* key)
@@ -69,6 +99,20 @@ bool agree(const Table& one, const Table& other, const FlowLine& line)
   const auto x = parse_number(a), y = parse_number(b);
   if (x && y) return near(*x, *y, line.tolerance);
   return same_species(parse_species(a), parse_species(b), line.tolerance);
+}
+
+/// The keys of which the scenes of both tables have different values.
+std::vector<std::string> scene_differences(const Table& one, const Table& other)
+{
+  std::vector<std::string> keys;
+  const auto theirs = scene_of(other);
+  for (const auto& [key, value] : scene_of(one)) {
+    const auto found = theirs.find(key);
+    if (found == theirs.end() || found->second == value) continue;
+    const auto x = parse_number(value), y = parse_number(found->second);
+    if (!(x && y && near(*x, *y, 1e-6))) keys.push_back(key);
+  }
+  return keys;
 }
 
 /// Each species' part of all rows' contents, weighted by frames.
@@ -130,6 +174,7 @@ std::vector<Flow> by_likeness(const std::vector<FitTable>& tables)
     const auto is_own = [&](const Flow& flow) {
       const auto& first = *tables[flow.tables.front()].table;
       return same_composition(flow.composition, composition) &&
+             scene_differences(first, *tables[k].table).empty() &&
              std::all_of(std::begin(flow_lines), std::end(flow_lines), [&](const FlowLine& line) {
                return agree(first, *tables[k].table, line);
              });
@@ -160,6 +205,36 @@ std::string composition_words(const Flow& flow)
   return words;
 }
 
+/// Adds a setting in which flows differ: a column, and a part of the flow's name.
+void add_setting(Flow& flow, const std::string& key, const std::string& unit,
+                 const std::string& value)
+{
+  const auto number = parse_number(value);
+  flow.settings.emplace_back(key + unit, value);
+  flow.name += fmt::format(", {} = {}", key, number ? fmt::format("{:.4g}", *number) : value);
+}
+
+/// Adds the keys of scenes in which flows differ.
+void describe_scene(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTable>& tables)
+{
+  const auto table_of = [&](const Flow& of) -> const Table& {
+    return *tables[of.tables.front()].table;
+  };
+  std::set<std::string> keys;
+  for (const auto& one : all)
+    for (const auto& other : all)
+      for (auto& key : scene_differences(table_of(one), table_of(other))) keys.insert(key);
+  const auto own = scene_of(table_of(flow));
+  for (const auto& key : keys) {
+    const auto value = own.find(key);
+    add_setting(flow, key,
+                holds(keys_in_metres, key) ? "[m]"
+                : key == "slope-rate"      ? "[degree/s]"
+                                           : "",
+                value == own.end() ? "unknown" : value->second);
+  }
+}
+
 /// Adds what tells a flow from the others to its name and settings.
 void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTable>& tables)
 {
@@ -178,17 +253,14 @@ void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTab
   const bool inclined = dimension_of(own) == 2 && own.has_header("gravity_x") &&
                         own.has_header("gravity_y") && differ("gravity_x") && differ("gravity_y");
   if (inclined) {
-    flow.settings.emplace_back("slope[degree]", slope_of(own));
+    flow.settings.emplace_back("slope[degree]", format_number(slope_of(own)));
     flow.name += fmt::format(", slope = {:.4g} degrees", slope_of(own));
   }
   for (const auto& [key, unit, what, tolerance] : flow_lines) {
     if (!differ(key) || (inclined && std::string(key).starts_with("gravity"))) continue;
-    const auto value = value_of(own, key);
-    const auto number = parse_number(value);
-    flow.settings.emplace_back(std::string(key) + unit,
-                               number.value_or(std::numeric_limits<double>::quiet_NaN()));
-    flow.name += fmt::format(", {} = {}", key, number ? fmt::format("{:.4g}", *number) : value);
+    add_setting(flow, key, unit, value_of(own, key));
   }
+  describe_scene(flow, all, tables);
 }
 
 }  // namespace
@@ -204,6 +276,9 @@ std::string grouping_words(const std::string& grouping, const std::vector<Table>
     if (known && (recorded.empty() || recorded.back() != line.what))
       recorded.emplace_back(line.what);
   }
+  if (std::any_of(tables.begin(), tables.end(),
+                  [](const Table& table) { return table.has_header("scene"); }))
+    recorded.emplace_back("keys of the scene");
   return fmt::format(
       "runs of one flow agree in what their tables record of the flow ({}), diameters to {:g} %, "
       "and in overall composition, to {:g}",

@@ -15,8 +15,8 @@ struct Flow {
   std::string name;                 // "Phi_L = 0.06, slope = 21 degrees": what tells it from others
   std::vector<double> composition;  // each species' part of the grains' area, volume or mass
   std::vector<std::size_t> tables;  // numbers in the list of tables
-  // What flows differ in but for their composition: "slope[degree]"; NaN where it is no number.
-  std::vector<std::pair<std::string, double>> settings = {};
+  // What flows differ in but for their composition: "slope[degree]" and "21", "initial" and "mixed".
+  std::vector<std::pair<std::string, std::string>> settings = {};
 
   double phi_large() const { return composition.back(); }
 };
@@ -37,9 +37,9 @@ std::string grouping_words(const std::string& grouping, const std::vector<Table>
 ///
 /// grouping "auto": tables are of one flow where the lines of their headers agree that are about
 /// the flow (diameters, density, friction, restitution, gravity, step, length of the cell, species;
-/// numbers to 1e-6, diameters to diameter_tolerance) and so do their overall compositions, to composition_tolerance. A line that one
-/// table has and another lacks tells them apart. What tables do not record cannot: the spread of
-/// radii, the base, and in older tables density, friction and restitution. "4,4,2": the first four
+/// numbers to 1e-6, diameters to diameter_tolerance) and so do their overall compositions, to composition_tolerance, and the keys of
+/// their scenes, where both state one (all but seed, times and storage: "initial", "base", "spread"
+/// ...). Another line that one table has and another lacks tells them apart. "4,4,2": the first four
 /// tables are of one flow, and so on; UsageError where these numbers do not add up to that of the
 /// tables.
 std::vector<Flow> find_flows(std::vector<FitTable>& tables, const std::string& grouping);

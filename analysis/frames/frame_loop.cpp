@@ -236,6 +236,16 @@ Header bins_lines(const Layers& layers)
   return lines;
 }
 
+/// "initial = mixed; base = grains": the scene of a run of grseg-sim, in SI; "" of other runs.
+std::string scene_in_one_line(const TrajectoryReader& run)
+{
+  auto text = run.parameters().text("scene");
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (auto at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2))
+    text.replace(at, 1, "; ");
+  return printable(text);
+}
+
 }  // namespace
 
 Table FrameLoop::make_table(const std::string& command,
@@ -281,6 +291,8 @@ Table FrameLoop::make_table(const std::string& command,
   add("stride", static_cast<double>(options_.windows.stride));
   for (auto& line : bins_lines(layers_)) header.push_back(std::move(line));
   const auto origin = run_.parameters().text("origin");
+  if (const auto scene = scene_in_one_line(run_); !scene.empty())
+    header.emplace_back("scene", scene);
   header.emplace_back("origin", origin.empty() ? "unknown" : printable(origin));
   header.insert(header.end(), settings.begin(), settings.end());
 

@@ -949,13 +949,14 @@ def _run_header(run, layers, length, stride):
     numbers |= {"layer": layers.h, "window": length, "stride": stride}
     numbers |= {key: run.parameters[key] for key in ("density", "friction", "restitution")
                 if isinstance(run.parameters.get(key), float)}
+    scene = {"scene": "; ".join(run.parameters["scene"].split("\n")).rstrip("; ")} if run.parameters.get("scene") else {}
     header = {"program": "grseg.py", "input": f"xxh3 {run.digest}", "bed": _bed_line(run),
               "verified": "no, grseg.py has no digests"}
     if run.dimension == 3:
         header["dimension"] = "3"
     if [one.name for one in run.species] != ["small", "large"]:
         header["species"] = ", ".join(f"{one.name} {one.diameter!r}" for one in run.species)
-    return header | {key: f"{value:.17g}" for key, value in numbers.items()}
+    return header | {key: f"{value:.17g}" for key, value in numbers.items()} | scene
 
 
 class Table:
@@ -1076,6 +1077,9 @@ def read_table(path):
 
 _Source = collections.namedtuple("_Source", "input bed history")  # of a run; what the tools made is not history
 _Bed = collections.namedtuple("_Bed", "grains varied come_and_go seed flow")
+# Keys of a scene that make no other flow; other lines of the header or the composition tell the rest of them.
+_NO_OTHER_FLOW = {"seed", "duration", "frame-interval", "burst", "keep-deposition", "compression", "store", "small-diameter",
+                  "size-ratio", "density", "friction", "restitution", "gravity", "slope", "step", "length", "phi-large", "large-grains"}
 _OF_NO_EFFECT = {"duration", "frame-interval", "burst", "keep-deposition", "compression", "store", "threads", "isa",
                  "restart", "checkpoint", "output", "checkpoint-every", "strict", "overwrite", "quiet"}
 
@@ -1522,11 +1526,19 @@ class Points:
         def composition(table):
             content = table["frames"] @ self._contents(table)
             return content / content.sum()
+
+        def scene(table):
+            pairs = (word.split(" = ", 1) for word in table.header.get("scene", "").split("; ") if " = " in word)
+            return {key: value for key, value in pairs if key not in _NO_OTHER_FLOW}
+
+        def same_scene(a, b):
+            return all(near(a[key], b[key], 1e-6) for key in a.keys() & b.keys())
         first, facts = tables[0], ("dimension", "density", "friction", "restitution", "gravity_x", "gravity_y", "gravity_z",
                                    "step", "length", "length_z")
         return all([one.name for one in table.species] == [one.name for one in first.species]
                    and all(near(one.diameter, other.diameter, 0.01) for one, other in zip(table.species, first.species))
                    and all(near(*(t.header.get(key, "unknown") for t in (table, first)), 1e-6) for key in facts)
+                   and same_scene(scene(table), scene(first))
                    and (abs(composition(table) - composition(first)) <= 0.02).all() for table in tables[1:])
 
     @functools.cached_property

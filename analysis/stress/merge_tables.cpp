@@ -40,7 +40,7 @@ using Parts = std::map<Times, Part>;
 
 bool is_source(const std::string& key)
 {
-  return key == "history" || key == "input" || key == "bed";
+  return key == "history" || key == "input" || key == "bed" || key == "scene";
 }
 
 std::vector<std::string> inputs_of(const Table& table)

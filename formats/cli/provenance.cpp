@@ -61,7 +61,7 @@ Header settings_of(const Table& table)
 {
   Header settings = table.header;
   std::erase_if(settings, [](const HeaderLine& line) {
-    for (const char* key : {"program", "history", "input", "bed", "verified", "incomplete",
+    for (const char* key : {"program", "history", "input", "bed", "scene", "verified", "incomplete",
                             "undecided", "waived", "doubt"})
       if (line.first == key) return true;
     return false;

@@ -97,8 +97,8 @@ TEST(FitReport, WhatFlowsDifferInHasAColumnWithItsUnit)
 {
   auto report = report_with_seed(1);
   report.scan.reset();
-  report.flows = {{"slope = 21 degrees", {0.7, 0.3}, {0}, {{"slope[degree]", 21}}},
-                  {"slope = 26 degrees", {0.7, 0.3}, {1}, {{"slope[degree]", 26}}}};
+  report.flows = {{"slope = 21 degrees", {0.7, 0.3}, {0}, {{"slope[degree]", "21"}}},
+                  {"slope = 26 degrees", {0.7, 0.3}, {1}, {{"slope[degree]", "26"}}}};
   report.shares = {0.25, 0.75};
   report.rules.resize(1);
   report.rules.push_back(report.rules[0]);

@@ -118,6 +118,29 @@ TEST(Flows, DiametersMeasuredOnTheGrainsOfSeedsAreThoseOfOne)
   EXPECT_EQ(flows[0].tables, (Numbers{0, 1}));
 }
 
+// Whether grains began mixed, and how deep the bed is, stands in the scene alone; seeds and times make no other flow.
+TEST(Flows, DifferInTheKeysOfTheirScenesButSeedsAndTimes)
+{
+  int runs = 0;
+  const auto of_scene = [&runs](const char* scene) {
+    auto table = run_of(0.3 + 1e-6 * runs++);
+    if (scene[0] != 0) table.header.emplace_back("scene", scene);
+    return table;
+  };
+  const std::vector<Table> tables{
+      of_scene("initial = mixed; depth = 0.3; seed = 1; duration = 60"),
+      of_scene("initial = mixed; depth = 0.30000000000001; seed = 2; duration = 150"),
+      of_scene("initial = large-below; depth = 0.3; seed = 1; duration = 60"),
+      of_scene("initial = mixed; depth = 0.6; seed = 1; duration = 60"), of_scene("")};
+  auto read = read_all(tables);
+  const auto flows = find_flows(read, "auto");
+  ASSERT_EQ(flows.size(), 3u);
+  EXPECT_EQ(flows[0].tables, (Numbers{0, 1, 4}));
+  EXPECT_EQ(flows[1].name, "Phi_L = 0.30, depth = 0.3, initial = large-below");
+  ASSERT_EQ(flows[2].settings.size(), 2u);
+  EXPECT_EQ(flows[2].settings[0], (std::pair<std::string, std::string>{"depth[m]", "0.6"}));
+}
+
 // What begins with the same number need not be the same.
 TEST(Flows, AListIsNotItsFirstNumber)
 {
