@@ -9,6 +9,8 @@ export class Transport {
   constructor(all) {
     const times = all.flatMap((frames) => frames.times).sort((a, b) => a - b);
     this.times = times.filter((time, k) => k === 0 || time - times[k - 1] > 1e-9);
+    const step = (this.times[this.times.length - 1] - this.times[0]) / (this.times.length - 1);
+    this.digits = Math.min(6, Math.max(2, Math.ceil(-Math.log10(step)) || 0)); // that tell frames apart
     this.slider = byId("frame");
     this.slider.max = this.times.length - 1;
     this.slider.addEventListener("input", () => this.goTo(this.slider.valueAsNumber));
@@ -52,7 +54,7 @@ export class Transport {
 
   show() {
     this.slider.value = this.number;
-    const text = `${fixed(state.time, 2)} s`;
+    const text = `t = ${fixed(state.time, this.digits)} s`;
     this.slider.setAttribute("aria-valuetext", text);
     byId("time").textContent = text;
   }
