@@ -59,10 +59,13 @@ FAULTS = [
      'addEventListener("change", recolour)', 'addEventListener("change", forgetColours)'),
     ("colours: of a tab that is not shown they stay", PAGE + "main.js",
      "const recolour = () => {", 'const recolour = () => {\n    if (byId("explore").hidden) return;'),
+    ("address: of a link to several runs the first is shown", PAGE + "address.js", "if (page.fits[run])", "if (false)"),
     ("captions: a line without its piece", PAGE + "report.js",
      '["z_S", "small", "small grains"], ["z_L", "large", "large grains"]', '["z_S", "small", "small grains"], ["z_L", "large"]'),
     ("captions: a look that nothing is drawn in", PAGE + "scatter.js", '["neutral", "each its share"]', '["zero", "each its share"]'),
     ("numbers: two that differ read alike", PAGE + "format.js", "?? written[0]", "&& written[0]"),
+    ("address: the time is not in it", PAGE + "address.js", "if (Number.isFinite(time)) page.transport", "if (!time) page.transport"),
+    ("address: each choice is a step to go back by", PAGE + "address.js", "window.history.replaceState", "window.history.pushState"),
     # What the page is given.
     ("codes: rounded down", "analysis/explore/quantisation.hpp", "std::round((value - from()) / step())",
      "std::floor((value - from()) / step())"),

@@ -51,7 +51,7 @@ def close(a, b, what, tolerance=1e-9):
 class Page:
     """A page in headless Chromium; leaving it asserts that the browser had nothing to complain about."""
 
-    def __init__(self, path, size=DESK):
+    def __init__(self, path, size=DESK, link=""):
         options = webdriver.ChromeOptions()
         for word in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
                      f"--user-data-dir={os.path.abspath(PROFILE)}"):
@@ -60,7 +60,7 @@ class Page:
         service = webdriver.chrome.service.Service(DRIVER)
         self.driver = webdriver.Chrome(service=service, options=options)
         self.resize(*size)
-        self.driver.get("file://" + os.path.abspath(path))
+        self.driver.get("file://" + os.path.abspath(path) + link)
         self.until("document.documentElement.dataset.ready || document.getElementById('trouble').textContent")
         assert self.text("trouble") == "", self.text("trouble")
 
@@ -439,6 +439,35 @@ def check_numbers(page):
     options = page.run("return Array.from(document.getElementById('speed').options, (o) => o.textContent)")
     assert options[1] == "12 frames/s", options
     assert re.fullmatch(r"t = [\d.]+ s", page.text("time")), page.text("time")
+
+
+def check_address():
+    """The address tells what is shown, and shows it again; it leaves no steps to go back by."""
+    with Page("page.html") as page:
+        assert page.run("return window.location.hash") == "", "nothing has been chosen"
+        page.run("grseg.set({rule: {kind: 'uniform', value: 0.62}, grain: 7})")
+        page.keys("l", "m", Keys.ARROW_RIGHT)
+        time, row = page.run("return [grseg.state.time, grseg.page.players[0].frames.arrays.row[7]]")
+        page.until("window.location.hash")
+        page.run("document.getElementById('tab-report').click()")
+        page.until("window.location.hash.startsWith('#report')")
+        told = page.run("return window.location.hash")
+        assert told == f"#report&rule=uniform:0.62&time={time:.6g}&grain=1:{row}&draw=grains,forces,mixed,layers", told
+        assert page.run("return window.history.length") == 2, "the empty page, and this one"
+        page.run("window.location.hash = '#explore&rule=half&time=3.21&draw=forces'")
+        page.until("grseg.state.rule.kind === 'half'")
+        assert not page.run("return document.getElementById('explore').hidden")
+    with Page("page.html", link=told) as page:
+        shown = page.run("return [grseg.state.rule, grseg.state.time, grseg.state.grain, grseg.state.onlyMixed, document.getElementById('only-mixed').checked, document.getElementById('report').hidden]")
+        assert shown == [{"kind": "uniform", "value": 0.62}, time, 7, True, True, False], shown
+        page.run("document.getElementById('tab-explore').click()")
+        page.settle()
+        close(float(page.text("b-value").replace("−", "-")), page.run("return grseg.fit(0, 'uniform:0.62').B"), "B of the link", 6e-4)
+    for odd in ("#report", "#rule=nonsense&time=x&run=9&grain=3:77777&draw=", "#&&=%E0%A4%A", "#rule=uniform:&run=-1"):
+        with Page("page.html", link=odd) as page:
+            assert page.run("return document.getElementById('report').hidden") == (odd != "#report")
+            assert page.run("return Number.isFinite(grseg.state.time) && grseg.state.run === 0 && grseg.state.grain === -1"), odd
+            page.run("document.getElementById('tab-explore').click()")
 
 
 def check_grain(page):
@@ -834,6 +863,9 @@ def check_several():
         assert page.run("return grseg.state.run") == 2
         assert "nominal" in page.text("q-note"), "tables have no sums by power:Q"
         page.shoot("explore-two")
+    with Page("two.html", link="#explore&run=3&rule=half&grain=2:5") as page:
+        assert page.run("return [grseg.state.run, grseg.state.player, document.getElementById('explore').hidden]") == [2, 1, False]
+        close(float(page.text("b-value").replace("−", "-")), expected["half"]["B"]["value"], "B of all runs", 6e-4)
     refused = subprocess.run([f"{BIN}/grseg-explore", "1.h5", "2.tsv", "-o", "no.html"], capture_output=True, text=True)
     assert refused.returncode == 3 and "2.tsv: is of the run with the digest xxh3" in refused.stderr, refused.stderr
     assert not os.path.exists("no.html")
@@ -876,6 +908,7 @@ def main():
         page.run("document.getElementById('theme').click()")
         page.settle()
         assert page.run("return getComputedStyle(document.body).backgroundColor") == "rgb(20, 23, 26)"
+    check_address()
     check_hostile()
     check_species()
     check_edges()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads what the page holds, makes its parts, and tells them what the reader has chosen.
 
+import {boxes, keepAddress, restore} from "./address.js";
 import {Compare} from "./compare.js";
 import {readArrays, readContent} from "./data.js";
 import {byId, element, forgetColours, keys} from "./format.js";
@@ -44,6 +45,7 @@ function showTab(name) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(tab === name));
     byId(`tab-${tab}`).tabIndex = tab === name ? 0 : -1;
   }
+  set({tab: name});
   window.scrollTo(0, 0);
   window.dispatchEvent(new Event("resize")); // what has changed meanwhile is drawn
 }
@@ -101,6 +103,8 @@ function heightOf(some) {
 class Page {
   constructor() {
     this.fits = [...runs, ...(content.together ? [content.together] : [])].map((one) => one.fit ?? null);
+    this.showTab = showTab;
+    this.ruleWords = content.rules.filter((rule) => rule.stock).map((rule) => rule.word);
     const rule = parseRule(content.start);
     const first = this.fits.findIndex(Boolean);
     Object.assign(state, {rule, run: Math.max(0, first), player: Math.max(0, first)});
@@ -116,7 +120,7 @@ class Page {
     ]);
     if (first >= 0) this.#makePlots();
     this.#hideWhatIsMissing();
-    for (const [id, name] of [["show-grains", "showGrains"], ["show-forces", "showForces"], ["only-mixed", "onlyMixed"], ["show-layers", "showLayers"]])
+    for (const [, id, name] of boxes)
       byId(id).addEventListener("change", (event) => set({[name]: event.target.checked}));
     listen((names) => this.#follow(names));
   }
@@ -236,7 +240,7 @@ function listenToAll(page) {
     },
     tab: showTab,
     theme,
-    rules: content.rules.filter((rule) => rule.stock).map((rule) => rule.word),
+    rules: page.ruleWords,
   });
 }
 
@@ -249,7 +253,10 @@ async function start() {
   listenToAll(page);
   writeReport(content, content.together);
   page.transport.goTo(Math.floor(page.transport.times.length / 2));
-  showTab(window.location.hash === "#report" || (content.tab === "report" && window.location.hash !== "#explore") ? "report" : "explore");
+  showTab(content.tab ?? "explore");
+  restore(page);
+  flush();
+  keepAddress(page);
   // For the console, and for tests: fit(0, "uniform:0.65") is what the page shows of the first run.
   window.grseg = {
     content,

@@ -24,6 +24,10 @@ export class Transport {
   goTo(number) {
     set({time: this.times[number]});
   }
+  goToTime(time) {
+    const away = this.times.map((own) => Math.abs(own - time));
+    this.goTo(away.indexOf(Math.min(...away)));
+  }
   step(by) {
     this.stop();
     this.goTo((this.number + by + this.times.length) % this.times.length);
