@@ -162,7 +162,7 @@ export class GrainPanel {
     const words = !flat
       ? "The plane shows some of its contacts; what rules give it of all of them is not in the page."
       : mixed.length
-      ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species bear Σ fy ℓy = ${short(whole, 3)} N m. By each rule it gets`
+      ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species ${mixed.length > 1 ? "bear" : "bears"} Σ fy ℓy = ${short(whole, 3)} N m. By each rule it gets`
       : "It has no contact with the other species: no rule gives or takes.";
     this.contacts.replaceChildren(heading, rows.length ? element("div", {class: "scroll"}, table(heads, rows)) : "");
     this.rulesOfIt.replaceChildren(
