@@ -51,7 +51,7 @@ def close(a, b, what, tolerance=1e-9):
 class Page:
     """A page in headless Chromium; leaving it asserts that the browser had nothing to complain about."""
 
-    def __init__(self, path, size=DESK):
+    def __init__(self, path, size=DESK, link=""):
         options = webdriver.ChromeOptions()
         for word in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
                      f"--user-data-dir={os.path.abspath(PROFILE)}"):
@@ -60,7 +60,7 @@ class Page:
         service = webdriver.chrome.service.Service(DRIVER)
         self.driver = webdriver.Chrome(service=service, options=options)
         self.resize(*size)
-        self.driver.get("file://" + os.path.abspath(path))
+        self.driver.get("file://" + os.path.abspath(path) + link)
         self.until("document.documentElement.dataset.ready || document.getElementById('trouble').textContent")
         assert self.text("trouble") == "", self.text("trouble")
 
@@ -96,6 +96,12 @@ class Page:
 
     def keys(self, *keys):
         ActionChains(self.driver).send_keys(*keys).perform()
+        self.settle()
+
+    def dark(self, is_dark):
+        """The system's mode."""
+        mode = "dark" if is_dark else "light"
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": mode}]})
         self.settle()
 
     def shoot(self, name):
@@ -157,7 +163,7 @@ def check_band(page):
     row = fitted("sums.tsv", "--partition", "half")["half"]["B"]
     number = lambda value: f"{value:.3f}".replace("-", "−")
     assert page.text("b-value") == number(row["value"]), page.text("b-value")
-    assert page.text("b-interval") == "[{}, {}]".format(*(number(row[end]) for end in ("low", "high"))), page.text("b-interval")
+    assert page.text("b-interval") == "[{}, {}] (95 %)".format(*(number(row[end]) for end in ("low", "high"))), page.text("b-interval")
 
 
 def check_interval_between(page):
@@ -348,6 +354,122 @@ def check_controls(page):
     page.keys(Keys.ESCAPE)
 
 
+def painted(page, canvas, name):
+    """How many pixels of a canvas have a colour of the sheet of this moment, to the last bit."""
+    return page.run("""
+      const probe = document.createElement("i");
+      probe.style.color = `var(--${arguments[1]})`;
+      document.body.append(probe);
+      const [r, g, b] = getComputedStyle(probe).color.match(/\\d+/g).map(Number);
+      probe.remove();
+      const {width, height} = document.querySelector(arguments[0]);
+      const copy = new OffscreenCanvas(width, height).getContext("2d", {willReadFrequently: true});
+      copy.drawImage(document.querySelector(arguments[0]), 0, 0);
+      const {data} = copy.getImageData(0, 0, width, height);
+      let n = 0;
+      for (let k = 0; k < data.length; k += 4) n += data[k] === r && data[k + 1] === g && data[k + 2] === b && data[k + 3] === 255;
+      return n""", canvas, name)
+
+
+def check_theme(page):
+    """When the system turns dark while the page is open, canvases do, too; also those of a tab that is not shown."""
+    def check(mode):
+        for canvas, names in (("#players canvas", ("small", "large", "ink")), ("#scatter-plot canvas", ("ink",))):
+            for name in names:
+                assert painted(page, canvas, name) > 20, (mode, canvas, name)
+    check("light")
+    page.dark(True)
+    check("dark")
+    page.run("document.getElementById('tab-report').click()")
+    page.dark(False)
+    page.run("document.getElementById('tab-explore').click()")
+    page.settle()
+    check("light, turned while the report was shown")
+    page.run("document.getElementById('theme').click()")
+    page.settle()
+    check("dark by the button")
+    page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    assert page.run("return getComputedStyle(document.body).color") == "rgb(26, 30, 35)", "paper is light"
+    page.run("delete document.documentElement.dataset.theme")
+    page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    page.dark(True)
+    page.dark(False)
+
+
+def check_captions(page):
+    """A piece of line in a caption looks like the line that is drawn, and every line of a figure has its piece; no caption names a colour."""
+    page.run("grseg.set({rule: {kind: 'size', value: NaN}}); grseg.flush()")
+    looks = """
+      const of = (scope, chosen, property) => Array.from(scope.querySelectorAll(chosen), (e) => getComputedStyle(e)[property]).sort();
+      const once = (all) => all.filter((one, k) => all.indexOf(one) === k);"""
+    for is_dark in (False, True):
+        page.dark(is_dark)
+        for tab in ("explore", "report"):
+            page.run(f"document.getElementById('tab-{tab}').click()")
+            page.settle()
+            words = page.run(f"return Array.from(document.querySelectorAll('#{tab} .note, #{tab} .legend, #{tab} figcaption, #{tab} .words, #help p'), (e) => e.textContent)")
+            named = [text for text in words if re.search(r"\b(blue|orange|red|green|brown|gr[ea]y|black|white|dark|light)\b", text, re.I)]
+            assert not named, named
+        for drawn, told in page.run(looks + """return Array.from(document.querySelectorAll("#report figure"), (f) =>
+              [of(f, "path.profile, path.neutral", "stroke"), of(f, ".stroke", "borderTopColor")])"""):
+            assert drawn == told or (len(drawn) <= 1 and not told), (is_dark, drawn, told)
+        page.run("document.getElementById('tab-explore').click()")
+        page.settle()
+        for plot, drawn, note, told in (("#profile-plot", ".profile", "#profile-note", "stroke"), ("#layers-plot", "circle", "#layers-plot + .note", "key"),
+                                        ("#scatter-plot", ".curve, .neutral", "#scatter-note", "stroke")):
+            lines, pieces = page.run(looks + """const [plot, drawn, note, told] = arguments;
+              return [once(of(document.querySelector(plot), drawn, "stroke")),
+                      once(of(document.querySelector(note), `.${told}`, told === "key" ? "backgroundColor" : "borderTopColor"))]""", plot, drawn, note, told)
+            assert lines == pieces, (is_dark, plot, lines, pieces)
+        legend = page.run("return Array.from(document.querySelectorAll('#legend .key'), (e) => e.className.slice(4))")
+        for look in legend:
+            assert painted(page, "#players canvas", look) > 20 or look == "base", (is_dark, look)  # the base is drawn faintly
+    page.dark(False)
+
+
+def check_numbers(page):
+    """Numbers that differ read differently, and those of the page say what they are."""
+    zero = page.run("return grseg.content.runs[0].fit.scan.p_zero[0]")
+    for value in (zero + 0.003, zero - 0.003, 0.5003):
+        page.run("grseg.set({rule: {kind: 'uniform', value: arguments[0]}}); grseg.flush()", value)
+        carried, present = re.findall(r"[\d.]+\s%", page.text("parts"))
+        assert carried != present, page.text("parts")
+        large, small = re.findall(r"[\d.]+", page.text("proportion"))
+        assert large != small, page.text("proportion")
+    options = page.run("return Array.from(document.getElementById('speed').options, (o) => o.textContent)")
+    assert options[1] == "12 frames/s", options
+    assert re.fullmatch(r"t = [\d.]+ s", page.text("time")), page.text("time")
+
+
+def check_address():
+    """The address tells what is shown, and shows it again; it leaves no steps to go back by."""
+    with Page("page.html") as page:
+        assert page.run("return window.location.hash") == "", "nothing has been chosen"
+        page.run("grseg.set({rule: {kind: 'uniform', value: 0.62}, grain: 7})")
+        page.keys("l", "m", Keys.ARROW_RIGHT)
+        time, row = page.run("return [grseg.state.time, grseg.page.players[0].frames.arrays.row[7]]")
+        page.until("window.location.hash")
+        page.run("document.getElementById('tab-report').click()")
+        page.until("window.location.hash.startsWith('#report')")
+        told = page.run("return window.location.hash")
+        assert told == f"#report&rule=uniform:0.62&time={time:.6g}&grain=1:{row}&draw=grains,forces,mixed,layers", told
+        assert page.run("return window.history.length") == 2, "the empty page, and this one"
+        page.run("window.location.hash = '#explore&rule=half&time=3.21&draw=forces'")
+        page.until("grseg.state.rule.kind === 'half'")
+        assert not page.run("return document.getElementById('explore').hidden")
+    with Page("page.html", link=told) as page:
+        shown = page.run("return [grseg.state.rule, grseg.state.time, grseg.state.grain, grseg.state.onlyMixed, document.getElementById('only-mixed').checked, document.getElementById('report').hidden]")
+        assert shown == [{"kind": "uniform", "value": 0.62}, time, 7, True, True, False], shown
+        page.run("document.getElementById('tab-explore').click()")
+        page.settle()
+        close(float(page.text("b-value").replace("−", "-")), page.run("return grseg.fit(0, 'uniform:0.62').B"), "B of the link", 6e-4)
+    for odd in ("#report", "#rule=nonsense&time=x&run=9&grain=3:77777&draw=", "#&&=%E0%A4%A", "#rule=uniform:&run=-1"):
+        with Page("page.html", link=odd) as page:
+            assert page.run("return document.getElementById('report').hidden") == (odd != "#report")
+            assert page.run("return Number.isFinite(grseg.state.time) && grseg.state.run === 0 && grseg.state.grain === -1"), odd
+            page.run("document.getElementById('tab-explore').click()")
+
+
 def check_grain(page):
     """A click finds the grain that lies there, with the contacts that the file has of it."""
     page.run("grseg.page.transport.goTo(60); window.scrollTo(0, 0)")
@@ -422,6 +544,15 @@ def check_report(page):
     for line in checks:
         assert line[0] in text
     assert f"All {len(checks)} lines" in text
+    assert "a longer run decides" in text and "Undecided by size, contact-point: the interval of B holds 0." in text
+    rows = page.run("""return Array.from(document.querySelectorAll("#report td, #report dd, #report .doubt li"), (e) => [e.previousSibling?.textContent ?? "", e.textContent])""")
+    exact = re.compile(r"Digest|Program|program")
+    for name, own in rows:
+        for number in re.findall(r"\d*\.\d+", own.replace("−", "-")):
+            digits = number.replace(".", "").lstrip("0")
+            assert exact.search(name) or len(digits) <= 4, (name, own)
+    facts = dict(rows)
+    assert re.fullmatch(r"[\d.]+ m", facts["deposited height"]) and facts["density"] == "1 kg/m²" and facts["gravity"] == "3.829 -9.021 m/s²", facts
     columns = {"kinetic": ["u[m/s]", "T_S_x[m^2/s^2]", "T_L_x[m^2/s^2]", "T_L_y[m^2/s^2]", "equipartition_y"],
                "balance": ["push_kinetic[N/m^2]", "drag[N/m^2]"]}
     for name, own in columns.items():
@@ -503,6 +634,12 @@ def check_species():
         assert not page.run("return document.querySelector('#share-plot .neutral').getAttribute('d')")
         page.keys("3", "0")
         assert page.run("return grseg.state.rule.kind") == "half", "there is no p* to go to"
+        check_captions(page)
+        assert page.text("profile-note").startswith("both c1 grains c2 grains"), page.text("profile-note")
+        ticks = page.run("return Array.from(document.querySelectorAll('#scatter-plot .tick text'), (e) => e.textContent)")
+        assert max(map(len, ticks)) <= 5, ticks
+        page.keys("4")
+        assert "B the same everywhere" not in page.text("scatter-note"), "by drop there is no line"
         check_commands(page, ["size", "half", "power:2"])
 
 
@@ -726,6 +863,9 @@ def check_several():
         assert page.run("return grseg.state.run") == 2
         assert "nominal" in page.text("q-note"), "tables have no sums by power:Q"
         page.shoot("explore-two")
+    with Page("two.html", link="#explore&run=3&rule=half&grain=2:5") as page:
+        assert page.run("return [grseg.state.run, grseg.state.player, document.getElementById('explore').hidden]") == [2, 1, False]
+        close(float(page.text("b-value").replace("−", "-")), expected["half"]["B"]["value"], "B of all runs", 6e-4)
     refused = subprocess.run([f"{BIN}/grseg-explore", "1.h5", "2.tsv", "-o", "no.html"], capture_output=True, text=True)
     assert refused.returncode == 3 and "2.tsv: is of the run with the digest xxh3" in refused.stderr, refused.stderr
     assert not os.path.exists("no.html")
@@ -751,15 +891,24 @@ def main():
         check_base_cuts(page)
         check_plots(page)
         check_controls(page)
+        check_numbers(page)
+        check_theme(page)
+        check_captions(page)
         check_grain(page)
         check_widths(page)
         check_report(page)
         check_speed(page)
     with Page("page.html", PHONE) as page:
         page.shoot("explore-390-first")
+        page.run("window.scrollTo(0, document.body.scrollHeight)")
+        page.until("!document.getElementById('dock').hidden")
+        page.run("document.getElementById('tab-report').click()")
+        assert page.run("return document.getElementById('dock').offsetParent === null && !document.getElementById('dock').getClientRects().length"), "the slider is of the other tab"
+        page.run("document.getElementById('tab-explore').click()")
         page.run("document.getElementById('theme').click()")
         page.settle()
         assert page.run("return getComputedStyle(document.body).backgroundColor") == "rgb(20, 23, 26)"
+    check_address()
     check_hostile()
     check_species()
     check_edges()

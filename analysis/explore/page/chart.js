@@ -69,7 +69,7 @@ export class Chart {
   axes() {
     const {left, right, top, bottom} = this.inner;
     const {x, y} = this.scales;
-    const ofX = axisBottom(x).ticks(...(this.ticks.x ?? [this.width < 420 ? 5 : 8])).tickSizeOuter(0);
+    const ofX = axisBottom(x).ticks(...(this.ticks.x ?? [Math.floor(this.width / 80)])).tickSizeOuter(0);
     const ofY = axisLeft(y).ticks(...(this.ticks.y ?? [6])).tickSizeOuter(0);
     this.xAxis.attr("transform", `translate(0,${bottom})`).call(ofX);
     this.yAxis.attr("transform", `translate(${left},0)`).call(ofY);
@@ -89,7 +89,7 @@ export class Chart {
       .attr("x2", right)
       .attr("y1", (d) => d.at)
       .attr("y2", (d) => d.at)
-      .classed("zero", (d) => d.value === 0);
+      .classed("at-zero", (d) => d.value === 0);
     return {left, right, top, bottom};
   }
 }

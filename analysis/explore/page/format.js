@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers and elements for people. Text reaches the page as text, never as HTML.
 
-const minus = (text) => text.replace("-", "−");
+const minus = (text) => text.replace(/-/g, "−");
 
 export function fixed(value, digits = 3) {
   return Number.isFinite(value) ? minus(value.toFixed(digits)) : "–";
@@ -14,11 +14,28 @@ export function short(value, digits = 4) {
   if (size >= 1e6 || size < 1e-3) return minus(value.toExponential(digits - 1).replace("e+", "e"));
   return minus(String(Number(value.toPrecision(digits))));
 }
-export function interval([low, high], digits = 3) {
-  return Number.isFinite(low) && Number.isFinite(high) ? `[${fixed(low, digits)}, ${fixed(high, digits)}]` : "";
+/** Numbers that stand beside each other: where two that differ would read alike, with up to three digits more. */
+export function apart(values, write, digits) {
+  const written = [0, 1, 2, 3].map((more) => values.map((value) => write(value, digits + more)));
+  const count = (all) => new Set(all).size;
+  return written.find((texts) => count(texts) === count(values)) ?? written[0];
 }
-export function percent(value) {
-  return Number.isFinite(value) ? `${(100 * value).toFixed(value < 0.1 ? 1 : 0)} %` : "–";
+export function interval(ends, digits = 3) {
+  return ends.every(Number.isFinite) ? `[${apart(ends, fixed, digits).join(", ")}]` : "";
+}
+export function percent(value, digits = 0) {
+  return Number.isFinite(value) ? `${fixed(100 * value, digits + (value < 0.1 ? 1 : 0))} %` : "–";
+}
+/** Prose whose decimal numbers have no more than 4 significant digits. */
+export function rounded(text) {
+  return text.replace(/\d*\.\d+(e[-+]?\d+)?/g, (number) => {
+    const digits = number.replace(/e.*|\./g, "").replace(/^0+/, "").length;
+    return digits > 4 ? short(Number(number)) : number;
+  });
+}
+/** A name with its unit as people write them: "T_S_y [m²/s²]". */
+export function withUnit(column) {
+  return column.replace("[", " [").replace("^2", "²").replace("^2", "²").replace("^3", "³");
 }
 
 /** An element with attributes and children; strings become text. */
@@ -28,6 +45,11 @@ export function element(name, attributes = {}, ...children) {
     if (value !== undefined && value !== null) made.setAttribute(key, value);
   made.append(...children.filter((child) => child !== null && child !== undefined));
   return made;
+}
+
+/** What a caption says of lines (or with `piece` "key" of discs): a piece of each in its look, and its name. */
+export function keys(looks, piece = "stroke") {
+  return looks.flatMap(([look, name]) => [element("span", {class: "named"}, element("i", {class: `${piece} ${look}`}), name), " "]);
 }
 
 /** A table of columns of [name, alignment] and rows of texts or elements. */

@@ -154,7 +154,7 @@ export class GrainPanel {
         contact.mixed ? fixed(contact.larger ? p : 1 - p) : "",
       ];
     });
-    const heads = [["with"], ["towards", "number"], ["fn/⟨fn⟩", "number"], ["ft/fn", "number"], ...(flat ? [["fy ℓy (N m)", "number"]] : []), ["gets", "number"]];
+    const heads = [["with"], ["towards", "number"], ["fn/⟨fn⟩", "number"], ["ft/fn", "number"], ...(flat ? [["fy ℓy (N m)", "number"]] : []), ["its share", "number"]];
     const parts = [...this.rules, state.rule].map((rule, k, all) => {
       const part = partOf(contacts, rule);
       return [k === all.length - 1 ? `now, ${ruleName(rule)}` : ruleName(rule), short(part, 3), percent(part / whole)];
@@ -162,12 +162,12 @@ export class GrainPanel {
     const words = !flat
       ? "The plane shows some of its contacts; what rules give it of all of them is not in the page."
       : mixed.length
-      ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species bear Σ fy ℓy = ${short(whole, 3)} N m. Of these it gets`
+      ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species ${mixed.length > 1 ? "bear" : "bears"} Σ fy ℓy = ${short(whole, 3)} N m. By each rule it gets`
       : "It has no contact with the other species: no rule gives or takes.";
-    this.contacts.replaceChildren(heading, element("div", {class: "scroll"}, table(heads, rows)));
+    this.contacts.replaceChildren(heading, rows.length ? element("div", {class: "scroll"}, table(heads, rows)) : "");
     this.rulesOfIt.replaceChildren(
       element("p", {}, words),
-      flat && mixed.length ? table([["by"], ["N m", "number"], ["", "number"]], parts) : "",
+      flat && mixed.length ? table([["rule"], ["it gets (N m)", "number"], ["of the whole", "number"]], parts) : "",
       element(
         "p",
         {class: "note"},

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads what the page holds, makes its parts, and tells them what the reader has chosen.
 
+import {boxes, keepAddress, restore} from "./address.js";
 import {Compare} from "./compare.js";
 import {readArrays, readContent} from "./data.js";
-import {byId, element, forgetColours} from "./format.js";
+import {byId, element, forgetColours, keys} from "./format.js";
 import {Frames} from "./frames.js";
 import {GrainPanel} from "./grain.js";
 import {listenToKeys} from "./keyboard.js";
@@ -44,9 +45,9 @@ function showTab(name) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(tab === name));
     byId(`tab-${tab}`).tabIndex = tab === name ? 0 : -1;
   }
+  set({tab: name});
   window.scrollTo(0, 0);
-  if (name === "report") layoutReport();
-  else window.dispatchEvent(new Event("resize"));
+  window.dispatchEvent(new Event("resize")); // what has changed meanwhile is drawn
 }
 
 function listenToTabs() {
@@ -72,7 +73,7 @@ function isDark() {
 }
 
 function describeColours() {
-  const keys = runs.flatMap((run) => {
+  const looks = runs.flatMap((run) => {
     const pair = run.fit?.numbers_of_pair ?? [0, 1];
     const present = new Set(run.arrays.species);
     return run.species
@@ -81,10 +82,10 @@ function describeColours() {
       .filter(([, , k]) => present.has(k));
   });
   // Runs may name their species differently; a name is told once, the base last.
-  const names = new Map(keys.map(([name, look]) => [`${look} ${name}`, [name, look]]));
+  const names = new Map(looks.map(([name, look]) => [`${look} ${name}`, [name, look]]));
   const inOrder = [...names.values()].sort(([, a], [, b]) => (a === "base") - (b === "base"));
   byId("legend").replaceChildren(
-    ...inOrder.flatMap(([name, look]) => [element("span", {class: `key ${look}`}), `${name} `]),
+    ...keys(inOrder.map(([name, look]) => [look, name]), "key"),
     "– lines are contacts, their width the force; each counts to the species whose colour it has.",
     runs.some((run) => run.dimension === 3) ? " Spheres are cut by the plane half-way across." : "",
   );
@@ -102,6 +103,8 @@ function heightOf(some) {
 class Page {
   constructor() {
     this.fits = [...runs, ...(content.together ? [content.together] : [])].map((one) => one.fit ?? null);
+    this.showTab = showTab;
+    this.ruleWords = content.rules.filter((rule) => rule.stock).map((rule) => rule.word);
     const rule = parseRule(content.start);
     const first = this.fits.findIndex(Boolean);
     Object.assign(state, {rule, run: Math.max(0, first), player: Math.max(0, first)});
@@ -117,7 +120,7 @@ class Page {
     ]);
     if (first >= 0) this.#makePlots();
     this.#hideWhatIsMissing();
-    for (const [id, name] of [["show-grains", "showGrains"], ["show-forces", "showForces"], ["only-mixed", "onlyMixed"], ["show-layers", "showLayers"]])
+    for (const [, id, name] of boxes)
       byId(id).addEventListener("change", (event) => set({[name]: event.target.checked}));
     listen((names) => this.#follow(names));
   }
@@ -148,7 +151,8 @@ class Page {
     const own = () => (this.run ? [this.run] : runs);
     this.share = new Share(content, fit, own);
     this.scatter = new Scatter(fit, () => this.run?.window_times ?? []);
-    this.profiles = new Profiles(fit, () => heightOf(own()), () => (own()[0].dimension === 3 ? "Pa" : "N/m"));
+    const names = () => fit().numbers_of_pair.map((k) => own()[0].species[k].name);
+    this.profiles = new Profiles(fit, () => heightOf(own()), () => (own()[0].dimension === 3 ? "Pa" : "N/m"), names);
   }
 
   #hideWhatIsMissing() {
@@ -192,6 +196,7 @@ class Page {
   }
 
   #follow(names) {
+    if (byId("explore").hidden) return;
     if (names.has("run")) return this.layout();
     if (names.has("rule")) return this.update();
     if (names.has("time")) this.transport.show();
@@ -204,21 +209,16 @@ class Page {
 }
 
 function listenToAll(page) {
-  let width = 0, height = 0;
-  window.addEventListener("resize", () => {
-    if (byId("explore").hidden) layoutReport();
-    else if (width !== window.innerWidth || height !== window.innerHeight || page.stale) page.layout();
-    [width, height, page.stale] = [window.innerWidth, window.innerHeight, false];
-  });
-  const theme = () => {
-    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+  window.addEventListener("resize", () => (byId("explore").hidden ? layoutReport() : page.layout()));
+  const recolour = () => {
     forgetColours();
     page.layout();
   };
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-    forgetColours();
-    page.layout();
-  });
+  const theme = () => {
+    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+    recolour();
+  };
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
   byId("theme").addEventListener("click", theme);
   byId("help-open").addEventListener("click", () => byId("help").showModal());
   listenToPrinting();
@@ -240,7 +240,7 @@ function listenToAll(page) {
     },
     tab: showTab,
     theme,
-    rules: content.rules.filter((rule) => rule.stock).map((rule) => rule.word),
+    rules: page.ruleWords,
   });
 }
 
@@ -250,12 +250,13 @@ async function start() {
   await readAll();
   describeColours();
   const page = new Page();
-  page.stale = true;
   listenToAll(page);
   writeReport(content, content.together);
   page.transport.goTo(Math.floor(page.transport.times.length / 2));
-  page.layout();
-  showTab(window.location.hash === "#report" || (content.tab === "report" && window.location.hash !== "#explore") ? "report" : "explore");
+  showTab(content.tab ?? "explore");
+  restore(page);
+  flush();
+  keepAddress(page);
   // For the console, and for tests: fit(0, "uniform:0.65") is what the page shows of the first run.
   window.grseg = {
     content,

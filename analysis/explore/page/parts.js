@@ -2,7 +2,7 @@
 // Whose the pressure is, as one bar: pairs of large grains, the two parts of mixed contacts, pairs of small
 // ones.
 
-import {byId, element, percent} from "./format.js";
+import {apart, byId, element, percent} from "./format.js";
 import {state} from "./state.js";
 
 /** Means over layers and frames of each part's share of the pressure there: what B by sums is made of. */
@@ -52,10 +52,11 @@ export class Parts {
       this.spans[k].title = `${name}: ${percent(value)} of the pressure`;
     });
     this.phi.style.left = `${100 * phi}%`;
+    const [carried, present] = apart([large + (dropped ? 0 : given), phi], percent, 0);
     this.words.replaceChildren(
       "Large grains carry ",
-      element("b", {class: "large"}, percent(large + (dropped ? 0 : given))),
-      ` of the pressure, in the mean over layers; the black line is their part of the grains, ${percent(phi)}. Hatched: mixed contacts.`,
+      element("b", {class: "large"}, carried),
+      ` of the pressure, in the mean over layers; the upright line is their part of the grains, ${present}. Hatched: mixed contacts.`,
     );
   }
 }

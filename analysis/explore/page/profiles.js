@@ -3,9 +3,11 @@
 
 import {Chart} from "./chart.js";
 import {extent, group, line, scaleLinear} from "./d3.js";
-import {byId} from "./format.js";
+import {byId, keys} from "./format.js";
 import {sumsOf, stressOf} from "./partition.js";
 import {set, state} from "./state.js";
+
+const looks = ["total", "small", "large"];
 
 /** Calls on the layer under the pointer. */
 function follow(chart, layers) {
@@ -20,8 +22,9 @@ function follow(chart, layers) {
 }
 
 export class Profiles {
-  /** `height()`: {unit: of heights in m, name: of the axis}. */
-  constructor(fitOfRun, height, unitOfStress) {
+  /** `height()`: {unit: of heights in m, name: of the axis}; `namesOfPair()`: of the species that the fit compares. */
+  constructor(fitOfRun, height, unitOfStress, namesOfPair) {
+    this.namesOfPair = namesOfPair;
     this.fitOfRun = fitOfRun;
     this.heightOfRun = height;
     const tall = 300;
@@ -38,7 +41,9 @@ export class Profiles {
       name: "B of each layer over height",
     });
     this.unitOfStress = unitOfStress;
-    this.lines = ["total", "small", "large"].map((name) => this.pressure.marks.append("path").attr("class", `profile ${name}`));
+    this.lines = looks.map((look) => this.pressure.marks.append("path").attr("class", `profile ${look}`));
+    const names = ["both", ...this.namesOfPair().map((name) => `${name} grains`)];
+    byId("profile-note").replaceChildren(...keys(looks.map((look, k) => [look, names[k]])), "– means over all windows");
     this.nothing = this.strength.under.append("line").attr("class", "zero-line");
     this.all = this.strength.under.append("line").attr("class", "all-line");
     this.dots = this.strength.marks.append("g");
@@ -87,13 +92,12 @@ export class Profiles {
     const fit = this.fitOfRun();
     const means = stressOf(fit, state.rule, "layer_");
     const {x, y} = this.pressure.scales;
-    ["total", "small", "large"].forEach((name, row) => {
+    looks.forEach((name, row) => {
       const path = line()
         .x((k) => x(means[name][k]))
         .y((k) => y((this.layers[k][0] + this.layers[k][1]) / 2));
       this.lines[row].attr("d", Array.from(this.profiles.values(), path).join(""));
     });
-    byId("profile-note").textContent = "Blue: of small grains, orange: of large ones, dark: of both; means over all windows.";
     const values = state.rule.kind === "drop" ? this.fitted.map(() => NaN) : this.#strengths(stress);
     const {x: xb, y: yb} = this.strength.scales;
     const seen = this.fitted.map((layer, k) => ({...layer, B: values[k]})).filter(({B}) => Number.isFinite(B));
@@ -109,7 +113,7 @@ export class Profiles {
       .selectAll("circle")
       .data(seen)
       .join("circle")
-      .attr("class", ({B, light}) => `dot ${B > 0 ? "positive" : "negative"}${light ? " light" : ""}`)
+      .attr("class", ({B, light}) => `dot ${B > 0 ? "large" : "small"}${light ? " light" : ""}`)
       .attr("r", 5)
       .attr("cx", ({B}) => Math.min(right, Math.max(left, xb(B))))
       .attr("cy", ({y: at}) => yb(at));

@@ -3,15 +3,15 @@
 
 import {Chart} from "./chart.js";
 import {area, extent, line, scaleLinear} from "./d3.js";
-import {byId, element, fixed, interval, short, table} from "./format.js";
+import {byId, element, fixed, interval, keys, rounded, short, table, withUnit} from "./format.js";
 import {isShare, stressOf, zeroOf} from "./partition.js";
 
 const charts = [];
 
-/** A figure with a chart; `draw` is called whenever its width is known. */
-function figure(caption, options, draw) {
+/** A figure with a chart; `draw` is called whenever its width is known. `lines`: [look, name] of those drawn. */
+function figure(caption, options, draw, lines = []) {
   const host = element("div", {class: "plot"});
-  const made = element("figure", {}, host, element("figcaption", {}, caption));
+  const made = element("figure", {}, host, element("figcaption", {}, `${caption}${lines.length ? ": " : "."}`, ...keys(lines)));
   const chart = new Chart(host, {height: 240, scales: {x: scaleLinear(), y: scaleLinear()}, name: caption, ...options});
   charts.push(() => {
     if (host.clientWidth > 0) draw(chart);
@@ -22,7 +22,7 @@ function figure(caption, options, draw) {
 /** B over the share p with its band. */
 function shareFigure(fit) {
   const [p] = zeroOf(fit);
-  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}.`;
+  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
   return figure(caption, {labels: {x: "share p", y: "B"}}, (chart) => {
     const grid = fit.scan.p.map((p, k) => [p, ...fit.scan.B[k]]).filter(([, B]) => B !== null);
     chart.scales.y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
@@ -43,7 +43,7 @@ function shareFigure(fit) {
 
 /** psi_L over phi_L, a point per layer and window; in one path, since there may be thousands. */
 function excessFigure(fit) {
-  const caption = "Large grains’ share of the pressure, by size, over their share of the grains: a point for each layer and window; dashed: equal shares.";
+  const caption = "Large grains’ share of the pressure, by size, over their share of the grains: a point for each layer and window";
   return figure(caption, {labels: {x: "φ_L", y: "ψ_L"}}, (chart) => {
     const {small, large} = stressOf(fit, {kind: "size", value: NaN});
     const points = Array.from(fit.arrays.phi_large, (phi, k) => [phi, large[k] / (small[k] + large[k])]).filter(([, psi]) => Number.isFinite(psi));
@@ -54,10 +54,10 @@ function excessFigure(fit) {
     chart.under.selectAll("*").remove();
     chart.under.append("path").attr("class", "neutral").attr("d", line()([[x(0), y(0)], [x(1), y(1)]]));
     chart.under.append("path").attr("class", "points").attr("d", points.map(([phi, psi]) => `M${x(phi).toFixed(1)},${y(psi).toFixed(1)}h0`).join(""));
-  });
+  }, [["neutral", "equal shares"]]);
 }
 
-/** Columns of a table by layer over the height. `lines`: [[column, class], ...] */
+/** Columns of a table by layer over the height. `lines`: [[column, look, name], ...] */
 function profileFigure(layers, name, lines, caption, label, smallDiameter) {
   const {columns, rows} = layers.tables.find((one) => one.name === name) ?? {columns: [], rows: []};
   const places = lines.map(([column, look]) => [columns.findIndex((c) => c.replace(/\[.*/, "") === column), look]);
@@ -77,7 +77,7 @@ function profileFigure(layers, name, lines, caption, label, smallDiameter) {
         .append("path")
         .attr("class", `profile ${look}`)
         .attr("d", line().defined((row) => row[at] !== null).x((row) => x(row[at])).y((row) => y(middle(row)))(rows));
-  });
+  }, lines.filter(([, , words]) => words).map(([, look, words]) => [look, words]));
 }
 
 function profileFigures(run) {
@@ -86,12 +86,12 @@ function profileFigures(run) {
   const stress = run.dimension === 3 ? "Pa" : "N/m";
   const own = (...rest) => profileFigure(run.layers, ...rest, d);
   return [
-    own("stress", [["sigma_yy", "total"], ["sigma_S_yy", "small"], ["sigma_L_yy", "large"]], "Contact pressure; blue: of small grains, orange: of large ones, by size; dark: of both.", `σ_{yy} (${stress})`),
-    own("kinetic", [["u", "total"]], "Mean velocity along x.", "u (m/s)"),
-    own("kinetic", [["T_S_y", "small"], ["T_L_y", "large"]], "Granular temperature along y; blue: small, orange: large grains.", "T (m²/s²)"),
-    own("micro", [["z_S", "small"], ["z_L", "large"]], "Contacts of a grain.", "z"),
-    own("micro", [["mixed_share", "total"], ["neutral_share", "neutral"]], "Share of mixed contacts; dashed: of contacts that ignore grain size.", "share"),
-    run.species.length !== 2 ? null : own("balance", [["push", "large"], ["push_kinetic", "small"], ["drag", "total"]], "Forces on large grains along y, upward positive; orange: contact push, cut at the contact point; blue: kinetic push; dark: drag.", `force (${force})`),
+    own("stress", [["sigma_yy", "total", "both"], ["sigma_S_yy", "small", "small grains"], ["sigma_L_yy", "large", "large grains"]], "Contact pressure, mixed contacts shared by size", `σ_{yy} (${stress})`),
+    own("kinetic", [["u", "total"]], "Mean velocity along x", "u (m/s)"),
+    own("kinetic", [["T_S_y", "small", "small grains"], ["T_L_y", "large", "large grains"]], "Granular temperature along y", "T (m²/s²)"),
+    own("micro", [["z_S", "small", "small grains"], ["z_L", "large", "large grains"]], "Contacts of a grain", "contacts z"),
+    own("micro", [["mixed_share", "total", "all contacts of the run"], ["neutral_share", "neutral", "contacts that ignore size"]], "Share of mixed contacts", "share of contacts"),
+    run.species.length !== 2 ? null : own("balance", [["push", "large", "contact push, cut at the contact point"], ["push_kinetic", "large dashed", "kinetic push"], ["drag", "total", "drag"]], "Forces on large grains along y, upward positive", `force (${force})`),
   ].filter(Boolean);
 }
 
@@ -114,7 +114,7 @@ function layerTable(one, smallDiameter) {
   const put = (all) => {
     const chosen = one.columns.map((c, k) => [c, k]).filter(([c, k]) => k > 1 && (all || one.shown.includes(c)));
     const some = chosen.length ? chosen : one.columns.map((c, k) => [c, k]).slice(2, 10);
-    const heads = [["y/dS"], ...some.map(([column]) => [column.replace("[", " ["), "number"])];
+    const heads = [["y/dS"], ...some.map(([column]) => [withUnit(column), "number"])];
     const rows = one.rows.map((row) => [
       `${short(row[0] / smallDiameter)}–${short(row[1] / smallDiameter)}`,
       ...some.map(([, k]) => short(row[k])),
@@ -140,7 +140,7 @@ function estimate(triple) {
 }
 
 function fitSection(fit, heading) {
-  const columns = [["rule"], ["B", "number"], ["share", "number"], ["points", "number"], ["used by"]];
+  const columns = [["rule"], ["B", "number"], ["share p", "number"], ["layers and windows", "number"], ["used by"]];
   const several = fit.rules.some((row) => row.flow);
   if (several) columns.splice(1, 0, ["flow"], ["95 % over"]);
   const rows = fit.rules.map((row) => {
@@ -149,13 +149,15 @@ function fitSection(fit, heading) {
     return cells;
   });
   const zero = zeroOf(fit);
-  const doubts = fit.rules.filter((row) => row.doubt).map((row) => `${row.name}: ${row.doubt}.`);
+  const undecided = [...new Set(fit.rules.filter(({B: [, low, high]}) => low !== null && low <= 0 && high >= 0).map(({name}) => name))];
+  const doubts = fit.rules.filter((row) => row.doubt).map((row) => rounded(`${row.name}: ${row.doubt}.`));
   return element(
     "section",
     {},
     element("h3", {}, heading),
     element("div", {class: "scroll"}, table(columns, rows)),
     element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: with this share B is 0. ` : "", `${several ? "The intervals of all flows are" : "Intervals of 95 % are"} over ${fit.over}: ${fit.over_words}.`),
+    undecided.length ? element("p", {}, `Undecided by ${undecided.join(", ")}: the interval of B holds 0. A longer run, or runs of other seeds given beside it, make the interval narrower.`) : null,
     doubts.length ? element("ul", {class: "doubt"}, ...doubts.map((doubt) => element("li", {}, doubt))) : null,
     element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => `${key} ${value}`).join("; "), "."),
   );
@@ -170,7 +172,7 @@ function segregationSection(run) {
   const d = run.small_diameter;
   const middle = (row) => (row[0] + row[1]) / 2;
   const drawn = figure(
-    "Heights of the centres of mass, means of windows; blue: of small grains, orange: of large ones.",
+    "Heights of the centres of mass, means of windows",
     {labels: {x: "t (s)", y: "y/d_S"}},
     (chart) => {
       const values = rows.flatMap((row) => [row[large], row[small]]).filter((v) => v !== null);
@@ -186,9 +188,10 @@ function segregationSection(run) {
           .attr("class", `profile ${look}`)
           .attr("d", line().defined((row) => row[at] !== null).x((row) => x(middle(row))).y((row) => y(row[at] / d))(rows));
     },
+    [["small", "small grains"], ["large", "large grains"]],
   );
   const cells = numbers.filter(([, value]) => value !== null).map(([name, value, low, high]) => [
-    name.replace("[", " ["),
+    withUnit(name),
     short(value),
     low === null ? "" : `[${short(low)}, ${short(high)}]`,
   ]);
@@ -197,12 +200,20 @@ function segregationSection(run) {
     {},
     element("h3", {}, "Segregation"),
     element("div", {class: "figures"}, drawn, element("div", {class: "scroll"}, table([["quantity"], ["value", "number"], ["95 %", "number"]], cells))),
-    ...remarks.map((text) => element("p", {class: "note"}, `${text}.`)),
+    ...remarks.map((text) => element("p", {class: "note"}, rounded(`${text}.`))),
     element("p", {class: "note screen"}, saveButton("segregation", segregation), " as grseg-segregation makes it of the bed, window by window"),
   );
 }
 
 const verdicts = {passed: "✓ passed", failed: "✗ failed", undecided: "? undecided", skipped: "– skipped"};
+
+/** In what a check measures; most measure a ratio. */
+function unitOfCheck(quantity) {
+  if (/^(overlap|open_gap)/.test(quantity)) return "dS";
+  if (quantity.startsWith("approach")) return "dS per step";
+  if (/^[xz]_drift$/.test(quantity)) return "√(g dS)";
+  return quantity === "damaged_frames" ? "frames" : "–";
+}
 
 function checkSection(run) {
   const {lines, failures, undecided} = run.checks;
@@ -212,8 +223,9 @@ function checkSection(run) {
     row.y0 === null ? "" : `${short(row.y0 / d)}–${short(row.y1 / d)}`,
     short(row.measured, 3),
     short(row.tolerance, 3),
+    unitOfCheck(row.quantity),
     element("span", {class: row.verdict}, verdicts[row.verdict]),
-    row.remark,
+    rounded(row.remark),
   ]);
   const count = (verdict) => lines.filter((row) => row.verdict === verdict).length;
   const words = failures
@@ -223,8 +235,9 @@ function checkSection(run) {
     "section",
     {},
     element("h3", {}, "Checks"),
-    element("p", failures ? {class: "failed"} : {}, `${run.checks.command}. ${words}`, undecided && !failures ? " Undecided: chance alone explains more than the tolerance." : ""),
-    element("details", failures ? {open: ""} : {}, element("summary", {}, `All ${lines.length} lines`), element("div", {class: "scroll"}, table([["quantity"], ["y/dS"], ["measured", "number"], ["tolerance", "number"], ["verdict"], ["remark"]], rows))),
+    element("p", failures ? {class: "failed"} : {}, `${run.checks.command}. ${words}`, ""),
+    undecided ? element("p", {}, `${undecided[0].toUpperCase()}${undecided.slice(1)}: chance falls with the root of the time. Continue the run, or take more of the archive.`) : null,
+    element("details", failures ? {open: ""} : {}, element("summary", {}, `All ${lines.length} lines`), element("div", {class: "scroll"}, table([["quantity"], ["y/dS"], ["measured", "number"], ["tolerance", "number"], ["unit"], ["verdict"], ["remark"]], rows))),
   );
 }
 
@@ -232,13 +245,40 @@ function pairs(entries) {
   return element("dl", {class: "facts"}, ...entries.flatMap(([key, value]) => [element("dt", {}, key), element("dd", {}, value)]));
 }
 
+/** "m s-1" as "m/s"; of ratios and numbers "–". */
+function unitOf(text) {
+  return text.replace(/^1?$/, "–").replace(/ (\w+)-1$/, "/$1");
+}
+
+const dimensions = {
+  m: /diameter$|overlap$|mean_gap|height$|_margin$|_origin$|centre$/,
+  s: /^(step|frame_interval|advised_step|restart_time)$/,
+  "m/s²": /^gravity$/,
+  "m/s": /speed$/,
+  "°": /^slope$/,
+  "°/s": /^slope_rate$/,
+  dS: /^perturb$/,
+  "N/m": /^stiffness$/,
+  steps: /^horizon$/,
+};
+
+/** Parameters of the file with the units of formats/README.md. */
+function parameters(run, all) {
+  const perVolume = run.dimension === 3 ? "kg/m³" : "kg/m²";
+  return all.map(([name, value]) => {
+    const unit = name === "density" ? perVolume : Object.keys(dimensions).find((one) => dimensions[one].test(name));
+    const text = /^[-+.e\d ]+$/.test(value) ? rounded(value) : value;
+    return [name.replace(/_/g, " "), unit ? `${text} ${unit}` : text];
+  });
+}
+
 function accuracySection(run) {
-  const observed = run.observables.map(([name, unit, mean, largest]) => [name, unit || "1", short(mean), short(largest)]);
+  const observed = run.observables.map(([name, unit, mean, largest]) => [name, unitOf(unit), short(mean), short(largest)]);
   return element(
     "section",
     {},
     element("h3", {}, "Accuracy reached"),
-    run.accuracy.length ? pairs(run.accuracy.map(([key, value]) => [key.replace(/_/g, " "), value])) : element("p", {}, "The file has no summary of the run."),
+    run.accuracy.length ? pairs(parameters(run, run.accuracy)) : element("p", {}, "The file has no summary of the run."),
     observed.length
       ? element("details", {}, element("summary", {}, "Observables over all frames"), element("div", {class: "scroll"}, table([["observable"], ["unit"], ["mean", "number"], ["largest", "number"]], observed)))
       : null,
@@ -250,19 +290,22 @@ function settingsSection(run) {
     "section",
     {},
     element("h3", {}, "Settings"),
+    element("p", {class: "note"}, "In units of the SI, angles in degrees."),
     run.scene ? element("pre", {class: "scene"}, run.scene) : null,
-    element("details", run.scene ? {} : {open: ""}, element("summary", {}, `All ${run.parameters.length} parameters of the file`), pairs(run.parameters)),
+    element("details", run.scene ? {} : {open: ""}, element("summary", {}, `All ${run.parameters.length} parameters of the file`), pairs(parameters(run, run.parameters))),
   );
 }
+
+const unsettled = ". To decide it, compare with the input of the program that wrote the archive, or import moments that are closer together, with forces on grains.";
 
 function runSection(run) {
   const {layers} = run;
   const facts = [
     ["Digest", run.digest],
     ["Verified", run.verified],
-    ...run.notes,
-    ["Frames", `${run.frames}, ${short(run.begin)} to ${short(run.end)} s; ${run.contacts} contacts`],
-    ["Species", run.species.map(({name, diameter}) => `${name} ${short(diameter)} m`).join(", ")],
+    ...run.notes.map(([key, value]) => [key, rounded(value) + (key === "undecided" ? unsettled : "")]),
+    ["Frames", `${run.frames} from ${short(run.begin)} to ${short(run.end)} s, with ${run.contacts} contacts`],
+    ["Species", run.species.map(({name, diameter}) => `${name}, diameter ${short(diameter)} m`).join("; ")],
     ["Program", run.program],
     ["Sums", run.sums ? `of the table ${run.sums}` : "made for this page as grseg-stress makes them"],
   ];

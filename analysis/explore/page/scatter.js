@@ -4,11 +4,11 @@
 
 import {Chart} from "./chart.js";
 import {extent, line, scaleLog} from "./d3.js";
-import {byId, colour, element, fixed} from "./format.js";
+import {byId, colour, element, keys} from "./format.js";
 import {stressOf} from "./partition.js";
 import {state} from "./state.js";
 
-const tenths = (scale) => [4, (value) => (scale.domain()[1] / scale.domain()[0] > 300 && Math.log10(value) % 1 ? "" : String(value))];
+const tenths = (scale) => [4, (value) => (scale.domain()[1] / scale.domain()[0] > 300 && Math.log10(value) % 1 ? "" : String(Number(value.toPrecision(3))))];
 
 export class Scatter {
   /** `windowTimes()`: [[begin, end], ...] of the sums. */
@@ -107,10 +107,12 @@ export class Scatter {
     const points = this.#curve(found);
     const inside = points.filter(([, value]) => value >= y.domain()[0] && value <= y.domain()[1]);
     this.fitted.attr("d", Number.isFinite(found.B) ? line().x((d) => x(d[0])).y((d) => y(d[1]))(inside) : null);
-    byId("scatter-note").textContent =
-      `${this.ratio.length} layers and windows; dark: the window that plays. ` +
-      "Line: B the same everywhere." +
-      ` Dashed: each its share.${outside ? ` ${outside} without a positive stress are left out.` : ""}`;
+    byId("scatter-note").replaceChildren(
+      `${this.ratio.length} layers and windows: `,
+      ...keys([["total", "the window that plays"]], "key"),
+      ...keys([...(Number.isFinite(found.B) ? [["total", "B the same everywhere"]] : []), ["neutral", "each its share"]]),
+      outside ? `– ${outside} without a positive stress are left out` : "",
+    );
   }
 
   /** Where the window begins that holds the frame that is shown. */

@@ -3,7 +3,7 @@
 
 import {Chart} from "./chart.js";
 import {area, line, scaleLinear} from "./d3.js";
-import {byId, element, fixed, interval, percent} from "./format.js";
+import {apart, byId, element, fixed, interval, keys, percent} from "./format.js";
 import {
   commandRule,
   fitOf,
@@ -88,7 +88,7 @@ export class Share {
       byId(id).addEventListener("input", (event) => set({rule: uniform(value(event))}));
     // While the slider is out of sight, there is another one at the foot of the window.
     new IntersectionObserver(([{isIntersecting: inSight}]) => {
-      byId("dock").hidden = inSight || byId("explore").hidden;
+      byId("dock").hidden = inSight;
     }).observe(byId("p-row"));
     byId("q").addEventListener("input", (event) => set({rule: numberedRule("power", value(event))}));
     byId("p-number").addEventListener("change", (event) => {
@@ -134,10 +134,17 @@ export class Share {
       .selectAll("path")
       .data(others)
       .join("path")
-      .attr("class", "other")
+      .attr("class", "thin")
       .attr("d", (other) => curveOf(grid.map((p) => fitOf(other, uniform(p)).B)));
     this.#drawZero(fit);
     this.#drawCodes(fit);
+    const drawn = [
+      ["band", "95 % interval of B", known.length > 0],
+      ["neutral", "contacts that ignore size", fit.two],
+      ["zero", "p*, where B = 0", isShare(zeroOf(fit)[0])],
+      ["thin", "the other runs", others.length > 0],
+    ];
+    byId("share-note").replaceChildren(...keys(drawn.filter(([, , is]) => is)));
     // The thumb stands under the point of the plot.
     byId("p-row").style.paddingLeft = `${chart.inner.left - 9}px`;
     byId("p-row").style.paddingRight = `${chart.margin.right - 9}px`;
@@ -230,9 +237,10 @@ export class Share {
     put("p-number", p, 3);
     put("q-number", rule.kind === "power" ? rule.value : NaN, 2);
     for (const [word, button] of this.buttons) button.setAttribute("aria-pressed", String(word === rule.kind));
+    const [large, small] = apart([p, 1 - p], fixed, 3);
     const text = Number.isFinite(p)
-      ? [element("b", {class: "large"}, fixed(p)), " to the large grain, ", element("b", {class: "small"}, fixed(1 - p)), " to the small one"]
-      : [this.#withoutShare(fit)];
+      ? [element("b", {class: "large"}, large), " to the large grain, ", element("b", {class: "small"}, small), " to the small one"]
+      : [...(rule.kind === "drop" ? keys([["other", ""]], "key") : []), this.#withoutShare(fit)];
     byId("proportion").replaceChildren(...text);
   }
 
@@ -245,10 +253,10 @@ export class Share {
     const {rule} = state;
     byId("b-name").textContent = `B by ${ruleName(rule)}`;
     byId("b-value").textContent = byId("dock-value").textContent = fixed(B);
-    byId("dock-name").textContent = `p ${fixed(p)}, B`;
+    byId("dock-name").textContent = `p = ${fixed(p)}, B =`;
     const {interval: band, of} = Number.isFinite(B) ? intervalOf(fit, rule) : {interval: [NaN, NaN], of: ""};
     const known = interval(band);
-    byId("b-interval").textContent = known && of ? `${known}, ${of}` : known;
+    byId("b-interval").textContent = known && `${known} (95 %${of && `, ${of}`})`;
     byId("b-interval").title = `95 % over ${fit.over}: ${fit.over_words}`;
     const [low, high] = band;
     const sure = low > 0 || high < 0;

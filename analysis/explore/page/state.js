@@ -2,6 +2,7 @@
 // What the reader has chosen. A change tells all who listen once, before the browser paints next.
 
 export const state = {
+  tab: "explore",
   rule: {kind: "size", value: NaN},
   run: 0, // that plots are of; the number of runs: all together
   time: 0, // s

@@ -9,6 +9,8 @@ export class Transport {
   constructor(all) {
     const times = all.flatMap((frames) => frames.times).sort((a, b) => a - b);
     this.times = times.filter((time, k) => k === 0 || time - times[k - 1] > 1e-9);
+    const step = (this.times[this.times.length - 1] - this.times[0]) / (this.times.length - 1);
+    this.digits = Math.min(6, Math.max(2, Math.ceil(-Math.log10(step)) || 0)); // that tell frames apart
     this.slider = byId("frame");
     this.slider.max = this.times.length - 1;
     this.slider.addEventListener("input", () => this.goTo(this.slider.valueAsNumber));
@@ -21,6 +23,10 @@ export class Transport {
   }
   goTo(number) {
     set({time: this.times[number]});
+  }
+  goToTime(time) {
+    const away = this.times.map((own) => Math.abs(own - time));
+    this.goTo(away.indexOf(Math.min(...away)));
   }
   step(by) {
     this.stop();
@@ -52,7 +58,7 @@ export class Transport {
 
   show() {
     this.slider.value = this.number;
-    const text = `${fixed(state.time, 2)} s`;
+    const text = `t = ${fixed(state.time, this.digits)} s`;
     this.slider.setAttribute("aria-valuetext", text);
     byId("time").textContent = text;
   }
