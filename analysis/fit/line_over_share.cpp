@@ -53,8 +53,7 @@ double zero_of_b(const FitData& data, const FitSettings& settings)
 // With E the sum over frames of psi_L - phi_L, a window adds its part of E over -dE/dp to p*, and its
 // part of dE/dp over sum f phi_L phi_S to dB/dp.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
-                              const Bootstrap& bootstrap, Over over,
-                              const Dependence& how_dependent)
+                              const Bootstrap& bootstrap, Over over)
 {
   if (data.quantity != Quantity::contact || data.species.size() > 2) return {};
   const double zero = zero_of_b(data, settings);
@@ -63,6 +62,7 @@ LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
   const Eigen::VectorXd weight = at.value.weight();
   const double change = at.derivative.excess().sum(), slope = change / weight.sum();
   if (bootstrap.count() == 0) return {{zero}, {slope}};
+  const auto how_dependent = dependence(at.value, data.runs, true);
   const RunErrors run_errors(data, weight);
   const auto error = [&](const Eigen::VectorXd& sums, const Eigen::VectorXd& noise) {
     if (over == Over::windows)

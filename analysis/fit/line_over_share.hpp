@@ -16,10 +16,10 @@ struct LineOverShare {
   Measured dB_dp;
 };
 
-/// Of contact stress and two species, NaN of others; errors are over `over`.
+/// The line of contact stress and two species, NaN of others; errors are over `over`, with windows as
+/// dependent as they are at p*.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
-                              const Bootstrap& bootstrap, Over over,
-                              const Dependence& how_dependent);
+                              const Bootstrap& bootstrap, Over over);
 
 /// The part of what B gains from p = 0 to 1 that it gains from p = 0 to `points`, those of some rule:
 /// the share of all mixed contacts that gives the same B.

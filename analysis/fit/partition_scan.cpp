@@ -59,7 +59,7 @@ PartitionScan scan_partition(const FitData& data, const ScanRange& range,
   };
   PartitionScan scan;
   const double zero =
-      line_over_share(data, settings, Bootstrap(data.runs, 0, 1), settings.over, {}).p_zero.value;
+      line_over_share(data, settings, Bootstrap(data.runs, 0, 1), settings.over).p_zero.value;
   const double nearest = std::isfinite(zero) ? std::clamp(zero, 0.0, 1.0) : shares.front();
   const auto at_nearest = dependence(data, uniform(nearest), settings);
   scan.dependence = at_nearest;
@@ -73,7 +73,7 @@ PartitionScan scan_partition(const FitData& data, const ScanRange& range,
     scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
     tell_half();
   }
-  scan.line = line_over_share(data, settings, bootstrap, scan.fits.front().over, at_nearest);
+  scan.line = line_over_share(data, settings, bootstrap, scan.fits.front().over);
   return scan;
 }
 

@@ -207,7 +207,7 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   if (data.species.size() > 2) return fit;
   fit.share = share_of_large(data, points, settings);
   fit.neutral = neutral_mean(points, rule);
-  if (!common) fit.line = line_over_share(data, settings, bootstrap, fit.over, fit.dependence);
+  if (!common) fit.line = line_over_share(data, settings, bootstrap, fit.over);
   return fit;
 }
 

@@ -1383,8 +1383,8 @@ class Points:
             weight, gain = self._b_weight[np.isfinite(at_zero)].sum(), np.nansum(self.frames * change)
             slope = float(gain / weight) if gain else math.nan
             if adds_up and gain:
-                of_zero = self._interval(zero, at_zero, -gain, excess)
-                of_slope = self._interval(slope, change, weight, excess)
+                of_zero = self._interval(zero, at_zero, -gain, at_zero)
+                of_slope = self._interval(slope, change, weight, at_zero)
             if adds_up:
                 none, everything = (self._b_at(p) for p in (0.0, 1.0))
                 share = (b - none) / (everything - none) if everything != none else math.nan

@@ -150,7 +150,11 @@ function fitSection(fit, heading) {
   });
   const zero = zeroOf(fit);
   const undecided = [...new Set(fit.rules.filter(({B: [, low, high]}) => low !== null && low <= 0 && high >= 0).map(({name}) => name))];
-  const doubts = fit.rules.filter((row) => row.doubt).map((row) => rounded(`${row.name}: ${row.doubt}.`));
+  const doubted = [...new Set(fit.rules.map((row) => row.doubt).filter(Boolean))];
+  const doubts = doubted.map((doubt) => {
+    const names = [...new Set(fit.rules.filter((row) => row.doubt === doubt).map((row) => row.name))];
+    return rounded(`${names.join(", ")}: ${doubt}.`);
+  });
   return element(
     "section",
     {},
