@@ -5,6 +5,7 @@
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/stress/partial_stress.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
@@ -16,6 +17,8 @@
 
 namespace grseg {
 namespace {
+
+const std::vector<std::string> fit_words{"paper"};
 
 std::string rules_help()
 {
@@ -51,15 +54,14 @@ po::options_description FitOptions::description()
     return po::value(&place)->value_name(name);
   };
   auto add = options.add_options();
-  add("partition", po::value(&partition)->composing()->value_name("RULE,..."),
-      rules_help().c_str());
-  add("component", text(component, "NAME")->default_value("yy"), list_of(components).c_str());
-  add("quantity", text(quantity, "NAME")->default_value("contact"),
+  add("partition", words_option(partition, words_of_rules()), rules_help().c_str());
+  add("component", word_option(&component, words_of(components)), list_of(components).c_str());
+  add("quantity", word_option(&quantity, words_of(quantities)),
       (list_of(quantities) + " stress").c_str());
-  add("fit", text(fit, "paper"),
+  add("fit", word_option(&fit, fit_words),
       "also what Staron & Phillips (2015) fit: the slope s of sigma^S/sigma^L over phi_S/phi_L, B of "
       "it, and k (phi_S/phi_L)^a");
-  add("base-part", text(base, "NAME"),
+  add("base-part", word_option(&base, words_of(base_parts)),
       ("part of contacts with base and walls: " + list_of(base_parts) +
        " (default: as in the table)")
           .c_str());
@@ -68,7 +70,7 @@ po::options_description FitOptions::description()
       "also a of sigma^nu/sigma = phi^nu s^a/sum(phi s^a), s the diameters; of more than two "
       "species always");
   add("scan", text(scan, "p0:p1:dp"), "print B over the share p instead of the rules");
-  add("over", text(over, "NAME"),
+  add("over", word_option(&over, words_of(overs)),
       ("what intervals are over, in one row per rule: " + list_of(overs) +
        " (default: windows of one run, runs of one flow; of several flows each over its runs, then "
        "all over flows)")
@@ -108,7 +110,7 @@ void FitOptions::check(const po::variables_map& values)
   if (!(filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
   if (json && short_form) throw UsageError("--short and --json exclude each other");
   if (!over.empty()) choose(over, "--over", overs);
-  if (!fit.empty() && fit != "paper") throw UsageError(unknown_word("--fit", fit, {"paper"}));
+  if (!fit.empty() && fit != fit_words[0]) throw UsageError(unknown_word("--fit", fit, fit_words));
   parse_rules(partition);
   check_heights(filters.heights);
   if (!scan.empty()) parse_scan(scan);

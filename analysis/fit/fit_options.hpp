@@ -13,7 +13,8 @@ namespace grseg {
 /// What the command line of grseg-fit says, mostly as typed.
 struct FitOptions {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range, pair, over, flows, fit;
+  std::string component = "yy", quantity = "contact";
+  std::string base, scan, ratio_range, pair, over, flows, fit;
   OutputOptions output;
   int bootstrap = 0;
   long seed = 0;

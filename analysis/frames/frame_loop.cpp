@@ -6,6 +6,7 @@
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/shell_word.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
@@ -31,14 +32,15 @@
 namespace grseg {
 namespace {
 
+const std::vector<std::string> all_bins{"layers", "radius", "radius:X,Y", "xy",
+                                        "xz",     "rz",     "rz:X,Y"};
+
 /// The axis that --bins names, where it names one.
 std::optional<Vec2> axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits units)
 {
   if (bins == "layers" || bins == "xy" || bins == "xz") return {};
   const std::string word = bins.substr(0, bins.find(':'));
-  if (word != "radius" && word != "rz")
-    throw UsageError(unknown_word("--bins", bins,
-                                  {"layers", "radius", "radius:X,Y", "xy", "xz", "rz", "rz:X,Y"}));
+  if (word != "radius" && word != "rz") throw UsageError(unknown_word("--bins", bins, all_bins));
   if (bins == word) {
     const auto& numbers = run.parameters().numbers;
     const auto centre = numbers.find("drum_centre");
@@ -105,7 +107,7 @@ void FrameOptions::add_to(po::options_description& options)
 void FrameOptions::add_bins_to(po::options_description& options)
 {
   options.add_options()(
-      "bins", po::value(&bins)->default_value(bins)->value_name("WORD"),
+      "bins", word_option(&bins, all_bins),
       "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
       "this axis), of thickness --layer; in annuli y is the distance from the axis, and x runs "
       "round it clockwise. Or a map of cells of side --layer: xy, in three dimensions also xz and "
