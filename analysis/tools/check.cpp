@@ -43,8 +43,7 @@ ToolInfo info()
 {
   return {
       name,
-      "whether a run is whole, with --deep whether its file is as specified, and with --physics "
-      "whether it obeys the laws of mechanics.",
+      "tells whether a run is whole, as specified (--deep) and obeys mechanics (--physics).",
       "grseg-check run.h5 [options] > check.tsv", help().c_str()};
 }
 
