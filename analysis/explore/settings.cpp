@@ -47,7 +47,7 @@ void ExploreSettings::add_to(po::options_description& options)
   add("bootstrap", po::value(&bootstrap)->default_value(bootstrap)->value_name("N"),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", po::value(&seed)->default_value(seed)->value_name("N"), "seed of the samples");
-  frames.add_to(options);
+  frames.add_to(options, FrameOptions::Makes::page);
 }
 
 void ExploreSettings::check(const po::variables_map& values)

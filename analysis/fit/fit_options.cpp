@@ -10,7 +10,6 @@
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -89,11 +88,9 @@ po::options_description FitOptions::description()
       "least solid fraction of a layer, in units of the run's median");
   add("begin", number(filters.begin, "s"), "first time of the windows that take part");
   add("end", number(filters.end, "s"), "last time of the windows that take part");
-  add("short", po::bool_switch(&short_form),
-      "print a short table for reading, as on a terminal; with -o beside the whole one in FILE");
   add("json", po::bool_switch(&json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&quiet), "no remarks on standard error");
-  output.add_to(options, "write the whole table there; -: to standard output, even on a terminal");
+  output.add_to(options);
   return options;
 }
 
@@ -108,7 +105,6 @@ void FitOptions::check(const po::variables_map& values)
   if (std::isnan(filters.begin) || std::isnan(filters.end))
     throw UsageError("--begin and --end are times in seconds");
   if (!(filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
-  if (json && short_form) throw UsageError("--short and --json exclude each other");
   if (!over.empty()) choose(over, "--over", overs);
   if (!fit.empty() && fit != fit_words[0]) throw UsageError(unknown_word("--fit", fit, fit_words));
   parse_rules(partition);
@@ -120,11 +116,6 @@ void FitOptions::check(const po::variables_map& values)
         throw UsageError(
             fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));
   parse_ratio_range(ratio_range, filters);
-}
-
-bool FitOptions::prints_short() const
-{
-  return short_form || (output.path.empty() && !json && isatty(STDOUT_FILENO) == 1);
 }
 
 }  // namespace grseg

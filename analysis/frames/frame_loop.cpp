@@ -82,7 +82,7 @@ Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
 
 }  // namespace
 
-void FrameOptions::add_to(po::options_description& options)
+void FrameOptions::add_to(po::options_description& options, Makes makes)
 {
   options.add_options()("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
                         "thickness of the layers: 4dS, 2dL, 20mm, or metres");
@@ -101,7 +101,10 @@ void FrameOptions::add_to(po::options_description& options)
   options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
   grouping.add_to(options);
-  output.add_to(options);
+  if (makes == Makes::table)
+    output.add_to(options);
+  else
+    output.OutputOptions::add_to(options);
 }
 
 void FrameOptions::add_bins_to(po::options_description& options)
@@ -150,6 +153,10 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
                       options.output.path));
     if (options.json)
       throw UsageError("--json prints text; give it without -o, or a name in .json");
+    if (options.output.short_form || options.output.digits > 0)
+      throw UsageError(fmt::format(
+          "-o {}: --short and --digits are for text; leave them out, or take a name in .tsv",
+          options.output.path));
     check_map_file(options.output, {run_.path()});
   }
   expect_passes(1);
@@ -409,7 +416,9 @@ void FrameLoop::add(Table& table, std::vector<double> row)
 {
   table.rows.push_back(std::move(row));
   const auto& path = options_.output.path;
-  const bool in_pieces = !options_.json && !is_map_file(path) && !is_device(path) &&
+  const auto& output = options_.output;
+  const bool as_it_is = !options_.json && !output.prints_short() && output.digits == 0;
+  const bool in_pieces = as_it_is && !is_map_file(path) && !is_device(path) &&
                          options_.parts.join == 0 && !options_.parts.part;
   if (!in_pieces || !GrowingTable::is_large(table)) return;
   if (!growing_) growing_.emplace(options_.output);
@@ -426,7 +435,7 @@ void FrameLoop::write(Table table, const std::string& next)
   if (growing_)
     growing_->finish(std::move(table));
   else
-    write_whole(options_.output, options_.json ? table.to_json() : table.to_text());
+    write_table(options_.output, options_.json ? table.to_json() : table.to_text());
   if (next.empty() || options_.output.path.empty() || options_.json || options_.parts.part) return;
   say_next(fmt::format("{} {}", next, shell_word(options_.output.path)), options_.quiet);
 }

@@ -196,7 +196,7 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
   });
   if (table.rows.empty())
     throw RunError("no row is left; choose another --begin, --end or --heights");
-  write_whole(frames.output, frames.json ? table.to_json() : table.to_text());
+  write_table(frames.output, frames.json ? table.to_json() : table.to_text());
 }
 
 }  // namespace grseg

@@ -93,7 +93,7 @@ void write_summary(const Settings& s, const SegregationSummary& summary, Header 
   header.emplace_back("interval", "95 %");
   if (!s.frames.quiet)
     for (const auto& remark : summary.remarks) fmt::print(stderr, "{}: {}\n", info.name, remark);
-  write_whole(s.frames.output, s.frames.json ? to_json(summary, header) : to_tsv(summary, header));
+  write_table(s.frames.output, s.frames.json ? to_json(summary, header) : to_tsv(summary, header));
 }
 
 template <int D>

@@ -168,8 +168,8 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
 
 void merge(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const std::set<std::string> about_merging{"merge",     "all-windows", "input", "output",
-                                            "overwrite", "quiet",       "json"};
+  const std::set<std::string> about_merging{"merge", "all-windows", "input", "output", "overwrite",
+                                            "quiet", "json",        "short", "digits"};
   for (const auto& [name, value] : values)
     if (!value.defaulted() && !about_merging.contains(name))
       throw UsageError(
@@ -177,7 +177,7 @@ void merge(const Settings& s, const po::variables_map& values, const std::string
   s.frames.output.check(values);
   const auto merged =
       merge_tables(read_tables(info, values, s.frames.quiet), s.all_windows, info, command);
-  write_whole(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
+  write_table(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
 }
 
 }  // namespace
