@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/settings.hpp"
 
+#include "formats/cli/word_option.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
 
@@ -30,12 +31,11 @@ void ExploreSettings::add_to(po::options_description& options)
   add("frames", po::value(&shown_frames)->default_value(shown_frames)->value_name("N"),
       "show about N frames, in equal steps; sums are of all");
   const auto first = "the rule that the page begins with: " + list_of_rules("or");
-  add("partition", po::value(&start)->default_value(start)->value_name("RULE"), first.c_str());
-  add("rules", po::value(&rules)->composing()->value_name("RULE,..."),
+  add("partition", word_option(&start, words_of_rule()), first.c_str());
+  add("rules", words_option(rules, words_of_rules()),
       "rules that the report compares (default: stock, those of published codes)");
-  add("component", po::value(&component)->default_value(component)->value_name("NAME"),
-      list_of(components).c_str());
-  add("base-part", po::value(&base)->value_name("NAME"),
+  add("component", word_option(&component, words_of(components)), list_of(components).c_str());
+  add("base-part", word_option(&base, words_of(base_parts)),
       ("part of contacts with base and walls: " + list_of(base_parts) +
        " (default: as in the table)")
           .c_str());
@@ -47,7 +47,7 @@ void ExploreSettings::add_to(po::options_description& options)
   add("bootstrap", po::value(&bootstrap)->default_value(bootstrap)->value_name("N"),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", po::value(&seed)->default_value(seed)->value_name("N"), "seed of the samples");
-  frames.add_to(options);
+  frames.add_to(options, FrameOptions::Makes::page);
 }
 
 void ExploreSettings::check(const po::variables_map& values)

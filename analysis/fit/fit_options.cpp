@@ -5,17 +5,19 @@
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/stress/partial_stress.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 
 namespace grseg {
 namespace {
+
+const std::vector<std::string> fit_words{"paper"};
 
 std::string rules_help()
 {
@@ -51,15 +53,14 @@ po::options_description FitOptions::description()
     return po::value(&place)->value_name(name);
   };
   auto add = options.add_options();
-  add("partition", po::value(&partition)->composing()->value_name("RULE,..."),
-      rules_help().c_str());
-  add("component", text(component, "NAME")->default_value("yy"), list_of(components).c_str());
-  add("quantity", text(quantity, "NAME")->default_value("contact"),
+  add("partition", words_option(partition, words_of_rules()), rules_help().c_str());
+  add("component", word_option(&component, words_of(components)), list_of(components).c_str());
+  add("quantity", word_option(&quantity, words_of(quantities)),
       (list_of(quantities) + " stress").c_str());
-  add("fit", text(fit, "paper"),
+  add("fit", word_option(&fit, fit_words),
       "also what Staron & Phillips (2015) fit: the slope s of sigma^S/sigma^L over phi_S/phi_L, B of "
       "it, and k (phi_S/phi_L)^a");
-  add("base-part", text(base, "NAME"),
+  add("base-part", word_option(&base, words_of(base_parts)),
       ("part of contacts with base and walls: " + list_of(base_parts) +
        " (default: as in the table)")
           .c_str());
@@ -68,7 +69,7 @@ po::options_description FitOptions::description()
       "also a of sigma^nu/sigma = phi^nu s^a/sum(phi s^a), s the diameters; of more than two "
       "species always");
   add("scan", text(scan, "p0:p1:dp"), "print B over the share p instead of the rules");
-  add("over", text(over, "NAME"),
+  add("over", word_option(&over, words_of(overs)),
       ("what intervals are over, in one row per rule: " + list_of(overs) +
        " (default: windows of one run, runs of one flow; of several flows each over its runs, then "
        "all over flows)")
@@ -87,11 +88,9 @@ po::options_description FitOptions::description()
       "least solid fraction of a layer, in units of the run's median");
   add("begin", number(filters.begin, "s"), "first time of the windows that take part");
   add("end", number(filters.end, "s"), "last time of the windows that take part");
-  add("short", po::bool_switch(&short_form),
-      "print a short table for reading, as on a terminal; with -o beside the whole one in FILE");
   add("json", po::bool_switch(&json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&quiet), "no remarks on standard error");
-  output.add_to(options, "write the whole table there; -: to standard output, even on a terminal");
+  output.add_to(options);
   return options;
 }
 
@@ -106,9 +105,8 @@ void FitOptions::check(const po::variables_map& values)
   if (std::isnan(filters.begin) || std::isnan(filters.end))
     throw UsageError("--begin and --end are times in seconds");
   if (!(filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
-  if (json && short_form) throw UsageError("--short and --json exclude each other");
   if (!over.empty()) choose(over, "--over", overs);
-  if (!fit.empty() && fit != "paper") throw UsageError(unknown_word("--fit", fit, {"paper"}));
+  if (!fit.empty() && fit != fit_words[0]) throw UsageError(unknown_word("--fit", fit, fit_words));
   parse_rules(partition);
   check_heights(filters.heights);
   if (!scan.empty()) parse_scan(scan);
@@ -118,11 +116,6 @@ void FitOptions::check(const po::variables_map& values)
         throw UsageError(
             fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));
   parse_ratio_range(ratio_range, filters);
-}
-
-bool FitOptions::prints_short() const
-{
-  return short_form || (output.path.empty() && !json && isatty(STDOUT_FILENO) == 1);
 }
 
 }  // namespace grseg

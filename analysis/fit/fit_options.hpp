@@ -13,18 +13,17 @@ namespace grseg {
 /// What the command line of grseg-fit says, mostly as typed.
 struct FitOptions {
   std::vector<std::string> partition;
-  std::string component, quantity, base, scan, ratio_range, pair, over, flows, fit;
-  OutputOptions output;
+  std::string component = "yy", quantity = "contact";
+  std::string base, scan, ratio_range, pair, over, flows, fit;
+  TableOptions output;
   int bootstrap = 0;
   long seed = 0;
-  bool json = false, quiet = false, short_form = false, exponent = false;
+  bool json = false, quiet = false, exponent = false;
   FitFilters filters;
 
   po::options_description description();
   /// Refuses what cannot be meant, before any table is read, and sets `filters` from the words.
   void check(const po::variables_map& values);
-  /// Whether a short table is printed: on a terminal, 17 digits are of no use.
-  bool prints_short() const;
 };
 
 }  // namespace grseg

@@ -32,6 +32,7 @@ struct FitReport {
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
   bool with_paper = false;  // whether what the paper fits is printed, too
+  int digits = 0;           // significant ones of the short table; 0: three decimals
   std::size_t number_of_runs = 0, number_of_windows = 0;
   bool names_pairs() const { return species.size() > 2; }
   /// Whether rows are of one flow each, beside those of all.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/short_table.hpp"
 
+#include "formats/cli/readable_table.hpp"
 #include "formats/cli/words.hpp"
 
 #include <fmt/format.h>
@@ -15,9 +16,10 @@
 namespace grseg {
 namespace {
 
-std::string rounded(double value)
+std::string rounded(const FitReport& report, double value)
 {
   if (!std::isfinite(value)) return "-";
+  if (report.digits > 0) return fmt::format("{:.{}g}", value, report.digits);
   const auto text = fmt::format("{:.3f}", value);
   return text == "-0.000" ? "0.000" : text;
 }
@@ -32,7 +34,7 @@ std::string shortened(const std::string& text)
 /// A sentence in lines of a hundred columns at most, those after the first indented.
 std::string wrapped(const std::string& sentence)
 {
-  constexpr std::size_t most = 100;
+  constexpr auto most = readable_width;
   std::string text;
   std::size_t column = 0;
   std::istringstream words(sentence);
@@ -52,28 +54,18 @@ std::string wrapped(const std::string& sentence)
 
 using Line = std::vector<std::string>;  // all of the same length
 
-/// Words to the left in the first and last column, numbers to the right between them, columns as
-/// wide as they must be.
-std::string aligned(const std::vector<Line>& lines)
+/// Words in the first and last column, numbers between them.
+std::string with_words_outside(const std::vector<Line>& lines)
 {
-  std::vector<std::size_t> width(lines.front().size());
-  for (const auto& line : lines)
-    for (std::size_t c = 0; c < line.size(); ++c) width[c] = std::max(width[c], line[c].size());
-  std::string text;
-  for (const auto& line : lines) {
-    text += fmt::format("{:<{}}", line.front(), width.front());
-    for (std::size_t c = 1; c + 1 < line.size(); ++c)
-      text += fmt::format("  {:>{}}", line[c], width[c]);
-    text += fmt::format("  {}\n", line.back());
-  }
-  return text;
+  const auto last = lines.front().size() - 1;
+  return aligned(lines, [last](std::size_t c) { return c == 0 || c == last; });
 }
 
-std::string b_text(const Estimate& b)
+std::string b_text(const FitReport& report, const Estimate& b)
 {
-  return std::isfinite(b.low)
-             ? fmt::format("{} [{}, {}]", rounded(b.value), rounded(b.low), rounded(b.high))
-             : rounded(b.value);
+  return std::isfinite(b.low) ? fmt::format("{} [{}, {}]", rounded(report, b.value),
+                                            rounded(report, b.low), rounded(report, b.high))
+                              : rounded(report, b.value);
 }
 
 std::string rules_text(const FitReport& report)
@@ -81,9 +73,9 @@ std::string rules_text(const FitReport& report)
   std::vector<Line> lines{
       {report.is_by_flow() ? "rule, flow" : "rule", "B [95 %]", "share", "used by"}};
   for (const auto& fit : report.rules)
-    lines.push_back({row_name(report, fit), b_text({fit.value.B, fit.low.B, fit.high.B}),
-                     rounded(fit.share), shortened(used_by(report, fit))});
-  return aligned(lines);
+    lines.push_back({row_name(report, fit), b_text(report, {fit.value.B, fit.low.B, fit.high.B}),
+                     rounded(report, fit.share), shortened(used_by(report, fit))});
+  return with_words_outside(lines);
 }
 
 /// What the paper fits: sigma^S/sigma^L = s phi_S/phi_L, or k (phi_S/phi_L)^a.
@@ -94,12 +86,12 @@ std::string paper_text(const FitReport& report)
       {"as the paper fits", "s [95 %]", "B of s [95 %]", "k [95 %]", "a [95 %]"}};
   for (const auto& fit : report.rules) {
     const auto text = [&](double Estimators::*place) {
-      return b_text({fit.value.*place, fit.low.*place, fit.high.*place});
+      return b_text(report, {fit.value.*place, fit.low.*place, fit.high.*place});
     };
     lines.push_back({row_name(report, fit), text(&Estimators::paper_s), text(&Estimators::paper_B),
                      text(&Estimators::paper_k), text(&Estimators::paper_a)});
   }
-  return '\n' + aligned(lines);
+  return '\n' + with_words_outside(lines);
 }
 
 /// B of every pair under a rule, the larger species along the lines.
@@ -116,7 +108,7 @@ std::string matrix_text(const FitReport& report, const std::string& rule)
     text += fmt::format("\n{:<{}}", species[b].name, width);
     for (const auto& fit : report.rules)
       if (rule_name(report, fit) == rule && fit.pair.larger == b && !fit.flow)
-        text += fmt::format("{:>{}}", rounded(fit.value.B), width);
+        text += fmt::format("{:>{}}", rounded(report, fit.value.B), width);
   }
   return text + '\n';
 }
@@ -130,11 +122,11 @@ std::string populations_text(const FitReport& report)
     for (const auto& [word, population, meaning] : overs) {
       const auto& b = fit.at(population);
       if (report.shares.size() < 2 || fit.flow || !std::isfinite(b.value)) continue;
-      lines.push_back({row_name(report, fit), b_text(b), word});
+      lines.push_back({row_name(report, fit), b_text(report, b), word});
     }
   if (!lines.empty()) {
     lines.insert(lines.begin(), {"all together", "B [95 %]", "over"});
-    text += '\n' + aligned(lines);
+    text += '\n' + with_words_outside(lines);
   }
   const auto words = estimands(report);
   if (!words.empty() && !report.flows.empty()) text += '\n';
@@ -171,8 +163,8 @@ std::string pairs_text(const FitReport& report)
         [&](const auto& other) { return rule_name(report, other) == rule && other.size_exponent; });
     if (of_all == report.rules.end()) continue;
     if (const auto& a = of_all->size_exponent)
-      text +=
-          fmt::format("{}: a = {}: sigma^nu/sigma = phi^nu s^a/sum(phi s^a)\n", rule, b_text(*a));
+      text += fmt::format("{}: a = {}: sigma^nu/sigma = phi^nu s^a/sum(phi s^a)\n", rule,
+                          b_text(report, *a));
   }
   return text;
 }
@@ -186,7 +178,7 @@ std::string line_text(const FitReport& report)
     if (rule_name(report, fit) == name && std::isfinite(fit.line.p_zero.value))
       text += wrapped(fmt::format(
           "B = 0 where the large grain gets p* = {} of every mixed contact; dB/dp = {}{}",
-          b_text(fit.line.p_zero.estimate()), b_text(fit.line.dB_dp.estimate()),
+          b_text(report, fit.line.p_zero.estimate()), b_text(report, fit.line.dB_dp.estimate()),
           report.is_by_flow() ? "; " + flow_name(report, fit) : ""));
   return text.empty() ? "" : '\n' + text;
 }

@@ -6,6 +6,7 @@
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/shell_word.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
@@ -31,14 +32,15 @@
 namespace grseg {
 namespace {
 
+const std::vector<std::string> all_bins{"layers", "radius", "radius:X,Y", "xy",
+                                        "xz",     "rz",     "rz:X,Y"};
+
 /// The axis that --bins names, where it names one.
 std::optional<Vec2> axis_of(const TrajectoryReader& run, const std::string& bins, LengthUnits units)
 {
   if (bins == "layers" || bins == "xy" || bins == "xz") return {};
   const std::string word = bins.substr(0, bins.find(':'));
-  if (word != "radius" && word != "rz")
-    throw UsageError(unknown_word("--bins", bins,
-                                  {"layers", "radius", "radius:X,Y", "xy", "xz", "rz", "rz:X,Y"}));
+  if (word != "radius" && word != "rz") throw UsageError(unknown_word("--bins", bins, all_bins));
   if (bins == word) {
     const auto& numbers = run.parameters().numbers;
     const auto centre = numbers.find("drum_centre");
@@ -80,7 +82,7 @@ Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
 
 }  // namespace
 
-void FrameOptions::add_to(po::options_description& options)
+void FrameOptions::add_to(po::options_description& options, Makes makes)
 {
   options.add_options()("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
                         "thickness of the layers: 4dS, 2dL, 20mm, or metres");
@@ -99,13 +101,16 @@ void FrameOptions::add_to(po::options_description& options)
   options.add_options()("json", po::bool_switch(&json), "print JSON instead of a table");
   options.add_options()("quiet", po::bool_switch(&quiet), "no progress and no remarks");
   grouping.add_to(options);
-  output.add_to(options);
+  if (makes == Makes::table)
+    output.add_to(options);
+  else
+    output.OutputOptions::add_to(options);
 }
 
 void FrameOptions::add_bins_to(po::options_description& options)
 {
   options.add_options()(
-      "bins", po::value(&bins)->default_value(bins)->value_name("WORD"),
+      "bins", word_option(&bins, all_bins),
       "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
       "this axis), of thickness --layer; in annuli y is the distance from the axis, and x runs "
       "round it clockwise. Or a map of cells of side --layer: xy, in three dimensions also xz and "
@@ -148,6 +153,10 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
                       options.output.path));
     if (options.json)
       throw UsageError("--json prints text; give it without -o, or a name in .json");
+    if (options.output.short_form || options.output.digits > 0)
+      throw UsageError(fmt::format(
+          "-o {}: --short and --digits are for text; leave them out, or take a name in .tsv",
+          options.output.path));
     check_map_file(options.output, {run_.path()});
   }
   expect_passes(1);
@@ -407,7 +416,9 @@ void FrameLoop::add(Table& table, std::vector<double> row)
 {
   table.rows.push_back(std::move(row));
   const auto& path = options_.output.path;
-  const bool in_pieces = !options_.json && !is_map_file(path) && !is_device(path) &&
+  const auto& output = options_.output;
+  const bool as_it_is = !options_.json && !output.prints_short() && output.digits == 0;
+  const bool in_pieces = as_it_is && !is_map_file(path) && !is_device(path) &&
                          options_.parts.join == 0 && !options_.parts.part;
   if (!in_pieces || !GrowingTable::is_large(table)) return;
   if (!growing_) growing_.emplace(options_.output);
@@ -424,7 +435,7 @@ void FrameLoop::write(Table table, const std::string& next)
   if (growing_)
     growing_->finish(std::move(table));
   else
-    write_whole(options_.output, options_.json ? table.to_json() : table.to_text());
+    write_table(options_.output, options_.json ? table.to_json() : table.to_text());
   if (next.empty() || options_.output.path.empty() || options_.json || options_.parts.part) return;
   say_next(fmt::format("{} {}", next, shell_word(options_.output.path)), options_.quiet);
 }

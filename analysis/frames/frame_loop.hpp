@@ -28,7 +28,7 @@ namespace grseg {
 
 /// The options of every tool that sums over the frames of a run by layer and window.
 struct FrameOptions {
-  OutputOptions output;
+  TableOptions output;
   std::string layer = "4dS", bins = "layers";
   WindowSettings windows;
   int threads = 1;
@@ -37,9 +37,10 @@ struct FrameOptions {
   GroupingOptions grouping;
   PartOptions parts;
 
+  enum class Makes { table, page };
   /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
-  /// --quiet --group --classes --edges.
-  void add_to(po::options_description& options);
+  /// --quiet --group --classes --edges, and of a table --short --digits.
+  void add_to(po::options_description& options, Makes makes = Makes::table);
   /// Adds --bins, for tools that also know annuli and maps.
   void add_bins_to(po::options_description& options);
   /// Adds --part and --join, for tools whose table has rows of one window each.

@@ -7,6 +7,7 @@
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/length.hpp"
@@ -16,22 +17,30 @@
 namespace grseg {
 namespace {
 
-ForceMeasure measure_of(const DerivedOptions& options)
+constexpr Choice<ContactForce> force_words[] = {{"modulus", ContactForce::modulus},
+                                                {"normal", ContactForce::normal}};
+constexpr Choice<ForceAverage> average_words[] = {{"contacts", ForceAverage::contacts},
+                                                  {"ends", ForceAverage::ends}};
+constexpr Choice<Pool> pool_words[] = {
+    {"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}};
+
+/// The others need sums that are not in this table.
+bool is_known(const RuleDefinition& rule)
 {
-  return {
-      choose<ContactForce>(options.force, "--force",
-                           {{"modulus", ContactForce::modulus}, {"normal", ContactForce::normal}}),
-      choose<ForceAverage>(options.average, "--average",
-                           {{"contacts", ForceAverage::contacts}, {"ends", ForceAverage::ends}})};
+  return !rule.sum || rule.sum == PairSum::by_size;
+}
+
+std::vector<std::string> known_rules()
+{
+  return words_of_rule(is_known);
 }
 
 PartitionRule rule_of(const DerivedOptions& options)
 {
   const auto rule = parse_rule(options.partition);
-  const auto sum = rule.definition().sum;
-  if (sum && sum != PairSum::by_size)  // the others are not in this table
-    throw UsageError(fmt::format("--partition {}: grseg-micro knows size, half, drop and uniform:P",
-                                 rule.name()));
+  if (!is_known(rule.definition()))
+    throw UsageError(fmt::format("--partition {}: grseg-micro takes {}", rule.name(),
+                                 list_of_words(known_rules())));
   return rule;
 }
 
@@ -124,19 +133,17 @@ std::vector<SumsRow<D>> read_rows(const std::vector<Table>& tables)
 
 void DerivedOptions::add_to(po::options_description& options)
 {
-  const auto word = [](std::string& place) {
-    return po::value(&place)->default_value(place)->value_name("WORD");
-  };
   auto add = options.add_options();
-  add("force", word(force),
+  add("force", word_option(&force, words_of(force_words)),
       "with --derived: the force of a contact, modulus or normal (its normal part)");
-  add("average", word(average),
+  add("average", word_option(&average, words_of(average_words)),
       "with --derived: f_S and f_L are means over contacts (with at least one such grain, each "
       "counted once) or over ends (contact ends on such grains)");
-  add("partition", word(partition),
-      "with --derived: the large grain's share of a mixed contact in P_S and P_L: size, half, drop "
-      "or uniform:P");
-  add("pool", word(pool),
+  add("partition", word_option(&partition, known_rules()),
+      ("with --derived: the large grain's share of a mixed contact in P_S and P_L: " +
+       list_of_words(known_rules()))
+          .c_str());
+  add("pool", word_option(&pool, words_of(pool_words)),
       "with --derived: which rows to merge: none, windows (each layer over all windows) or "
       "composition (layers by phi_L)");
   add("depth", po::value(&depth)->value_name("LENGTH"),
@@ -165,12 +172,13 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
                  {"layer", "window", "stride", "threads", "composition", "friction", "unit", "bin",
                   "distribution"},
                  "concerns the sums, which the table already holds; leave it out with --derived");
-  const auto pool = choose<Pool>(
-      options.pool, "--pool",
-      {{"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}});
+  const auto pool = choose(options.pool, "--pool", pool_words);
   frames.output.check(values);
   if (!options.heights.empty()) check_heights(options.heights);
-  DerivedSettings settings{measure_of(options), rule_of(options), 0};
+  DerivedSettings settings{{choose(options.force, "--force", force_words),
+                            choose(options.average, "--average", average_words)},
+                           rule_of(options),
+                           0};
   const auto tables = read_tables(info, values, frames.quiet);
   if (tables.empty())
     throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
@@ -188,7 +196,7 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
   });
   if (table.rows.empty())
     throw RunError("no row is left; choose another --begin, --end or --heights");
-  write_whole(frames.output, frames.json ? table.to_json() : table.to_text());
+  write_table(frames.output, frames.json ? table.to_json() : table.to_text());
 }
 
 }  // namespace grseg

@@ -148,13 +148,19 @@ std::string list_of_fields()
   return text;
 }
 
+std::vector<std::string> words_of_fields()
+{
+  std::vector<std::string> words{species_word};
+  for (const auto& field : definitions) words.emplace_back(field.word);
+  return words;
+}
+
 FieldChoice parse_field(const std::string& text)
 {
   const auto colon = text.find(':');
   const std::string word = text.substr(0, colon);
   const std::string argument = colon == std::string::npos ? "" : text.substr(colon + 1);
   if (text == species_word) return {};
-  std::vector<std::string> words{species_word};
   for (const auto& field : definitions) {
     if (word == field.word) {
       if (*field.argument == '\0' && colon != std::string::npos)
@@ -163,9 +169,8 @@ FieldChoice parse_field(const std::string& text)
         throw UsageError(fmt::format("--color {}: say since when, as in {}:0", text, word));
       return {&field, argument};
     }
-    words.emplace_back(field.word);
   }
-  throw UsageError(unknown_word("--color", word, words));
+  throw UsageError(unknown_word("--color", word, words_of_fields()));
 }
 
 std::size_t frame_nearest(const TrajectoryReader& run, double time, const std::string& asked)

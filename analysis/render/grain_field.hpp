@@ -50,8 +50,9 @@ struct FieldDefinition {
 
 /// All fields, in the order of --help.
 std::span<const FieldDefinition> field_definitions();
-/// What each means, for --help.
+/// What each means, for --help; and the words alone.
 std::string list_of_fields();
+std::vector<std::string> words_of_fields();
 
 /// A field as typed: "speed", "displacement:12.5". UsageError, naming --color, where it is none, or
 /// has an argument that it does not take.

@@ -2,6 +2,7 @@
 #include "analysis/render/picture_options.hpp"
 
 #include "formats/cli/numbers.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
 
@@ -46,7 +47,7 @@ void PictureOptions::add_to(po::options_description& options)
   };
   add("at", po::value(&at)->composing()->value_name("TIME,..."),
       "times (s) of a picture, start or end; several make panels of one picture (default: end)");
-  add("color", text(color, "FIELD"), list_of_fields().c_str());
+  add("color", word_option(&color, words_of_fields()), list_of_fields().c_str());
   add("range", text(range, "a:b"),
       "numbers of the first and the last colour (default: round numbers that leave out the last "
       "hundredth)");
@@ -54,14 +55,14 @@ void PictureOptions::add_to(po::options_description& options)
       "draw contacts as lines between the grains' centres, as wide as their normal force");
   add("force-width", text(force_width, "LENGTH"),
       "width that 99 of 100 lines do not exceed, counted over up to 16 of the frames");
-  add("partition", text(partition, "RULE"),
+  add("partition", word_option(&partition, words_of_rule()),
       ("with --forces: lines have the colours of the species, and mixed contacts are split where "
        "the rule divides them; with --color pressure: which part of them counts; " +
        list_of_rules() + " (default of pressure: size)")
           .c_str());
   add("region", text(region, "x0:x1,y0:y1"),
       "what is shown, in lengths such as 10dS; beyond a period the cell is repeated (default: all)");
-  add("plane", text(plane, "WORD"),
+  add("plane", word_option(&plane, words_of(planes)),
       ("in three dimensions: axis to the right and axis up the page, " + list_of(planes)).c_str());
   add("slice", text(slice, "z0:z1"),
       "in three dimensions: only grains whose centres lie there along the third axis (default: as "
@@ -70,7 +71,7 @@ void PictureOptions::add_to(po::options_description& options)
       "in three dimensions: all grains, the nearest in front");
   add("tilt", po::bool_switch(&tilt),
       "turn the picture so that gravity points down the page (default: x points to the right)");
-  add("theme", text(theme, "WORD"), list_of(theme_names).c_str());
+  add("theme", word_option(&theme, words_of(theme_names)), list_of(theme_names).c_str());
   add("width", text(width, "N"),
       "width in pixels, or on paper, 86mm, 8.6cm or 3.4in, with letters of 8 points (default: 1280 "
       "pixels, less where the picture would be higher than that)");

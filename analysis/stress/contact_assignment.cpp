@@ -2,6 +2,7 @@
 #include "analysis/stress/contact_assignment.hpp"
 
 #include "analysis/frames/frame_loop.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
@@ -33,13 +34,12 @@ constexpr Choice<AssignmentWord> assignments[] = {
 void ContactAssignmentOptions::add_to(po::options_description& options)
 {
   const auto where = "the layer to which a contact counts: " + list_of(assignments);
-  options.add_options()("assign", po::value(&assign)->default_value(assign)->value_name("WORD"),
-                        where.c_str());
+  options.add_options()("assign", word_option(&assign, words_of(assignments)), where.c_str());
   options.add_options()("kernel-width",
                         po::value(&width)->default_value(width)->value_name("LENGTH"),
                         "of the kernel: standard deviation of gauss, half the support of lucy and "
                         "heaviside");
-  options.add_options()("composition", po::value(&composition)->value_name("WORD"),
+  options.add_options()("composition", word_option(&composition, words_of(grain_areas)),
                         "a grain's area is clipped at the layers' edges (default), counted whole "
                         "at its centre, or spread from there by the kernel (default where there "
                         "is one): clipped, centre or kernel. In maps centre");

@@ -5,6 +5,7 @@
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -85,6 +86,8 @@ constexpr RuleDefinition definitions[] = {
      .number = "Q"},
 };
 
+constexpr const char* stock_word = "stock";
+
 bool takes_number(const RuleDefinition& rule)
 {
   return *rule.number != '\0';
@@ -110,9 +113,7 @@ double parse_number(const RuleDefinition& rule, const std::string& text, const s
 
 [[noreturn]] void refuse(const std::string& word)
 {
-  std::vector<std::string> words;
-  for (const auto& rule : definitions) words.push_back(as_typed(rule, rule.number));
-  throw UsageError(unknown_word("--partition", word, words));
+  throw UsageError(unknown_word("--partition", word, words_of_rule()));
 }
 
 }  // namespace
@@ -143,15 +144,26 @@ bool PartitionRule::adds_up() const
   return definition().share != nullptr;
 }
 
+std::vector<std::string> words_of_rule(bool (*wanted)(const RuleDefinition&))
+{
+  std::vector<std::string> words;
+  for (const auto& rule : definitions)
+    if (wanted == nullptr || wanted(rule)) words.push_back(as_typed(rule, rule.number));
+  return words;
+}
+
+std::vector<std::string> words_of_rules()
+{
+  auto words = words_of_rule();
+  words.emplace_back(stock_word);
+  return words;
+}
+
 std::string list_of_rules(const std::string& conjunction)
 {
-  std::string list;
-  const auto count = std::size(definitions);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (k > 0) list += k + 1 == count ? fmt::format(" {} ", conjunction) : ", ";
-    list += as_typed(definitions[k], definitions[k].number);
-  }
-  return list;
+  const auto words = words_of_rule();
+  return fmt::format("{} {} {}", fmt::join(words.begin(), words.end() - 1, ", "), conjunction,
+                     words.back());
 }
 
 PartitionRule parse_rule(const std::string& text)
@@ -177,7 +189,7 @@ std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts)
     std::istringstream list(text);
     if (text.empty()) refuse("");
     for (std::string one; std::getline(list, one, ',');) {
-      if (one != "stock") {
+      if (one != stock_word) {
         rules.push_back(parse_rule(one));
         continue;
       }

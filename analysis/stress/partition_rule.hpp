@@ -66,6 +66,10 @@ std::span<const RuleDefinition> rule_definitions();
 /// "size, contact-point, ..., uniform:P and power:Q", with any other word for "and".
 std::string list_of_rules(const std::string& conjunction = "and");
 
+/// These words, of all rules or of those that are wanted; and with "stock", for parse_rules.
+std::vector<std::string> words_of_rule(bool (*wanted)(const RuleDefinition&) = nullptr);
+std::vector<std::string> words_of_rules();
+
 /// UsageError, naming the rules, where `text` is none.
 PartitionRule parse_rule(const std::string& text);
 /// Several rules; each text may be a list "size,uniform:0.8", in which "stock" stands for all that

@@ -5,6 +5,7 @@
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/length.hpp"
@@ -40,7 +41,7 @@ struct Settings {
 po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
-  options.add_options()("kernel", po::value(&s.kernel)->default_value(s.kernel)->value_name("WORD"),
+  options.add_options()("kernel", word_option(&s.kernel, words_of(kernel_shapes)),
                         "coarse-graining function over height: gauss, lucy or heaviside");
   options.add_options()("kernel-width",
                         po::value(&s.width)->default_value(s.width)->value_name("LENGTH"),
@@ -49,7 +50,7 @@ po::options_description options_into(Settings& s)
   const auto partition =
       "adds columns of these rules, which cut mixed contacts elsewhere than at the contact point: " +
       list_of_rules() + ", several by comma; or stock, the rules of published codes";
-  options.add_options()("partition", po::value(&s.partition)->composing()->value_name("RULE,..."),
+  options.add_options()("partition", words_option(s.partition, words_of_rules()),
                         partition.c_str());
   s.frames.add_to(options);
   return options;

@@ -41,16 +41,14 @@ const std::string& help()
 
 ToolInfo info()
 {
-  return {
-      name,
-      "whether a run is whole, with --deep whether its file is as specified, and with --physics "
-      "whether it obeys the laws of mechanics.",
-      "grseg-check run.h5 [options] > check.tsv", help().c_str()};
+  return {name,
+          "tells whether a run is whole, as specified (--deep) and obeys mechanics (--physics).",
+          "grseg-check run.h5 [options] > check.tsv", help().c_str()};
 }
 
 struct Settings {
   PhysicsSettings physics;
-  OutputOptions output;
+  TableOptions output;
   bool deep = false, with_physics = false, json = false, quiet = false;
 };
 
@@ -131,7 +129,7 @@ int main(int argc, char** argv)
     const TrajectoryReader run(single_input(values, "check one at a time"), Verify::no);
     const auto report = with_dimension(
         run.dimension(), [&](auto d) { return check<d>(run, settings, command_line(argc, argv)); });
-    write_whole(settings.output, settings.json ? to_json(report) : to_tsv(report));
+    write_table(settings.output, settings.json ? to_json(report) : to_tsv(report));
     std::cout.flush();
     if (const auto failures = report.failures(); !failures.empty())
       throw CheckError(fmt::format("{}: {}", run.path(), failures));

@@ -88,10 +88,10 @@ int main(int argc, char** argv)
     auto report = make_report(info, options, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
     require_numbers(report);
-    const bool brief = options.prints_short();
+    const bool brief = options.output.prints_short() && !options.json && !report.scan;
     if (!options.quiet) remark(tables, report, !brief);
-    if (!brief || !options.output.path.empty())
-      write_whole(options.output, options.json ? to_json(report) : to_tsv(report));
-    if (brief) std::cout << short_table(report);
+    report.digits = options.output.digits;
+    write_table(options.output, options.json ? to_json(report) : to_tsv(report),
+                brief ? short_table(report) : "");
   });
 }

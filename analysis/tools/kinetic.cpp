@@ -4,6 +4,7 @@
 #include "analysis/frames/velocity_in_step.hpp"
 #include "analysis/maps/fields.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 
@@ -38,13 +39,11 @@ po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
   const auto means = "mean velocity that fluctuations are counted from: " + list_of(mean_flows);
-  options.add_options()("mean", po::value(&s.mean)->default_value(s.mean)->value_name("WORD"),
-                        means.c_str());
+  options.add_options()("mean", word_option(&s.mean, words_of(mean_flows)), means.c_str());
   const auto velocities =
       "which velocity of the step that a frame is: " + list_of(velocities_in_step) +
       "; imported frames have one only";
-  options.add_options()("velocity",
-                        po::value(&s.velocity)->default_value(s.velocity)->value_name("WORD"),
+  options.add_options()("velocity", word_option(&s.velocity, words_of(velocities_in_step)),
                         velocities.c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);

@@ -5,6 +5,7 @@
 #include "analysis/micro/derived_table.hpp"
 #include "analysis/micro/force_distribution.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 
@@ -28,6 +29,10 @@ constexpr ToolInfo info{
     "  grseg-micro run.h5 --distribution --window 30    histograms of f_n/<f_n>\n",
     presets::micro};
 
+constexpr Choice<GrainArea> areas[] = {{"clipped", GrainArea::clipped},
+                                       {"centre", GrainArea::centre}};
+constexpr Choice<ForceUnit> units[] = {{"layer", ForceUnit::layer}, {"type", ForceUnit::type}};
+
 struct Settings {
   FrameOptions frames;
   std::string composition = "clipped", unit = "layer";
@@ -39,18 +44,15 @@ struct Settings {
 po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
-  const auto word = [](std::string& place) {
-    return po::value(&place)->default_value(place)->value_name("WORD");
-  };
   auto add = options.add_options();
-  add("composition", word(s.composition),
+  add("composition", word_option(&s.composition, words_of(areas)),
       "give layers the area or volume of a grain clipped at their edges, or whole at its centre "
       "(centre)");
   add("friction", po::value(&s.friction)->value_name("MU"),
       "friction coefficient of the Coulomb limit at which contacts slide (default: the run's)");
   add("distribution", po::bool_switch(&s.distribution),
       "print histograms of f_n/<f_n> instead of the sums");
-  add("unit", word(s.unit),
+  add("unit", word_option(&s.unit, words_of(units)),
       "with --distribution: <f_n> is the mean over all contacts between grains of a layer, or over "
       "those of the same pair type (type)");
   add("bin", po::value(&s.bin)->default_value(s.bin, "0.1")->value_name("X"),
@@ -79,9 +81,7 @@ GrainArea area_of(Settings& s, const po::variables_map& values)
   if (s.frames.annuli() || map == MapPlane::rz)
     throw UsageError(fmt::format("--bins {}: grseg-micro knows layers, xy and xz", s.frames.bins));
   if (map && values["composition"].defaulted()) s.composition = "centre";
-  const auto area =
-      choose<GrainArea>(s.composition, "--composition",
-                        {{"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}});
+  const auto area = choose(s.composition, "--composition", areas);
   if (map && area != GrainArea::centre)
     throw UsageError(
         "--composition clipped: in a map a grain counts to the cell of its centre; take centre");
@@ -160,8 +160,7 @@ void distribute(FrameLoop& loop, const Settings& s, ForceUnit unit, const std::s
 
 void distribute(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto unit =
-      choose<ForceUnit>(s.unit, "--unit", {{"layer", ForceUnit::layer}, {"type", ForceUnit::type}});
+  const auto unit = choose(s.unit, "--unit", units);
   if (!(s.bin > 0) || !std::isfinite(s.bin)) throw UsageError("--bin must be positive");
   FrameLoop loop(info, values, s.frames);
   loop.require_two_species();

@@ -7,6 +7,7 @@
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/length.hpp"
 
@@ -64,12 +65,10 @@ po::options_description options_into(Settings& s)
       "with --summary and --closure: leave out layers whose solid fraction is less than X times "
       "the median");
   const auto rules = "with --closure: rules for c, " + list_of_rules() + ", or stock (default)";
-  options.add_options()("partition", po::value(&s.partition)->composing()->value_name("RULE,..."),
-                        rules.c_str());
+  options.add_options()("partition", words_option(s.partition, words_of_rules()), rules.c_str());
   const auto instruments =
       "with --closure: instrumental variables of the regression: " + list_of(instrument_choices);
-  options.add_options()("instruments",
-                        po::value(&s.instruments)->default_value(s.instruments)->value_name("WORD"),
+  options.add_options()("instruments", word_option(&s.instruments, words_of(instrument_choices)),
                         instruments.c_str());
   options.add_options()("bootstrap",
                         po::value(&s.bootstrap)->default_value(s.bootstrap)->value_name("N"),
@@ -94,7 +93,7 @@ void write_summary(const Settings& s, const SegregationSummary& summary, Header 
   header.emplace_back("interval", "95 %");
   if (!s.frames.quiet)
     for (const auto& remark : summary.remarks) fmt::print(stderr, "{}: {}\n", info.name, remark);
-  write_whole(s.frames.output, s.frames.json ? to_json(summary, header) : to_tsv(summary, header));
+  write_table(s.frames.output, s.frames.json ? to_json(summary, header) : to_tsv(summary, header));
 }
 
 template <int D>

@@ -7,6 +7,7 @@
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
@@ -42,16 +43,13 @@ struct Settings {
 po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
-  const auto word = [](std::string& place) {
-    return po::value(&place)->default_value(place)->value_name("WORD");
-  };
   s.assignment.add_to(options);
   const auto base = "likewise, the part of contacts with base and walls: " + list_of(base_parts);
   const auto volume = "likewise, the volume of a stress: " + list_of(stress_volumes);
-  options.add_options()("partition", word(s.partition),
+  options.add_options()("partition", word_option(&s.partition, words_of_rule()),
                         "default rule of grseg-fit for this table; power:Q adds columns Mpower_*");
-  options.add_options()("base-part", word(s.base), base.c_str());
-  options.add_options()("volume", word(s.volume), volume.c_str());
+  options.add_options()("base-part", word_option(&s.base, words_of(base_parts)), base.c_str());
+  options.add_options()("volume", word_option(&s.volume, words_of(stress_volumes)), volume.c_str());
   options.add_options()("merge", po::bool_switch(&s.merge),
                         "of tables instead of a run: means weighted by frames, window by window");
   options.add_options()("all-windows", po::bool_switch(&s.all_windows),
@@ -170,8 +168,8 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
 
 void merge(const Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const std::set<std::string> about_merging{"merge",     "all-windows", "input", "output",
-                                            "overwrite", "quiet",       "json"};
+  const std::set<std::string> about_merging{"merge", "all-windows", "input", "output", "overwrite",
+                                            "quiet", "json",        "short", "digits"};
   for (const auto& [name, value] : values)
     if (!value.defaulted() && !about_merging.contains(name))
       throw UsageError(
@@ -179,7 +177,7 @@ void merge(const Settings& s, const po::variables_map& values, const std::string
   s.frames.output.check(values);
   const auto merged =
       merge_tables(read_tables(info, values, s.frames.quiet), s.all_windows, info, command);
-  write_whole(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
+  write_table(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
 }
 
 }  // namespace

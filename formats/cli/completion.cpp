@@ -2,12 +2,14 @@
 #include "formats/cli/completion.hpp"
 
 #include "formats/cli/shell_word.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 namespace grseg {
 namespace {
@@ -28,7 +30,7 @@ std::string name_of_value(const po::option_description& option)
 
 bool takes_file(const po::option_description& option)
 {
-  return takes_value(option) && name_of_value(option) == "FILE";
+  return name_of_value(option).starts_with("FILE");
 }
 
 /// "_grseg_stress", the name of the function.
@@ -48,37 +50,58 @@ std::vector<std::string> names_of(const po::option_description& option)
   return names;
 }
 
-/// Words that end a case of bash: "    a|b) what ;;", nothing where there are none.
-std::string bash_case(const std::vector<std::string>& words, const char* what)
+/// The words that the value may be, "uniform:" for "uniform:P"; none where it is no word.
+std::vector<std::string> words_for(const po::option_description& option)
 {
-  return words.empty() ? "" : fmt::format("    {}) {} return ;;\n", fmt::join(words, "|"), what);
+  const auto* known = dynamic_cast<const OptionWords*>(option.semantic().get());
+  auto words = known == nullptr ? std::vector<std::string>{} : known->words;
+  for (auto& word : words) word.resize(std::min(word.find(':'), word.size() - 1) + 1);
+  return words;
+}
+
+bool takes_list(const po::option_description& option)
+{
+  return name_of_value(option).ends_with(",...");
+}
+
+/// Where bash takes from what may follow the option.
+std::string bash_source(const po::option_description& option)
+{
+  const auto words = words_for(option);
+  if (words.empty()) return takes_file(option) ? "" : "return ";
+  return fmt::format("from=(-W '{}') {}", fmt::join(words, " "),
+                     takes_list(option) ? "before=${word%\"${word##*,}\"} " : "");
 }
 
 std::string bash_script(const std::string& tool, const po::options_description& options)
 {
-  std::vector<std::string> all, before_file, before_other;
+  std::vector<std::string> all;
+  std::map<std::string, std::vector<std::string>> by_source;
   for (const auto& option : options.options())
     for (const auto& name : names_of(*option)) {
       all.push_back(name);
-      if (takes_value(*option)) (takes_file(*option) ? before_file : before_other).push_back(name);
+      if (takes_value(*option)) by_source[bash_source(*option)].push_back(name);
     }
+  std::string cases;
+  for (const auto& [source, names] : by_source)
+    cases += fmt::format("    {}) {};;\n", fmt::join(names, "|"), source);
   return fmt::format(R"(# bash completion of {0}, printed by {0} --completion bash
 {1}()
 {{
-  local word=${{COMP_WORDS[COMP_CWORD]}}
+  local word=${{COMP_WORDS[COMP_CWORD]}} from=(-f) before=
   COMPREPLY=()
   case ${{COMP_WORDS[COMP_CWORD - 1]}} in
-{2}{3}  esac
-  case $word in
-    -*) mapfile -t COMPREPLY < <(compgen -W "{4}" -- "$word") ;;
-    *) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
+{2}    *) [[ $word != -* ]] || from=(-W '{3}') ;;
+  esac
+  mapfile -t COMPREPLY < <(compgen -P "$before" "${{from[@]}}" -- "${{word#"$before"}}")
+  case ${{from[0]}}${{COMPREPLY[*]}} in
+    -f*) compopt -o filenames ;;
+    *:) compopt -o nospace ;;
   esac
 }}
-complete -o filenames -F {1} {0}
+complete -F {1} {0}
 )",
-                     tool, function_of(tool),
-                     bash_case(before_file, "mapfile -t COMPREPLY < <(compgen -f -- \"$word\");"),
-                     bash_case(before_other, ""), fmt::join(all, " "));
+                     tool, function_of(tool), cases, fmt::join(all, " "));
 }
 
 /// As it may stand between the colons and brackets of _arguments.
@@ -101,14 +124,23 @@ std::string short_text(const std::string& description)
   return description.substr(0, end);
 }
 
+/// What zsh completes the value of an option with.
+std::string zsh_action(const po::option_description& option)
+{
+  const auto words = words_for(option);
+  if (words.empty()) return takes_file(option) ? "_files" : "";
+  return without_meaning(fmt::format(
+      fmt::runtime(takes_list(option) ? "_sequence compadd - {}" : "({})"), fmt::join(words, " ")));
+}
+
 /// One line of _arguments: '(--output -o)'{--output=,-o+}'[text]:FILE:_files'.
 std::string zsh_line(const po::option_description& option)
 {
   const auto names = names_of(option);
   const bool value = takes_value(option);
-  const auto action = value ? fmt::format(":{}:{}", without_meaning(name_of_value(option)),
-                                          takes_file(option) ? "_files" : "")
-                            : "";
+  const auto action =
+      value ? fmt::format(":{}:{}", without_meaning(name_of_value(option)), zsh_action(option))
+            : "";
   const auto text =
       fmt::format("[{}]{}", without_meaning(short_text(option.description())), action);
   const auto name = names[0] + (value ? "=" : "");
@@ -129,12 +161,17 @@ std::string zsh_script(const std::string& tool, const po::options_description& o
 
 }  // namespace
 
+std::vector<std::string> shells()
+{
+  return {"bash", "zsh"};
+}
+
 std::string completion_script(const std::string& shell, const std::string& tool,
                               const po::options_description& options)
 {
   if (shell == "bash") return bash_script(tool, options);
   if (shell == "zsh") return zsh_script(tool, options);
-  throw UsageError(unknown_word("--completion", shell, {"bash", "zsh"}));
+  throw UsageError(unknown_word("--completion", shell, shells()));
 }
 
 }  // namespace grseg

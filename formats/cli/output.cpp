@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/output.hpp"
 
+#include "formats/cli/readable_table.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <iostream>
 #include <utility>
 
@@ -26,6 +31,35 @@ void OutputOptions::check(const po::variables_map& values) const
   check_output(path, overwrite, inputs);
 }
 
+void TableOptions::add_to(po::options_description& options)
+{
+  options.add_options()("short", po::bool_switch(&short_form),
+                        "print a short table for reading, as on a terminal; with -o beside the "
+                        "whole one in FILE");
+  options.add_options()("digits", po::value(&digits)->value_name("N"),
+                        "significant digits of numbers (default: 17 in the whole table, few in the "
+                        "short one)");
+  OutputOptions::add_to(options,
+                        "write the whole table there; -: to standard output, even on a terminal");
+}
+
+void TableOptions::check(const po::variables_map& values) const
+{
+  constexpr int most = 17;  // what a double has
+  if (values.contains("digits") && (digits < 1 || digits > most))
+    throw UsageError(fmt::format("--digits {}: it must be 1 to {}", digits, most));
+  const bool json = values.contains("json") && values["json"].as<bool>();
+  if (json && (short_form || digits > 0))
+    throw UsageError(
+        fmt::format("--{} and --json exclude each other", short_form ? "short" : "digits"));
+  OutputOptions::check(values);
+}
+
+bool TableOptions::prints_short() const
+{
+  return short_form || (path.empty() && isatty(STDOUT_FILENO) == 1);
+}
+
 Output::Output(std::string path, bool overwrite, const std::vector<std::string>& inputs)
     : path_(std::move(path)), overwrite_(overwrite), temporary_(temporary_path(path_))
 {
@@ -43,6 +77,17 @@ void write_whole(const OutputOptions& output, std::string_view text)
   const RemoveAtEnd temporary(temporary_path(path));
   write_file(temporary.path(), text, path);
   publish_file(temporary.path(), path, output.overwrite);
+}
+
+void write_table(const TableOptions& output, const std::string& text, const std::string& short_text)
+{
+  constexpr int few = 4;
+  const bool brief = output.prints_short() && !text.starts_with('{');
+  if (!brief || !output.path.empty())
+    write_whole(output, output.digits > 0 ? rounded_table(text, output.digits) : text);
+  if (brief)
+    std::cout << (short_text.empty() ? readable_table(text, output.digits > 0 ? output.digits : few)
+                                     : short_text);
 }
 
 }  // namespace grseg

@@ -26,6 +26,20 @@ struct OutputOptions {
   void check(const po::variables_map& values) const;
 };
 
+/// The same of a table, and how it is printed.
+struct TableOptions : OutputOptions {
+  bool short_form = false;
+  int digits = 0;  ///< significant ones; 0: all in the whole table, few in the short one
+
+  /// Adds --short, --digits, --output and --overwrite.
+  void add_to(po::options_description& options);
+  /// Also refuses a number of digits that cannot be, and either option beside --json.
+  void check(const po::variables_map& values) const;
+  /// Whether a table for reading goes to standard output: asked for, or that is a terminal and no
+  /// other place is named.
+  bool prints_short() const;
+};
+
 /// A file that appears whole or not at all: it is written under a temporary name and renamed by
 /// `publish`; without that it is removed.
 class Output {
@@ -47,5 +61,10 @@ class Output {
 /// Writes `text` to where `output` says, whole or not at all; devices and pipes are written to
 /// directly. RunError on failure, and where a file has appeared that may not be replaced.
 void write_whole(const OutputOptions& output, std::string_view text);
+
+/// The same of a table, or prints a short one, which is `short_text` or made of it, or both. JSON, which
+/// begins with "{", has no short form.
+void write_table(const TableOptions& output, const std::string& text,
+                 const std::string& short_text = "");
 
 }  // namespace grseg

@@ -4,6 +4,7 @@
 #include "formats/cli/citation.hpp"
 #include "formats/cli/completion.hpp"
 #include "formats/cli/shell_word.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
@@ -19,6 +20,9 @@
 namespace grseg {
 namespace {
 
+constexpr Choice<const char * PresetOption::*> preset_names[] = {
+    {"paper", &PresetOption::paper}, {"rigorous", &PresetOption::rigorous}};
+
 std::vector<std::string> names_of(const po::options_description& options)
 {
   std::vector<std::string> names;
@@ -32,12 +36,12 @@ std::vector<std::pair<std::string, std::string>> preset_values(const ToolInfo& i
 {
   const auto name = preset_of(given);
   if (name == "none") return {};
-  const bool is_paper = choose<bool>(name, "preset", {{"paper", true}, {"rigorous", false}});
+  const auto value_of = choose(name, "preset", preset_names);
   std::vector<std::pair<std::string, std::string>> values;
-  for (const auto& [option, paper, rigorous] : info.presets) {
-    const std::string value = is_paper ? paper : rigorous;
-    if (!value.empty() && (!given.contains(option) || given[option].defaulted()))
-      values.emplace_back(option, value);
+  for (const auto& row : info.presets) {
+    const std::string value = row.*value_of;
+    if (!value.empty() && (!given.contains(row.option) || given[row.option].defaulted()))
+      values.emplace_back(row.option, value);
   }
   return values;
 }
@@ -59,12 +63,14 @@ void apply_preset(const ToolInfo& info, const po::options_description& options,
 
 std::string help_of(const std::span<const PresetOption> presets)
 {
-  std::string paper = "paper:", rigorous = "rigorous:";
-  for (const auto& row : presets) {
-    if (*row.paper != '\0') paper += fmt::format(" --{} {}", row.option, row.paper);
-    if (*row.rigorous != '\0') rigorous += fmt::format(" --{} {}", row.option, row.rigorous);
+  std::string text;
+  for (const auto& [name, value, meaning] : preset_names) {
+    text += fmt::format("{}:", name);
+    for (const auto& row : presets)
+      if (*(row.*value) != '\0') text += fmt::format(" --{} {}", row.option, row.*value);
+    text += "; ";
   }
-  return fmt::format("{}; {}; options given explicitly take precedence", paper, rigorous);
+  return text + "options given explicitly take precedence";
 }
 
 po::variables_map parse(int argc, char** argv, const ToolInfo& info,
@@ -128,10 +134,10 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
   po::options_description all = options;
   const auto presets = help_of(info.presets);
   if (!info.presets.empty())
-    all.add_options()("preset", po::value<std::string>()->value_name("NAME"), presets.c_str());
+    all.add_options()("preset", word_option(nullptr, words_of(preset_names)), presets.c_str());
   all.add_options()("version", "print the version and exit");
   all.add_options()("cite", "print what to cite, as BibTeX, and exit");
-  all.add_options()("completion", po::value<std::string>()->value_name("SHELL"),
+  all.add_options()("completion", word_option(nullptr, shells()),
                     "print a script by which bash or zsh completes this command, and exit");
   all.add_options()("help,h", "print this text and exit");
   try {

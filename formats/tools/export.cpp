@@ -5,6 +5,7 @@
 #include "formats/cli/progress.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/cli/verification.hpp"
+#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/export/extxyz_writer.hpp"
@@ -28,6 +29,8 @@ constexpr ToolInfo info{
     "  grseg-export run.h5 --to lammps -o run.dump.gz     OVITO; run.contacts.dump.gz beside it\n"
     "  grseg-export run.h5 --to h5md3d --begin 20 --end 40 -o view.h5md       MDAnalysis\n"};
 
+const std::vector<std::string> formats{"vtp", "extxyz", "lammps", "h5md3d"};
+
 struct Settings {
   FrameRange range;
   std::string format, output;
@@ -39,7 +42,7 @@ po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
   auto add = options.add_options();
-  add("to", po::value(&s.format)->value_name("WORD"),
+  add("to", word_option(&s.format, formats),
       "vtp: PolyData with times, grains as points and contacts as lines; extxyz: extended XYZ; "
       "lammps: dump custom and dump local; h5md3d: H5MD in three dimensions");
   s.range.add_to(options);
@@ -103,7 +106,7 @@ void export_run(const Settings& s, const po::variables_map& values)
   } else if (s.format == "h5md3d") {
     write(H5md3dWriter(run, cell, s.output, s.overwrite));
   } else {
-    throw UsageError(unknown_word("--to", s.format, {"vtp", "extxyz", "lammps", "h5md3d"}));
+    throw UsageError(unknown_word("--to", s.format, formats));
   }
 }
 

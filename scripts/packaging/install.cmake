@@ -28,7 +28,9 @@ foreach(program ${GRSEG_PROGRAMS})
     set(page ${PROJECT_BINARY_DIR}/man/${program}.1)
     add_custom_command(
       OUTPUT ${page}
-      COMMAND ${HELP2MAN} --no-info --section=1 --output=${page} $<TARGET_FILE:${program}>
+      COMMAND
+        sh -c "\"$0\" --no-info --section=1 --output=\"$1\" --name=\"$(\"$2\" --help | sed 's/^[^:]*: //; s/\\.$//; q')\" \"$2\""
+        ${HELP2MAN} ${page} $<TARGET_FILE:${program}>
       DEPENDS ${program}
       VERBATIM)
     list(APPEND GRSEG_PRINTED ${page})

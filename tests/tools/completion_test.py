@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""The scripts of --completion complete options and files in an interactive bash and zsh.
+"""The scripts of --completion complete options, their words, and files in an interactive bash and zsh.
 
 Usage: completion_test.py BIN; a shell that is missing is named, and the other tried; exit code 77 where both are.
 """
 import os
 import pty
+import re
 import select
 import shutil
 import subprocess
@@ -14,10 +15,33 @@ import time
 
 programs = sys.argv[1]
 SHELLS = "bash", "zsh"
+TYPED = {
+    "--partit": "--partition",
+    "sums-o": "sums-of-a-run.tsv",
+    "-o sums-o": "sums-of-a-run.tsv",
+    "--over eq": "--over equal-flows",
+    "--partition size,contact-": "--partition size,contact-point",
+    "--partition unif": "--partition uniform:",
+}
+# An option of each place where words are listed, and one of its words.
+WORDS = {
+    "grseg-balance": {"kernel": "lucy", "partition": "stock", "preset": "rigorous"},
+    "grseg-explore": {"partition": "contact-point", "rules": "stock", "component": "yy", "base-part": "half"},
+    "grseg-export": {"to": "extxyz"},
+    "grseg-fit": {"component": "pressure", "quantity": "kinetic", "fit": "paper", "completion": "zsh"},
+    "grseg-import": {"format": "siconos", "repeated": "last", "units": "cgs", "grains-are": "spheres", "origin": "centre"},
+    "grseg-kinetic": {"mean": "profile-unbiased", "velocity": "middle", "bins": "radius:"},
+    "grseg-micro": {"composition": "clipped", "unit": "type", "force": "normal", "average": "ends", "pool": "windows",
+                    "partition": "uniform:"},
+    "grseg-render": {"color": "pressure", "plane": "zx", "theme": "dark"},
+    "grseg-segregation": {"instruments": "previous"},
+    "grseg-sim": {"accuracy": "draft", "contact-law": "centred", "geometry": "drum", "rotation": "off"},
+    "grseg-stress": {"assign": "branch", "composition": "kernel", "volume": "solid", "base-part": "half"},
+}
 
 
-def typed(shell, script, keys, folder):
-    """What an interactive shell shows after these keys, its completion loaded."""
+def typed(shell, script, keys, folder, wanted):
+    """What an interactive shell shows after these keys, its completion loaded, until it shows what is wanted."""
     words = {"bash": ["bash", "--norc", "--noprofile", "-i"], "zsh": ["zsh", "-f", "-i"]}[shell]
     child, terminal = pty.fork()
     if child == 0:
@@ -26,11 +50,11 @@ def typed(shell, script, keys, folder):
         os.execvp(words[0], words)
     load = f"source {script}" if shell == "bash" else f"fpath=({os.path.dirname(script)} $fpath); autoload -Uz compinit; compinit -u -D"
     seen = ""
-    for line, wanted in ((f"PS1='READY '; {load}; echo lo''aded\r", "loaded"), (keys, None)):
+    for line, last in ((f"PS1='READY '; {load}; echo lo''aded\r", "loaded"), (keys, wanted)):
         os.write(terminal, line.encode())
         until, part = time.monotonic() + 20, ""
-        while time.monotonic() < until and (wanted is None or wanted not in part):
-            ready, _, _ = select.select([terminal], [], [], 2 if wanted is None else 20)
+        while time.monotonic() < until and last not in part:
+            ready, _, _ = select.select([terminal], [], [], 20)
             if not ready:
                 break
             part += os.read(terminal, 65536).decode(errors="replace")
@@ -52,17 +76,20 @@ def main():
             script = os.path.join(work, "_grseg-fit" if shell == "zsh" else "grseg-fit")
             with open(script, "w") as out:
                 subprocess.run([os.path.join(programs, "grseg-fit"), "--completion", shell], stdout=out, check=True)
-            shown = typed(shell, script, "grseg-fit --partit\t", work)
-            assert "--partition" in shown, (shell, shown)
-            shown = typed(shell, script, "grseg-fit sums-o\t", work)
-            assert "sums-of-a-run.tsv" in shown, (shell, shown)
-            shown = typed(shell, script, "grseg-fit -o sums-o\t", work)
-            assert "sums-of-a-run.tsv" in shown, (shell, shown)
+            for keys, wanted in TYPED.items():
+                shown = typed(shell, script, f"grseg-fit {keys}\t", work, wanted)
+                assert wanted in shown, (shell, keys, shown)
     for program in sorted(os.listdir(programs)):
-        if program.startswith("grseg-"):
-            for shell in set(SHELLS) - set(missing):
-                text = subprocess.run([os.path.join(programs, program), "--completion", shell], capture_output=True, check=True).stdout
-                wrong = subprocess.run([shell, "-n"], input=text, capture_output=True)
+        if not program.startswith("grseg-"):
+            continue
+        for shell in SHELLS:
+            text = subprocess.run([os.path.join(programs, program), "--completion", shell], capture_output=True, check=True,
+                                  text=True).stdout
+            for option, word in WORDS.get(program, {}).items():
+                line = next(line for line in text.split("\n") if re.match(rf"\W+({option}|.*\|--{option})\W", line))
+                assert word in re.split(r"[ ()']", line.replace("\\", "")), (program, shell, option, word, line)
+            if shell not in missing:
+                wrong = subprocess.run([shell, "-n"], input=text, capture_output=True, text=True)
                 assert wrong.returncode == 0 and not wrong.stderr, (program, shell, wrong.stderr)
     if missing:
         print("not tried, since not installed:", *missing)

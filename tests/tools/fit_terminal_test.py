@@ -2,40 +2,23 @@
 """grseg-fit prints a short table on a terminal, and the whole one into pipes and files.
 Usage: fit_terminal_test.py GRSEG-FIT SUMS"""
 import os
-import pty
-import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scripts"))
 import sealed_tables  # noqa: E402
+import terminal  # noqa: E402
 
 program, sums = sys.argv[1:]
 options = [sums, "--heights", "all", "--bootstrap", "100", "--partition", "size,half"]
 
 
 def on_terminal(*more):
-    """Standard output of grseg-fit where that is a terminal; exit code 0."""
-    leader, follower = pty.openpty()
-    process = subprocess.Popen([program, *options, *more], stdout=follower, stderr=subprocess.PIPE)
-    os.close(follower)
-    text = b""
-    while True:
-        try:
-            part = os.read(leader, 4096)
-        except OSError:  # closed at the other end
-            break
-        if not part:
-            break
-        text += part
-    error = process.stderr.read().decode()
-    assert process.wait() == 0, error
-    return text.decode().replace("\r\n", "\n"), error
+    return terminal.on_terminal([program, *options, *more])
 
 
 def in_pipe(*more):
-    done = subprocess.run([program, *options, *more], capture_output=True, check=True, text=True)
-    return done.stdout, done.stderr
+    return terminal.in_pipe([program, *options, *more])
 
 
 def made_with(table, words, more):

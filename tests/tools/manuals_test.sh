@@ -1,6 +1,7 @@
 #!/bin/sh
 # manuals_test.sh BUILD: manual pages and completions are installed of the programs that there are, and of no others,
-# which an earlier build may have left; the Debian package suggests what makes films, figures and reads runs in Python.
+# which an earlier build may have left; a page is named by what its program does; the Debian package suggests what makes
+# films, figures and reads runs in Python.
 set -eu
 build=$1
 folder=$(mktemp -d)
@@ -15,6 +16,18 @@ for file in bash-completion/completions/grseg- zsh/site-functions/_grseg- zsh/ve
   [ $file = man/man1/grseg- ] && ! command -v help2man >"$folder/said" && continue
   ls $file* | grep -q 'grseg-stress\(\.1\)\?$'
   ls $file* | grep 'grseg-gone' && exit 1
+done
+
+for page in man/man1/*.1; do
+  [ -e "$page" ] || continue
+  program=$(basename "$page" .1)
+  says=$("$build/bin/$program" --help | sed 's/: / - /; s/\.$//; q')
+  if command -v lexgrog >"$folder/said"; then
+    named=$(lexgrog "$page" | sed 's/^[^"]*"//; s/"$//')
+  else
+    named=$(sed -n '/^\.SH NAME/ { n; s/\\//g; p; q }' "$page")
+  fi
+  [ "$named" = "$says" ] || { echo "$page: '$named', not '$says'" >&2; exit 1; }
 done
 
 for package in ffmpeg gnuplot-nox python3-h5py; do

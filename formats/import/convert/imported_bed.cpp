@@ -164,7 +164,8 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
 {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), origin);
   if (error == std::errc() && end == text.data() + text.size() && std::isfinite(origin)) return;
-  if (text != "top" && text != "centre")
+  const auto top = find_choice(text, origin_words);
+  if (!top)
     throw UsageError(
         fmt::format("--origin '{}' is not top, centre, or a height in the archive", text));
   double sum = 0;
@@ -183,7 +184,7 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
   for (std::size_t g = 0; g < ids.size(); ++g)
     if (is_boundary(static_cast<std::size_t>(rows.find(ids[g]))) &&
         height(g) * static_cast<double>(mobile) <= sum)
-      origin = std::max(origin, height(g) + (text == "top" ? first.grains.radius[g] : 0));
+      origin = std::max(origin, height(g) + (*top ? first.grains.radius[g] : 0));
   for (const auto& wall : walls) {
     const double up = axes.components<3>(Vec3::Unit(wall.axis)).y();
     const bool is_floor =

@@ -39,7 +39,8 @@ Moments::Moments(const ImportSettings& settings, const std::string& columns)
       interval_(settings.interval),
       drop_incomplete_(settings.drop_incomplete),
       cells_(parse_cells(settings.cells)),
-      repeated_(parse_repeated(settings.repeated)),
+      repeated_(settings.repeated ? choose(*settings.repeated, "--repeated", repeated_words)
+                                  : Repeated::ask),
       range_(settings.begin, settings.end)
 {
   if (repeated_.needs_all_times())

@@ -24,14 +24,6 @@ std::uint64_t digest_of(const ArchiveGrains& grains)
 
 }  // namespace
 
-Repeated parse_repeated(const std::optional<std::string>& text)
-{
-  if (!text) return Repeated::ask;
-  if (*text == "first") return Repeated::first;
-  if (*text == "last") return Repeated::last;
-  throw UsageError(unknown_word("--repeated", *text, {"first", "last"}));
-}
-
 double RepeatedMoments::time_of(const ArchiveMoment& moment)
 {
   return moment.step ? static_cast<double>(*moment.step) : *moment.time;

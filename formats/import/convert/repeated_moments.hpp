@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/import/common/archive.hpp"
+#include "formats/import/facts/import_settings.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +12,6 @@
 #include <vector>
 
 namespace grseg {
-
-/// Where a job that began from an earlier checkpoint writes moments again: whose of them count.
-enum class Repeated {
-  ask,    // those that are the same count once; others are refused
-  first,  // those of the earlier job
-  last    // those of the later job
-};
-/// --repeated: "first" or "last". UsageError otherwise.
-Repeated parse_repeated(const std::optional<std::string>& text);
 
 /// Picks the moments of an archive that count, in order of time.
 class RepeatedMoments {

@@ -2,6 +2,8 @@
 #include "formats/import/facts/import_settings.hpp"
 
 #include "formats/cli/output.hpp"
+#include "formats/cli/word_option.hpp"
+#include "formats/import/facts/units.hpp"
 #include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +19,14 @@ template <class Value>
 auto optional(std::optional<Value>& place, const char* name)
 {
   return po::value<Value>()->value_name(name)->notifier([&place](const Value& v) { place = v; });
+}
+
+/// Likewise.
+auto word(std::optional<std::string>& place, std::vector<std::string> words)
+{
+  return word_option(nullptr, std::move(words))->notifier([&place](const std::string& text) {
+    place = text;
+  });
 }
 
 auto files(std::vector<std::string>& place)
@@ -35,7 +45,7 @@ po::options_description archive_options(ImportSettings& s)
   const auto restart = fmt::format("{} only: its restart file, which holds what its others lack",
                                    fmt::join(with_restart, ", "));
   po::options_description archive("The archive");
-  archive.add_options()("format", po::value(&s.format)->value_name("NAME"), formats.c_str())(
+  archive.add_options()("format", word_option(&s.format, all_formats), formats.c_str())(
       "grains", files(s.files.grains),
       "files with the grains, plain, .gz, .bz2, .xz or .zst; '*' stands for the step of many, '%' "
       "for the processor")("contacts", files(s.files.contacts),
@@ -46,7 +56,7 @@ po::options_description archive_options(ImportSettings& s)
       "begin", optional(s.begin, "T"),
       "leave out what comes before this time, in the archive's units, or before step:N")(
       "end", optional(s.end, "T"), "leave out this time and what comes after, likewise")(
-      "repeated", optional(s.repeated, "WHICH"),
+      "repeated", word(s.repeated, words_of(repeated_words)),
       "where a job that began from an earlier checkpoint repeats moments otherwise: first or last, "
       "the job that counts")(
       "wall-contacts", files(s.files.wall_contacts),
@@ -64,7 +74,7 @@ po::options_description archive_options(ImportSettings& s)
 po::options_description fact_options(ImportSettings& s)
 {
   po::options_description facts("What the archive does not state (in its own units)");
-  facts.add_options()("units", optional(s.units, "UNITS"),
+  facts.add_options()("units", word(s.units, words_of(unit_words)),
                       "si, cgs, or LENGTH:TIME:MASS of its units in m, s, kg")(
       "step", optional(s.step, "DT"), "length of a time step")(
       "frame-interval", optional(s.interval, "T"),
@@ -72,13 +82,13 @@ po::options_description fact_options(ImportSettings& s)
       "gravity", optional(s.gravity, "G"), "vector GX,GY,GZ, or its magnitude beside --slope")(
       "slope", optional(s.slope, "DEGREES"),
       "of the base; with a vector the axes are turned to it")(
-      "grains-are", optional(s.grains, "WHAT"), "discs or spheres")(
+      "grains-are", word(s.grains, words_of(grain_words)), "discs or spheres")(
       "density", optional(s.density, "RHO"), "of discs per area, of spheres per volume")(
       "axes", optional(s.axes, "XY"),
       "axes of the flow: along the base, away from it (default: xy)")(
       "dimension", optional(s.dimension, "D"),
       "2 or 3 (default: 3 for spheres that do not lie in one plane)")(
-      "origin", po::value(&s.origin)->default_value(s.origin)->value_name("WHERE"),
+      "origin", word_option(&s.origin, words_of(origin_words)),
       "y = 0: top or centre of the base grains, or a height in the archive")(
       "cell", po::value(&s.cells)->composing()->value_name("AXIS:LOW:HIGH"),
       "ends of the cell along an axis, once for each: x:0:0.4, or x:0:0.4:periodic")(

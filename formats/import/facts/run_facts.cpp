@@ -65,8 +65,7 @@ std::optional<double> either(const std::optional<double>& archive,
 std::optional<bool> discs_or_spheres(const ArchiveFacts& archive, const ImportSettings& settings)
 {
   if (!settings.grains) return archive.discs;
-  const bool discs =
-      choose<bool>(*settings.grains, "--grains-are", {{"discs", true}, {"spheres", false}});
+  const bool discs = choose(*settings.grains, "--grains-are", grain_words);
   if (archive.discs && discs != *archive.discs)
     throw UsageError(fmt::format("--grains-are {}, but the archive says {}; leave the option out",
                                  *settings.grains, *archive.discs ? "discs" : "spheres"));

@@ -45,8 +45,7 @@ void Units::convert(Grains& grains) const
 
 Units parse_units(const std::string& text)
 {
-  if (text == "si") return {};
-  if (text == "cgs") return {.length = 0.01, .time = 1, .mass = 0.001};
+  if (const auto known = find_choice(text, unit_words)) return *known;
   std::array<double, 3> value{};
   std::size_t count = 0;
   bool good = true;

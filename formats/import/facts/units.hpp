@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
 #include <string>
@@ -21,7 +22,9 @@ struct Units {
   void convert(Grains& grains) const;
 };
 
-/// "si", "cgs", or LENGTH:TIME:MASS in SI, as in 0.005:0.02259:2.5e-5, which dimensionless
+inline constexpr Choice<Units> unit_words[] = {{"si", {}},
+                                               {"cgs", {.length = 0.01, .time = 1, .mass = 0.001}}};
+/// One of these words, or LENGTH:TIME:MASS in SI, as in 0.005:0.02259:2.5e-5, which dimensionless
 /// units (lj) need. UsageError otherwise.
 Units parse_units(const std::string& text);
 

@@ -312,7 +312,7 @@ const ArchiveFormat siconos_format{
     .takes_columns = false,
     .examples =
         "  grseg-import --format siconos --grains run.hdf5 --units si --gravity 9.81 \\\n"
-        "    --slope 23 -o run.h5\n",
+        "    --slope 10 --cell x:-0.1:0.9 -o run.h5\n",
     .notes = "  siconos: the file of the grains holds the contacts, too\n"};
 
 }  // namespace grseg

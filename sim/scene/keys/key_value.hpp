@@ -4,6 +4,7 @@
 #include "sim/scene/keys/keys.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <functional>
 #include <optional>
@@ -83,6 +84,7 @@ KeyValue on_or_off(Member member)
   KeyValue value;
   value.kind = "switch";
   value.allowed = "on or off";
+  value.words = {"on", "off"};
   value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
     std::invoke(member, scene) = read_switch(key, text);
   };
@@ -108,10 +110,10 @@ using Words = std::vector<std::pair<std::string, T>>;
 template <class Member, class T>
 KeyValue choice(Member member, const Words<T>& words)
 {
-  std::string all;
-  for (const auto& [word, meaning] : words) all += (all.empty() ? "" : ", ") + word;
   KeyValue value;
   value.kind = "choice";
+  for (const auto& [word, meaning] : words) value.words.push_back(word);
+  const auto all = fmt::format("{}", fmt::join(value.words, ", "));
   value.allowed = all;
   value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
     for (const auto& [word, meaning] : words)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/keys/keys.hpp"
 
+#include "formats/cli/word_option.hpp"
 #include "sim/scene/geometry/geometries.hpp"
 #include "sim/scene/keys/accuracy.hpp"
 #include "sim/scene/keys/key_value.hpp"
@@ -243,13 +244,13 @@ po::options_description scene_options()
       "60dS, 35dL");
   for (const auto& key : scene_keys()) {
     auto help = key.help;
-    if (key.value.kind == "choice" || (key.value.kind == "switch" && !key.value.is_flag))
-      help += fmt::format(" [{}]", key.value.allowed);
     if (key.value.is_flag) {
       options.add_options()(key.name, po::bool_switch(), help.c_str());
       continue;
     }
-    auto* value = po::value<std::string>();
+    const auto& words = key.value.words;
+    if (!words.empty()) help += fmt::format(" [{}]", key.value.allowed);
+    auto* value = words.empty() ? po::value<std::string>() : word_option(nullptr, words);
     if (!key.default_text.empty()) value->default_value(key.default_text);
     options.add_options()(key.name, value, help.c_str());
   }

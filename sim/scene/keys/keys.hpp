@@ -13,8 +13,9 @@ namespace grseg {
 
 /// How the value of a key is written, and where a Scene holds it.
 struct KeyValue {
-  std::string kind;     ///< "length", "number", "whole number", "switch" or "choice"
-  std::string allowed;  ///< the range or the words
+  std::string kind;                  ///< "length", "number", "whole number", "switch" or "choice"
+  std::string allowed;               ///< the range or the words
+  std::vector<std::string> words{};  ///< of a choice or switch
   /// Sets the scene's value from what the user wrote; SceneError where the key cannot have it.
   std::function<void(const std::string& key, const std::string& text, Scene&)> read;
   /// The scene's value in SI, without a unit; "" where it has none. read() of a length asks for a unit:

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/readable_table.hpp"
+
+#include "formats/cli/numbers.hpp"
+#include "formats/cli/table_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace grseg {
+namespace {
+
+using Line = std::vector<std::string>;
+
+std::string rounded(const std::string& cell, int digits)
+{
+  const auto number = parse_number(cell);
+  const bool whole = cell.find_first_not_of("+-0123456789") == std::string::npos;
+  return number && !whole ? fmt::format("{:.{}g}", *number, digits) : cell;
+}
+
+/// The lines of a table but its last, which ends it, each in cells; what is above the rows as it is.
+struct Cells {
+  std::string head;
+  std::vector<Line> lines;  // the first has the names of the columns
+
+  Cells(std::string_view table, int digits)
+  {
+    std::istringstream text{std::string(table)};
+    for (std::string line; std::getline(text, line);) {
+      if (line.starts_with('#')) {
+        if (lines.empty()) head += line + '\n';
+        continue;
+      }
+      auto& cells = lines.emplace_back();
+      std::istringstream words(line);
+      for (std::string cell; std::getline(words, cell, '\t');)
+        cells.push_back(lines.size() == 1 ? cell : rounded(cell, digits));
+      if (line.ends_with('\t')) cells.emplace_back();
+    }
+  }
+};
+
+/// Leaves out the middle of many rows; how many that are.
+std::size_t shorten(std::vector<Line>& lines)
+{
+  constexpr std::ptrdiff_t at_each_end = 20;
+  if (lines.size() <= 2 * at_each_end + 2) return 0;
+  const auto left_out = lines.size() - 2 * at_each_end - 1;
+  lines.erase(lines.begin() + 1 + at_each_end, lines.end() - at_each_end);
+  lines.insert(lines.begin() + 1 + at_each_end, Line(lines.front().size(), "..."));
+  return left_out;
+}
+
+/// How many of the columns fit, at least one.
+std::size_t fitting(const std::vector<Line>& lines)
+{
+  std::size_t width = 0, column = 0;
+  for (; column < lines.front().size(); ++column) {
+    std::size_t widest = 0;
+    for (const auto& line : lines) widest = std::max(widest, line[column].size());
+    width += widest + (column > 0 ? 2 : 0);
+    if (width > readable_width) break;
+  }
+  return std::max<std::size_t>(column, 1);
+}
+
+}  // namespace
+
+std::string aligned(const std::vector<Line>& lines, const std::function<bool(std::size_t)>& left)
+{
+  std::vector<std::size_t> width(lines.front().size());
+  for (const auto& line : lines)
+    for (std::size_t c = 0; c < line.size(); ++c) width[c] = std::max(width[c], line[c].size());
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      const auto* gap = c > 0 ? "  " : "";
+      text += left(c) ? fmt::format("{}{:<{}}", gap, line[c], width[c])
+                      : fmt::format("{}{:>{}}", gap, line[c], width[c]);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string readable_table(std::string_view table, int digits)
+{
+  auto lines = Cells(table, digits).lines;
+  const auto columns = lines.front().size(), rows = lines.size() - 1;
+  const auto rows_left_out = shorten(lines);
+  for (auto& line : lines)
+    for (auto& cell : line)
+      if (cell == "nan" || cell.empty()) cell.assign(1, '-');
+  const auto shown = fitting(lines);
+  for (auto& line : lines) line.resize(shown);
+  const auto is_word = [&lines](std::size_t c) {
+    return std::any_of(lines.begin() + 1, lines.end(), [c](const Line& line) {
+      return line[c] != "-" && line[c] != "..." && !parse_number(line[c]);
+    });
+  };
+  auto text = aligned(lines, is_word);
+  if (shown < columns || rows_left_out > 0)
+    text += fmt::format("{} of {} columns and {} of {} rows; -o FILE has all\n", shown, columns,
+                        rows - rows_left_out, rows);
+  return text;
+}
+
+std::string rounded_table(std::string_view table, int digits)
+{
+  const Cells cells(table, digits);
+  auto text = cells.head;
+  for (const auto& line : cells.lines) text += fmt::format("{}\n", fmt::join(line, "\t"));
+  return text + end_line(text, cells.lines.size() - 1) + '\n';
+}
+
+}  // namespace grseg
