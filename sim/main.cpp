@@ -35,7 +35,7 @@ void add_run_options(po::options_description& options, RunOptions& run)
       "s of wall time between checkpoints");
   add("continue", po::bool_switch(&run.continues),
       "continue from --checkpoint where that is there, else begin: one command for a run that may be "
-      "interrupted");
+      "interrupted; with a longer --duration frames are added to the finished run");
   add("restart", po::value(&run.restart)->value_name("FILE"),
       "continue from this checkpoint, bitwise as an uninterrupted run; SCENE.ini may be left out. "
       "A key that differs from the checkpoint's begins a new trajectory; keys of the bed cannot "

@@ -5,6 +5,7 @@
 #include "formats/cli/progress.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "formats/trajectory/reader.hpp"
 #include "sim/run/expected_cost.hpp"
 #include "sim/run/provenance.hpp"
 #include "sim/run/recorder.hpp"
@@ -195,6 +196,19 @@ void announce(const Scene& scene, double begin, const RunOptions& options)
   if (!options.force) require_room(cost, options.output);
 }
 
+/// Whether the frames of `output` are those that `checkpoint` counts or, where a prolongation of it was
+/// interrupted, the first of those in output.part.
+bool begins_the_run(const std::string& output, const Checkpoint& checkpoint)
+{
+  if (!holds_something(output)) return false;
+  const TrajectoryReader run(output);
+  if (run.size() == checkpoint.trajectory.frames)
+    return run.digest() == checkpoint.trajectory.digest;
+  if (run.size() == 0 || !holds_something(part_of(output))) return false;
+  const TrajectoryReader longer(part_of(output));
+  return run.size() < longer.size() && longer.digests()[run.size() - 1] == run.digest();
+}
+
 /// The bed at rest; `slowed_from` becomes the time, s, from which its grains had to be slowed down.
 Simulation deposit_visibly(const Scene& scene, const RunOptions& options, double& slowed_from)
 {
@@ -240,17 +254,21 @@ void simulate(const Scene& scene, const RunOptions& options)
         slowed_from));
 }
 
-void resume(const Checkpoint& checkpoint, const Scene& given, const RunOptions& options)
+void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options)
 {
   const auto part = part_of(options.output);
   const auto before = scene_of(checkpoint, options.restart);
   const auto scene = without_round_off(given, before);
   require_same_bed(before, scene);
-  check_outputs(options);
-  const RunLocks locks(options);
   const bool perturbed = options.perturbation.size > 0;
   const bool unchanged = !perturbed && to_text(scene) == to_text(before);
-  const bool in_place = unchanged && holds_something(part);
+  // A finished run that is prolonged is replaced by what holds all of its frames.
+  const bool is_begun = options.continues && begins_the_run(options.output, checkpoint);
+  const bool prolongs = is_begun && !perturbed && !unchanged && same_steps(before, scene);
+  options.overwrite = options.overwrite || is_begun;
+  check_outputs(options);
+  const RunLocks locks(options);
+  const bool in_place = prolongs || (unchanged && holds_something(part));
   auto simulation = restored_simulation(checkpoint, before, scene, options.perturbation);
   if (!in_place && simulation.steps_done() >= scene.steps_in_all())
     throw UsageError(fmt::format(
@@ -272,8 +290,9 @@ void resume(const Checkpoint& checkpoint, const Scene& given, const RunOptions& 
   start_flow(simulation, scene);
   const auto parameters = provenance_of_restart(scene, options, simulation.time(), history);
   Run run{simulation,
-          in_place ? truncate_to_checkpoint(part, checkpoint, options.restart, history,
-                                            storage_while_running(scene))
+          in_place ? truncate_to_checkpoint(
+                         {prolongs ? options.output : part, part, to_text(scene), history},
+                         checkpoint, options.restart, storage_while_running(scene))
                    : new_trajectory(scene, simulation, parameters, part),
           progress, checkpoint.deposited_height, history};
   finish(scene, options, run);

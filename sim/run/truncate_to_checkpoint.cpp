@@ -21,37 +21,36 @@ bool same_run(const TrajectoryReader& run, const Checkpoint& checkpoint)
 }
 
 /// /parameters of a run that continues: its end is not known any more.
-Parameters without_end(Parameters parameters, const std::string& history)
+Parameters without_end(Parameters parameters, const Continuation& to)
 {
   add_unknown_summary(parameters);
-  parameters.texts["history"] = history;
+  parameters.texts["history"] = to.history;
+  parameters.texts["scene"] = to.scene;
   return parameters;
 }
 
 }  // namespace
 
-TrajectoryWriter truncate_to_checkpoint(const std::string& part, const Checkpoint& checkpoint,
-                                        const std::string& name, const std::string& history,
-                                        const StorageSettings& storage)
+TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const Checkpoint& checkpoint,
+                                        const std::string& name, const StorageSettings& storage)
 {
   const auto require = [&](bool belongs) {
     if (!belongs)
       throw UsageError(fmt::format(
           "{} does not hold the frames of {}; move it away to begin a new trajectory, or choose "
           "another name for --output",
-          part, name));
+          to.from, name));
   };
-  const auto copy = part_of(part);
+  const auto copy = part_of(to.part);
   const RemoveAtEnd clean_up(copy);
   try {
-    const TrajectoryReader run(part);
+    const TrajectoryReader run(to.from);
     require(same_run(run, checkpoint));
-    auto writer =
-        copy_frames(run, checkpoint.trajectory.frames, copy, without_end(run.parameters(), history),
-                    Recorder::observables(), storage);
+    auto writer = copy_frames(run, checkpoint.trajectory.frames, copy,
+                              without_end(run.parameters(), to), Recorder::observables(), storage);
     require(writer.digest() == checkpoint.trajectory.digest);
     writer.flush();
-    publish_file(copy, part, true);
+    publish_file(copy, to.part, true);
     return writer;
   } catch (const FormatError& damaged) {
     throw FormatError(fmt::format("{}; move it away to begin a new trajectory at the checkpoint",

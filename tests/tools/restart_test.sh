@@ -64,6 +64,28 @@ grep -q '^grseg-sim: on.h5 is finished$' words && [ "$(cksum on.h5)" = "$before"
 # shellcheck disable=SC2086
 refused 2 "--continue goes on from --checkpoint FILE, without --restart" $chute --continue -o other.h5
 
+# Prolonged, it is the run that was longer from the beginning; killed on the way, nothing of it is lost.
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 4 --checkpoint long.chk --continue -o long.h5
+cp long.h5 short.h5
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 10 --checkpoint long.chk --checkpoint-every 0.05 --continue -o long.h5 &
+while [ ! -s long.h5.part ]; do sleep 0.01; done
+sleep 0.15
+kill -9 $! || true
+wait $! || true
+cmp long.h5 short.h5 || fail "a prolongation that was killed changed the run"
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --duration 10 --checkpoint long.chk --continue -o long.h5
+content long.h5 | cmp - whole || fail "a run that is prolonged is another"
+[ "$(h5dump -d /parameters/scene long.h5 | grep -c 'duration = 10$')" = 1 ] || fail "a run that is prolonged states its old length"
+# Another run of the same bed is not replaced by it.
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $chute --slope 20 --duration 2 -o steep.h5
+# shellcheck disable=SC2086
+refused 2 "steep.h5 already exists; choose another name, remove it, or pass --overwrite" \
+  $chute --duration 12 --checkpoint long.chk --continue -o steep.h5
+
 # nohup keeps SIGHUP from the run.
 ( trap '' HUP
   # shellcheck disable=SC2086

@@ -57,7 +57,8 @@ class CutBack : public testing::Test {
 
   TrajectoryWriter cut() const
   {
-    return truncate_to_checkpoint(part, checkpoint, "run.chk", "history", {});
+    return truncate_to_checkpoint({part, part, checkpoint.scene, "history"}, checkpoint, "run.chk",
+                                  {});
   }
   std::string bytes() const
   {
