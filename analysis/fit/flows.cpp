@@ -253,7 +253,7 @@ void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTab
   const bool inclined = dimension_of(own) == 2 && own.has_header("gravity_x") &&
                         own.has_header("gravity_y") && differ("gravity_x") && differ("gravity_y");
   if (inclined) {
-    flow.settings.emplace_back("slope[degree]", format_number(slope_of(own)));
+    flow.settings.emplace_back("slope[degree]", fmt::format("{:.12g}", slope_of(own)));
     flow.name += fmt::format(", slope = {:.4g} degrees", slope_of(own));
   }
   for (const auto& [key, unit, what, tolerance] : flow_lines) {

@@ -205,7 +205,7 @@ std::string short_table(const FitReport& report)
   text += line_text(report);
   text += populations_text(report);
   for (const auto& names : report.shared_runs)
-    text += fmt::format("one run: {}\n", fmt::join(names, " "));
+    text += fmt::format("counted as one run: {}\n", fmt::join(names, " "));
   return text + doubts_text(report);
 }
 

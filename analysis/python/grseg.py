@@ -1068,7 +1068,8 @@ def read_table(path):
         values = np.array([[float(cell) for cell in row.split("\t")] for row in rows])
         values = values.reshape(len(rows), len(columns))
     except ValueError:
-        fail("has a row that is not as many numbers as there are columns; is it a table of a tool of grseg?")
+        fail("has a row that is not as many numbers as there are columns; a table with words, as of grseg-fit, is read by "
+             "pandas.read_table(path, comment='#')")
     history = [value for key, value in pairs if key == "history"]
     return Table(str(path), header, history, columns, values, _sources_of(pairs))
 

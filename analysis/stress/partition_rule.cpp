@@ -44,7 +44,7 @@ constexpr RuleDefinition definitions[] = {
     // Staron & Phillips (2015), prefactors d_L/(d_L + d_S) and d_S/(d_L + d_S) below eq. 1
     {.kind = Kind::size,
      .word = "size",
-     .meaning = "r_L/(r_L + r_S) of the actual radii",
+     .meaning = "r_L/(r_L + r_S) of the actual radii; of nominal ones: --preset paper",
      .share = by_size,
      .sum = PairSum::by_size,
      .along_own_stretch = true,

@@ -22,7 +22,8 @@ constexpr ToolInfo info{
     "grseg-micro",
     "contacts, their forces and directions, by layer and of the bed: sums and derived quantities.",
     "grseg-micro run.h5 [options] > micro.tsv;  grseg-micro --derived micro.tsv ... [options]",
-    "  grseg-micro run.h5 -o micro.tsv                  sums: layers of 4 dS, windows of 1.25 s\n"
+    "  grseg-micro run.h5 -o micro.tsv                  sums: layers of 4 dS, windows of 1.25 s;\n"
+    "                                                   a row of each window is the bed's, y0 = nan\n"
     "  grseg-micro --derived micro.tsv                  z, f, Pi, B, friction, fabric of each row\n"
     "  grseg-micro --derived micro.tsv --force normal --average ends --pool composition\n"
     "  grseg-micro run.h5 | grseg-micro --derived -     without a file in between\n"

@@ -285,7 +285,7 @@ FAULTS = [
     ("mixtures: their shares of the weight by layers", "analysis/fit/flows.cpp",
      "sample.frames * sample.phi_large * (1 - sample.phi_large);\n  const double all", "1;\n  const double all"),
     ("mixtures: two slopes in no column", "analysis/fit/flows.cpp",
-     "    flow.settings.emplace_back(\"slope[degree]\", format_number(slope_of(own)));\n", ""),
+     "    flow.settings.emplace_back(\"slope[degree]\", fmt::format(\"{:.12g}\", slope_of(own)));\n", ""),
     ("mixtures: scenes tell no flows apart", "analysis/fit/flows.cpp",
      "             scene_differences(first, *tables[k].table).empty() &&\n", ""),
     ("p*: windows as independent", "analysis/fit/line_over_share.cpp",

@@ -1,9 +1,8 @@
 # Run-out of collapsed columns over their aspect ratio, beside the laws of Staron and Hinch (2005) and Lube et al. (2005).
 #   gnuplot -c scripts/scenes/column.gp column.tsv column.png
-set terminal pngcairo size 800,560 font "DejaVu Sans,11"
 load ARG0[:strstrt(ARG0, "column.gp") - 1]."../figures/names.gp"
 table = named(ARG1)
-set output named(ARG2)
+eval picture(named(ARG2), 800, 560, 11, "")
 set datafile separator "\t"
 set grid
 set key top left

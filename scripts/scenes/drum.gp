@@ -1,9 +1,8 @@
 # How far small grains have gathered about the axis of a drum.
 #   gnuplot -c scripts/scenes/drum.gp drum.tsv drum.png
-set terminal pngcairo size 800,560 font "DejaVu Sans,11"
 load ARG0[:strstrt(ARG0, "drum.gp") - 1]."../figures/names.gp"
 table = named(ARG1)
-set output named(ARG2)
+eval picture(named(ARG2), 800, 560, 11, "")
 set datafile separator "\t"
 set grid
 set key bottom right

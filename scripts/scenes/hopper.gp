@@ -1,9 +1,8 @@
 # Discharge over the outlet: Beverloo's law in two dimensions is a straight line here.
 #   gnuplot -c scripts/scenes/hopper.gp hopper.tsv hopper.png
-set terminal pngcairo size 800,560 font "DejaVu Sans,11"
 load ARG0[:strstrt(ARG0, "hopper.gp") - 1]."../figures/names.gp"
 table = named(ARG1)
-set output named(ARG2)
+eval picture(named(ARG2), 800, 560, 11, "")
 set datafile separator "\t"
 set grid
 set key top left

@@ -1,9 +1,8 @@
 # A large grain rises through a flow of small ones, one curve per seed.
 #   gnuplot -c scripts/scenes/intruder.gp intruder.tsv intruder.png
-set terminal pngcairo size 800,560 font "DejaVu Sans,11"
 load ARG0[:strstrt(ARG0, "intruder.gp") - 1]."../figures/names.gp"
 table = named(ARG1)
-set output named(ARG2)
+eval picture(named(ARG2), 800, 560, 11, "")
 set datafile separator "\t"
 set grid
 set key bottom right

@@ -1,9 +1,8 @@
 # The large grain rises to the top of a shaken bed, one curve per seed, one point per shake.
 #   gnuplot -c scripts/scenes/shaken-box.gp shaken-box.tsv shaken-box.png
-set terminal pngcairo size 800,560 font "DejaVu Sans,11"
 load ARG0[:strstrt(ARG0, "shaken-box.gp") - 1]."../figures/names.gp"
 table = named(ARG1)
-set output named(ARG2)
+eval picture(named(ARG2), 800, 560, 11, "")
 set datafile separator "\t"
 set grid
 set key bottom right

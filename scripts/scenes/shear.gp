@@ -2,10 +2,9 @@
 # friction 0.4, whose inertial number is rate (mass/P)^{1/2}: (pi/4)^{1/2} times the one here; and the law that Lagrée et
 # al. (2011) fitted to contact dynamics of discs.
 #   gnuplot -c scripts/scenes/shear.gp shear.tsv shear.png
-set terminal pngcairo size 800,560 font "DejaVu Sans,11"
 load ARG0[:strstrt(ARG0, "shear.gp") - 1]."../figures/names.gp"
 table = named(ARG1)
-set output named(ARG2)
+eval picture(named(ARG2), 800, 560, 11, "")
 set datafile separator "\t"
 set grid
 set key bottom right

@@ -84,6 +84,7 @@ ExpectedCost expected_cost(const Scene& scene, double begin, Measure measure)
   ExpectedCost cost;
   cost.grains = expected_grains(scene);
   cost.memory = memory_without_grains + memory_of_grain * cost.grains;
+  cost.of_rest = begin > 0;
   const double flow = std::max(0.0, scene.duration - begin);
   const double frames = (flow / scene.frame_interval) *
                         static_cast<double>(std::min(scene.burst, scene.steps_per_frame()));
@@ -99,8 +100,10 @@ ExpectedCost expected_cost(const Scene& scene, double begin, Measure measure)
 
 std::string to_text(const ExpectedCost& cost)
 {
-  auto text = fmt::format("{:.0f} grains, {} of memory, a file of {}", cost.grains,
-                          bytes_in_words(cost.memory), bytes_in_words(cost.file));
+  const auto file = bytes_in_words(cost.file);
+  auto text =
+      fmt::format("{:.0f} grains, {} of memory, {}", cost.grains, bytes_in_words(cost.memory),
+                  cost.of_rest ? file + " more of frames" : "a file of " + file);
   if (cost.seconds) text += ", about " + seconds_in_words(*cost.seconds);
   return text;
 }

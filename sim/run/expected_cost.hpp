@@ -14,6 +14,7 @@ struct ExpectedCost {
   double memory = 0;              // bytes
   double file = 0;                // bytes of the trajectory, before compression
   std::optional<double> seconds;  // where it was measured
+  bool of_rest = false;           // from a restart on
 };
 
 enum class Measure { where_long, always };
