@@ -4,7 +4,6 @@
 #include <boost/program_options.hpp>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace grseg {
@@ -19,25 +18,26 @@ struct OptionWords {
 
 template <class T>
 struct WordOption : boost::program_options::typed_value<T>, OptionWords {
-  WordOption(T* place, std::vector<std::string> all) : boost::program_options::typed_value<T>(place)
+  WordOption(T* place, const std::vector<std::string>& all)
+      : boost::program_options::typed_value<T>(place)
   {
-    words = std::move(all);
+    words = all;
     this->value_name("WORD");
   }
 };
 
 /// An option that takes one of `words`; by default what `place` holds, if there is a place and text.
-inline auto* word_option(std::string* place, std::vector<std::string> words)
+inline auto* word_option(std::string* place, const std::vector<std::string>& words)
 {
-  auto* option = new WordOption<std::string>(place, std::move(words));  // whoever takes it owns it
+  auto* option = new WordOption<std::string>(place, words);  // whoever takes it owns it
   if (place != nullptr && !place->empty()) option->default_value(*place);
   return option;
 }
 
 /// An option that takes several by comma, and may be given more than once.
-inline auto* words_option(std::vector<std::string>& place, std::vector<std::string> words)
+inline auto* words_option(std::vector<std::string>& place, const std::vector<std::string>& words)
 {
-  auto* option = new WordOption<std::vector<std::string>>(&place, std::move(words));
+  auto* option = new WordOption<std::vector<std::string>>(&place, words);
   option->composing()->value_name("WORD,...");
   return option;
 }

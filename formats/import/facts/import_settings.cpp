@@ -22,11 +22,9 @@ auto optional(std::optional<Value>& place, const char* name)
 }
 
 /// Likewise.
-auto word(std::optional<std::string>& place, std::vector<std::string> words)
+auto word(std::optional<std::string>& place, const std::vector<std::string>& words)
 {
-  return word_option(nullptr, std::move(words))->notifier([&place](const std::string& text) {
-    place = text;
-  });
+  return word_option(nullptr, words)->notifier([&place](const std::string& text) { place = text; });
 }
 
 auto files(std::vector<std::string>& place)
