@@ -2,6 +2,7 @@
 #include "formats/cli/readable_table.hpp"
 
 #include "formats/cli/numbers.hpp"
+#include "formats/cli/table.hpp"
 #include "formats/cli/table_text.hpp"
 
 #include <fmt/format.h>
@@ -56,6 +57,30 @@ std::size_t shorten(std::vector<Line>& lines)
   return left_out;
 }
 
+/// What most readers look for in tables by layer, where they have more columns than fit.
+constexpr std::string_view sought[] = {
+    "t0",      "y0",          "phi_L",     "yL",     "height", "z_S",   "z_L",     "f_S",
+    "f_L",     "sliding_all", "a_c_all",   "n_SS",   "n_LS",   "n_LL",  "A_SS_yy", "A_LL_yy",
+    "M_yy",    "u",           "du_dy",     "K_S_yy", "K_L_yy", "T_S_y", "T_L_y",   "Sc_S_yy",
+    "Sc_L_yy", "force_S_y",   "force_L_y", "w_L",    "q_L",    "D_S",   "D_L",     "Pe"};
+
+/// Leaves only the columns that are sought; all where there are few of them.
+void choose_columns(std::vector<Line>& lines)
+{
+  std::vector<std::size_t> chosen;
+  const auto& names = lines.front();
+  for (const auto name : sought)
+    for (std::size_t c = 0; c < names.size(); ++c)
+      if (without_unit(names[c]) == name) chosen.push_back(c);
+  constexpr std::size_t enough = 5;
+  if (chosen.size() < enough) return;
+  for (auto& line : lines) {
+    Line kept;
+    for (const auto column : chosen) kept.push_back(line[column]);
+    line = std::move(kept);
+  }
+}
+
 /// How many of the columns fit, at least one.
 std::size_t fitting(const std::vector<Line>& lines)
 {
@@ -97,6 +122,7 @@ std::string readable_table(std::string_view table, int digits)
   for (auto& line : lines)
     for (auto& cell : line)
       if (cell == "nan" || cell.empty()) cell.assign(1, '-');
+  if (fitting(lines) < columns) choose_columns(lines);
   const auto shown = fitting(lines);
   for (auto& line : lines) line.resize(shown);
   const auto is_word = [&lines](std::size_t c) {

@@ -17,7 +17,7 @@ inline constexpr std::size_t readable_width = 100;  // columns of letters
 std::string aligned(const std::vector<std::vector<std::string>>& lines,
                     const std::function<bool(std::size_t column)>& left);
 
-/// Without the lines "# key: value": the first columns that fit, the first and last of many rows,
+/// Without the lines "# key: value": the columns that fit, of many those that most readers look for, the first and last of many rows,
 /// numbers of `digits` significant digits; then a line that says what is left out.
 std::string readable_table(std::string_view table, int digits);
 
