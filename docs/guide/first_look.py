@@ -4,6 +4,7 @@
 #     PYTHONPATH=analysis/python python3 docs/guide/first_look.py
 
 # %% Open a run and see what it is
+import pathlib
 import sys
 
 import grseg
@@ -48,6 +49,13 @@ for rule in ("size", "contact-point", "half", "power:2"):
     low, high = fit.B_interval
     print(f"B by {rule:13} = {fit.B:+.3f} [{low:+.3f}, {high:+.3f}] (95 % over {fit.over})")
 print(f"B = 0 where the larger grain of every mixed contact gets p* = {points.fit().p_zero:.4f}")
+
+# %% So small and short a run tells little. B of 150 s of the paper's chute, from the table of its sums
+table = pathlib.Path(run.path).with_name("paper-chute.tsv")
+if table.exists():
+    fit = grseg.Points(grseg.read_table(table), begin=22.5).fit()
+    low, high = fit.B_interval
+    print(f"{table}: B by size = {fit.B:+.3f} [{low:+.3f}, {high:+.3f}]")
 
 # %% B over that share
 shares = np.linspace(0.4, 0.9, 11)
