@@ -5,7 +5,7 @@ load ARG0[:strstrt(ARG0, "archives-b.gp") - 1]."names.gp"
 folder = named(ARG1)
 set datafile separator tab
 eval picture(asked("ARG2", folder."/archives-b.png"), 900, 560, 12, "")
-set ylabel "B at φ = 1/2"
+set ylabel "B"
 set xrange [0.5:4.5]
 set yrange [-0.5:0.15]
 set bmargin 4
