@@ -3,7 +3,6 @@
 
 #include "analysis/explore/page.hpp"
 #include "analysis/explore/run_of_page.hpp"
-#include "analysis/explore/same_number.hpp"
 #include "analysis/explore/settings.hpp"
 #include "analysis/explore/stress_tables.hpp"
 #include "formats/cli/bed.hpp"

@@ -44,7 +44,7 @@ set(end ")page~\"")
 file(
   WRITE ${OUTPUT}
   "// Made by analysis/explore/page.cmake.\n"
-  "#include \"analysis/explore/page_text.hpp\"\n\n"
+  "#include \"analysis/explore/page.hpp\"\n\n"
   "namespace grseg {\n"
   "const std::string_view page_before_data = ${begin}${before}${end};\n"
   "const std::string_view page_after_data = ${begin}${after}${end};\n"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/page.hpp"
 
-#include "analysis/explore/page_text.hpp"
-
 #include <fmt/format.h>
 
 #include <string_view>

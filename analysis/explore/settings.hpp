@@ -3,8 +3,12 @@
 
 #include "analysis/explore/partition_data.hpp"
 #include "analysis/frames/frame_loop.hpp"
+#include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -35,5 +39,14 @@ ExploreInputs inputs_of(const po::variables_map& values);
 /// The same command line as if these inputs had been given alone.
 po::variables_map with_inputs(const po::variables_map& values,
                               const std::vector<std::string>& paths);
+
+/// The commands that print the B of a page, for a shell, as far as they do not depend on the rule:
+///
+///   {"sums": "grseg-stress run.h5 --window 2", "file": "sums.tsv", "fit": " --heights 4dS:"}
+///
+/// `sums` is empty where the sums came in a table, `given`, whose name is `file` then. `number`: of the run
+/// among several; 0 of a single one.
+nlohmann::ordered_json commands_of(const std::string& run, const Table* given,
+                                   const ExploreSettings& settings, std::size_t number);
 
 }  // namespace grseg

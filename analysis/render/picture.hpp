@@ -4,7 +4,7 @@
 #include "analysis/frames/grouping.hpp"
 #include "analysis/render/drawing.hpp"
 #include "analysis/render/grain_field.hpp"
-#include "analysis/render/page.hpp"
+#include "analysis/render/legend.hpp"
 #include "analysis/render/survey.hpp"
 #include "analysis/render/view.hpp"
 #include "analysis/stress/partition_rule.hpp"

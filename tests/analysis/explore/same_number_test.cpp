@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/explore/same_number.hpp"
+#include "analysis/explore/settings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where things stand on a page, the legend, and the bytes of a file.
-#include "analysis/render/page.hpp"
-
+#include "analysis/render/legend.hpp"
 #include "analysis/render/picture_file.hpp"
 #include "analysis/render/picture_options.hpp"
 #include "formats/core/errors.hpp"
