@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/render/film.hpp"
 
-#include "formats/cli/interruption.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/core/files.hpp"
 #include "formats/core/text.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <sstream>
 #include <string_view>
-#include <thread>
 
 namespace grseg {
 namespace {
@@ -121,140 +108,6 @@ void Film::finish()
   const auto [code, said] = program_.finish();
   if (code != 0)
     throw RunError(fmt::format("ffmpeg failed with exit code {}: {}", code, last_line(said)));
-}
-
-namespace {
-
-constexpr int patience = 50;  // ms, until an interruption is noticed
-
-/// What posix_spawn is to do between fork and exec.
-class SpawnSettings {
- public:
-  SpawnSettings(int input, int errors)
-  {
-    posix_spawn_file_actions_init(&files_);
-    posix_spawn_file_actions_adddup2(&files_, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&files_, errors, STDERR_FILENO);
-    posix_spawnattr_init(&attributes_);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-    sigset_t defaults;
-    sigemptyset(&defaults);
-    sigaddset(&defaults, SIGPIPE);
-    posix_spawnattr_setsigdefault(&attributes_, &defaults);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-  ~SpawnSettings()
-  {
-    posix_spawn_file_actions_destroy(&files_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-
-  const posix_spawn_file_actions_t* files() const { return &files_; }
-  const posix_spawnattr_t* attributes() const { return &attributes_; }
-
- private:
-  posix_spawn_file_actions_t files_{};
-  posix_spawnattr_t attributes_{};
-};
-
-}  // namespace
-
-std::optional<std::string> find_program(const std::string& name)
-{
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const auto file = (std::filesystem::path(folder.empty() ? "." : folder) / name).string();
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0)
-      return file;
-  }
-  return std::nullopt;
-}
-
-PipedProgram::PipedProgram(const std::string& path, const std::vector<std::string>& arguments)
-    : errors_(std::tmpfile())
-{
-  if (!errors_) throw RunError(fmt::format("cannot make a temporary file: {}", reason(errno)));
-  fcntl(fileno(errors_.get()), F_SETFD, FD_CLOEXEC);
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    throw RunError(fmt::format("cannot make a pipe: {}", reason(errno)));
-  // So that an interruption is noticed while the other end reads nothing.
-  fcntl(ends[1], F_SETFL, O_NONBLOCK);
-  std::signal(SIGPIPE, SIG_IGN);
-  std::vector<std::string> words{path};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (auto& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  const SpawnSettings settings(ends[0], fileno(errors_.get()));
-  const int error = posix_spawn(&process_, path.c_str(), settings.files(), settings.attributes(),
-                                pointers.data(), environ);
-  close(ends[0]);
-  pipe_ = ends[1];
-  if (error == 0) return;
-  close(pipe_);
-  throw RunError(fmt::format("{}: cannot be started: {}", path, reason(error)));
-}
-
-PipedProgram::~PipedProgram()
-{
-  if (process_ < 0) return;
-  kill(process_, SIGKILL);
-  if (pipe_ >= 0) close(pipe_);
-  ended(true);
-}
-
-bool PipedProgram::write(std::span<const std::uint8_t> bytes)
-{
-  while (!bytes.empty()) {
-    const auto taken = ::write(pipe_, bytes.data(), bytes.size());
-    if (taken >= 0) {
-      bytes = bytes.subspan(static_cast<std::size_t>(taken));
-    } else if (errno == EAGAIN) {
-      stop_if_interrupted();
-      pollfd room{pipe_, POLLOUT, 0};
-      poll(&room, 1, patience);
-    } else if (errno != EINTR) {
-      return false;
-    }
-  }
-  return true;
-}
-
-std::optional<int> PipedProgram::ended(bool wait)
-{
-  int status = 0;
-  pid_t process = 0;
-  do process = waitpid(process_, &status, wait ? 0 : WNOHANG);
-  while (process < 0 && errno == EINTR);
-  if (process == 0) return std::nullopt;
-  process_ = -1;
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-}
-
-PipedProgram::End PipedProgram::finish()
-{
-  close(pipe_);
-  pipe_ = -1;
-  End end{};
-  for (auto code = ended(false);; code = ended(false)) {
-    if (code) {
-      end.code = *code;
-      break;
-    }
-    stop_if_interrupted();
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  std::rewind(errors_.get());
-  char buffer[4096];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, errors_.get())) > 0;)
-    end.said.append(buffer, n);
-  return end;
 }
 
 }  // namespace grseg

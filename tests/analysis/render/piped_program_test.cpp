@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Programs that read from a pipe of ours.
-#include "analysis/render/film.hpp"
+#include "analysis/render/piped_program.hpp"
+
 #include "tests/folder.hpp"
 
 #include <gtest/gtest.h>
