@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace grseg {
@@ -17,24 +18,20 @@ template <class Real>
 constexpr std::uint32_t lanes_of = 64 / sizeof(Real);
 constexpr std::uint32_t block_lanes = lanes_of<double>;
 
+/// Members of a contact in double precision, and in single.
+template <class Real, class Number>
+using MembersOf =
+    std::conditional_t<std::is_same_v<Real, double>, WholeImpulses<Number>, Increments<Number>>;
+
 /// Contacts of one colour, lane by lane, eight in double and sixteen in single precision: no mobile
-/// body appears in two of them, so they may be relaxed at the same time. Members as in Contact.
+/// body appears in two of them, so they may be relaxed at the same time.
 template <class Real>
-struct alignas(64) BlockOf {
+struct alignas(64) BlockOf : MembersOf<Real, std::array<Real, lanes_of<Real>>> {
   using Lanes = std::array<Real, lanes_of<Real>>;
-  Lanes nx, ny, kappa, mass_n, mass_t, rebound, impulse_n, impulse_t;
   /// Where the bodies' entries begin, counted in numbers from the first MotionOf<Real>.
   std::array<std::uint32_t, lanes_of<Real>> i, j;
 };
 using ContactBlock = BlockOf<double>;
-
-template <>
-struct alignas(64) BlockOf<float> {
-  using Lanes = std::array<float, lanes_of<float>>;
-  Lanes nx, ny, kappa, weight_i, weight_j, mass_ratio, rebound, base_n, base_t, impulse_n,
-      impulse_t;
-  std::array<std::uint32_t, lanes_of<float>> i, j;
-};
 
 /// Indices of bodies from `begin` on, up to but without `end`.
 struct Range {

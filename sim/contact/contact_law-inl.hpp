@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// contact_law.hpp for as many pairs at a time as a vector has lanes. A function here does what the
-// one of the same name does there, operation by operation: to change the law, change both.
-// Compiled once per instruction set, by files that include themselves so (hwy/foreach_target.h).
+// The equations of the contact law, see contact_law.hpp. V is a number, or a vector with a number of
+// each of several pairs. Compiled once per instruction set, by files that include themselves so
+// (hwy/foreach_target.h).
 #if defined(GRSEG_SIM_CONTACT_LAW) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRSEG_SIM_CONTACT_LAW
 #undef GRSEG_SIM_CONTACT_LAW
@@ -10,108 +10,267 @@
 #define GRSEG_SIM_CONTACT_LAW
 #endif
 
+#include "sim/contact/bodies-inl.hpp"
 #include "sim/contact/contact_law.hpp"
-#include "sim/contact/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-using Mask = hn::Mask<D>;
-
-HWY_INLINE Mask acts(Vector dx, Vector dy, Vector reach, Vector margin)
+/// Whether two discs act whose centres are (dx, dy) apart after the forecast, m; reach = r_i + r_j.
+template <class V>
+HWY_INLINE auto acts(V dx, V dy, V reach, V margin)
 {
-  const auto squared = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-  const auto limit = hn::Add(reach, margin);
-  return hn::Le(squared, hn::Mul(limit, limit));
+  const V limit = reach + margin;
+  return dx * dx + dy * dy <= limit * limit;
 }
 
-struct Normals {
-  Vector nx, ny, distance;
+/// Whether a disc acts whose centre is then at `distance` from a wall, m; `reach` is its radius.
+template <class V>
+HWY_INLINE auto acts_on_wall(V distance, V reach, V margin)
+{
+  return distance <= reach + margin;
+}
+
+/// Unit vector from j to i, and the distance, m, of the centres: gap = distance - reach.
+template <class V>
+struct Normal {
+  V nx, ny, distance;
 };
 
-/// Where `used` is false the normal is anything finite.
-HWY_INLINE Normals normal_of_discs(Vector dx, Vector dy, Mask used)
+/// Of two discs whose centres are (dx, dy) apart at mid-step, m; anything finite where `used` is false.
+template <class V>
+HWY_INLINE Normal<V> normal_of_discs(V dx, V dy, MaskOf<V> used)
 {
-  const D d;
-  const auto distance = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
-  const auto one = hn::Set(d, 1.0);
-  const auto inverse = hn::Div(one, hn::IfThenElse(used, distance, one));
-  return {hn::Mul(dx, inverse), hn::Mul(dy, inverse), distance};
+  const V one = number<V>(1), distance = root(dx * dx + dy * dy);
+  const V inverse = one / choose(used, distance, one);
+  return {dx * inverse, dy * inverse, distance};
 }
 
-HWY_INLINE Normals normal_of_wall(Vector dx, Vector dy, Vector nx, Vector ny)
+/// Of a disc whose centre lies (dx, dy) from a point of a wall with normal (nx, ny).
+template <class V>
+HWY_INLINE Normal<V> normal_of_wall(V dx, V dy, V nx, V ny)
 {
-  return {nx, ny, hn::Add(hn::Mul(dx, nx), hn::Mul(dy, ny))};
+  return {nx, ny, dx * nx + dy * ny};
 }
 
-/// From the sum of inverse masses; 0 where `used` is false.
-HWY_INLINE Vector normal_mass(Vector inverse_masses, Mask used)
+/// Effective masses 1/W_nn and 1/W_tt, kg; W_nt = 0 for discs. From the sum of inverse masses; 0 where
+/// `used` is false.
+template <class V>
+HWY_INLINE V normal_mass(V inverse_masses, MaskOf<V> used)
 {
-  const D d;
-  const auto one = hn::Set(d, 1.0);
-  return hn::IfThenElseZero(used, hn::Div(one, hn::IfThenElse(used, inverse_masses, one)));
+  const V one = number<V>(1);
+  return choose(used, one / choose(used, inverse_masses, one));
+}
+template <class V>
+HWY_INLINE V tangential_mass(V normal_mass, V kappa, double rim_factor = disc_rim_factor)
+{
+  return normal_mass / (number<V>(1) + number<V>(rim_factor) * (kappa * kappa));
 }
 
-HWY_INLINE Vector tangential_mass(Vector normal_mass, Vector kappa, double rim_factor)
+/// -separation (m/s), or 0 where the error of the solver may have made it; `load` = W_nn p_n (m/s).
+template <class V>
+HWY_INLINE V fresh_approach(V separation, V load)
 {
-  const D d;
-  const auto lever = hn::Mul(hn::Set(d, rim_factor), hn::Mul(kappa, kappa));
-  return hn::Div(normal_mass, hn::Add(hn::Set(d, 1.0), lever));
+  const V error =
+      choose(separation > number<V>(0), number<V>(parting_error), number<V>(solver_error));
+  return choose(magnitude(separation) > error * load, minus(separation));
 }
 
-HWY_INLINE Vector approach_of(Vector separation)
-{
-  return larger(hn::Neg(separation), hn::Zero(D()));
-}
-
-struct Rebounds {
-  Vector velocity, remembered;
+/// What a pair that acts must reach, and what it has to remember.
+template <class V>
+struct Rebound {
+  V velocity;    // m/s, least separation velocity after the step
+  V remembered;  // m/s, approach of a pair that is only slowed down; counts if it gets p_n > 0
 };
 
-HWY_INLINE Vector fresh_approach(Vector separation, Vector load)
-{
-  const D d;
-  const auto part = hn::IfThenElse(hn::Gt(separation, hn::Zero(d)), hn::Set(d, parting_error),
-                                   hn::Set(d, solver_error));
-  return hn::IfThenElseZero(hn::Gt(hn::Abs(separation), hn::Mul(part, load)), hn::Neg(separation));
-}
-
+/// `gap` (m) at mid-step, `separation` (m/s) before the step; `load` = W_nn p_n (m/s) and
+/// `remembered` are what the step before left behind, 0 for a pair that did not act. `horizon` in s.
 /// Without `with_restitution` as for e = 0, without `with_horizon` as for horizon 0.
-template <bool with_restitution, bool with_horizon>
-HWY_INLINE Rebounds rebound_of(Vector gap, Vector separation, Vector load, Vector remembered,
-                               double restitution, double horizon)
+template <bool with_restitution, bool with_horizon, class V>
+HWY_INLINE Rebound<V> rebound_of(V gap, V separation, V load, V remembered, double restitution,
+                                 double horizon)
 {
-  const D d;
-  const auto zero = hn::Zero(d);
-  const auto already_slowed_down = hn::Gt(remembered, zero);
-  auto approach = fresh_approach(separation, load);
+  const V zero = number<V>(0);
+  const auto already_slowed_down = remembered > zero;
+  V approach = fresh_approach(separation, load);
   if constexpr (with_horizon)
-    approach = hn::IfThenElse(already_slowed_down, larger(remembered, approach), approach);
+    approach = choose(already_slowed_down, larger(remembered, approach), approach);
   // The sum is never -0, which e = 0 would make.
-  const auto newton =
-      with_restitution ? hn::Add(hn::Mul(hn::Set(d, restitution), approach), zero) : zero;
+  const V newton = with_restitution ? number<V>(restitution) * approach + zero : zero;
   if constexpr (!with_horizon) return {newton, zero};
-  const auto closing = hn::Div(hn::Neg(gap), hn::Set(d, horizon));
-  const auto slowed_down_now = hn::AndNot(already_slowed_down, hn::Gt(gap, zero));
-  const auto newcomer = hn::And(hn::Eq(load, zero), hn::Lt(separation, closing));
-  return {hn::IfThenElse(slowed_down_now, smaller(closing, newton), newton),
-          hn::IfThenElseZero(hn::And(slowed_down_now, newcomer), approach)};
+  const V closing = minus(gap) / number<V>(horizon);
+  const auto slowed_down_now = but_not(gap > zero, already_slowed_down);
+  // A pair that bore a load has lost its approach before.
+  const auto newcomer = both(load == zero, separation < closing);
+  return {choose(slowed_down_now, smaller(closing, newton), newton),
+          choose(both(slowed_down_now, newcomer), approach)};
 }
 
-/// Adds the impulse (px, py) times their weights to a and takes it from b; `spin` is taken from both.
-template <Effects with, class Tag, class V = hn::Vec<Tag>>
-HWY_INLINE void push(Bodies<Tag>& a, Bodies<Tag>& b, V weight_a, V weight_b, V px, V py, V spin)
+/// W_tt/W_nn of discs that turn.
+template <class V>
+HWY_INLINE V w_ratio(V kappa)
+{
+  return number<V>(1) + number<V>(disc_rim_factor) * kappa * kappa;
+}
+
+/// What impulses along the normal and the tangent do: (px, py) times its inverse mass is added to the
+/// velocity of i and taken from that of j; `spin`, likewise, is taken from both rim speeds.
+template <class V>
+struct Push {
+  V px, py, spin;
+};
+template <Effects with, class V>
+HWY_INLINE Push<V> push_of(V nx, V ny, V kappa, V normal, V tangential)
+{
+  Push<V> p{normal * nx, normal * ny, number<V>(0)};
+  if constexpr (with.friction) {
+    p.px = p.px - tangential * ny;
+    p.py = p.py + tangential * nx;
+  }
+  if constexpr (with.friction && with.rotation)
+    p.spin = number<V>(disc_rim_factor) * kappa * tangential;
+  return p;
+}
+template <Effects with, class Body, class V>
+HWY_INLINE void push(Body& a, Body& b, V weight_a, V weight_b, const Push<V>& p)
 {
   if constexpr (with.friction && with.rotation) {
-    a.rim_speed = hn::Sub(a.rim_speed, hn::Mul(weight_a, spin));
-    b.rim_speed = hn::Sub(b.rim_speed, hn::Mul(weight_b, spin));
+    a.rim_speed = a.rim_speed - weight_a * p.spin;
+    b.rim_speed = b.rim_speed - weight_b * p.spin;
   }
-  a.vx = hn::Add(a.vx, hn::Mul(weight_a, px));
-  a.vy = hn::Add(a.vy, hn::Mul(weight_a, py));
-  b.vx = hn::Sub(b.vx, hn::Mul(weight_b, px));
-  b.vy = hn::Sub(b.vy, hn::Mul(weight_b, py));
+  a.vx = a.vx + weight_a * p.px;
+  a.vy = a.vy + weight_a * p.py;
+  b.vx = b.vx - weight_b * p.px;
+  b.vy = b.vy - weight_b * p.py;
+}
+
+/// Velocity of the surface of i along that of j, m/s: what friction acts against.
+template <Effects with, class Contacts, class Body, class V>
+HWY_INLINE V sliding_of(const Contacts& c, const Body& a, const Body& b, V dvx, V dvy)
+{
+  const V sliding = dvy * c.nx - dvx * c.ny;
+  if constexpr (!with.rotation) return sliding;
+  return sliding - c.kappa * (a.rim_speed + b.rim_speed);
+}
+
+/// Least and largest impulse along a tangent.
+template <class V>
+struct Limits {
+  V least, most;
+};
+
+// What the law amounts to in whole impulses, and below in increments, whose sums are in the order that
+// makes the chain of operations on velocities shortest.
+
+/// The impulse along n that would make the separation velocity the rebound.
+template <Effects with, class V>
+HWY_INLINE V rebounding(const WholeImpulses<V>& c, V separation)
+{
+  const V excess = with.restitution ? separation - c.rebound : separation;
+  return c.impulse_n - c.mass_n * excess;
+}
+template <class V>
+HWY_INLINE V least_impulse(const WholeImpulses<V>&)
+{
+  return number<V>(0);
+}
+/// The impulse along t that would stop sliding, and Coulomb's limits.
+template <class V>
+HWY_INLINE V sticking(const WholeImpulses<V>& c, V sliding)
+{
+  return c.impulse_t - c.mass_t * sliding;
+}
+template <class V>
+HWY_INLINE Limits<V> cone(const WholeImpulses<V>& c, V friction)
+{
+  const V limit = friction * c.impulse_n;
+  return {minus(limit), limit};
+}
+template <Effects with, class Body, class V>
+HWY_INLINE void push(const WholeImpulses<V>&, Body& a, Body& b, const Push<V>& p)
+{
+  push<with>(a, b, a.inverse_mass, b.inverse_mass, p);
+}
+template <Effects with, class Body, class V>
+HWY_INLINE Relaxed<V> relaxed(const WholeImpulses<V>& c, const Body& a, const Body& b, V change_n,
+                              V change_t)
+{
+  const V w_nn = a.inverse_mass + b.inverse_mass;
+  const V w_tt = with.rotation ? w_nn * w_ratio(c.kappa) : w_nn;
+  return {magnitude(change_n) * w_nn, c.impulse_n * w_nn, magnitude(change_t) * w_tt,
+          c.impulse_t * w_tt};
+}
+
+template <Effects with, class V>
+HWY_INLINE V rebounding(const Increments<V>& c, V separation)
+{
+  const V aim = with.restitution ? c.impulse_n + c.rebound : c.impulse_n;
+  return aim - separation;
+}
+template <class V>
+HWY_INLINE V least_impulse(const Increments<V>& c)
+{
+  return minus(c.base_n);
+}
+template <class V>
+HWY_INLINE V sticking(const Increments<V>& c, V sliding)
+{
+  return c.impulse_t - c.mass_ratio * sliding;
+}
+template <class V>
+HWY_INLINE Limits<V> cone(const Increments<V>& c, V friction)
+{
+  const V held = friction * c.base_n, more = friction * c.impulse_n;
+  return {(minus(held) - c.base_t) - more, (held - c.base_t) + more};
+}
+template <Effects with, class Body, class V>
+HWY_INLINE void push(const Increments<V>& c, Body& a, Body& b, const Push<V>& p)
+{
+  push<with>(a, b, c.weight_i, c.weight_j, p);
+}
+template <Effects with, class Body, class V>
+HWY_INLINE Relaxed<V> relaxed(const Increments<V>& c, const Body&, const Body&, V change_n,
+                              V change_t)
+{
+  const V t = magnitude(change_t), level_t = c.base_t + c.impulse_t, ratio = w_ratio(c.kappa);
+  return {magnitude(change_n), c.base_n + c.impulse_n, with.rotation ? t * ratio : t,
+          with.rotation ? level_t * ratio : level_t};
+}
+
+/// Makes a contact of a and b obey Signorini, Newton and Coulomb while its neighbours hold still.
+/// W_nt = 0 for discs, so normal and tangential parts have each their exact solution.
+template <Effects with, class Contacts, class Body, class V>
+HWY_INLINE Relaxed<V> relax(Contacts& c, Body& a, Body& b, V friction)
+{
+  const V dvx = a.vx - b.vx, dvy = a.vy - b.vy;
+  const V before_n = c.impulse_n, before_t = c.impulse_t;
+  c.impulse_n = larger(rebounding<with>(c, dvx * c.nx + dvy * c.ny), least_impulse(c));
+  if constexpr (with.friction) {
+    const V sliding = sliding_of<with>(c, a, b, dvx, dvy);
+    const auto [least, most] = cone(c, friction);
+    c.impulse_t = smaller(larger(sticking(c, sliding), least), most);
+  }
+  const V change_n = c.impulse_n - before_n, change_t = c.impulse_t - before_t;
+  const auto p = push_of<with>(c.nx, c.ny, c.kappa, change_n, change_t);
+  push<with>(c, a, b, p);
+  return relaxed<with>(c, a, b, change_n, change_t);
+}
+
+/// The contacts of a block from `lane` on.
+HWY_INLINE WholeImpulses<Vector> load(const ContactBlock& b, std::size_t lane)
+{
+  return {load(b.nx, lane),        load(b.ny, lane),       load(b.kappa, lane),
+          load(b.mass_n, lane),    load(b.mass_t, lane),   load(b.rebound, lane),
+          load(b.impulse_n, lane), load(b.impulse_t, lane)};
+}
+HWY_INLINE Increments<hn::Vec<TagOf<float>>> load(const BlockOf<float>& b, std::size_t lane)
+{
+  return {load(b.nx, lane),        load(b.ny, lane),       load(b.kappa, lane),
+          load(b.weight_i, lane),  load(b.weight_j, lane), load(b.mass_ratio, lane),
+          load(b.rebound, lane),   load(b.base_n, lane),   load(b.base_t, lane),
+          load(b.impulse_n, lane), load(b.impulse_t, lane)};
 }
 
 /// use<with>() for the effects that matter where impulses are applied: restitution does not.
@@ -126,137 +285,14 @@ HWY_INLINE void with_effects(Effects e, const Use& use)
     use.template operator()<Effects{true, true, false}>();
 }
 
-/// What impulses along the normals and tangents of contacts do to their bodies, as push() takes it.
-struct Pushes {
-  Vector px, py, spin;
-};
-template <Effects with>
-HWY_INLINE Pushes pushes_of(const ContactBlock& c, std::size_t lane, Vector normal,
-                            Vector tangential)
-{
-  const D d;
-  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
-  Pushes p{hn::Mul(normal, nx), hn::Mul(normal, ny), hn::Zero(d)};
-  if constexpr (with.friction) {
-    p.px = hn::Sub(p.px, hn::Mul(tangential, ny));
-    p.py = hn::Add(p.py, hn::Mul(tangential, nx));
-  }
-  if constexpr (with.friction && with.rotation) {
-    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), hn::Load(d, &c.kappa[lane]));
-    p.spin = hn::Mul(lever, tangential);
-  }
-  return p;
-}
-
 /// Applies impulses along the normals and tangents of the lanes of a block that begin at `lane`.
 template <Effects with>
 HWY_INLINE void apply(const ContactBlock& c, std::size_t lane, Vector normal, Vector tangential,
                       double* motion)
 {
-  const auto p = pushes_of<with>(c, lane, normal, tangential);
+  const auto p =
+      push_of<with>(load(c.nx, lane), load(c.ny, lane), load(c.kappa, lane), normal, tangential);
   push_bodies(D(), p.px, p.py, p.spin, motion, &c.i[lane], &c.j[lane]);
-}
-
-/// What relaxing changed along one direction, and its level: W times the impulse, m/s.
-template <class Tag>
-struct Relaxed {
-  hn::Vec<Tag> change, level;
-};
-
-/// Relaxes the lanes of a block that begin at `lane`, whose bodies are a and b.
-/// `results.add(lane, normal)` or `results.add(lane, normal, tangential)` is given what changed.
-template <Effects with, class Results>
-HWY_INLINE void relax(ContactBlock& c, std::size_t lane, Bodies<D>& a, Bodies<D>& b,
-                      Vector friction, Results& results)
-{
-  const D d;
-  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
-  const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
-  const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
-
-  auto excess = hn::Add(hn::Mul(dvx, nx), hn::Mul(dvy, ny));
-  if constexpr (with.restitution) excess = hn::Sub(excess, hn::Load(d, &c.rebound[lane]));
-  const auto before_n = hn::Load(d, &c.impulse_n[lane]);
-  const auto relaxed_n = hn::Sub(before_n, hn::Mul(hn::Load(d, &c.mass_n[lane]), excess));
-  const auto impulse_n = larger(relaxed_n, hn::Zero(d));
-  hn::Store(impulse_n, d, &c.impulse_n[lane]);
-  const auto change_n = hn::Sub(impulse_n, before_n);
-  const Relaxed<D> normal{hn::Mul(hn::Abs(change_n), w_nn), hn::Mul(impulse_n, w_nn)};
-
-  auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
-  if constexpr (with.friction) {
-    auto sliding = hn::Sub(hn::Mul(dvy, nx), hn::Mul(dvx, ny));
-    auto w_tt = w_nn;
-    const auto kappa = hn::Load(d, &c.kappa[lane]);
-    const auto lever = hn::Mul(hn::Set(d, disc_rim_factor), kappa);
-    if constexpr (with.rotation) {
-      sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
-      w_tt = hn::Mul(w_nn, hn::Add(hn::Set(d, 1.0), hn::Mul(lever, kappa)));
-    }
-    const auto limit = hn::Mul(friction, impulse_n);
-    const auto before_t = hn::Load(d, &c.impulse_t[lane]);
-    const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_t[lane]), sliding));
-    const auto impulse_t = smaller(larger(sticking, hn::Neg(limit)), limit);
-    hn::Store(impulse_t, d, &c.impulse_t[lane]);
-    const auto change_t = hn::Sub(impulse_t, before_t);
-    px = hn::Sub(px, hn::Mul(change_t, ny));
-    py = hn::Add(py, hn::Mul(change_t, nx));
-    if constexpr (with.rotation) spin = hn::Mul(lever, change_t);
-    results.add(lane, normal,
-                Relaxed<D>{hn::Mul(hn::Abs(change_t), w_tt), hn::Mul(impulse_t, w_tt)});
-  } else {
-    results.add(lane, normal);
-  }
-  push<with, D>(a, b, a.inverse_mass, b.inverse_mass, px, py, spin);
-}
-
-/// The same in single precision, see ContactOf<float>.
-template <Effects with, class Results, class Single = TagOf<float>>
-HWY_INLINE void relax(BlockOf<float>& c, std::size_t lane, Bodies<Single>& a, Bodies<Single>& b,
-                      hn::Vec<Single> friction, Results& results)
-{
-  const Single d;
-  const auto nx = hn::Load(d, &c.nx[lane]), ny = hn::Load(d, &c.ny[lane]);
-  const auto dvx = hn::Sub(a.vx, b.vx), dvy = hn::Sub(a.vy, b.vy);
-
-  const auto separation = hn::Add(hn::Mul(dvx, nx), hn::Mul(dvy, ny));
-  const auto before_n = hn::Load(d, &c.impulse_n[lane]), base_n = hn::Load(d, &c.base_n[lane]);
-  auto aim = before_n;
-  if constexpr (with.restitution) aim = hn::Add(before_n, hn::Load(d, &c.rebound[lane]));
-  const auto impulse_n = larger(hn::Sub(aim, separation), hn::Neg(base_n));
-  hn::Store(impulse_n, d, &c.impulse_n[lane]);
-  const auto change_n = hn::Sub(impulse_n, before_n);
-  const Relaxed<Single> normal{hn::Abs(change_n), hn::Add(base_n, impulse_n)};
-
-  auto px = hn::Mul(change_n, nx), py = hn::Mul(change_n, ny), spin = hn::Zero(d);
-  if constexpr (with.friction) {
-    auto sliding = hn::Sub(hn::Mul(dvy, nx), hn::Mul(dvx, ny));
-    const auto kappa = hn::Load(d, &c.kappa[lane]);
-    const auto lever = hn::Mul(hn::Set(d, float{disc_rim_factor}), kappa);
-    if constexpr (with.rotation)
-      sliding = hn::Sub(sliding, hn::Mul(kappa, hn::Add(a.rim_speed, b.rim_speed)));
-    const auto base_t = hn::Load(d, &c.base_t[lane]), before_t = hn::Load(d, &c.impulse_t[lane]);
-    const auto held = hn::Mul(friction, base_n), more = hn::Mul(friction, impulse_n);
-    const auto lowest = hn::Sub(hn::Sub(hn::Neg(held), base_t), more);
-    const auto highest = hn::Add(hn::Sub(held, base_t), more);
-    const auto sticking = hn::Sub(before_t, hn::Mul(hn::Load(d, &c.mass_ratio[lane]), sliding));
-    const auto impulse_t = smaller(larger(sticking, lowest), highest);
-    hn::Store(impulse_t, d, &c.impulse_t[lane]);
-    const auto change_t = hn::Sub(impulse_t, before_t);
-    px = hn::Sub(px, hn::Mul(change_t, ny));
-    py = hn::Add(py, hn::Mul(change_t, nx));
-    Relaxed<Single> tangential{hn::Abs(change_t), hn::Add(base_t, impulse_t)};
-    if constexpr (with.rotation) {
-      spin = hn::Mul(lever, change_t);
-      const auto w_ratio = hn::Add(hn::Set(d, 1.0F), hn::Mul(lever, kappa));
-      tangential = {hn::Mul(tangential.change, w_ratio), hn::Mul(tangential.level, w_ratio)};
-    }
-    results.add(lane, normal, tangential);
-  } else {
-    results.add(lane, normal);
-  }
-  const auto weight_a = hn::Load(d, &c.weight_i[lane]), weight_b = hn::Load(d, &c.weight_j[lane]);
-  push<with, Single>(a, b, weight_a, weight_b, px, py, spin);
 }
 
 }  // namespace

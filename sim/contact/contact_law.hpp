@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 /// The contact laws: Signorini's condition, Newton's restitution and Coulomb's friction between
 /// rigid discs, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean, Comput.
-/// Methods Appl. Mech. Eng. 177, 235, 1999). This file states them for a single pair;
-/// contact_law-inl.hpp states the same for several pairs at a time, operation by operation, and
-/// tests hold the two together to the last bit.
+/// Methods Appl. Mech. Eng. 177, 235, 1999). This file has them in words, and the numbers that they
+/// are about; contact_law-inl.hpp has the equations, for one pair or as many as a vector has lanes.
 ///
 /// A step of length h leads from positions x and velocities v to v+ and x+ = x + h (v + v+)/2.
 /// Contacts are those of the middle of the step, x_m = x + h v/2. For a pair i, j:
@@ -113,7 +111,7 @@ struct alignas(4 * sizeof(Real)) MotionOf {
 template <>
 struct alignas(4 * sizeof(float)) MotionOf<float> {
   float vx = 0, vy = 0, rim_speed = 0;
-  float unused = 0;  // contacts know the masses, see ContactOf<float>
+  float unused = 0;  // contacts know the masses, see Increments
 };
 using Motion = MotionOf<double>;
 
@@ -122,31 +120,34 @@ using Motion = MotionOf<double>;
 ///
 /// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j), so that they add up
 /// to the distance of the centres and angular momentum is conserved whatever the gap.
-template <class Real>
-struct ContactOf {
-  Real nx, ny;
-  Real kappa;                 // 1 at a straight wall
-  Real mass_n, mass_t;        // kg, effective masses 1/W_nn and 1/W_tt
-  Real rebound;               // m/s, least separation velocity after the step
-  Real impulse_n, impulse_t;  // kg m/s
-  std::int32_t i, j;          // entries of the Motion array
+///
+/// Number is a double, or holds those of several pairs: an array, or a vector.
+template <class Number>
+struct WholeImpulses {
+  Number nx, ny;
+  Number kappa;                 // 1 at a straight wall
+  Number mass_n, mass_t;        // kg, effective masses 1/W_nn and 1/W_tt
+  Number rebound;               // m/s, least separation velocity after the step
+  Number impulse_n, impulse_t;  // kg m/s
 };
-using Contact = ContactOf<double>;
 
 /// In single precision impulses are increments on a `base`, which velocities contain already: the
 /// last digit is then one of what a step changes, not one of the load, and a bed at rest does not
 /// creep. They are per mass_n: the relative velocities that they make, of which each body takes the part
 /// that its weight says. So a relaxation needs no mass, and the chain of its operations is shorter.
-template <>
-struct ContactOf<float> {
-  float nx, ny;
-  float kappa;
-  float weight_i, weight_j;    // mass_n over the mass of the body; 0 for one that cannot be moved
-  float mass_ratio;            // mass_t/mass_n
-  float rebound;               // m/s
-  float base_n, base_t;        // m/s
-  float impulse_n, impulse_t;  // m/s
-  std::int32_t i, j;
+template <class Number>
+struct Increments {
+  Number nx, ny;
+  Number kappa;
+  Number weight_i, weight_j;    // mass_n over the mass of the body; 0 for one that cannot be moved
+  Number mass_ratio;            // mass_t/mass_n
+  Number rebound;               // m/s
+  Number base_n, base_t;        // m/s
+  Number impulse_n, impulse_t;  // m/s
+};
+
+struct Contact : WholeImpulses<double> {
+  std::int32_t i, j;  // entries of the Motion array
 };
 
 /// What the contacts of a scene do. An effect left out gives the same bits as its neutral
@@ -162,181 +163,22 @@ struct Material {
   double restitution = 0.25;  // Newton's e: separation over approach velocity
 };
 
-/// Changes of one relaxation, as the relative velocities they stand for (m/s): W times the impulse.
-template <class Real>
-struct ChangeOf {
-  Real normal, tangential;
+/// What relaxing changed along the normal and the tangent, and the impulses that it led to, as the
+/// relative velocities they stand for (m/s): W times the impulse.
+template <class Number>
+struct Relaxed {
+  Number change_n, level_n, change_t, level_t;
 };
-using Change = ChangeOf<double>;
 
 /// m r^2/I of a disc: a tangential impulse p_t changes rim speeds by -2 kappa p_t/m.
 constexpr double disc_rim_factor = 2;
 
-/// Whether two discs act whose centres are (dx, dy) apart after the forecast, m; reach = r_i + r_j.
-inline bool acts(double dx, double dy, double reach, double margin)
-{
-  const double limit = reach + margin;
-  return dx * dx + dy * dy <= limit * limit;
-}
-
-/// Whether a disc acts whose centre is then at `distance` from a wall, m; `reach` is its radius.
-inline bool acts_on_wall(double distance, double reach, double margin)
-{
-  return distance <= reach + margin;
-}
-
-/// Unit vector from j to i, and the distance, m, of the centres: gap = distance - reach.
-struct Normal {
-  double nx, ny, distance;
-};
-
-/// Of two discs whose centres are (dx, dy) apart at mid-step, m.
-inline Normal normal_of_discs(double dx, double dy)
-{
-  const double distance = std::sqrt(dx * dx + dy * dy), inverse = 1 / distance;
-  return {dx * inverse, dy * inverse, distance};
-}
-
-/// Of a disc whose centre lies (dx, dy) from a point of a wall with normal (nx, ny).
-inline Normal normal_of_wall(double dx, double dy, double nx, double ny)
-{
-  return {nx, ny, dx * nx + dy * ny};
-}
-
-/// Effective masses 1/W_nn and 1/W_tt, kg. W_nt = 0 for discs.
-inline double normal_mass(double inverse_mass_i, double inverse_mass_j)
-{
-  return 1 / (inverse_mass_i + inverse_mass_j);
-}
-inline double tangential_mass(double normal_mass, double kappa)
-{
-  return normal_mass / (1 + disc_rim_factor * (kappa * kappa));
-}
-
-/// What a pair that acts must reach, and what it has to remember.
-struct Rebound {
-  double velocity;    // m/s, least separation velocity after the step
-  double remembered;  // m/s, approach of a pair that is only slowed down; counts if it gets p_n > 0
-};
-
-/// -separation (m/s), or 0 where the error of the solver may have made it; `load` = W_nn p_n (m/s).
-inline double fresh_approach(double separation, double load)
-{
-  const double error = (separation > 0 ? parting_error : solver_error) * load;
-  return std::abs(separation) > error ? -separation : 0;
-}
-
-/// `gap` (m) at mid-step, `separation` (m/s) before the step; `load` = W_nn p_n (m/s) and
-/// `remembered` are what the step before left behind, 0 for a pair that did not act. `horizon` in s.
-inline Rebound rebound_of(double gap, double separation, double load, double remembered,
-                          double restitution, double horizon)
-{
-  const bool already_slowed_down = remembered > 0;
-  const double fresh = fresh_approach(separation, load);
-  const double approach = already_slowed_down ? std::max(remembered, fresh) : fresh;
-  const double newton = restitution * approach + 0.0;  // never -0, which e = 0 would make
-  if (horizon == 0 || !(gap > 0) || already_slowed_down) return {newton, 0};
-  const double closing = -gap / horizon;
-  // A pair that bore a load has lost its approach before.
-  const bool newcomer = load == 0 && separation < closing;
-  return {std::min(closing, newton), newcomer ? approach : 0};
-}
-
-/// Adds the impulse (px, py) times their weights to a and takes it from b; `spin` is taken from both.
-template <Effects with, class Real>
-inline void push(MotionOf<Real>& a, MotionOf<Real>& b, Real weight_a, Real weight_b, Real px,
-                 Real py, Real spin)
-{
-  if constexpr (with.friction && with.rotation) {
-    a.rim_speed -= weight_a * spin;
-    b.rim_speed -= weight_b * spin;
-  }
-  a.vx += weight_a * px;
-  a.vy += weight_a * py;
-  b.vx -= weight_b * px;
-  b.vy -= weight_b * py;
-}
-
-/// Makes one contact obey Signorini, Newton and Coulomb while its neighbours hold still. W_nt = 0
-/// for discs, so normal and tangential parts have each their exact solution.
-///
-/// Limits are written as max and min in the order of their arguments that also gives zeros the sign
-/// which vector instructions give.
-template <Effects with>
-inline Change relax(Contact& c, Motion& a, Motion& b, double friction)
-{
-  const double w_nn = a.inverse_mass + b.inverse_mass;
-  const double dvx = a.vx - b.vx, dvy = a.vy - b.vy;
-  const double separation = dvx * c.nx + dvy * c.ny;
-  const double excess = with.restitution ? separation - c.rebound : separation;
-  const double before_n = c.impulse_n;
-  c.impulse_n = std::max(0.0, before_n - c.mass_n * excess);
-  const double change_n = c.impulse_n - before_n;
-  double px = change_n * c.nx, py = change_n * c.ny, spin = 0;
-
-  Change change{std::abs(change_n) * w_nn, 0};
-  if constexpr (with.friction) {
-    const double lever = disc_rim_factor * c.kappa;
-    double sliding = dvy * c.nx - dvx * c.ny;
-    if constexpr (with.rotation) sliding -= c.kappa * (a.rim_speed + b.rim_speed);
-    const double limit = friction * c.impulse_n;
-    const double before_t = c.impulse_t;
-    c.impulse_t = std::min(limit, std::max(-limit, before_t - c.mass_t * sliding));
-    const double change_t = c.impulse_t - before_t;
-    px -= change_t * c.ny;
-    py += change_t * c.nx;
-    spin = lever * change_t;
-    const double w_tt = with.rotation ? w_nn * (1 + lever * c.kappa) : w_nn;
-    change.tangential = std::abs(change_t) * w_tt;
-  }
-  push<with>(a, b, a.inverse_mass, b.inverse_mass, px, py, spin);
-  return change;
-}
-
-/// The same in single precision, see ContactOf<float>. Sums are in the order that makes the chain of
-/// operations on velocities shortest.
-template <Effects with>
-inline ChangeOf<float> relax(ContactOf<float>& c, MotionOf<float>& a, MotionOf<float>& b,
-                             float friction)
-{
-  const float dvx = a.vx - b.vx, dvy = a.vy - b.vy;
-  const float separation = dvx * c.nx + dvy * c.ny;
-  const float before_n = c.impulse_n, aim = with.restitution ? before_n + c.rebound : before_n;
-  c.impulse_n = std::max(-c.base_n, aim - separation);
-  const float change_n = c.impulse_n - before_n;
-  float px = change_n * c.nx, py = change_n * c.ny, spin = 0;
-
-  ChangeOf<float> change{std::abs(change_n), 0};
-  if constexpr (with.friction) {
-    const float lever = float{disc_rim_factor} * c.kappa;
-    float sliding = dvy * c.nx - dvx * c.ny;
-    if constexpr (with.rotation) sliding -= c.kappa * (a.rim_speed + b.rim_speed);
-    const float held = friction * c.base_n, more = friction * c.impulse_n;
-    const float lowest = (-held - c.base_t) - more, highest = (held - c.base_t) + more;
-    const float before_t = c.impulse_t;
-    c.impulse_t = std::min(highest, std::max(lowest, before_t - c.mass_ratio * sliding));
-    const float change_t = c.impulse_t - before_t;
-    px -= change_t * c.ny;
-    py += change_t * c.nx;
-    spin = lever * change_t;
-    change.tangential =
-        with.rotation ? std::abs(change_t) * (1 + lever * c.kappa) : std::abs(change_t);
-  }
-  push<with>(a, b, c.weight_i, c.weight_j, px, py, spin);
-  return change;
-}
-
-using Relax = Change (*)(Contact&, Motion&, Motion&, double friction);
+/// Makes one contact obey the law while its neighbours hold still; see relax() in
+/// contact_law-inl.hpp.
+using Relax = Relaxed<double> (*)(Contact&, Motion&, Motion&, double friction);
 
 /// relax() of a scene's effects. Restitution needs no variant here: without it rebounds are ignored
 /// by setting them 0.
-inline Relax choose_relax(Effects e)
-{
-  // [friction][rotation]
-  static constexpr Relax table[2][2] = {
-      {relax<Effects{false, false, true}>, relax<Effects{false, true, true}>},
-      {relax<Effects{true, false, true}>, relax<Effects{true, true, true}>}};
-  return table[e.friction][e.rotation];
-}
+Relax choose_relax(Effects effects);
 
 }  // namespace grseg

@@ -61,7 +61,7 @@ HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c
       const std::size_t at = k + lane;
       auto [x, y] = load_differences<1>(d, position, &pairs.i[at], &pairs.j[at]);
       const auto [shift, reach] = load_next_twos(d, numbers_of(&pairs.geometry[at]));
-      if constexpr (periodic) x = hn::Add(x, shift);
+      if constexpr (periodic) x = x + shift;
       bits |= bits_of(d, acts(x, y, reach, margin)) << lane;
     }
     *acting++ = static_cast<std::uint8_t>(bits);
@@ -94,27 +94,25 @@ std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const Dete
 }
 
 template <bool periodic>
-HWY_INLINE Normals normals_of_grains(const DetectionRule& rule, const std::uint32_t* i,
-                                     const std::uint32_t* j, Vector shift, Mask used,
-                                     LaneSums& sums)
+HWY_INLINE Normal<Vector> normal_of_grains(const DetectionRule& rule, const std::uint32_t* i,
+                                           const std::uint32_t* j, Vector shift, hn::Mask<D> used,
+                                           LaneSums& sums)
 {
   const D d;
   auto [x, y] = load_differences<1>(d, rule.middle.data()->data(), i, j);
-  if constexpr (periodic) x = hn::Add(x, shift);
-  const auto normals = normal_of_discs(x, y, used);
-  const auto coincident = hn::And(used, hn::Eq(normals.distance, hn::Zero(d)));
-  sums.coincident |= !hn::AllFalse(d, coincident);
-  return normals;
+  if constexpr (periodic) x = x + shift;
+  const auto normal = normal_of_discs(x, y, used);
+  sums.coincident |= !hn::AllFalse(d, both(used, normal.distance == hn::Zero(d)));
+  return normal;
 }
 
-HWY_INLINE Normals normals_of_wall(const DetectionRule& rule, const Wall& wall,
-                                   const std::uint32_t* i)
+HWY_INLINE Normal<Vector> normal_at_wall(const DetectionRule& rule, const Wall& wall,
+                                         const std::uint32_t* i)
 {
   const D d;
   const auto [x, y] = load_twos(d, rule.middle.data()->data(), i);
-  return normal_of_wall(hn::Sub(x, hn::Set(d, wall.point.x())),
-                        hn::Sub(y, hn::Set(d, wall.point.y())), hn::Set(d, wall.normal.x()),
-                        hn::Set(d, wall.normal.y()));
+  return normal_of_wall(x - hn::Set(d, wall.point.x()), y - hn::Set(d, wall.point.y()),
+                        hn::Set(d, wall.normal.x()), hn::Set(d, wall.normal.y()));
 }
 
 /// Bodies and entries of the eight pairs of a class that begin at `near`.
@@ -139,20 +137,20 @@ struct Geometries {
 /// Of the pairs of a class from `at` of `near` on.
 template <bool periodic>
 HWY_INLINE Geometries geometry_of(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
-                                  std::size_t at, const DetectionRule& rule, Mask used,
+                                  std::size_t at, const DetectionRule& rule, hn::Mask<D> used,
                                   LaneSums& sums)
 {
   const D d;
   const auto one = hn::Set(d, 1.0);
   const auto [shift, reach] = load_twos(d, numbers_of(pairs.geometry.data()), &near.pair[at]);
   const auto n =
-      c.wall < 0 ? normals_of_grains<periodic>(rule, &near.i[at], &near.j[at], shift, used, sums)
-                 : normals_of_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], &near.i[at]);
-  const auto kappa = c.wall < 0 ? hn::Mul(n.distance, hn::Div(one, reach)) : one;
-  return {n.nx, n.ny, kappa, hn::Sub(n.distance, reach)};
+      c.wall < 0 ? normal_of_grains<periodic>(rule, &near.i[at], &near.j[at], shift, used, sums)
+                 : normal_at_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], &near.i[at]);
+  const auto kappa = c.wall < 0 ? n.distance * (one / reach) : one;
+  return {n.nx, n.ny, kappa, n.distance - reach};
 }
 
-HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, Mask used,
+HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Mask<D> used,
                            std::size_t lane, LaneSums& sums)
 {
   const D d;
@@ -194,18 +192,18 @@ HWY_INLINE void set_block(const Pairs& pairs, const Pairs::Class& c, const NearP
     store(mass, block.mass_n);
     store(with.rotation ? tangential_mass(mass, g.kappa, rule.rim_factor) : mass, block.mass_t);
 
-    const auto separation = hn::Add(hn::Mul(v.vx, g.nx), hn::Mul(v.vy, g.ny));
+    const auto separation = v.vx * g.nx + v.vy * g.ny;
     const auto [n, t, approach, unused] =
-        load_fours(d, numbers_of(pairs.memory.data()), &origin.pair[lane]);
+        load_bodies(d, numbers_of(pairs.memory.data()), &origin.pair[lane]);
     const auto remembered = with.horizon ? approach : hn::Zero(d);
     const auto rebound = rebound_of<with.restitution, with.horizon>(
-        g.gap, separation, hn::Mul(n, v.inverse_mass), remembered, rule.restitution, rule.horizon);
+        g.gap, separation, n * v.inverse_mass, remembered, rule.restitution, rule.horizon);
     store(rebound.velocity, block.rebound);
     store(n, block.impulse_n);
     store(t, block.impulse_t);
     store(g.gap, origin.gap);
     store(rebound.remembered, origin.approach);
-    accumulate(g.gap, approach_of(separation), n, used, lane, sums);
+    accumulate(g.gap, larger(minus(separation), hn::Zero(d)), n, used, lane, sums);
   }
 }
 
@@ -296,15 +294,14 @@ void keep(const StripContacts& contacts, Pairs::Memory* memories, ImpulseSums& t
       const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
       const auto bearing = hn::Gt(n, hn::Zero(d));
       const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
-      store_fours(d, {n, t, approach, hn::Zero(d)}, memory, &origin.pair[lane]);
+      store_bodies(d, Bodies<D>{n, t, approach, hn::Zero(d)}, memory, &origin.pair[lane]);
       const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
       const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
       hn::Store(sum_gap, d, &gaps[lane]);
       total.force_bearing += hn::CountTrue(d, bearing);
       if (b < contacts.on_base) continue;
       const auto nx = hn::Load(d, &block.nx[lane]), ny = hn::Load(d, &block.ny[lane]);
-      const auto px = hn::Sub(hn::Mul(n, nx), hn::Mul(t, ny));
-      const auto py = hn::Add(hn::Mul(n, ny), hn::Mul(t, nx));
+      const auto px = n * nx - t * ny, py = n * ny + t * nx;
       hn::Store(hn::Add(hn::Load(d, &base_x[lane]), px), d, &base_x[lane]);
       hn::Store(hn::Add(hn::Load(d, &base_y[lane]), py), d, &base_y[lane]);
     }

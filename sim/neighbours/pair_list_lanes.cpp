@@ -11,7 +11,7 @@
 // In this order.
 // clang-format off
 #include <hwy/foreach_target.h>
-#include "sim/contact/lanes-inl.hpp"
+#include "sim/contact/bodies-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -130,9 +130,8 @@ HWY_INLINE std::uint32_t bearing(const double* memory)
   static constexpr std::uint32_t rows[block_lanes] = {0, 4, 8, 12, 16, 20, 24, 28};
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto m = load_fours(d, memory, rows + lane);
-    const auto zero = hn::And(hn::Eq(m.first, hn::Zero(d)), hn::Eq(m.second, hn::Zero(d)));
-    bits |= bits_of(d, hn::Not(zero)) << lane;
+    const auto [n, t, approach, unused] = load_bodies(d, memory, rows + lane);
+    bits |= bits_of(d, hn::Not(both(n == hn::Zero(d), t == hn::Zero(d)))) << lane;
   }
   return bits;
 }

@@ -22,14 +22,9 @@ struct ContactPlace {
 
   Contact contact() const
   {
-    return {block->nx[lane],
-            block->ny[lane],
-            block->kappa[lane],
-            block->mass_n[lane],
-            block->mass_t[lane],
-            block->rebound[lane],
-            block->impulse_n[lane],
-            block->impulse_t[lane],
+    const auto& b = *block;
+    return {{b.nx[lane], b.ny[lane], b.kappa[lane], b.mass_n[lane], b.mass_t[lane], b.rebound[lane],
+             b.impulse_n[lane], b.impulse_t[lane]},
             static_cast<std::int32_t>(i()),
             static_cast<std::int32_t>(j())};
   }
@@ -41,7 +36,8 @@ struct ContactPlace {
   /// The contact need no more than stop its approach.
   void bar_rebound() const { block->rebound[lane] = std::min(block->rebound[lane], 0.0); }
   /// One relaxation. Without `restitution` rebounds are 0.
-  Change relax(Relax relax_alone, bool restitution, std::span<Motion> motion, double friction) const
+  Relaxed<double> relax(Relax relax_alone, bool restitution, std::span<Motion> motion,
+                        double friction) const
   {
     auto alone = contact();
     if (!restitution) alone.rebound = 0;

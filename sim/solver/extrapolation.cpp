@@ -46,8 +46,9 @@ HWY_INLINE void extrapolate_numbers(Real* now, Real* before, std::size_t count, 
 template <class Real>
 HWY_INLINE void extrapolate_blocks(std::span<BlockOf<Real>> now, Real* before, Real factor)
 {
-  static_assert(offsetof(BlockOf<Real>, impulse_t) ==
-                offsetof(BlockOf<Real>, impulse_n) + sizeof(typename BlockOf<Real>::Lanes));
+  using Numbers = typename BlockOf<Real>::Lanes;
+  using Members = MembersOf<Real, Numbers>;
+  static_assert(offsetof(Members, impulse_t) == offsetof(Members, impulse_n) + sizeof(Numbers));
   constexpr std::size_t per_block = std::size_t{2} * lanes_of<Real>;
   for (std::size_t b = 0; b < now.size(); ++b)
     extrapolate_numbers(now[b].impulse_n.data(), before + per_block * b, per_block, factor);

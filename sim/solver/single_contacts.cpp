@@ -29,29 +29,26 @@ HWY_INLINE void take_half(const ContactBlock& from, std::size_t first, Motion* m
 {
   const D d;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto load = [&](const Lanes& lanes) HWY_ATTR { return hn::Load(d, &lanes[lane]); };
     const auto store = [&](Vector numbers, BlockOf<float>::Lanes& lanes) HWY_ATTR {
       hn::Store(hn::DemoteTo(SingleD(), numbers), SingleD(), &lanes[first + lane]);
     };
-    const auto normal = load(from.impulse_n), tangential = load(from.impulse_t);
-    const auto mass = load(from.mass_n);
+    const auto c = load(from, lane);
     auto a = load_bodies(d, members(motion), &from.i[lane]);
     auto b = load_bodies(d, members(motion), &from.j[lane]);
-    const auto p = pushes_of<with>(from, lane, normal, tangential);
-    push<with, D>(a, b, a.inverse_mass, b.inverse_mass, p.px, p.py, p.spin);
+    push<with>(c, a, b, push_of<with>(c.nx, c.ny, c.kappa, c.impulse_n, c.impulse_t));
     store_bodies(d, a, members(motion), &from.i[lane]);
     store_bodies(d, b, members(motion), &from.j[lane]);
 
-    const auto w_nn = hn::Add(a.inverse_mass, b.inverse_mass);
-    store(load(from.nx), to.nx);
-    store(load(from.ny), to.ny);
-    store(load(from.kappa), to.kappa);
-    store(hn::Mul(mass, a.inverse_mass), to.weight_i);
-    store(hn::Mul(mass, b.inverse_mass), to.weight_j);
-    store(hn::Mul(load(from.mass_t), w_nn), to.mass_ratio);
-    store(load(from.rebound), to.rebound);
-    store(hn::Mul(normal, w_nn), to.base_n);
-    store(hn::Mul(tangential, w_nn), to.base_t);
+    const auto w_nn = a.inverse_mass + b.inverse_mass;
+    store(c.nx, to.nx);
+    store(c.ny, to.ny);
+    store(c.kappa, to.kappa);
+    store(c.mass_n * a.inverse_mass, to.weight_i);
+    store(c.mass_n * b.inverse_mass, to.weight_j);
+    store(c.mass_t * w_nn, to.mass_ratio);
+    store(c.rebound, to.rebound);
+    store(c.impulse_n * w_nn, to.base_n);
+    store(c.impulse_t * w_nn, to.base_t);
   }
   std::fill_n(to.impulse_n.begin() + first, block_lanes, 0.0F);
   std::fill_n(to.impulse_t.begin() + first, block_lanes, 0.0F);
@@ -99,26 +96,24 @@ HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double 
 {
   const D d;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto mass = hn::Load(d, &to.mass_n[lane]);
-    const auto load = [&](const BlockOf<float>::Lanes& lanes) HWY_ATTR {
+    const auto single = [&](const BlockOf<float>::Lanes& lanes) HWY_ATTR {
       return hn::PromoteTo(d, hn::Load(SingleD(), &lanes[first + lane]));
     };
-    const auto more = load(from.impulse_n), before = hn::Load(d, &to.impulse_n[lane]);
-    const auto opened = hn::Le(more, hn::Neg(load(from.base_n)));
-    const auto sum = larger(hn::Add(before, hn::Mul(more, mass)), hn::Zero(d));
-    const auto normal = hn::IfThenZeroElse(opened, sum);
+    const auto c = load(to, lane);
+    const auto more = single(from.impulse_n), sum = c.impulse_n + more * c.mass_n;
+    const auto opened = more <= minus(single(from.base_n));
+    const auto normal = hn::IfThenZeroElse(opened, larger(sum, hn::Zero(d)));
     hn::Store(normal, d, &to.impulse_n[lane]);
     auto more_t = hn::Zero(d);
     if constexpr (with.friction) {
-      const auto limit = hn::Mul(hn::Set(d, friction), normal);
-      const auto before_t = hn::Load(d, &to.impulse_t[lane]);
-      const auto sum_t = hn::Add(before_t, hn::Mul(load(from.impulse_t), mass));
+      const auto limit = hn::Set(d, friction) * normal;
+      const auto sum_t = c.impulse_t + single(from.impulse_t) * c.mass_n;
       // Zeros are positive, whatever the sign of what single precision could not resolve.
-      const auto tangential = hn::Add(smaller(larger(sum_t, hn::Neg(limit)), limit), hn::Zero(d));
+      const auto tangential = smaller(larger(sum_t, minus(limit)), limit) + hn::Zero(d);
       hn::Store(tangential, d, &to.impulse_t[lane]);
-      more_t = hn::Sub(tangential, before_t);
+      more_t = tangential - c.impulse_t;
     }
-    apply<with>(to, lane, hn::Sub(normal, before), more_t, members(motion));
+    apply<with>(to, lane, normal - c.impulse_n, more_t, members(motion));
   }
 }
 

@@ -93,7 +93,7 @@ double WedgedGrains::settle(std::span<Motion> motion, double friction, Effects e
       double change = 0;
       for (const auto& contact : contacts) {
         const auto c = contact.relax(relax_alone, effects.restitution, motion, friction);
-        change = std::max({change, c.normal, c.tangential});
+        change = std::max({change, c.change_n, c.change_t});
       }
       largest = std::max(largest, change);
       if (change <= settled * largest) break;

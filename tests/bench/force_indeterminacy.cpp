@@ -4,7 +4,7 @@
 // trajectory. scripts/force-indeterminacy runs it; docs/studies/force-indeterminacy.md reports.
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/writer.hpp"
-#include "sim/contact/contact_law.hpp"
+#include "sim/contact/contact_law-inl.hpp"
 #include "sim/run/checkpoint.hpp"
 #include "sim/run/provenance.hpp"
 #include "sim/run/restart.hpp"
@@ -27,6 +27,7 @@
 namespace grseg {
 namespace {
 
+namespace law = HWY_NAMESPACE;
 namespace po = boost::program_options;
 
 /// The contact problem of one step.
@@ -79,11 +80,13 @@ Contact contact_of(const FrozenStep& step, const World& world, std::size_t k, co
   const auto &a = step.before[i], &b = step.before[j];
   c.nx = normal.x(), c.ny = normal.y();
   c.kappa = (reach + list.gap[k]) / reach;
-  c.mass_n = normal_mass(a.inverse_mass, b.inverse_mass);
-  c.mass_t = tangential_mass(c.mass_n, c.kappa);
+  c.mass_n = law::normal_mass(a.inverse_mass + b.inverse_mass, true);
+  c.mass_t = law::tangential_mass(c.mass_n, c.kappa);
   const double separation = normal.dot(Vec2(a.vx - b.vx, a.vy - b.vy));
-  c.rebound = rebound_of(list.gap[k], separation, left.impulse_n / c.mass_n, left.approach,
-                         world.material.restitution, world.law.horizon * world.step)
+  const double e = world.material.restitution, horizon = world.law.horizon * world.step;
+  const auto rebound =
+      horizon > 0 ? law::rebound_of<true, true, double> : law::rebound_of<true, false, double>;
+  c.rebound = rebound(list.gap[k], separation, left.impulse_n / c.mass_n, left.approach, e, horizon)
                   .velocity;
   c.impulse_n = world.step * list.force[k].dot(normal);
   c.impulse_t = world.step * list.force[k].dot(tangent);

@@ -160,7 +160,7 @@ inline double contact_residual(const std::vector<Contact>& contacts,
          b = motion[static_cast<std::size_t>(alone.j)];
     if (!effects.restitution) alone.rebound = 0;
     const auto change = relax_alone(alone, a, b, friction);
-    largest = std::max({largest, change.normal, change.tangential});
+    largest = std::max({largest, change.change_n, change.change_t});
   }
   return largest;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/contact/contact_law.hpp"
-
+#include "sim/contact/contact_law-inl.hpp"
 #include "sim/solver/solver.hpp"
 #include "tests/sim/contact_list.hpp"
 
@@ -12,13 +11,16 @@
 namespace grseg {
 namespace {
 
+namespace law = HWY_NAMESPACE;
+
 /// Two discs whose centres lie along (0.6, 0.8), or one on something immobile (b of mass 0).
 struct TwoDiscs {
   std::vector<Motion> motion;
   std::vector<Contact> contacts;
   double friction = 0.5;
 
-  TwoDiscs(Motion a, Motion b, double nx = 0.6, double ny = 0.8, double kappa = 1) : motion{a, b}
+  TwoDiscs(const Motion& a, const Motion& b, double nx = 0.6, double ny = 0.8, double kappa = 1)
+      : motion{a, b}
   {
     Contact c{};
     c.nx = nx;
@@ -136,6 +138,58 @@ TEST(ContactLaw, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
   }
 }
 
+/// A disc of mass 1 that meets a wall below it with `slip` along x and 1 down, and rebounds with e times
+/// that; it may bear an impulse `base` from before, which its velocity contains. The tangent is (-1, 0).
+struct SingleImpact {
+  Increments<float> contact{0, 1, 1, 1, 0, 1.0F / 3, 0.25F, 0, 0, 0, 0};
+  MotionOf<float> disc, wall;
+  Relaxed<float> relaxed;
+
+  explicit SingleImpact(float slip, float base = 0) : disc{slip, -1, 0}
+  {
+    contact.base_n = base;
+    relaxed = law::relax<Effects{}>(contact, disc, wall, 0.5F);
+  }
+};
+
+TEST(ContactLaw, InSinglePrecisionAnImpactSticksInsideTheConeAndSlidesOutside)
+{
+  constexpr float cone = 3 * 0.5F * 1.25F;
+  for (const float slip : {0.5F * cone, 0.999F * cone, 1.001F * cone, 4 * cone, -4 * cone}) {
+    const SingleImpact s(slip);
+    EXPECT_FLOAT_EQ(s.disc.vy, 0.25F);
+    EXPECT_FLOAT_EQ(s.relaxed.change_n, 1.25F);
+    const bool sticks = std::abs(slip) <= cone;
+    const float tangential = sticks ? slip / 3 : std::copysign(0.5F * 1.25F, slip);
+    EXPECT_NEAR(s.disc.vx, slip - tangential, 1e-6F);
+    EXPECT_NEAR(s.disc.rim_speed, -2 * tangential, 1e-6F);
+    EXPECT_NEAR(s.relaxed.change_t, 3 * std::abs(tangential), 1e-6F);  // W_tt = 3 W_nn
+    EXPECT_EQ(s.wall.vx, 0);
+  }
+}
+
+TEST(ContactLaw, InSinglePrecisionALoadFromBeforeBearsFrictionAndIsGivenBackAtMost)
+{
+  // With 10 from before friction may stop 0.5 (10 + 1.25).
+  EXPECT_NEAR(SingleImpact(20).disc.vx, 20 - 0.625F, 1e-5F);
+  EXPECT_NEAR(SingleImpact(20, 10).disc.vx, 20 - 5.625F, 1e-5F);
+  EXPECT_NEAR(SingleImpact(-20, 10).disc.vx, -20 + 5.625F, 1e-5F);
+  EXPECT_FLOAT_EQ(SingleImpact(0, 10).relaxed.level_n, 11.25F);
+  // What friction bears already counts against its limit.
+  SingleImpact loaded(0, 10);
+  loaded.contact.base_t = -5.625F;
+  loaded.disc = {-20, 0.25F, 0};
+  law::relax<Effects{}>(loaded.contact, loaded.disc, loaded.wall, 0.5F);
+  EXPECT_NEAR(loaded.contact.impulse_t, 0, 1e-5F);
+  EXPECT_NEAR(loaded.disc.vx, -20, 1e-5F);
+  // A disc that parts lets go of no more than there is.
+  loaded.contact.rebound = 0;
+  loaded.contact.base_t = 0;
+  loaded.disc = {0, 100, 0};
+  law::relax<Effects{}>(loaded.contact, loaded.disc, loaded.wall, 0.5F);
+  EXPECT_EQ(loaded.contact.impulse_n, -10);
+}
+
 TEST(ContactLaw, ASlidingDiscEndsRollingAtTwoThirdsOfItsSpeed)
 {
   // Enough normal impulse lets friction finish: angular momentum about the contact stays.
@@ -217,7 +271,7 @@ TEST(ContactLaw, APairThatTouchesReboundsAtOnceAndOneStillApartAStepLater)
 {
   const double e = 0.25, horizon = 0.5, u = -2;  // s, m/s
   const auto rebound = [&](double gap, double impulse_n, double remembered) {
-    const auto r = rebound_of(gap, u, impulse_n, remembered, e, horizon);
+    const auto r = law::rebound_of<true, true>(gap, u, impulse_n, remembered, e, horizon);
     return std::pair{r.velocity, r.remembered};
   };
   EXPECT_EQ(rebound(0, 0, 0), std::pair(0.5, 0.0));  // e |u|
@@ -226,14 +280,15 @@ TEST(ContactLaw, APairThatTouchesReboundsAtOnceAndOneStillApartAStepLater)
   EXPECT_EQ(rebound(0.1, 3, 0), std::pair(-0.2, 0.0));  // under load before: nothing to remember
   EXPECT_EQ(rebound(2, 0, 0), std::pair(-4.0, 0.0));    // too slow to close its gap
   EXPECT_EQ(rebound(0.1, 3, 7), std::pair(1.75, 0.0));  // e times what was remembered
-  EXPECT_EQ(rebound_of(0.1, u, 0, 0, e, 0).velocity, 0.5);  // without a horizon it rebounds at once
+  // Without a horizon it rebounds at once.
+  EXPECT_EQ((law::rebound_of<true, false>(0.1, u, 0.0, 0.0, e, 0).velocity), 0.5);
 }
 
 TEST(ContactLaw, APairThatWasPartingMayComeBackWithETimesItsVelocity)
 {
   const double e = 0.25, horizon = 0.5;  // s
   const auto rebound = [&](double gap, double load) {
-    return rebound_of(gap, 2, load, 0, e, horizon).velocity;
+    return law::rebound_of<true, true>(gap, 2.0, load, 0.0, e, horizon).velocity;
   };
   EXPECT_EQ(rebound(0, 0), -0.5);
   EXPECT_EQ(rebound(-0.1, 19), -0.5);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/neighbours/detection.hpp"
 
+#include "sim/contact/contact_law-inl.hpp"
 #include "sim/solver/sweep.hpp"
 #include "sim/step/simulation.hpp"
 #include "tests/hard_cases/case.hpp"
@@ -19,6 +20,8 @@
 
 namespace grseg {
 namespace {
+
+namespace law = HWY_NAMESPACE;
 
 struct Bed {
   World world;
@@ -367,31 +370,33 @@ PairInWords in_words(const Prepared& p, const Pairs::Class& c, std::size_t k)
   const auto &a = p.state.motion[i], &b = p.state.motion[j];
   const double reach = pairs.geometry[k].reach, shift = pairs.geometry[k].shift;
   PairInWords pair{};
-  Normal n{};
+  law::Normal<double> n{};
   if (c.wall < 0) {
     const auto apart = [&](std::span<const Vec2> x) {
       return Vec2(x[i].x() - x[j].x() + shift, x[i].y() - x[j].y());
     };
     const Vec2 then = apart(p.rule.ahead), now = apart(p.rule.middle);
-    pair.acts = acts(then.x(), then.y(), reach, p.rule.margin);
-    n = normal_of_discs(now.x(), now.y());
+    pair.acts = law::acts(then.x(), then.y(), reach, p.rule.margin);
+    n = law::normal_of_discs(now.x(), now.y(), true);
     pair.contact.kappa = n.distance * (1 / reach);
   } else {
     const auto& wall = p.walls[static_cast<std::size_t>(c.wall)];
     const Vec2 then = p.rule.ahead[i] - wall.point, now = p.rule.middle[i] - wall.point;
-    pair.acts = acts_on_wall(then.dot(wall.normal), reach, p.rule.margin);
-    n = normal_of_wall(now.x(), now.y(), wall.normal.x(), wall.normal.y());
+    pair.acts = law::acts_on_wall(then.dot(wall.normal), reach, p.rule.margin);
+    n = law::normal_of_wall(now.x(), now.y(), wall.normal.x(), wall.normal.y());
     pair.contact.kappa = 1;
   }
   pair.gap = n.distance - reach;
   pair.separation = (a.vx - b.vx) * n.nx + (a.vy - b.vy) * n.ny;
   pair.contact.nx = n.nx;
   pair.contact.ny = n.ny;
-  pair.contact.mass_n = normal_mass(a.inverse_mass, b.inverse_mass);
-  pair.contact.mass_t = tangential_mass(pair.contact.mass_n, pair.contact.kappa);
+  pair.contact.mass_n = law::normal_mass(a.inverse_mass + b.inverse_mass, true);
+  pair.contact.mass_t = law::tangential_mass(pair.contact.mass_n, pair.contact.kappa);
   pair.contact.impulse_n = pairs.memory[k].n;
   pair.contact.impulse_t = pairs.memory[k].t;
   pair.load = pairs.memory[k].n * (a.inverse_mass + b.inverse_mass);
+  const auto rebound_of = p.rule.horizon > 0 ? law::rebound_of<true, true, double>
+                                             : law::rebound_of<true, false, double>;
   const auto rebound = rebound_of(pair.gap, pair.separation, pair.load, pairs.memory[k].approach,
                                   p.rule.restitution, p.rule.horizon);
   pair.contact.rebound = rebound.velocity;

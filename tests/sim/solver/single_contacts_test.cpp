@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/solver/single_contacts.hpp"
 
+#include "sim/contact/contact_law-inl.hpp"
 #include "sim/solver/sweep.hpp"
 #include "tests/frozen_problem.hpp"
 #include "tests/sim/contact_list.hpp"
@@ -14,6 +15,8 @@
 /// Sweeps in single precision, and what comes of them in double precision.
 namespace grseg {
 namespace {
+
+namespace law = HWY_NAMESPACE;
 
 /// The frozen problem with the entry that unused lanes act on. Contacts carry a load already, which
 /// the velocities do not contain yet.
@@ -61,20 +64,10 @@ void relax_one_by_one(std::span<BlockOf<float>> blocks, std::vector<MotionOf<flo
     for (std::size_t k = 0; k < lanes_of<float>; ++k) {
       if (!in_use(b, k)) continue;
       const std::uint32_t i = b.i[k] / 4, j = b.j[k] / 4;
-      ContactOf<float> c{b.nx[k],
-                         b.ny[k],
-                         b.kappa[k],
-                         b.weight_i[k],
-                         b.weight_j[k],
-                         b.mass_ratio[k],
-                         b.rebound[k],
-                         b.base_n[k],
-                         b.base_t[k],
-                         b.impulse_n[k],
-                         b.impulse_t[k],
-                         0,
-                         0};
-      relax<with>(c, motion[i], motion[j], static_cast<float>(FrozenProblem::friction));
+      Increments<float> c{b.nx[k],       b.ny[k],         b.kappa[k],    b.weight_i[k],
+                          b.weight_j[k], b.mass_ratio[k], b.rebound[k],  b.base_n[k],
+                          b.base_t[k],   b.impulse_n[k],  b.impulse_t[k]};
+      law::relax<with>(c, motion[i], motion[j], static_cast<float>(FrozenProblem::friction));
       b.impulse_n[k] = c.impulse_n;
       b.impulse_t[k] = c.impulse_t;
     }
