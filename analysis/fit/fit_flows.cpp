@@ -2,7 +2,7 @@
 #include "analysis/fit/fit_flows.hpp"
 
 #include "analysis/fit/flows.hpp"
-#include "analysis/statistics/run_scatter.hpp"
+#include "analysis/statistics/confidence.hpp"
 
 #include <fmt/format.h>
 

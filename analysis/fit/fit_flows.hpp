@@ -23,7 +23,7 @@ struct FlowFits {
 /// runs, of a single one over its windows, whatever the intervals of all are over.
 ///
 /// Over equal flows each number of all is the unweighted mean of those of the flows, whose
-/// errors add up (run_scatter.hpp); over random flows the same mean with the scatter of the
+/// errors add up (confidence.hpp); over random flows the same mean with the scatter of the
 /// flows' values, n - 1 degrees of freedom for n flows. Those of B_half and B_sums stand in
 /// RuleFit::at() and sums_at() always.
 FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings,

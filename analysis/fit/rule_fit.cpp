@@ -3,7 +3,7 @@
 
 #include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/window_sums.hpp"
-#include "analysis/statistics/composition_noise.hpp"
+#include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>
 

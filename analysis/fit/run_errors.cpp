@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/run_errors.hpp"
 
-#include "analysis/statistics/run_scatter.hpp"
+#include "analysis/statistics/confidence.hpp"
 
 #include <gsl/gsl_cdf.h>
 

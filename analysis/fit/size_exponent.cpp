@@ -6,7 +6,7 @@
 #include "analysis/fit/rule_fit.hpp"
 #include "analysis/fit/run_errors.hpp"
 #include "analysis/fit/window_sums.hpp"
-#include "analysis/statistics/run_scatter.hpp"
+#include "analysis/statistics/confidence.hpp"
 
 #include <cmath>
 #include <set>

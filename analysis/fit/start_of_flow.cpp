@@ -2,7 +2,7 @@
 #include "analysis/fit/start_of_flow.hpp"
 
 #include "analysis/fit/window_sums.hpp"
-#include "analysis/statistics/run_scatter.hpp"
+#include "analysis/statistics/confidence.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>

@@ -26,7 +26,7 @@ std::optional<StartOfFlow> start_of_flow(const Eigen::VectorXd& series, const Ru
 
 /// The sentence that says so of B by a rule or of how the grains move, and from when both no longer
 /// differ; mostly empty. What the composition of the layers explains of B is taken out first
-/// (composition_noise.hpp): as the species part, B of the mixture changes, and that is no start.
+/// (least_squares.hpp): as the species part, B of the mixture changes, and that is no start.
 std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
                            const FitSettings& settings);
 

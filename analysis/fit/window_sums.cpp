@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/window_sums.hpp"
 
-#include "analysis/statistics/composition_noise.hpp"
+#include "analysis/statistics/least_squares.hpp"
 
 #include <cmath>
 #include <cstddef>

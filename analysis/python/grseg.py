@@ -1596,7 +1596,7 @@ def _is_again(tables, last, window):
 
 
 def _composition_noise(phi, value, weight):
-    """`value` less its fit by a + b ln(phi_S/phi_L) + c phi_L (analysis/statistics/composition_noise.hpp)."""
+    """`value` less its fit by a + b ln(phi_S/phi_L) + c phi_L (analysis/statistics/least_squares.hpp)."""
     if len(value) < 30:
         return value - value @ weight / weight.sum()
     basis, root = np.column_stack([np.ones_like(phi), np.log((1 - phi) / phi), phi]), np.sqrt(weight)
@@ -1652,7 +1652,7 @@ def _draw(count, below):
 
 def _error_over_runs(parts, weight):
     """The standard error of a sum over runs, each one observation, and its degrees of freedom
-    (analysis/statistics/run_scatter.hpp)."""
+    (analysis/statistics/confidence.hpp)."""
     runs = weight.sum()**2 / (weight**2).sum()
     rest = parts - parts.sum() / weight.sum() * weight
     return math.sqrt(runs / (runs - 1) * (rest @ rest)) if runs > 1 else math.nan, runs - 1

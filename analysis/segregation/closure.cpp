@@ -2,9 +2,9 @@
 #include "analysis/segregation/closure.hpp"
 
 #include "analysis/statistics/bootstrap.hpp"
-#include "analysis/statistics/composition_noise.hpp"
 #include "analysis/statistics/confidence.hpp"
 #include "analysis/statistics/dependence.hpp"
+#include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>
 
@@ -128,7 +128,7 @@ class Regressions {
   }
 
   /// sum of weight x value/sum of weight, over the points that have both. What composition explains
-  /// of it is not noise (composition_noise.hpp).
+  /// of it is not noise (least_squares.hpp).
   template <class Value, class Weight>
   Linear mean(const Value& value, const Weight& weight) const
   {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <vector>
 
 namespace grseg {
 
@@ -52,5 +53,31 @@ StandardError standard_error(const Eigen::VectorXd& influence, int fitted);
 /// their successive differences (von Neumann 1941), error^2 = n/(n - 1) sum (difference)^2/2 with
 /// 2 (n - 1)/3 degrees of freedom.
 StandardError error_about_trend(const Eigen::VectorXd& influence);
+
+/// Errors from whole runs: each is one observation, whatever goes on inside it.
+
+/// Of a statistic whose deviation is the sum of `influence`, one entry per run of one mixture, about
+/// what the run would add if it were like its mixture, which goes by `weight`: with R runs worth
+/// m = (sum W)^2/sum W^2 of equal weight,
+///   error^2 = m/(m - 1) sum e^2,  e = influence - (sum influence) W/sum W,  degrees = m - 1.
+/// NaN and 0 degrees for a single run.
+StandardError scatter_of_runs(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight);
+
+/// Of a sum of independent parts: error^2 = sum of theirs, degrees by Satterthwaite (1946) with the
+/// fourth powers freed of their bias, which matters where parts have one degree each (Welch 1947):
+///   degrees = error^4/sum(error_k^4/(degrees_k + 2)) - 2,
+/// not less than the least of the parts nor more than their sum. NaN where one part is unknown.
+StandardError added(const std::vector<StandardError>& parts);
+
+/// Of the unweighted mean of values that were drawn independently (Student 1908); n - 1 degrees.
+StandardError scatter_of_values(const Eigen::VectorXd& values);
+
+/// The unweighted mean of independent numbers: its error by theirs (`added`), the numbers being these
+/// very ones, and by their scatter (`scatter_of_values`), these being drawn from all.
+struct MeanOfEquals {
+  double value;
+  StandardError by_errors, by_scatter;
+};
+MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers);
 
 }  // namespace grseg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/statistics/composition_noise.hpp"
+#include "analysis/statistics/least_squares.hpp"
 
 #include <gtest/gtest.h>
 

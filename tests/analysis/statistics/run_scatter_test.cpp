@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/statistics/run_scatter.hpp"
+#include "analysis/statistics/confidence.hpp"
 
 #include <gtest/gtest.h>
 
