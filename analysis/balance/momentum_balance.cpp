@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/balance/momentum_balance.hpp"
 
-#include "analysis/frames/contact_force.hpp"
+#include "analysis/frames/contacts.hpp"
 #include "formats/core/pair_type.hpp"
 
 #include <algorithm>

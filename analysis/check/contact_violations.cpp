@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/contact_violations.hpp"
 
-#include "analysis/frames/contact_force.hpp"
+#include "analysis/frames/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

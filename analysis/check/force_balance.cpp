@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/force_balance.hpp"
 
-#include "analysis/frames/torques.hpp"
+#include "analysis/frames/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "analysis/balance/momentum_balance.hpp"
 #include "analysis/balance/table.hpp"
 #include "analysis/frames/composition.hpp"
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/maps/fields.hpp"
 #include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/structure_by_layer.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/shown_run.hpp"
 
-#include "analysis/frames/walls.hpp"
+#include "analysis/frames/contacts.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
 

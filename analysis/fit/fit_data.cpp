@@ -3,7 +3,6 @@
 
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
-#include "analysis/frames/table_windows.hpp"
 #include "analysis/statistics/median_of_positive.hpp"
 #include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/kinetic_stress.hpp"

@@ -31,8 +31,7 @@ struct FitFilters {
   double min_solid = 0.5;                                   // of the run's median solid fraction
   double begin = -std::numeric_limits<double>::infinity();  // s, windows lie in [begin, end]
   double end = std::numeric_limits<double>::infinity();
-  std::string heights =
-      "all";  // between which layers lie, as on the command line (height_range.hpp)
+  std::string heights = "all";  // between which layers lie, as on the command line (layer_key.hpp)
 
   bool all_times() const { return std::isinf(begin) && std::isinf(end); }
 };
@@ -111,7 +110,7 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
                                       const std::vector<PartitionRule>& rules);
 
 /// The layers and windows of all tables that pass the filters, with the samples of `pairs`; the windows
-/// of tables of one run and flow stand in line (table_windows.hpp). phi is made of areas or volumes, or of masses (kinetic, where all species have
+/// of tables of one run and flow stand in line (runs_of_tables.hpp). phi is made of areas or volumes, or of masses (kinetic, where all species have
 /// one density). RunError, saying what removed them, where nothing is left.
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/cells.hpp"
 #include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/layers.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
 #include <cassert>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -49,5 +51,21 @@ class Composition {
   std::size_t frames_ = 0;
   std::vector<Contents> sums_;
 };
+
+/// Heights of the bed, m; NaN where they are not known.
+struct BedHeights {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  // y_L, y_S: centres of mass of the species, where there are two.
+  double large = unknown, small = unknown;
+  double bed = unknown;  // twice the mean height of the mobile grains' area or volume
+};
+
+/// Those of one frame; NaN for a species without mobile grains.
+template <int D>
+BedHeights bed_heights(const Grains& grains, const Frame<D>& frame);
+
+/// The columns yL, yS and height.
+std::vector<Cell> cells(const BedHeights& heights);
 
 }  // namespace grseg

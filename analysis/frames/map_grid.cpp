@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/map_grid.hpp"
 
-#include "analysis/frames/bed_heights.hpp"
+#include "analysis/frames/composition.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/mean_velocity.hpp"
 
-#include "analysis/frames/accumulate.hpp"
+#include "analysis/frames/sums.hpp"
 
 #include <algorithm>
 #include <cmath>

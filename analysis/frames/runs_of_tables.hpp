@@ -1,15 +1,86 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/cli/bed.hpp"
 #include "formats/cli/table.hpp"
 
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grseg {
 
-/// Which tables are of one run: those of one bed (run_kinship.hpp), such as a run and what continues it.
+/// The windows of tables by layer and window, as they are compared with each other.
+
+/// From when to when, s.
+using Span = std::pair<double, double>;
+
+/// Within so many seconds times count as equal: tables may be kept with fewer digits.
+double round_off_of(const Span& window);
+/// True where they have more than round-off in common.
+bool overlap(const Span& a, const Span& b);
+
+/// The numbers of the rows of each window of a table.
+struct TableWindows {
+  const Table* table;
+  std::map<Span, std::vector<std::size_t>> rows;
+};
+TableWindows windows_of(const Table& table);
+
+/// True where rows of two tables hold the same numbers to the last bit beside their key, and more than
+/// layers without stress.
+bool same_bits(const Table& a, const std::vector<std::size_t>& rows_a, const Table& b,
+               const std::vector<std::size_t>& rows_b);
+/// True where rows hold the same areas or volumes of grains and the same stress, up to a millionth, which
+/// is what single precision keeps: nothing has moved between them.
+bool nothing_moved(const Table& a, const std::vector<std::size_t>& rows_a, const Table& b,
+                   const std::vector<std::size_t>& rows_b);
+
+/// A window of one of several tables.
+struct TableWindow {
+  const Table* table;
+  Span span;
+};
+
+/// Windows of one run as observations of it, one after the other.
+struct WindowLine {
+  std::vector<std::size_t> number;  // of each window that was given
+  std::size_t count = 0;            // of observations
+  std::size_t still = 0;            // windows that add none, since nothing moved
+};
+/// In order of time. Windows that overlap, as those of a run and its repetition, are one observation, and
+/// so are windows between which nothing moved.
+WindowLine put_in_line(const std::vector<TableWindow>& windows);
+
+/// A run, as a table that is made of it describes it.
+struct RunSource {
+  std::string input;                 // its digest; "" where the table names none
+  std::optional<Bed> bed;            // not of tables made before there was such a line
+  std::vector<std::string> history;  // of the run, without what made the table
+
+  /// The scene's seed; "" where neither the bed nor the command names it.
+  std::string seed() const;
+};
+
+/// The runs of a table, several where it was merged; at least one.
+std::vector<RunSource> sources_of(const Table& table);
+
+/// The things that two runs share.
+enum class Kinship {
+  none,         ///< other grains, or another seed
+  untold,       ///< nothing that is recorded tells
+  same_grains,  ///< without a seed: one run, or several that began from one list of radii
+  one_bed,      ///< one deposition, and so one run: the same grains, or a history that goes on
+  same_motion,  ///< the same in all that acts on the motion: at one time they hold the same
+};
+Kinship kinship(const RunSource& a, const RunSource& b);
+/// The closest of any of their runs.
+Kinship kinship(const std::vector<RunSource>& a, const std::vector<RunSource>& b);
+
+/// Which tables are of one run: those of one bed (runs_of_tables.hpp), such as a run and what continues it.
 struct RunsOfTables {
   std::vector<std::size_t> run;     // of each table, its number in the order of their first tables
   std::vector<std::size_t> untold;  // tables of which nothing tells that their runs are different

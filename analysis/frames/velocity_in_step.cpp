@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/velocity_in_step.hpp"
 
-#include "analysis/frames/torques.hpp"
+#include "analysis/frames/contacts.hpp"
 #include "formats/core/errors.hpp"
 
 namespace grseg {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/maps/fields.hpp"
 
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/sums.hpp"
 
 #include <numeric>
 

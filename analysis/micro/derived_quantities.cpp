@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/derived_quantities.hpp"
 
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/micro/pressure_estimate.hpp"
 #include "analysis/stress/neutral_contacts.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Anisotropies and principal stresses in three dimensions.
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/micro/fabric.hpp"
 
 #include <Eigen/Dense>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/force_distribution.hpp"
 
-#include "analysis/frames/accumulate.hpp"
 #include "analysis/frames/cells.hpp"
-#include "analysis/frames/contact_force.hpp"
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/contacts.hpp"
+#include "analysis/frames/sums.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/height_range.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/micro/sums_table.hpp"
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace grseg {
 struct RowFilter {
   double begin = -std::numeric_limits<double>::infinity();  // s
   double end = std::numeric_limits<double>::infinity();
-  std::string heights = "all";  // as on the command line (height_range.hpp)
+  std::string heights = "all";  // as on the command line (layer_key.hpp)
 };
 template <int D>
 std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter,

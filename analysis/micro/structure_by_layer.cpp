@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/structure_by_layer.hpp"
 
-#include "analysis/frames/accumulate.hpp"
-#include "analysis/frames/contact_force.hpp"
+#include "analysis/frames/contacts.hpp"
+#include "analysis/frames/sums.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/bed_heights.hpp"
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/micro/structure_sums.hpp"

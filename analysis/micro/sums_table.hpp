@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/bed_heights.hpp"
+#include "analysis/frames/composition.hpp"
 #include "analysis/micro/structure_sums.hpp"
 #include "formats/cli/table.hpp"
 

@@ -1159,7 +1159,7 @@ def _goes_on(a, b):
 
 
 def _kinship(a, b):
-    """What two runs have in common (analysis/frames/run_kinship.hpp)."""
+    """What two runs have in common (analysis/frames/runs_of_tables.hpp)."""
     if a.input and a.input == b.input:
         return _SAME_MOTION
     seeds = _seed_of(a), _seed_of(b)
@@ -1454,7 +1454,7 @@ class Points:
         return good & (y0 >= low - slack) & (y1 <= high + slack)
 
     def _height_range(self, table, solid, median):
-        """m, as parse_heights() of analysis/frames/height_range.hpp has it."""
+        """m, as parse_heights() of analysis/frames/layer_key.hpp has it."""
         sizes = table.number("small_diameter"), table.number("large_diameter")
         if self._heights == "all":
             return -math.inf, math.inf
@@ -1545,7 +1545,7 @@ class Points:
     @functools.cached_property
     def _observation(self):
         """The number of each point's window [n], in order of time. Windows of one run that overlap, or between which
-        nothing moved, count as one (analysis/frames/table_windows.cpp)."""
+        nothing moved, count as one (analysis/frames/runs_of_tables.cpp)."""
         spans = [(self.tables[k]["t0"][row], self.tables[k]["t1"][row], k) for k, row in zip(self.table, self.row)]
         number, count, last = {}, 0, None
         for span in sorted(set(spans)):
@@ -1578,7 +1578,7 @@ class Points:
 
 def _is_again(tables, last, window):
     """True where a window (t0, t1, table) overlaps an earlier one, or nothing moved since: areas or volumes and stresses
-    are equal to a millionth (analysis/frames/table_windows.cpp)."""
+    are equal to a millionth (analysis/frames/runs_of_tables.cpp)."""
     if min(last[1], window[1]) - max(last[0], window[0]) > 1e-6 * min(last[1] - last[0], window[1] - window[0]):
         return True
     a, b = (tables[k] for _, _, k in (last, window))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/render/drawing.hpp"
 
-#include "analysis/frames/contact_force.hpp"
+#include "analysis/frames/contacts.hpp"
 #include "analysis/stress/contact_shares.hpp"
 #include "formats/core/pair_type.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/walls.hpp"
+#include "analysis/frames/contacts.hpp"
 #include "analysis/render/colours.hpp"
 #include "analysis/render/view.hpp"
 #include "analysis/stress/partition_rule.hpp"

@@ -2,7 +2,7 @@
 #include "analysis/render/local_composition.hpp"
 
 #include "analysis/frames/coarse_graining.hpp"
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/sums.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/render/survey.hpp"
 
-#include "analysis/frames/contact_force.hpp"
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/contacts.hpp"
+#include "analysis/frames/sums.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/walls.hpp"
+#include "analysis/frames/contacts.hpp"
 #include "analysis/render/drawing.hpp"
 #include "analysis/render/grain_field.hpp"
 #include "analysis/render/view.hpp"

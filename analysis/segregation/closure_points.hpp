@@ -67,7 +67,7 @@ inline constexpr Choice<Instruments> instrument_choices[] = {
 /// Which layers and windows take part.
 struct ClosureFilter {
   RowRange range = {};
-  std::string heights = "all";  // as on the command line (height_range.hpp)
+  std::string heights = "all";  // as on the command line (layer_key.hpp)
   double min_solid = 0.5;       // least solid fraction over the median of the run
   Instruments instruments = Instruments::previous;
 };

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/flux.hpp"
 
-#include "analysis/frames/accumulate.hpp"
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/stress/contact_sums.hpp"
 
 #include <fmt/format.h>

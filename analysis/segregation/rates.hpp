@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/height_range.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/segregation/flux.hpp"
 #include "analysis/segregation/summary.hpp"
 
@@ -21,7 +21,7 @@ struct RatePoint {
 
 /// Which layers take part.
 struct RateFilter {
-  std::string heights = "all";  // as on the command line (height_range.hpp)
+  std::string heights = "all";  // as on the command line (layer_key.hpp)
   double min_solid = 0.5;       // least solid fraction over the median of all points
 };
 std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/series.hpp"
 
-#include "analysis/frames/bed_heights.hpp"
+#include "analysis/frames/composition.hpp"
 #include "analysis/frames/layer_flow.hpp"
 #include "analysis/segregation/mixing_index.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/kinetic_stress.hpp"
 
-#include "analysis/frames/accumulate.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/unbiased_fluctuations.hpp"
 

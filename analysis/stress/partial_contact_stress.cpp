@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/partial_contact_stress.hpp"
 
-#include "analysis/frames/accumulate.hpp"
-#include "analysis/frames/contact_force.hpp"
+#include "analysis/frames/contacts.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/core/pair_type.hpp"
 
 #include <algorithm>

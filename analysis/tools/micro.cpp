@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
-#include "analysis/frames/ratio.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/micro/derived_table.hpp"
 #include "analysis/micro/force_distribution.hpp"
 #include "analysis/micro/structure_by_layer.hpp"

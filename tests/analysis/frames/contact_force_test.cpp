@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/frames/contact_force.hpp"
+#include "analysis/frames/contacts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/frames/normal_distribution.hpp"
+#include "analysis/frames/coarse_graining.hpp"
 
 #include <gtest/gtest.h>
 

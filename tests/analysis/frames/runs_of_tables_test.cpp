@@ -2,8 +2,6 @@
 // Which tables are of one run, by what their headers say, and how their windows count.
 #include "analysis/frames/runs_of_tables.hpp"
 
-#include "analysis/frames/run_kinship.hpp"
-#include "analysis/frames/table_windows.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 

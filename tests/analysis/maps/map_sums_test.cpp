@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over the cells of a map.
-#include "analysis/frames/accumulate.hpp"
 #include "analysis/frames/composition.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/maps/fields.hpp"
 #include "tests/analysis/contact_packings.hpp"
 

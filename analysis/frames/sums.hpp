@@ -2,8 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 namespace grseg {
+
+/// a/b, or NaN unless b > 0: a mean over nothing is not known.
+inline double ratio(double a, double b)
+{
+  return b > 0 ? a / b : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// Adds sums to sums, place by place: numbers and whatever has +=, arrays and vectors of them. A
 /// vector of layers grows to the length of the other.

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace grseg {
+
+/// Whether a contact bears a force at all. Files also list pairs that are only close.
+template <int D>
+bool bears_force(const ContactList<D>& contacts, std::size_t contact)
+{
+  return (contacts.force[contact].array() != 0).any();
+}
+
+/// Normal and tangential part of a contact's force: f = f_n n + f_t t, n = branch/|branch|. f_n > 0
+/// in repulsion; exchanging the two grains of a contact changes neither part. In two dimensions t is
+/// n turned by +90 degrees; in three t is along the tangential force, and f_t >= 0.
+template <int D>
+struct ForceParts {
+  Vector<D> n;      // from j to i
+  double f_n, f_t;  // N
+};
+template <int D>
+ForceParts<D> force_parts(const ContactList<D>& contacts, std::size_t contact)
+{
+  const Vector<D>& f = contacts.force[contact];
+  const Vector<D> n = contacts.branch[contact].normalized();
+  if constexpr (D == 2)
+    return {n, f.dot(n), f.y() * n.x() - f.x() * n.y()};
+  else
+    return {n, f.dot(n), f.cross(n).norm()};
+}
+
+/// The angular velocity, or the torque, that is zero.
+template <int D>
+Spin<D> no_spin()
+{
+  if constexpr (D == 2)
+    return 0;
+  else
+    return Vec3::Zero();
+}
+
+/// Torques of the contacts on all grains, one entry per row of Grains, N m; counter-clockwise, in
+/// three dimensions right-handed about each axis. The force between two grains acts at
+/// r_i/(r_i + r_j) of the branch, so that the lever arms add up to the distance of the centres; at a
+/// straight wall the arm is r_i.
+template <int D>
+std::vector<Spin<D>> torques_of(const Grains& grains, const ContactList<D>& contacts);
+
+/// The straight walls of a run by number. Files do not say where they lie, but contacts do: the
+/// contact point lies on the wall, and the branch is normal to it. A wall that nothing touches is
+/// not known.
+template <int D>
+class Walls {
+ public:
+  /// A half-plane or half-space; `normal` (unit length) points to the grains.
+  struct Wall {
+    Vector<D> point, normal;
+  };
+
+  /// Learns from the contacts of a frame; what was known of a wall before is replaced.
+  void add(const Frame<D>& frame);
+  const std::map<std::int32_t, Wall>& all() const { return walls_; }
+
+ private:
+  std::map<std::int32_t, Wall> walls_;
+};
+
+}  // namespace grseg
