@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/run_of_page.hpp"
 
-#include "analysis/check/content_check.hpp"
+#include "analysis/check/file_check.hpp"
 #include "analysis/check/physics_check.hpp"
 #include "analysis/explore/layer_tables.hpp"
 #include "analysis/explore/player_data.hpp"

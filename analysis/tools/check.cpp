@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/checks.hpp"
-#include "analysis/check/content_check.hpp"
+#include "analysis/check/file_check.hpp"
 #include "analysis/check/physics_check.hpp"
-#include "analysis/check/specification_check.hpp"
 #include "formats/cli/next_step.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/progress.hpp"

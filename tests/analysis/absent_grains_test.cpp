@@ -2,8 +2,7 @@
 // A grain that is absent counts nowhere: whatever is computed of frames with absent grains equals, to
 // the last bit, the same of frames that hold the others alone.
 #include "analysis/balance/momentum_balance.hpp"
-#include "analysis/check/force_balance.hpp"
-#include "analysis/check/total_motion.hpp"
+#include "analysis/check/laws_of_motion.hpp"
 #include "analysis/check/weight_balance.hpp"
 #include "analysis/frames/map_grid.hpp"
 #include "analysis/micro/structure_by_layer.hpp"

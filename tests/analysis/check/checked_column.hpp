@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/check/content_check.hpp"
+#include "analysis/check/file_check.hpp"
 #include "analysis/check/physics_check.hpp"
 #include "formats/core/dimension.hpp"
 #include "formats/trajectory/hdf5.hpp"

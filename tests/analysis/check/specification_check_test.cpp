@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of spheres whose file departs from formats/README.md in one place.
-#include "analysis/check/specification_check.hpp"
-
+#include "analysis/check/file_check.hpp"
 #include "tests/spheres.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/check/report.hpp"
+#include "analysis/check/check_lines.hpp"
 #include "formats/trajectory/layout_check.hpp"
 #include "formats/trajectory/reader.hpp"
 
@@ -11,6 +11,23 @@
 #include <vector>
 
 namespace grseg {
+
+/// Whether a file holds what its writer wrote: it was closed, has frames, and each frame and what is
+/// there once agree with their digests. TrajectoryReader refuses files that cannot be read at all.
+class ContentCheck {
+ public:
+  /// `run` is best opened with Verify::no, so that all damaged frames are counted.
+  explicit ContentCheck(const TrajectoryReader& run) : run_(run) {}
+
+  /// Any frame, whole (all of TrajectoryReader::Fields).
+  template <int D>
+  void add(std::size_t index, const Frame<D>& frame);
+  std::vector<CheckLine> lines() const;
+
+ private:
+  const TrajectoryReader& run_;
+  std::size_t frames_ = 0, damaged_ = 0, first_damaged_ = 0;
+};
 
 /// Whether a file is as formats/README.md specifies, beyond what TrajectoryReader requires (numbers
 /// finite, indices in range, offsets and times increasing, radii and masses positive, species in
