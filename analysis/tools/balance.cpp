@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/partition_summary.hpp"
-#include "analysis/balance/summary.hpp"
-#include "analysis/balance/table.hpp"
+#include "analysis/balance/balance_summary.hpp"
+#include "analysis/balance/balance_table.hpp"
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
 #include "formats/cli/output.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Momentum balances of spheres, of two species and of more.
-#include "analysis/balance/summary.hpp"
-#include "analysis/balance/table.hpp"
+#include "analysis/balance/balance_summary.hpp"
+#include "analysis/balance/balance_table.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/summary.hpp"
-#include "analysis/balance/table.hpp"
+#include "analysis/balance/balance_summary.hpp"
+#include "analysis/balance/balance_table.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <fmt/format.h>

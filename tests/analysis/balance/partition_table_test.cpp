@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table and the summary of the balance under several rules.
+#include "analysis/balance/balance_summary.hpp"
+#include "analysis/balance/balance_table.hpp"
 #include "analysis/balance/driving_forces.hpp"
-#include "analysis/balance/partition_summary.hpp"
-#include "analysis/balance/summary.hpp"
-#include "analysis/balance/table.hpp"
 #include "tests/analysis/balance/random_balance.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/table.hpp"
+#include "analysis/balance/balance_table.hpp"
 
 #include "analysis/balance/driving_forces.hpp"
 #include "analysis/frames/cells.hpp"
