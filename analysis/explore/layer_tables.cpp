@@ -8,7 +8,7 @@
 #include "analysis/maps/fields.hpp"
 #include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
-#include "analysis/segregation/run.hpp"
+#include "analysis/segregation/segregation_table.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "formats/core/dimension.hpp"

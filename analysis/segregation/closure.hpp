@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/segregation/closure_points.hpp"
-#include "analysis/segregation/summary.hpp"
+#include "analysis/segregation/named_numbers.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/micro/derived_table.hpp"
 #include "analysis/segregation/closure.hpp"
-#include "analysis/segregation/run.hpp"
+#include "analysis/segregation/segregation_table.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"

@@ -340,7 +340,7 @@ FAULTS = [
      "return layer.q_large + layer.D * layer.gradient;", "return layer.q_large - layer.D * layer.gradient;"),
     ("jackknife: as of independent values", "analysis/segregation/flux.cpp",
      "std::sqrt((n - 1) / n * squares)", "std::sqrt(squares / (n - 1) / n)"),
-    ("mixing: a random mixture is not fully mixed", "analysis/segregation/mixing_index.cpp",
+    ("mixing: a random mixture is not fully mixed", "analysis/segregation/series.cpp",
      "return (apart - variance) / (apart - random);", "return (apart - variance) / (apart + 0 * random);"),
     # Micro-structure.
     ("pressure from contacts: the printed 2/(pi d)", "analysis/micro/pressure_estimate.cpp",

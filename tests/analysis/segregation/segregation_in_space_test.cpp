@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Spheres that separate along y.
 #include "analysis/segregation/flux.hpp"
-#include "analysis/segregation/mixing_index.hpp"
-#include "analysis/segregation/run.hpp"
+#include "analysis/segregation/segregation_table.hpp"
+#include "analysis/segregation/series.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "analysis/segregation/flux.hpp"
+#include "analysis/segregation/named_numbers.hpp"
 #include "analysis/segregation/rates.hpp"
 #include "analysis/segregation/series.hpp"
-#include "analysis/segregation/summary.hpp"
 
 #include <string>
 #include <vector>

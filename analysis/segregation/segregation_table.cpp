@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/segregation/run.hpp"
+#include "analysis/segregation/segregation_table.hpp"
 
-#include "analysis/segregation/times.hpp"
+#include "analysis/segregation/rates.hpp"
 
 #include <array>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/segregation/summary.hpp"
+#include "analysis/segregation/named_numbers.hpp"
 
 #include "formats/cli/table.hpp"
 
