@@ -3,7 +3,7 @@
 
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
-#include "analysis/micro/pooling.hpp"
+#include "analysis/micro/sums_table.hpp"
 #include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/fabric.hpp"
 
+#include "analysis/frames/sums.hpp"
+
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -98,6 +102,151 @@ PrincipalStress<2> principal_stress(const Tensor2& stress)
   const Vec2 values = solver.eigenvalues(), direction = solver.eigenvectors().col(1);
   return {(values[1] + values[0]) / 2, (values[1] - values[0]) / 2,
           axis(std::atan2(direction.y(), direction.x()))};
+}
+
+// Anisotropies and principal stresses in three dimensions.
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Tensor3 symmetric(const Tensor3& tensor)
+{
+  return (tensor + tensor.transpose()) / 2;
+}
+
+Tensor3 deviator(const Tensor3& tensor)
+{
+  return tensor - tensor.trace() / 3 * Tensor3::Identity();
+}
+
+/// sqrt(3/2 a:a) of a deviator.
+double size(const Tensor3& a)
+{
+  return std::sqrt(1.5) * a.norm();
+}
+
+double inner(const Tensor3& a, const Tensor3& b)
+{
+  return a.cwiseProduct(b).sum();
+}
+
+/// Mean of m m (m.a.m) (m.b.m) over all directions m, of deviators a and b.
+Tensor3 mean_of_fourfold(const Tensor3& a, const Tensor3& b)
+{
+  const Tensor3 ab = a * b;
+  return (2 * ab.trace() * Tensor3::Identity() + 4 * (ab + ab.transpose())) / 105;
+}
+
+/// <f_n m m>/f_0 with scale = 1; linear in scale and n.
+Tensor3 normal_moment(const Tensor3& c, double scale, const Tensor3& n)
+{
+  return scale * (Tensor3::Identity() / 3 + 2.0 / 15 * c) + 2.0 / 15 * n + mean_of_fourfold(c, n);
+}
+
+/// The symmetric part of <f_t m>/f_0; its trace is 0.
+Tensor3 tangential_moment(const Tensor3& c, const Tensor3& t)
+{
+  return t / 5 + 2.0 / 15 * symmetric(t * c) - mean_of_fourfold(c, t);
+}
+
+using Six = Eigen::Matrix<double, 6, 1>;
+
+Six components(const Tensor3& a)
+{
+  Six six;
+  six << a(0, 0), a(1, 1), a(2, 2), a(0, 1), a(0, 2), a(1, 2);
+  return six;
+}
+
+/// A number and a deviator.
+struct Expansion {
+  double scale = 0;
+  Tensor3 deviator = Tensor3::Zero();
+};
+
+/// The expansion whose `moment`, linear in it and symmetric, is the one measured.
+template <class Moment>
+Expansion expansion_of(const Tensor3& measured, const Moment& moment)
+{
+  std::array<Expansion, 6> basis{};
+  basis[0].scale = 1;
+  for (const Eigen::Index k : {0, 1}) {
+    basis[static_cast<std::size_t>(k) + 1].deviator(k, k) = 1;
+    basis[static_cast<std::size_t>(k) + 1].deviator(2, 2) = -1;
+    basis[static_cast<std::size_t>(k) + 4].deviator(k, 2) = 1;
+    basis[static_cast<std::size_t>(k) + 4].deviator(2, k) = 1;
+  }
+  basis[3].deviator(0, 1) = basis[3].deviator(1, 0) = 1;
+  Eigen::MatrixXd matrix(6, 6);  // g++ 16 takes Eigen's loops over six to leave a fixed one
+  for (Eigen::Index k = 0; k < 6; ++k)
+    matrix.col(k) = components(moment(basis[static_cast<std::size_t>(k)]));
+  const Eigen::VectorXd solution = matrix.colPivHouseholderQr().solve(components(measured));
+  Expansion sum;
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const auto& part = basis[static_cast<std::size_t>(k)];
+    sum.scale += solution[k] * part.scale;
+    sum.deviator += solution[k] * part.deviator;
+  }
+  return sum;
+}
+
+}  // namespace
+
+// <m m> = I/3 + 2/15 c, <f_n m m> and <f_t m> as above: linear in f_0, f_0 n and f_0 t once c is
+// known.
+Anisotropy<3> anisotropy(const FabricSums<3>& sums, double contacts, double)
+{
+  const Tensor3 unknown = Tensor3::Constant(nan);
+  if (!(contacts > 0)) return {unknown, unknown, unknown, nan, nan, nan};
+  const Tensor3 c = 7.5 * deviator(sums.normal / contacts);
+  const Tensor3 forces = sums.normal_force / contacts;
+  const Tensor3 tangential = symmetric(sums.tangential_force / contacts);
+  const Tensor3 stress = deviator(forces + tangential);
+  const auto signed_size = [&](const Tensor3& a) {
+    return inner(a, stress) < 0 ? -size(a) : size(a);
+  };
+  const Eigen::SelfAdjointEigenSolver<Tensor3> solver(c, Eigen::EigenvaluesOnly);
+  if (solver.eigenvalues()[0] <= -1) return {c, unknown, unknown, signed_size(c), nan, nan};
+
+  const auto normal = expansion_of(
+      forces, [&](const Expansion& of) { return normal_moment(c, of.scale, of.deviator); });
+  const double f_0 = normal.scale;
+  const auto sliding = expansion_of(tangential, [&](const Expansion& of) -> Tensor3 {
+    return of.scale * Tensor3::Identity() + tangential_moment(c, of.deviator);
+  });
+  const Tensor3 n = normal.deviator / f_0, t = sliding.deviator / f_0;
+  return {c, n, t, signed_size(c), signed_size(n), signed_size(t)};
+}
+
+double Anisotropy<3>::stress_ratio() const
+{
+  const Tensor3 stress = normal_moment(c, 1, n) + tangential_moment(c, t);
+  return 3 * size(deviator(stress)) / stress.trace();
+}
+
+PrincipalStress<3> principal_stress(const Tensor3& stress)
+{
+  const Tensor3 even = symmetric(stress);
+  const Eigen::SelfAdjointEigenSolver<Tensor3> solver(even);
+  const Vec3& s = solver.eigenvalues();  // increasing
+  return {s.sum() / 3, size(deviator(even)), ratio(s[1] - s[0], s[2] - s[0]),
+          solver.eigenvectors().col(2)};
+}
+
+Vec3 major_axis(const Tensor3& tensor)
+{
+  if (!tensor.allFinite()) return Vec3::Constant(nan);
+  return principal_stress(tensor).major;
+}
+
+AxisAngles axis_angles(const Vec3& axis)
+{
+  const bool turned = axis.y() < 0 || (axis.y() == 0 && axis.x() < 0);
+  const Vec3 one = (turned ? -1 : 1) * axis.normalized();
+  const double degree = std::numbers::pi / 180;
+  const double theta = std::fmod(std::atan2(one.y(), one.x()) / degree, 180.0);
+  return {theta, std::atan2(one.z(), std::hypot(one.x(), one.y())) / degree};
 }
 
 }  // namespace grseg

@@ -2,13 +2,16 @@
 #pragma once
 
 #include "analysis/frames/composition.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/micro/structure_sums.hpp"
 #include "formats/cli/table.hpp"
 
+#include <limits>
 #include <vector>
 
-/// The table of sums that grseg-micro writes, read again by grseg-micro --derived.
 namespace grseg {
+
+/// The table of sums that grseg-micro writes, read again by grseg-micro --derived.
 
 /// A row of the table, or several merged; y0 = y1 = NaN for the whole bed and where different
 /// layers were merged.
@@ -40,5 +43,26 @@ RunConstants read_run_constants(const Table& table);
 /// FormatError, naming the place, where a column is missing or a number is not finite that must be.
 template <int D>
 std::vector<SumsRow<D>> read_sums_rows(const Table& table);
+
+/// Which rows take part: windows in [begin, end] and layers between two heights; the rows of the
+/// whole bed lie at all heights.
+struct RowFilter {
+  double begin = -std::numeric_limits<double>::infinity();  // s
+  double end = std::numeric_limits<double>::infinity();
+  std::string heights = "all";  // as on the command line (layer_key.hpp)
+};
+template <int D>
+std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter,
+                                 LengthUnits units);
+
+/// Which rows are merged.
+enum class Pool {
+  none,
+  windows,      ///< each layer, and the whole bed, over all windows and tables
+  composition,  ///< layers of all windows and tables by phi_L, in ten bins of equal width
+};
+/// Means weighted by frames. With `composition` the whole bed's rows and empty layers are left out.
+template <int D>
+std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool);
 
 }  // namespace grseg

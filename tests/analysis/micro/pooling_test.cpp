@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/micro/pooling.hpp"
-
+#include "analysis/micro/sums_table.hpp"
 #include "tests/analysis/micro/sums_rows.hpp"
 
 #include <gtest/gtest.h>

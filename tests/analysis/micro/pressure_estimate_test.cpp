@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/micro/pressure_estimate.hpp"
-
+#include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
 #include "analysis/stress/neutral_contacts.hpp"
 #include "tests/analysis/grain_builder.hpp"
