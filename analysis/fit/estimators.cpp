@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/estimators.hpp"
 
-#include "analysis/stress/neutral_contacts.hpp"
+#include "analysis/stress/partition_rule.hpp"
 
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics.h>

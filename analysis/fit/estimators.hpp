@@ -51,7 +51,7 @@ Estimators estimators_from(double b, double ln_s, double k, double a);
 Estimators estimators_of(const std::vector<FitPoint>& points);
 
 /// The neutral B averaged with the weights of B: what B would be if contacts ignored grain size
-/// (neutral_contacts.hpp).
+/// (partition_rule.hpp).
 double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& rule);
 
 }  // namespace grseg

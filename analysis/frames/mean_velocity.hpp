@@ -20,7 +20,7 @@ enum class MeanFlow {
             ///< nu rho (du/dy h)^2/12
   instant,  ///< the layer's mean in each frame; leaves the same shear, takes away what the whole
             ///< layer does together and, of n equal grains, 1/n of the fluctuations
-  instant_unbiased,  ///< the same without that 1/n: unbiased_fluctuations.hpp
+  instant_unbiased,  ///< the same without that 1/n: kinetic_stress.hpp
   species,           ///< the layer's mean of each species over all frames
 };
 inline constexpr Choice<MeanFlow> mean_flows[] = {

@@ -2,7 +2,7 @@
 #include "analysis/micro/derived_quantities.hpp"
 
 #include "analysis/frames/sums.hpp"
-#include "analysis/stress/neutral_contacts.hpp"
+#include "analysis/stress/partition_rule.hpp"
 
 #include <fmt/format.h>
 

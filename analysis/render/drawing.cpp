@@ -2,7 +2,7 @@
 #include "analysis/render/drawing.hpp"
 
 #include "analysis/frames/contacts.hpp"
-#include "analysis/stress/contact_shares.hpp"
+#include "analysis/stress/partition_rule.hpp"
 #include "formats/core/pair_type.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "analysis/frames/contacts.hpp"
 #include "analysis/render/local_composition.hpp"
-#include "analysis/stress/contact_shares.hpp"
+#include "analysis/stress/partition_rule.hpp"
 #include "formats/cli/numbers.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"

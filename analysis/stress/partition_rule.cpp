@@ -3,6 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/pair_type.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 namespace grseg {
@@ -198,6 +200,59 @@ std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts)
     }
   }
   return rules;
+}
+
+template <int D>
+ContactShares contact_shares(const Grains& grains, const Frame<D>& frame, std::size_t contact,
+                             const PartitionRule& rule)
+{
+  const auto [i, j] = partners(grains, frame, contact);
+  const double up_to_contact = share_of_first(grains, frame.contacts, contact);
+  if (!j) return {up_to_contact, 0};
+  const auto a = grains.species[i], b = grains.species[*j];
+  if (a == b) return {up_to_contact, 1 - up_to_contact};
+  const auto& definition = rule.definition();
+  if (definition.share == nullptr) return {0, 0};
+  const bool i_large = a > b;
+  const double r_i = grains.radius[i], r_j = grains.radius[*j];
+  const MixedContact mixed{i_large ? r_i : r_j, i_large ? r_j : r_i,
+                           i_large ? up_to_contact : 1 - up_to_contact};
+  const double to_large = definition.share(mixed, rule.value);
+  return i_large ? ContactShares{to_large, 1 - to_large} : ContactShares{1 - to_large, to_large};
+}
+
+template ContactShares contact_shares(const Grains&, const Frame<2>&, std::size_t,
+                                      const PartitionRule&);
+template ContactShares contact_shares(const Grains&, const Frame<3>&, std::size_t,
+                                      const PartitionRule&);
+
+double neutral_ends_of_large(double phi_large, double size_ratio)
+{
+  return phi_large / (phi_large + size_ratio * (1 - phi_large));
+}
+
+double neutral_mixed_share(double phi_large, double size_ratio)
+{
+  const double x_large = neutral_ends_of_large(phi_large, size_ratio);
+  return 2 * x_large * (1 - x_large);
+}
+
+double nominal_share(const PartitionRule& rule, double size_ratio)
+{
+  const auto share = rule.definition().share;
+  if (share == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  return share({size_ratio, 1, neutral_zero_share(size_ratio)}, rule.value);
+}
+
+double neutral_zero_share(double size_ratio)
+{
+  return size_ratio / (1 + size_ratio);
+}
+
+double neutral_b(const PartitionRule& rule, double size_ratio, double phi_large)
+{
+  const double excess = nominal_share(rule, size_ratio) - neutral_zero_share(size_ratio);
+  return excess * (1 + size_ratio) / (phi_large + size_ratio * (1 - phi_large));
 }
 
 }  // namespace grseg

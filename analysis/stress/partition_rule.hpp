@@ -2,16 +2,19 @@
 #pragma once
 
 #include "analysis/stress/contact_sums.hpp"
+#include "formats/core/frame.hpp"
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+namespace grseg {
+
 /// How the stress of contacts between a large and a small grain is shared between the species. The
 /// rules are algebra on stored sums: changing one reads no contact again.
-namespace grseg {
 
 struct RuleDefinition;
 
@@ -75,5 +78,40 @@ PartitionRule parse_rule(const std::string& text);
 /// Several rules; each text may be a list "size,uniform:0.8", in which "stock" stands for all that
 /// are marked so.
 std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts);
+
+/// The parts of a contact's force (x) branch that belong to its grains i and j. They add up to 1,
+/// but where `drop` leaves a mixed contact out, and at the base, whose part is nobody's.
+struct ContactShares {
+  double i = 0, j = 0;
+};
+
+/// A mixed contact is shared by `rule`; one of two grains of a species is cut where they touch; at
+/// the base (boundary grains and straight walls) the grain has the part up to the contact point.
+/// FormatError where the contact's first grain is not mobile.
+template <int D>
+ContactShares contact_shares(const Grains& grains, const Frame<D>& frame, std::size_t contact,
+                             const PartitionRule& rule);
+
+/// The neutral model: contacts that ignore grain size. Contact ends are in proportion to the grains'
+/// perimeter, they pair at random, and the mean force is the same for all pairs. Whatever it gives
+/// is geometry; a measured departure from it is not. Grains have their nominal sizes, r = d_L/d_S.
+
+/// Share of the contact ends that large grains have: x_L = phi_L/(phi_L + r phi_S).
+double neutral_ends_of_large(double phi_large, double size_ratio);
+
+/// Share of mixed contacts: 2 x_L x_S. For r = 2 it is 4 phi_L phi_S/(1 + phi_S)^2, at most 1/2, at
+/// phi_L = 2/3 (beside Staron & Phillips 2015, figure 2c).
+double neutral_mixed_share(double phi_large, double size_ratio);
+
+/// The share that goes to the larger of two grains of nominal sizes; NaN for `drop`.
+double nominal_share(const PartitionRule& rule, double size_ratio);
+
+/// p* of neutral contacts, the share at which B = 0: r/(1 + r), 2/3 for r = 2.
+double neutral_zero_share(double size_ratio);
+
+/// B of Staron & Phillips (2015), eqs. (3) and (4), for neutral contacts under a rule that gives
+/// all mixed contacts of nominal sizes the share P; NaN for `drop`:
+///   B(phi_L) = (P - r/(1+r)) (1+r)/(phi_L + r phi_S).
+double neutral_b(const PartitionRule& rule, double size_ratio, double phi_large);
 
 }  // namespace grseg

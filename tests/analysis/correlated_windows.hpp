@@ -4,7 +4,7 @@
 #include "analysis/fit/rule_fit.hpp"
 #include "analysis/fit/window_sums.hpp"
 #include "analysis/statistics/bootstrap.hpp"
-#include "analysis/stress/neutral_contacts.hpp"
+#include "analysis/stress/partition_rule.hpp"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_randist.h>

@@ -5,8 +5,8 @@
 #include "analysis/micro/force_distribution.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
 #include "analysis/micro/sums_table.hpp"
-#include "analysis/stress/neutral_contacts.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
+#include "analysis/stress/partition_rule.hpp"
 #include "tests/analysis/grain_builder.hpp"
 #include "tests/analysis/micro/sums_rows.hpp"
 

@@ -2,7 +2,7 @@
 // What the flux of large grains fixes of Gray & Thornton's closure, and what a rule makes of it.
 #include "analysis/segregation/closure.hpp"
 
-#include "analysis/stress/neutral_contacts.hpp"
+#include "analysis/stress/partition_rule.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/segregation/closure_bed.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a contact is shared out between its two grains.
-#include "analysis/stress/contact_shares.hpp"
-
+#include "analysis/stress/partition_rule.hpp"
 #include "tests/analysis/contact_packings.hpp"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The neutral contact model as lists of contacts: what large and small grains carry where nothing
 // but their size tells them apart.
-#include "analysis/stress/neutral_contacts.hpp"
-
 #include "analysis/frames/composition.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "analysis/stress/partial_stress.hpp"
+#include "analysis/stress/partition_rule.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/stress/unbiased_fluctuations.hpp"
-
 #include "analysis/stress/kinetic_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"
 #include "tests/analysis/stress/kinetic_of_frames.hpp"
