@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/partition_data.hpp"
 
+#include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/flows.hpp"
-#include "analysis/fit/over.hpp"
 #include "analysis/fit/partition_scan.hpp"
-#include "analysis/fit/start_of_flow.hpp"
-#include "analysis/fit/table_doubts.hpp"
+#include "analysis/fit/population.hpp"
 #include "analysis/frames/layer_table.hpp"
 
 #include <fmt/format.h>

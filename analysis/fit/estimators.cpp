@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/estimators.hpp"
 
+#include "analysis/statistics/least_squares.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics.h>
 
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -64,6 +67,136 @@ double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& ru
 {
   return weighted_mean(
       points, [&](const FitPoint& p) { return neutral_b(rule, p.size_ratio, p.phi_large); });
+}
+
+namespace {
+
+/// The additive sums of a window: w = weight, f = frames, X = ln x, Y = ln y, D = psi_L - phi_L and
+/// Q = phi_L phi_S.
+enum Sum : Eigen::Index { sum_fD, sum_fQ, sum_w, sum_wX, sum_wY, sum_wXX, sum_wXY, number_of_sums };
+
+/// A power law wants points at different x.
+bool spread_out(double w, double wX, double wXX)
+{
+  return wXX * w - wX * wX > 1e-12 * w * w;
+}
+
+/// One statistic as a weighted mean over points: of ln(y/x), or of (psi_L - phi_L)/(phi_L phi_S) with
+/// weight f phi_L phi_S.
+struct WeightedMean {
+  std::vector<const FitPoint*> points;
+  std::vector<double> phi_large, value, weight;
+
+  void add(const FitPoint& point, double of_value, double with_weight)
+  {
+    points.push_back(&point);
+    phi_large.push_back(point.phi_large);
+    value.push_back(of_value);
+    weight.push_back(with_weight);
+  }
+  /// Calls at(point, weight x noise) for every point.
+  template <class At>
+  void for_noise(const At& at) const
+  {
+    if (points.empty()) return;
+    const auto vector = [](const std::vector<double>& list) {
+      return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+    };
+    const Eigen::VectorXd noise =
+        composition_noise(vector(phi_large), vector(value), vector(weight));
+    for (std::size_t k = 0; k < points.size(); ++k)
+      at(*points[k], weight[k] * noise[static_cast<Eigen::Index>(k)]);
+  }
+};
+
+Eigen::Index window_of(const FitPoint& point)
+{
+  return static_cast<Eigen::Index>(point.window);
+}
+
+Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index windows)
+{
+  WeightedMean logarithm, b;
+  for (const auto& point : points) {
+    if (point.has_logarithm())
+      logarithm.add(point, std::log(point.small / point.large / point.ratio()), point.weight);
+    if (point.total > 0)
+      b.add(point, point.excess() / point.product(), point.frames * point.product());
+  }
+  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(windows, number_of_sums);
+  logarithm.for_noise([&](const FitPoint& point, double part) {
+    noise(window_of(point), sum_wY) += part;
+    noise(window_of(point), sum_wXY) += part * std::log(point.ratio());
+  });
+  b.for_noise([&](const FitPoint& point, double part) { noise(window_of(point), sum_fD) += part; });
+  return noise;
+}
+
+}  // namespace
+
+WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs)
+{
+  const auto windows = static_cast<Eigen::Index>(number_of_windows(runs));
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(windows, number_of_sums);
+  for (const auto& point : points) {
+    auto row = sums.row(window_of(point));
+    if (point.total > 0) {
+      row[sum_fD] += point.frames * point.excess();
+      row[sum_fQ] += point.frames * point.product();
+    }
+    if (!point.has_logarithm()) continue;
+    const double w = point.weight, ln_x = std::log(point.ratio()),
+                 ln_y = std::log(point.small / point.large);
+    row[sum_w] += w;
+    row[sum_wX] += w * ln_x;
+    row[sum_wY] += w * ln_y;
+    row[sum_wXX] += w * ln_x * ln_x;
+    row[sum_wXY] += w * ln_x * ln_y;
+  }
+  return {std::move(sums), window_noise(points, windows)};
+}
+
+Eigen::VectorXd WindowSums::weight() const
+{
+  return sums.col(sum_fQ);
+}
+
+Eigen::VectorXd WindowSums::weight_of_logarithms() const
+{
+  return sums.col(sum_w);
+}
+
+Eigen::VectorXd WindowSums::excess() const
+{
+  return sums.col(sum_fD);
+}
+
+Eigen::VectorXd WindowSums::excess_noise() const
+{
+  return noise.col(sum_fD);
+}
+
+Eigen::MatrixXd WindowSums::totals(const Eigen::MatrixXd& times) const
+{
+  const Eigen::RowVectorXd without_noise = total() - noise.colwise().sum();
+  return (times * noise).rowwise() + without_noise;
+}
+
+Estimators estimators_from_sums(const Eigen::RowVectorXd& total)
+{
+  const double w = total[sum_w], w_x = total[sum_wX], w_y = total[sum_wY];
+  double k = Estimators::nan, a = Estimators::nan;
+  if (spread_out(w, w_x, total[sum_wXX])) {
+    a = (w * total[sum_wXY] - w_x * w_y) / (w * total[sum_wXX] - w_x * w_x);
+    k = std::exp((w_y - a * w_x) / w);
+  }
+  return estimators_from(total[sum_fD] / total[sum_fQ], (w_y - w_x) / w, k, a);
+}
+
+Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up)
+{
+  return adds_up ? dependence(windows.noise.col(sum_fD), windows.sums.col(sum_fQ), runs)
+                 : dependence(windows.noise.col(sum_wY), windows.sums.col(sum_w), runs);
 }
 
 }  // namespace grseg

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
-#include "analysis/fit/over.hpp"
+#include "analysis/fit/population.hpp"
 #include "analysis/stress/partial_stress.hpp"
 
 #include <cstddef>

@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/fit/fit_options.hpp"
+#include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/fit_report.hpp"
+#include "formats/cli/output.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/cli/tool.hpp"
 
 #include <string>
 #include <vector>
 
 namespace grseg {
+
+/// What the command line of grseg-fit says, mostly as typed.
+struct FitOptions {
+  std::vector<std::string> partition;
+  std::string component = "yy", quantity = "contact";
+  std::string base, scan, ratio_range, pair, over, flows, fit;
+  TableOptions output;
+  int bootstrap = 0;
+  long seed = 0;
+  bool json = false, quiet = false, exponent = false;
+  FitFilters filters;
+
+  po::options_description description();
+  /// Refuses what cannot be meant, before any table is read, and sets `filters` from the words.
+  void check(const po::variables_map& values);
+};
 
 /// All that grseg-fit prints of these tables, without the command at hand in its history. UsageError
 /// where the options and the tables do not fit each other, FormatError where a table lacks what is asked for.

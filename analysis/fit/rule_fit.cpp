@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/rule_fit.hpp"
 
+#include "analysis/fit/estimators.hpp"
 #include "analysis/fit/run_errors.hpp"
-#include "analysis/fit/window_sums.hpp"
 #include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>

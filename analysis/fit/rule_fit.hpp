@@ -33,7 +33,7 @@ struct RuleFit {
   Dependence dependence;
   std::string doubt;  // a sentence on the intervals, mostly empty
   SpeciesPair pair = {};
-  std::optional<Estimate> size_exponent = {};  // of all pairs together (size_exponent.hpp)
+  std::optional<Estimate> size_exponent = {};  // of all pairs together (fit_pairs.hpp)
 };
 
 /// How far the windows are from independent under this rule.
@@ -51,7 +51,7 @@ void add_doubt(RuleFit& fit, const std::string& doubt);
 
 /// For `drop` every B is NaN: its partial stresses do not add up to the whole. `common`: where
 /// several fits are to share it; otherwise the dependence is that of the fit. Over equal or random
-/// flows the intervals are those over these flows: see fit_flows.hpp.
+/// flows the intervals are those over these flows: see fit_pairs.hpp.
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                  const Bootstrap& bootstrap, const std::optional<Dependence>& common = {});
 

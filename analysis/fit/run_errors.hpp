@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/fit/estimators.hpp"
 #include "analysis/fit/fit_data.hpp"
-#include "analysis/fit/window_sums.hpp"
 #include "analysis/statistics/confidence.hpp"
 
 #include <Eigen/Core>

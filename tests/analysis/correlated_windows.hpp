@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/fit/estimators.hpp"
 #include "analysis/fit/rule_fit.hpp"
-#include "analysis/fit/window_sums.hpp"
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/stress/partition_rule.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit/fit_flows.hpp"
-#include "analysis/fit/start_of_flow.hpp"
+#include "analysis/fit/data_doubts.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 
 #include <fmt/format.h>

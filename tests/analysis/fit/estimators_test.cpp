@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/estimators.hpp"
+
 #include "analysis/fit/rule_fit.hpp"
-#include "analysis/fit/window_sums.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gsl/gsl_sf_psi.h>

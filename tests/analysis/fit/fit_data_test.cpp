@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
-#include "analysis/fit/fit_flows.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 

@@ -2,7 +2,6 @@
 #include "analysis/fit/fit_pairs.hpp"
 
 #include "analysis/fit/fit_report.hpp"
-#include "analysis/fit/size_exponent.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "formats/cli/provenance.hpp"

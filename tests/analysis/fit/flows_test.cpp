@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/flows.hpp"
 
-#include "analysis/fit/fit_flows.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/run_errors.hpp"
-#include "analysis/fit/size_exponent.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit/start_of_flow.hpp"
-
+#include "analysis/fit/data_doubts.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 

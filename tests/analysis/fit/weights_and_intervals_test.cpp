@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Weights, filters and intervals of fits whose answer is worked out on paper.
+#include "analysis/fit/estimators.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/flows.hpp"
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/run_errors.hpp"
-#include "analysis/fit/size_exponent.hpp"
-#include "analysis/fit/window_sums.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gtest/gtest.h>

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/fit_points.hpp"
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace grseg {
+
+/// Reasons why windows and runs may not be independent, a sentence each, mostly none: runs that nothing
+/// tells apart, flows that share a run, windows between which nothing moves.
+std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
+                                          const std::vector<FitTable>& read, const FitData& data);
 
 /// How the start of runs differs from their end: Geweke's comparison (1992) of the mean of the first tenth
 /// of the windows with that of the last half, by Student's t. Variance and autocorrelation time are those

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit/over.hpp"
+#include "analysis/fit/population.hpp"
 
 #include <fmt/format.h>
 
