@@ -3,12 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/import/common/file_start.hpp"
-#include "formats/import/csv/csv_archive.hpp"
-#include "formats/import/lammps/lammps_archive.hpp"
-#include "formats/import/liggghts/liggghts_archive.hpp"
-#include "formats/import/mercury/mercury_archive.hpp"
-#include "formats/import/siconos/siconos_archive.hpp"
+#include "formats/import/common/archive_files.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/import/convert/importer.hpp"
-#include "formats/import/convert/proposed_files.hpp"
+#include "formats/import/convert/scan.hpp"
 #include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>

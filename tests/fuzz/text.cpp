@@ -2,7 +2,7 @@
 // A text file of an archive, plain or compressed: its lines, words and numbers.
 #include "formats/core/text.hpp"
 
-#include "formats/import/common/number_row.hpp"
+#include "formats/import/common/text_values.hpp"
 #include "formats/import/common/text_source.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

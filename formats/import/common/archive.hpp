@@ -3,21 +3,69 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
-#include "formats/import/common/file_start.hpp"
-#include "formats/import/common/questions.hpp"
+#include "formats/import/common/archive_files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+namespace grseg {
+
+/// Something that an import needs and neither the archive nor the command line says.
+struct Question {
+  std::string what;    // "the length of a time step"
+  std::string option;  // "--boundary 3" where the files suggest a value, "--step DT" where they do
+                       // not: what is in capitals is for the user to fill in
+  std::string reason;  // for the value, or what may be given: "all 35 grains of type 3 are at rest"
+};
+
+/// The import cannot go on without answers to these questions. The sentence asks them all.
+struct OpenQuestions : UsageError {
+  explicit OpenQuestions(std::vector<Question> open);
+  explicit OpenQuestions(const Question& open) : OpenQuestions(std::vector<Question>{open}) {}
+
+  /// The options that answer them, in the order of the questions.
+  std::string options() const;
+
+  std::vector<Question> questions;
+};
+
+/// Collects questions, so that all are asked in one answer.
+class Questions {
+ public:
+  void ask(Question question) { open_.push_back(std::move(question)); }
+  /// Runs `answer` and keeps the questions that it throws, each once.
+  template <class Function>
+  void collect(Function&& answer)
+  {
+    try {
+      answer();
+    } catch (const OpenQuestions& open) {
+      for (const auto& question : open.questions) {
+        const auto is_same = [&](const Question& asked) { return asked.what == question.what; };
+        if (std::none_of(open_.begin(), open_.end(), is_same)) ask(question);
+      }
+    }
+  }
+  bool any() const { return !open_.empty(); }
+  void report() const
+  {
+    if (any()) throw OpenQuestions(open_);
+  }
+
+ private:
+  std::vector<Question> open_;
+};
 
 /// Runs made with other programs, as their archives hold them: three components, the archive's own
 /// axes, ids, order of rows and units. All that follows (turning axes, assigning species, computing
 /// branches, verifying balances, writing the trajectory) is the same for every format and not part
 /// of its reader.
-namespace grseg {
 
 /// The grains of one moment, in any order; entry g of each array is grain g. Arrays that the
 /// archive does not fill stay empty, `id` and `position` are never empty.
@@ -95,6 +143,10 @@ struct ArchiveMoment {
   std::vector<Question> questions;  // what the reader has to be told; what it could not read for
                                     // lack of an answer is empty
 };
+
+/// Sets the cell of a moment to one that encloses its grains along the axes that are not periodic.
+/// For archives that state no cell; there must be grains.
+void enclose_grains(ArchiveMoment& moment);
 
 /// What an archive states once about its run. What it does not state stays empty and must come from
 /// the command line; nothing is guessed.
@@ -183,5 +235,8 @@ struct ArchiveFormat {
   const char* examples;    // for --help: whole command lines, indented
   const char* notes = "";  // for --help: what its files and its --columns are, indented; may be ""
 };
+
+/// Each stands in the folder of its program.
+extern const ArchiveFormat lammps_format, liggghts_format, mercury_format, siconos_format, csv_format;
 
 }  // namespace grseg

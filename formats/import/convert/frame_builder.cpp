@@ -2,7 +2,7 @@
 #include "formats/import/convert/frame_builder.hpp"
 
 #include "formats/import/common/minimum_image.hpp"
-#include "formats/import/convert/roster.hpp"
+#include "formats/import/convert/scan.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,14 +2,29 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "formats/import/convert/rows_by_id.hpp"
+#include "formats/import/facts/cell_and_walls.hpp"
 #include "formats/import/facts/run_facts.hpp"
-#include "formats/import/facts/wall_planes.hpp"
 
+#include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace grseg {
+
+/// Rows of the trajectory by ids of the archive.
+class RowsById {
+ public:
+  RowsById() = default;
+  explicit RowsById(const std::vector<std::int64_t>& sorted_ids);
+  /// -1 where no grain has this id.
+  std::int32_t find(std::int64_t id) const;
+
+ private:
+  std::int64_t first_ = 0;
+  std::vector<std::int32_t> dense_;  // used where ids are close together
+  std::unordered_map<std::int64_t, std::int32_t> sparse_;
+};
 
 /// Along x or z the cell is periodic.
 struct Period {

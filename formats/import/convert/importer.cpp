@@ -8,9 +8,9 @@
 #include "formats/core/dimension.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
-#include "formats/import/common/file_list.hpp"
-#include "formats/import/convert/closing.hpp"
+#include "formats/import/common/archive_files.hpp"
 #include "formats/import/convert/import_part.hpp"
+#include "formats/import/convert/judgement.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 #include "formats/trajectory/integrity.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/import/facts/import_settings.hpp"
-#include "formats/import/verify/finding.hpp"
+#include "formats/import/verify/check_context.hpp"
 #include "formats/import/verify/late_damping.hpp"
 
 #include <cstddef>

@@ -2,11 +2,181 @@
 #include "formats/import/convert/moments.hpp"
 
 #include "formats/cli/interruption.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
 
 namespace grseg {
+namespace {
+
+template <class Number>
+bool parse(const std::string& text, Number& number)
+{
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  return error == std::errc() && end == last;
+}
+
+std::string in_words(const ArchiveMoment& moment)
+{
+  if (!moment.time) return fmt::format("step {}", *moment.step);
+  if (!moment.step) return fmt::format("t = {:g}", *moment.time);
+  return fmt::format("t = {:g} (step {})", *moment.time, *moment.step);
+}
+
+}  // namespace
+
+MomentBound parse_bound(const std::string& text, const std::string& option)
+{
+  MomentBound bound;
+  if (text.starts_with("step:")) {
+    if (parse(text.substr(5), bound.step)) return bound;
+  } else if (double time = 0; parse(text, time) && std::isfinite(time)) {
+    bound.time = time;
+    return bound;
+  }
+  throw UsageError(
+      fmt::format("{} {} is neither a time in the archive's units, as in 12.5, nor a step, as in "
+                  "step:100000",
+                  option, text));
+}
+
+MomentRange::MomentRange(const std::optional<std::string>& begin,
+                         const std::optional<std::string>& end)
+{
+  const auto take = [&](const std::optional<std::string>& text, const char* option) {
+    std::optional<MomentBound> bound;
+    if (!text) return bound;
+    bound = parse_bound(*text, option);
+    text_ += fmt::format("{}{} {}", text_.empty() ? "" : " ", option, *text);
+    return bound;
+  };
+  begin_ = take(begin, "--begin");
+  end_ = take(end, "--end");
+}
+
+/// -1, 0 or 1: the moment comes before the bound, at it, or after it.
+int MomentRange::compare(const ArchiveMoment& moment, const MomentBound& bound,
+                         const char* option) const
+{
+  const bool known = bound.time ? moment.time.has_value() : moment.step.has_value();
+  if (!known && !(step_ && *step_ > 0))
+    throw UsageError(fmt::format(
+        "{} is a {}, but the archive has {} only, and the length of a time step is not known: pass "
+        "it with --step, or give a {}",
+        option, bound.time ? "time" : "step", bound.time ? "steps" : "times",
+        bound.time ? "step, as in step:100000" : "time"));
+  if (!bound.time) {
+    const auto step = moment.step ? *moment.step : std::llround(*moment.time / *step_);
+    return step < bound.step ? -1 : step > bound.step ? 1 : 0;
+  }
+  constexpr double digits = 1e-9;
+  const double time = moment.time ? *moment.time : static_cast<double>(*moment.step) * *step_;
+  if (std::abs(time - *bound.time) <= digits * std::max(std::abs(time), std::abs(*bound.time)))
+    return 0;
+  return time < *bound.time ? -1 : 1;
+}
+
+MomentRange::Side MomentRange::side(const ArchiveMoment& moment)
+{
+  last_ = in_words(moment);
+  if (count_++ == 0) first_ = last_;
+  if (begin_ && compare(moment, *begin_, "--begin") < 0) return Side::before;
+  if (end_ && compare(moment, *end_, "--end") >= 0) return Side::after;
+  return Side::within;
+}
+
+std::string MomentRange::seen() const
+{
+  return count_ == 1 ? fmt::format("one moment, {}", first_)
+                     : fmt::format("{} moments from {} to {}", count_, first_, last_);
+}
+
+std::string MomentRange::text() const
+{
+  return text_;
+}
+
+namespace {
+
+/// Of ids and positions, whatever the order of the rows.
+std::uint64_t digest_of(const ArchiveGrains& grains)
+{
+  std::uint64_t sum = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    sum += XXH3_64bits_withSeed(grains.position[g].data(), sizeof(Vec3),
+                                static_cast<std::uint64_t>(grains.id[g]));
+  return sum;
+}
+
+}  // namespace
+
+double RepeatedMoments::time_of(const ArchiveMoment& moment)
+{
+  return moment.step ? static_cast<double>(*moment.step) : *moment.time;
+}
+
+void RepeatedMoments::set_times(const std::vector<double>& times)
+{
+  double earliest = std::numeric_limits<double>::infinity();  // of those behind
+  last_ones_.assign(times.size(), false);
+  for (auto k = times.size(); k-- > 0;) {
+    last_ones_[k] = times[k] < earliest;
+    earliest = std::min(earliest, times[k]);
+  }
+}
+
+bool RepeatedMoments::counts(const ArchiveMoment& moment)
+{
+  if (which_ == Repeated::last) {
+    const bool is_last = next_ >= last_ones_.size() || last_ones_[next_];
+    ++next_;
+    dropped_ += is_last ? 0 : 1;
+    return is_last;
+  }
+  const double time = time_of(moment);
+  if (!seen_.empty() && time <= seen_.rbegin()->first) return comes_again(moment, time);
+  seen_.emplace(time, digest_of(moment.grains));
+  return true;
+}
+
+/// False, or UsageError.
+bool RepeatedMoments::comes_again(const ArchiveMoment& moment, double time)
+{
+  const auto before = seen_.find(time);
+  if (before != seen_.end() && before->second == digest_of(moment.grains)) {
+    ++same_;
+    return false;
+  }
+  if (which_ == Repeated::first) {
+    ++dropped_;
+    return false;
+  }
+  throw UsageError(fmt::format(
+      "{}: {} {:.10g} comes after {:.10g}{}: if a job began again from an earlier checkpoint, "
+      "--repeated first takes the moments of the earlier job, --repeated last those of the later one",
+      moment.place, moment.step ? "step" : "time", time, seen_.rbegin()->first,
+      before == seen_.end() ? "" : ", and its grains are elsewhere than the first time"));
+}
+
+std::string RepeatedMoments::remark() const
+{
+  if (same_ > 0 && dropped_ == 0)
+    return fmt::format("{} {} twice, the same; each counts once", counted(same_, "moment"),
+                       same_ == 1 ? "comes" : "come");
+  if (dropped_ > 0)
+    return fmt::format("{} of a job that another one repeats are left out",
+                       counted(same_ + dropped_, "moment"));
+  return "";
+}
+
 namespace {
 
 ArchiveFiles with_columns(ArchiveFiles files, const std::string& columns)

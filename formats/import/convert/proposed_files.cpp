@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/proposed_files.hpp"
-
-#include "formats/import/common/file_list.hpp"
-#include "formats/import/common/file_start.hpp"
+#include "formats/import/common/archive_files.hpp"
 #include "formats/import/common/text_source.hpp"
+#include "formats/import/convert/scan.hpp"
 #include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>

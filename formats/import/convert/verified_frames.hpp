@@ -3,7 +3,7 @@
 
 #include "formats/import/convert/frame_builder.hpp"
 #include "formats/import/convert/inferred_walls.hpp"
-#include "formats/import/convert/opened_archive.hpp"
+#include "formats/import/convert/scan.hpp"
 #include "formats/import/verify/verification.hpp"
 
 #include <cstdint>

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/csv/csv_archive.hpp"
-
-#include "formats/import/common/enclosing_cell.hpp"
-#include "formats/import/csv/csv_comments.hpp"
-#include "formats/import/csv/csv_files.hpp"
-#include "formats/import/csv/csv_line.hpp"
+#include "formats/import/common/archive.hpp"
+#include "formats/import/common/text_values.hpp"
 #include "formats/import/csv/csv_map.hpp"
 #include "formats/import/csv/csv_table.hpp"
 
@@ -14,10 +10,112 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace grseg {
+
+/// What the comments above a table of grains say of the run, in the table's units, a line each:
+///   # periodic: x 0 0.35          for each axis that is
+///   # gravity: 3.83 -9.02 0
+///   # step: 1e-5
+///   # units: si                   or cgs, lj
+///   # grains: spheres             or discs
+/// Other comments are passed over.
+struct CsvComments {
+  ArchiveFacts facts;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // of the periods
+  std::array<bool, 3> periodic{};
+};
+
+/// FormatError where one of these lines is not of its form.
+CsvComments read_csv_comments(const std::vector<std::string>& comments);
+
+namespace {
+
+/// NaN where the next word is not a number.
+double next_number(std::istream& text)
+{
+  std::string word;
+  double number = NAN;
+  return text >> word && read_number(word, number) ? number : NAN;
+}
+
+bool read_period(std::istream& text, CsvComments& found)
+{
+  std::string axis;
+  text >> axis;
+  const double low = next_number(text), high = next_number(text);
+  const auto k = std::string_view("xyz").find(axis);
+  if (axis.size() != 1 || k == std::string_view::npos || !(low < high)) return false;
+  found.periodic[k] = true;
+  found.low[static_cast<Eigen::Index>(k)] = low;
+  found.high[static_cast<Eigen::Index>(k)] = high;
+  return true;
+}
+
+bool read_gravity(std::istream& text, CsvComments& found)
+{
+  Vec3 gravity;
+  for (double& component : gravity) component = next_number(text);
+  found.facts.gravity = gravity;
+  return gravity.allFinite();
+}
+
+bool read_step(std::istream& text, CsvComments& found)
+{
+  const double step = next_number(text);
+  found.facts.step = step;
+  return step > 0;
+}
+
+bool read_units(std::istream& text, CsvComments& found)
+{
+  std::string units;
+  text >> units;
+  found.facts.units = units;
+  return units == "si" || units == "cgs" || units == "lj";
+}
+
+bool read_grains(std::istream& text, CsvComments& found)
+{
+  std::string grains;
+  text >> grains;
+  found.facts.discs = grains == "discs";
+  return grains == "discs" || grains == "spheres";
+}
+
+struct Line {
+  std::string_view word;
+  bool (*read)(std::istream&, CsvComments&);
+  const char* form;
+};
+
+constexpr Line lines[] = {{"# periodic:", read_period, "# periodic: x 0 0.35"},
+                          {"# gravity:", read_gravity, "# gravity: 3.83 -9.02 0"},
+                          {"# step:", read_step, "# step: 1e-5"},
+                          {"# units:", read_units, "# units: si"},
+                          {"# grains:", read_grains, "# grains: spheres"}};
+
+}  // namespace
+
+CsvComments read_csv_comments(const std::vector<std::string>& comments)
+{
+  CsvComments found;
+  for (const auto& comment : comments)
+    for (const auto& [word, read, form] : lines) {
+      if (!comment.starts_with(word)) continue;
+      std::istringstream text(comment.substr(word.size()));
+      std::string more;
+      if (!read(text, found) || text >> more)
+        throw FormatError(fmt::format("{} is not of the form '{}'", in_quotes(comment), form));
+    }
+  return found;
+}
+
 namespace {
 
 namespace of_grain {
@@ -308,12 +406,22 @@ FileRole role_of(const FileStart& start)
   return FileRole::none;
 }
 
-}  // namespace
-
+/// Two plain tables (csv_table.hpp), which a script can write for any program. Names of columns
+/// with their synonyms; `files.map` gives others (csv_map.hpp); a missing component is 0:
+///   grains    time|t id x y z; radius|r or diameter|d; vx vy vz, omega|wz|omegaz (also wx|omegax,
+///             wy|omegay), mass|m, type|species, fixed, fx fy fz: the total force, with gravity
+///   contacts  time|t i|id1 j|id2 fx fy fz: force ON i FROM j; overlap|delta|penetration; bx by bz:
+///             branch x_i - x_j
+/// Instead of the time there may be step|timestep|iteration|cycle, or one file per moment (
+/// csv_files.hpp). j < 0 is straight wall -j-1, where a branch (x_i - contact point) is needed.
+/// Moments are matched by time or step. Comments above the names of the grains' table may state
+/// facts of the run (csv_comments.hpp).
 std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
 {
   return std::make_unique<CsvArchive>(files);
 }
+
+}  // namespace
 
 const ArchiveFormat csv_format{
     .name = "csv",

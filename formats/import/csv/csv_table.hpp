@@ -2,17 +2,53 @@
 #pragma once
 
 #include "formats/import/common/text_source.hpp"
-#include "formats/import/common/type_names.hpp"
-#include "formats/import/csv/csv_files.hpp"
-#include "formats/import/csv/csv_line.hpp"
+#include "formats/import/common/text_values.hpp"
 #include "formats/import/csv/csv_map.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace grseg {
+
+/// One file of a table, and the moment that its name states: what stands for `*` is a time if it is
+/// a number with a decimal point, and otherwise ends in the digits of a step.
+struct CsvFile {
+  std::string path;
+  std::optional<double> time;
+  std::optional<std::int64_t> step;
+};
+
+/// The files that `names` stand for (file_list.hpp), in natural order. In names without `*` (which a
+/// shell may have replaced) the digits are the last ones before the ending.
+std::vector<CsvFile> csv_files(const std::vector<std::string>& names, const std::string& option);
+
+/// What separates the columns of a table: the first of comma, semicolon and tab that the line of its
+/// names contains outside quotation marks, or blanks.
+char csv_separator(std::string_view names);
+
+/// The fields of a line. A field in quotation marks may hold separators; the marks and the blanks
+/// around a field go. They are views into `line`.
+void split_csv(std::string_view line, char separator, std::vector<std::string_view>& fields);
+
+/// Numbers as C or Fortran writes them (number_row.hpp), with a point or, where commas do not separate
+/// columns, with a comma, the same in the whole table.
+class CsvNumbers {
+ public:
+  explicit CsvNumbers(char separator = ' ') : may_have_comma_(separator != ',') {}
+
+  /// False where `field` is not a finite number, or has the other decimal sign than those before.
+  bool read(std::string_view field, double& number);
+  /// What more there is to say of a field that is not read; may be "".
+  const char* why_not(std::string_view field) const;
+
+ private:
+  bool may_have_comma_;
+  char sign_ = 0;  // of decimals; 0: not known yet
+};
 
 /// When the rows of a moment are: a time, or where the table has none, a step.
 struct CsvMoment {

@@ -1,13 +1,98 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/contact_columns.hpp"
 
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <sstream>
 
 namespace grseg {
+namespace {
+
+std::optional<std::size_t> column_number(const std::string& text)
+{
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 1) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+ColumnMap::ColumnMap(const ColumnWords& words, const std::string& text)
+    : words_(words), text_(text), column_(words.words.size()), place_(words.words.size(), -1)
+{
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto equals = part.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
+      throw UsageError(fmt::format("{}: '{}' is not of the form meaning=column, as in {}",
+                                   words_.option, part, words_.example));
+    assign(part.substr(0, equals), part.substr(equals + 1));
+  }
+}
+
+void ColumnMap::assign(const std::string& word, const std::string& column)
+{
+  const auto& words = words_.words;
+  for (const auto& [triple, first] : words_.triples) {
+    if (word != triple) continue;
+    const auto number = column_number(column);
+    if (!number)
+      throw UsageError(fmt::format(
+          "{}: {}={}: give the number of the first of three columns, or {} {} {} one "
+          "by one",
+          words_.option, word, column, words[first], words[first + 1], words[first + 2]));
+    for (std::size_t k = 0; k < 3; ++k) column_[first + k] = std::to_string(*number + k);
+    return;
+  }
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) {
+    std::vector<std::string> known(words.begin(), words.end());
+    for (const auto& triple : words_.triples) known.emplace_back(triple.first);
+    throw UsageError(unknown_word(fmt::format("meaning in {}", words_.option), word, known));
+  }
+  column_[static_cast<std::size_t>(found - words.begin())] = column;
+}
+
+void ColumnMap::look_up(const std::vector<std::string>& names, const std::string& place)
+{
+  wanted_.clear();
+  for (std::size_t w = 0; w < column_.size(); ++w) {
+    place_[w] = -1;
+    if (column_[w].empty()) continue;
+    std::size_t column = 0;
+    if (const auto number = column_number(column_[w]))
+      column = *number - 1;
+    else
+      column = static_cast<std::size_t>(std::find(names.begin(), names.end(), column_[w]) -
+                                        names.begin());
+    if (column >= names.size())
+      throw UsageError(fmt::format("{}: {}={}, but {} has the columns {}", words_.option,
+                                   words_.words[w], column_[w], place, fmt::join(names, " ")));
+    const auto before = std::find(wanted_.begin(), wanted_.end(), column);
+    place_[w] = static_cast<int>(before - wanted_.begin());
+    if (before == wanted_.end()) wanted_.push_back(column);
+  }
+}
+
+const std::vector<double>& ColumnMap::of(std::size_t word,
+                                         const std::vector<std::vector<double>>& values) const
+{
+  static const std::vector<double> none;
+  return place_[word] < 0 ? none : values[static_cast<std::size_t>(place_[word])];
+}
+
 namespace {
 
 const ColumnWords& contact_words()
@@ -86,6 +171,93 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
           fmt::format("{}: {:g} in the column of wall is not a number of a wall", place, number));
     contacts.wall.push_back(number < 0 ? -1 : static_cast<std::int32_t>(number));
   }
+}
+
+namespace {
+
+using Names = std::initializer_list<const char*>;
+
+// `%` is x, y or z, `#` is 1, 2 and 3.
+constexpr Names first_ids{"i", "id1", "idi", "patom1", "atom1", "particle1", "tag1"};
+constexpr Names second_ids{"j", "id2", "idj", "patom2", "atom2", "particle2", "tag2"};
+constexpr Names forces{"f%", "force%", "ftotal%"};
+constexpr Names normal_forces{"fn%", "fnormal%", "forcenormal%", "forcen%", "normalforce%"};
+constexpr Names tangential_forces{"t%",  "ft%",     "ftangential%", "forcetangential%",
+                                  "fs%", "forcet%", "p#",           "tangentialforce%"};
+constexpr Names branches{"b%", "branch%"};
+constexpr Names distances{"dist", "distance"};
+constexpr Names overlaps{"overlap", "delta", "deltan", "penetration"};
+
+/// Pieces of a mapping, found by the names of columns.
+class Namer {
+ public:
+  explicit Namer(const DumpHeader& header) : header_(header) {}
+
+  /// "i=id1"; "" where no column has one of the names.
+  std::string scalar(const char* word, Names names) const
+  {
+    for (const char* name : names)
+      if (const auto column = of(name); !column.empty()) return fmt::format("{}={}", word, column);
+    return "";
+  }
+  /// "fx=fnx,fy=fny,fz=fnz" of those components that there are, for the letter f.
+  std::string vector(char letter, Names names) const
+  {
+    for (const std::string name : names) {
+      std::string pieces;
+      int found = 0;
+      for (const int k : {0, 1, 2}) {
+        auto component = name;
+        std::replace(component.begin(), component.end(), '%', static_cast<char>('x' + k));
+        std::replace(component.begin(), component.end(), '#', static_cast<char>('1' + k));
+        const auto column = of(component);
+        if (column.empty()) continue;
+        pieces += fmt::format("{}{}{:c}={}", pieces.empty() ? "" : ",", letter, 'x' + k, column);
+        ++found;
+      }
+      if (found == 3 || (found > 0 && name.find('%') != std::string::npos)) return pieces;
+    }
+    return "";
+  }
+
+ private:
+  std::string of(const std::string& name) const
+  {
+    for (const auto& column : header_.columns)
+      if (compared_name(column) == name && column.find_first_of(",=") == std::string::npos)
+        return column;
+    return "";
+  }
+
+  const DumpHeader& header_;
+};
+
+}  // namespace
+
+std::string compared_name(std::string_view name)
+{
+  std::string compared;
+  for (const unsigned char c : name)
+    if (std::isalnum(c) != 0) compared += static_cast<char>(std::tolower(c));
+  return compared;
+}
+
+std::string columns_by_name(const DumpHeader& header, PlainForce plain)
+{
+  const Namer namer(header);
+  auto force = namer.vector('f', forces), tangential = namer.vector('t', tangential_forces);
+  const auto normal = namer.vector('f', normal_forces);
+  const bool is_whole = !force.empty() && (plain == PlainForce::whole || !normal.empty());
+  if (is_whole) tangential.clear();
+  if (force.empty()) force = normal;
+  const auto i = namer.scalar("i", first_ids), j = namer.scalar("j", second_ids);
+  if (i.empty() || j.empty() || force.empty()) return "";
+  auto text = i;
+  const auto distance = namer.scalar("dist", distances);
+  for (const auto& piece : {j, force, tangential, namer.vector('b', branches), distance,
+                            distance.empty() ? namer.scalar("overlap", overlaps) : std::string()})
+    if (!piece.empty()) text += "," + piece;
+  return text;
 }
 
 }  // namespace grseg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/import/dump/joined_dumps.hpp"
+#include "formats/import/dump/dump_pair.hpp"
 
 #include <array>
 #include <vector>

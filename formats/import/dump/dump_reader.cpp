@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/dump_reader.hpp"
 
-#include "formats/import/common/number_row.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/text_source.hpp"
-#include "formats/import/common/type_names.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "formats/import/common/archive.hpp"
-#include "formats/import/dump/column_map.hpp"
-#include "formats/import/dump/joined_dumps.hpp"
+#include "formats/import/dump/contact_columns.hpp"
+#include "formats/import/dump/dump_pair.hpp"
 
 #include <string>
 #include <vector>

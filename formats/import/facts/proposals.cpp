@@ -3,7 +3,7 @@
 
 #include "formats/cli/shell_word.hpp"
 #include "formats/core/species.hpp"
-#include "formats/import/facts/dimension.hpp"
+#include "formats/import/facts/axes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

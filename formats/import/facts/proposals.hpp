@@ -2,7 +2,6 @@
 #pragma once
 
 #include "formats/import/common/archive.hpp"
-#include "formats/import/common/questions.hpp"
 
 #include <optional>
 #include <string>

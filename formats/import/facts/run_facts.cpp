@@ -2,9 +2,9 @@
 #include "formats/import/facts/run_facts.hpp"
 
 #include "formats/cli/words.hpp"
-#include "formats/import/facts/dimension.hpp"
+#include "formats/import/facts/axes.hpp"
+#include "formats/import/facts/cell_and_walls.hpp"
 #include "formats/import/facts/proposals.hpp"
-#include "formats/import/facts/wall_planes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

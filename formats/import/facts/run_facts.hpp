@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/import/common/questions.hpp"
+#include "formats/import/common/archive.hpp"
 #include "formats/import/facts/axes.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "formats/import/facts/units.hpp"

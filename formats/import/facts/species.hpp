@@ -5,8 +5,10 @@
 #include "formats/core/species.hpp"
 #include "formats/import/common/archive.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grseg {
@@ -36,5 +38,44 @@ SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& 
 
 /// "0.0048 to 0.0052: 120, ...": numbers of values in ten equal bins; empty bins are left out.
 std::string histogram(std::vector<double> values);
+
+/// Numbers and ranges such as "1,4-9", or "none".
+class NumberList {
+ public:
+  /// UsageError naming `option` where the text is not such a list.
+  NumberList(const std::string& text, const std::string& option);
+  bool contains(std::int64_t number) const;
+
+ private:
+  std::vector<std::pair<std::int64_t, std::int64_t>> ranges_;  // first and last
+};
+
+/// Types of grains as an option lists them: numbers and ranges (number_list.hpp) or, where the archive
+/// has words for them, these words, separated by commas; or "none".
+class TypeList {
+ public:
+  /// UsageError naming `option` where the text is not such a list, or where no grain has the word.
+  TypeList(const std::string& text, const std::string& option, const ArchiveGrains& grains);
+  bool contains(std::int32_t type) const;
+
+ private:
+  NumberList numbers_;
+  std::vector<bool> named_;  // by type
+};
+
+/// Any number of species by type, each as --species gives it: NAME=TYPES or NAME=TYPES:DIAMETER,
+/// where TYPES are a list (type_list.hpp) or "all", and DIAMETER is nominal, in the archive's units.
+struct NamedSpecies {
+  SpeciesList list;              // in order of nominal diameters; 0 where it was not given
+  std::vector<Species> species;  // of every grain
+  std::string sizes;             // in words how they were found
+};
+
+/// Species of all grains that are not `boundary`. A diameter that is not given is the mean of the
+/// smallest and the largest of the species. UsageError where a text is not of the form above, a name
+/// does not fit files and tables, a species has neither grains nor a diameter, or the type of a
+/// mobile grain is in no species or in several.
+NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
+                                  const std::vector<std::string>& texts);
 
 }  // namespace grseg

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/lammps/lammps_archive.hpp"
-
+#include "formats/import/common/archive.hpp"
+#include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/dump/dump_archive.hpp"
-#include "formats/import/dump/named_columns.hpp"
 #include "formats/import/liggghts/liggghts_columns.hpp"
 
 #include <fmt/format.h>
 
+#include <memory>
+
 namespace grseg {
+
 namespace {
 
 constexpr const char* recipe = "i=2,j=3,dist=4,force=5,tangential=8";
@@ -43,8 +45,19 @@ bool is_of_lammps(const FileStart& start)
   return role_of_dump(start) == FileRole::grains || !are_of_liggghts(columns_of_dump(start));
 }
 
-}  // namespace
-
+/// `dump custom` of grains beside `dump local` of contacts, as LAMMPS writes them
+/// (doc/src/dump.rst, compute_pair_local.rst, pair_gran.rst). Contacts come from two computes with
+/// the same `cutoff radius`:
+///   compute pr all property/local patom1 patom2 cutoff radius
+///   compute pl all pair/local dist fx fy fz p1 p2 p3 cutoff radius
+///   dump c all local N contacts.dump index c_pr[1] c_pr[2] c_pl[1] c_pl[2] ... c_pl[7]
+/// fx fy fz are the NORMAL part of the force on patom1 alone, p1 p2 p3 the tangential part; the
+/// force is their sum. Names like c_pl[3] carry no meaning, so --columns gives it; without it the
+/// ten columns above are assumed, which the grains' balance verifies. Columns that are named by what
+/// they hold (named_columns.hpp) are recognised. dx dy dz, whose sign depended on tags until 12Jun2025,
+/// are never used: the branch is x_patom1 - x_patom2. Contacts of fix wall/gran are not in any dump
+/// local, but with its keyword `contacts` they may be columns of the dump of grains
+/// (wall_contacts.hpp).
 std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
 {
   static const DumpDialect dialect{
@@ -53,6 +66,8 @@ std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
       nullptr,         facts_of_late_forces("LAMMPS")};
   return open_dumps(files, dialect);
 }
+
+}  // namespace
 
 const ArchiveFormat lammps_format{
     .name = "lammps",

@@ -1,15 +1,276 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/mercury/mercury_restart.hpp"
 
-#include "formats/import/mercury/mercury_boundary.hpp"
-#include "formats/import/mercury/mercury_lines.hpp"
-#include "formats/import/mercury/mercury_particle.hpp"
+#include "formats/import/common/archive.hpp"
+#include "formats/import/common/text_source.hpp"
 
 #include <fmt/format.h>
 
+#include <cctype>
+#include <charconv>
+#include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace grseg {
+
+/// The lines of a .restart of MercuryDPM: words, each followed by its values, or values alone.
+class MercuryLines {
+ public:
+  explicit MercuryLines(const std::string& path) : source_({path}) {}
+
+  /// False at the end of the file.
+  bool next();
+  /// The next line; TruncatedArchive where the file ends before or inside it, `where` being "in its
+  /// particles".
+  void need_next(const std::string& where);
+
+  bool has(std::string_view key) const { return place_of(key) < words_.size(); }
+  /// The first word; empty in an empty line.
+  std::string_view kind() const { return words_.empty() ? std::string_view() : words_[0]; }
+  const std::vector<std::string_view>& words() const { return words_; }
+  /// The `place`-th value behind a word of the line.
+  double value(std::string_view key, std::size_t place = 0) const;
+  Vec3 vector(std::string_view key) const { return {value(key), value(key, 1), value(key, 2)}; }
+  std::int64_t whole_number(std::string_view key, std::size_t place = 0) const;
+  /// Where the line is "key count".
+  std::optional<std::size_t> count(std::string_view key) const;
+  /// The words from the `first`-th on as numbers.
+  std::vector<double> numbers(std::size_t first) const;
+
+  [[noreturn]] void fail(const std::string& why) const;
+
+ private:
+  std::size_t place_of(std::string_view key) const;
+  double number(std::size_t place, std::string_view behind) const;
+
+  TextSource source_;
+  std::vector<std::string_view> words_;
+};
+
+bool MercuryLines::next()
+{
+  if (!source_.next()) return false;
+  words_ = words_of(source_.line());
+  return true;
+}
+
+void MercuryLines::need_next(const std::string& where)
+{
+  if (!next() || !source_.line_is_whole())
+    throw TruncatedArchive(
+        fmt::format("{}: the file ends {}; copy it again", source_.place(), where));
+  if (kind() == "...") fail("the rest of the block is left out; write the restart file whole");
+}
+
+std::size_t MercuryLines::place_of(std::string_view key) const
+{
+  std::size_t at = 0;
+  while (at < words_.size() && words_[at] != key) ++at;
+  return at;
+}
+
+double MercuryLines::number(std::size_t place, std::string_view behind) const
+{
+  const auto word = words_[place];
+  double number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number))
+    fail(fmt::format("{} after '{}' is not a finite number", in_quotes(word), behind));
+  return number;
+}
+
+double MercuryLines::value(std::string_view key, std::size_t place) const
+{
+  const auto at = place_of(key) + 1 + place;
+  if (at >= words_.size()) fail(fmt::format("'{}' with its value is missing", key));
+  return number(at, key);
+}
+
+std::int64_t MercuryLines::whole_number(std::string_view key, std::size_t place) const
+{
+  const double number = value(key, place);
+  if (std::abs(number) > 2147483647 || std::trunc(number) != number)
+    fail(fmt::format("{:g} after '{}' is not a whole number", number, key));
+  return static_cast<std::int64_t>(number);
+}
+
+std::optional<std::size_t> MercuryLines::count(std::string_view key) const
+{
+  if (kind() != key) return std::nullopt;
+  const double number = value(key);
+  if (number < 0 || number > 1e9 || std::trunc(number) != number)
+    fail(fmt::format("{} is not a number of {}", in_quotes(source_.line()), key));
+  return static_cast<std::size_t>(number);
+}
+
+std::vector<double> MercuryLines::numbers(std::size_t first) const
+{
+  std::vector<double> numbers;
+  for (auto k = first; k < words_.size(); ++k)
+    numbers.push_back(number(k, k > 0 ? words_[k - 1] : "the beginning of the line"));
+  return numbers;
+}
+
+void MercuryLines::fail(const std::string& why) const
+{
+  throw FormatError(fmt::format("{}: {}", source_.place(), why));
+}
+
+/// Takes the period of the boundary in the line at hand into `restart`, if it is one. FormatError
+/// where the cell is periodic in a way that is not imported.
+void read_mercury_boundary(const MercuryLines& lines, MercuryRestart& restart);
+
+namespace {
+
+struct Refused {
+  std::string_view part;  // of the kind's name
+  const char* why;
+};
+
+constexpr Refused refused[] = {
+    {"TimeDependentPeriodic", "moves and shifts grains with time"},
+    {"LeesEdwards", "shears the cell: grains that leave it above come back below at another place"},
+    {"AngledPeriodic", "turns grains that leave the cell"},
+    {"CircularPeriodic", "turns grains that leave the cell"},
+    {"StressStrainControl", "changes the size of the cell"},
+    {"Maser", "is periodic in a part of the cell only, and puts copies of grains into the rest"},
+};
+
+/// The two places of a periodic boundary along its normal, in whatever version.
+std::array<double, 2> places_of(const MercuryLines& lines)
+{
+  for (const auto& [left, right] : {std::pair{"distanceLeft", "distanceRight"},
+                                    {"position_left", "position_right"},
+                                    {"pos_left", "pos_right"}})
+    if (lines.has(left)) return {lines.value(left), lines.value(right)};
+  lines.fail("'distanceLeft' of the periodic boundary is missing");
+}
+
+}  // namespace
+
+void read_mercury_boundary(const MercuryLines& lines, MercuryRestart& restart)
+{
+  const auto kind = lines.kind();
+  for (const auto& [part, why] : refused)
+    if (kind.find(part) != std::string_view::npos)
+      lines.fail(fmt::format("the {} {}; such a cell is not imported", kind, why));
+  restart.removes_grains |= kind.find("Deletion") != std::string_view::npos;
+  if (kind != "PeriodicBoundary" && kind != "normal") return;
+  const Vec3 normal = lines.has("normal") ? lines.vector("normal") : Vec3(NAN, NAN, NAN);
+  const auto [left, right] = places_of(lines);
+  const Vec3 shift = lines.has("shift") ? lines.vector("shift") : Vec3((right - left) * normal);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(normal[axis]) > 1 - 1e-12)) continue;
+    if (!((shift - (right - left) * normal).norm() < 1e-6 * std::abs(right - left)))
+      lines.fail("the periodic boundary shifts grains obliquely, which is not imported");
+    restart.periodic[static_cast<std::size_t>(axis)] = true;
+    restart.low[axis] = std::min(normal[axis] * left, normal[axis] * right);
+    restart.high[axis] = std::max(normal[axis] * left, normal[axis] * right);
+    return;
+  }
+  lines.fail("the cell is periodic along none of the axes, which is not imported");
+}
+
+/// The particle in the line at hand; `row` is its number. FormatError where it is not one sphere or
+/// belongs to no species.
+MercuryRestart::Particle read_mercury_particle(const MercuryLines& lines,
+                                               const MercuryRestart& restart, std::size_t row);
+
+namespace {
+
+using Particle = MercuryRestart::Particle;
+
+Vec3 three(const std::vector<double>& numbers, std::size_t first)
+{
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+Particle named_particle(const MercuryLines& lines)
+{
+  Particle particle;
+  particle.id = lines.whole_number("id");
+  particle.species =
+      static_cast<std::int32_t>(lines.has("indSpecies") ? lines.whole_number("indSpecies") : -1);
+  particle.radius = lines.value("radius");
+  particle.inverse_mass = lines.value("invMass");
+  particle.position = lines.vector("position");
+  particle.velocity = lines.vector("velocity");
+  particle.angular_velocity = lines.vector("angularVelocity");
+  // Until 2015 the angular velocity had a fourth number, but no word has.
+  particle.force = lines.vector("force");
+  return particle;
+}
+
+/// Whether `rest` is `before` numbers and then n springs of `size` numbers, n being its `at`-th.
+bool has_springs(const std::vector<double>& rest, std::size_t at, std::size_t before, double size)
+{
+  return at < rest.size() && static_cast<double>(rest.size() - before) == rest[at] * size;
+}
+
+/// The species in what follows the inertia. Version 3: it, or it, n and n springs of 12 numbers.
+/// (The program's own reader looks for it behind the springs, where its files do not have it.)
+/// Version 2: n and n springs of 6 numbers, with or without it before them.
+std::int32_t species_in(const std::vector<double>& rest, const MercuryRestart& restart,
+                        const MercuryLines& lines)
+{
+  const double spring = restart.positional == 3 ? 12 : 6;
+  if (restart.positional == 3 && rest.size() == 1) return static_cast<std::int32_t>(rest[0]);
+  if (has_springs(rest, 1, 2, spring)) return static_cast<std::int32_t>(rest[0]);
+  if (restart.positional == 2 && has_springs(rest, 0, 1, spring)) {
+    if (restart.density.size() == 1) return 0;
+    lines.fail(fmt::format("the row of a particle does not say to which of {} species it belongs",
+                           restart.density.size()));
+  }
+  lines.fail(
+      fmt::format("the {} numbers behind the inertia of a particle are not its species and springs "
+                  "as version {} has them",
+                  rest.size(), restart.positional));
+}
+
+Particle positional_particle(const MercuryLines& lines, const MercuryRestart& restart,
+                             std::size_t row)
+{
+  std::size_t first = 0;
+  while (first < lines.words().size() &&
+         std::isalpha(static_cast<unsigned char>(lines.words()[first][0])))
+    ++first;  // TSP BP
+  const auto numbers = lines.numbers(first);
+  if (numbers.size() < 16)
+    lines.fail(fmt::format(
+        "a particle of {} numbers; restart files of versions 2 and 3 have 16 or more: position, "
+        "velocity, radius, angle, angular velocity, inverse mass and inertia, species or springs",
+        numbers.size()));
+  Particle particle;
+  particle.id = static_cast<std::int64_t>(row);
+  particle.position = three(numbers, 0);
+  particle.velocity = three(numbers, 3);
+  particle.radius = numbers[6];
+  particle.angular_velocity = three(numbers, 10);
+  particle.inverse_mass = numbers[13];
+  particle.species = species_in({numbers.begin() + 15, numbers.end()}, restart, lines);
+  return particle;
+}
+
+}  // namespace
+
+MercuryRestart::Particle read_mercury_particle(const MercuryLines& lines,
+                                               const MercuryRestart& restart, std::size_t row)
+{
+  if (lines.kind() == "Clump" || lines.kind() == "SuperQuadricParticle")
+    lines.fail(fmt::format("a {} is not one sphere or disc, as grains are here", lines.kind()));
+  auto particle =
+      restart.positional > 0 ? positional_particle(lines, restart, row) : named_particle(lines);
+  if (particle.species < 0 || particle.species >= std::ssize(restart.density))
+    lines.fail("the particle belongs to none of the species above");
+  if (!(particle.radius > 0) || particle.inverse_mass < 0)
+    lines.fail("the radius of the particle is not positive, or its mass is negative");
+  return particle;
+}
+
 namespace {
 
 /// The first line: the version.

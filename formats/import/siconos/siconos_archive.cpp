@@ -1,19 +1,107 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/siconos/siconos_archive.hpp"
-
-#include "formats/import/common/apart_archive.hpp"
-#include "formats/import/common/enclosing_cell.hpp"
-#include "formats/import/common/file_list.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/import/common/apart.hpp"
+#include "formats/import/common/archive.hpp"
+#include "formats/import/common/archive_files.hpp"
 #include "formats/import/siconos/siconos_bodies.hpp"
-#include "formats/import/siconos/siconos_steps.hpp"
 #include "formats/import/siconos/siconos_table.hpp"
+#include "formats/trajectory/hdf5.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
+#include <memory>
+#include <string>
 #include <unordered_map>
+#include <vector>
 
 namespace grseg {
+
+/// The steps of a Siconos run, all of one length.
+struct SiconosSteps {
+  double length = 0;       // in units of time
+  std::int64_t every = 1;  // most steps between two that were written (output_frequency)
+  bool has_start = true;   // the state before the first one is there
+};
+
+/// From the first time of /data/dynamic, which is before the first step, and /data/solv, which has a
+/// row per step that was written: the first step, and then every output_frequency-th. Where the first
+/// rows of a run were taken away, so that /data/dynamic does not begin before /data/solv, the first
+/// two rows of /data/solv give the step. FormatError where the steps differ in length.
+SiconosSteps read_siconos_steps(hid_t file, const std::string& path);
+
+namespace {
+
+using namespace siconos;
+
+/// The first column of /data/solv.
+std::vector<double> solved_times(hid_t file, const std::string& path)
+{
+  const auto table = table_at(file, "/data/solv", path, written_by);
+  table.require(1, 1, true);
+  table.require(0, 1, true);
+  const auto rows = table.dims()[0], columns = table.dims()[1];
+  std::vector<float> values(rows * columns);
+  table.read_all(H5T_NATIVE_FLOAT, values.data());
+  std::vector<double> times;
+  for (hsize_t k = 0; k < rows; ++k) times.push_back(static_cast<double>(values[k * columns]));
+  return times;
+}
+
+/// The first time of /data/dynamic.
+double first_time(hid_t file, const std::string& path)
+{
+  const auto time = Places(file, "/data/dynamic", path, written_by).time();
+  if (!time) throw FormatError(fmt::format("{}: /data/dynamic has no rows; {}", path, written_by));
+  return *time;
+}
+
+std::string why_not_later(double time, double before)
+{
+  if (same_time(time, before))
+    return "has the time of the row before it: single precision no longer separates two steps; write "
+           "fewer of them (output_frequency)";
+  return "is not later than the row before it: the file is damaged, or holds two runs";
+}
+
+}  // namespace
+
+SiconosSteps read_siconos_steps(hid_t file, const std::string& path)
+{
+  const auto solved = solved_times(file, path);
+  const double start = first_time(file, path);
+  const auto fail = [&path](std::size_t row, const std::string& why) {
+    throw FormatError(fmt::format("{}: row {} of /data/solv {}", path, row, why));
+  };
+  const bool has_start = start < solved[0] && !same_time(start, solved[0]);
+  const std::size_t first = has_start ? 0 : 1;
+  if (solved.size() <= first)
+    fail(
+        0,
+        "is the only one, and no state before it is in the file: nothing tells how long a step is");
+  double before = has_start ? start : solved[0];
+  const double begin = before, rough = solved[first] - begin;
+  if (!(rough > 0) || !std::isfinite(rough)) fail(first, why_not_later(solved[first], before));
+  const double steps = std::round((solved.back() - begin) / rough);
+  SiconosSteps found{(solved.back() - begin) / std::max(1.0, steps), 1, has_start};
+  for (std::size_t k = first; k < solved.size(); ++k) {
+    const double apart = (solved[k] - before) / found.length, whole = std::round(apart);
+    if (whole < 1) fail(k, why_not_later(solved[k], before));
+    if (!(std::abs(solved[k] - before - whole * found.length) <
+          0.1 * found.length + 2.4e-7 * std::abs(solved[k])))
+      fail(k, fmt::format(
+                  "is not at a multiple of {:.6g} s: the steps are not all of the same length, "
+                  "so the impulses give no forces",
+                  found.length));
+    found.every = std::max(found.every, static_cast<std::int64_t>(whole));
+    before = solved[k];
+  }
+  return found;
+}
+
 namespace {
 
 using namespace hdf5;
@@ -292,8 +380,27 @@ FileRole role_of(const FileStart& start)
   return start.groups == std::vector<std::string>{"data"} ? FileRole::grains : FileRole::none;
 }
 
-}  // namespace
-
+/// The HDF5 file of a Siconos run of discs or spheres (siconos.io.mechanics_run 4.4,
+/// output_contact_forces), a contact-dynamics program: rows of /data/dynamic, /data/velocities and
+/// /data/cf are found by their times, in single precision. `files.grains` names the one file.
+///
+/// * Forces: /data/cf holds impulses of a step on body ds1, so force = impulse / step. The step is
+///   not in the file; it follows from /data/solv, which has a row per step that was written.
+/// * Moments: the times of /data/dynamic but the first: a step was solved at each. The initial state
+///   has no contacts. Where it was taken away, its place is taken by the first step, of which remarks()
+///   says that it is left out.
+/// * Partners: ds1 == ds2 means that the partner is static: the static disc, box or convex hull that
+///   the row's second point lies on. Static discs are grains with `fixed` set; they get the density
+///   of the first mobile grain, and their ids, which are negative, become numbers after the last
+///   mobile one. Boxes and hulls are walls, numbered in the order in which they were added.
+/// * Points: a sphere and a box may touch in several; their impulses are added.
+/// * A contact that has just opened stays in the table for one more step, with the geometry and
+///   relative velocity of the step before and an impulse that acted on no body. Such rows are left
+///   out; they can be recognised only where every step was written (output_frequency 1). Otherwise
+///   they stay, which remarks() says.
+/// * force of a grain: m (v - v of the step before) / step where every step was written.
+///
+/// Gravity is a Python function and not in the file. Units: as the run had them, SI by habit.
 std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
 {
   const auto names = archive_files(files.grains, "--grains");
@@ -303,6 +410,8 @@ std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
     return std::make_unique<SiconosArchive>(names[0], open_for_reading(names[0]));
   });
 }
+
+}  // namespace
 
 const ArchiveFormat siconos_format{
     .name = "siconos",

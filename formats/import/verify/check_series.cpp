@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -124,6 +127,139 @@ CheckSeries check_series(const TrajectoryReader& run)
                   [&](const std::string&, const char*, double& place) { place = (*column++)[k]; });
   }
   return series;
+}
+
+namespace {
+
+/// Text of six digits rounds contact forces by this fraction.
+constexpr double digits = 1e-6;
+/// Of the squares of y, what a line may leave over, and the fewest grains that it is drawn through.
+constexpr double largest_rest = 0.1, fewest_grains = 3;
+
+struct Weighted {
+  double weight;
+  Vec3 value;
+};
+
+Vec3 mean_of(const std::vector<Weighted>& values)
+{
+  Vec3 sum = Vec3::Zero();
+  double weights = 0;
+  for (const auto& [weight, value] : values) sum += weight * value, weights += weight;
+  return sum / weights;
+}
+
+/// Squared standard error of the mean. Of moments up to `lag` apart correlations are added, with
+/// weights that fall off to 0 (Newey and West 1987).
+double squared_error(const std::vector<Weighted>& values, const Vec3& mean, std::size_t lag)
+{
+  double total = 0;
+  for (const auto& [weight, value] : values) total += weight;
+  const auto product = [&](std::size_t a, std::size_t b) {
+    return values[a].weight * values[b].weight *
+           (values[a].value - mean).dot(values[b].value - mean);
+  };
+  double variance = 0;
+  for (std::size_t apart = 0; apart <= lag; ++apart) {
+    const double fade =
+        apart == 0 ? 1 : 2 * (1 - static_cast<double>(apart) / static_cast<double>(lag + 1));
+    for (std::size_t k = apart; k < values.size(); ++k) variance += fade * product(k, k - apart);
+  }
+  const auto n = static_cast<double>(values.size());
+  return std::max(0.0, variance) / (total * total) * n / (n - 1);
+}
+
+Estimate from_medians(const std::vector<Weighted>& values, double squared_within)
+{
+  Estimate estimate;
+  estimate.value = mean_of(values);
+  estimate.moments = values.size();
+  estimate.medians = true;
+  for (const auto& [weight, value] : values) estimate.grains += weight;
+  const double within = std::sqrt(squared_within) / estimate.grains;
+  const double between =
+      values.size() > 2 ? std::sqrt(squared_error(values, estimate.value, 0)) : 0;
+  estimate.error = std::max(within, between);
+  estimate.grains /= static_cast<double>(values.size());
+  return estimate;
+}
+
+}  // namespace
+
+std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate CheckMoment::*which)
+{
+  std::vector<Weighted> medians, sums;
+  double squared_within = 0, grains = 0;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    const auto& of = series[k].*which;
+    if (of.grains == 0) continue;
+    if (series[k].medians != 0) {
+      medians.push_back({of.grains, of.gravity});
+      const double error = std::hypot(of.error, digits * series[k].acceleration);
+      squared_within += of.grains * of.grains * error * error;
+    } else if (k > 0) {
+      sums.push_back({series[k].time - series[k - 1].time, of.gravity});
+      grains += of.grains;
+    }
+  }
+  if (!medians.empty()) return from_medians(medians, squared_within);
+  const std::size_t n = sums.size();
+  if (n < fewest_pairs) return std::nullopt;
+  Estimate estimate;
+  estimate.value = mean_of(sums);
+  estimate.moments = n;
+  estimate.grains = grains / static_cast<double>(n);
+  const auto lag = static_cast<std::size_t>(std::cbrt(static_cast<double>(n)));
+  estimate.error = std::sqrt(squared_error(sums, estimate.value, lag));
+  return estimate;
+}
+
+std::optional<Slope> slope_of(const SlopeSums& s)
+{
+  if (s.grains < fewest_grains || !(s.xx > 0) || !(s.yy > 0)) return std::nullopt;
+  Slope slope;
+  slope.grains = s.grains;
+  slope.value = s.xy / s.xx;
+  slope.doubt = std::max(0.0, 1 - s.xy * s.xy / (s.xx * s.yy));
+  if (slope.doubt > largest_rest || !(slope.value > 0)) return std::nullopt;
+  const double k = slope.value;
+  slope.error = std::sqrt(std::max(0.0, s.xy_xy - 2 * k * s.xx_xy + k * k * s.xx_xx)) / s.xx;
+  return slope;
+}
+
+SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckMoment::*which)
+{
+  SlopeSums sums;
+  for (const auto& moment : series) sums += moment.*which;
+  return sums;
+}
+
+CheckSeries half_of(const CheckSeries& series, bool second)
+{
+  const auto middle = series.begin() + static_cast<std::ptrdiff_t>(series.size() / 2);
+  return second ? CheckSeries(middle, series.end()) : CheckSeries(series.begin(), middle);
+}
+
+std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, double tolerance)
+{
+  const auto first = gravity_from(half_of(series, false), &CheckMoment::all);
+  const auto second = gravity_from(half_of(series, true), &CheckMoment::all);
+  if (!first || !second) return std::nullopt;
+  const double change = (second->value - first->value).norm();
+  if (change <= std::max(tolerance, 5 * std::hypot(first->error, second->error)))
+    return std::nullopt;
+  return Halves<Estimate>{*first, *second};
+}
+
+std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,
+                                             SlopeSums CheckMoment::*which)
+{
+  const auto first = slope_of(sums_of(half_of(series, false), which));
+  const auto second = slope_of(sums_of(half_of(series, true), which));
+  if (!first || !second) return std::nullopt;
+  const double unsure = first->uncertainty() + second->uncertainty();
+  if (std::abs(second->value - first->value) <= slope_tolerance + unsure) return std::nullopt;
+  return Halves<Slope>{*first, *second};
 }
 
 }  // namespace grseg

@@ -3,7 +3,6 @@
 
 #include "formats/import/verify/check_context.hpp"
 #include "formats/import/verify/check_series.hpp"
-#include "formats/import/verify/finding.hpp"
 
 #include <vector>
 

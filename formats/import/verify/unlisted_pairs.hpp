@@ -2,13 +2,47 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "formats/import/verify/listed_pairs.hpp"
-#include "formats/import/verify/near_pairs.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace grseg {
+
+/// Two grains that overlap or nearly touch.
+struct NearPair {
+  std::int32_t i = 0, j = 0;  // rows of the grains, i < j
+  double gap = 0;             // distance of the surfaces over the smaller radius; negative: overlap
+};
+
+/// All pairs of present grains with a gap of at most `widest` and that `counts` is true of, in order of
+/// i and j, across periods too; not pairs of which neither grain is mobile. Sizes may differ by any
+/// factor.
+template <int D>
+std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Frame<D>& frame,
+                                 double widest, const std::function<bool(const NearPair&)>& counts);
+
+/// The pairs that a list of contacts joins: rows of two grains, or of a grain and a wall, which has a
+/// negative one.
+class ListedPairs {
+ public:
+  using Pair = std::pair<std::int32_t, std::int32_t>;
+
+  /// With `pushing_only`, those that bear a force.
+  template <int D>
+  explicit ListedPairs(const ContactList<D>& contacts, bool pushing_only = false);
+
+  bool contains(std::int32_t i, std::int32_t j) const;
+  /// A pair that the list has more than once.
+  std::optional<Pair> twice() const;
+
+ private:
+  std::vector<std::size_t> begins_;  // of each grain in lower_, and the end
+  std::vector<std::int32_t> lower_;  // the other rows of its pairs, lower than its own, sorted
+};
 
 /// What the list of contacts of a moment leaves out. Pairs are those near_pairs() finds.
 struct UnlistedPairs {

@@ -2,8 +2,8 @@
 #include "formats/import/verify/verification.hpp"
 
 #include "formats/import/common/minimum_image.hpp"
+#include "formats/import/verify/imbalance.hpp"
 #include "formats/import/verify/judge.hpp"
-#include "formats/import/verify/unlisted_forces.hpp"
 
 #include <fmt/format.h>
 

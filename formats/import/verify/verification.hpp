@@ -2,8 +2,8 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
+#include "formats/import/verify/check_context.hpp"
 #include "formats/import/verify/check_series.hpp"
-#include "formats/import/verify/finding.hpp"
 #include "formats/import/verify/imbalance.hpp"
 #include "formats/import/verify/late_damping.hpp"
 #include "formats/import/verify/moment_statistics.hpp"

@@ -2,7 +2,6 @@
 #include "formats/import/common/apart.hpp"
 
 #include "formats/core/errors.hpp"
-#include "formats/import/common/apart_archive.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/common/number_row.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "formats/import/common/text_source.hpp"
 
 #include "formats/core/errors.hpp"
-#include "formats/import/common/file_list.hpp"
+#include "formats/import/common/archive_files.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
 #include <boost/iostreams/copy.hpp>

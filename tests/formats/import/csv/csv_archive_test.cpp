@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/csv/csv_archive.hpp"
+#include "formats/import/common/archive.hpp"
 
 #include "tests/formats/import/archive_balance.hpp"
 
@@ -45,7 +45,7 @@ class Csv : public testing::Test {
   }
   std::vector<ArchiveMoment> read(const std::string& grains, const std::string& contacts) const
   {
-    return all_of(*open_csv(files(grains, contacts)));
+    return all_of(*csv_format.open(files(grains, contacts)));
   }
   std::string complaint(const std::string& grains, const std::string& contacts) const
   {
@@ -100,7 +100,7 @@ TEST_F(Csv, ColumnsAreFoundByNameInAnyOrderAndSpelling)
 
 TEST_F(Csv, MomentsAreMatchedByTime)
 {
-  const auto archive = open_csv(files(grain_table, with(contact_table, "0.5,", "0.55,")));
+  const auto archive = csv_format.open(files(grain_table, with(contact_table, "0.5,", "0.55,")));
   ASSERT_EQ(all_of(*archive).size(), 1u);
   EXPECT_EQ(archive->remarks().size(), 2u);
 }
@@ -141,7 +141,7 @@ TEST_F(Csv, DamageIsNamedByLine)
       std::string::npos);
   EXPECT_NE(grains(with(grain_table, "0.105", "nan")).find("'nan' in column 4"), std::string::npos);
   auto all = files(grain_table.substr(0, grain_table.size() - 4), contact_table);
-  EXPECT_THROW(all_of(*open_csv(all)), TruncatedArchive);
+  EXPECT_THROW(all_of(*csv_format.open(all)), TruncatedArchive);
 }
 
 /// One file per step, whose name ends in the step.
@@ -161,7 +161,7 @@ class CsvPerStep : public Csv {
   std::string complaint_of(const ArchiveFiles& all) const
   {
     try {
-      all_of(*open_csv(all));
+      all_of(*csv_format.open(all));
     } catch (const ToolError& error) {
       return error.what();
     }
@@ -177,7 +177,7 @@ TEST_F(CsvPerStep, WindowsTablesHaveAMarkSemicolonsCommasInNumbersAndNoLastLineE
           mark + "id;x;y;radius;vx;vy\r\n7;0,1;0,2;0,05;1;2\r\n9;0,1;0,105;0,05;0;-1,5e-3");
     write(fmt::format("contacts_{:06}.csv", step), mark + "i;j;fx;fy\r\n7;9;0,25;-4");
   }
-  const auto moments = all_of(*open_csv(named("grains_*.csv", "contacts_*.csv")));
+  const auto moments = all_of(*csv_format.open(named("grains_*.csv", "contacts_*.csv")));
   ASSERT_EQ(moments.size(), 2u);
   EXPECT_EQ(*moments[0].step, 900);
   EXPECT_EQ(*moments[1].step, 1000);
@@ -193,7 +193,7 @@ TEST_F(CsvPerStep, TheStepIsWhatTheStarStandsForWhateverDigitsElseTheNameHas)
     write(fmt::format("mu0.5_{}_v2.csv", step), "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
     write(fmt::format("c{}.csv", step), "i,j,fx,fy\n7,9,0,0\n");
   }
-  const auto moments = all_of(*open_csv(named("mu0.5_*_v2.csv", "c*.csv")));
+  const auto moments = all_of(*csv_format.open(named("mu0.5_*_v2.csv", "c*.csv")));
   ASSERT_EQ(moments.size(), 3u);
   std::vector<std::int64_t> steps;
   for (const auto& moment : moments) steps.push_back(*moment.step);
@@ -206,7 +206,7 @@ TEST_F(CsvPerStep, ANumberWithAPointIsATime)
     write(fmt::format("g{}.csv", time), "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
     write(fmt::format("c{}.csv", time), "i,j,fx,fy\n7,9,0,0\n");
   }
-  const auto moments = all_of(*open_csv(named("g*.csv", "c*.csv")));
+  const auto moments = all_of(*csv_format.open(named("g*.csv", "c*.csv")));
   ASSERT_EQ(moments.size(), 2u);
   EXPECT_EQ(*moments[1].time, 0.75);
   EXPECT_FALSE(moments[1].step);
@@ -260,7 +260,7 @@ TEST_F(Csv, AMapGivesOtherNamesAndLeavesColumnsOut)
       "Cycle,particle1,particle2,Force(x),Force(y),t\n100,7,9,0.25,-4,text\n");
   all.map = {"Ball ID=id,pos_x=x,pos_y=y,velx=vx",
              "vely=vy,particle1=i,particle2=j,fx=,t=", "Force(x)=fx,Force(y)=fy"};
-  const auto moments = all_of(*open_csv(all));
+  const auto moments = all_of(*csv_format.open(all));
   ASSERT_EQ(moments.size(), 1u);
   EXPECT_EQ(*moments[0].step, 100);
   EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
@@ -275,7 +275,7 @@ TEST_F(Csv, AMapThatFitsNothingIsRefused)
   const auto said = [&](const std::string& map) {
     all.map = {map};
     try {
-      all_of(*open_csv(all));
+      all_of(*csv_format.open(all));
     } catch (const UsageError& error) {
       return std::string(error.what());
     }
@@ -306,7 +306,7 @@ TEST_F(Csv, ManyFilesWithTheirTimesMayEachHaveNamesOrNot)
   std::ofstream(folder / "part2.csv") << "0.5,9,0.1,0.105,0.05,0,0,0\n";
   std::ofstream(folder / "part3.csv") << "time,id,y,x,radius,vx,vy\n0.6,9,0.105,0.1,0.05,0,0\n";
   all.grains = {(folder / "part*.csv").string()};
-  const auto moments = all_of(*open_csv(all));
+  const auto moments = all_of(*csv_format.open(all));
   ASSERT_EQ(moments.size(), 2u);
   EXPECT_EQ(moments[0].grains.size(), 2u);
   EXPECT_EQ(moments[1].grains.position[0], Vec3(0.1, 0.105, 0));
@@ -315,7 +315,7 @@ TEST_F(Csv, ManyFilesWithTheirTimesMayEachHaveNamesOrNot)
 TEST_F(Csv, CommentsAboveTheNamesStateFactsOfTheRun)
 {
   const auto open = [&](const std::string& comments) {
-    return open_csv(files(comments + grain_table, contact_table));
+    return csv_format.open(files(comments + grain_table, contact_table));
   };
   const auto archive =
       open("# gravity: 3.8 -9 0\n# step: 1e-5\n# units: si\n# grains: discs\n# by hand\n");
@@ -404,7 +404,7 @@ TEST_F(Csv, TypesMayBeWords)
   const auto grains_of = [&](const std::string& types, std::size_t moment) {
     auto all = files(typed(types), contact_table);
     all.map = {"ParticleType=type"};
-    return all_of(*open_csv(all)).at(moment).grains;
+    return all_of(*csv_format.open(all)).at(moment).grains;
   };
   const auto words = grains_of("coarse fine coarse fine", 1);
   EXPECT_EQ(words.type, (std::vector<std::int32_t>{0, 1}));
@@ -428,7 +428,7 @@ class CsvWithoutNames : public Csv {
   {
     auto all = files(with(grain_rows, ",", separator), with(contact_rows, ",", separator));
     all.map = map;
-    return all_of(*open_csv(all));
+    return all_of(*csv_format.open(all));
   }
 };
 
@@ -465,7 +465,7 @@ TEST_F(CsvWithoutNames, ArePointedOutUntilTheirColumnsAreNamed)
             std::string::npos);
   auto all = files(grain_table, contact_table);
   all.map = {"3=x,12=y"};
-  EXPECT_THROW(open_csv(all), UsageError) << "there is no column 12";
+  EXPECT_THROW(csv_format.open(all), UsageError) << "there is no column 12";
 }
 
 TEST_F(CsvWithoutNames, MayHaveThemInTheCommentAbove)
@@ -486,7 +486,7 @@ TEST_F(Csv, TheNumberOfARowMayBeTheId)
   const auto ids = [&](const std::string& map) {
     all.map = {map};
     std::vector<std::int64_t> found;
-    for (const auto& moment : all_of(*open_csv(all)))
+    for (const auto& moment : all_of(*csv_format.open(all)))
       found.insert(found.end(), moment.grains.id.begin(), moment.grains.id.end());
     return found;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/csv/csv_archive.hpp"
+#include "formats/import/common/archive.hpp"
 #include "tests/formats/import/archive_balance.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ std::unique_ptr<Archive> open(const std::string& name)
   ArchiveFiles files;
   files.grains = {inputs + name + "-grains.csv.gz"};
   files.contacts = {inputs + name + "-contacts.csv.gz"};
-  return open_csv(files);
+  return csv_format.open(files);
 }
 
 /// Rows of `columns` numbers behind a time.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/dump_reader.hpp"
 
-#include "formats/import/common/file_list.hpp"
+#include "formats/import/common/archive_files.hpp"
 #include "formats/import/dump/dump_grains.hpp"
 #include "formats/import/dump/dump_pair.hpp"
 #include "tests/formats/import/lammps_text.hpp"

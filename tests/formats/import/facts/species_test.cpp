@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/species.hpp"
 
-#include "formats/import/facts/number_list.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
 #include <gtest/gtest.h>

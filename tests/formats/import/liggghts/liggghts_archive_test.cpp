@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/liggghts/liggghts_archive.hpp"
+#include "formats/import/common/archive.hpp"
 
 #include "formats/import/convert/importer.hpp"
-#include "formats/import/dump/named_columns.hpp"
+#include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/liggghts/liggghts_columns.hpp"
 #include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/archive_balance.hpp"
@@ -132,12 +132,12 @@ TEST(LiggghtsColumns, WhatIsMissingIsNamed)
 
 TEST_F(Liggghts, EverySelectionOfColumnsIsTheSameContacts)
 {
-  const auto whole = all_of(*open_liggghts(files("contacts-full35.dump")));
+  const auto whole = all_of(*liggghts_format.open(files("contacts-full35.dump")));
   ASSERT_EQ(whole.size(), 4u);
   for (const char* name : {"default25", "forcechain12", "part"}) {
     const bool part = std::string(name) == "part";
     const auto read =
-        all_of(*open_liggghts(files("contacts-" + std::string(name) + ".dump", part ? full : "")));
+        all_of(*liggghts_format.open(files("contacts-" + std::string(name) + ".dump", part ? full : "")));
     ASSERT_EQ(read.size(), whole.size()) << name;
     for (std::size_t k = 0; k < read.size(); ++k) {
       EXPECT_EQ(read[k].contacts.i, whole[k].contacts.i) << name;
@@ -150,7 +150,7 @@ TEST_F(Liggghts, EverySelectionOfColumnsIsTheSameContacts)
 TEST_F(Liggghts, GrainsBalanceWithinTheErrorOfReevaluatedForces)
 {
   double worst = 0;
-  for (const auto& moment : all_of(*open_liggghts(files("contacts-full35.dump")))) {
+  for (const auto& moment : all_of(*liggghts_format.open(files("contacts-full35.dump")))) {
     auto mobile = moment;
     for (const auto type : moment.grains.type) mobile.grains.fixed.push_back(type == 3);
     worst = std::max(worst, residual(mobile, pull));
@@ -192,7 +192,7 @@ TEST_F(Liggghts, AWrongReadingIsRefusedAndTheRightOneNamed)
 
 TEST_F(Liggghts, AnUnknownNumberOfColumnsNeedsAMapping)
 {
-  const auto archive = open_liggghts(files("contacts-part.dump"));
+  const auto archive = liggghts_format.open(files("contacts-part.dump"));
   ArchiveMoment moment;
   ASSERT_TRUE(archive->next(moment));
   ASSERT_EQ(moment.questions.size(), 1u);
@@ -211,7 +211,7 @@ TEST_F(Liggghts, NamesOfColumnsThatDoNotFitTheRowsAreNotAskedForAMapping)
   archive.contacts = {damaged};
   ArchiveMoment moment;
   try {
-    open_liggghts(archive)->next(moment);
+    liggghts_format.open(archive)->next(moment);
     ADD_FAILURE() << "34 names and 35 numbers";
   } catch (const FormatError& error) {
     EXPECT_EQ(error.what(), damaged + ", line 10: a row of 35 columns, but the header names 34");
@@ -262,7 +262,7 @@ TEST_F(Liggghts, NamesOfColumnsChooseAmongTheKnownOnes)
       renamed.replace(at, renamed.find('\n', at) - at, names);
     all.contacts = {(folder / "named.dump").string()};
     std::ofstream(all.contacts[0]) << renamed;
-    const auto archive = open_liggghts(all);
+    const auto archive = liggghts_format.open(all);
     ArchiveMoment moment;
     EXPECT_TRUE(archive->next(moment));
     EXPECT_TRUE(moment.questions.empty());

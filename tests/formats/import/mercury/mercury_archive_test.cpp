@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/mercury/mercury_archive.hpp"
+#include "formats/import/common/archive.hpp"
 
 #include "tests/formats/import/archive_balance.hpp"
 #include "tests/formats/import/flow_in_space.hpp"
@@ -75,7 +75,7 @@ class Mercury : public testing::Test {
   std::string complaint(const ArchiveFiles& all) const
   {
     try {
-      all_of(*open_mercury(all));
+      all_of(*mercury_format.open(all));
     } catch (const ToolError& error) {
       return error.what();
     }
@@ -101,7 +101,7 @@ void expect_contacts(const ContactList<2>& meant, const ArchiveContacts& read,
 
 void Mercury::expect_frames(const ArchiveFiles& all, bool with_spin) const
 {
-  const auto moments = all_of(*open_mercury(all));
+  const auto moments = all_of(*mercury_format.open(all));
   ASSERT_EQ(moments.size(), frames.size());
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const auto& grains = moments[k].grains;
@@ -175,7 +175,7 @@ TEST_F(Mercury, WallRowsHaveTheOppositeSign)
   all.grains = {file(
       "w.data", "2 0.02 0 0 1 1\n0.3217 0.1878 0 0 0.05 0 0 0\n0.4149 0.1977 0 0 0.05 0 0 0\n")};
   all.contacts = {file("w.fstat", block)};
-  const auto contacts = all_of(*open_mercury(all)).at(0).contacts;
+  const auto contacts = all_of(*mercury_format.open(all)).at(0).contacts;
   ASSERT_EQ(contacts.size(), 2u);
   EXPECT_EQ(contacts.wall, (std::vector<std::int32_t>{-1, 2}));
   EXPECT_EQ(contacts.force[1], Vec3(0, 0.00302676824, 0));
@@ -185,7 +185,7 @@ TEST_F(Mercury, WallRowsHaveTheOppositeSign)
 
 TEST_F(Mercury, RestartGivesMassesFixedGrainsAndThePeriod)
 {
-  const auto archive = open_mercury(files({}));
+  const auto archive = mercury_format.open(files({}));
   const auto moment = all_of(*archive).front();
   const auto& facts = archive->facts();
   EXPECT_DOUBLE_EQ(*facts.step, run.step());
@@ -204,9 +204,9 @@ TEST_F(Mercury, RestartGivesMassesFixedGrainsAndThePeriod)
 TEST_F(Mercury, InfoIsASpeciesOnlyOnRequest)
 {
   auto all = files({.info = 7});
-  EXPECT_NE(all_of(*open_mercury(all)).at(0).grains.type.at(0), 7);
+  EXPECT_NE(all_of(*mercury_format.open(all)).at(0).grains.type.at(0), 7);
   all.columns = "info=species";
-  EXPECT_EQ(all_of(*open_mercury(all)).at(0).grains.type.at(0), 7);
+  EXPECT_EQ(all_of(*mercury_format.open(all)).at(0).grains.type.at(0), 7);
   all.columns = "i=1";
   EXPECT_NE(complaint(all).find("info=species"), std::string::npos);
 }
@@ -221,7 +221,7 @@ TEST_F(Mercury, BlocksAreMatchedByTimeNotByOrder)
   all.grains = {
       file("more.data", data({}) + mercury_files::data(run.grains(), run.box(), late, {}))};
   expect_frames(all);
-  const auto archive = open_mercury(all);
+  const auto archive = mercury_format.open(all);
   all_of(*archive);
   ASSERT_EQ(archive->remarks().size(), 1u);
   EXPECT_NE(archive->remarks()[0].find("1 moments are in .fstat but not in the grains' files"),
@@ -247,7 +247,7 @@ TEST_F(Mercury, WithoutRestartPairsAcrossThePeriodAreRefused)
 {
   auto all = files({});
   all.restart.clear();
-  EXPECT_FALSE(open_mercury(all)->facts().step);
+  EXPECT_FALSE(mercury_format.open(all)->facts().step);
   EXPECT_NE(complaint(all).find("give --restart"), std::string::npos) << complaint(all);
 }
 
@@ -257,7 +257,7 @@ TEST_F(Mercury, ATruncatedBlockEndsTheArchiveAfterTheWholeOnes)
   const auto text = data({});
   for (const std::size_t cut : {1U, 40U, 5000U}) {
     all.grains = {file("cut.data", text.substr(0, text.size() - cut))};
-    const auto archive = open_mercury(all);
+    const auto archive = mercury_format.open(all);
     ArchiveMoment moment;
     EXPECT_TRUE(archive->next(moment));
     EXPECT_TRUE(archive->next(moment));

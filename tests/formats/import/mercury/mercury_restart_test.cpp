@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/common/minimum_image.hpp"
-#include "formats/import/mercury/mercury_archive.hpp"
+#include "formats/import/common/archive.hpp"
 #include "tests/formats/import/archive_balance.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 #include "tests/formats/import/mercury/mercury_restart_files.hpp"
@@ -109,7 +109,7 @@ class MercuryRestarts : public testing::Test {
   std::string complaint(const ArchiveFiles& files) const
   {
     try {
-      all_of(*open_mercury(files));
+      all_of(*mercury_format.open(files));
     } catch (const ToolError& error) {
       return error.what();
     }
@@ -130,7 +130,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 void MercuryRestarts::expect_frames(const ArchiveFiles& files, int id_factor) const
 {
-  const auto archive = open_mercury(files);
+  const auto archive = mercury_format.open(files);
   const auto moments = all_of(*archive);
   ASSERT_EQ(moments.size(), frames.size());
   EXPECT_DOUBLE_EQ(*archive->facts().step, run.step());
@@ -197,7 +197,7 @@ TEST_F(MercuryRestarts, IdsAreThoseOfTheProgramAndNotRows)
 
 TEST_F(MercuryRestarts, OneFileIsOneMoment)
 {
-  EXPECT_EQ(all_of(*open_mercury(one(text_of(0)))).size(), 1u);
+  EXPECT_EQ(all_of(*mercury_format.open(one(text_of(0)))).size(), 1u);
 }
 
 TEST_F(MercuryRestarts, OldVersionsHaveTheGrainsAndFStatTheForces)
@@ -213,7 +213,7 @@ TEST_F(MercuryRestarts, OldVersionsHaveTheGrainsAndFStatTheForces)
     files.grains = {folder / "old.restart.*"};
     EXPECT_TRUE(mentions(complaint(files), "give it as --grains and the .fstat")) << version;
     files.contacts = {folder.write("old.fstat", fstat)};
-    const auto archive = open_mercury(files);
+    const auto archive = mercury_format.open(files);
     const auto moments = all_of(*archive);
     ASSERT_EQ(moments.size(), frames.size());
     EXPECT_DOUBLE_EQ(*archive->facts().step, run.step());
@@ -270,7 +270,7 @@ TEST_F(MercuryRestarts, AFileThatEndsEarlyIsTruncatedWhereverItIsCut)
   const auto last_row = whole.find("hGrid");
   for (const std::size_t size : {last_row - 1, last_row - 300, whole.find("Interactions"),
                                  whole.find("Particles") + 500, whole.find("Walls") + 12})
-    EXPECT_THROW(open_mercury(one(whole.substr(0, size))), TruncatedArchive) << size;
+    EXPECT_THROW(mercury_format.open(one(whole.substr(0, size))), TruncatedArchive) << size;
   EXPECT_TRUE(mentions(complaint(one(whole.substr(0, last_row - 1))), "ends in its interactions"));
   EXPECT_EQ(complaint(one(whole.substr(0, last_row))), "no complaint");
 }
@@ -304,7 +304,7 @@ TEST_F(MercuryRestarts, GravityThatChangesIsRefused)
 TEST_F(MercuryRestarts, RowsOfDataNameGrainsAsLongAsGrainsAreOnlyInserted)
 {
   const auto n = run.grains().size();
-  const auto moments = all_of(*open_mercury(tables(data({n - 4, n - 4, n}), text_of(2))));
+  const auto moments = all_of(*mercury_format.open(tables(data({n - 4, n - 4, n}), text_of(2))));
   ASSERT_EQ(moments.size(), 3u);
   EXPECT_EQ(moments[0].grains.size(), n - 4);
   EXPECT_EQ(moments[2].grains.size(), n);

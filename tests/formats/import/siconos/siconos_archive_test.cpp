@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/siconos/siconos_archive.hpp"
+#include "formats/import/common/archive.hpp"
 
 #include "formats/import/siconos/siconos_bodies.hpp"
 #include "formats/trajectory/hdf5.hpp"
@@ -30,7 +30,7 @@ std::unique_ptr<Archive> open(const std::string& path)
 {
   ArchiveFiles files;
   files.grains = {path};
-  return open_siconos(files);
+  return siconos_format.open(files);
 }
 
 /// A copy of the file after some damage.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/verify/near_pairs.hpp"
+#include "formats/import/verify/unlisted_pairs.hpp"
 
 #include "formats/import/common/minimum_image.hpp"
 

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/common/archive_files.hpp"
+
+#include "formats/core/byte_order_mark.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
+#include "formats/import/common/apart.hpp"
+#include "formats/import/common/text_source.hpp"
+#include "formats/import/common/text_values.hpp"
+#include "formats/trajectory/hdf5.hpp"
+
+#include <fmt/format.h>
+#include <glob.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace grseg {
+namespace {
+
+bool is_digit(char c)
+{
+  return c >= '0' && c <= '9';
+}
+
+/// The run of digits at `at`, without leading zeros; moves `at` behind it.
+std::string number_at(const std::string& text, std::size_t& at)
+{
+  const auto begin = at;
+  while (at < text.size() && is_digit(text[at])) ++at;
+  const auto digits = text.substr(begin, at - begin);
+  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
+}
+
+/// `%` stands for the number of a processor unless it is part of a name.
+std::vector<std::string> matches_of(std::string pattern)
+{
+  glob_t found{};
+  std::vector<std::string> names;
+  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+    names.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  globfree(&found);
+  if (!names.empty() || pattern.find('%') == std::string::npos) return names;
+  std::replace(pattern.begin(), pattern.end(), '%', '*');
+  return matches_of(std::move(pattern));
+}
+
+}  // namespace
+
+bool natural_less(const std::string& a, const std::string& b)
+{
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const auto x = number_at(a, i), y = number_at(b, j);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else if (a[i] != b[j]) {
+      return a[i] < b[j];
+    } else {
+      ++i;
+      ++j;
+    }
+  }
+  return a.size() - i < b.size() - j;
+}
+
+std::vector<std::string> files_meant(const std::vector<std::string>& names)
+{
+  auto files = names;
+  for (const auto& name : names) {
+    const auto found = matches_of(name);
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+std::vector<std::string> archive_files(const std::vector<std::string>& names,
+                                       const std::string& option)
+{
+  if (names.empty()) throw UsageError(fmt::format("name files with {}", option));
+  std::vector<std::string> files;
+  for (const auto& name : names) {
+    if (name.find_first_of("*%") == std::string::npos || std::filesystem::exists(name)) {
+      require_file(name);
+      files.push_back(name);
+      continue;
+    }
+    const auto found = matches_of(name);
+    if (found.empty()) throw UsageError(fmt::format("{} {}: no file matches", option, name));
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  std::stable_sort(files.begin(), files.end(), natural_less);
+  return files;
+}
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr auto unpack_first = "unpack it, and name the files that were in it";
+constexpr auto repack =
+    "unpack it, or pack it by gzip, bzip2, xz or zstd, which are read as they are";
+constexpr auto to_tables = "write its grains and contacts as tables (--format csv)";
+constexpr auto to_dumps =
+    "it lacks what an import needs; write `dump custom` for grains and `dump local` for contacts";
+constexpr auto in_pandas = "make a table of it, in Python by pandas and to_csv (--format csv)";
+constexpr auto from_restart =
+    "read it there, and write `dump custom` for grains and `dump local` for contacts by `run 0`";
+constexpr auto binary2txt = "turn it into text by binary2txt, which comes with LAMMPS";
+constexpr auto from_paraview =
+    "write dumps as text instead, or save it as a table in ParaView (--format csv)";
+
+struct Signature {
+  std::string_view bytes;
+  std::size_t at;
+  const char* what;
+  const char* way_out;
+};
+
+constexpr Signature signatures[] = {
+    {"PK\x03\x04"sv, 0, "a zip archive, as xlsx, ods and npz are",
+     "unpack it and name the files that were in it, or save its sheets or arrays as tables (--format "
+     "csv)"},
+    {"PK\x05\x06"sv, 0, "an empty zip archive", unpack_first},
+    {"ustar"sv, 257, "a tar archive", unpack_first},
+    {"7z\xbc\xaf\x27\x1c"sv, 0, "a 7z archive", unpack_first},
+    {"Rar!\x1a\x07"sv, 0, "a rar archive", unpack_first},
+    {"\x1f\x8b"sv, 0, "packed twice", "unpack it once"},
+    {"\x28\xb5\x2f\xfd"sv, 0, "packed twice", "unpack it once"},
+    {"\xfd\x37zXZ\0"sv, 0, "packed twice", "unpack it once"},
+    {"\x31\x41\x59\x26\x53\x59"sv, 4, "packed twice", "unpack it once"},  // bzip2
+    {"\x04\x22\x4d\x18"sv, 0, "packed by lz4", repack},
+    {"LZIP"sv, 0, "packed by lzip", repack},
+    {"\x1f\x9d"sv, 0, "packed by compress", repack},
+    {"\x5d\0\0"sv, 0, "packed by lzma", repack},
+    {"PAR1"sv, 0, "a table of Parquet", in_pandas},
+    {"ARROW1"sv, 0, "a table of Arrow", in_pandas},
+    {"FEA1"sv, 0, "a table of Feather", in_pandas},
+    {"\x80\x03"sv, 0, "a pickle of Python", in_pandas},
+    {"\x80\x04"sv, 0, "a pickle of Python", in_pandas},
+    {"\x80\x05"sv, 0, "a pickle of Python", in_pandas},
+    {"\x93NUMPY"sv, 0, "an array of numpy", in_pandas},
+    {"MATLAB 5.0"sv, 0, "a file of MATLAB", to_tables},
+    {"SQLite format 3"sv, 0, "a database of SQLite", to_tables},
+    {"\xd0\xcf\x11\xe0"sv, 0, "a spreadsheet of Excel", "save its sheets as tables (--format csv)"},
+    {"CDF\x01"sv, 0, "a netCDF file", to_dumps},
+    {"CDF\x02"sv, 0, "a netCDF file", to_dumps},
+    {"CDF\x05"sv, 0, "a netCDF file", to_dumps},
+    {"\x89HDF\r\n\x1a\n"sv, 0, "an HDF5 file",
+     "--format siconos reads those of Siconos; of others write grains and contacts as tables "
+     "(--format csv)"},
+    {"# vtk DataFile"sv, 0, "a VTK file", from_paraview},
+    {"<VTKFile"sv, 0, "a VTK file", from_paraview},
+    {"---\n"sv, 0, "a YAML file", to_dumps},
+    {"---\r\n"sv, 0, "a YAML file", to_dumps},
+    {"Number of particles ="sv, 0, "a file of AtomEye (cfg)", to_dumps},
+    {"LammpS RestartT"sv, 0, "a restart file of LAMMPS", from_restart},
+    {"Version LIGGGHTS"sv, 8, "a restart file of LIGGGHTS", from_restart},
+    {"LAMMPS data file"sv, 0, "a data file of LAMMPS", from_restart},
+    {"LAMMPS ("sv, 0, "a log of LAMMPS", "name its dumps"},
+    {"DUMPATOM"sv, 8, "a binary dump of LAMMPS", binary2txt},
+    {"DUMPCUSTOM"sv, 8, "a binary dump of LAMMPS", binary2txt},
+    {"serialization::archive"sv, 8, "a saved simulation of YADE",
+     "load it there and write tables by scripts/archives/yade_export.py"},
+    {"\xdf\x65\xdf\x65\xdf\x65\xdf\x65"sv, 0, "a GSD file of HOOMD", to_tables},
+    {"CORD"sv, 4, "a DCD file, which holds positions alone", to_dumps},
+    {"\0\0\x07\xc9"sv, 0, "a trajectory of GROMACS", to_dumps},
+    {"\0\0\x07\xcb"sv, 0, "a trajectory of GROMACS", to_dumps},
+    {"version https://git-lfs"sv, 0, "a pointer of Git LFS",
+     "fetch the file itself (git lfs pull)"},
+    {"<!DOCTYPE html"sv, 0, "a page of HTML", "download the file itself"},
+    {"<html"sv, 0, "a page of HTML", "download the file itself"},
+    {"%PDF"sv, 0, "a PDF", to_tables},
+    {"\xff\xfe"sv, 0, "text in UTF-16", "save it as UTF-8"},
+    {"\xfe\xff"sv, 0, "text in UTF-16", "save it as UTF-8"},
+};
+
+std::string is_of(const char* what, const char* way_out)
+{
+  return fmt::format("is {}: {}", what, way_out);
+}
+
+/// The words of the first lines.
+std::vector<std::vector<std::string_view>> words_by_line(std::string_view start)
+{
+  constexpr std::size_t most = 20;
+  std::vector<std::vector<std::string_view>> lines;
+  while (!start.empty() && lines.size() < most) {
+    const auto end = std::min(start.find('\n'), start.size());
+    lines.push_back(
+        words_of(start.substr(0, start.substr(0, end).ends_with('\r') ? end - 1 : end)));
+    start.remove_prefix(std::min(end + 1, start.size()));
+  }
+  return lines;
+}
+
+bool are_numbers(const std::vector<std::string_view>& words, std::size_t first)
+{
+  double number = 0;
+  return words.size() > first &&
+         std::all_of(words.begin() + static_cast<std::ptrdiff_t>(first), words.end(),
+                     [&](std::string_view word) { return read_number(word, number); });
+}
+
+/// A number of rows, a comment, then rows of an element and at least three numbers.
+bool is_xyz(const std::vector<std::vector<std::string_view>>& lines)
+{
+  return lines.size() > 2 && lines[0].size() == 1 && are_numbers(lines[0], 0) &&
+         lines[2].size() > 3 && are_numbers(lines[2], 1);
+}
+
+/// After any first line "12 atoms" and "0 1 xlo xhi".
+bool is_data_of_lammps(const std::vector<std::vector<std::string_view>>& lines)
+{
+  const auto has = [&](std::size_t words, std::string_view last) {
+    return std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+      return line.size() == words && line.back() == last && are_numbers({line[0]}, 0);
+    });
+  };
+  return has(2, "atoms") && (has(4, "xhi") || has(3, "types"));
+}
+
+}  // namespace
+
+std::string other_kind(std::string_view start)
+{
+  if (start.starts_with(byte_order_mark)) start.remove_prefix(byte_order_mark.size());
+  for (const auto& [bytes, at, what, way_out] : signatures)
+    if (start.size() >= at && start.substr(at).starts_with(bytes)) return is_of(what, way_out);
+  if (start.starts_with("<?xml"))
+    return start.find("<VTKFile") != start.npos ? is_of("a VTK file", from_paraview)
+                                                : is_of("an XML file", to_tables);
+  for (const auto json : {"{\""sv, "{\n"sv, "[{"sv, "[["sv, "[\n"sv})
+    if (start.starts_with(json)) return is_of("a JSON file", in_pandas);
+  constexpr std::size_t early = 16;
+  if (start.substr(0, early).find('\0') != start.npos)
+    return is_of("not text",
+                 "turn a binary dump into text by binary2txt, save a table in UTF-16 as UTF-8");
+  const auto lines = words_by_line(start);
+  if (is_xyz(lines)) return is_of("an xyz file", to_dumps);
+  if (is_data_of_lammps(lines)) return is_of("a data file of LAMMPS", from_restart);
+  return "";
+}
+
+std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
+{
+  const auto has = [&](const char* name) {
+    return std::find(groups.begin(), groups.end(), name) != groups.end();
+  };
+  if (has("h5md")) return is_of("an H5MD file of another program, without contacts", to_tables);
+  if (has("VTKHDF")) return is_of("a VTK file", from_paraview);
+  if (has("frame") || has("coordinates")) return is_of("a netCDF file", to_dumps);
+  return "";
+}
+
+namespace {
+
+struct Hdf5Start {
+  std::vector<std::string> groups;  // names in the root
+  bool of_grseg = false;
+};
+
+Hdf5Start start_of_hdf5(const std::string& path)
+{
+  Apart apart(path, [&](const Apart::Send& send) {
+    const auto file = hdf5::open_for_reading(path);
+    Hdf5Start start{hdf5::names_in(file, "/"), hdf5::exists(file, "/h5md/modules/grseg")};
+    packing::Pack pack;
+    pack(start.groups, start.of_grseg);
+    send(pack.bytes);
+  });
+  Hdf5Start start;
+  packing::Unpack unpack(apart.receive(path));
+  unpack(start.groups, start.of_grseg);
+  return start;
+}
+
+}  // namespace
+
+void refuse_other_kind(const std::string& path)
+{
+  constexpr std::size_t enough = 4096;
+  require_file(path);
+  std::string kind;
+  if (hdf5::is_hdf5(path)) {
+    const auto start = start_of_hdf5(path);
+    if (start.of_grseg)
+      throw UsageError(fmt::format(
+          "{} is a trajectory of grseg already; grseg-stress and the other tools read it as it is",
+          path));
+    kind = other_kind_of_hdf5(start.groups);
+  } else {
+    kind = other_kind(unpacked_start(path, enough));
+  }
+  if (!kind.empty()) throw FormatError(fmt::format("{} {}", path, kind));
+}
+
+FileStart read_start(const std::string& path)
+{
+  refuse_other_kind(path);
+  FileStart start{std::filesystem::path(path).filename().string(), {}, {}};
+  if (hdf5::is_hdf5(path)) {
+    start.groups = start_of_hdf5(path).groups;
+    return start;
+  }
+  constexpr std::size_t most = 20;
+  TextSource text({path});
+  while (start.lines.size() < most && text.next()) start.lines.emplace_back(text.line());
+  return start;
+}
+
+}  // namespace grseg

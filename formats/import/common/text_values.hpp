@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/import/common/archive.hpp"
+#include "formats/import/common/text_source.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace grseg {
+
+/// A finite number as C or Fortran writes it: 1e-5, +.5, 1.0D-05, 1.0-105; one too small to be held is 0.
+/// False for other words.
+bool read_number(std::string_view word, double& number);
+
+/// The numbers of the current line of `source`, separated by blanks or by `separator`. FormatError
+/// naming the line and the first word that is not a finite number.
+void read_numbers(const TextSource& source, std::vector<double>& numbers, char separator = ' ');
+
+/// The types of an archive's grains, which it gives as numbers or as words, the same at all moments.
+class TypeNames {
+ public:
+  /// Whether a type may have this number.
+  static bool is_type(double number);
+  /// A number that stands for the word; itself, if it is one. None where it cannot be a type: empty, a
+  /// number that is not whole or too large, or more than ten thousand different words.
+  std::optional<double> read(std::string_view word);
+
+  /// Fills in `type` and, where one of them is a word, `type_names`. FormatError naming `place` where
+  /// types were numbers at moments before.
+  void fill(std::span<const double> read, const std::string& place, ArchiveGrains& grains);
+
+ private:
+  std::int32_t place_of(std::string_view word);
+
+  std::vector<std::string> words_;
+  std::unordered_map<std::string, std::int32_t> places_;  // in words_
+  bool has_words_ = false, had_numbers_ = false;
+};
+
+}  // namespace grseg

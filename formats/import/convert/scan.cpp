@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/convert/scan.hpp"
+
+#include "formats/cli/interruption.hpp"
+#include "formats/import/convert/imported_bed.hpp"
+#include "formats/import/convert/moments.hpp"
+#include "formats/import/facts/cell_and_walls.hpp"
+#include "formats/import/facts/proposals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace grseg {
+namespace {
+
+/// Collects the grains of one moment after another.
+class Collector {
+ public:
+  void add(const ArchiveMoment& moment)
+  {
+    const auto& now = moment.grains;
+    if (moments_++ == 0) begin(moment);
+    enclose(moment);
+    roster_.fewest = std::min(roster_.fewest, now.size());
+    roster_.most = std::max(roster_.most, now.size());
+    for (std::size_t g = 0; g < now.size(); ++g) add_grain(moment, g);
+    if (now.size() > 0) roster_.all.grains.missing = now.missing;
+    roster_.all.grains.type_names = now.type_names;
+    if (now.size() > 0) counts_periods_ = counts_periods_ && now.counts_periods();
+  }
+  Roster finish();
+
+ private:
+  void begin(const ArchiveMoment& first)
+  {
+    roster_.all.step = first.step;
+    roster_.all.time = first.time;
+    roster_.all.low = first.low;
+    roster_.all.high = first.high;
+    roster_.all.periodic = first.periodic;
+    roster_.all.cell = first.cell;
+    roster_.all.place = fmt::format("all moments from {} on", first.place);
+    roster_.fewest = first.grains.size();
+  }
+  void enclose(const ArchiveMoment& moment)
+  {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (roster_.all.periodic[static_cast<std::size_t>(axis)]) continue;
+      roster_.all.low[axis] = std::min(roster_.all.low[axis], moment.low[axis]);
+      roster_.all.high[axis] = std::max(roster_.all.high[axis], moment.high[axis]);
+    }
+  }
+  void add_grain(const ArchiveMoment& moment, std::size_t g);
+  void add_new(const ArchiveMoment& moment, std::size_t g);
+
+  struct Seen {
+    std::size_t times = 0, last = 0;  // the number of the moment
+  };
+  Roster roster_;
+  std::size_t moments_ = 0;
+  bool counts_periods_ = true;  // every moment so far
+  std::unordered_map<std::int64_t, std::size_t> row_;
+  std::vector<Seen> seen_;
+};
+
+void Collector::add_grain(const ArchiveMoment& moment, std::size_t g)
+{
+  const auto& now = moment.grains;
+  auto& all = roster_.all.grains;
+  const auto [place, is_new] = row_.try_emplace(now.id[g], all.size());
+  const std::size_t row = place->second;
+  if (is_new) add_new(moment, g);
+  auto& seen = seen_[row];
+  if (seen.last == moments_)
+    throw FormatError(fmt::format("{}: grain {} appears twice", moment.place, now.id[g]));
+  seen.last = moments_;
+  ++seen.times;
+  if (!is_new) require_same_grain(all, row, now, g, moment.place);
+  all.position[row] += now.position[g];
+  if (!now.velocity.empty() && now.velocity[g].norm() > all.velocity[row].norm())
+    all.velocity[row] = now.velocity[g];
+}
+
+void Collector::add_new(const ArchiveMoment& moment, std::size_t g)
+{
+  const auto& now = moment.grains;
+  auto& all = roster_.all.grains;
+  const auto copy = [g](const auto& from, auto& to) {
+    if (!from.empty()) to.push_back(from[g]);
+  };
+  all.id.push_back(now.id[g]);
+  copy(now.type, all.type);
+  copy(now.radius, all.radius);
+  copy(now.mass, all.mass);
+  copy(now.fixed, all.fixed);
+  all.position.emplace_back(Vec3::Zero());
+  const auto make_room = [](const auto& from, auto& to) {
+    if (!from.empty()) to.emplace_back(Vec3::Zero());
+  };
+  make_room(now.velocity, all.velocity);
+  make_room(now.angular_velocity, all.angular_velocity);
+  make_room(now.force, all.force);
+  seen_.emplace_back();
+  const auto require = [&](const auto& values, const char* what) {
+    if (!values.empty() && values.size() != all.size())
+      throw FormatError(fmt::format(
+          "{}: some moments have {} of grains and some do not; import them separately, with --begin "
+          "and --end",
+          moment.place, what));
+  };
+  require(all.type, "types");
+  require(all.radius, "radii");
+  require(all.mass, "masses");
+  require(all.fixed, "fixed flags");
+  require(all.velocity, "velocities");
+  require(all.angular_velocity, "angular velocities");
+  require(all.force, "forces");
+}
+
+Roster Collector::finish()
+{
+  auto& all = roster_.all.grains;
+  for (std::size_t row = 0; row < all.size(); ++row)
+    all.position[row] /= static_cast<double>(seen_[row].times);
+  all.unwrapped = counts_periods_;
+  roster_.moments = moments_;
+  return std::move(roster_);
+}
+
+bool same_ids(const ArchiveGrains& a, const ArchiveGrains& b)
+{
+  if (a.size() != b.size()) return false;
+  if (a.id == b.id) return true;  // programs often keep the order
+  auto first = a.id, second = b.id;
+  std::sort(first.begin(), first.end());
+  std::sort(second.begin(), second.end());
+  return first == second;
+}
+
+}  // namespace
+
+Roster read_roster(const ImportSettings& settings)
+{
+  Moments moments(settings, settings.files.columns);
+  Collector collector;
+  for (ArchiveMoment moment; moments.next_grains(moment);) {
+    stop_if_interrupted();
+    collector.add(moment);
+  }
+  return collector.finish();
+}
+
+bool grains_change_early(const ImportSettings& settings)
+{
+  constexpr int early = 20;
+  try {
+    Moments moments(settings, settings.files.columns);
+    ArchiveMoment first, moment;
+    if (!moments.next_grains(first)) return false;
+    for (int k = 1; k < early && moments.next_grains(moment); ++k)
+      if (!same_ids(first.grains, moment.grains)) return true;
+  } catch (const ToolError&) {  // to be reported when it is that moment's turn
+  }
+  return false;
+}
+
+void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,
+                        std::size_t g, const std::string& place)
+{
+  const auto refuse = [&](const char* what, double before, double after, const char* remedy) {
+    throw FormatError(fmt::format("{}: the {} of grain {} changes from {:g} to {:g}; {}", place,
+                                  what, now.id[g], before, after, remedy));
+  };
+  constexpr const char* used_again =
+      "was its id used again after a grain had been removed? Then import the moments before and "
+      "after it separately, with --begin and --end";
+  constexpr const char* later =
+      "was its mass set only after it had been poured in, or its id used again after a removal? Then "
+      "import the moments before and after it separately, with --begin and --end";
+  constexpr const char* frozen =
+      "grains that are frozen or let go later are another bed: import the phases separately, with "
+      "--begin and --end";
+  const auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(a)); };
+  const auto compare = [&](const auto& before, const auto& after, const char* what,
+                           const auto& different, const char* remedy) {
+    if (before.empty() || after.empty() || !different(before[row], after[g])) return;
+    refuse(what, before[row], after[g], remedy);
+  };
+  const auto unequal = [](auto a, auto b) { return a != b; };
+  compare(known.radius, now.radius, "radius", differ, used_again);
+  compare(known.mass, now.mass, "mass", differ, later);
+  compare(known.type, now.type, "type", unequal, frozen);
+  compare(known.fixed, now.fixed, "fixed flag", unequal, frozen);
+}
+
+namespace {
+
+/// Where walls bound the flow there need not be one.
+bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
+{
+  const auto& species = settings.species;
+  return grains.fixed.empty() && !species.boundary && !species.boundary_ids;
+}
+
+/// Settings as if the proposal were accepted: "--boundary 3" or "--boundary-ids 1-35".
+void propose_base(const Question& question, SpeciesSettings& settings)
+{
+  const auto blank = question.option.find(' ');
+  settings.boundary.reset();
+  (question.option.starts_with("--boundary-ids") ? settings.boundary_ids : settings.boundary) =
+      question.option.substr(blank + 1);
+}
+
+SpeciesSettings with_one_species(const SpeciesSettings& settings)
+{
+  SpeciesSettings one;
+  one.named = {"grains=all"};
+  one.boundary = settings.boundary;
+  one.boundary_ids = settings.boundary_ids;
+  return one;
+}
+
+}  // namespace
+
+OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& columns,
+                             std::shared_ptr<const Roster> roster, Questions questions)
+    : moments_(settings, columns), roster_(std::move(roster))
+{
+  if (!moments_.next(moment))
+    throw FormatError(fmt::format(
+        "{}: the archive holds no moment with grains and contacts; is it whole?",
+        settings.files.grains.empty() ? settings.files.restart : settings.files.grains.front()));
+  if (!roster_ && moment.grains.size() == 0)
+    throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
+  const auto full = roster_ ? full_moment(settings, columns) : moment;
+  for (const auto& question : full.questions) questions.ask(question);
+  const auto resting = resting_grains_of(settings, columns);
+  facts = collect_facts(archive().facts(), {all_grains(), full, resting}, settings, questions);
+  ask_for_the_bed(settings, resting, questions);
+  questions.report();
+}
+
+bool OpenedArchive::next()
+{
+  if (!moments_.next(moment)) return false;
+  if (!moment.questions.empty()) throw OpenQuestions(moment.questions);
+  return true;
+}
+
+/// Where nothing says which grains are the base. Without a roster the next moment tells, too.
+std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& settings,
+                                                   const std::string& columns) const
+{
+  if (!base_is_open(all_grains().grains, settings)) return {};
+  if (roster_) return resting_grains(roster_->all.grains, nullptr);
+  Moments ahead(settings, columns);
+  ArchiveMoment later;
+  const bool more = ahead.next_grains(later) && ahead.next_grains(later);
+  return resting_grains(moment.grains, more ? &later.grains : nullptr);
+}
+
+/// One of the first moments that has half of the grains, or as many as there are; with the questions
+/// of all before it.
+ArchiveMoment OpenedArchive::full_moment(const ImportSettings& settings,
+                                         const std::string& columns) const
+{
+  constexpr int furthest = 100;
+  Moments ahead(settings, columns);
+  ArchiveMoment full, next;
+  std::vector<Question> questions;
+  for (int k = 0; k < furthest && 2 * full.grains.size() < roster_->most && ahead.next(next); ++k) {
+    if (questions.empty()) questions = next.questions;
+    if (k == 0 || next.grains.size() > full.grains.size()) full = next;
+  }
+  full.questions = questions;
+  return full;
+}
+
+/// What species and origin leave open. Where other answers are missing, what else is wrong may come
+/// from that.
+void OpenedArchive::ask_for_the_bed(const ImportSettings& settings,
+                                    const std::vector<bool>& resting, Questions& questions) const
+{
+  auto trial = settings;
+  const auto& grains = all_grains().grains;
+  const bool has_walls = !facts.walls.empty();
+  if (base_is_open(grains, trial) && (!has_walls || !resting.empty())) {
+    trial.species.boundary = "none";
+    auto question = question_of_base(grains, resting);
+    if (resting.empty()) {
+      const auto origin = proposed_origin(grains, facts.orientation.axes);
+      question.reason.insert(std::string("or --boundary none").size(), " " + origin);
+      questions.ask(question);
+      trial.origin = "0";
+    } else {
+      propose_base(question, trial.species);
+    }
+  }
+  ask_for_the_cell(settings, questions);
+  try {
+    questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
+    trial.species = with_one_species(trial.species);  // else open species hide an open origin
+    questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
+  } catch (const ToolError&) {
+    if (!questions.any()) throw;
+  }
+}
+
+/// All moments are read for what is proposed.
+Question OpenedArchive::question_of_cell(const ImportSettings& settings, int axis) const
+{
+  double low = all_grains().low[axis], high = all_grains().high[axis];
+  if (!roster_) {
+    try {
+      const auto all = read_roster(settings).all;
+      low = all.low[axis], high = all.high[axis];
+    } catch (const ToolError&) {  // to be reported when it is that moment's turn
+    }
+  }
+  const char name = "xyz"[axis];
+  return {fmt::format("the ends of the cell along {}", name),
+          "--cell " + ToldCell{axis, low, high, false}.text(),
+          "the archive states none, or one that follows its grains; this is their extent over all "
+          "moments"};
+}
+
+/// Areas and volumes are those of the cell.
+void OpenedArchive::ask_for_the_cell(const ImportSettings& settings, Questions& questions) const
+{
+  const auto walls = parse_walls(settings.walls);
+  for (const int direction : {0, 2}) {
+    const auto axis = facts.orientation.axes.axis_of(direction);
+    if (!axis || (direction == 2 && facts.dimension == 2) || between_walls(walls, *axis)) continue;
+    if (all_grains().cell[static_cast<std::size_t>(*axis)] == CellSource::grains)
+      questions.ask(question_of_cell(settings, *axis));
+  }
+}
+
+OpenedArchive open_with_roster(const ImportSettings& settings)
+{
+  Questions questions;
+  const auto proposed = with_proposed_files(settings, questions);
+  return {proposed, proposed.files.columns, std::make_shared<const Roster>(read_roster(proposed)),
+          questions};
+}
+
+OpenedArchive open_with_grains(const ImportSettings& settings)
+{
+  Questions questions;
+  const auto proposed = with_proposed_files(settings, questions);
+  try {
+    return {proposed, proposed.files.columns, nullptr, questions};
+  } catch (const OtherGrains&) {
+  } catch (const UsageError&) {
+    if (!grains_change_early(proposed)) throw;
+  }
+  return open_with_roster(settings);
+}
+
+}  // namespace grseg
