@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""questions, stages, closures, denser, rigid-limit and answers, on runs and rows whose results are known in advance; and how
-second-program cuts an archive back.
+"""questions, stages, closures, denser, rigid-limit and answers, on runs and rows whose results are known in advance.
 
 Usage: open_questions_test.py SCRIPTS
 """
@@ -431,26 +430,6 @@ class Answers(unittest.TestCase):
         for name, flow in flows.items():
             part = after.split(f"<!-- {name} -->")[1].split(f"<!-- /{name} -->")[0]
             self.assertEqual([line.split("|")[1].strip() for line in part.strip().splitlines()[2:]], [flow])
-
-
-class SecondProgram(unittest.TestCase):
-    """What an interrupted LAMMPS has written from its last restart on is cut off, since it writes that again."""
-
-    def test_frames_from_the_restart_on_are_cut_off(self):
-        second_program = program("../second-program")
-        frame = lambda step: f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x\n1 {step / 7!r}\n"
-        with tempfile.TemporaryDirectory() as work:
-            for name in ("atoms.dump", "contacts.dump"):
-                with open(os.path.join(work, name), "w") as dump:
-                    dump.write("".join(map(frame, (0, 100, 200, 300))) + "ITEM: TIMESTEP\n400\nITEM: NUM")
-            for name in ("flow.100.restart", "flow.200.restart", "flow.1000.restart.part"):
-                open(os.path.join(work, name), "w").close()
-            last = second_program.restart_file(work)
-            self.assertEqual(last, ("flow.200.restart", 200))
-            second_program.frames_until(work, last[1])
-            for name in ("atoms.dump", "contacts.dump"):
-                with open(os.path.join(work, name)) as dump:
-                    self.assertEqual(dump.read(), frame(0) + frame(100))
 
 
 if __name__ == "__main__":

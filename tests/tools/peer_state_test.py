@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The state that scripts/peers/state.py gives other programs is the run's, in units d_S = g = rho = 1.
+"""The state that scripts/archives/state.py gives other programs is the run's, in units d_S = g = rho = 1.
 
 Usage: peer_state_test.py STATE.py RUN.h5
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes the state of a run at the end of a frame's step (default: the last) for other programs.
 
-    scripts/peers/state.py run.h5 --to data|text [--at S] [-o FILE]
+    scripts/archives/state.py run.h5 --to data|text [--at S] [-o FILE]
 
 Units of the output: small nominal diameter = gravity = density (mass per area) = 1. A frame holds
 positions at mid-step and velocities after the step; positions are advanced by the other half step and
