@@ -1,4 +1,4 @@
-# Which choices meet which number of the paper: FOLDER/combined.tsv, of scripts/reproduce/combinations --figure.
+# Which choices meet which number of the paper: FOLDER/combined.tsv, of scripts/reproduce/campaign combinations --figure.
 #   gnuplot -c scripts/figures/combinations.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "combinations.gp") - 1]."names.gp"
 folder = named(ARG1)

@@ -1,5 +1,5 @@
 # Contacts per grain, mean force and their product over the time step: whole bed of phi_L = 0.45 at 23 degrees
-# from 10 to 60 s, of FOLDER/flows.tsv (scripts/reproduce/flows):
+# from 10 to 60 s, of FOLDER/flows.tsv (scripts/reproduce/campaign flows):
 #   gnuplot -c scripts/figures/step.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "step.gp") - 1]."names.gp"
 folder = named(ARG1)

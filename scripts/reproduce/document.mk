@@ -23,6 +23,7 @@ BOOTSTRAP ?= 1000
 
 $(call check_names,HERE BIN TABLES WORK DOCUMENT ANNEX PICTURES)
 $(call check_values,BOOTSTRAP)
+reduce := /usr/bin/python3 $(CURDIR)/campaign
 work := $(call absolute,$(WORK))
 bin := $(call absolute,$(BIN))
 tables := $(if $(TABLES),$(call absolute,$(TABLES)),$(work)/kept)
@@ -35,7 +36,7 @@ gp := ../figures
 reproduction.md:
 # The kept tables are unpacked before make looks for runs.
 ifeq ($(TABLES),)
-unpacked := $(shell $(CURDIR)/unpack $(KEPT) $(tables) >&2 || echo no)
+unpacked := $(shell $(reduce) unpack $(KEPT) $(tables) >&2 || echo no)
 $(if $(unpacked),$(error data/reproduction holds no tables that can be unpacked; name a folder with tables: TABLES=FOLDER))
 endif
 runs := $(sort $(patsubst %/checksums,%,$(wildcard $(tables)/*/checksums)))
@@ -61,7 +62,7 @@ inside := --heights 4dS:56dS --quiet
 # One number for all mixtures, as published (docs/studies/uncertainty.md).
 fit = $(bin)/grseg-fit --over compositions --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
 micro = $(bin)/grseg-micro --derived --overwrite -o $@
-scripts := $(CURDIR)/tables.py $(CURDIR)/profiles.py
+code = $(1:%=campaign/%.py) campaign/tables.py ../shared.py
 every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
 
 $(work):
@@ -86,26 +87,26 @@ $(work)/ends.tsv: $(every) | $(work)
 	$(micro) $(call of,$(mixtures),micro) $(inside) --pool composition --force normal --average ends
 $(work)/time.tsv: $(every) | $(work)
 	$(micro) $(firstword $(call of,phi0.45-s23,micro)) --quiet
-$(work)/profile.tsv: $(every) $(scripts) ../profile | $(work)
+$(work)/profile.tsv: $(every) $(call code,profiles) ../profile | $(work)
 	../profile $(call of,phi0.30-s23,stress) --kinetic $(call of,phi0.30-s23,kinetic) --last-third > $@
-$(work)/balance-profile.tsv: $(every) ../balance-profile | $(work)
+$(work)/balance-profile.tsv: $(every) ../balance-profile ../shared.py | $(work)
 	../balance-profile $(call of,phi0.30-s23,balance) > $@
 $(work)/snapshots.tsv: $(every) | $(work)
 	cp $(firstword $(call of,phi0.30-s23,snapshots)) $@
-$(work)/fits.tsv: $(every) fits $(scripts) | $(work)
-	./fits $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP))
-$(work)/flows.tsv: $(work)/fits.tsv flows $(scripts)
-	./flows $(tables) $< -o $@ --bin $(bin)
+$(work)/fits.tsv: $(every) $(call code,fits) | $(work)
+	$(reduce) fits $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP))
+$(work)/flows.tsv: $(work)/fits.tsv $(call code,flows)
+	$(reduce) flows $(tables) $< -o $@ --bin $(bin)
 # The tables behind the choices are not kept, only their result.
-$(work)/choices.tsv: $(every) choices $(scripts) | $(work)
-	$(if $(TABLES),./choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
+$(work)/choices.tsv: $(every) $(call code,fits) | $(work)
+	$(if $(TABLES),$(reduce) choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
 # What it took trajectories to make.
 $(work)/combinations.tsv: $(KEPT)/combinations.tsv | $(work)
 	cp $< $@
-$(work)/combined.tsv: $(work)/combinations.tsv combined.py combinations
-	./combinations $< --figure $@ > /dev/null
-$(work)/numbers.tsv: $(every) numbers rise.py $(scripts) | $(work)
-	./numbers $(tables) -o $@ --bin $(bin)
+$(work)/combined.tsv: $(work)/combinations.tsv $(call code,combinations combined)
+	$(reduce) combinations $< --figure $@ > /dev/null
+$(work)/numbers.tsv: $(every) $(call code,measures rise profiles) | $(work)
+	$(reduce) numbers $(tables) -o $@ --bin $(bin)
 
 # Each figure and its tables; a picture is a PNG or a PDF by the end of its name.
 both = $(foreach name,$(1),$(work)/$(name).png $(work)/$(name).pdf)
@@ -137,11 +138,11 @@ choices.tsv: $(work)/choices.tsv
 reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv combinations.tsv)
 	mkdir -p $(PICTURES)
 	cp $(pictures) $(PICTURES)
-	./document $(work) $(DOCUMENT) $(ANNEX)
+	$(reduce) document $(work) $(DOCUMENT) $(ANNEX)
 
-kept: keep $(scripts) $(work)/choices.tsv
+kept: $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }
 	@test -n "$(filter $(tables)/phi0.45-s23-e%,$(runs))" || { echo "$(tables) holds no sensitivities, which data/reproduction needs: make -C scripts sensitivities" >&2; exit 2; }
 	mkdir -p $(KEPT)
-	./keep $(tables) $(KEPT)/tables.tar.bz2
+	$(reduce) keep $(tables) $(KEPT)/tables.tar.bz2
 	cp $(work)/choices.tsv $(KEPT)

@@ -3,6 +3,7 @@
 
 include $(scripts)/../values.mk
 run := $(call quote_each,$(RUN))
+campaign := /usr/bin/python3 $(scripts)/campaign
 
 .PHONY: done FORCE
 .DELETE_ON_ERROR:
@@ -21,7 +22,7 @@ checksums: $(TABLES) $(PAGE) cost.tsv
 	$(if $(PAGE),@echo '$(notdir $(CURDIR)) is finished')
 
 run.h5: scene.ini
-	$(run) $(scripts)/simulate $(bin)/grseg-sim $(call quote,$(CHECKPOINT_EVERY))
+	$(run) $(campaign) simulate $(bin)/grseg-sim $(call quote,$(CHECKPOINT_EVERY))
 
 # What a word in the name of a table, behind its tool, asks for; strideN: one frame of N.
 word_branch := --assign branch
@@ -52,18 +53,18 @@ sums := $(filter-out $(extracts),$(TABLES))
 command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_of) --quiet)
 
 # Tables that were made by another command are made again.
-outdated := $(shell $(scripts)/outdated $(call quote,$(AGAIN)) $(extracts) $(PAGE) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))
+outdated := $(shell $(campaign) outdated $(call quote,$(AGAIN)) $(extracts) $(PAGE) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))
 $(if $(filter gone,$(outdated)),$(error $(notdir $(CURDIR)): $(filter-out gone,$(outdated)): missing, or made by another \
   command than now, and the trajectory was deleted; AGAIN=yes simulates the run again))
 $(outdated): FORCE
 
-table = $(run) $(scripts)/table $@
+table = $(run) $(campaign) table $@
 $(filter-out stress-random.tsv,$(sums)): run.h5
 	$(table) $(bin)/$(call command_of,$(basename $@))
 $(extracts): run.h5
-	$(table) $(scripts)/extract $(basename $@) run.h5
+	$(table) $(campaign) extract $(basename $@) run.h5
 stress-random.tsv: run.h5
-	$(run) $(scripts)/relabel run.h5 $(trajectory_stress-random)
+	$(run) $(campaign) relabel run.h5 $(trajectory_stress-random)
 	$(table) $(bin)/$(call command_of,$(basename $@))
 	rm $(trajectory_stress-random)
 
@@ -73,5 +74,5 @@ page.html: run.h5 stress.tsv
 
 # Wall times, which no checksum covers: tables are the same whether or not their run was interrupted.
 cost.tsv: run.h5 $(TABLES)
-	$(scripts)/cost > $@.new
+	$(campaign) cost > $@.new
 	mv $@.new $@

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/reproduce/combinations on tables made from the numbers that it should find: combinations_test.py SCRIPTS"""
+"""scripts/reproduce/campaign combinations on tables made from the numbers that it should find: combinations_test.py SCRIPTS"""
 import math
 import os
 import sys
@@ -7,11 +7,11 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from known_campaign import D, program  # noqa: E402
+from known_campaign import D  # noqa: E402
+import combinations  # noqa: E402
 import combined  # noqa: E402
 import numpy as np  # noqa: E402
 
-combinations = program("combinations")
 H = 0.02  # thickness of a layer, m
 PREFACTOR, EXPONENT, LEVEL, DECAY, SHARE = 1.4413, 1.0057, 0.98, 14.8, 0.65
 

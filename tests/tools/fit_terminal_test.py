@@ -6,7 +6,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scripts"))
-import sealed_tables  # noqa: E402
+import shared  # noqa: E402
 import terminal  # noqa: E402
 
 program, sums = sys.argv[1:]
@@ -23,7 +23,7 @@ def in_pipe(*more):
 
 def made_with(table, words, more):
     """The table as made with more words on the command line, which is part of its history."""
-    return sealed_tables.sealed(sealed_tables.unsealed(table).replace(words, words + more))
+    return shared.sealed(shared.unsealed(table).replace(words, words + more))
 
 
 def main():

@@ -3,8 +3,6 @@
 grseg-fit, grseg-micro and grseg-segregation are stood in for by a script that prints what the test put down for its arguments, so
 that what is asked of them, and what is made of their answers, is tested and not they.
 """
-import importlib.machinery
-import importlib.util
 import json
 import math
 import os
@@ -15,19 +13,12 @@ import tempfile
 import unittest
 
 scripts = sys.argv.pop(1)
-sys.path.insert(0, os.path.join(scripts, "reproduce"))
+campaign = os.path.join(scripts, "reproduce", "campaign")
+sys.path.insert(0, campaign)
 import tables  # noqa: E402
 
 D, G, SLOPE, RHO = 0.005, 9.8, math.radians(23), 1.0
 UNIT = RHO * G * D  # of stress, N/m
-
-
-def program(name):
-    """A script without .py as a module, not run."""
-    loader = importlib.machinery.SourceFileLoader(name, os.path.join(scripts, "reproduce", name))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
-    loader.exec_module(module)
-    return module
 
 
 # Prints the first answer in answers.json all of whose words are among the arguments, and logs the arguments.
@@ -100,7 +91,7 @@ class Campaign:
         with open(os.path.join(self.bin, "answers.json"), "w") as file:
             json.dump(self.answers, file)
         made = os.path.join(self.folder, "made.tsv")
-        done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", script), self.tables,
+        done = subprocess.run(["/usr/bin/python3", "-B", campaign, script, self.tables,
                                *words, "-o", made, "--bin", self.bin], capture_output=True, text=True)
         if done.returncode != 0:
             raise AssertionError(done.stderr)

@@ -11,11 +11,14 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from known_campaign import D, G, Pipeline, fitted, program, scripts  # noqa: E402
+from known_campaign import D, G, Pipeline, campaign, fitted  # noqa: E402
+import answers  # noqa: E402
+import closures  # noqa: E402
 import numpy as np  # noqa: E402
+import questions  # noqa: E402
+import stages  # noqa: E402
 import tables  # noqa: E402
 
-questions, stages, rigid_limit, answers, denser, mixtures = map(program, ("questions", "stages", "rigid-limit", "answers", "denser", "mixtures"))
 SPEED = math.sqrt(G * D)
 BEADS = math.pi / 4 * (2 * D) ** 2  # area of a large grain
 
@@ -268,14 +271,14 @@ class Denser(Pipeline):
         for b in np.linspace(0, 1, 11):
             c = 1000 * (1 + b)
             points = [self.point(excess, (b * (1 + self.PHI * excess) - excess) / c) for excess in (-0.2, 0, 0.2, 1)]
-            found = {row["of"]: row["value"] for row in denser.conclusions(points)}
+            found = {row["of"]: row["value"] for row in closures.conclusions(points)}
             expected = {"slope": -(1 - b * self.PHI) / c, "at_zero": b / c, "c": c, "B": b, "stops": 1 + b / (1 - b * self.PHI), "share": 0.65 + c / 5000}
             for name, value in expected.items():
                 self.assertAlmostEqual(found[name], value, 9, f"{name} where B is {b}")
 
     def test_intervals_are_those_of_runs_that_scatter_about_the_line(self):
         def line(level, slope):
-            return {row["of"]: row for row in denser.conclusions(
+            return {row["of"]: row for row in closures.conclusions(
                 [self.point(excess, level + slope * excess + off) for excess, off in ((-1, 1e-5), (0, -2e-5), (1, 1e-5))])}
 
         found = line(3e-4, -1e-3)
@@ -290,7 +293,7 @@ class Denser(Pipeline):
 
     def test_a_ratio_is_the_mean_of_its_runs_as_sure_as_their_scatter_about_the_line(self):
         points = [self.point(excess, 1e-4 * value) for excess, value in ((0, 3), (0, 5), (1, 1), (1, 3))]
-        one, two = denser.ratios(points)
+        one, two = closures.ratios(points)
         self.assertEqual((one["of"], one["runs"], two["of"]), ("D = 0", 2, "D = 1"))
         self.assertAlmostEqual(one["value"], 4e-4, 12)
         # Four residuals of 1e-4 over two degrees of freedom, t = 4.303; of the mean of two.
@@ -315,11 +318,11 @@ class RigidLimit(unittest.TestCase):
 
     def test_of_equal_errors_the_line_is_that_of_the_text_book(self):
         x, y, e = [1.0, 2.0, 3.0, 4.0], [1.0, 2.0, 2.0, 4.0], 0.5
-        level, of_level, slope, of_slope, chi2 = rigid_limit.line(x, y, [e] * 4)
+        level, slope, (of_level, _, of_slope), chi2 = tables.line(x, y, [1 / e**2] * 4)
         self.assertAlmostEqual(slope, 0.9)  # sxy/sxx = 4.5/5
         self.assertAlmostEqual(level, 0.0)
-        self.assertAlmostEqual(of_slope, e / math.sqrt(5))
-        self.assertAlmostEqual(of_level, e * math.sqrt(1 / 4 + 2.5**2 / 5))
+        self.assertAlmostEqual(math.sqrt(of_slope), e / math.sqrt(5))
+        self.assertAlmostEqual(math.sqrt(of_level), e * math.sqrt(1 / 4 + 2.5**2 / 5))
         self.assertAlmostEqual(chi2, (0.1**2 + 0.2**2 + 0.7**2 + 0.4**2) / e**2)
 
     def test_a_power_law_is_extrapolated_to_its_limit(self):
@@ -333,18 +336,18 @@ class RigidLimit(unittest.TestCase):
         with tempfile.TemporaryDirectory() as work:
             path, out = os.path.join(work, "questions.tsv"), os.path.join(work, "limit.tsv")
             tables.write(path, "rows", list(rows[0]), rows)
-            subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", "rigid-limit"), path, "-o", out], check=True)
+            subprocess.run(["/usr/bin/python3", "-B", campaign, "rigid-limit", path, "-o", out], check=True)
             found = {(row["of"], row["power"]): row for row in tables.read(out)[1]}
             self.assertAlmostEqual(found["B", 1]["limit"], 0.034, 7)
             self.assertAlmostEqual(found["B", 1]["k"], 3, 4)
-            _, of_limit, _, _, _ = rigid_limit.line([row["overlap"] for row in rows[:4]], [row["B"] for row in rows[:4]], [0.002] * 4)
-            self.assertAlmostEqual(found["B", 1]["limit_high"] - 0.034, 3.182 * of_limit, 6)
+            _, _, (of_limit, _, _), _ = tables.line([row["overlap"] for row in rows[:4]], [row["B"] for row in rows[:4]], [1 / 0.002**2] * 4)
+            self.assertAlmostEqual(found["B", 1]["limit_high"] - 0.034, 3.182 * math.sqrt(of_limit), 6)
             self.assertLess(found["B", 1]["chi2"], 1e-6)
             self.assertGreater(found["B", 0.5]["chi2"], 1e-3)
             self.assertAlmostEqual(found["p_star", 0.5]["limit"], 0.65, 6)
             self.assertEqual(found["K", 1]["rows"], 4)
             tables.write(path, "rows", list(rows[0]), rows[:2])
-            refused = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", "rigid-limit"), path, "-o", out],
+            refused = subprocess.run(["/usr/bin/python3", "-B", campaign, "rigid-limit", path, "-o", out],
                                      capture_output=True, text=True)
             self.assertNotEqual(refused.returncode, 0)
             self.assertIn("three are needed", refused.stderr)
@@ -360,7 +363,7 @@ class Answers(unittest.TestCase):
             path = os.path.join(work, "page.md")
             with open(path, "w") as page:
                 page.write(text)
-            done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", "answers"), work, path], capture_output=True, text=True)
+            done = subprocess.run(["/usr/bin/python3", "-B", campaign, "answers", work, path], capture_output=True, text=True)
             with open(path) as page:
                 return done, page.read()
 
@@ -387,7 +390,7 @@ class Answers(unittest.TestCase):
             for page, text in zip(pages, ("one\n", "two\n<!-- stages -->\n<!-- /stages -->\n")):
                 with open(page, "w") as out:
                     out.write(text)
-            words = ["/usr/bin/python3", "-B", os.path.join(scripts, "reproduce", "answers"), work, *pages]
+            words = ["/usr/bin/python3", "-B", campaign, "answers", work, *pages]
             subprocess.run(words, check=True)
             with open(pages[0]) as a, open(pages[1]) as b:
                 self.assertEqual(a.read(), "one\n")

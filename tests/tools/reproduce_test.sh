@@ -36,50 +36,50 @@ h5dump -d /parameters/history killed/phi0.45-s23-seed1/run.h5 | grep -q 'restart
   fail "the simulation started from the beginning: $(cat killed/phi0.45-s23-seed1/run.log)"
 wait $whole || fail "$(cat whole.log)"
 cp whole.log log
-did reproduce/simulate 1
+did 'campaign simulate' 1
 [ ! -e whole/phi0.45-s23-seed1/run.h5 ] || fail "the trajectory was not deleted"
 (cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "the checksums are wrong"
 campaign OUT=whole >log 2>&1
 did grseg- 0
 
 campaign OUT=killed >log 2>&1 || fail "$(cat log)"
-did reproduce/simulate 0
+did 'campaign simulate' 0
 did grseg-stress 0
 [ "$(tables whole)" = "$(tables killed)" ] || fail "tables differ after kills: $(diff <(tables whole) <(tables killed))"
 [ -z "$(find killed -name '*.part' -o -name 'run.*' ! -name run.log)" ] || fail "temporary files remain: $(ls killed/*)"
 
 campaign OUT=whole PARTITION=uniform:0.8 >log 2>&1
-did reproduce/ 0
-did ./fits 1
+did 'campaign table' 0
+did 'campaign fits' 1
 grep -q 'uniform:0.8' whole/rules.tsv || fail "the new partition is missing from the fits: $(cat log)"
 
 # refused TABLES WORDS: the campaign stops because the trajectory is missing, and changes nothing.
 refused() {
   campaign OUT=whole PARTITION=uniform:0.8 "${@:2}" >log 2>&1 && fail "tables were made without a trajectory: $(cat log)"
   grep -q "phi0.45-s23-seed1: $1: missing, or made by another.*AGAIN=yes" log || fail "the reason is not given: $(cat log)"
-  did reproduce/simulate 0
+  did 'campaign simulate' 0
 }
 refused 'check.tsv stress.tsv .*' WINDOW=0.5
 (cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "a refusal changed tables"
 rm whole/phi0.45-s23-seed1/micro.tsv
 refused micro.tsv
 campaign -j2 OUT=whole PARTITION=uniform:0.8 AGAIN=yes KEEP=1 >log 2>&1
-did reproduce/simulate 1
+did 'campaign simulate' 1
 (cd whole/phi0.45-s23-seed1 && sha256sum --quiet -c checksums) || fail "a table that was lost is different after it was made again"
 sed -i 's/--assign branch/--assign grain/' whole/phi0.45-s23-seed1/stress-branch.tsv
 campaign OUT=whole PARTITION=uniform:0.8 KEEP=1 >log 2>&1
-did reproduce/simulate 0
-did 'reproduce/table' 1
+did 'campaign simulate' 0
+did 'campaign table' 1
 did 'table stress-branch.tsv' 1
 [ "$(tables whole | grep -v rules.tsv)" = "$(tables killed | grep -v rules.tsv)" ] || fail "a table made by another command was not made again"
 campaign -j2 OUT=whole PARTITION=uniform:0.8 KEEP=1 WINDOW=0.5 >log 2>&1
-did reproduce/simulate 0
+did 'campaign simulate' 0
 did 'grseg-.*--window 0.5' 17
 
 code=0
 make -C "$source/scripts/reproduce" run NAME=phi0.45-s23-seed9 BIN="$bin" OUT="$folder/whole" >log 2>&1 || code=$?
 { [ $code = 2 ] && grep -q "phi0.45-s23-seed9: unknown run; make names lists the runs" log; } || fail "an unknown run: $(cat log)"
-"$source/scripts/reproduce/scene" phi0.45-x3 1 1 1 1 1 >log 2>&1 && fail "an unknown word in a name: $(cat log)"
+/usr/bin/python3 "$source/scripts/reproduce/campaign" scene phi0.45-x3 1 1 1 1 1 >log 2>&1 && fail "an unknown word in a name: $(cat log)"
 grep -q "scene: phi0.45-x3: 'x3' is not a part of a run's name" log || fail "$(cat log)"
 
 # A run of the control, whose labels are drawn anew after it, has all tables of a question.

@@ -3,8 +3,6 @@
 
 Usage: reproduction_numbers_test.py SCRIPTS
 """
-import importlib.machinery
-import importlib.util
 import math
 import os
 import sys
@@ -12,22 +10,16 @@ import tempfile
 import unittest
 
 scripts = sys.argv.pop(1)
-sys.path.insert(0, os.path.join(scripts, "reproduce"))
+sys.path.insert(0, os.path.join(scripts, "reproduce", "campaign"))
+import keep  # noqa: E402
 import measured  # noqa: E402
+import measures as numbers  # noqa: E402
 import profiles  # noqa: E402
 import rise  # noqa: E402
 import statements  # noqa: E402
 import tables  # noqa: E402
 import targets  # noqa: E402
 import verdicts  # noqa: E402
-
-
-def program(name):
-    """A script without .py as a module, not run."""
-    loader = importlib.machinery.SourceFileLoader(name, os.path.join(scripts, "reproduce", name))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
-    loader.exec_module(module)
-    return module
 
 
 COLUMNS = ["t0[s]", "t1[s]", "y0[m]", "y1[m]", "frames", "V[m^2]", "area_S[m^2]", "area_L[m^2]"] + [
@@ -112,7 +104,6 @@ class Reproduction(unittest.TestCase):
             profiles.Profile([self.table], begin=1.5)
 
     def test_windows_taken_together_weight_by_frames_and_keep_the_sums(self):
-        keep = program("keep")
         names = ["t0", "t1", "y0", "y1", "frames", "V", "sum"]
         rows = [[0, 1, 0, 1, 3, 7, 10], [0, 1, 1, 2, 3, 7, 4], [1, 2, 0, 1, 1, 7, 2]]
         # The upper layer is not there in the second window: empty in one frame of four.
@@ -292,7 +283,6 @@ class Reproduction(unittest.TestCase):
         self.assertAlmostEqual(rise.trend_where_alike(of_mixture, ("phi",)), 0.05 * 3 / 1.7, 12)
 
     def test_separated_species_have_gone_all_the_way_and_mixed_ones_half_of_it(self):
-        numbers = program("numbers")
         d, layers = 0.005, 10
 
         def bed(large_at):

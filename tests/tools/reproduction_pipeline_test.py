@@ -11,8 +11,9 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from known_campaign import Campaign, D, G, HEAD, Pipeline, RHO, SLOPE, UNIT, fitted, program, scripts, text_of  # noqa: E402
+from known_campaign import Campaign, D, G, HEAD, Pipeline, RHO, SLOPE, UNIT, fitted, text_of  # noqa: E402
 import measured  # noqa: E402
+import measures as numbers  # noqa: E402
 import profiles  # noqa: E402
 import statements  # noqa: E402
 import tables  # noqa: E402
@@ -20,7 +21,6 @@ import targets  # noqa: E402
 import verdicts  # noqa: E402
 
 
-numbers = program("numbers")
 NAN = math.nan
 
 
@@ -43,7 +43,7 @@ def moving(n, t=0, energy=0.0, bias=0.0):
 
 
 class Numbers(Pipeline):
-    """The measurements of scripts/reproduce/numbers one by one, on a run and on answers known by heart."""
+    """The measurements of scripts/reproduce/campaign numbers one by one, on a run and on answers known by heart."""
 
     def part(self, **quantities):
         self.campaign.run("phi0.30-s23-seed1", **quantities)
@@ -257,7 +257,7 @@ class Choices(Pipeline):
 
 class Statistics(unittest.TestCase):
     def test_the_listed_quantiles_are_those_of_students_distribution(self):
-        for freedom, t in tables.STUDENT.items():
+        for freedom, t in tables.shared.STUDENT.items():
             if freedom > 1000:
                 continue
             # The density of t, integrated by Simpson's rule, from 0 to the quantile: 0.475.

@@ -1,9 +1,7 @@
 #!/usr/bin/python3
-"""B of a real run from sums with all their digits and from the same sums as scripts/reproduce/keep rounds them: they
-differ by no more than rounding can do, with both bounds computed from the digits alone (scripts/reproduce/rounding).
+"""B of a real run from sums with all their digits and from the same sums as scripts/reproduce/campaign/keep.py rounds them: they
+differ by no more than rounding can do, with both bounds computed from the digits alone (scripts/reproduce/campaign/rounding.py).
 Usage: rounding_test.py SOURCE BIN"""
-import importlib.machinery
-import importlib.util
 import json
 import os
 import subprocess
@@ -12,17 +10,12 @@ import tempfile
 
 sys.dont_write_bytecode = True
 source, programs = sys.argv[1:]
-folder = os.path.join(source, "scripts", "reproduce")
-sys.path.insert(0, folder)
+sys.path.insert(0, os.path.join(source, "scripts", "reproduce", "campaign"))
+import keep  # noqa: E402
+import rounding  # noqa: E402
+
 HEIGHTS = (0.02, 0.12)  # m, without the lowest layer
 DIGITS = 2
-
-
-def script(name):
-    loader = importlib.machinery.SourceFileLoader(name, os.path.join(folder, name))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
-    loader.exec_module(module)
-    return module
 
 
 class Run:
@@ -42,7 +35,7 @@ def b_of(table):
     return next(row["value"] for row in json.loads(fit.stdout)["numbers"] if row["quantity"] == "B")
 
 
-def kept(keep, whole, path, digits):
+def kept(whole, path, digits):
     keep.STRESS_DIGITS = {"stress": digits}
     with open(path, "w") as out:
         out.write(keep.small_table(Run(whole), "stress"))
@@ -50,15 +43,14 @@ def kept(keep, whole, path, digits):
 
 
 def main():
-    keep, rounding = script("keep"), script("rounding")
     assert keep.STRESS_DIGITS["stress"] == DIGITS and keep.DIGITS == rounding.AREA_DIGITS
     with tempfile.TemporaryDirectory() as work:
         whole = os.path.join(work, "stress.tsv")
         subprocess.run([os.path.join(programs, "grseg-stress"), os.path.join(source, "data", "sample", "chute.h5"),
                         "--window", "0.5", "--quiet", "-o", whole], check=True)
         exact = b_of(whole)
-        rounded = b_of(kept(keep, whole, os.path.join(work, "kept.tsv"), DIGITS))
-        coarse = b_of(kept(keep, whole, os.path.join(work, "coarse.tsv"), 1))
+        rounded = b_of(kept(whole, os.path.join(work, "kept.tsv"), DIGITS))
+        coarse = b_of(kept(whole, os.path.join(work, "coarse.tsv"), 1))
         bound = rounding.of_tables([os.path.join(work, "kept.tsv")], heights=HEIGHTS)
         change, rms = rounded - exact, bound["rms"]
         print(f"B {exact:.5f} rounded {rounded:.5f}: {change:+.5f}, rms {rms:.5f}, worst {bound['worst']:.5f}; "

@@ -7,12 +7,12 @@ import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
-import sealed_tables  # noqa: E402
+import shared  # noqa: E402
 
 texts = [pathlib.Path(path).read_text() for path in sys.argv[1:]]
-ends = [re.search(f"^{sealed_tables.MARK}.* xxh3 (?=[0-9a-f]{{16}}\n\\Z)", text, re.MULTILINE) for text in texts]
+ends = [re.search(f"^{shared.MARK}.* xxh3 (?=[0-9a-f]{{16}}\n\\Z)", text, re.MULTILINE) for text in texts]
 if None not in ends:
-    sealed_tables.unsealed(texts[0], sys.argv[1])
+    shared.unsealed(texts[0], sys.argv[1])
     texts = [text[:end.end()] for text, end in zip(texts, ends)]
 actual, expected = (re.split(r"([\s,]+)", text) for text in texts)
 if len(actual) != len(expected):

@@ -8,7 +8,7 @@ import tempfile
 
 source, programs = sys.argv[1:]
 sys.path.insert(0, source + "/scripts")
-import sealed_tables  # noqa: E402
+import shared  # noqa: E402
 from terminal import in_pipe, on_terminal  # noqa: E402
 
 run = f"{source}/data/sample/chute.h5"
@@ -25,7 +25,7 @@ COMMANDS = {
 
 def numbers(table):
     """The cells of the rows of a whole table; its last line must agree with it."""
-    rows = [line for line in sealed_tables.unsealed(table).splitlines() if not line.startswith("#")][1:]
+    rows = [line for line in shared.unsealed(table).splitlines() if not line.startswith("#")][1:]
     return [row.split("\t") for row in rows]
 
 

@@ -115,14 +115,9 @@ class Measured:
 
 def line_fit(x, y):
     """Slope and level at x = 0 of the least-squares line, with 95 % intervals from its residuals."""
-    n = len(x)
-    if n < 3:
+    if len(x) < 3:
         return Value(math.nan), Value(math.nan)
-    mx, my = sum(x) / n, sum(y) / n
-    sxx = sum((a - mx) ** 2 for a in x)
-    slope = sum((a - mx) * (b - my) for a, b in zip(x, y)) / sxx
-    level = my - slope * mx
-    left = sum((b - level - slope * a) ** 2 for a, b in zip(x, y)) / (n - 2)
-    t = tables.student(n - 2)
-    ds, dl = t * math.sqrt(left / sxx), t * math.sqrt(left * (1 / n + mx ** 2 / sxx))
+    level, slope, (of_level, _, of_slope), left = tables.line(x, y)
+    t = tables.student(len(x) - 2)
+    dl, ds = (t * math.sqrt(left / (len(x) - 2) * of) for of in (of_level, of_slope))
     return Value(slope, slope - ds, slope + ds, ds / t), Value(level, level - dl, level + dl, dl / t)

@@ -25,7 +25,6 @@ import statistics
 import tables
 
 WINDOW, LONG_WINDOW = 5, 25  # s; in the longer one phi_L scatters less
-INSIDE = (4, 56)  # d_S
 FEW = 3
 PAIRS = ("SS", "LS", "LL", "Sb", "Lb")
 # Edges of the classes in which layers count as alike; gradient of phi_L upward in 1/d_S, t in s, y in d_S.
@@ -88,7 +87,7 @@ def layers_of(path, window=WINDOW):
         below, above = (found.get((t, round(y + step * thickness, 6))) for step in (-1, 1))
         if below and above:
             layer.gradient = (above.phi - below.phi) / (2 * thickness)
-    return [layer for layer in found.values() if INSIDE[0] < layer.y < INSIDE[1] and layer.q > 0
+    return [layer for layer in found.values() if tables.INSIDE[0] < layer.y < tables.INSIDE[1] and layer.q > 0
             and not math.isnan(layer.excess)]
 
 

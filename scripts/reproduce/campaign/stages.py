@@ -1,37 +1,13 @@
-#!/usr/bin/python3
-"""What B follows in a flow that segregates: composition and height, the flux, or the gradient of composition.
-
-    scripts/reproduce/stages TABLES -o stages.tsv [--flows phi0.45-s23-t600,phi0.45-s23-mixed-t600,phi0.45-s23-above-t600]
-
-The flows start with large grains below, mixed, and above, so that flux and gradient take both signs at the same composition
-and height. A point is a layer of 4 d_S inside (4 to 56 d_S) over --window seconds of one run, weighted by its frames. What contacts give the large grains beyond
-their share, psi_L - phi_L by size, is fitted by least squares as
-
-    psi_L - phi_L = phi_L phi_S P(phi_L, y/H) + j q_L/sqrt(g d_S) + k d_S (d phi_L/dy)
-
-P, a full quadratic, is B as a function of composition and height; q_L is the flux of large grains, up > 0 (grseg-segregation). Nothing is divided by few grains. 95 % intervals are from the jackknife with Student's t: over the
-runs of each start; of a start that has one run over blocks of that run, of 60 s for the fit and of up to a tenth of the time for B by time, at least one window. These say how the run differs
-from itself, not what another seed would give (column over).
-
-Rows: model (+q, +gradient, both), coefficient, value, low, high; r2 is the share of the variance that the model explains beyond P. q_L is measured with an
-error: reliability is the share of its variance, beyond P, that is not noise; j_true = j/reliability of the model +q. Then B by start and time, as it is and at equal composition and height: sums over
-classes of phi_L (quintiles of all points) and height (thirds), equally weighted over the classes that all starts have.
-"""
-import argparse
+"""What B follows in a flow that segregates."""
 import math
-import os
-import sys
 
 import numpy as np
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-import tables  # noqa: E402
+import tables
 
 STRESS = ["t0", "t1", "y0", "y1", "frames", "area_S", "area_L", "A_SS_yy", "A_LL_yy", "M_yy", "Msize_yy", "A_Sb_yy", "A_Lb_yy"]
 FLUX = ["t0", "y0", "frames", "q_L", "q_L_error", "dphi_dy"]
 TIMES = ((5, 20), (20, 60), (60, 100), (100, 150), (150, 300), (300, 600))  # s
-INSIDE = (4, 56)  # d_S
 BED = 60  # d_S, height of the bed
 BLOCK = 60  # s, of a single run
 
@@ -51,7 +27,7 @@ def points_of(run, options):
     groups = {}
     for row in stress:
         other = at.get((round(row[0], 6), round(row[2], 9)))
-        if other is None or row[2] < (INSIDE[0] - 1e-6) * d or row[3] > (INSIDE[1] + 1e-6) * d:
+        if other is None or row[2] < (tables.INSIDE[0] - 1e-6) * d or row[3] > (tables.INSIDE[1] + 1e-6) * d:
             continue
         groups.setdefault((int(row[0] / options.window + 1e-6), round((row[2] + row[3]) / 2 / d, 3)), []).append((row, other))
     points = []
@@ -174,23 +150,24 @@ def jackknife(starts):
         yield *key, value, value - reach, value + reach, over
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", metavar="TABLES")
-    parser.add_argument("-o", "--output", required=True, metavar="FILE")
-    parser.add_argument("--flows", default="phi0.45-s23-t600,phi0.45-s23-mixed-t600,phi0.45-s23-above-t600", metavar="LIST")
-    parser.add_argument("--window", type=float, default=10, metavar="S", help="of a point (10)")
-    options = parser.parse_args()
-    starts = {}
-    for run in tables.runs_in(options.tables):
-        if run.flow in options.flows.split(","):
-            starts.setdefault(run.flow, []).append(points_of(run, options))
-    if not starts:
-        sys.exit(f"stages: {options.tables}: none of {options.flows} has finished")
+def stages(options):
+    """What B follows in a flow that segregates: composition and height, the flux, or the gradient of composition.
+
+    The flows start with large grains below, mixed, and above, so that flux and gradient take both signs at the same composition
+    and height. A point is a layer of 4 d_S inside (4 to 56 d_S) over --window seconds of one run, weighted by its frames. What contacts give the large grains beyond
+    their share, psi_L - phi_L by size, is fitted by least squares as
+
+        psi_L - phi_L = phi_L phi_S P(phi_L, y/H) + j q_L/sqrt(g d_S) + k d_S (d phi_L/dy)
+
+    P, a full quadratic, is B as a function of composition and height; q_L is the flux of large grains, up > 0 (grseg-segregation). Nothing is divided by few grains. 95 % intervals are from the jackknife with Student's t: over the
+    runs of each start; of a start that has one run over blocks of that run, of 60 s for the fit and of up to a tenth of the time for B by time, at least one window. These say how the run differs
+    from itself, not what another seed would give (column over).
+
+    Rows: model (+q, +gradient, both), coefficient, value, low, high; r2 is the share of the variance that the model explains beyond P. q_L is measured with an
+    error: reliability is the share of its variance, beyond P, that is not noise; j_true = j/reliability of the model +q. Then B by start and time, as it is and at equal composition and height: sums over
+    classes of phi_L (quintiles of all points) and height (thirds), equally weighted over the classes that all starts have.
+    """
+    starts = {flow: [points_of(run, options) for run in runs] for flow, runs in tables.flows_in(options).items()}
     columns = ["of", "what", "value", "low", "high", "over"]
     found = [dict(zip(columns, row)) for row in (*jackknife(starts), *by_time(starts, options.window))]
     tables.write(options.output, f"stages {options.window:g}", columns, found)
-
-
-if __name__ == "__main__":
-    main()

@@ -2,6 +2,7 @@
 import math
 
 import tables
+from tables import shared
 
 CONTACTS = ("A_SS", "A_LL", "M", "A_Sb", "A_Lb")
 
@@ -33,15 +34,7 @@ def area(row):
 
 def ratio(rows, above, below):
     """Ratio of two sums over the rows, and its standard error."""
-    a, b = [above(row) for row in rows], [below(row) for row in rows]
-    n, total = len(rows), sum(b)
-    if not total:
-        return math.nan, math.nan
-    value = sum(a) / total
-    if n < 2:
-        return value, math.nan
-    left = sum((x - value * y) ** 2 for x, y in zip(a, b))
-    return value, math.sqrt(left * n / (n - 1)) / abs(total)
+    return shared.ratio([above(row) for row in rows], [below(row) for row in rows])
 
 
 def last_third(path):

@@ -1,26 +1,16 @@
-#!/usr/bin/python3
-"""Rewrites the tables of documents from what scripts/reproduce/questions, stages, rigid-limit, closures and denser found.
-
-    scripts/reproduce/answers FOLDER docs/studies/open-questions.md docs/studies/either-sign.md
-
-FOLDER holds questions.tsv and, if there are runs for them, stages.tsv, rigid-limit.tsv, closures.tsv and denser.tsv. A table stands in one of
-the documents, between <!-- NAME --> and <!-- /NAME -->; one for which no run has finished may be left out.
-"""
+"""Tables of the documents on what the paper leaves open."""
 import os
 import re
-import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-from measured import Value, plain  # noqa: E402
-import tables  # noqa: E402
+from measured import Value, plain
+import tables
+from tables import shared
 
 NONE = "No run has finished yet."
 
 
 def markdown(heads, rows):
-    return "\n".join(["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)] +
-                     ["| " + " | ".join(row) + " |" for row in rows]) if rows else NONE
+    return shared.markdown(heads, rows) if rows else NONE
 
 
 def interval(row, name, digits):
@@ -133,7 +123,7 @@ def read(folder, name):
     return tables.read(path)[1] if os.path.exists(path) else []
 
 
-def parts(folder):
+def parts_of(folder):
     rows = read(folder, "questions")
     return {
         "control": strengths(rows, r".*-ratio1-t60"),
@@ -152,27 +142,11 @@ def parts(folder):
     }
 
 
-def main():
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    folder, paths = sys.argv[1], sys.argv[2:]
-    texts = {}
-    for path in paths:
-        with open(path) as document:
-            texts[path] = document.read()
-    for name, part in parts(folder).items():
-        marked = re.compile(f"(<!-- {name} -->\n).*?(<!-- /{name} -->)", re.DOTALL)
-        places = [path for path, text in texts.items() for _ in marked.findall(text)]
-        if part == NONE and not places:
-            continue
-        if len(places) != 1:
-            sys.exit(f"answers: one of {', '.join(paths)} must have <!-- {name} --> and <!-- /{name} --> once")
-        texts[places[0]] = marked.sub(lambda match: match[1] + part + "\n" + match[2], texts[places[0]])
-    for path, text in texts.items():
-        with open(path + ".part", "w") as out:
-            out.write(text)
-        os.replace(path + ".part", path)
+def answers(options):
+    """Rewrites the tables of documents from what scripts/reproduce/questions, stages, rigid-limit, closures and denser found.
 
-
-if __name__ == "__main__":
-    main()
+    FOLDER holds questions.tsv and, if there are runs for them, stages.tsv, rigid-limit.tsv, closures.tsv and denser.tsv. A table stands in one of
+    the documents, between <!-- NAME --> and <!-- /NAME -->; one for which no run has finished may be left out.
+    """
+    parts = parts_of(options.folder)
+    shared.rewrite("answers", options.documents, parts, optional=[name for name, part in parts.items() if part == NONE])

@@ -1,11 +1,5 @@
-#!/usr/bin/python3
-"""Parts of a trajectory that are kept beside its sums, as a table on standard output.
-
-    extract record run.h5         names and values of the run's parameters, content digest first
-    extract observables run.h5    the observables of every frame
-    extract snapshots run.h5      the grains of the first and the last frame
-"""
-import sys
+"""What of a trajectory is kept beside its sums, and a trajectory with other labels."""
+import shutil
 
 import h5py
 import numpy
@@ -20,7 +14,7 @@ def text(value):
     return " ".join(f"{number:.17g}" for number in numpy.ravel(value))
 
 
-def record(run):
+def print_record(run):
     species = run["particles/grains/species"][:]
     print("name\tvalue")
     print(f"digest\t{run['grseg/digest'][-1]:016x}")
@@ -32,7 +26,7 @@ def record(run):
             print(f"{name}\t{text(value)}")
 
 
-def observables(run):
+def print_observables(run):
     columns = {"time": run["particles/grains/position/time"][:]}
     columns.update((name, group["value"][:]) for name, group in sorted(run["observables"].items()))
     print("\t".join(columns))
@@ -40,7 +34,7 @@ def observables(run):
         print("\t".join(f"{value:.9g}" for value in row))
 
 
-def snapshots(run):
+def print_snapshots(run):
     grains = run["particles/grains"]
     print("t[s]\tspecies\tx[m]\ty[m]\tr[m]")
     for frame in (0, -1):
@@ -49,9 +43,25 @@ def snapshots(run):
             print(f"{time:.6g}\t{species}\t{x:.6g}\t{y:.6g}\t{r:.6g}")
 
 
-if __name__ == "__main__":
-    tables = {"record": record, "observables": observables, "snapshots": snapshots}
-    if len(sys.argv) != 3 or sys.argv[1] not in tables:
-        sys.exit(__doc__)
-    with h5py.File(sys.argv[2], "r") as file:
-        tables[sys.argv[1]](file)
+def extract(options):
+    """Parts of a trajectory that are kept beside its sums, as a table on standard output.
+
+    record         names and values of the run's parameters, content digest first
+    observables    the observables of every frame
+    snapshots      the grains of the first and the last frame
+    """
+    with h5py.File(options.run, "r") as file:
+        {"record": print_record, "observables": print_observables, "snapshots": print_snapshots}[options.what](file)
+
+
+def relabel(options):
+    """A copy of a trajectory in which the species of the mobile grains are permuted at random.
+
+    For grains of one size B must then be 0; a value outside its interval would be an error of the tool.
+    """
+    shutil.copyfile(options.run, options.random)
+    with h5py.File(options.random, "r+") as run:
+        species = run["particles/grains/species"][:]
+        mobile = species < 2
+        species[mobile] = numpy.random.RandomState(1).permutation(species[mobile])
+        run["particles/grains/species"][:] = species

@@ -7,6 +7,7 @@ import math
 
 import statements as paper
 import tables
+from tables import shared
 
 SIGMAS = 1.96
 # Means that an author may have taken fluctuations from; `others` is the profile without its bias.
@@ -48,10 +49,6 @@ def meets(row, name):
     """Within both errors, where ours is smaller than the room that the paper leaves: what is known worse meets nothing."""
     error = row[f"{name} error"]
     return abs(pull(name, row[name], error)) <= SIGMAS and SIGMAS * error <= TARGETS[name][2]
-
-
-def markdown(heads, lines):
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in [heads, ["---"] * len(heads), *lines])
 
 
 def text_of(row):
@@ -103,9 +100,9 @@ def report(found):
         yield f"* *{title}*: {text_of(row)}; {row['met']:.0f} of {len(TARGETS)}."
     cell = lambda row, target: f"{row[target]:.4g} ± {row[target + ' error']:.2g} ({pull(target, row[target], row[target + ' error']):+.1f})" + ("" if meets(row, target) else " **no**")
     met_by = lambda rows, target: f"{sum(meets(row, target) for row in rows)}"
-    yield markdown(["number", "paper", *columns, "combinations that meet it", "... without the lowest layer"],
+    yield shared.markdown(["number", "paper", *columns, "combinations that meet it", "... without the lowest layer"],
                    [[target, f"{number:g}", *(cell(row, target) for row in columns.values()), met_by(tried, target), met_by(without_the_lowest_layer(tried), target)]
-                    for target, (number, _, _) in TARGETS.items()]).replace("-", "−").replace("| −−− |", "| --- |").replace("−−−", "---")
+                    for target, (number, _, _) in TARGETS.items()]).replace("-", "−").replace("−−−", "---")
     yield f"Never met together: {excluded(tried)}. Without the lowest layer: {excluded(without_the_lowest_layer(tried))}."
 
 

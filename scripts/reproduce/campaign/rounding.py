@@ -1,26 +1,9 @@
-#!/usr/bin/python3
-"""How far rounding the sums of contacts can have moved B: bounds from the digits that tables hold.
-
-    scripts/reproduce/rounding STRESS.tsv ... [--heights Y0:Y1]
-
-Every number v of a table with "# kept: N digits" is known to half a unit of its last digit,
-h = 0.5 x 10^(floor(log10 |v|) - N + 1), areas to one digit more. B (by size, of sigma_yy) of all tables together changes by the sum of
-derivative x error; printed are
-    B        computed here
-    worst    the sum of |derivative| x h: no rounding can do more (to first order)
-    rms      the root of the sum of (derivative x h)^2/3: standard deviation for errors that are
-             independent and uniform within h
---heights in m (default: 4 to 56 small diameters, as in the document); further filters as grseg-fit has by default.
-"""
-import argparse
+"""How far rounded sums can have moved B."""
 import math
-import os
 import statistics
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-import tables  # noqa: E402
+import tables
 
 SUMS = ("A_SS_yy", "A_LL_yy", "M_yy", "Msize_yy", "A_Sb_yy", "A_Lb_yy")
 AREAS = ("area_S", "area_L")
@@ -105,15 +88,18 @@ def of_tables(paths, digits=None, heights=None):
     return effect(points, digits)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", nargs="+", metavar="STRESS.tsv")
-    parser.add_argument("--heights", metavar="Y0:Y1", help="m")
-    options = parser.parse_args()
+def rounding(options):
+    """How far rounding the sums of contacts can have moved B: bounds from the digits that tables hold.
+
+    Every number v of a table with "# kept: N digits" is known to half a unit of its last digit,
+    h = 0.5 x 10^(floor(log10 |v|) - N + 1), areas to one digit more. B (by size, of sigma_yy) of all tables together changes by the sum of
+    derivative x error; printed are
+        B        computed here
+        worst    the sum of |derivative| x h: no rounding can do more (to first order)
+        rms      the root of the sum of (derivative x h)^2/3: standard deviation for errors that are
+                 independent and uniform within h
+    --heights in m (default: 4 to 56 small diameters, as in the document); further filters as grseg-fit has by default.
+    """
     heights = tuple(map(float, options.heights.split(":"))) if options.heights else None
     for name, value in of_tables(options.tables, heights=heights).items():
         print(f"{name}\t{value:.6f}")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,50 +1,17 @@
-#!/usr/bin/python3
-"""One row per flow: properties of its runs as means over seeds, and B.
-
-    scripts/reproduce/flows TABLES FITS -o flows.tsv [--bin FOLDER]
-
-FITS is the table of scripts/reproduce/fits. Columns are means over seeds, with half-widths of 95 % intervals
-(hw_..., Student's t over seeds; nan for one seed):
-    small large   numbers of mobile grains
-    H0            height of the bed in the first window, d_S
-    yL0 yL1       y_L/H in the first and in the last window
-    rate          mean shear rate from 10 s on, units of sqrt(g/d_S): slope of u(y) from 10 to 90 % of
-                  the depth (grseg-segregation)
-    strain        of the whole run; t50 and tau of y_L(t), s
-    z_S z_L f_S f_L zf_S zf_L
-                  whole bed from 10 to 60 s: contacts per grain, mean |f| over contacts in units of
-                  m_S g (grseg-micro), and their product
-    step window duration
-                  s; frames: in a window; program: that simulated, with its version
-    weight        in a fit of several flows: frames times phi_L phi_S, over all layers inside
-B_... and K_... are B by size and B_kappa as the paper fits it (yy, inside), of all times and, B60 and K60, of the first 60 s.
-"""
-import argparse
+"""Properties of each flow."""
 import math
-import os
-import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-import tables  # noqa: E402
+import tables
 
 MEASURED = ("small", "large", "H0", "yL0", "yL1", "rate", "strain", "t50", "tau", "z_S", "z_L", "f_S",
             "f_L", "zf_S", "zf_L", "duration")
 
 
 def of_segregation(run):
-    header, rows = tables.read(run.path("segregation"))
-    bed = [row for row in rows if math.isnan(row["y0"])]
-    d, g = float(header["small_diameter"]), math.hypot(float(header["gravity_x"]),
-                                                       float(header["gravity_y"]))
-    # Windows of the spin-up are excluded unless there are no others.
-    flowing = [row for row in bed if row["t0"] >= 10] or bed
-    frames = sum(row["frames"] for row in flowing)
-    rate = sum(row["frames"] * row["shear_rate"] for row in flowing) / frames
-    _, summary = tables.read(run.path("segregation-summary"))
-    value = {row["quantity"].split("[")[0]: row["value"] for row in summary}
-    return {"H0": bed[0]["height"] / d, "yL0": bed[0]["yL"] / bed[0]["height"],
-            "yL1": bed[-1]["yL"] / bed[-1]["height"], "rate": rate * math.sqrt(d / g),
+    header, bed, rate = tables.of_bed(run)
+    value = {row["quantity"].split("[")[0]: row["value"] for row in tables.read(run.path("segregation-summary"))[1]}
+    return {"H0": bed[0]["height"] / float(header["small_diameter"]), "yL0": bed[0]["yL"] / bed[0]["height"],
+            "yL1": bed[-1]["yL"] / bed[-1]["height"], "rate": rate,
             "strain": bed[-1]["strain"], "t50": value["t50"], "tau": value["tau"],
             "step": float(header["step"]), "window": float(header["window"]),
             "frames": bed[-1]["frames"], "duration": bed[-1]["t1"]}
@@ -71,9 +38,7 @@ def weight(runs):
 
 
 def of_run(options, run):
-    _, record = tables.read(run.path("record"))
-    named = {row["name"]: row["value"] for row in record}
-    moving = of_segregation(run)
+    named, moving = run.record(), of_segregation(run)
     return {"program": named["program"], "small": named["grains_small"], "large": named["grains_large"], **moving,
             **of_contacts(options, run, moving["duration"])}
 
@@ -85,8 +50,8 @@ def fitted(fits, flow, quantity, stage, label):
                 and row["component"] == "yy" and row["heights"] == "inside" \
                 and row["rule"] in ("size", "kinetic"):
             name = "paper_B" if quantity == "kinetic" else "B"
-            return {f"{label}{end}": row[f"{name}{end}"] for end in ("", "_low", "_high")}
-    return {f"{label}{end}": math.nan for end in ("", "_low", "_high")}
+            return {label + end: row[name + end] for end in tables.ENDS}
+    return {label + end: math.nan for end in tables.ENDS}
 
 
 def line(options, flow, runs, fits):
@@ -104,20 +69,25 @@ def line(options, flow, runs, fits):
     return row
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", metavar="TABLES")
-    parser.add_argument("fits", metavar="FITS")
-    parser.add_argument("-o", "--output", required=True, metavar="FILE")
-    parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "bin"))
-    options = parser.parse_args()
+def flows(options):
+    """One row per flow: properties of its runs as means over seeds, and B.
+
+    FITS is the table of `fits`. Columns are means over seeds, with half-widths of 95 % intervals
+    (hw_..., Student's t over seeds; nan for one seed):
+        small large   numbers of mobile grains
+        H0            height of the bed in the first window, d_S
+        yL0 yL1       y_L/H in the first and in the last window
+        rate          mean shear rate from 10 s on, units of sqrt(g/d_S): slope of u(y) from 10 to 90 % of
+                      the depth (grseg-segregation)
+        strain        of the whole run; t50 and tau of y_L(t), s
+        z_S z_L f_S f_L zf_S zf_L
+                      whole bed from 10 to 60 s: contacts per grain, mean |f| over contacts in units of
+                      m_S g (grseg-micro), and their product
+        step window duration
+                      s; frames: in a window; program: that simulated, with its version
+        weight        in a fit of several flows: frames times phi_L phi_S, over all layers inside
+    B_... and K_... are B by size and B_kappa as the paper fits it (yy, inside), of all times and, B60 and K60, of the first 60 s.
+    """
     _, fits = tables.read(options.fits)
-    flows = {}
-    for run in tables.runs_in(options.tables):
-        flows.setdefault(run.flow, []).append(run)
-    rows = [line(options, flow, runs, fits) for flow, runs in flows.items()]
+    rows = [line(options, flow, runs, fits) for flow, runs in tables.by_flow(tables.runs_in(options.tables)).items()]
     tables.write(options.output, "flows", list(rows[0]), rows)
-
-
-main()

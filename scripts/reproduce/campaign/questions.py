@@ -1,33 +1,9 @@
-#!/usr/bin/python3
-"""What the paper leaves open: each flow with another choice beside the paper's, over the same time.
-
-    scripts/reproduce/questions TABLES ... -o questions.tsv [--bin FOLDER]
-
-TABLES are folders of finished runs (make reproduce, make questions). One row per flow that has
-a B, and one of all mixtures for each restitution; layers from 4 to 56 d_S (the same part of a bed of another depth), windows from the tables. Intervals are 95 %, of runs where there are several,
-else of windows. The time of a comparison is that of the flow's own runs.
-    B B_half_rule B_pressure   by size, by half, by size from the pressure
-    B_fit                      by size from the paper's logarithmic fit, at phi = 1/2
-    p_star                     the share at which B = 0, by sums
-    K                          B_kappa, yy, half the sum of the end values, fluctuations about the profile; K_instant, K_unbiased about the
-                               mean of layer and frame, K_middle with the velocity of the middle of the step; K_sums by sums
-    B_all                      B by size over all heights
-    B_paper K_paper            the same of the flow with the paper's choice, over the same time; less_B less_K: differences
-                               with the interval of two independent sets of runs (Welch); B_error B_freedom: standard error and
-                               degrees of freedom of B, likewise of the others
-    yL_end trapped f_ratio     y_L/H in the last window; large grains in the lowest layer then; f_L/f_S of the last 15 s
-    overlap rate               mean overlap over d_S; mean shear rate from 10 s on, units of sqrt(g/d_S)
-"""
-import argparse
-import itertools
+"""What the paper leaves open, flow by flow, and in the limit of rigid discs."""
 import math
-import os
 import re
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-import tables  # noqa: E402
+import tables
 
 NAN = math.nan
 FLOW_BEFORE = 10  # s of the paper's flow before the state from which another program continues (open-questions.md)
@@ -39,19 +15,18 @@ NO_FIT = (NAN,) * 5
 def fitted(options, runs, quantity, column, *words, table=None):
     """Value, interval, standard error and degrees of freedom of a number of grseg-fit of all these runs; nan where it
     cannot be told. Of several mixtures it is B of these flows, weighted as they are."""
-    paths = [run.path(table or {"contact": "stress", "kinetic": "kinetic"}[quantity]) for run in runs]
-    if not paths or not all(map(os.path.exists, paths)):
+    table = table or {"contact": "stress", "kinetic": "kinetic"}[quantity]
+    if not runs or not all(run.has(table) for run in runs):
         return NO_FIT
-    sizes = [len(list(group)) for _, group in itertools.groupby(runs, key=lambda run: run.flow)]
-    words = [*words, "--flows", ",".join(map(str, sizes)), *(["--over", "flows"] if len(sizes) > 1 else [])]
+    words = [*words, *tables.sizes_of(runs), *(["--over", "flows"] if len(tables.by_flow(runs)) > 1 else [])]
     try:
-        rows = tables.fits(options, *paths, "--quantity", quantity, "--quiet", "--bootstrap", options.bootstrap, *words)
+        rows = tables.fits(options, *(run.path(table) for run in runs), "--quantity", quantity, "--quiet", "--bootstrap", options.bootstrap, *words)
     except RuntimeError as trouble:
         print(f"questions: {runs[0].flow}: {trouble}", file=sys.stderr)
         return NO_FIT
     if len(rows) != 1:
         sys.exit(f"questions: {runs[0].flow}: grseg-fit printed {len(rows)} rules where one was asked for")
-    value, low, high = (rows[0][column + end] for end in ("", "_low", "_high"))
+    value, low, high = (rows[0][column + end] for end in tables.ENDS)
     freedom = rows[0]["degrees_of_freedom"]
     freedom = 1e9 if math.isnan(freedom) else freedom
     return value, low, high, (high - low) / 2 / tables.student(freedom), freedom
@@ -89,19 +64,14 @@ def of_bed(run):
     last = [row for row in rows if row["t0"] == rows[-1]["t0"] and row["y0"] == 0]
     if last and "large_diameter" in header:
         found["trapped"] = last[0]["area_L"] / (math.pi / 4 * float(header["large_diameter"]) ** 2)
-    if os.path.exists(run.path("segregation")):
-        header, rows = tables.read(run.path("segregation"), ["t0", "y0", "frames", "yL", "height", "shear_rate"])
-        bed = [row for row in rows if math.isnan(row["y0"])]
-        d, g = float(header["small_diameter"]), math.hypot(float(header["gravity_x"]), float(header["gravity_y"]))
-        flowing = [row for row in bed if row["t0"] >= 10] or bed
-        found["rate"] = sum(row["frames"] * row["shear_rate"] for row in flowing) / sum(row["frames"] for row in flowing) * math.sqrt(d / g)
+    if run.has("segregation"):
+        _, bed, found["rate"] = tables.of_bed(run)
         found["yL_end"] = bed[-1]["yL"] / bed[-1]["height"]
-    if os.path.exists(run.path("record")):
-        _, record = tables.read(run.path("record"))
-        named = {row["name"]: row["value"] for row in record}
+    if run.has("record"):
+        named = run.record()
         if "summary_mean_overlap" in named:
             found["overlap"] = named["summary_mean_overlap"] / named["small_diameter"]
-    if os.path.exists(run.path("micro")):
+    if run.has("micro"):
         found["f_ratio"] = force_ratio(run)
     return found
 
@@ -125,7 +95,7 @@ def line(options, flow, runs, paper):
         row.update({name + at: value for at, value in zip(("", "_low", "_high", "_error", "_freedom"), estimate)})
     for name in ("B", "K", "p_star"):
         other = theirs.get(name, NO_FIT)
-        row.update({f"{name}_paper{at}": value for at, value in zip(("", "_low", "_high"), other)})
+        row.update({f"{name}_paper{at}": value for at, value in zip(tables.ENDS, other)})
         error, freedom = tables.welch(own[name][3:], other[3:])
         row[f"less_{name}"] = own[name][0] - other[0]
         row[f"less_{name}_reach"] = NAN if math.isnan(error) else tables.student(freedom) * error
@@ -135,30 +105,66 @@ def line(options, flow, runs, paper):
     return row
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", metavar="TABLES", nargs="+")
-    parser.add_argument("-o", "--output", required=True, metavar="FILE")
-    parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "bin"))
-    parser.add_argument("--bootstrap", default="1000", metavar="N", help="samples (1000)")
-    options = parser.parse_args()
-    flows = {}
+def questions(options):
+    """What the paper leaves open: each flow with another choice beside the paper's, over the same time.
+
+    TABLES are folders of finished runs (make reproduce, make questions). One row per flow that has
+    a B, and one of all mixtures for each restitution; layers from 4 to 56 d_S (the same part of a bed of another depth), windows from the tables. Intervals are 95 %, of runs where there are several,
+    else of windows. The time of a comparison is that of the flow's own runs.
+        B B_half_rule B_pressure   by size, by half, by size from the pressure
+        B_fit                      by size from the paper's logarithmic fit, at phi = 1/2
+        p_star                     the share at which B = 0, by sums
+        K                          B_kappa, yy, half the sum of the end values, fluctuations about the profile; K_instant, K_unbiased about the
+                                   mean of layer and frame, K_middle with the velocity of the middle of the step; K_sums by sums
+        B_all                      B by size over all heights
+        B_paper K_paper            the same of the flow with the paper's choice, over the same time; less_B less_K: differences
+                                   with the interval of two independent sets of runs (Welch); B_error B_freedom: standard error and
+                                   degrees of freedom of B, likewise of the others
+        yL_end trapped f_ratio     y_L/H in the last window; large grains in the lowest layer then; f_L/f_S of the last 15 s
+        overlap rate               mean overlap over d_S; mean shear rate from 10 s on, units of sqrt(g/d_S)
+    """
+    runs = {}
     for folder in options.tables:
         for run in tables.runs_in(folder):
-            if os.path.exists(run.path("stress")) and all(run.name != other.name for other in flows.get(run.flow, [])):
-                flows.setdefault(run.flow, []).append(run)
+            if run.has("stress"):
+                runs.setdefault(run.name, run)
+    flows = tables.by_flow(runs.values())
     rows = []
-    for flow, runs in flows.items():
-        plain = flow.split("-")[:2]
-        rows.append(line(options, flow, runs, flows.get("-".join(plain), []) if runs[0].variant else []))
+    for flow, of_flow in flows.items():
+        plain = "-".join(flow.split("-")[:2])
+        rows.append(line(options, flow, of_flow, flows.get(plain, []) if of_flow[0].variant else []))
     for variant in ("e0.25", "e0.5"):
         long = f"{variant}-t150"  # counts instead of a shorter run of the same mixture
-        every = [run for flow, runs in flows.items() for run in runs
+        every = [run for flow, of_flow in flows.items() for run in of_flow
                  if run.variant == long or (run.variant == variant and f"{flow}-t150" not in flows)]
-        if len({run.flow for run in every}) > 1:
+        if len(tables.by_flow(every)) > 1:
             rows.append({**line(options, f"mixtures-{variant}", every, []), "phi": NAN})
     tables.write(options.output, "questions", list(rows[0]), rows)
 
 
-if __name__ == "__main__":
-    main()
+ACCURACIES = ("", "-draft-t150", "-reference-t150", "-finer-t150")
+
+
+def rigid_limit(options):
+    """B, p* and B_kappa in the limit of rigid discs: extrapolated to no overlap.
+
+    The rows of `questions` FLOW (standard), FLOW-draft-t150, -reference-t150 and -finer-t150 are
+    fitted by value = limit + k overlap^q, by least squares weighted with the rows' errors, for q = 1 (the error of a contact
+    law that is soft by its overlap) and q = 1/2; a logarithm would not have a limit. Intervals are 95 %, by Student's t with the fewest
+    degrees of freedom that a row has. chi2 is of the fit, with the number of rows less two degrees of freedom.
+    """
+    _, rows = tables.read(options.questions)
+    chosen = [row for row in rows if row["flow"] in [options.flow + end for end in ACCURACIES] and not math.isnan(row["overlap"])]
+    if len(chosen) < 3:
+        sys.exit(f"rigid-limit: {options.questions}: {len(chosen)} of the accuracies of {options.flow} were run; three are needed")
+    found = []
+    for name in ("B", "p_star", "K"):
+        weights = [1 / row[name + "_error"] ** 2 for row in chosen]
+        t = tables.student(min(row[name + "_freedom"] for row in chosen))
+        for power in (1, 0.5):
+            level, slope, (of_level, _, of_slope), chi2 = tables.line(
+                [row["overlap"] ** power for row in chosen], [row[name] for row in chosen], weights)
+            de, ds = t * math.sqrt(of_level), t * math.sqrt(of_slope)
+            found.append({"of": name, "power": power, "limit": level, "limit_low": level - de, "limit_high": level + de,
+                          "k": slope, "k_low": slope - ds, "k_high": slope + ds, "chi2": chi2, "rows": len(chosen)})
+    tables.write(options.output, "rigid-limit", list(found[0]), found)

@@ -1,34 +1,19 @@
-#!/usr/bin/python3
-"""The numbers behind the paper's figures, other than fits: one row per number, with its 95 % interval.
-
-    scripts/reproduce/numbers TABLES -o numbers.tsv [--bin FOLDER]
-
-Each number is measured in every seed separately (of one flow, or of the six mixtures together); value, low,
-high and error are the mean, its interval by Student's t over seeds and its standard error. With fewer than three seeds, numbers that
-a part of a run suffices for (profiles, forces) are measured in each QUARTER of the time, and the interval is
-over these; all others have no interval (nan). Profiles are means over the last third of the time. `inside`
-is 4 to 56 d_S.
-"""
-import argparse
+"""The numbers behind the paper's figures, other than fits."""
 import math
-import os
 import statistics
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-import profiles  # noqa: E402
-import rise  # noqa: E402
-import tables  # noqa: E402
+import profiles
+import rise
+import tables
 
-INSIDE = (4, 56)  # d_S
 QUARTERS = 4
 
 
 def inside(profile):
     """Layers that lie inside."""
     return [y for y in sorted(profile.layers)
-            if INSIDE[0] < profile.middle(y) < INSIDE[1]]
+            if tables.INSIDE[0] < profile.middle(y) < tables.INSIDE[1]]
 
 
 class Part:
@@ -208,7 +193,7 @@ def pushes(_, part):
     """Forces on the large grains inside in thousandths of their weight, upward positive."""
     header, rows = tables.read(part.runs[0].path("balance"))
     d = float(header["small_diameter"])
-    rows = [row for row in rows if INSIDE[0] < (row["y0"] + row["y1"]) / 2 / d < INSIDE[1]
+    rows = [row for row in rows if tables.INSIDE[0] < (row["y0"] + row["y1"]) / 2 / d < tables.INSIDE[1]
             and part.contains(row) and not math.isnan(row["push"] + row["push_kinetic"] + row["drag"])]
     weight = -sum(row["gravity_L_y"] for row in rows)
     if not weight:
@@ -234,13 +219,15 @@ def collected(options, label, parts, measure):
     return lines
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", metavar="TABLES")
-    parser.add_argument("-o", "--output", required=True, metavar="FILE")
-    parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "bin"))
-    options = parser.parse_args()
+def numbers(options):
+    """The numbers behind the paper's figures, other than fits: one row per number, with its 95 % interval.
+
+    Each number is measured in every seed separately (of one flow, or of the six mixtures together); value, low,
+    high and error are the mean, its interval by Student's t over seeds and its standard error. With fewer than three seeds, numbers that
+    a part of a run suffices for (profiles, forces) are measured in each QUARTER of the time, and the interval is
+    over these; all others have no interval (nan). Profiles are means over the last third of the time. `inside`
+    is 4 to 56 d_S.
+    """
     every = tables.runs_in(options.tables)
     runs = [run for run in every if not run.variant]
     mixtures = [run for run in runs if run.slope == 23]
@@ -268,7 +255,3 @@ def main():
     for name in sorted({run.flow for run in runs}):
         lines += collected(options, name, parts_of(flow(name)), pushes)
     tables.write(options.output, "numbers", ["of", "name", "value", "low", "high", "error", "runs"], lines)
-
-
-if __name__ == "__main__":
-    main()

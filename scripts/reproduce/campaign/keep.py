@@ -1,25 +1,14 @@
-#!/usr/bin/python3
-"""Tables of a campaign made small enough to be kept beside the code: fewer digits, columns and windows.
-
-    scripts/reproduce/keep TABLES ARCHIVE.tar.bz2 [--questions]
-
---questions: the runs of `make questions` and of the second program instead of the paper's, and all that
-questions, stages and mixtures read of them.
-Of every finished run the archive holds what the figures and fits of the document need (COLUMNS): numbers with
-two or three digits, windows merged (WINDOW) as means weighted by frames, where a layer that is missing in a window
-counts as empty. The same tables give the same bytes. make -C scripts reproduction.md reads them.
-"""
-import argparse
+"""Tables of a campaign as they are kept beside the code."""
 import io
 import math
 import os
 import re
+import shutil
 import sys
 import tarfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-import tables  # noqa: E402
+import tables
+from tables import shared
 
 KEYS = ("t0", "t1", "y0", "y1", "frames", "V")
 # Length of the kept windows, s: whole multiples of those in the tables.
@@ -56,13 +45,10 @@ OF_PRESENT = ("phi_L", "q_L", "q_L_error", "D", "dphi_dy", "dphi_dy_error", "she
 WHOLE = ("segregation-summary", "record")
 
 
-def lines_of(path):
+def numbers_of(path):
     """Lines before the rows, column names with units, rows of numbers."""
-    with open(path) as table:
-        lines = tables.sealed_tables.unsealed(table.read(), path).splitlines()
-    head = sum(line.startswith("#") for line in lines)
-    return lines[:head], lines[head].split("\t"), [[float(cell) for cell in line.split("\t")]
-                                                   for line in lines[head + 1:]]
+    head, names, rows = shared.lines_of(path)
+    return head, names, [[float(cell) for cell in row] for row in rows]
 
 
 def coarse(rows, window, at, errors=(), of_present=()):
@@ -94,7 +80,7 @@ def coarse(rows, window, at, errors=(), of_present=()):
 
 
 def small_table(run, table, question=False):
-    head, names, rows = lines_of(run.path(table))
+    head, names, rows = numbers_of(run.path(table))
     plain = [name.split("[")[0] for name in names]
     quantity = table if table in COLUMNS else table.split("-")[0]
     wanted = COLUMNS["flux" if question and quantity == "segregation" else quantity]
@@ -117,29 +103,29 @@ def small_table(run, table, question=False):
     if quantity in READ_AGAIN:
         head.append("# not kept: " + " ".join(name for k, name in enumerate(plain) if not kept[k]))
     lines = [[names[k] for k in chosen]] + [[f"{row[k]:.{digits[k]}g}" for k in chosen] for row in rows]
-    return tables.sealed_tables.sealed("\n".join(head + ["\t".join(line) for line in lines]) + "\n")
+    return shared.sealed("\n".join(head + ["\t".join(line) for line in lines]) + "\n")
 
 
 def snapshots(run):
     """Positions with four digits, radii with three."""
-    head, names, rows = lines_of(run.path("snapshots"))
+    head, names, rows = numbers_of(run.path("snapshots"))
     lines = [f"{t:g}\t{species:g}\t{x:.4g}\t{y:.4g}\t{r:.3g}" for t, species, x, y, r in rows]
     return "\n".join(head + ["\t".join(names)] + lines) + "\n"
 
 
 def without_folders(text):
     """Removes folders from the file names in the history."""
-    body = tables.sealed_tables.unsealed(text)
+    body = shared.unsealed(text)
     shorter = re.sub(r"(?m)^(# history: .*)$", lambda line: re.sub(r"(?<=\s)/\S*/", "", line[0]), body)
-    return text if shorter == body else tables.sealed_tables.sealed(shorter)
+    return text if shorter == body else shared.sealed(shorter)
 
 
 def files_of_question(run):
     for table in OF_QUESTIONS:
-        if os.path.exists(run.path(table)):
+        if run.has(table):
             yield table + ".tsv", small_table(run, table, question=True)
     for table in WHOLE:
-        if os.path.exists(run.path(table)):
+        if run.has(table):
             with open(run.path(table)) as whole:
                 yield table + ".tsv", whole.read()
     yield "checksums", "kept\n"
@@ -156,13 +142,15 @@ def files_of(run):
     yield "checksums", "kept\n"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tables", metavar="TABLES")
-    parser.add_argument("archive", metavar="ARCHIVE")
-    parser.add_argument("--questions", action="store_true")
-    options = parser.parse_args()
+def keep(options):
+    """Tables of a campaign made small enough to be kept beside the code: fewer digits, columns and windows.
+
+    --questions: the runs of `make questions` and of the second program instead of the paper's, and all that
+    questions, stages and mixtures read of them.
+    Of every finished run the archive holds what the figures and fits of the document need (COLUMNS): numbers with
+    two or three digits, windows merged (WINDOW) as means weighted by frames, where a layer that is missing in a window
+    counts as empty. The same tables give the same bytes. make -C scripts reproduction.md reads them.
+    """
     files_of_run = files_of_question if options.questions else files_of
     part = options.archive + ".part"
     with tarfile.open(part, "w:bz2") as archive:
@@ -176,5 +164,14 @@ def main():
     os.replace(part, options.archive)
 
 
-if __name__ == "__main__":
-    main()
+def unpack(options):
+    """Unpacks the tables of the archive in KEPT into FOLDER, unless that is up to date."""
+    archive, mark = os.path.join(options.kept, "tables.tar.bz2"), os.path.join(options.folder, "unpacked")
+    if not os.path.isfile(archive):
+        sys.exit(f"unpack: {archive}: no such file")
+    if os.path.exists(mark) and os.path.getmtime(mark) > os.path.getmtime(archive):
+        return
+    shutil.rmtree(options.folder, ignore_errors=True)
+    with tarfile.open(archive) as kept:
+        kept.extractall(options.folder)
+    open(mark, "w").close()

@@ -1,23 +1,4 @@
-#!/usr/bin/python3
-"""Which choices the paper's numbers come from: every printed number under every combination of what it does not state.
-
-    scripts/reproduce/combinations FOLDER -o combinations.tsv         from the tables of `make combinations`: a row per combination
-    scripts/reproduce/combinations combinations.tsv [--figure FILE]   what the rows say, as Markdown; the table behind combinations.gp
-
-The paper states layers of 4 d_S, windows of 1.25 s, all stages of all six mixtures, 0.01 < phi_S/phi_L < 100 and the component yy. Open are
-    layers        which heights take part (d_S)
-    frames        of a window
-    form          of the fit of y over x: means of logarithms, the same weighted by frames times grains of the rarer species, or
-                  least squares of y itself
-    mean          velocity that fluctuations are counted from: of the layer or of a fine profile over the window, or of layer and frame
-    velocity      of the step that a frame is: after it or in its middle
-    restitution   0.25 as a coefficient of velocities, or of energy, which makes 0.5
-    for the profile of figure 3a alone: volume (with voids, or of grains) and period ("steady state", s)
-A target is met where it differs from the paper's number by at most 1.96 standard errors, those of the paper (statements.py; where none is
-printed, that of rounding) and of one set of runs like the paper's: sqrt(1 + 1/n) times the deviation of n seeds, taken from restitution 0.25.
-It is not met where 1.96 of the latter are more than the room that the paper leaves (statements.py): such a combination says nothing about it.
-"""
-import argparse
+"""Every number that the paper prints, under every combination of what it does not state."""
 import collections
 import itertools
 import math
@@ -26,10 +7,8 @@ import sys
 
 import numpy as np
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-from combined import AXES, TARGETS, pull, read, report, write_figure  # noqa: E402
-import tables  # noqa: E402
+from combined import AXES, TARGETS, pull, read, report, write_figure
+import tables
 
 LAYER, GRAVITY, DIAMETER = 4, 9.8, 0.005  # d_S; m/s^2; m
 LAYERS = {"4-56": range(1, 14), "0-56": range(14), "4-top": range(1, 40), "all": range(40)}
@@ -216,7 +195,7 @@ def summary(of_seeds, scatter):
     return found
 
 
-def combinations(runs):
+def every_combination(runs):
     """(axes, numbers) of every combination: value and standard error by target."""
     for layers, frames, form in itertools.product(LAYERS, FRAMES, FORMS):
         stride, heights, scatter = FRAMES[frames], LAYERS[layers], {}
@@ -247,22 +226,32 @@ def best_profile(runs, name, variant, layers, form, scatter):
 
 
 def rows(folder):
-    for axes, numbers in combinations(Runs(folder)):
+    for axes, numbers in every_combination(Runs(folder)):
         row = dict(axes)
         for target in TARGETS:
             row[target], row[f"{target} error"] = numbers[target]
         yield row
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("source", metavar="FOLDER|combinations.tsv")
-    parser.add_argument("-o", "--output", metavar="FILE")
-    parser.add_argument("--figure", metavar="FILE")
-    options = parser.parse_args()
+def combinations(options):
+    """Which choices the paper's numbers come from: every printed number under every combination of what it does not state.
+
+    The paper states layers of 4 d_S, windows of 1.25 s, all stages of all six mixtures, 0.01 < phi_S/phi_L < 100 and the component yy. Open are
+        layers        which heights take part (d_S)
+        frames        of a window
+        form          of the fit of y over x: means of logarithms, the same weighted by frames times grains of the rarer species, or
+                      least squares of y itself
+        mean          velocity that fluctuations are counted from: of the layer or of a fine profile over the window, or of layer and frame
+        velocity      of the step that a frame is: after it or in its middle
+        restitution   0.25 as a coefficient of velocities, or of energy, which makes 0.5
+        for the profile of figure 3a alone: volume (with voids, or of grains) and period ("steady state", s)
+    A target is met where it differs from the paper's number by at most 1.96 standard errors, those of the paper (statements.py; where none is
+    printed, that of rounding) and of one set of runs like the paper's: sqrt(1 + 1/n) times the deviation of n seeds, taken from restitution 0.25.
+    It is not met where 1.96 of the latter are more than the room that the paper leaves (statements.py): such a combination says nothing about it.
+    """
     if os.path.isdir(options.source):
         if not options.output:
-            parser.error("-o FILE is needed")
+            sys.exit("combinations: -o FILE is needed")
         found = list(rows(options.source))
         tables.write(options.output, "combinations", list(found[0]), found)
         return
@@ -270,7 +259,3 @@ def main():
     if options.figure:
         write_figure(found, options.figure)
     print("\n\n".join(report(found)))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,29 +1,36 @@
-#!/usr/bin/python3
-"""Rewrites the generated parts of docs/studies/reproduction.md and its annex from the tables that document.mk makes.
-
-    scripts/reproduce/document WORK docs/studies/reproduction.md [docs/studies/reproduction-annex.md]
-
-A generated part stands between <!-- NAME --> and <!-- /NAME -->; the rest of a file is left as it is.
-"""
+"""The generated parts of docs/studies/reproduction.md and of its annex."""
 import math
 import os
-import re
-import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-from captions import CAPTIONS  # noqa: E402
-import combined  # noqa: E402
-import errata  # noqa: E402
-from measured import Measured, Value, plain  # noqa: E402
-import tables  # noqa: E402
-import targets  # noqa: E402
-import verdicts  # noqa: E402
+import combined
+import errata
+from measured import Measured, Value, plain
+import tables
+from tables import shared
+import targets
+import verdicts
 
-
-def markdown_table(heads, rows):
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+markdown = shared.markdown
+# Captions of the figures, in the order of the paper.
+CAPTIONS = {
+    "snapshots": "Figure 1. Φ_L = 0.30, 23°, at the start and at the end",
+    "pressure-profile":
+        "Figure 2a. The line with cosθ is the one in the text, the other the one in the caption",
+    "stress-ratio": "Figure 2b: the layers and windows of the fit, from 4 to 56 d_S, and its line",
+    "mixed-share": "Figure 2c, with the curve of contacts that ignore grain size",
+    "kinetic-profile":
+        "Figure 3a, for both definitions of a velocity fluctuation; right: kinetic stress over contact stress",
+    "kinetic-ratio": "Figure 3b, likewise; beside them the lowest layer, with the row that the base traps",
+    "kinetic-shear-rate": "Figure 4, with the paper's line",
+    "pressure-estimates": "Figure 5 with 1/(πd), and Π from contact ends and normal forces",
+    "micro-over-time": "Figure 6, first seed, with the forces expected if they ignored grain size",
+    "b-of-p": "B over the share of a mixed contact that goes to its large grain, with the rules of published codes",
+    "b-of-flows": "B and −B_κ of each flow, early and late",
+    "balance":
+        "Which mechanism pushes the large grains of Φ_L = 0.30 in which direction ([balance.md](balance.md))",
+    "combinations": "Of the combinations with a choice the part that meets each number of the paper",
+    "step": "Contacts per grain, mean force, and their product over the time step",
+}
 
 
 def sections(m):
@@ -32,7 +39,7 @@ def sections(m):
 
 def verdict_tables(m):
     heads = ["target", "paper", "met if", "measured here", "difference", "verdict", "remarks"]
-    return "\n\n".join(f"### {title}\n\n" + markdown_table(heads, [target.cells() for target in section])
+    return "\n\n".join(f"### {title}\n\n" + markdown(heads, [target.cells() for target in section])
                        for title, section in sections(m))
 
 
@@ -49,13 +56,13 @@ def counts(m):
 def ranges(m):
     rows = [[target.name, target.statement.text, targets.allowed(target.statement), target.statement.source]
             for _, section in sections(m) for target in section]
-    return markdown_table(["target", "paper", "met if", "why this range"], rows)
+    return markdown(["target", "paper", "met if", "why this range"], rows)
 
 
 def pictures(m):
     """The figures that could be drawn from the flows there are."""
     drawn = [name for name in CAPTIONS if os.path.exists(os.path.join(m.folder, name + ".png"))]
-    return markdown_table(["", ""], [[f"![{name}](figures/reproduction/{name}.png)", CAPTIONS[name]]
+    return markdown(["", ""], [[f"![{name}](figures/reproduction/{name}.png)", CAPTIONS[name]]
                             for name in drawn])
 
 
@@ -68,7 +75,7 @@ def flows(m):
                 value("rate", 3), value("t50", 0)]
     heads = ["Φ_L", "θ", "seeds", "s", "small", "large", "H/d_S, first window", "y_L/H, first window",
              "y_L/H, last window", "γ̇ / √(g/d_S)", "t50 (s)"]
-    return markdown_table(heads, [line(row) for row in m.plain_flows()])
+    return markdown(heads, [line(row) for row in m.plain_flows()])
 
 
 def all_heights(m, flow):
@@ -90,7 +97,7 @@ def strengths(m):
                      all_heights(m, name), m.fit(name, component="pressure").text(3),
                      m.fit(name, "paper_B", **kinetic).text(3), m.fit(name, "paper_a", **kinetic).text(3)])
     heads = ["flow", "runs", "B", "t < 60 s", "t > 100 s", "all heights", "from the pressure", "B_κ", "exponent of B_κ's fit"]
-    return markdown_table(heads, rows)
+    return markdown(heads, rows)
 
 
 def estimators(m):
@@ -99,7 +106,7 @@ def estimators(m):
     rows = [[title] + [m.fit("mixtures", name, **how).text(3)
                        for how in ({}, {"component": "pressure"}, {"quantity": "kinetic"})]
             for name, title in names]
-    return markdown_table(["estimator, 23°, six mixtures pooled", "from σ_yy", "from the pressure", "kinetic, yy"], rows)
+    return markdown(["estimator, 23°, six mixtures pooled", "from σ_yy", "from the pressure", "kinetic, yy"], rows)
 
 
 def choices(m):
@@ -115,7 +122,7 @@ def choices(m):
     if not rows:
         return "Not measured yet."
     heads = [f"{m.choices[0]['flow']}, choice", "runs", "B, size", "difference", "B, half", "B_κ, yy", "difference", "B_κ, pressure"]
-    return markdown_table(heads, rows)
+    return markdown(heads, rows)
 
 
 def scan(m):
@@ -132,7 +139,7 @@ def by_mixture(m):
             + [m.fit(row["flow"], name).text(digits) for name, digits in (("B", 3), ("p_zero", 4))]
             + [m.number(row["flow"], "rise_early_less_late").text(3), m.fit(row["flow"], "paper_B").text(3)]
             + [m.fit(row["flow"], name, quantity="kinetic").text(3) for name in ("B", "paper_B")] for row in flows]
-    return markdown_table(["Φ_L", "runs", "**B**", "p*", "B before 60 s minus B after 100 s", "B by the paper's fit",
+    return markdown(["Φ_L", "runs", "**B**", "p*", "B before 60 s minus B after 100 s", "B by the paper's fit",
                            "B_κ", "B_κ by the paper's fit"], rows)
 
 
@@ -148,7 +155,7 @@ def pooled(m):
             ("equal flows: these mixtures, each counting the same", "_equal_flows"),
             ("random flows: all mixtures of which these are a random sample", "_random_flows"))
     rows = [[title, m.fit("mixtures", "B" + end).text(3)] for title, end in over]
-    return markdown_table(["over", f"B of these {row['seeds']:.0f} runs"], rows) + f"\n\nOf the weight, {shares}."
+    return markdown(["over", f"B of these {row['seeds']:.0f} runs"], rows) + f"\n\nOf the weight, {shares}."
 
 
 def rise(m):
@@ -156,11 +163,11 @@ def rise(m):
     flows = m.mixtures()
     of = lambda row, name, digits: m.number(row["flow"], f"rise_{name}").text(digits)
     one = lambda row: m.number("mixtures", f"rise_one_{row['phi']:g}").text(4)
-    factors = markdown_table(
+    factors = markdown(
         ["Φ_L", "B", "B of the factors", "p_size − p*", "mixed", "geometry", "B with one p*"],
         [[f"{row['phi']:g}", m.fit(row["flow"]).text(4), of(row, "B", 4), of(row, "beyond", 4), of(row, "mixed", 3),
           of(row, "geometry", 3), one(row)] for row in flows])
-    terms = markdown_table(
+    terms = markdown(
         ["Φ_L", "ends", "forces", "pairing", "normal", "−ln s", "mixed contacts over neutral", "over random pairing"],
         [[f"{row['phi']:g}"] + [of(row, name, 3) for name in ("ends", "forces", "pairing", "normal", "log", "LS/neutral", "LS/random")]
          for row in flows])
@@ -170,7 +177,7 @@ def rise(m):
     trends = [["B, sums"] + both("trend_B"), ["B with one p*"] + both("trend_one")]
     trends += [[f"of −ln s: {name}"] + both(f"trend_{name}") for name in ("ends", "forces", "pairing", "normal", "log")]
     trends += [[title] + both("_".join(filter(None, ("alike", name)))) for name, title in alike.items()]
-    return "\n\n".join((factors, terms, markdown_table(["change per unit of Φ_L", "all six mixtures", "Φ_L from 0.30 on"], trends)))
+    return "\n\n".join((factors, terms, markdown(["change per unit of Φ_L", "all six mixtures", "Φ_L from 0.30 on"], trends)))
 
 
 def forces(m):
@@ -179,7 +186,7 @@ def forces(m):
             + [m.number(row["flow"], name).text(digits)
                for name, digits in (("push", 1), ("push_kinetic", 2), ("drag", 1))]
             for row in m.plain_flows()]
-    return markdown_table(heads, rows)
+    return markdown(heads, rows)
 
 
 def source(m):
@@ -209,28 +216,14 @@ def combinations(m):
 MAIN = {"source": source, "counts": counts, "combinations": combinations, "by-mixture": by_mixture, "targets": verdict_tables}
 ANNEX = {"ranges": ranges, "pictures": pictures, "flows": flows, "strengths": strengths, "pooled": pooled, "estimators": estimators,
          "scan": scan, "rise": rise, "forces": forces, "choices": choices,
-         "errata": lambda m: markdown_table(["paper", "what is wrong or open", "measured"], errata.rows(m))}
+         "errata": lambda m: markdown(["paper", "what is wrong or open", "measured"], errata.rows(m))}
 
 
-def rewrite(path, parts, m):
-    with open(path) as document:
-        text = document.read()
-    for name, part in parts.items():
-        marked = re.compile(f"(<!-- {name} -->\n).*?(\n?<!-- /{name} -->)", re.DOTALL)
-        if len(marked.findall(text)) != 1:
-            sys.exit(f"document: {path} must have <!-- {name} --> and <!-- /{name} --> once")
-        text = marked.sub(lambda match: match[1] + part(m) + "\n" + match[2].lstrip("\n"), text)
-    with open(path + ".part", "w") as out:
-        out.write(text)
-    os.replace(path + ".part", path)
+def document(options):
+    """Rewrites the generated parts of docs/studies/reproduction.md and its annex from the tables that document.mk makes.
 
-
-def main():
-    if len(sys.argv) not in (3, 4):
-        sys.exit(__doc__)
-    m = Measured(sys.argv[1])
-    for path, parts in zip(sys.argv[2:], (MAIN, ANNEX)):
-        rewrite(path, parts, m)
-
-
-main()
+    A generated part stands between <!-- NAME --> and <!-- /NAME -->; the rest of a file is left as it is.
+    """
+    m = Measured(options.work)
+    for path, parts in zip(options.documents, (MAIN, ANNEX)):
+        shared.rewrite("document", [path], {name: part(m) for name, part in parts.items()})

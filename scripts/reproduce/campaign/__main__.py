@@ -1,0 +1,74 @@
+"""The campaign of scripts/reproduce: its runs, and all that is made of their tables.
+
+    python3 scripts/reproduce/campaign COMMAND ...
+
+Each command says with --help what it makes; Makefile, run.mk and document.mk call most of them.
+"""
+import argparse
+import importlib
+import inspect
+import os
+import sys
+
+OPTIONS = {
+    "tables": {"metavar": "TABLES", "help": "folder of finished runs"},
+    "-o": {"dest": "output", "required": True, "metavar": "FILE"},
+    "--bin": {"metavar": "FOLDER", "default": os.path.join(os.path.dirname(__file__), *[".."] * 3, "build", "bin"),
+              "help": "of the programs (build/bin)"},
+    "--bootstrap": {"default": "1000", "metavar": "N", "help": "samples (1000)"},
+    "--partition": {"metavar": "RULES"},
+    "--flows": {"metavar": "LIST", "help": "instead of those named above"},
+    "--heights": {"metavar": "LOW:HIGH", "help": "layers that count"},
+    "--begin": {"default": "10", "metavar": "T", "help": "from this time on, s (10)"},
+    "--end": {"metavar": "T", "help": "until this time, s"},
+}
+MADE = ["tables", "-o", "--bin"]
+FITTED = [*MADE, "--bootstrap"]
+FLUX = [*FITTED, "--heights", "--begin", "--end"]
+# Of each command: its module, its options and what differs in them, and further ones.
+COMMANDS = {
+    "fits": ("fits", [*FITTED, "--partition"], {}),
+    "choices": ("fits", FITTED, {}),
+    "mixtures": ("fits", [*FITTED, "--flows"], {}),
+    "flows": ("flows", [*MADE, "fits"], {"fits": {"metavar": "FITS"}}),
+    "numbers": ("measures", MADE, {}),
+    "document": ("document", ["work", "documents"], {"documents": {"nargs": "+"}}),
+    "questions": ("questions", FITTED, {"tables": {"nargs": "+"}}),
+    "rigid-limit": ("questions", ["questions", "-o", "--flow"], {"--flow": {"default": "phi0.45-s23"}}),
+    "closures": ("closures", [*FLUX, "--flows"], {"--heights": {"default": "12dS:56dS"}}),
+    "denser": ("closures", [*FLUX, "--flow"], {"--flow": {"default": "phi0.45-s23-mixed"}, "--heights": {"default": "4dS:56dS"}}),
+    "stages": ("stages", ["tables", "-o", "--flows", "--window"],
+               {"--flows": {"default": "phi0.45-s23-t600,phi0.45-s23-mixed-t600,phi0.45-s23-above-t600"},
+                "--window": {"type": float, "default": 10, "metavar": "S", "help": "of a point (10)"}}),
+    "answers": ("answers", ["folder", "documents"], {"documents": {"nargs": "+"}}),
+    "combinations": ("combinations", ["source", "-o", "--figure"],
+                     {"source": {"metavar": "FOLDER|combinations.tsv"}, "-o": {"required": False}, "--figure": {"metavar": "FILE"}}),
+    "keep": ("keep", ["tables", "archive", "--questions"], {"--questions": {"action": "store_true"}}),
+    "unpack": ("keep", ["kept", "folder"], {}),
+    "rounding": ("rounding", ["tables", "--heights"], {"tables": {"nargs": "+", "metavar": "STRESS.tsv", "help": None},
+                                                        "--heights": {"metavar": "Y0:Y1", "help": "m"}}),
+    "scene": ("run", ["name", "duration", "depth", "length", "accuracy", "frame_interval"], {}),
+    "simulate": ("run", ["simulator", "every"], {}),
+    "table": ("run", ["file", "made_by"], {"made_by": {"nargs": argparse.REMAINDER, "metavar": "COMMAND"}}),
+    "outdated": ("run", ["again", "wanted"], {"wanted": {"nargs": "*", "metavar": "TABLE|TABLE: COMMAND"}}),
+    "cost": ("run", [], {}),
+    "extract": ("extract", ["what", "run"], {"what": {"choices": ["record", "observables", "snapshots"]}}),
+    "relabel": ("extract", ["run", "random"], {}),
+}
+
+
+def main():
+    name = sys.argv[1] if len(sys.argv) > 1 else "--help"
+    if name not in COMMANDS:
+        sys.exit(f"{__doc__.strip()}\n\nCommands: {', '.join(COMMANDS)}")
+    module_name, words, others = COMMANDS[name]
+    command = getattr(importlib.import_module(module_name), name.replace("-", "_"))
+    parser = argparse.ArgumentParser(prog=f"campaign {name}", description=inspect.getdoc(command),
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    for word in words:
+        parser.add_argument(*([word, "--output"] if word == "-o" else [word]), **(OPTIONS.get(word, {}) | others.get(word, {})))
+    command(parser.parse_args(sys.argv[2:], argparse.Namespace(command=name)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,149 @@
+"""One run of the campaign, in its own folder: its scene, its simulation, its tables and what they cost."""
+import fcntl
+import glob
+import itertools
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+
+# What a word of a run's name sets: the first pattern that fits.
+WORDS = [(r"phi(.*)", "phi-large = {}"), (r"seed(.*)", "seed = {}"), (r"step(.*)", "step = {}"), (r"s(\d.*)", "slope = {}"),
+         (r"e(\d.*)", "restitution = {}"), (r"ratio(.*)", "size-ratio = {}"), (r"density(.*)", "density-ratio = {}"),
+         (r"mu(.*)", "friction = {}"),
+         (r"irregular()", "base-height-spread = 0.5dS\nbase-diameter-spread = 0.3\nbase-spacing-spread = 0.2"),
+         (r"spaced()", "base-spacing = 1.2dL"), (r"mixed()", "initial = mixed"), (r"above()", "initial = large-above"),
+         (r"finer()", "step = 5e-5\ntolerance = 0.01\nmax-sweeps = 5000")]
+# Words that replace what all runs have in common.
+COMMON = {r"cell(.*)": "length", r"depth(.*)": "depth", r"t(\d.*)": "duration", r"(draft|standard|reference)": "accuracy"}
+
+
+def scene(options):
+    """The scene of the run of this name, in which every word between hyphens sets one key. All other keys are as in
+    sim/scenes/chute.ini."""
+    lines = [f"# {options.name}: of scripts/reproduce; all else is as in sim/scenes/chute.ini."]
+    common = {key: getattr(options, key.replace("-", "_")) for key in ("duration", "depth", "length", "accuracy", "frame-interval")}
+    for word in options.name.split("-"):
+        of_word = [line.format(found[1]) for pattern, line in WORDS if (found := re.fullmatch(pattern, word))]
+        replaced = {key: found[1] for pattern, key in COMMON.items() if (found := re.fullmatch(pattern, word))}
+        if not of_word and not replaced:
+            sys.exit(f"scene: {options.name}: '{word}' is not a part of a run's name")
+        lines += of_word[:1]
+        common.update({"accuracy": "reference"} if word == "finer" else replaced)
+    print("\n".join(lines + [f"{key} = {value}" for key, value in common.items()]))
+
+
+def timed(command, log, **how):
+    """Exit code, and "processor U + S s" of the command, whose words are appended to `log`."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    code = subprocess.run(command, stderr=log, **how).returncode
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return code, f"processor {after.ru_utime - before.ru_utime:.3f} + {after.ru_stime - before.ru_stime:.3f} s"
+
+
+def is_newer(path, other):
+    return os.path.exists(path) and os.path.getmtime(path) > os.path.getmtime(other)
+
+
+def simulate(options):
+    """Makes run.h5 from the scene.ini in this folder, with a checkpoint every so many seconds; continues from an existing
+    checkpoint. The simulator's messages are appended to run.log."""
+    def run(*words):
+        with open("run.log", "a") as log:
+            code, processor = timed([options.simulator, *words, "--checkpoint", "run.chk", "--checkpoint-every", options.every,
+                                     "--overwrite", "-o", "run.h5"], log, pass_fds=[lock.fileno()])
+            log.write(processor + "\n")
+        if code != 0:
+            with open("run.log") as log:
+                print(*[line for line in log if line.startswith("grseg-sim: ")][-1:], end="", file=sys.stderr)
+        return code if code >= 0 else 128 - code
+
+    # A simulator that outlived its make may still be running, with the lock: wait for it.
+    lock = open("run.lock", "w")
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    signal.signal(signal.SIGINT, lambda *_: None)  # the simulator ends, and says so
+    if is_newer("run.h5", "scene.ini"):
+        return
+    if is_newer("run.chk", "scene.ini") and os.path.exists("run.h5.part") and os.path.getsize("run.h5.part"):
+        with open("run.log", "a") as log:
+            log.write("restart\n")
+        code = run("--restart", "run.chk")
+        if code != 3:
+            sys.exit(code)
+        trouble = "simulate: the interrupted run cannot be continued; starting from the beginning\n"
+        with open("run.log", "a") as log:
+            log.write(trouble)
+        sys.stderr.write(trouble)
+    for path in ["run.chk", "run_prev.chk", "run.h5", *glob.glob("run.h5.part*")]:
+        if os.path.exists(path):
+            os.remove(path)
+    sys.exit(run("scene.ini"))
+
+
+def without_restarts(text):
+    """A table, or any other text, without the lines of its history that name a restart."""
+    from tables import shared  # not above: make calls this module for every run
+    body = shared.unsealed(text)
+    shorter = re.sub("(?m)^# history: grseg-sim --restart run.chk .*\n", "", body)
+    return text if shorter == body else shared.sealed(shorter)
+
+
+def table(options):
+    """Writes the output of the command to FILE, completely or not at all. Exit code 4, a failed check, is a valid result.
+
+    A restarted run is bitwise identical (tests/tools/restart_test.sh), and its restarts are in run.log; they are removed from
+    the history so that the tables are identical, too.
+    """
+    begin = time.time()
+    with open("run.log", "a") as log:
+        part = f"{options.file}.{os.getpid()}.part"
+        with open(part, "w+") as out:
+            code, processor = timed(options.made_by, log, stdout=out)
+            if code not in (0, 4):
+                sys.exit(code if code >= 0 else 128 - code)
+            out.seek(0)
+            text = without_restarts(out.read())
+            out.seek(0)
+            out.truncate()
+            out.write(text)
+        os.replace(part, options.file)
+        log.write(f"{options.file} made in {time.time() - begin:.3f} s, {processor}\n")
+
+
+def outdated(options):
+    """Prints the tables of the run in this folder that were made by another command than COMMAND, according to the last
+    line of their history. If the run is finished and its trajectory deleted, missing or outdated tables require another
+    simulation: the answer is then "gone" and these tables or, with AGAIN, all tables, because today's program may give
+    another run."""
+    names, old, missing = [], [], []
+    for wanted in options.wanted:
+        name, _, command = wanted.partition(": ")
+        names.append(name)
+        if not os.path.exists(name):
+            missing.append(name)
+        elif command:
+            with open(name) as lines:
+                head = list(itertools.takewhile(lambda line: line.startswith("#"), lines))
+            if [line for line in head if line.startswith("# history: ")][-1:] != [f"# history: {command}\n"]:
+                old.append(name)
+    if (old or missing) and os.path.exists("checksums") and not os.path.exists("run.h5") and not is_newer("scene.ini", "checksums"):
+        print(*(names if options.again else ["gone", *old, *missing]))
+    else:
+        print(*old)
+
+
+def cost(_):
+    """Cost of the run in this folder, from run.log: wall time of its simulation including restarts and of its
+    tables; processor time, except that of killed processes; the size of its trajectory."""
+    with open("run.log") as log:
+        text = log.read()
+    simulation = re.findall(r"(?m)^.* s simulated in (\S+) s", text)[-1:]
+    used = [float(a) + float(b) for a, b in re.findall(r"(?m)^processor (\S+) \+ (\S+) s", text)]
+    made = {name: (float(wall), float(a) + float(b))
+            for name, wall, a, b in re.findall(r"(?m)^(\S+) made in (\S+) s, processor (\S+) \+ (\S+) s", text)}
+    print("simulation[s]\tits_processor[s]\ttables[s]\ttheir_processor[s]\ttrajectory[bytes]\trestarts")
+    print(f"{sum(map(float, simulation)):.1f}\t{sum(used):.1f}", *(f"{sum(part[k] for part in made.values()):.1f}" for k in (0, 1)),
+          os.path.getsize("run.h5") if os.path.exists("run.h5") else "nan", len(re.findall("(?m)^restart$", text)), sep="\t")

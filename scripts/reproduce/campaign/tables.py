@@ -1,0 +1,114 @@
+"""The campaign's runs and what grseg's programs say of them."""
+import glob
+import math
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+import shared  # noqa: E402
+from shared import mean_and_half_width, parse, read, student, write  # noqa: E402, F401
+
+# Name of a run: phi0.30-s23-seed1, phi0.45-s23-e0.5-seed2. Its tables are NAME/QUANTITY.tsv.
+NAME = re.compile(r"phi(?P<phi>[\d.]+)-s(?P<slope>[\d.]+)(?:-(?P<variant>.+?))?-seed(?P<seed>\d+)$")
+CONTROL = "ratio1"  # the variant with equal grains
+EARLY, LATE = 60, 100  # s: the early stage ends, the late one begins
+INSIDE = (4, 56)  # d_S, the layers that count
+WHERE = ["--heights", "4dS:56dS", "--quiet"]
+ENDS = ("", "_low", "_high")
+
+
+def welch(*estimates):
+    """Standard error and degrees of freedom of a sum or difference of independent (error, degrees of freedom)."""
+    variance = sum(error**2 for error, _ in estimates)
+    if not variance > 0:
+        return math.sqrt(variance), 1e9
+    return math.sqrt(variance), variance**2 / sum(error**4 / freedom for error, freedom in estimates)
+
+
+def line(x, y, weights=None):
+    """The least-squares line: level at x = 0, slope, what a variance of y, over the weights, makes of theirs (level, both,
+    slope), and the weighted sum of squares that it leaves."""
+    w = weights or [1] * len(x)
+    total, mx = sum(w), sum(a * b for a, b in zip(w, x)) / sum(w)
+    my = sum(a * b for a, b in zip(w, y)) / total
+    sxx = sum(a * (b - mx) ** 2 for a, b in zip(w, x))
+    slope = sum(a * (b - mx) * (c - my) for a, b, c in zip(w, x, y)) / sxx
+    level = my - slope * mx
+    left = sum(a * (c - level - slope * b) ** 2 for a, b, c in zip(w, x, y))
+    return level, slope, (1 / total + mx**2 / sxx, -mx / sxx, 1 / sxx), left
+
+
+class Run:
+    def __init__(self, folder, name, match):
+        self.folder, self.name = folder, name
+        self.flow = name[:name.rindex("-seed")]
+        self.phi, self.slope = float(match["phi"]), float(match["slope"])
+        self.variant, self.seed = match["variant"] or "", int(match["seed"])
+
+    def path(self, quantity):
+        return os.path.join(self.folder, self.name, f"{quantity}.tsv")
+
+    def has(self, quantity):
+        return os.path.exists(self.path(quantity))
+
+    def record(self):
+        """Its parameters by name."""
+        return {row["name"]: row["value"] for row in read(self.path("record"))[1]}
+
+
+def runs_in(folder):
+    """All finished runs, in order of mixture, slope, variant and seed."""
+    found = []
+    for path in glob.glob(os.path.join(glob.escape(folder), "*", "checksums")):
+        name = os.path.basename(os.path.dirname(path))
+        match = NAME.match(name)
+        if match:
+            found.append(Run(folder, name, match))
+    if not found:
+        sys.exit(f"{folder}: no finished run, such as phi0.30-s23-seed1/checksums; "
+                 "give the folder that make reproduce filled")
+    return sorted(found, key=lambda run: (run.phi, run.slope, run.variant, run.seed))
+
+
+def by_flow(runs):
+    flows = {}
+    for run in runs:
+        flows.setdefault(run.flow, []).append(run)
+    return flows
+
+
+def flows_in(options, otherwise=lambda run: True):
+    """Runs by flow: those of --flows, or else of which `otherwise` is true."""
+    wanted = options.flows.split(",") if options.flows else None
+    flows = by_flow(run for run in runs_in(options.tables) if (run.flow in wanted if wanted else otherwise(run)))
+    if not flows:
+        sys.exit(f"{options.command}: {options.tables}: none of {options.flows or 'these flows'} has finished")
+    return flows
+
+
+def sizes_of(runs):
+    """How many runs each of several flows has, as grseg-fit takes it."""
+    return ["--flows", ",".join(str(len(of_flow)) for of_flow in by_flow(runs).values())]
+
+
+def of_bed(run):
+    """The header of grseg-segregation's table, the windows of the whole bed, and the mean shear rate from 10 s on,
+    in units of sqrt(g/d_S)."""
+    header, rows = read(run.path("segregation"))
+    bed = [row for row in rows if math.isnan(row["y0"])]
+    d, g = float(header["small_diameter"]), math.hypot(float(header["gravity_x"]), float(header["gravity_y"]))
+    # Windows of the spin-up are excluded unless there are no others.
+    flowing = [row for row in bed if row["t0"] >= 10] or bed
+    rate = sum(row["frames"] * row["shear_rate"] for row in flowing) / sum(row["frames"] for row in flowing)
+    return header, bed, rate * math.sqrt(d / g)
+
+
+def program(options, name, *words, columns=None):
+    """The table printed by one of grseg's programs."""
+    return parse(shared.tool(options.bin, name, *words), columns, name)
+
+
+def fits(options, *words):
+    """What grseg-fit says, its fit of the paper too: one dictionary per rule and flow."""
+    return shared.by_rule(program(options, "grseg-fit", *words, "--fit", "paper")[1])

@@ -1,0 +1,220 @@
+"""What scripts share: tables of grseg as text, the tools that print them, intervals, and Markdown.
+
+Every table of grseg ends with a line '# end: 3 rows, xxh3 0123456789abcdef', the number of rows and the xxh3 (64 bit) of
+all bytes before it. What is read here is checked by it; those who change a table write it anew. Tables of numbers alone
+are also read by analysis/python/grseg.py, which knows their columns.
+"""
+import ctypes
+import ctypes.util
+import math
+import os
+import re
+import statistics
+import subprocess
+import sys
+
+SCRIPTS = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(SCRIPTS)
+BIN = os.path.join(ROOT, "build", "bin")
+MARK = "# end: "
+# Tables of grseg 0.1 and those that name no program have no such line.
+WITH_END = re.compile(r"^# program: grseg-\S+ (?!0\.1\.)", re.MULTILINE)
+
+
+# ------------------------------------------------------------------------------------------ tables
+
+def xxh3(data):
+    """16 hexadecimal digits, by the library that grseg is built with."""
+    name = ctypes.util.find_library("xxhash")
+    if name is None:
+        sys.exit("libxxhash is missing; install it (scripts/setup does)")
+    digest = ctypes.CDLL(name).XXH3_64bits
+    digest.argtypes, digest.restype = (ctypes.c_char_p, ctypes.c_size_t), ctypes.c_uint64
+    return f"{digest(data, len(data)):016x}"
+
+
+def end_line(text):
+    rows = sum(not line.startswith("#") for line in text.split("\n")[:-1]) - 1
+    return f"{MARK}{rows} rows, xxh3 {xxh3(text.encode())}\n"
+
+
+def sealed(text):
+    """The table with the line that ends it."""
+    return text + end_line(text)
+
+
+def unsealed(text, name="table"):
+    """The table without the line that ends it. Exits where that does not agree with the others, or is missing."""
+    at = text.rfind("\n") + 1 if not text.endswith("\n") else text.rfind("\n", 0, -1) + 1
+    if not text.startswith(MARK, at):
+        if WITH_END.search(text):
+            sys.exit(f"{name}: does not end with the line '{MARK}...'; it is truncated or damaged, make it anew")
+        return text
+    if text[at:] != end_line(text[:at]):
+        sys.exit(f"{name}: does not agree with its last line, '{text[at:].strip()}'; it is damaged, make it anew")
+    return text[:at]
+
+
+def lines_of(path):
+    """Lines before the rows, names of the columns with units, rows of words."""
+    with open(path) as table:
+        lines = unsealed(table.read(), path).splitlines()
+    head = sum(line.startswith("#") for line in lines)
+    return lines[:head], lines[head].split("\t"), [line.split("\t") for line in lines[head + 1:]]
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def numbers(cells):
+    """The cells of a row, as numbers where they are numbers."""
+    try:
+        return [float(cell) for cell in cells]
+    except ValueError:
+        return [number(cell) for cell in cells]
+
+
+def parse(text, columns=None, path="table"):
+    """Lines '# key: value' (the first of each key) and rows by column name without unit, of all columns or
+    those named. Exits where the table is not as it was written."""
+    header, names, rows = {}, None, []
+    for line in unsealed(text, path).splitlines():
+        if line.startswith("# "):
+            key, _, value = line[2:].partition(": ")
+            header.setdefault(key, value)
+        elif names is None:
+            names = [name.split("[")[0] for name in line.split("\t")]
+            wanted = [names.index(name) for name in columns] if columns else range(len(names))
+            names = [names[k] for k in wanted]
+        else:
+            cells = line.split("\t")
+            rows.append(dict(zip(names, numbers([cells[k] for k in wanted]))))
+    return header, rows
+
+
+def read(path, columns=None):
+    with open(path) as table:
+        return parse(table.read(), columns, path)
+
+
+def write(path, comment, names, rows):
+    """Writes a table, complete or not at all; cells are words or numbers."""
+    cell = lambda value: value if isinstance(value, str) else f"{value:.8g}"
+    with open(path + ".part", "w") as out:
+        out.write(f"# {comment}\n" + "\t".join(names) + "\n")
+        for row in rows:
+            out.write("\t".join(cell(row[name]) for name in names) + "\n")
+    os.replace(path + ".part", path)
+
+
+# ------------------------------------------------------------------------------------------- tools
+
+def tool(folder, name, *words):
+    """What one of grseg's programs prints; RuntimeError with its sentence where it fails."""
+    done = subprocess.run([os.path.join(folder, name), *map(str, words)], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr.strip())
+    return done.stdout
+
+
+class Numbers(dict):
+    def __missing__(self, name):
+        return math.nan
+
+
+def by_rule(rows):
+    """The numbers of grseg-fit, whose table has a row for each, as one dictionary per rule, flow and pair: rule, flow,
+    pair, and for every quantity NAME, NAME_low, NAME_high; B is over what was asked for, B_OVER (B_windows,
+    B_equal_flows ...) over each population that is known. Numbers of no rule (p_zero, dB_dp, Phi_L ...) belong to all.
+    degrees_of_freedom are those of B; nan where a number is missing."""
+    found, common = {}, {}
+    for row in rows:
+        flow = row["flow"], row["pair"]
+        own = common.setdefault(flow, Numbers()) if row["rule"] == "-" else \
+            found.setdefault((row["rule"], *flow), Numbers(rule=row["rule"], flow=row["flow"], pair=row["pair"]))
+        three = {end: float(row[name]) for end, name in (("", "value"), ("_low", "low"), ("_high", "high"))}
+        name = row["quantity"].split("[")[0]
+        if name == "B":
+            own.update({f"B_{row['over'].replace('-', '_')}{end}": value for end, value in three.items()})
+            if "B" not in own:
+                own["degrees_of_freedom"] = float(row["degrees_of_freedom"])
+        for end, value in three.items():
+            own.setdefault(name + end, value)
+    for (rule, *flow), own in found.items():
+        own.update(common.get(tuple(flow), {}))
+    return list(found.values())
+
+
+def fits(folder, *words):
+    """The numbers of grseg-fit, by_rule()."""
+    return by_rule(parse(tool(folder, "grseg-fit", *words))[1])
+
+
+# --------------------------------------------------------------------------------------- intervals
+
+STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365, 8: 2.306, 9: 2.262,
+           10: 2.228, 15: 2.131, 20: 2.086, 30: 2.042, 60: 2.000, 10**9: 1.960}
+
+
+def student(freedom):
+    """Student's 97.5 % quantile; between the listed degrees of freedom linear in their inverse, off by 3 % at most."""
+    above = min((n for n in STUDENT if n >= freedom), default=max(STUDENT))
+    below = max((n for n in STUDENT if n <= freedom), default=min(STUDENT))
+    if above == below:
+        return STUDENT[below]
+    part = (1 / freedom - 1 / above) / (1 / below - 1 / above)
+    return STUDENT[above] + part * (STUDENT[below] - STUDENT[above])
+
+
+def mean_and_half_width(values):
+    """Mean and half the width of its 95 % interval, by Student's t over independent values; both are
+    nan where one of the values is."""
+    n = len(values)
+    mean = statistics.fmean(values)
+    if n < 2 or math.isnan(mean):
+        return mean, math.nan
+    return mean, student(n - 1) * statistics.stdev(values) / math.sqrt(n)
+
+
+def ratio(above, below):
+    """Ratio of two sums, and its standard error over the pairs."""
+    n, total = len(above), sum(below)
+    if not total:
+        return math.nan, math.nan
+    value = sum(above) / total
+    if n < 2:
+        return value, math.nan
+    left = sum((a - value * b) ** 2 for a, b in zip(above, below))
+    return value, math.sqrt(left * n / (n - 1)) / abs(total)
+
+
+# ---------------------------------------------------------------------------------------- Markdown
+
+def markdown(heads, rows):
+    head, *lines = ("| " + " | ".join(cells) + " |" for cells in [heads, *rows])
+    return "\n".join([head, "|" + "---|" * len(heads), *lines])
+
+
+def rewrite(command, paths, parts, optional=()):
+    """Replaces generated parts, {name: text}, of documents: what stands between <!-- NAME --> and <!-- /NAME -->. Each has
+    one place in one of the documents; those named in `optional` may have none."""
+    texts = {}
+    for path in paths:
+        with open(path) as document:
+            texts[path] = document.read()
+    for name, part in parts.items():
+        marked = re.compile(f"(<!-- {name} -->\n).*?(<!-- /{name} -->)", re.DOTALL)
+        places = [path for path, text in texts.items() for _ in marked.findall(text)]
+        if not places and name in optional:
+            continue
+        if len(places) != 1:
+            sys.exit(f"{command}: one of {', '.join(paths)} must have <!-- {name} --> and <!-- /{name} --> once")
+        texts[places[0]] = marked.sub(lambda match: match[1] + part + "\n" + match[2], texts[places[0]])
+    for path, text in texts.items():
+        with open(path + ".part", "w") as out:
+            out.write(text)
+        os.replace(path + ".part", path)
