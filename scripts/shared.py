@@ -16,6 +16,7 @@ import sys
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(SCRIPTS)
 BIN = os.path.join(ROOT, "build", "bin")
+sys.path.append(os.path.join(ROOT, "analysis", "python"))  # of grseg.py
 MARK = "# end: "
 # Tables of grseg 0.1 and those that name no program have no such line.
 WITH_END = re.compile(r"^# program: grseg-\S+ (?!0\.1\.)", re.MULTILINE)

@@ -203,7 +203,7 @@ class Flows(Pipeline):
         record = [{"name": "program", "value": "grseg"}, {"name": "grains_small", "value": "4"},
                   {"name": "grains_large", "value": "2"}]
         summary = [{"quantity": "t50[s]", "value": 7.0}, {"quantity": "tau[s]", "value": 9.0}]
-        contacts = [layer(n, small=0.5, large=0.5) for n in range(15)]
+        contacts = [{**layer(n, small=0.5, large=0.5), "frames": 3} for n in range(15)]
         self.campaign.run("phi0.45-s23-seed1", segregation=rows, record=record, segregation_summary=summary,
                           stress=contacts)
         self.campaign.answer("--pool", "windows", rows=[{"z_S": 1.0, "z_L": 1.0, "f_weight_S": 1.0, "f_weight_L": 1.0},
@@ -226,8 +226,8 @@ class Flows(Pipeline):
         self.assertEqual((row["zf_S"], row["zf_L"]), (10, 21))
 
     def test_a_flow_weighs_in_a_fit_by_frames_times_the_product_of_both_parts_inside(self):
-        # 13 of 15 layers of one frame, half of each species.
-        self.assertAlmostEqual(self.flow([self.fit(1.0)])["weight"], 13 / 4, 7)
+        # 13 of 15 layers of three frames, half of each species.
+        self.assertAlmostEqual(self.flow([self.fit(1.0)])["weight"], 3 * 13 / 4, 7)
 
     def test_b_of_a_flow_is_that_by_size_of_yy_inside_whatever_else_was_fitted(self):
         row = self.flow([self.fit(1.0, heights="all"), self.fit(2.0, component="pressure"), self.fit(3.0, rule="half"),

@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(source, "scripts", "reproduce", "campaign"))
 import keep  # noqa: E402
 import rounding  # noqa: E402
 
-HEIGHTS = (0.02, 0.12)  # m, without the lowest layer
+HEIGHTS = "0.02m:0.12m"  # m, without the lowest layer
 DIGITS = 2
 
 
@@ -30,7 +30,7 @@ class Run:
 
 
 def b_of(table):
-    fit = subprocess.run([os.path.join(programs, "grseg-fit"), table, "--heights", f"{HEIGHTS[0]}m:{HEIGHTS[1]}m",
+    fit = subprocess.run([os.path.join(programs, "grseg-fit"), table, "--heights", HEIGHTS,
                           "--bootstrap", "0", "--json", "--quiet"], check=True, capture_output=True, text=True)
     return next(row["value"] for row in json.loads(fit.stdout)["numbers"] if row["quantity"] == "B")
 

@@ -46,7 +46,7 @@ COMMANDS = {
     "keep": ("keep", ["tables", "archive", "--questions"], {"--questions": {"action": "store_true"}}),
     "unpack": ("keep", ["kept", "folder"], {}),
     "rounding": ("rounding", ["tables", "--heights"], {"tables": {"nargs": "+", "metavar": "STRESS.tsv", "help": None},
-                                                        "--heights": {"metavar": "Y0:Y1", "help": "m"}}),
+                                                        "--heights": {"default": "4dS:56dS"}}),
     "scene": ("run", ["name", "duration", "depth", "length", "accuracy", "frame_interval"], {}),
     "simulate": ("run", ["simulator", "every"], {}),
     "table": ("run", ["file", "made_by"], {"made_by": {"nargs": argparse.REMAINDER, "metavar": "COMMAND"}}),

@@ -4,43 +4,34 @@ import shutil
 import h5py
 import numpy
 
+import tables  # noqa: F401 (grseg's folder)
+import grseg
+
 STORED_ELSEWHERE = {"scene", "history", "command_line"}  # in scene.ini and in every table
 
 
-def text(value):
-    value = value[()]
-    if isinstance(value, bytes):
-        return value.decode()
-    return " ".join(f"{number:.17g}" for number in numpy.ravel(value))
-
-
-def print_record(run):
-    species = run["particles/grains/species"][:]
-    print("name\tvalue")
-    print(f"digest\t{run['grseg/digest'][-1]:016x}")
-    print(f"frames\t{len(run['grseg/digest'])}")
+def record(run):
+    yield "name", "value"
+    yield "digest", run.digest
+    yield "frames", str(len(run))
     for code, name in enumerate(("small", "large", "boundary")):
-        print(f"grains_{name}\t{numpy.count_nonzero(species == code)}")
-    for name, value in sorted(run["parameters"].items()):
+        yield f"grains_{name}", str(numpy.count_nonzero(run.kind == code))
+    for name, value in sorted(run.parameters.items()):
         if name not in STORED_ELSEWHERE:
-            print(f"{name}\t{text(value)}")
+            yield name, value if isinstance(value, str) else " ".join(f"{number:.17g}" for number in numpy.ravel(value))
 
 
-def print_observables(run):
-    columns = {"time": run["particles/grains/position/time"][:]}
-    columns.update((name, group["value"][:]) for name, group in sorted(run["observables"].items()))
-    print("\t".join(columns))
-    for row in zip(*columns.values()):
-        print("\t".join(f"{value:.9g}" for value in row))
+def observables(run):
+    yield "time", *run.observables
+    for row in zip(run.times, *map(run.observable, run.observables)):
+        yield (f"{value:.9g}" for value in row)
 
 
-def print_snapshots(run):
-    grains = run["particles/grains"]
-    print("t[s]\tspecies\tx[m]\ty[m]\tr[m]")
-    for frame in (0, -1):
-        time = grains["position/time"][frame]
-        for species, (x, y), r in zip(grains["species"], grains["position/value"][frame], grains["radius"]):
-            print(f"{time:.6g}\t{species}\t{x:.6g}\t{y:.6g}\t{r:.6g}")
+def snapshots(run):
+    yield "t[s]", "species", "x[m]", "y[m]", "r[m]"
+    for frame in (run[0], run[-1]):
+        for species, (x, y), r in zip(run.kind, frame.position, run.radius):
+            yield f"{frame.time:.6g}", str(species), f"{x:.6g}", f"{y:.6g}", f"{r:.6g}"
 
 
 def extract(options):
@@ -50,8 +41,9 @@ def extract(options):
     observables    the observables of every frame
     snapshots      the grains of the first and the last frame
     """
-    with h5py.File(options.run, "r") as file:
-        {"record": print_record, "observables": print_observables, "snapshots": print_snapshots}[options.what](file)
+    with grseg.Run(options.run) as run:
+        for row in {"record": record, "observables": observables, "snapshots": snapshots}[options.what](run):
+            print(*row, sep="\t")
 
 
 def relabel(options):
