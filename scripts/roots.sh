@@ -62,7 +62,7 @@ step() {
     awk -v s=$((SECONDS - began)) 'BEGIN { printf "%.1f min", s / 60 }'
     comm -13 <(echo "$before") <(echo "$after") |
       awk '{ n += 1; kb += $2 } END { if (n) printf ", %d packages installed, %.0f MB", n, kb / 1024 }'
-    grep -h 'tests passed\|files compared' "$folder/$name.log" | sed 's/^/, /' | tr -d '\n' || true # grep fails for steps that count nothing
+    grep -h 'tests passed\|files (.* differences' "$folder/$name.log" | sed 's/^/, /' | tr -d '\n' || true # grep fails for steps that count nothing
     echo
   } >"$folder/$name.passed"
   echo "$name: passed: $(cat "$folder/$name.passed")"
