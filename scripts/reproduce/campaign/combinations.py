@@ -9,6 +9,7 @@ import numpy as np
 
 from combined import AXES, TARGETS, pull, read, report, write_figure
 import tables
+import grseg
 
 LAYER, GRAVITY, DIAMETER = 4, 9.8, 0.005  # d_S; m/s^2; m
 LAYERS = {"4-56": range(1, 14), "0-56": range(14), "4-top": range(1, 40), "all": range(40)}
@@ -21,14 +22,10 @@ VOLUMES, PERIODS = ("with voids", "of grains"), {"100-150": (100, 150), "40-90":
 
 
 class Table:
-    """Columns of a table by name without unit, and the number of each row's layer."""
+    """Columns of a table by name, and the number of each row's layer."""
 
     def __init__(self, path):
-        with open(path) as lines:
-            head = next(line for line in lines if not line.startswith("#"))
-            names = [name.split("[")[0] for name in head.rstrip("\n").split("\t")]
-            rows = np.loadtxt(lines, delimiter="\t", ndmin=2)
-        self.columns = dict(zip(names, rows.T))
+        self.columns = grseg.read_table(path)
         self.layer = np.rint(self["y0"] / (LAYER * DIAMETER)).astype(int)
 
     def __getitem__(self, name):
