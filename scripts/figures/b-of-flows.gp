@@ -2,11 +2,9 @@
 # (scripts/reproduce/campaign fits):
 #   gnuplot -c scripts/figures/b-of-flows.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "b-of-flows.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("b-of-flows", 1300, 800, 12)
 fits = folder."/fits.tsv"
-set datafile separator tab
 set datafile missing NaN
-eval picture(asked("ARG2", folder."/b-of-flows.png"), 1300, 800, 12, "")
 set multiplot layout 2,2
 set key top right samplen 1
 is(name, value) = stringcolumn(name) eq value

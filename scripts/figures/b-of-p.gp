@@ -3,7 +3,7 @@
 # --partition stock), the rules of published codes; below: the difference from neutral contacts:
 #   gnuplot -c scripts/figures/b-of-p.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "b-of-p.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("b-of-p", 900, 900, 12)
 scan = folder."/scan.tsv"
 stock = folder."/stock.tsv"
 marked = system("test -f ".quoted(stock)." && echo yes") eq "yes"
@@ -13,8 +13,6 @@ cell(rule, quantity) = marked ? number_of(stock, rule, quantity) : NaN
 rules = "size contact-point half"
 p_zero = real(system("awk '/^# p_zero:/ {print $3}' ".quoted(scan)))
 
-set datafile separator tab
-eval picture(asked("ARG2", folder."/b-of-p.png"), 900, 900, 12, "")
 set xlabel "share p of a mixed contact given to its large grain"
 set xzeroaxis
 set style fill transparent solid 0.25 noborder

@@ -1,13 +1,11 @@
 # Which mechanism pushes large grains in which direction, over height, from FOLDER/balance-profile.tsv:
-#   scripts/balance-profile FOLDER/balance.tsv > FOLDER/balance-profile.tsv
+#   scripts/profile --balance FOLDER/balance.tsv > FOLDER/balance-profile.tsv
 #   gnuplot -c scripts/figures/balance.gp FOLDER [PICTURE]
 # Left: forces on the large grains in units of their weight. Right: the B and -B_kappa behind them, with the
 # values of Staron & Phillips (2015) dashed. Bars are standard errors over windows.
 load ARG0[:strstrt(ARG0, "balance.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("balance", 1100, 700, 13)
 profile = folder."/balance-profile.tsv"
-set datafile separator tab
-eval picture(asked("ARG2", folder."/balance.png"), 1100, 700, 13, "")
 set multiplot layout 1,2
 set ylabel "y / d_S"
 set key outside top center vertical maxrows 3 Left reverse

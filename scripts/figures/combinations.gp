@@ -1,10 +1,8 @@
 # Which choices meet which number of the paper: FOLDER/combined.tsv, of scripts/reproduce/campaign combinations --figure.
 #   gnuplot -c scripts/figures/combinations.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "combinations.gp") - 1]."names.gp"
-folder = named(ARG1)
-set datafile separator tab
+eval figure("combinations", 1100, 760, 12)
 set datafile columnheaders
-eval picture(asked("ARG2", folder."/combinations.png"), 1100, 760, 12, "")
 table = folder."/combined.tsv"
 names = system("grep -v '^#' '".table."' | head -n 1 | cut -f 3- | tr '\\t' ' '")
 numbers = words(names)

@@ -3,10 +3,8 @@
 #   gnuplot -c scripts/figures/kinetic-profile.gp FOLDER [PICTURE]
 # Per area of grains, in units of rho g d_S, beside the paper's fit (Staron & Phillips 2015, figure 3a).
 load ARG0[:strstrt(ARG0, "kinetic-profile.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("kinetic-profile", 1200, 600, 12)
 profile = folder."/profile.tsv"
-set datafile separator tab
-eval picture(asked("ARG2", folder."/kinetic-profile.png"), 1200, 600, 12, "")
 set multiplot layout 1,2
 y = "y/d_S"
 in(name) = column("nu") > 0.4 ? column(name) : NaN

@@ -2,10 +2,8 @@
 # (scripts/reproduce/campaign flows), beside the paper's trend (Staron & Phillips 2015, figure 4):
 #   gnuplot -c scripts/figures/kinetic-shear-rate.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "kinetic-shear-rate.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("kinetic-shear-rate", 900, 700, 13)
 flows = folder."/flows.tsv"
-set datafile separator tab
-eval picture(asked("ARG2", folder."/kinetic-shear-rate.png"), 900, 700, 13, "")
 set xlabel "mean shear rate / (g/d_S)^{1/2}"
 set ylabel "-B_κ"
 set xrange [0:*]

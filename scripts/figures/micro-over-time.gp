@@ -2,11 +2,9 @@
 # Phillips 2015, figure 6), of FOLDER/time.tsv (grseg-micro --derived):
 #   gnuplot -c scripts/figures/micro-over-time.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "micro-over-time.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("micro-over-time", 1200, 900, 12)
 time = folder."/time.tsv"
-set datafile separator tab
 set datafile missing NaN
-eval picture(asked("ARG2", folder."/micro-over-time.png"), 1200, 900, 12, "")
 small = "#1f77b4"
 large = "#d62728"
 set multiplot layout 2,2

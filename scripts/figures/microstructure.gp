@@ -2,10 +2,8 @@
 # of contact, from the tables that docs/studies/microstructure.md makes in FOLDER: paper.tsv, ends.tsv, forces.tsv.
 #   gnuplot -c scripts/figures/microstructure.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "microstructure.gp") - 1]."names.gp"
-folder = named(ARG1)
-set datafile separator tab
+eval figure("microstructure", 1500, 450, 11)
 set datafile missing NaN
-eval picture(asked("ARG2", folder."/microstructure.png"), 1500, 450, 11, "")
 small = "#1f77b4"
 large = "#d62728"
 set multiplot layout 1,3

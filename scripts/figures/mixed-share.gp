@@ -2,9 +2,7 @@
 # neutral model's curve (Staron & Phillips 2015, figure 2c):
 #   gnuplot -c scripts/figures/mixed-share.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "mixed-share.gp") - 1]."names.gp"
-folder = named(ARG1)
-set datafile separator tab
-eval picture(asked("ARG2", folder."/mixed-share.png"), 900, 700, 13, "")
+eval figure("mixed-share", 900, 700, 13)
 set xlabel "φ_L"
 set ylabel "N_{LS} / (N_{LL} + N_{LS} + N_{SS})"
 set xrange [0:1]

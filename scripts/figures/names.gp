@@ -17,3 +17,5 @@ terminal_of(path, width, height, font) = ends_in_pdf(path) \
   ? sprintf("pdfcairo size %.4fin,%.4fin fontscale 0.75 pointscale 0.75 linewidth 1.5 font 'DejaVu Sans,%d'", width / 96., height / 96., font) \
   : sprintf("pngcairo size %d,%d font 'DejaVu Sans,%d'", width, height, font)
 picture(path, width, height, font, more) = (picture_path = path, sprintf("set terminal %s %s; set output picture_path", terminal_of(path, width, height, font), more))
+# eval figure(NAME, WIDTH, HEIGHT, FONT): begins the picture that ARG2 names, or NAME.png in the folder that ARG1 names; its tables have tabs.
+figure(name, width, height, font) = (folder = named(ARG1), picture(asked("ARG2", folder."/".name.".png"), width, height, font, "")."; set datafile separator tab")

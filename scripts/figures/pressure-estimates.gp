@@ -2,10 +2,8 @@
 # 2015, figure 5), of FOLDER/paper.tsv and ends.tsv, as docs/studies/microstructure.md makes them:
 #   gnuplot -c scripts/figures/pressure-estimates.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "pressure-estimates.gp") - 1]."names.gp"
-folder = named(ARG1)
-set datafile separator tab
+eval figure("pressure-estimates", 900, 700, 13)
 set datafile missing NaN
-eval picture(asked("ARG2", folder."/pressure-estimates.png"), 900, 700, 13, "")
 small = "#1f77b4"
 large = "#d62728"
 set key top right samplen 2

@@ -3,15 +3,13 @@
 # Bulk pressure (voids included) and pressure per area of grains, in units of rho g d_S with rho = 1
 # kg/m^2, against the weight of the grains above (Staron & Phillips 2015, figure 2a).
 load ARG0[:strstrt(ARG0, "pressure-profile.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("pressure-profile", 900, 700, 13)
 profile = folder."/profile.tsv"
 number(key) = real(system("grep '^# ".key.":' ".quoted(profile)." | cut -d ' ' -f 3"))
 slope = number("slope")
 H = number("height/d_S")
-set datafile separator tab
 y = "y/d_S"
 
-eval picture(asked("ARG2", folder."/pressure-profile.png"), 900, 700, 13, "")
 set xlabel "P / (ρ g d_S)"
 set ylabel "y / d_S"
 set key top right

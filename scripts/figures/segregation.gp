@@ -3,18 +3,16 @@
 # time with the exponential fit, diffusivities over height, flux of large grains over composition.
 #   gnuplot -c scripts/figures/segregation.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "segregation.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("segregation", 1500, 500, 12)
 table = folder."/segregation.tsv"
 number(name) = real(system("awk -F '\\t' '$1 == \"".name."\" {print $2}' ".quoted(folder."/segregation-summary.tsv")))
 header(name) = real(system("awk '$2 == \"".name.":\" {print $3; exit}' ".quoted(table)))
 begin = real(system("awk -F '\\t' '!/^#/ && ++n == 2 {print $1; exit}' ".quoted(table)))
 d = header("small_diameter")
 start = number("y_L_start[m]"); end = number("y_L_end[m]"); tau = number("tau[s]")
-set datafile separator tab
 set datafile missing NaN
 # Rows of the whole bed have y0 = nan; they are read apart from those of layers.
 rows(test) = "< awk -F '\\t' '!/^#/ && (!n++ || $3 ".test." \"nan\")' ".quoted(table)
-eval picture(asked("ARG2", folder."/segregation.png"), 1500, 500, 12, "")
 set multiplot layout 1,3
 middle(dummy) = (column("t0[s]") + column("t1[s]")) / 2
 set xlabel "time (s)"

@@ -2,10 +2,8 @@
 # from 10 to 60 s, of FOLDER/flows.tsv (scripts/reproduce/campaign flows):
 #   gnuplot -c scripts/figures/step.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "step.gp") - 1]."names.gp"
-folder = named(ARG1)
+eval figure("step", 1400, 480, 12)
 flows = folder."/flows.tsv"
-set datafile separator tab
-eval picture(asked("ARG2", folder."/step.png"), 1400, 480, 12, "")
 set multiplot layout 1,3
 small = "#1f77b4"
 large = "#d62728"

@@ -89,8 +89,8 @@ $(work)/time.tsv: $(every) | $(work)
 	$(micro) $(firstword $(call of,phi0.45-s23,micro)) --quiet
 $(work)/profile.tsv: $(every) $(call code,profiles) ../profile | $(work)
 	../profile $(call of,phi0.30-s23,stress) --kinetic $(call of,phi0.30-s23,kinetic) --last-third > $@
-$(work)/balance-profile.tsv: $(every) ../balance-profile ../shared.py | $(work)
-	../balance-profile $(call of,phi0.30-s23,balance) > $@
+$(work)/balance-profile.tsv: $(every) $(call code,profiles) ../profile | $(work)
+	../profile --balance $(call of,phi0.30-s23,balance) > $@
 $(work)/snapshots.tsv: $(every) | $(work)
 	cp $(firstword $(call of,phi0.30-s23,snapshots)) $@
 $(work)/fits.tsv: $(every) $(call code,fits) | $(work)

@@ -39,7 +39,7 @@ grep -q '^overlap_largest.*failed.*the tolerance is that of standard, and this r
 # In a true run every momentum balance closes to round-off.
 closes=$(sed -n 's/^grseg-balance: .*the balances close to \([0-9.e-]*\) of .*/\1/p' words)
 awk -v r="$closes" 'BEGIN {exit !(r != "" && r < 1e-10)}' || fail "the balances do not close: $(cat words)"
-"$source/scripts/balance-profile" balance.tsv >profile.tsv
+"$source/scripts/profile" --balance balance.tsv >profile.tsv
 [ "$(wc -l <profile.tsv)" -gt 3 ] || fail "no profile of the balance"
 
 # SIGINT: exit code 130; the frames so far are readable as NAME.part, and NAME does not exist.
