@@ -18,8 +18,8 @@ ROOT = os.path.dirname(SCRIPTS)
 BIN = os.path.join(ROOT, "build", "bin")
 sys.path.append(os.path.join(ROOT, "analysis", "python"))  # of grseg.py
 MARK = "# end: "
-# Tables of grseg 0.1 and those that name no program have no such line.
-WITH_END = re.compile(r"^# program: grseg-\S+ (?!0\.1\.)", re.MULTILINE)
+# Tables that name no program, made by hand, may have no such line.
+WITH_END = re.compile(r"^# program: ", re.MULTILINE)
 
 
 # ------------------------------------------------------------------------------------------ tables

@@ -2,7 +2,7 @@
 #include "analysis/balance/momentum_balance.hpp"
 
 #include "analysis/frames/contacts.hpp"
-#include "formats/core/pair_type.hpp"
+#include "formats/core/species.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -4,7 +4,6 @@
 #include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/layers.hpp"
 #include "formats/core/frame.hpp"
-#include "formats/core/gravity.hpp"
 
 #include <optional>
 #include <vector>

@@ -2,7 +2,7 @@
 #include "analysis/balance/partitioned_balance.hpp"
 
 #include "analysis/frames/contacts.hpp"
-#include "formats/core/pair_type.hpp"
+#include "formats/core/species.hpp"
 
 #include <algorithm>
 #include <utility>

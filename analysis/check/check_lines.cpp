@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/check_lines.hpp"
 
-#include "formats/cli/table_text.hpp"
+#include "formats/cli/table.hpp"
 #include "formats/core/text.hpp"
 
 #include <fmt/format.h>

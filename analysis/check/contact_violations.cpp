@@ -2,7 +2,7 @@
 #include "analysis/check/contact_violations.hpp"
 
 #include "analysis/frames/contacts.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/reader.hpp"
 

@@ -31,18 +31,12 @@ std::vector<CheckLine> ContentCheck::lines() const
   };
   const bool closed = run_.closed();
   auto missing = line("not_closed", closed ? 0 : 1, 0, closed);
-  if (!closed)
-    missing.remark =
-        run_.minor_version() == 0
-            ? "no /parameters/complete: the run was interrupted or goes on, or its writer sets no "
-              "such mark"
-            : "/grseg/seal is empty: the run was interrupted or goes on";
+  if (!closed) missing.remark = "/grseg/seal is empty: the run was interrupted or goes on";
   auto damaged = line("damaged_frames", static_cast<double>(damaged_), 0, damaged_ == 0);
   damaged.remark =
       damaged_ == 0 ? fmt::format("{} frames agree with their digests", frames_)
                     : fmt::format("frame {} is the first that is not as written", first_damaged_);
   auto empty = line("no_frames", frames_ == 0 ? 1 : 0, 0, frames_ > 0);
-  if (run_.minor_version() == 0) return {missing, empty, damaged};
   const auto damage = run_.damage_outside_frames();
   auto outside = line("damaged_outside_frames", damage.empty() ? 0 : 1, 0, damage.empty());
   outside.remark =

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "formats/core/gravity.hpp"
 
 #include <cstddef>
 #include <cstdint>

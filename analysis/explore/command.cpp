@@ -6,10 +6,9 @@
 #include "analysis/explore/settings.hpp"
 #include "analysis/explore/stress_tables.hpp"
 #include "formats/cli/bed.hpp"
-#include "formats/cli/input_tables.hpp"
-#include "formats/cli/next_step.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/cli/shell_word.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 #include "formats/trajectory/digest.hpp"
 
@@ -63,7 +62,7 @@ void write_page(const ToolInfo& info, const po::variables_map& values, ExploreSe
 {
   s.check(values);
   const auto inputs = inputs_of(values);
-  const auto tables = read_tables(info, with_inputs(values, inputs.tables), s.frames.quiet);
+  const auto tables = read_tables(with_inputs(values, inputs.tables));
   const auto of_runs = tables_of_runs(tables, identities_of(inputs.runs));
   refuse_too_large(info, values, inputs.runs, s);
   std::vector<RunOfPage> runs;

@@ -11,7 +11,7 @@
 #include "analysis/segregation/segregation_table.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/length.hpp"
 #include "formats/core/text.hpp"
 

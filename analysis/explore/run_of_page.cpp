@@ -9,9 +9,8 @@
 #include "analysis/explore/stress_tables.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/cli/verification.hpp"
-#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/text.hpp"
 #include "formats/trajectory/digest.hpp"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/settings.hpp"
 
-#include "formats/cli/shell_word.hpp"
-#include "formats/cli/word_option.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
 

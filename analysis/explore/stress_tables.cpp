@@ -4,8 +4,8 @@
 #include "analysis/frames/composition.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/text.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_report.hpp"
 
-#include "formats/cli/numbers.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/core/text.hpp"

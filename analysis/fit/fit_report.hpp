@@ -81,7 +81,7 @@ struct NumberRow {
 /// p_zero, dB_dp, and of the data Phi_L, weight_share, runs and points (layers and windows).
 std::vector<NumberRow> number_rows(const FitReport& report);
 
-/// A table (table_text.hpp) with a row per number (number_rows); with a scan instead a row per share
+/// A table (table.hpp) with a row per number (number_rows); with a scan instead a row per share
 /// p, with p_zero and dB_dp in the header.
 std::string to_tsv(const FitReport& report);
 /// The same as one JSON object; what is not a number is null.

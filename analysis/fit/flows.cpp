@@ -2,9 +2,9 @@
 #include "analysis/fit/flows.hpp"
 
 #include "analysis/frames/layer_table.hpp"
-#include "formats/cli/numbers.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

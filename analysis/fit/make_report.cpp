@@ -8,10 +8,9 @@
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
-#include "formats/cli/input_tables.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/cli/word_option.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 

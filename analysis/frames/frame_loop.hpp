@@ -5,13 +5,12 @@
 #include "analysis/frames/in_order.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/frames/windows.hpp"
-#include "formats/cli/growing_table.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/part.hpp"
 #include "formats/cli/progress.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
-#include "formats/cli/verification.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <algorithm>

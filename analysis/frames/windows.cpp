@@ -2,8 +2,8 @@
 #include "analysis/frames/windows.hpp"
 
 #include "formats/cli/frame_range.hpp"
-#include "formats/cli/numbers.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 

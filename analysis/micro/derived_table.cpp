@@ -4,12 +4,10 @@
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/micro/sums_table.hpp"
-#include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>
@@ -179,7 +177,7 @@ void write_derived_table(const ToolInfo& info, const po::variables_map& values,
                             choose(options.average, "--average", average_words)},
                            rule_of(options),
                            0};
-  const auto tables = read_tables(info, values, frames.quiet);
+  const auto tables = read_tables(values);
   if (tables.empty())
     throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
   Table table;

@@ -3,7 +3,7 @@
 
 #include "analysis/frames/layers.hpp"
 #include "formats/core/frame.hpp"
-#include "formats/core/pair_type.hpp"
+#include "formats/core/species.hpp"
 
 #include <array>
 #include <string>

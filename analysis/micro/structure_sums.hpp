@@ -5,7 +5,7 @@
 #include "analysis/micro/fabric.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/core/frame.hpp"
-#include "formats/core/pair_type.hpp"
+#include "formats/core/species.hpp"
 
 #include <array>
 #include <vector>

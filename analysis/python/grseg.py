@@ -55,10 +55,10 @@ _ROWS_OF_BLOCK = 1 << 16  # contacts or grains that are read at a time
 
 
 class Run:
-    """A trajectory file of version 1.x, open for reading.
+    """A trajectory file of version 1.0, open for reading.
 
     path         its name
-    version      of the file, "1.1"
+    version      of the file, "1.0"
     finished     whether its program came to the end and closed it
     dimension    D, 2 or 3
     species      the mobile Species in order of size; number k stands for species[k]
@@ -232,8 +232,7 @@ class Run:
 
     def _read_head(self):
         self.version = self._read_version("h5md/modules/grseg")
-        self._come_and_go = self.version not in ("1.0", "1.1")
-        self._read_version("h5md")
+        self._come_and_go = "come_and_go" in self._file["particles/grains"].attrs
         self._read_parameters()
         self._offset = self._read("grseg/contacts/offset", 0,
                                   len(self._dataset("grseg/contacts/offset", 1, "u")))
@@ -252,8 +251,8 @@ class Run:
             major, minor = self._file[module].attrs["version"]
         except _OF_DAMAGE:
             self._fail(f"/{module} has no version: {_FOREIGN}")
-        if major != 1:
-            self._fail(f"/{module} has version {major}.{minor}, and this grseg.py reads 1.x; take that of "
+        if (major, minor) != (1, 0):
+            self._fail(f"/{module} has version {major}.{minor}, and this grseg.py reads 1.0; take that of "
                        "the grseg which wrote the file")
         return f"{major}.{minor}"
 
@@ -287,9 +286,6 @@ class Run:
             self._fail(f"/parameters/gravity should be {self.dimension} numbers; the file is damaged")
 
     def _read_species(self):
-        if self.version == "1.0":
-            self.species = (Species("small", self.small_diameter), Species("large", self.large_diameter))
-            return
         names = [_text(name) for name in self._dataset("grseg/species/name", 1, "S")]
         if len(names) < 2 or names[-1] != "boundary":
             self._fail("/grseg/species/name should list mobile species and, last, the boundary")
@@ -339,9 +335,6 @@ class Run:
         """Whether the run was closed, and of what."""
         last = self._read_digest(len(self) - 1) if len(self) else 0
         self.digest = f"{last:016x}"
-        if self.version == "1.0":
-            self.finished = "complete" in self.parameters
-            return
         seal = [int(number) for number in self._dataset("grseg/seal", 1, "u")[:]]
         self.finished = any(seal)
         if self.finished and seal[:3] != [len(self), int(self._offset[-1]), last]:
@@ -462,7 +455,7 @@ class _Block:
         return f"contact {contact - self.offset[frame]} of frame {self.first + frame}"
 
     def _require_finite(self, values, path, grains=False):
-        """Absent grains, in runs of version 1.2, have NaN in all fields."""
+        """Absent grains have NaN in all fields."""
         good = np.isfinite(values)
         if good.all():
             return
@@ -1061,7 +1054,7 @@ def read_table(path):
     if rows and rows[-1].startswith("# end: "):
         if rows.pop().split()[2] != str(len(rows)):
             fail(f"has {len(rows)} rows, but its last line names another number: it is damaged; make it anew")
-    elif re.search(r"^grseg-\w+ (?!0\.[01]\.)\d", header.get("program", "")):
+    elif "program" in header:
         fail("does not end with the line '# end: ...' of every table: it is truncated; make it anew")
     columns = lines[len(head)].split("\t") if len(lines) > len(head) else []
     try:

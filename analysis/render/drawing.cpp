@@ -3,7 +3,7 @@
 
 #include "analysis/frames/contacts.hpp"
 #include "analysis/stress/partition_rule.hpp"
-#include "formats/core/pair_type.hpp"
+#include "formats/core/species.hpp"
 
 #include <algorithm>
 #include <cmath>

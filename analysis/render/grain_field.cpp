@@ -4,10 +4,10 @@
 #include "analysis/frames/contacts.hpp"
 #include "analysis/render/local_composition.hpp"
 #include "analysis/stress/partition_rule.hpp"
-#include "formats/cli/numbers.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
-#include "formats/core/pair_type.hpp"
+#include "formats/core/species.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "analysis/render/picture_file.hpp"
 
 #include "formats/core/errors.hpp"
-#include "formats/core/xml.hpp"
+#include "formats/core/text.hpp"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/render/picture_options.hpp"
 
-#include "formats/cli/numbers.hpp"
-#include "formats/cli/word_option.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 #include "analysis/stress/contact_assignment.hpp"
 
 #include "analysis/frames/frame_loop.hpp"
-#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 

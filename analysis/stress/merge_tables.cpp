@@ -3,7 +3,6 @@
 
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
-#include "formats/cli/input_tables.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "analysis/frames/contacts.hpp"
 #include "analysis/frames/sums.hpp"
-#include "formats/core/pair_type.hpp"
+#include "formats/core/species.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -3,7 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/core/pair_type.hpp"
+#include "formats/core/species.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,9 +4,8 @@
 #include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
 #include "formats/cli/output.hpp"
-#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>

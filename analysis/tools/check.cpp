@@ -2,15 +2,14 @@
 #include "analysis/check/checks.hpp"
 #include "analysis/check/file_check.hpp"
 #include "analysis/check/physics_check.hpp"
-#include "formats/cli/next_step.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/cli/shell_word.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <fmt/format.h>

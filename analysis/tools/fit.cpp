@@ -2,8 +2,6 @@
 #include "analysis/fit/make_report.hpp"
 #include "analysis/fit/short_table.hpp"
 #include "analysis/frames/presets.hpp"
-#include "formats/cli/input_tables.hpp"
-#include "formats/cli/numbers.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/tool.hpp"
@@ -84,7 +82,7 @@ int main(int argc, char** argv)
   const auto description = options.description();
   return run_tool(argc, argv, info, description, [&](const po::variables_map& values) {
     options.check(values);
-    const auto tables = read_tables(info, values, options.quiet);
+    const auto tables = read_tables(values);
     auto report = make_report(info, options, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
     require_numbers(report);

@@ -4,9 +4,8 @@
 #include "analysis/frames/velocity_in_step.hpp"
 #include "analysis/maps/fields.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
-#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,8 @@
 #include "analysis/micro/derived_table.hpp"
 #include "analysis/micro/force_distribution.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
-#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 
 #include <fmt/format.h>
 

@@ -10,8 +10,7 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/cli/verification.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,10 @@
 #include "analysis/micro/derived_table.hpp"
 #include "analysis/segregation/closure.hpp"
 #include "analysis/segregation/segregation_table.hpp"
-#include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/cli/word_option.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>
@@ -159,7 +158,7 @@ void close(const Settings& s, const po::variables_map& values, const std::string
   filter.min_solid = filter_of(s).min_solid;
   filter.range.begin = s.frames.windows.begin.value_or(filter.range.begin);
   filter.range.end = s.frames.windows.end.value_or(filter.range.end);
-  const auto tables = read_tables(info, values, s.frames.quiet);
+  const auto tables = read_tables(values);
   if (tables.empty())
     throw UsageError(
         "no table given; name a table of grseg-segregation and one of grseg-stress of each run");

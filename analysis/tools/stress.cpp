@@ -5,12 +5,11 @@
 #include "analysis/stress/contact_assignment.hpp"
 #include "analysis/stress/merge_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
-#include "formats/cli/input_tables.hpp"
 #include "formats/cli/output.hpp"
-#include "formats/cli/word_option.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 
 #include <fmt/format.h>
 
@@ -175,8 +174,7 @@ void merge(const Settings& s, const po::variables_map& values, const std::string
       throw UsageError(
           fmt::format("--{} does not go with --merge: tables keep what they were made with", name));
   s.frames.output.check(values);
-  const auto merged =
-      merge_tables(read_tables(info, values, s.frames.quiet), s.all_windows, info, command);
+  const auto merged = merge_tables(read_tables(values), s.all_windows, info, command);
   write_table(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
 }
 

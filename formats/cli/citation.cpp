@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/cli/citation.hpp"
-
+#include "formats/cli/tool.hpp"
 #include "formats/core/version.hpp"
 
 #include <fmt/format.h>

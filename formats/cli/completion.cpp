@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/cli/completion.hpp"
-
-#include "formats/cli/shell_word.hpp"
-#include "formats/cli/word_option.hpp"
+#include "formats/cli/tool.hpp"
 #include "formats/cli/words.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/files.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,5 +70,32 @@ void write_whole(const OutputOptions& output, std::string_view text);
 /// begins with "{", has no short form.
 void write_table(const TableOptions& output, const std::string& text,
                  const std::string& short_text = "");
+
+/// Text of a table that goes to its output while the table is made, so that some megabytes of its rows
+/// are in memory. A file appears whole or not at all; what standard output has of a table that failed
+/// lacks the line that ends it. Gives the same bytes as Table::to_text.
+class GrowingTable {
+ public:
+  /// To where `output` says, which must not be a device.
+  explicit GrowingTable(OutputOptions output);
+  ~GrowingTable();
+
+  /// True if `table` has so many rows that they should be written now.
+  static bool is_large(const Table& table);
+  /// Writes the rows of `table`, and before the first ones its header and columns; removes the rows.
+  void add(Table& table);
+  bool has_begun() const { return rows_ > 0; }
+  /// Writes what is left and the line that ends the table.
+  void finish(Table rest);
+
+ private:
+  struct Digest;
+  void write(const std::string& text);
+
+  OutputOptions output_;
+  RemoveAtEnd temporary_;
+  std::unique_ptr<Digest> digest_;
+  std::size_t rows_ = 0;
+};
 
 }  // namespace grseg

@@ -94,4 +94,10 @@ void ProgressBar::clear() const
   if (where_ == Where::terminal) tell("\r\033[K");
 }
 
+void say_next(const std::string& command, bool quiet)
+{
+  if (quiet || isatty(STDERR_FILENO) != 1) return;
+  fmt::print(stderr, "next: {}\n", printable(command));
+}
+
 }  // namespace grseg

@@ -57,4 +57,8 @@ class ProgressBar {
   double next_ = 0;  // s since then, at which something is shown again
 };
 
+/// Tells on a terminal what is run next: "next: grseg-fit stress.tsv". Nothing in a file, in a pipe
+/// or with `quiet`.
+void say_next(const std::string& command, bool quiet);
+
 }  // namespace grseg

@@ -2,7 +2,7 @@
 #include "formats/cli/provenance.hpp"
 
 #include "formats/cli/bed.hpp"
-#include "formats/cli/numbers.hpp"
+#include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 #include "formats/trajectory/digest.hpp"
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 namespace grseg {
 
@@ -91,6 +92,62 @@ bool same_setting(const std::string& a, const std::string& b)
       return false;
   }
   return !(others >> other);
+}
+
+std::vector<Table> read_tables(const po::variables_map& values)
+{
+  std::vector<Table> tables;
+  if (!values.contains("input")) return tables;
+  const auto& paths = values["input"].as<std::vector<std::string>>();
+  if (std::count(paths.begin(), paths.end(), "-") > 1)
+    throw UsageError("standard input, -, can be read only once");
+  tables.reserve(paths.size());
+  for (const auto& path : paths) tables.push_back(Table::read(path));
+  return tables;
+}
+
+Header trust_of(const std::vector<Table>& tables)
+{
+  Header lines;
+  auto verified = header_values(tables, "verified");
+  if (verified.size() > 1) std::erase(verified, "all");
+  for (auto& value : verified) lines.emplace_back("verified", std::move(value));
+  for (const char* key : {"incomplete", "undecided", "waived", "doubt"})
+    for (auto& value : header_values(tables, key)) lines.emplace_back(key, std::move(value));
+  return lines;
+}
+
+namespace {
+
+/// A header line for each line of a parameter.
+void add_lines(Header& header, const char* key, const TrajectoryReader& run, const char* parameter)
+{
+  std::istringstream lines(run.parameters().text(parameter));
+  for (std::string line; std::getline(lines, line);) header.emplace_back(key, printable(line));
+}
+
+}  // namespace
+
+void TrustOption::add_to(po::options_description& options)
+{
+  options.add_options()("trust", po::bool_switch(&trust),
+                        "do not compare what is read with its digests");
+}
+
+Header verification_lines(const TrajectoryReader& run)
+{
+  Header lines{{"verified", run.verified()}};
+  if (!run.closed())
+    lines.emplace_back(
+        "incomplete",
+        run.size() == 0
+            ? std::string("the run had not ended, and had no frame")
+            : fmt::format("the run had not ended; it had {} frames, the last at {:.9g} s",
+                          run.size(), run.times().back()));
+  add_lines(lines, "cell", run, "import_cell");
+  add_lines(lines, "undecided", run, "import_undecided");
+  add_lines(lines, "waived", run, "import_waived");
+  return lines;
 }
 
 }  // namespace grseg

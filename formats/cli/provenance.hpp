@@ -26,7 +26,7 @@ namespace grseg {
 using HeaderLine = std::pair<std::string, std::string>;
 using Header = std::vector<HeaderLine>;
 
-/// The line "program", e.g. "grseg-stress 0.2.0".
+/// The line "program", e.g. "grseg-stress 1.0.0".
 HeaderLine program_line(const ToolInfo& info);
 
 /// The lines above, in that order, of a table made of one run by `command`. `preset` as returned by
@@ -47,5 +47,25 @@ Header settings_of(const Table& table);
 /// True where two values of such a line mean the same: their words are equal, or numbers that agree up
 /// to round-off, as where one is 0.2 and the other 2.2 - 2.
 bool same_setting(const std::string& a, const std::string& b);
+
+/// The tables that the command line names, "-" being standard input; none where it names none.
+/// As Table::read.
+std::vector<Table> read_tables(const po::variables_map& values);
+
+/// What a result must say of the tables that it is made of: the lines "verified", "incomplete",
+/// "undecided", "waived" and "doubt", each value once. "verified: all" only where nothing else is said.
+Header trust_of(const std::vector<Table>& tables);
+
+/// --trust of every tool that reads runs.
+struct TrustOption {
+  bool trust = false;
+
+  void add_to(po::options_description& options);
+  Verify verify() const { return trust ? Verify::no : Verify::yes; }
+};
+
+/// The header lines of what was made of `run`: `verified`, what of it was compared with digests,
+/// `incomplete` where the run had not ended, and of an import `undecided` and `waived`.
+Header verification_lines(const TrajectoryReader& run);
 
 }  // namespace grseg

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/readable_table.hpp"
 
-#include "formats/cli/numbers.hpp"
 #include "formats/cli/table.hpp"
-#include "formats/cli/table_text.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

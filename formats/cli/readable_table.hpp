@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// Tables for reading, made of the text of whole ones (table_text.hpp).
+/// Tables for reading, made of the text of whole ones (table.hpp).
 namespace grseg {
 
 inline constexpr std::size_t readable_width = 100;  // columns of letters

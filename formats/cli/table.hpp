@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/cli/table_text.hpp"
-
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace grseg {
 
 /// A TSV table: "# key: value" lines, one line of column[unit] names, rows of numbers with 17
-/// significant digits ("nan" where there is no value), and a line that ends it (table_text.hpp).
+/// significant digits ("nan" where there is no value), and a line that ends it (end_line).
 /// The same content gives the same bytes.
 class Table {
  public:
@@ -41,16 +41,41 @@ class Table {
 
   /// From a file, or from standard input where `path` is "-". UsageError where it is missing,
   /// FormatError, naming the line, where it is not a table or not as it was written: its last line
-  /// must agree with all others, and may be missing only from tables made by hand or by versions
-  /// that wrote none. The header of these then says so under "verified".
+  /// must agree with all others, and may be missing only from tables made by hand, whose header then
+  /// says so under "verified".
   static Table read(const std::string& path);
   static Table parse(const std::string& text, const std::string& name);
 
-  std::string name = "table";         // where it came from, for messages
-  std::string version_without_end{};  // of the grseg that wrote it, where that wrote no last line
+  std::string name = "table";  // where it came from, for messages
 };
 
 /// "A_SS_xx" of "A_SS_xx[N m]".
 std::string without_unit(const std::string& column);
+
+// How tables are written, all of them here.
+
+/// "# key: value" lines, one line of column names, rows, and the line that ends the table. What is
+/// not printable is shown as in text.hpp, so that no value can pass for another line.
+std::string table_text(const std::vector<std::pair<std::string, std::string>>& header,
+                       const std::vector<std::string>& columns,
+                       const std::vector<std::vector<std::string>>& rows);
+
+/// The lines above the rows.
+std::string table_head(const std::vector<std::pair<std::string, std::string>>& header,
+                       const std::vector<std::string>& columns);
+/// The lines of rows, behind `text`.
+void add_rows(std::string& text, const std::vector<std::vector<double>>& rows);
+
+/// How the line that ends a table begins.
+inline constexpr std::string_view end_mark = "# end: ";
+
+/// "# end: 3 rows, xxh3 0123456789abcdef": the number of rows, and the xxh3 (64 bit) of all bytes
+/// before this line, which `head -n -1 table.tsv | xxhsum -H3` prints, too.
+std::string end_line(std::string_view before, std::size_t rows);
+std::string end_line(std::size_t rows, std::uint64_t digest_before);
+
+/// 17 significant digits, shortest of %g; "nan" for any NaN.
+std::string format_number(double value);
+std::vector<std::string> format_numbers(const std::vector<double>& values);
 
 }  // namespace grseg

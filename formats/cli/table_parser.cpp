@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/cli/numbers.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
@@ -8,8 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -20,9 +17,6 @@
 namespace grseg {
 namespace {
 
-using Version = std::array<int, 3>;
-constexpr Version first_with_end{0, 2, 0};
-
 std::vector<std::string_view> split(std::string_view text, char at)
 {
   std::vector<std::string_view> parts;
@@ -32,22 +26,6 @@ std::vector<std::string_view> split(std::string_view text, char at)
   }
   parts.push_back(text);
   return parts;
-}
-
-/// {0, 1, 0} of "grseg-stress 0.1.0".
-std::optional<Version> version_of(std::string_view program)
-{
-  const auto words = split(program, ' ');
-  if (words.size() != 2 || !words[0].starts_with("grseg-")) return {};
-  const auto parts = split(words[1], '.');
-  Version version{};
-  if (parts.size() != version.size()) return {};
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const auto* end = parts[k].data() + parts[k].size();
-    const auto [stop, error] = std::from_chars(parts[k].data(), end, version[k]);
-    if (error != std::errc() || stop != end || version[k] < 0) return {};
-  }
-  return version;
 }
 
 /// Reads a table line by line and refuses what a damaged one may hold.
@@ -66,7 +44,12 @@ class TableParser {
     const auto end = lines_.size() - (has_end_ ? 1 : 0);
     if (has_end_) require_end(end - head - 1);
     read_header(head);
-    if (!has_end_) require_no_end();
+    if (!has_end_ && !table_.made_by_hand())
+      fail(
+          fmt::format("does not end with the line '{}N rows, xxh3 ...' of every table of {}; it is "
+                      "truncated or damaged, make it anew (a table made by hand has no line '# "
+                      "program: ...')",
+                      end_mark, excerpt(table_.header_text("program"))));
     read_columns(head);
     for (std::size_t k = head + 1; k < end; ++k) read_row(k);
   }
@@ -137,27 +120,6 @@ class TableParser {
       fail(*malformed, fmt::format("'{}' should be '# key: value'", excerpt(lines_[*malformed])));
     if (table_.made_by_hand() && !table_.has_header("verified"))
       table_.header.emplace_back("verified", "no, made by hand");
-  }
-
-  /// Of a table that does not end with its checksum.
-  void require_no_end()
-  {
-    if (table_.made_by_hand()) return;
-    const auto& program = table_.header_text("program");
-    const auto version = version_of(program);
-    if (!version)
-      fail(
-          fmt::format("'# program: {}' names no version of grseg, and the table has no checksum in "
-                      "its last line; leave this line out of a table made by hand",
-                      excerpt(program)));
-    if (*version >= first_with_end)
-      fail(
-          fmt::format("does not end with the line '{}N rows, xxh3 ...' of every table of {}; it is "
-                      "truncated or damaged, make it anew",
-                      end_mark, program));
-    table_.version_without_end = program.substr(program.find(' ') + 1);
-    table_.header.emplace_back("verified", fmt::format("no, tables of grseg {} carry no checksum",
-                                                       table_.version_without_end));
   }
 
   void read_columns(std::size_t k)

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/tool.hpp"
 
-#include "formats/cli/citation.hpp"
-#include "formats/cli/completion.hpp"
-#include "formats/cli/shell_word.hpp"
-#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"

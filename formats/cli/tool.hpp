@@ -52,4 +52,17 @@ std::string single_input(const po::variables_map& values, const char* remedy);
 /// An option of a time in s; `place` stays empty where it is not given.
 po::typed_value<double>* time_option(std::optional<double>& place);
 
+/// What --cite prints: BibTeX of this version of grseg, of the paper whose method it follows, and of
+/// the sources of the rules that share out a mixed contact, each under a line on what it is for.
+std::string citations();
+
+/// Those that complete options.
+std::vector<std::string> shells();
+
+/// What --completion SHELL prints: a script by which that shell completes the options of a tool, the
+/// files that options named FILE take, the words that others take (words.hpp), and its input
+/// files. UsageError for a shell that is not among `shells`.
+std::string completion_script(const std::string& shell, const std::string& tool,
+                              const boost::program_options::options_description& options);
+
 }  // namespace grseg

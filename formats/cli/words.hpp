@@ -3,6 +3,8 @@
 
 #include "formats/core/errors.hpp"
 
+#include <boost/program_options.hpp>
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -85,5 +87,44 @@ std::string placeholder_in(std::string_view text);
 /// The known word nearest to `word`, or "" where none differs in one letter of three or fewer; dashes
 /// before a word are no letters.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+/// `word` as a shell's command line writes it, in printable characters: bare where every character
+/// is harmless, else in single quotes, and as $'...' (bash, zsh, ksh, POSIX 2024) where it holds a
+/// control character or what is not UTF-8.
+std::string shell_word(std::string_view word);
+
+/// What the value of an option may be, for --completion. Words are written as messages list them: what
+/// follows a colon stands for something else, as in "uniform:P".
+struct OptionWords {
+  std::vector<std::string> words;
+
+  virtual ~OptionWords() = default;
+};
+
+template <class T>
+struct WordOption : boost::program_options::typed_value<T>, OptionWords {
+  WordOption(T* place, const std::vector<std::string>& all)
+      : boost::program_options::typed_value<T>(place)
+  {
+    words = all;
+    this->value_name("WORD");
+  }
+};
+
+/// An option that takes one of `words`; by default what `place` holds, if there is a place and text.
+inline auto* word_option(std::string* place, const std::vector<std::string>& words)
+{
+  auto* option = new WordOption<std::string>(place, words);  // whoever takes it owns it
+  if (place != nullptr && !place->empty()) option->default_value(*place);
+  return option;
+}
+
+/// An option that takes several by comma, and may be given more than once.
+inline auto* words_option(std::vector<std::string>& place, const std::vector<std::string>& words)
+{
+  auto* option = new WordOption<std::vector<std::string>>(&place, words);
+  option->composing()->value_name("WORD,...");
+  return option;
+}
 
 }  // namespace grseg

@@ -10,8 +10,12 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
 
 namespace grseg {
 namespace {
@@ -222,6 +226,14 @@ RemoveAtEnd::~RemoveAtEnd()
   std::error_code ignored;
   if (condition_ == If::there || std::filesystem::file_size(path_, ignored) == 0)
     std::filesystem::remove(path_, ignored);
+}
+
+double free_memory()
+{
+  std::ifstream lines("/proc/meminfo");
+  for (std::string name, rest; lines >> name && std::getline(lines, rest);)
+    if (name == "MemAvailable:") return 1024 * std::strtod(rest.c_str(), nullptr);
+  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace grseg

@@ -90,4 +90,8 @@ class RemoveAtEnd {
   If condition_;
 };
 
+/// Bytes that programs of this machine can still get (MemAvailable of /proc/meminfo); infinity where
+/// that is not known.
+double free_memory();
+
 }  // namespace grseg

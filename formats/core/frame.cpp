@@ -2,6 +2,7 @@
 #include "formats/core/frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace grseg {
@@ -128,5 +129,31 @@ template double share_of_first(const Grains&, const ContactList<2>&, std::size_t
 template double share_of_first(const Grains&, const ContactList<3>&, std::size_t);
 template Vec2 contact_point(const Grains&, const Frame<2>&, std::size_t);
 template Vec3 contact_point(const Grains&, const Frame<3>&, std::size_t);
+
+template <int D>
+Vector<D> Gravity<D>::at(double time) const
+{
+  if (!turns()) return start;
+  const double angle = slope_rate * std::max(time, 0.0);
+  const double c = std::cos(angle), s = std::sin(angle);
+  // A slope that becomes steeper turns gravity from -y towards +x.
+  Vector<D> turned = start;
+  turned.x() = c * start.x() - s * start.y();
+  turned.y() = s * start.x() + c * start.y();
+  return turned;
+}
+
+template <int D>
+Vector<D> Gravity<D>::mean(double last, std::int64_t steps, double step) const
+{
+  if (!turns()) return start;
+  // Mean of vectors of one length, each turned by `angle` against the last (Dirichlet's kernel).
+  const double angle = slope_rate * step, half = angle / 2;
+  const auto count = static_cast<double>(steps);
+  return std::sin(count * half) / (count * std::sin(half)) * at(last - (count - 1) * step / 2);
+}
+
+template struct Gravity<2>;
+template struct Gravity<3>;
 
 }  // namespace grseg

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstddef>
+#include <limits>
 
 namespace grseg {
 namespace {
@@ -59,6 +61,39 @@ std::string excerpt(std::string_view text)
 {
   constexpr std::size_t enough = 60;
   return text.size() <= enough ? printable(text) : printable(text.substr(0, enough)) + "...";
+}
+
+std::string xml_escaped(const std::string& text)
+{
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::optional<double> parse_number(std::string_view text)
+{
+  using Limits = std::numeric_limits<double>;
+  if (text == "nan") return Limits::quiet_NaN();
+  if (text == "inf") return Limits::infinity();
+  if (text == "-inf") return -Limits::infinity();
+  // from_chars would take other words for NaN and infinity.
+  if (text.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return {};
+  double number = 0;
+  const auto* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return {};
+  return number;
 }
 
 }  // namespace grseg

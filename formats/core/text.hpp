@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,15 @@ std::string printable_lines(std::string_view text);
 
 /// The same of the beginning of a word, with "..." where it goes on; for messages that quote it.
 std::string excerpt(std::string_view text);
+
+/// What some programs put before text in UTF-8.
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+/// The text as it stands in XML, between tags or quotes.
+std::string xml_escaped(const std::string& text);
+
+/// A decimal number as grseg writes it ("-1.5e-07", "nan", "inf", "-inf"); nothing where the text
+/// is anything else: blanks, a comma, hexadecimal digits, more than a double can hold.
+std::optional<double> parse_number(std::string_view text);
 
 }  // namespace grseg

@@ -5,7 +5,7 @@
 
 namespace grseg {
 
-/// "0.2.0"; with the git hash: "0.2.0 (1a2b3c4)".
+/// "1.0.0"; with the git hash: "1.0.0 (1a2b3c4)".
 std::string version();
 std::string version_with_hash();
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/export/extxyz_writer.hpp"
-
-#include "formats/export/in_space.hpp"
+#include "formats/export/run_writers.hpp"
+#include "formats/export/view_cell.hpp"
 
 #include <fmt/format.h>
 

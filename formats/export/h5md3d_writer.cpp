@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/export/h5md3d_writer.hpp"
-
 #include "formats/core/errors.hpp"
-#include "formats/export/in_space.hpp"
+#include "formats/export/run_writers.hpp"
+#include "formats/export/view_cell.hpp"
 #include "formats/trajectory/h5md.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
-#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/export/lammps_writer.hpp"
-
-#include "formats/core/dimension.hpp"
-#include "formats/export/contact_parts.hpp"
-#include "formats/export/in_space.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/export/run_writers.hpp"
+#include "formats/export/view_cell.hpp"
 
 #include <fmt/format.h>
 

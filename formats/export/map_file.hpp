@@ -2,12 +2,50 @@
 #pragma once
 
 #include "formats/cli/output.hpp"
-#include "formats/export/map_table.hpp"
+#include "formats/cli/table.hpp"
 
+#include <array>
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grseg {
+
+/// The table of a map taken apart: fields over windows and over a grid of cells, the same in all
+/// windows. Rows of such a table begin with t0 t1, the edges of the cell along two axes (x0 x1 y0
+/// y1), frames and V; they run along the first axis, then along the second, then over windows.
+struct MapTable {
+  struct Axis {
+    std::string name;           // "x"
+    std::vector<double> edges;  // m, increasing
+    std::size_t cells() const { return edges.size() - 1; }
+    double middle(std::size_t cell) const { return (edges[cell] + edges[cell + 1]) / 2; }
+  };
+  struct Window {
+    double begin, end, frames;  // s, s, number
+    double middle() const { return (begin + end) / 2; }
+  };
+  struct Field {
+    std::string name, unit;
+    std::vector<double> values;  // [window][second axis][first axis]
+  };
+
+  std::array<Axis, 2> axes;
+  std::vector<Window> windows;
+  Field volume;  // of one window
+  std::vector<Field> fields;
+  /// What stands in the header, each key once; lines of one key are joined by ends of line.
+  std::vector<std::pair<std::string, std::string>> header;
+
+  std::size_t cells() const { return axes[0].cells() * axes[1].cells(); }
+};
+
+/// The columns that rows of a map begin with.
+std::vector<std::string> map_key_columns(const std::array<std::string, 2>& axes, int dimension);
+
+/// FormatError where the table is not of a map.
+MapTable map_table(const Table& table);
 
 /// Whether a name asks for a map as other programs open it:
 ///   .h5   HDF5 for h5py, xarray and netCDF: a dataset [time][y][x] for each column, with its unit
@@ -27,8 +65,6 @@ void check_map_file(const OutputOptions& output, const std::vector<std::string>&
 void write_map_file(const Table& table, const OutputOptions& output,
                     const std::vector<std::string>& inputs);
 
-/// The content of a .vti file: one window of a map.
-std::string image_data(const MapTable& map, std::size_t window);
 /// Writes an HDF5 file as above.
 void write_map_hdf5(const MapTable& map, const std::string& path, const std::string& name);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/errors.hpp"
 #include "formats/export/map_file.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
-#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/export/map_table.hpp"
-
 #include "formats/core/errors.hpp"
+#include "formats/export/map_file.hpp"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #include "formats/export/output_file.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
 
 #include <boost/iostreams/categories.hpp>
 #include <boost/iostreams/filter/zlib.hpp>
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <ios>
 
 namespace grseg {
@@ -109,6 +111,83 @@ void OutputFile::publish()
 {
   close();
   output_.publish();
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string without_last_slashes(std::string path)
+{
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return path;
+}
+
+void create_folder(const std::string& path)
+{
+  std::error_code error;
+  if (!fs::create_directory(path, error))
+    throw RunError(fmt::format("cannot create {}: {}", path, error.message()));
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(std::string path, std::string mark, bool overwrite,
+                           const std::vector<std::string>& inputs)
+    : path_(without_last_slashes(std::move(path))),
+      mark_(std::move(mark)),
+      temporary_(temporary_path(path_)),
+      overwrite_(overwrite)
+{
+  refuse_input_as_output(path_, inputs);
+  if (is_taken(path_)) require_replaceable();
+  create_folder(temporary_);
+}
+
+void OutputFolder::require_replaceable() const
+{
+  if (!overwrite_) throw UsageError(already_exists(path_));
+  std::error_code error;
+  if (!fs::exists(fs::path(path_) / mark_, error))
+    throw UsageError(fmt::format(
+        "{} already exists and holds no {}, so --overwrite does not replace it; choose another "
+        "name",
+        path_, mark_));
+}
+
+OutputFolder::~OutputFolder()
+{
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+}
+
+void OutputFolder::add_folder(const std::string& name) const
+{
+  create_folder((fs::path(temporary_) / name).string());
+}
+
+void OutputFolder::add_file(const std::string& name, std::string_view content) const
+{
+  const auto path = (fs::path(temporary_) / name).string();
+  write_file(path, content, path);
+}
+
+void OutputFolder::publish()
+{
+  flush_file_system(temporary_);
+  const std::string remedy = "choose another name";
+  if (!overwrite_ || !is_taken(path_)) return rename_to_new(temporary_, path_, remedy);
+  require_replaceable();
+  const auto old = fmt::format("{}.old.{}", path_, getpid());
+  std::error_code error;
+  rename_path(path_, old);
+  try {
+    rename_to_new(temporary_, path_, remedy);
+  } catch (const RunError&) {
+    fs::rename(old, path_, error);
+    throw;
+  }
+  fs::remove_all(old, error);
 }
 
 }  // namespace grseg

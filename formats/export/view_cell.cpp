@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/export/view_cell.hpp"
 
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/core/frame.hpp"
 #include "formats/trajectory/reader.hpp"
 
+#include <Eigen/Geometry>
 #include <array>
+#include <vector>
 
 namespace grseg {
 
@@ -19,5 +22,51 @@ struct ViewCell {
 };
 
 ViewCell view_cell(const TrajectoryReader& run, std::size_t frame);
+
+/// As viewers take vectors, with three components: what lies in a plane has z = 0, and turns about z.
+template <int D>
+Vec3 in_space(const Vector<D>& v)
+{
+  if constexpr (D == 2)
+    return {v.x(), v.y(), 0};
+  else
+    return v;
+}
+inline Vec3 spin_in_space(double spin)
+{
+  return {0, 0, spin};
+}
+inline Vec3 spin_in_space(const Vec3& spin)
+{
+  return spin;
+}
+
+template <int D>
+std::vector<Vec3> all_in_space(const std::vector<Vector<D>>& vectors)
+{
+  std::vector<Vec3> out;
+  out.reserve(vectors.size());
+  for (const auto& v : vectors) out.push_back(in_space<D>(v));
+  return out;
+}
+
+/// The force of a contact along and across n = branch/|branch|: in two dimensions along
+/// t = (-n_y, n_x), in three the modulus.
+template <int D>
+struct ContactParts {
+  Vector<D> n;
+  double normal, tangential;  // N, on i; normal > 0 pushes i away from j
+};
+
+template <int D>
+ContactParts<D> contact_parts(const ContactList<D>& contacts, std::size_t contact)
+{
+  const Vector<D> n = contacts.branch[contact].normalized();
+  const Vector<D>& force = contacts.force[contact];
+  if constexpr (D == 2)
+    return {n, n.dot(force), n.x() * force.y() - n.y() * force.x()};
+  else
+    return {n, n.dot(force), n.cross(force).norm()};
+}
 
 }  // namespace grseg

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/export/vtp_writer.hpp"
-
-#include "formats/core/pair_type.hpp"
-#include "formats/export/contact_parts.hpp"
-#include "formats/export/in_space.hpp"
-#include "formats/export/poly_data.hpp"
+#include "formats/core/species.hpp"
+#include "formats/export/run_writers.hpp"
+#include "formats/export/view_cell.hpp"
+#include "formats/export/vtk.hpp"
 
 #include <fmt/format.h>
 
@@ -49,18 +47,6 @@ std::vector<T> of_present(const Frame<D>& frame, std::vector<T> all)
     if (is_present(frame, g)) all[next++] = all[g];
   all.resize(next);
   return all;
-}
-
-/// A .pvd: times and files.
-std::string collection(const std::string& list)
-{
-  return fmt::format(R"(<?xml version="1.0"?>
-<VTKFile type="Collection" version="1.0" byte_order="LittleEndian">
-  <Collection>
-{}  </Collection>
-</VTKFile>
-)",
-                     list);
 }
 
 }  // namespace
@@ -144,8 +130,7 @@ void VtpWriter::add(const Frame<D>& frame)
   const auto add = [&](const char* what, const std::string& text, std::string& list) {
     const auto name = fmt::format("{}/{:06}.vtp", what, frames_);
     folder_.add_file(name, text);
-    list +=
-        fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, name);
+    list += vtk_entry(frame.time, name);
   };
   add("grains", grains_text(frame), grains_list_);
   add("contacts", contacts_text(frame), contacts_list_);
@@ -154,8 +139,8 @@ void VtpWriter::add(const Frame<D>& frame)
 
 void VtpWriter::publish()
 {
-  folder_.add_file("contacts.pvd", collection(contacts_list_));
-  folder_.add_file("grains.pvd", collection(grains_list_));
+  folder_.add_file("contacts.pvd", vtk_collection(contacts_list_));
+  folder_.add_file("grains.pvd", vtk_collection(grains_list_));
   folder_.publish();
 }
 

@@ -3,15 +3,11 @@
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/progress.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/tool.hpp"
-#include "formats/cli/verification.hpp"
-#include "formats/cli/word_option.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/core/dimension.hpp"
-#include "formats/export/extxyz_writer.hpp"
-#include "formats/export/h5md3d_writer.hpp"
-#include "formats/export/lammps_writer.hpp"
-#include "formats/export/vtp_writer.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/export/run_writers.hpp"
 
 #include <fmt/format.h>
 

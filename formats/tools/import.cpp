@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/interruption.hpp"
-#include "formats/cli/next_step.hpp"
-#include "formats/cli/shell_word.hpp"
+#include "formats/cli/progress.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/import/convert/importer.hpp"
 #include "formats/import/convert/scan.hpp"

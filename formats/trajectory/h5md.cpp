@@ -3,8 +3,8 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/version.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
-#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fmt/format.h>
 

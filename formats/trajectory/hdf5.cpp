@@ -3,7 +3,6 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
-#include "formats/trajectory/hdf5_failure.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,6 +12,8 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -349,6 +350,27 @@ std::vector<std::string> names_in(hid_t parent, const std::string& path)
   H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, visit, &names);
   std::sort(names.begin(), names.end());
   return names;
+}
+
+namespace {
+
+/// The library passes an errno on only as part of a text.
+herr_t find_errno(unsigned, const H5E_error2_t* entry, void* found)
+{
+  const char* place = entry->desc == nullptr ? nullptr : std::strstr(entry->desc, "errno = ");
+  int error = 0;
+  if (place != nullptr && std::sscanf(place, "errno = %d", &error) == 1 && error != 0)
+    *static_cast<int*>(found) = error;
+  return 0;
+}
+
+}  // namespace
+
+std::string reason_of_failure()
+{
+  int error = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &error);
+  return error != 0 ? reason(error) : "the HDF5 library does not say why";
 }
 
 }  // namespace grseg::hdf5

@@ -148,4 +148,8 @@ bool exists(hid_t parent, const std::string& path);
 /// The names linked in a group, in alphabetical order.
 std::vector<std::string> names_in(hid_t parent, const std::string& path);
 
+/// Why the last call of the library failed, as the system told it ("No space left on device"), where
+/// the library knows; to be asked before the next call.
+std::string reason_of_failure();
+
 }  // namespace grseg::hdf5

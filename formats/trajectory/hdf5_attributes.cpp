@@ -2,7 +2,7 @@
 #include "formats/trajectory/hdf5_attributes.hpp"
 
 #include "formats/core/errors.hpp"
-#include "formats/trajectory/hdf5_failure.hpp"
+#include "formats/trajectory/hdf5.hpp"
 
 #include <fmt/format.h>
 

@@ -32,14 +32,12 @@ constexpr NumberType float64{"float64", H5T_FLOAT, 8};
 
 /// A row of the table of formats/README.md. A letter of `shape` is F frames, O = F+1, N grains, C
 /// contacts, K species, D digests of a frame, d dimensions, w those of a spin, or 4. `stored`: float32 where the run says so.
-/// `since`: the minor version that has it.
 struct Row {
   const char* path;
   NumberType type;
   bool stored;
   const char* shape;
   const char* unit;
-  int since = 0;
 };
 constexpr std::array table{
     Row{"/particles/grains/box/edges", float64, false, "d", ""},
@@ -62,11 +60,11 @@ constexpr std::array table{
     Row{"/grseg/contacts/branch", float64, true, "Cd", "m"},
     Row{"/grseg/contacts/gap", float64, true, "C", "m"},
     Row{"/grseg/digest", uint64, false, "F", ""},
-    Row{"/grseg/field_digest", uint64, false, "FD", "", 1},
-    Row{"/grseg/static_digest", uint64, false, "", "", 1},
-    Row{"/grseg/seal", uint64, false, "4", "", 1},
-    Row{"/grseg/species/diameter", float64, false, "K", "", 1},
-    Row{"/grseg/species/mobile", uint8, false, "K", "", 1},
+    Row{"/grseg/field_digest", uint64, false, "FD", ""},
+    Row{"/grseg/static_digest", uint64, false, "", ""},
+    Row{"/grseg/seal", uint64, false, "4", ""},
+    Row{"/grseg/species/diameter", float64, false, "K", ""},
+    Row{"/grseg/species/mobile", uint8, false, "K", ""},
 };
 
 bool is_of(const Type& type, const NumberType& wanted)
@@ -94,8 +92,7 @@ class LayoutCheck {
   {
     check_attributes();
     for (const auto& row : table)
-      if (row.since <= run_.minor_version() &&
-          (run_.has_force() || std::string(row.path) != "/particles/grains/force/value"))
+      if (run_.has_force() || std::string(row.path) != "/particles/grains/force/value")
         check_row(row);
     for (const char* element : {"velocity", "angular_velocity", "image", "force"})
       if (run_.has_force() || std::string(element) != "force")
@@ -154,7 +151,8 @@ void LayoutCheck::check_attributes()
   };
   numbers("/h5md", "version", {1, 1});
   numbers("/h5md/modules/units", "version", {1, 0});
-  numbers("/h5md/modules/grseg", "version", {1, std::min(run_.minor_version(), 2)});
+  numbers("/h5md/modules/grseg", "version", {1, 0});
+  if (run_.grains_come_and_go()) numbers("/particles/grains", "come_and_go", {1});
   numbers("/particles/grains/box", "dimension", {run_.dimension()});
 }
 

@@ -4,9 +4,9 @@
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/h5md.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
-#include "formats/trajectory/hdf5_failure.hpp"
-#include "formats/trajectory/integrity.hpp"
+#include "formats/trajectory/run_description.hpp"
 
 #include <fmt/format.h>
 
@@ -80,13 +80,15 @@ class NewFile {
 void NewFile::write_metadata()
 {
   h5md::write_root(file_);
-  write_attribute(make_group(file_, "/h5md/modules/grseg"), "version",
-                  std::vector<int>{1, run_.grains_come_and_go ? 2 : 1});
+  write_attribute(make_group(file_, "/h5md/modules/grseg"), "version", std::vector<int>{1, 0});
   const auto& box = run_.box;
   const auto word = [](bool periodic) { return periodic ? "periodic" : "none"; };
   std::vector<std::string> boundary{word(box.periodic_x), word(false)};
   if (box.dimension == 3) boundary.emplace_back(word(box.periodic_z));
   h5md::write_box(file_, "grains", boundary);
+  if (run_.grains_come_and_go)
+    write_attribute(Group(H5Gopen2(file_, "/particles/grains", H5P_DEFAULT)), "come_and_go",
+                    std::vector<int>{1});
   const double edges[3] = {box.length_x, box.length_y, box.length_z};
   write_fixed(file_, "/particles/grains/box/edges", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
               {components()}, edges);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/trajectory/reader.hpp"
 
-#include "formats/core/dimension.hpp"
-#include "formats/core/errors.hpp"
-#include "formats/trajectory/digest.hpp"
-#include "formats/trajectory/integrity.hpp"
+#include "formats/trajectory/row_reader.hpp"
+#include "formats/trajectory/run_description.hpp"
 #include "formats/trajectory/stored_run.hpp"
 
 #include <fmt/format.h>
@@ -13,13 +11,128 @@
 #include <initializer_list>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace grseg {
-namespace {
 
 using namespace hdf5;
 
+/// The datasets with rows for each frame, whose types and shapes have been checked.
+struct TrajectoryReader::Datasets {
+  Datasets(File its_file, const StoredRun& of_run);
+
+  CheckedDataset open(const std::string& at, H5T_class_t kind, int rank) const
+  {
+    return {file, at, kind, rank, run.path};
+  }
+  /// A property of the grains, and one of the contacts of all frames.
+  RowReader of_grains(const std::string& name, H5T_class_t kind, int rank) const;
+  RowReader of_contacts(const std::string& name, H5T_class_t kind, int rank) const;
+
+  /// The row of a frame with one vector, or one number, per grain. What is compressed is appended to
+  /// `packed`.
+  template <class T>
+  void load_row(const RowReader& rows, std::size_t frame, std::vector<T>& out,
+                std::vector<PackedRows>& packed) const
+  {
+    out.resize(run.description.grains.size());
+    rows.load(frame, 1, out.data(), packed);
+  }
+  template <int D>
+  void load_contacts(std::size_t frame, ContactList<D>& contacts,
+                     std::vector<PackedRows>& packed) const;
+  std::vector<double> observable(const std::string& name) const;
+  std::string damage_of_observables() const;
+
+  File file;
+  const StoredRun& run;
+  RowReader position, image, velocity, angular_velocity, force;
+  RowReader contact_i, contact_j, contact_force, contact_branch, contact_gap;
+};
+
+TrajectoryReader::Datasets::Datasets(File its_file, const StoredRun& of_run)
+    : file(std::move(its_file)), run(of_run)
+{
+  position = of_grains("position", H5T_FLOAT, 3);
+  velocity = of_grains("velocity", H5T_FLOAT, 3);
+  angular_velocity =
+      of_grains("angular_velocity", H5T_FLOAT, run.description.box.dimension == 2 ? 2 : 3);
+  image = of_grains("image", H5T_INTEGER, 3);
+  if (run.description.has_force) force = of_grains("force", H5T_FLOAT, 3);
+  contact_i = of_contacts("i", H5T_INTEGER, 1);
+  contact_j = of_contacts("j", H5T_INTEGER, 1);
+  contact_force = of_contacts("force", H5T_FLOAT, 2);
+  contact_branch = of_contacts("branch", H5T_FLOAT, 2);
+  contact_gap = of_contacts("gap", H5T_FLOAT, 1);
+}
+
+RowReader TrajectoryReader::Datasets::of_grains(const std::string& name, H5T_class_t kind,
+                                                int rank) const
+{
+  auto dataset = open("/particles/grains/" + name + "/value", kind, rank);
+  dataset.require(0, run.size(), true);
+  dataset.require(1, run.description.grains.size());
+  if (rank == 3) dataset.require(2, static_cast<hsize_t>(run.description.box.dimension));
+  return RowReader(std::move(dataset));
+}
+
+RowReader TrajectoryReader::Datasets::of_contacts(const std::string& name, H5T_class_t kind,
+                                                  int rank) const
+{
+  auto dataset = open("/grseg/contacts/" + name, kind, rank);
+  dataset.require(0, run.offset.back(), true);
+  if (rank == 2) dataset.require(1, static_cast<hsize_t>(run.description.box.dimension));
+  return RowReader(std::move(dataset));
+}
+
+template <int D>
+void TrajectoryReader::Datasets::load_contacts(std::size_t index, ContactList<D>& contacts,
+                                               std::vector<PackedRows>& packed) const
+{
+  const hsize_t begin = run.offset[index], count = run.offset[index + 1] - begin;
+  const auto grains = run.description.grains.size();
+  if (count > 64 * grains + 1024)
+    run.fail(
+        fmt::format("frame {} claims {} contacts for {} grains; /grseg/contacts/offset is damaged",
+                    index, count, grains));
+  const auto load = [&](const RowReader& rows, auto& values) {
+    values.resize(count);
+    if (count > 0) rows.load(begin, count, values.data(), packed);
+  };
+  load(contact_i, contacts.i);
+  load(contact_j, contacts.j);
+  load(contact_force, contacts.force);
+  load(contact_branch, contacts.branch);
+  load(contact_gap, contacts.gap);
+}
+
+std::vector<double> TrajectoryReader::Datasets::observable(const std::string& name) const
+{
+  const auto dataset = open("/observables/" + name + "/value", H5T_FLOAT, 1);
+  dataset.require(0, run.size(), true);
+  std::vector<double> values(run.size());
+  dataset.read_rows(H5T_NATIVE_DOUBLE, 0, run.size(), values.data());
+  return values;
+}
+
+namespace {
+
 constexpr TrajectoryReader::Fields whole{.velocity = true, .contacts = true, .force = true};
+
+/// A small cache for the index of chunks, so that memory does not grow with the number of frames,
+/// which are read one after the other.
+Properties small_index_cache()
+{
+  silence();
+  Properties access(H5Pcreate(H5P_FILE_ACCESS));
+  H5AC_cache_config_t cache{};
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  H5Pget_mdc_config(access, &cache);
+  cache.set_initial_size = true;
+  cache.initial_size = cache.min_size = cache.max_size = 131072;  // bytes
+  H5Pset_mdc_config(access, &cache);
+  return access;
+}
 
 constexpr const char* names_of_fields[number_of_fields] = {
     "/particles/grains/position/step, time or its rows of contacts",
@@ -35,175 +148,52 @@ constexpr const char* names_of_fields[number_of_fields] = {
     "/grseg/contacts/gap",
     "/observables"};
 
-}  // namespace
-
-struct TrajectoryReader::Impl : StoredRun {
-  Impl(const std::string& its_path, Verify its_verify) : StoredRun(its_path), verify(its_verify) {}
-
-  Verify verify;
-  Seal::Numbers seal{};
-  bool closed = false;
-  mutable bool observables_verified = false;
-  mutable std::vector<double> parts;  // observable frame_step, once a frame with forces is read
-
-  void read_seal();
-  std::string damage_of_run() const;
-  std::string damage_of_observables() const;
-  void drop_damaged_end();
-  template <int D>
-  Packed load(std::size_t index, Frame<D>& frame, Fields fields) const;
-  template <int D>
-  void unpack(const Packed& packed, Frame<D>& frame) const;
-  template <int D>
-  std::optional<Field> changed_field(std::size_t index, const Frame<D>& frame, Fields fields) const;
-  void verify_whole(std::size_t index) const;
-  bool matches(std::size_t index, Field field, std::uint64_t digest) const
-  {
-    return field_digests[index][static_cast<std::size_t>(field)] == digest;
-  }
-  template <int D>
-  bool chain_matches(std::size_t index, const Frame<D>& frame) const
-  {
-    return frame_digest(frame, index == 0 ? 0 : chain[index - 1], stores_float32()) == chain[index];
-  }
-  static std::string changed(Field field, std::size_t index)
-  {
-    return fmt::format(
-        "{} of frame {} is not what was written: the file is damaged; take a copy "
-        "that is whole, or leave the frame out with --begin or --end",
-        names_of_fields[static_cast<std::size_t>(field)], index);
-  }
-};
-
-TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify)
-    : impl_(std::make_unique<Impl>(path, verify))
+std::string changed(Field field, std::size_t index)
 {
-  auto& my = *impl_;
-  if (my.has_field_digests())
-    my.read_seal();
-  else
-    my.drop_damaged_end();
-  if (verify == Verify::no) return;
-  if (const auto damage = my.damage_of_run(); !damage.empty()) my.fail(damage);
+  return fmt::format(
+      "{} of frame {} is not what was written: the file is damaged; take a copy that is whole, or "
+      "leave the frame out with --begin or --end",
+      names_of_fields[static_cast<std::size_t>(field)], index);
 }
 
-/// The seal says that the file was closed; /parameters/complete repeats it for other readers. Before
-/// that, what is known at the end is not there.
-void TrajectoryReader::Impl::read_seal()
+bool matches(const StoredRun& run, std::size_t index, Field field, std::uint64_t digest)
 {
-  const auto dataset = open("/grseg/seal", H5T_INTEGER, 1);
-  dataset.require(0, seal.size());
-  dataset.read_all(H5T_NATIVE_UINT64, seal.data());
-  closed = seal != Seal{}.numbers();
-  std::erase_if(run.parameters.numbers,
-                [&](const auto& number) { return !closed && is_known_at_end(number.first); });
-}
-
-/// In files of version 1.0 a kill in the middle of a write can leave the last frames committed but
-/// damaged, which their digests reveal. A file that was closed has no such end.
-void TrajectoryReader::Impl::drop_damaged_end()
-{
-  closed = run.parameters.numbers.contains("complete");
-  if (closed) return;
-  const auto is_whole = [&](std::size_t last) {
-    return with_dimension(dimension(), [&](auto d) {
-      Frame<d> frame;
-      try {
-        unpack(load(last, frame, whole), frame);
-      } catch (const FormatError&) {
-        return false;
-      }
-      return chain_matches(last, frame);
-    });
-  };
-  while (size() > 0 && !is_whole(size() - 1)) drop_last();
+  return run.field_digests[index][static_cast<std::size_t>(field)] == digest;
 }
 
 /// What is damaged outside frames, or where they stand.
-std::string TrajectoryReader::Impl::damage_of_run() const
+std::string damage_of(const StoredRun& run)
 {
-  if (!has_field_digests()) return {};
   constexpr const char* remedy = "the file is damaged; take a copy that is whole";
-  std::uint64_t stored = 0;
-  open("/grseg/static_digest", H5T_INTEGER, 0).read_all(H5T_NATIVE_UINT64, &stored);
-  const auto digest = static_digest(run);
-  if (digest != stored)
+  const auto digest = static_digest(run.description);
+  if (digest != run.static_digest)
     return fmt::format(
         "box, grains, species, observables or parameters are not what was written: {}", remedy);
-  for (std::size_t k = 0; k < size(); ++k)
-    if (!matches(
-            k, Field::place,
-            field_digest(k, FramePlace{steps[k], times[k], offset[k], offset[k + 1], chain[k]})))
-      return changed(Field::place, k);
-  if (!closed) return {};
-  const auto last = chain.empty() ? 0 : chain.back();
-  if (make_seal(size(), offset.back(), last, digest, run.parameters).numbers() != seal)
-    return fmt::format("/grseg/seal names other frames or another summary than the file holds: {}",
-                       remedy);
-  return {};
-}
-
-std::string TrajectoryReader::Impl::damage_of_observables() const
-{
-  if (!has_field_digests()) return {};
-  std::vector<std::vector<double>> all;
-  for (const auto& observable : run.observables) all.push_back(read_observable(observable.name));
-  std::vector<double> of_frame(all.size());
-  for (std::size_t k = 0; k < size(); ++k) {
-    for (std::size_t q = 0; q < all.size(); ++q) of_frame[q] = all[q][k];
-    if (!matches(k, Field::observables, field_digest(k, of_frame)))
-      return changed(Field::observables, k);
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const FramePlace place{run.steps[k], run.times[k], run.offset[k], run.offset[k + 1],
+                           run.chain[k]};
+    if (!matches(run, k, Field::place, field_digest(k, place))) return changed(Field::place, k);
   }
-  return {};
-}
-
-template <int D>
-TrajectoryReader::Packed TrajectoryReader::Impl::load(std::size_t index, Frame<D>& frame,
-                                                      Fields fields) const
-{
-  if (D != dimension())
-    fail(fmt::format("is a run in {} dimensions, which this program does not read",
-                     dimension() == 2 ? "two" : "three"));
-  Packed packed{index, fields, {}};
-  auto& rows = packed.rows;
-  frame.step = steps.at(index);
-  frame.time = times[index];
-  load_row(position, index, frame.position, rows);
-  frame.velocity.clear();
-  frame.angular_velocity.clear();
-  frame.force.clear();
-  frame.image.clear();
-  frame.contacts.clear();
-  if (fields.velocity) {
-    load_row(velocity, index, frame.velocity, rows);
-    load_row(angular_velocity, index, frame.angular_velocity, rows);
-  }
-  if (fields.force) {
-    if (run.has_force) load_row(force, index, frame.force, rows);
-    load_row(image, index, frame.image, rows);
-  }
-  if (fields.contacts) load_contacts(index, frame.contacts, rows);
-  return packed;
-}
-
-/// Decompresses and checks, without digests.
-template <int D>
-void TrajectoryReader::Impl::unpack(const Packed& packed, Frame<D>& frame) const
-{
-  for (const auto& rows : packed.rows) rows.unpack();
-  check(packed.index, frame);
+  if (!run.closed()) return {};
+  const auto last = run.chain.empty() ? 0 : run.chain.back();
+  const auto seal =
+      make_seal(run.size(), run.offset.back(), last, digest, run.description.parameters);
+  return seal.numbers() == run.seal
+             ? ""
+             : fmt::format(
+                   "/grseg/seal names other frames or another summary than the file holds: {}",
+                   remedy);
 }
 
 /// The first of the fields that were read which is not as it was written.
 template <int D>
-std::optional<Field> TrajectoryReader::Impl::changed_field(std::size_t index, const Frame<D>& frame,
-                                                           Fields fields) const
+std::optional<Field> changed_field(const StoredRun& run, bool float32, std::size_t index,
+                                   const Frame<D>& frame, TrajectoryReader::Fields fields)
 {
-  const bool float32 = stores_float32();
   const auto find = [&](bool was_read, std::initializer_list<Field> these) -> std::optional<Field> {
     if (was_read)
       for (const auto field : these)
-        if (!matches(index, field, field_digest(field, index, frame, float32))) return field;
+        if (!matches(run, index, field, field_digest(field, index, frame, float32))) return field;
     return {};
   };
   auto found = find(true, {Field::position});
@@ -215,90 +205,35 @@ std::optional<Field> TrajectoryReader::Impl::changed_field(std::size_t index, co
   return found;
 }
 
-/// In files of version 1.0 only a whole frame can be verified.
-void TrajectoryReader::Impl::verify_whole(std::size_t index) const
+}  // namespace
+
+std::string TrajectoryReader::Datasets::damage_of_observables() const
 {
-  with_dimension(dimension(), [&](auto d) {
-    Frame<d> frame;
-    unpack(load(index, frame, whole), frame);
-    if (!chain_matches(index, frame))
-      fail(
-          fmt::format("frame {} is not what was written: the file is damaged; take a copy that is "
-                      "whole, or leave the frame out with --begin or --end",
-                      index));
-  });
+  std::vector<std::vector<double>> all;
+  for (const auto& known : run.description.observables) all.push_back(observable(known.name));
+  std::vector<double> of_frame(all.size());
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    for (std::size_t q = 0; q < all.size(); ++q) of_frame[q] = all[q][k];
+    if (!matches(run, k, Field::observables, field_digest(k, of_frame)))
+      return changed(Field::observables, k);
+  }
+  return {};
+}
+
+TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify) : verify_(verify)
+{
+  auto file = open_for_reading(path, small_index_cache());
+  run_ = std::make_unique<StoredRun>(read_stored_run(file, path));
+  datasets_ = std::make_unique<Datasets>(std::move(file), *run_);
+  if (!closed())  // what is known at the end is not there
+    std::erase_if(run_->description.parameters.numbers,
+                  [](const auto& number) { return is_known_at_end(number.first); });
+  if (verify == Verify::no) return;
+  if (const auto damage = damage_of(*run_); !damage.empty()) run_->fail(damage);
 }
 
 TrajectoryReader::~TrajectoryReader() = default;
 TrajectoryReader::TrajectoryReader(TrajectoryReader&&) noexcept = default;
-
-const std::string& TrajectoryReader::path() const
-{
-  return impl_->path;
-}
-std::size_t TrajectoryReader::size() const
-{
-  return impl_->size();
-}
-std::size_t TrajectoryReader::contacts() const
-{
-  return impl_->offset.back();
-}
-const Grains& TrajectoryReader::grains() const
-{
-  return impl_->run.grains;
-}
-const SpeciesList& TrajectoryReader::species() const
-{
-  return impl_->run.species;
-}
-const Box& TrajectoryReader::box() const
-{
-  return impl_->run.box;
-}
-const Parameters& TrajectoryReader::parameters() const
-{
-  return impl_->run.parameters;
-}
-bool TrajectoryReader::has_force() const
-{
-  return impl_->run.has_force;
-}
-int TrajectoryReader::minor_version() const
-{
-  return impl_->minor_version;
-}
-bool TrajectoryReader::closed() const
-{
-  return impl_->closed;
-}
-const std::vector<std::int64_t>& TrajectoryReader::steps() const
-{
-  return impl_->steps;
-}
-const std::vector<double>& TrajectoryReader::times() const
-{
-  return impl_->times;
-}
-
-std::string TrajectoryReader::verified() const
-{
-  if (impl_->verify == Verify::no) return "no (--trust)";
-  return impl_->has_field_digests() ? "all" : "frames only";
-}
-
-double TrajectoryReader::small_diameter() const
-{
-  return parameters().number("small_diameter", path());
-}
-double TrajectoryReader::large_diameter() const
-{
-  return parameters().number("large_diameter", path());
-}
-double TrajectoryReader::step() const
-{
-  return parameters().number("step", path());
-}
 
 template <int D>
 Gravity<D> TrajectoryReader::gravity() const
@@ -306,8 +241,8 @@ Gravity<D> TrajectoryReader::gravity() const
   const auto& numbers = parameters().numbers;
   const auto found = numbers.find("gravity");
   if (found == numbers.end() || found->second.size() != D)
-    impl_->fail(fmt::format("/parameters/gravity should be {} numbers; see formats/README.md",
-                            D == 2 ? "two" : "three"));
+    run_->fail(fmt::format("/parameters/gravity should be {} numbers; see formats/README.md",
+                           D == 2 ? "two" : "three"));
   const double rate =
       numbers.count("slope_rate") > 0 ? parameters().number("slope_rate", path()) : 0;
   return {Vector<D>(found->second.data()), rate * std::numbers::pi / 180};
@@ -317,25 +252,45 @@ template <int D>
 TrajectoryReader::Packed TrajectoryReader::load(std::size_t index, Frame<D>& frame,
                                                 Fields fields) const
 {
-  const auto& my = *impl_;
-  auto packed = my.load(index, frame, fields);
+  if (D != dimension())
+    run_->fail(fmt::format("is a run in {} dimensions, which this program does not read",
+                           dimension() == 2 ? "two" : "three"));
+  const auto& from = *datasets_;
+  Packed packed{index, fields, {}};
+  auto& rows = packed.rows;
+  frame.step = steps().at(index);
+  frame.time = times()[index];
   frame.part = 0;
+  frame.velocity.clear();
+  frame.angular_velocity.clear();
+  frame.force.clear();
+  frame.image.clear();
+  frame.contacts.clear();
   if (fields.force && has_observable("frame_step")) {
-    if (my.parts.empty()) my.parts = observable("frame_step");
-    frame.part = my.parts.at(index);
+    if (parts_.empty()) parts_ = observable("frame_step");
+    frame.part = parts_.at(index);
   }
-  if (my.verify == Verify::yes && !my.has_field_digests()) my.verify_whole(index);
+  from.load_row(from.position, index, frame.position, rows);
+  if (fields.velocity) {
+    from.load_row(from.velocity, index, frame.velocity, rows);
+    from.load_row(from.angular_velocity, index, frame.angular_velocity, rows);
+  }
+  if (fields.force) {
+    if (has_force()) from.load_row(from.force, index, frame.force, rows);
+    from.load_row(from.image, index, frame.image, rows);
+  }
+  if (fields.contacts) from.load_contacts(index, frame.contacts, rows);
   return packed;
 }
 
 template <int D>
 void TrajectoryReader::unpack(const Packed& packed, Frame<D>& frame) const
 {
-  const auto& my = *impl_;
-  my.unpack(packed, frame);
-  if (my.verify == Verify::no || !my.has_field_digests()) return;
-  if (const auto field = my.changed_field(packed.index, frame, packed.fields))
-    my.fail(Impl::changed(*field, packed.index));
+  for (const auto& rows : packed.rows) rows.unpack();
+  check_frame(*run_, packed.index, frame);
+  if (verify_ == Verify::no) return;
+  if (const auto field = changed_field(*run_, stores_float32(), packed.index, frame, packed.fields))
+    run_->fail(changed(*field, packed.index));
 }
 
 bool TrajectoryReader::has_observable(const std::string& name) const
@@ -344,48 +299,32 @@ bool TrajectoryReader::has_observable(const std::string& name) const
   return std::any_of(all.begin(), all.end(), [&](const auto& known) { return known.name == name; });
 }
 
-const std::vector<Observable>& TrajectoryReader::observables() const
-{
-  return impl_->run.observables;
-}
-
 std::vector<double> TrajectoryReader::observable(const std::string& name) const
 {
-  const auto& my = *impl_;
-  if (my.verify == Verify::yes && !my.observables_verified) {
-    if (const auto damage = my.damage_of_observables(); !damage.empty()) my.fail(damage);
-    my.observables_verified = true;
+  if (verify_ == Verify::yes && !observables_verified_) {
+    if (const auto damage = datasets_->damage_of_observables(); !damage.empty()) run_->fail(damage);
+    observables_verified_ = true;
   }
-  return my.read_observable(name);
-}
-
-std::uint64_t TrajectoryReader::digest() const
-{
-  return size() == 0 ? 0 : digests().back();
-}
-
-const std::vector<std::uint64_t>& TrajectoryReader::digests() const
-{
-  return impl_->chain;
+  return datasets_->observable(name);
 }
 
 bool TrajectoryReader::stores_float32() const
 {
-  return impl_->stores_float32();
+  return datasets_->position.stores_float32();
 }
 
 std::string TrajectoryReader::damage_outside_frames() const
 {
-  const auto damage = impl_->damage_of_run();
-  return damage.empty() ? impl_->damage_of_observables() : damage;
+  const auto damage = damage_of(*run_);
+  return damage.empty() ? datasets_->damage_of_observables() : damage;
 }
 
 template <int D>
 bool TrajectoryReader::is_intact(std::size_t index, const Frame<D>& frame) const
 {
-  const auto& my = *impl_;
-  return my.chain_matches(index, frame) &&
-         (!my.has_field_digests() || !my.changed_field(index, frame, whole));
+  const auto before = index == 0 ? 0 : digests()[index - 1];
+  return frame_digest(frame, before, stores_float32()) == digests()[index] &&
+         !changed_field(*run_, stores_float32(), index, frame, whole);
 }
 
 template Gravity<2> TrajectoryReader::gravity() const;

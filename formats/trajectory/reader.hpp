@@ -2,10 +2,8 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "formats/core/gravity.hpp"
-#include "formats/core/parameters.hpp"
-#include "formats/core/species.hpp"
 #include "formats/trajectory/chunk.hpp"
+#include "formats/trajectory/run_description.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -19,10 +17,9 @@ enum class Verify { yes, no };
 
 /// Reads a trajectory file (formats/README.md). Every size, type and filter is checked before
 /// anything is read, frame contents (indices in range, all numbers of grains that are present finite) while it is read, and
-/// everything that is read is compared with the digests that its writer has left: in files of
-/// version 1.0 there are such of whole frames only. Throws UsageError where the file is missing,
-/// FormatError naming file, path in the file and frame where its content is wrong. Only committed
-/// frames are visible; the file may be that of a run that goes on.
+/// everything that is read is compared with the digests that its writer has left. Throws UsageError
+/// where the file is missing, FormatError naming file, path in the file and frame where its content
+/// is wrong. Only committed frames are visible; the file may be that of a run that goes on.
 class TrajectoryReader {
  public:
   /// What `read` reads; the rest stays empty.
@@ -43,33 +40,34 @@ class TrajectoryReader {
   ~TrajectoryReader();
   TrajectoryReader(TrajectoryReader&&) noexcept;
 
-  const std::string& path() const;
-  std::size_t size() const;      ///< committed frames
-  std::size_t contacts() const;  ///< of all committed frames
-  const Grains& grains() const;
-  const Box& box() const;
+  const std::string& path() const { return run_->path; }
+  std::size_t size() const { return run_->size(); }             ///< committed frames
+  std::size_t contacts() const { return run_->offset.back(); }  ///< of all committed frames
+  const Grains& grains() const { return run_->description.grains; }
+  const Box& box() const { return run_->description.box; }
   /// 2 or 3, the D of all its frames.
   int dimension() const { return box().dimension; }
   /// Its mobile species, at least one.
-  const SpeciesList& species() const;
-  const Parameters& parameters() const;
-  bool has_force() const;  ///< false for some imports; `force` of their frames is empty
+  const SpeciesList& species() const { return run_->description.species; }
+  const Parameters& parameters() const { return run_->description.parameters; }
+  /// False for some imports; `force` of their frames is empty.
+  bool has_force() const { return run_->description.has_force; }
   /// Whether a grain may be absent in a frame: is_present() of core/frame.hpp.
-  bool grains_come_and_go() const { return minor_version() >= 2; }
-  int minor_version() const;  ///< of the module grseg in the file: 1 means 1.1
-  bool closed() const;        ///< whether its writer came to the end and closed it
+  bool grains_come_and_go() const { return run_->description.grains_come_and_go; }
+  /// Whether its writer came to the end and closed it.
+  bool closed() const { return run_->closed(); }
 
-  /// What has been verified: "all", "frames only" (version 1.0) or "no (--trust)".
-  std::string verified() const;
+  /// What has been verified: "all" or "no (--trust)".
+  std::string verified() const { return verify_ == Verify::yes ? "all" : "no (--trust)"; }
 
   /// Steps and times (s) of the committed frames.
-  const std::vector<std::int64_t>& steps() const;
-  const std::vector<double>& times() const;
+  const std::vector<std::int64_t>& steps() const { return run_->steps; }
+  const std::vector<double>& times() const { return run_->times; }
 
   /// Shorthands for /parameters: the smallest and largest nominal diameter (m), step (s), gravity.
-  double small_diameter() const;
-  double large_diameter() const;
-  double step() const;
+  double small_diameter() const { return parameters().number("small_diameter", path()); }
+  double large_diameter() const { return parameters().number("large_diameter", path()); }
+  double step() const { return parameters().number("step", path()); }
   template <int D>
   Gravity<D> gravity() const;
 
@@ -92,28 +90,32 @@ class TrajectoryReader {
   void unpack(const Packed& packed, Frame<D>& frame) const;
 
   /// The observables of the file, in alphabetical order.
-  const std::vector<Observable>& observables() const;
+  const std::vector<Observable>& observables() const { return run_->description.observables; }
   /// One number per committed frame from /observables.
   std::vector<double> observable(const std::string& name) const;
   bool has_observable(const std::string& name) const;
 
   /// xxh3 chain up to and including the last committed frame: the content digest of the run.
-  std::uint64_t digest() const;
+  std::uint64_t digest() const { return size() == 0 ? 0 : digests().back(); }
   /// The chain itself, one entry per committed frame (formats/trajectory/digest.hpp).
-  const std::vector<std::uint64_t>& digests() const;
+  const std::vector<std::uint64_t>& digests() const { return run_->chain; }
   /// Whether the numbers of grains and contacts are stored in single precision.
   bool stores_float32() const;
 
-  /// What is damaged outside frames, one sentence, or "" (always, for version 1.0): for a reader
-  /// that does not verify.
+  /// What is damaged outside frames, one sentence, or "": for a reader that does not verify.
   std::string damage_outside_frames() const;
   /// Whether `frame`, read whole, is as it was written.
   template <int D>
   bool is_intact(std::size_t index, const Frame<D>& frame) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Datasets;
+
+  std::unique_ptr<StoredRun> run_;
+  std::unique_ptr<Datasets> datasets_;
+  Verify verify_;
+  mutable bool observables_verified_ = false;
+  mutable std::vector<double> parts_;  // observable frame_step, once a frame with forces is read
 };
 
 }  // namespace grseg

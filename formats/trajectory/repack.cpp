@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/trajectory/repack.hpp"
 
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 
 namespace grseg {
 

@@ -4,7 +4,11 @@
 #include "formats/core/frame.hpp"
 #include "formats/core/parameters.hpp"
 #include "formats/core/species.hpp"
+#include "formats/trajectory/digest.hpp"
 
+#include <array>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace grseg {
@@ -28,5 +32,45 @@ inline SpeciesList species_of(const RunDescription& run)
   return two_sizes(run.parameters.find_number("small_diameter").value_or(0),
                    run.parameters.find_number("large_diameter").value_or(0));
 }
+
+/// Whether a parameter is known only when a run has ended: `complete` and summary_*. The seal
+/// vouches for these, the static digest for all others.
+bool is_known_at_end(const std::string& parameter);
+
+/// Of box, grains, species, names and units of observables, and parameters.
+std::uint64_t static_digest(const RunDescription& run);
+
+/// Written when the file is closed: it vouches for the number of frames and for what is known only
+/// then. All zeros before.
+struct Seal {
+  std::uint64_t frames = 0, contacts = 0;
+  std::uint64_t chain = 0;   // frame_digest of the last frame
+  std::uint64_t digest = 0;  // of the three, the static digest and the parameters known at the end
+
+  using Numbers = std::array<std::uint64_t, 4>;
+  Numbers numbers() const { return {frames, contacts, chain, digest}; }
+};
+
+Seal make_seal(std::uint64_t frames, std::uint64_t contacts, std::uint64_t chain,
+               std::uint64_t static_digest, const Parameters& parameters);
+
+/// What a trajectory file holds beside the contents of its frames.
+struct StoredRun {
+  std::string path;
+  RunDescription description;
+  std::vector<std::int64_t> steps;
+  std::vector<double> times;
+  std::vector<std::uint64_t> offset;  // frame k owns the contacts offset[k] to offset[k + 1] - 1
+  std::vector<std::uint64_t> chain;   // frame_digest of each frame
+  std::vector<FieldDigests> field_digests;
+  std::uint64_t static_digest = 0;
+  Seal::Numbers seal{};
+
+  /// Committed frames.
+  std::size_t size() const { return offset.size() - 1; }
+  bool closed() const { return seal != Seal{}.numbers(); }
+  /// FormatError naming the file.
+  [[noreturn]] void fail(const std::string& why) const;
+};
 
 }  // namespace grseg

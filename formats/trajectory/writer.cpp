@@ -5,9 +5,8 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
-#include "formats/trajectory/hdf5_failure.hpp"
-#include "formats/trajectory/integrity.hpp"
 #include "formats/trajectory/new_file.hpp"
+#include "formats/trajectory/run_description.hpp"
 
 #include <fmt/format.h>
 

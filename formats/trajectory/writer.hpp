@@ -26,7 +26,7 @@ struct StorageSettings {
 /// the file; until then readers do not see it. Throws RunError when the file cannot be written.
 ///
 /// A live file gets its name once it can be read. Parameters that are known only at its end
-/// (integrity.hpp) must be in the description, as numbers of which only the count matters.
+/// (run_description.hpp) must be in the description, as numbers of which only the count matters.
 class TrajectoryWriter {
  public:
   TrajectoryWriter(const std::string& path, const RunDescription& run,

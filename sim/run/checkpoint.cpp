@@ -5,7 +5,6 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
-#include "formats/trajectory/hdf5_failure.hpp"
 #include "sim/run/checkpoint_check.hpp"
 #include "sim/run/run_files.hpp"
 
@@ -20,9 +19,7 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int32_t format_version = 5;
-// Version 3 is without steps in parts, 4 without the skin.
-constexpr std::int32_t oldest_version = 3;
+constexpr std::int32_t format_version = 1;
 
 /// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
 /// numbers.
@@ -79,32 +76,6 @@ struct Layout<std::uint32_t> : Layout<std::int32_t> {
 
 template <class T>
 constexpr int rank_of = Layout<T>::columns > 1 ? 2 : 1;
-
-/// Chains the digest of everything it is called with, sizes included.
-class Digester {
- public:
-  void operator()(const char*, const std::string& text) { add(text.data(), text.size()); }
-  template <class T>
-  void operator()(const char*, const std::vector<T>& values)
-  {
-    add(values.data(), values.size() * sizeof(T));
-  }
-  template <class T>
-  void operator()(const char*, const T& value)
-  {
-    add(&value, sizeof value);
-  }
-  std::uint64_t digest() const { return digest_; }
-
- private:
-  void add(const void* data, std::size_t bytes)
-  {
-    const std::uint64_t size = bytes;
-    digest_ = chain_digest(&size, sizeof size, digest_);
-    digest_ = chain_digest(data, bytes, digest_);
-  }
-  std::uint64_t digest_ = 0;
-};
 
 class Writer {
  public:
@@ -187,7 +158,7 @@ class Reader {
 };
 
 template <class Visitor, class Totals>
-void visit_totals(Visitor& visit, const std::string& group, Totals& totals, std::int32_t version)
+void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
 {
   const auto at = [&](const char* name, auto& value) { visit((group + name).c_str(), value); };
   at("steps", totals.steps);
@@ -203,15 +174,14 @@ void visit_totals(Visitor& visit, const std::string& group, Totals& totals, std:
   at("fastest_approach", totals.fastest_approach);
   at("base_impulse_x", totals.base_impulse.x());
   at("base_impulse_y", totals.base_impulse.y());
-  if (version < 4) return;
   at("farthest_approach", totals.farthest_approach);
   at("divided", totals.divided);
 }
 
-/// Calls `visit` with every entry of a checkpoint of this version and its path: writing, reading
-/// and the digest share this list.
+/// Calls `visit` with every entry of a checkpoint and its path: writing, reading and the digest share
+/// this list.
 template <class Visitor, class SomeCheckpoint>
-void visit_all(Visitor& visit, SomeCheckpoint& c, std::int32_t version = format_version)
+void visit_all(Visitor& visit, SomeCheckpoint& c)
 {
   visit("/scene", c.scene);
   visit("/program", c.program);
@@ -239,20 +209,20 @@ void visit_all(Visitor& visit, SomeCheckpoint& c, std::int32_t version = format_
   visit("/state/pairs/impulse_t", c.state.pairs.impulse_t);
   visit("/state/pairs/approach", c.state.pairs.approach);
   visit("/state/pairs/renewals", c.state.pairs.renewals);
-  if (version < 4) visit("/state/pairs/age", c.age_of_pairs);
-  if (version >= 5) visit("/state/pairs/skin", c.state.pairs.skin);
+  visit("/state/pairs/skin", c.state.pairs.skin);
   visit("/trajectory/frames", c.trajectory.frames);
   visit("/trajectory/digest", c.trajectory.digest);
   visit("/trajectory/begin", c.trajectory.begin);
   visit("/trajectory/wall", c.trajectory.wall);
-  visit_totals(visit, "/trajectory/since_frame/", c.trajectory.recorder.since_frame, version);
-  visit_totals(visit, "/trajectory/totals/", c.trajectory.recorder.totals, version);
+  visit_totals(visit, "/trajectory/since_frame/", c.trajectory.recorder.since_frame);
+  visit_totals(visit, "/trajectory/totals/", c.trajectory.recorder.totals);
 }
 
-std::uint64_t digest_of(const Checkpoint& checkpoint, std::int32_t version = format_version)
+std::uint64_t digest_of(const Checkpoint& checkpoint)
 {
   Digester digester;
-  visit_all(digester, checkpoint, version);
+  const auto add = [&](const char*, const auto& value) { digester.add(value); };
+  visit_all(add, checkpoint);
   return digester.digest();
 }
 
@@ -292,20 +262,17 @@ Checkpoint read_parts(const std::string& path)
   const Reader read(file, path);
   std::int32_t version = 0;
   read("/version", version);
-  if (version < oldest_version || version > format_version)
+  if (version != format_version)
     fail(
-        fmt::format("is a checkpoint of version {}, and this grseg-sim reads versions {} to {}; "
-                    "continue with the program that wrote it",
-                    version, oldest_version, format_version));
+        fmt::format("is a checkpoint of version {}, and this grseg-sim reads version {}; continue "
+                    "with the program that wrote it",
+                    version, format_version));
   Checkpoint checkpoint;
-  visit_all(read, checkpoint, version);
+  visit_all(read, checkpoint);
   std::uint64_t digest = 0;
   read("/digest", digest);
-  if (digest != digest_of(checkpoint, version))
+  if (digest != digest_of(checkpoint))
     fail("does not have the content that its digest names: it is damaged; use an older checkpoint");
-  const auto& radius = checkpoint.grains.radius;
-  if (version < 5 && !radius.empty())  // half the smallest diameter
-    checkpoint.state.pairs.skin = *std::min_element(radius.begin(), radius.end());
   check_checkpoint(checkpoint, path);
   return checkpoint;
 }

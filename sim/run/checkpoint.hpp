@@ -31,7 +31,6 @@ struct Checkpoint {
   double deposited_height = 0;  ///< m
   Simulation::State state;
   TrajectoryProgress trajectory;
-  std::uint64_t age_of_pairs = 0;  ///< of checkpoints of version 3; nothing depends on it
 };
 
 /// Writes `checkpoint` whole or not at all: as PATH.part, flushed to disk, then renamed. A whole

@@ -2,7 +2,7 @@
 #include "sim/run/expected_cost.hpp"
 
 #include "formats/core/errors.hpp"
-#include "formats/core/free_memory.hpp"
+#include "formats/core/files.hpp"
 #include "sim/scene/deposition.hpp"
 #include "sim/scene/geometry/geometries.hpp"
 #include "sim/scene/release.hpp"

@@ -8,7 +8,7 @@
 /// What files of a run state about how they were made.
 namespace grseg {
 
-/// "grseg-sim 0.2.0 (1a2b3c4)".
+/// "grseg-sim 1.0.0 (1a2b3c4)".
 std::string program_of_run();
 
 /// /parameters of a trajectory that begins with the deposition of `scene`.

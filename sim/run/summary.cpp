@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/run/summary.hpp"
 
-#include "formats/cli/shell_word.hpp"
 #include "formats/cli/words.hpp"
 #include "sim/run/effects_report.hpp"
 #include "sim/scene/geometry.hpp"

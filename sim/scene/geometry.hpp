@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/core/gravity.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/parameters.hpp"
 #include "sim/scene/scene.hpp"
 #include "sim/step/simulation.hpp"

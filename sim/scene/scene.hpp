@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/core/errors.hpp"
-#include "formats/core/gravity.hpp"
+#include "formats/core/frame.hpp"
 #include "sim/contact/contact_law.hpp"
 #include "sim/solver/solver.hpp"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "formats/core/gravity.hpp"
 #include "sim/neighbours/detection.hpp"
 #include "sim/neighbours/grain_state.hpp"
 #include "sim/neighbours/pair_list.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An archive of another program, moment by moment, up to what would be written. The parts of an
 // input: words of the command line, grains, contacts, restart file.
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "tests/fuzz/fuzz.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A trajectory file: opened and read whole, as grseg-check --deep does. Half of the inputs are read
 // without comparing digests, which no mutation survives.
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/trajectory/layout_check.hpp"
 #include "formats/trajectory/reader.hpp"
 #include "tests/fuzz/fuzz.hpp"

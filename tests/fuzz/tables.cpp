@@ -4,7 +4,7 @@
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/micro/sums_table.hpp"
 #include "analysis/stress/merge_tables.hpp"
-#include "formats/cli/table_text.hpp"
+#include "formats/cli/table.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace {

@@ -277,7 +277,7 @@ def physics():
                   for axis in (0, 1)]
         worst = max(worst, math.hypot(*defect))
     largest = max(math.hypot(*MIXED[0]), math.hypot(*BASE[0]), MASS["L"] * math.hypot(*GRAVITY))
-    return {"force_balance": worst / largest, "not_closed": 1, "no_frames": 0, "damaged_frames": 0,
+    return {"force_balance": worst / largest, "not_closed": 1, "no_frames": 0, "damaged_frames": 0, "damaged_outside_frames": 0,
             "tension_largest": 0, "tension_mean": 0, "open_gap_largest": 0, "open_gap_mean": 0,
             "overlap_largest": 0, "overlap_mean": 0, "sum_of_partials": 0}
 

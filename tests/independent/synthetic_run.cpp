@@ -4,7 +4,7 @@
 // mechanics only the balance of each grain holds.
 // Usage: synthetic_run FILE DIMENSION NAME,NAME,... [changing]    species by increasing diameter;
 // changing: in each frame other mobile grains are absent
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/trajectory/writer.hpp"
 
 #include <cmath>

@@ -20,7 +20,7 @@ sys.path.insert(0, os.path.join(source, "analysis", "python"))
 import grseg
 
 inputs = os.path.join(source, "tests", "inputs")
-RUN = os.path.join(inputs, "three-grains-1.1.h5")
+RUN = os.path.join(inputs, "three-grains-closed.h5")
 
 
 def require(sentence, work, kind=grseg.Error):
@@ -141,7 +141,7 @@ def grains_that_come_and_go():
     read_all("absent.h5")
     with grseg.Run("absent.h5") as run:
         frame = run[0]
-        assert run.version == "1.2" and 0 < frame.present.sum() < run.mobile.sum()
+        assert run.version == "1.0" and 0 < frame.present.sum() < run.mobile.sum()
         absent = int(np.flatnonzero(np.isnan(frame.position[:, 1]))[0])
     require(rf"/grseg/contacts/j is {absent} in contact 2 of frame 0, which is not a row of a grain that can stand there",
             changed(put("grseg/contacts/j", 2, absent), "absent.h5"))
@@ -168,7 +168,7 @@ def wrong_arguments():
         require("no frame lies between begin and end; the run goes from 0 s to 0.15 s", lambda: run.windows("all", begin=3))
         sums = run.contact_sums(window=0.1)
         all_frames = run.contact_sums(window="all")
-        require("three-grains-1.1.h5 and .*three-grains-1.1.h5 both hold the time from 0 s of the same run; leave one",
+        require("three-grains-closed.h5 and .*three-grains-closed.h5 both hold the time from 0 s of the same run; leave one",
                 lambda: grseg.Points([sums, all_frames]))
     for rule in ("sizes", "uniform", "uniform:2", "power:x", "half:1"):
         require(f"'{rule}' is not a rule: size, contact-point", lambda rule=rule: grseg.partial_stress(sums, rule),
@@ -189,7 +189,7 @@ def wrong_tables():
             read(head + "0\t1\n# end: 2 rows, xxh3 0\n"))
     require("table.tsv: has a row that is not as many numbers as there are columns",
             read(head + "0\n# end: 1 rows, xxh3 0\n"))
-    require("three-grains-1.1.h5: is an HDF5 file, not a table; open a run with grseg.Run", lambda: grseg.read_table(RUN))
+    require("three-grains-closed.h5: is an HDF5 file, not a table; open a run with grseg.Run", lambda: grseg.read_table(RUN))
     require("nowhere.tsv: No such file or directory", lambda: grseg.read_table("nowhere.tsv"))
     neutral = grseg.read_table(os.path.join(inputs, "neutral-sums.tsv"))
     require("neutral-sums.tsv: no column 'mass_S'; it has area_S, .*; grseg-stress makes tables of contacts",

@@ -3,7 +3,7 @@
 column is made of, and intervals, to 1e-9. Then faults are put into grseg.py, each of which must show.
 Usage: tools_test.py SOURCE BIN SYNTHETIC_RUN
 
-Runs: the sample of discs; imports of spheres and of discs; three grains as files of version 1.0 and 1.1; runs without
+Runs: the sample of discs; imports of spheres and of discs; three grains in a file that was closed and in one that was not; runs without
 symmetries in two and three dimensions, of two and three species, in some of which grains come and go.
 """
 import collections
@@ -362,9 +362,9 @@ def main():
         make_imports()
         runs = make_synthetic()
         try:
-            for version in ("1.0", "1.1"):
-                check_run(os.path.join(source, "tests", "inputs", f"three-grains-{version}.h5"), {"window": 0.1},
-                          unfinished=version == "1.0")
+            for name in ("1.0", "closed"):
+                check_run(os.path.join(source, "tests", "inputs", f"three-grains-{name}.h5"), {"window": 0.1},
+                          unfinished=name == "1.0")
             for path in runs:
                 check_run(path, {"layer": "2dS", "window": 0.04}, {"layer": "7mm", "window": 0.03, "stride": 2},
                           {"layer": "3dS", "window": "all", "begin": 0.01})

@@ -7,8 +7,8 @@
 //   same | other | refused CODE SENTENCE | thrown WORDS
 // separated by tabs; where opening it is refused already, only that; or "crash SIGNAL", "hang", "report" (of a sanitizer) for all of them.
 #include "formats/cli/table.hpp"
-#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "formats/trajectory/layout_check.hpp"

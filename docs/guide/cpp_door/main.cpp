@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mean contact force of each pair of species, N. Usage: mean_force RUN.h5
-#include <formats/core/dimension.hpp>
 #include <formats/core/errors.hpp>
-#include <formats/core/pair_type.hpp>
+#include <formats/core/frame.hpp>
+#include <formats/core/species.hpp>
 #include <formats/trajectory/reader.hpp>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/common/archive_files.hpp"
 
-#include "formats/core/byte_order_mark.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "formats/core/text.hpp"
 #include "formats/import/common/apart.hpp"
 #include "formats/import/common/text_source.hpp"
 #include "formats/import/common/text_values.hpp"

@@ -2,9 +2,9 @@
 #include "formats/import/common/text_source.hpp"
 
 #include "formats/cli/interruption.hpp"
-#include "formats/core/byte_order_mark.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "formats/core/text.hpp"
 #include "formats/import/common/archive_files.hpp"
 
 #include <boost/iostreams/device/file.hpp>

@@ -5,14 +5,14 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/tool.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 #include "formats/import/common/archive_files.hpp"
 #include "formats/import/convert/import_part.hpp"
 #include "formats/import/convert/judgement.hpp"
 #include "formats/import/convert/verified_frames.hpp"
-#include "formats/trajectory/integrity.hpp"
+#include "formats/trajectory/run_description.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

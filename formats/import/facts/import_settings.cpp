@@ -2,7 +2,7 @@
 #include "formats/import/facts/import_settings.hpp"
 
 #include "formats/cli/output.hpp"
-#include "formats/cli/word_option.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/import/facts/units.hpp"
 #include "formats/import/open_archive.hpp"
 

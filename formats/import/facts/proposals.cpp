@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/proposals.hpp"
 
-#include "formats/cli/shell_word.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/species.hpp"
 #include "formats/import/facts/axes.hpp"
 

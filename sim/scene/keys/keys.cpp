@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/keys/keys.hpp"
 
-#include "formats/cli/word_option.hpp"
+#include "formats/cli/words.hpp"
 #include "sim/scene/geometry/geometries.hpp"
 #include "sim/scene/keys/accuracy.hpp"
 #include "sim/scene/keys/key_value.hpp"

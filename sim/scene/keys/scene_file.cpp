@@ -2,8 +2,8 @@
 #include "sim/scene/keys/scene_file.hpp"
 
 #include "formats/cli/words.hpp"
-#include "formats/core/byte_order_mark.hpp"
 #include "formats/core/files.hpp"
+#include "formats/core/text.hpp"
 #include "sim/scene/keys/keys.hpp"
 #include "sim/scene/keys/resolve.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "analysis/check/file_check.hpp"
 #include "analysis/check/physics_check.hpp"
-#include "formats/core/dimension.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/trajectory/hdf5.hpp"
 #include "tests/column.hpp"
 

@@ -57,5 +57,13 @@ TEST(Tell, AStandardErrorThatTakesNothingIsNoReasonToStop)
   close(kept);
 }
 
+// Here standard error is a pipe or a file.
+TEST(NextStep, IsNotSaidWhereNobodyReads)
+{
+  testing::internal::CaptureStderr();
+  say_next("grseg-fit stress.tsv", false);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 }  // namespace
 }  // namespace grseg

@@ -95,5 +95,37 @@ TEST(Setting, IsTheSameUpToRoundOff)
   EXPECT_FALSE(same_setting("unknown", "0.5"));
 }
 
+class InputTables : public TestInFolder {};
+
+std::size_t number_of_tables(const std::vector<std::string>& paths)
+{
+  po::variables_map values;
+  values.insert({"input", po::variable_value(boost::any(paths), false)});
+  return read_tables(values).size();
+}
+
+TEST_F(InputTables, AreThoseThatTheCommandLineNames)
+{
+  EXPECT_EQ(number_of_tables({put("a.tsv", "a\n1\n"), put("b.tsv", "a\n2\n")}), 2u);
+}
+
+TEST_F(InputTables, StandardInputCanBeReadOnce)
+{
+  EXPECT_THROW(number_of_tables({"-", "-"}), UsageError);
+}
+
+TEST_F(InputTables, WhatIsMadeOfThemSaysOfEachOnceWhatWasNotVerified)
+{
+  const auto all = with_header({{"verified", "all"}});
+  const auto some = with_header({{"verified", "no (--trust)"}, {"incomplete", "run.h5.part"}});
+  EXPECT_EQ(trust_of({all, all}), (Header{{"verified", "all"}}));
+  EXPECT_EQ(trust_of({all, some, some}),
+            (Header{{"verified", "no (--trust)"}, {"incomplete", "run.h5.part"}}));
+  EXPECT_EQ(trust_of({with_header({})}), Header{});
+  const HeaderLine undecided{"undecided", "gravity: why"}, waived{"waived", "overlap: how deep"};
+  EXPECT_EQ(trust_of({with_header({waived, undecided}), with_header({undecided})}),
+            (Header{undecided, waived}));
+}
+
 }  // namespace
 }  // namespace grseg

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/cli/shell_word.hpp"
-
+#include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 #include "tests/shell.hpp"
 

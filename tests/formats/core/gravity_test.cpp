@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/core/gravity.hpp"
+#include "formats/core/frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -45,5 +45,11 @@ TEST(Text, ThatIsQuotedIsCutWhereItIsLong)
   EXPECT_EQ(excerpt(word), word.substr(0, 60).append("..."));
 }
 
+TEST(Xml, TextStandsBetweenTagsAndQuotes)
+{
+  EXPECT_EQ(xml_escaped("<a b=\"c\"> & d"), "&lt;a b=&quot;c&quot;&gt; &amp; d");
+  EXPECT_EQ(xml_escaped("φ_L"), "φ_L");
+}
+
 }  // namespace
 }  // namespace grseg

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/frame_range.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/export/extxyz_writer.hpp"
-#include "formats/export/h5md3d_writer.hpp"
-#include "formats/export/lammps_writer.hpp"
-#include "formats/export/poly_data.hpp"
-#include "formats/export/vtp_writer.hpp"
+#include "formats/export/run_writers.hpp"
+#include "formats/export/vtk.hpp"
 #include "tests/formats/export/exported.hpp"
 #include "tests/three_grains.hpp"
 

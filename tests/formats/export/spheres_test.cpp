@@ -2,10 +2,7 @@
 // Exports of a run of spheres of three species (tests/spheres.hpp).
 #include "tests/spheres.hpp"
 
-#include "formats/export/extxyz_writer.hpp"
-#include "formats/export/h5md3d_writer.hpp"
-#include "formats/export/lammps_writer.hpp"
-#include "formats/export/vtp_writer.hpp"
+#include "formats/export/run_writers.hpp"
 #include "formats/trajectory/hdf5.hpp"
 #include "tests/formats/export/exported.hpp"
 

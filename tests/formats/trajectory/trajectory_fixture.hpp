@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/core/dimension.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/reader.hpp"
 #include "tests/three_grains.hpp"

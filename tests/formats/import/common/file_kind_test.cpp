@@ -88,7 +88,7 @@ TEST(FileKind, OfFilesThatLammpsAndH5pyWroteIsNamed)
   for (const auto& [name, kind] : files)
     EXPECT_TRUE(mentions(complaint_about(at + name), at + name + " is " + kind));
   EXPECT_EQ(complaint_about(GRSEG_TEST_INPUTS "/siconos/discs.hdf5"), "no complaint");
-  EXPECT_THROW(refuse_other_kind(GRSEG_TEST_INPUTS "/three-grains-1.1.h5"), UsageError);
+  EXPECT_THROW(refuse_other_kind(GRSEG_TEST_INPUTS "/three-grains-closed.h5"), UsageError);
 }
 
 TEST(FileKind, IsToldWhicheverFormatWasNamedAndInWhateverFileItIs)

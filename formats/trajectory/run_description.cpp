@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/trajectory/integrity.hpp"
+#include "formats/trajectory/run_description.hpp"
 
 #include "formats/trajectory/digest.hpp"
 
