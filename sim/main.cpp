@@ -31,7 +31,8 @@ void add_run_options(po::options_description& options, RunOptions& run)
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
       "write the state to this file regularly, at the end, and on a signal that ends the run: "
       "SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU");
-  add("checkpoint-every", po::value(&run.checkpoint_every)->default_value(60),
+  add("checkpoint-every",
+      po::value(&run.checkpoint_every)->default_value(60)->value_name("SECONDS"),
       "s of wall time between checkpoints");
   add("continue", po::bool_switch(&run.continues),
       "continue from --checkpoint where that is there, else begin: one command for a run that may be "
@@ -40,9 +41,9 @@ void add_run_options(po::options_description& options, RunOptions& run)
       "continue from this checkpoint, bitwise as an uninterrupted run; SCENE.ini may be left out. "
       "A key that differs from the checkpoint's begins a new trajectory; keys of the bed cannot "
       "change");
-  add("perturb", po::value(&run.perturbation.size),
+  add("perturb", po::value(&run.perturbation.size)->value_name("X"),
       "at a restart, displace every mobile grain at random by up to this many d_S, such as 1e-6");
-  add("seed-perturbation", po::value(&run.perturbation.seed),
+  add("seed-perturbation", po::value(&run.perturbation.seed)->value_name("N"),
       "seed of --perturb (default: that of the run)");
 }
 

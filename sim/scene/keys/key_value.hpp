@@ -24,10 +24,11 @@ bool read_switch(const std::string& key, const std::string& text);
 double read_length(const std::string& key, const std::string& text, const Scene& scene);
 
 template <class Member>
-KeyValue number(Member member, double low, double high)
+KeyValue number(Member member, double low, double high, const char* placeholder = "X")
 {
   KeyValue value;
   value.kind = "number";
+  value.placeholder = placeholder;
   value.allowed = fmt::format("{:g} to {:g}", low, high);
   value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
     const double given = read_number(key, text);
@@ -43,7 +44,7 @@ KeyValue number(Member member, double low, double high)
 template <class Member>
 KeyValue length(Member member, const char* low, const char* high)
 {
-  auto value = number(member, 0, 0);
+  auto value = number(member, 0, 0, "LENGTH");
   value.kind = "length";
   value.allowed = fmt::format("{} to {}", low, high);
   value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
@@ -60,6 +61,7 @@ KeyValue whole_number(Member member, long low, long high)
   using T = std::remove_cvref_t<std::invoke_result_t<Member, Scene&>>;
   KeyValue value;
   value.kind = "whole number";
+  value.placeholder = "N";
   value.allowed = fmt::format("{} to {}", low, high);
   value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
     const long given = read_whole_number(key, text);

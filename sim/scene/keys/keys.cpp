@@ -95,7 +95,7 @@ std::vector<SceneKey> flow_keys()
   using enum KeyRole;
   using enum InParameters;
   return {
-    {"slope", "23", number(&Scene::slope, -90, 90), flow, yes,
+    {"slope", "23", number(&Scene::slope, -90, 90, "ANGLE"), flow, yes,
      "of the base, degrees, at t = 0"},
     {"slope-rate", "0", number(&Scene::slope_rate, -1e9, 1e9), flow, yes,
      "degrees/s by which the slope becomes steeper after t = 0"},
@@ -177,9 +177,9 @@ std::vector<SceneKey> run_keys()
   using enum KeyRole;
   using enum InParameters;
   return {
-    {"duration", "150", number(&Scene::duration, 0, 1e12), extent, no,
+    {"duration", "150", number(&Scene::duration, 0, 1e12, "SECONDS"), extent, no,
      "s of flow, from the tilt at t = 0 on"},
-    {"frame-interval", "0.05", number(&Scene::frame_interval, 1e-12, 1e12), flow, yes,
+    {"frame-interval", "0.05", number(&Scene::frame_interval, 1e-12, 1e12, "SECONDS"), flow, yes,
      "s from frame to frame, or from burst to burst"},
     {"burst", "1", whole_number(&Scene::burst, 1, most), flow, yes,
      "number of frames, of consecutive steps, written at each interval"},
@@ -193,7 +193,7 @@ std::vector<SceneKey> run_keys()
      "sets step, tolerance, min-sweeps, max-sweeps and precision where they are not given; where the "
      "masses of small and large grains differ much, up to 16 times the sweeps and a tolerance as "
      "much smaller"},
-    {"step", "", number(&Scene::step, 1e-15, 1e12), flow, yes,
+    {"step", "", number(&Scene::step, 1e-15, 1e12, "SECONDS"), flow, yes,
      set_by_accuracy("time step, s, at most 0.05 sqrt(d_S/g)")},
     {"tolerance", "", number(of_solver(&SolverSettings::tolerance), 1e-15, 1e3), flow, yes,
      set_by_accuracy("of the solver: largest change of a relative velocity in the last sweep, over "
@@ -250,7 +250,8 @@ po::options_description scene_options()
     }
     const auto& words = key.value.words;
     if (!words.empty()) help += fmt::format(" [{}]", key.value.allowed);
-    auto* value = words.empty() ? po::value<std::string>() : word_option(nullptr, words);
+    auto* value = words.empty() ? po::value<std::string>()->value_name(key.value.placeholder)
+                                : word_option(nullptr, words);
     if (!key.default_text.empty()) value->default_value(key.default_text);
     options.add_options()(key.name, value, help.c_str());
   }

@@ -14,6 +14,7 @@ namespace grseg {
 /// How the value of a key is written, and where a Scene holds it.
 struct KeyValue {
   std::string kind;                  ///< "length", "number", "whole number", "switch" or "choice"
+  std::string placeholder;           ///< what --help calls the value: "LENGTH"
   std::string allowed;               ///< the range or the words
   std::vector<std::string> words{};  ///< of a choice or switch
   /// Sets the scene's value from what the user wrote; SceneError where the key cannot have it.
