@@ -61,100 +61,58 @@ bool takes_list(const po::option_description& option)
   return name_of_value(option).ends_with(",...");
 }
 
-/// Where bash takes from what may follow the option.
-std::string bash_source(const po::option_description& option)
-{
-  const auto words = words_for(option);
-  if (words.empty()) return takes_file(option) ? "" : "return ";
-  return fmt::format("from=(-W '{}') {}", fmt::join(words, " "),
-                     takes_list(option) ? "before=${word%\"${word##*,}\"} " : "");
-}
-
-std::string bash_script(const std::string& tool, const po::options_description& options)
-{
-  std::vector<std::string> all;
-  std::map<std::string, std::vector<std::string>> by_source;
-  for (const auto& option : options.options())
-    for (const auto& name : names_of(*option)) {
-      all.push_back(name);
-      if (takes_value(*option)) by_source[bash_source(*option)].push_back(name);
-    }
-  std::string cases;
-  for (const auto& [source, names] : by_source)
-    cases += fmt::format("    {}) {};;\n", fmt::join(names, "|"), source);
-  return fmt::format(R"(# bash completion of {0}, printed by {0} --completion bash
-{1}()
-{{
-  local word=${{COMP_WORDS[COMP_CWORD]}} from=(-f) before=
-  COMPREPLY=()
-  case ${{COMP_WORDS[COMP_CWORD - 1]}} in
-{2}    *) [[ $word != -* ]] || from=(-W '{3}') ;;
-  esac
-  mapfile -t COMPREPLY < <(compgen -P "$before" "${{from[@]}}" -- "${{word#"$before"}}")
-  case ${{from[0]}}${{COMPREPLY[*]}} in
-    -f*) compopt -o filenames ;;
-    *:) compopt -o nospace ;;
-  esac
-}}
-complete -F {1} {0}
-)",
-                     tool, function_of(tool), cases, fmt::join(all, " "));
-}
-
-/// As it may stand between the colons and brackets of _arguments.
-std::string without_meaning(const std::string& words)
-{
-  std::string text;
-  for (const char c : words) {
-    if (c == '[' || c == ']' || c == ':' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text;
-}
-
 /// The first clause of a description.
 std::string short_text(const std::string& description)
 {
-  auto end = std::min(description.find_first_of(";(\n"), description.find(": "));
-  end = std::min(end, description.size());
-  while (end > 0 && description[end - 1] == ' ') --end;
-  return description.substr(0, end);
+  const auto end = std::min(description.find_first_of(";(\n"), description.find(": "));
+  const auto text = description.substr(0, end);
+  return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
-/// What zsh completes the value of an option with.
-std::string zsh_action(const po::option_description& option)
+/// What may follow an option: `from` lists it, and is empty for files.
+std::string source_of(const po::option_description& option)
 {
   const auto words = words_for(option);
-  if (words.empty()) return takes_file(option) ? "_files" : "";
-  return without_meaning(fmt::format(
-      fmt::runtime(takes_list(option) ? "_sequence compadd - {}" : "({})"), fmt::join(words, " ")));
+  if (words.empty()) return takes_file(option) ? "" : "return ";
+  return fmt::format("from=({}) {}", fmt::join(words, " "),
+                     takes_list(option) ? "before=${word%\"${word##*,}\"} " : "");
 }
 
-/// One line of _arguments: '(--output -o)'{--output=,-o+}'[text]:FILE:_files'.
-std::string zsh_line(const po::option_description& option)
-{
-  const auto names = names_of(option);
-  const bool value = takes_value(option);
-  const auto action =
-      value ? fmt::format(":{}:{}", without_meaning(name_of_value(option)), zsh_action(option))
-            : "";
-  const auto text =
-      fmt::format("[{}]{}", without_meaning(short_text(option.description())), action);
-  const auto name = names[0] + (value ? "=" : "");
-  if (names.size() == 1) return fmt::format("  {} \\\n", shell_word(name + text));
-  return fmt::format("  {}{{{},{}{}}}{} \\\n",
-                     shell_word(fmt::format("({})", fmt::join(names, " "))), name, names[1],
-                     value ? "+" : "", shell_word(text));
-}
-
-std::string zsh_script(const std::string& tool, const po::options_description& options)
-{
-  std::string lines;
-  for (const auto& option : options.options()) lines += zsh_line(*option);
-  return fmt::format(
-      "#compdef {0}\n# zsh completion of {0}, printed by {0} --completion zsh\n_arguments -S \\\n{1}  '*:input:_files'\n",
-      tool, lines);
-}
+// Both shells know arrays, [[ ]] and ${x%%y}. zsh also takes the script from its fpath (#compdef), lists
+// descriptions, and knows how to add words itself.
+constexpr const char* script = R"(#compdef {0}
+# completion of {0} in bash and zsh, printed by {0} --completion {2}
+{1}()
+{{
+  local word last before= from=() all=(
+{3}  )
+  if [[ -n $ZSH_VERSION ]]; then
+    word=${{words[CURRENT]}} last=${{words[CURRENT-1]}}
+  else
+    word=${{COMP_WORDS[COMP_CWORD]}} last=${{COMP_WORDS[COMP_CWORD-1]}}
+  fi
+  case $last in
+{4}    *) [[ $word != -* ]] || from=("${{all[@]}}") ;;
+  esac
+  if [[ -n $ZSH_VERSION ]]; then
+    case ${{from[1]}} in
+      '') _files ;;
+      -*) _describe -o option all ;;
+      *) compset -P '*,'; compadd -S '' -- ${{(M)from:#*:}}; compadd -- ${{from:#*:}} ;;
+    esac
+    return 0
+  fi
+  [[ ${{from[0]}} != -* ]] || from=("${{from[@]%%:*}}")
+  case ${{#from[@]}} in
+    0) mapfile -t COMPREPLY < <(compgen -f -- "$word"); compopt -o filenames ;;
+    *) mapfile -t COMPREPLY < <(compgen -P "$before" -W "${{from[*]}}" -- "${{word#"$before"}}") ;;
+  esac
+  [[ ${{COMPREPLY[*]}} != *: ]] || compopt -o nospace
+}}
+if [[ -z $ZSH_VERSION ]]; then complete -F {1} {0}
+elif [[ ${{funcstack[1]}} = _{0} ]]; then {1}
+else compdef {1} {0}; fi
+)";
 
 }  // namespace
 
@@ -166,9 +124,19 @@ std::vector<std::string> shells()
 std::string completion_script(const std::string& shell, const std::string& tool,
                               const po::options_description& options)
 {
-  if (shell == "bash") return bash_script(tool, options);
-  if (shell == "zsh") return zsh_script(tool, options);
-  throw UsageError(unknown_word("--completion", shell, shells()));
+  const auto known = shells();
+  if (std::find(known.begin(), known.end(), shell) == known.end())
+    throw UsageError(unknown_word("--completion", shell, known));
+  std::string all, cases;
+  std::map<std::string, std::vector<std::string>> by_source;
+  for (const auto& option : options.options())
+    for (const auto& name : names_of(*option)) {
+      all += fmt::format("    {}\n", shell_word(name + ':' + short_text(option->description())));
+      if (takes_value(*option)) by_source[source_of(*option)].push_back(name);
+    }
+  for (const auto& [source, names] : by_source)
+    cases += fmt::format("    {}) {};;\n", fmt::join(names, "|"), source);
+  return fmt::format(script, tool, function_of(tool), shell, all, cases);
 }
 
 }  // namespace grseg

@@ -86,8 +86,8 @@ def main():
             text = subprocess.run([os.path.join(programs, program), "--completion", shell], capture_output=True, check=True,
                                   text=True).stdout
             for option, word in WORDS.get(program, {}).items():
-                line = next(line for line in text.split("\n") if re.match(rf"\W+({option}|.*\|--{option})\W", line))
-                assert word in re.split(r"[ ()']", line.replace("\\", "")), (program, shell, option, word, line)
+                line = next(line for line in text.split("\n") if re.match(rf" +(\S+\|)?--{option}(\|\S+)?\) ", line))
+                assert word in re.split(r"[ ()]", line), (program, shell, option, word, line)
             if shell not in missing:
                 wrong = subprocess.run([shell, "-n"], input=text, capture_output=True, text=True)
                 assert wrong.returncode == 0 and not wrong.stderr, (program, shell, wrong.stderr)
