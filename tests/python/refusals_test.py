@@ -76,7 +76,7 @@ def files_that_are_not_runs():
         file["particles/all/position"] = np.zeros(3)
     require(r"^foreign.h5: /h5md/modules/grseg has no version: not a run of grseg, or damaged; grseg-import makes",
             lambda: grseg.Run("foreign.h5"))
-    require(r"^changed.h5: /h5md/modules/grseg has version 2.0, and this grseg.py reads 1.x; take that of the grseg",
+    require(r"^changed.h5: /h5md/modules/grseg has version 2.0, and this grseg.py reads 1.0; take that of the grseg",
             changed(with_version("h5md/modules/grseg", np.array([2, 0]))))
 
 

@@ -16,7 +16,7 @@ f = h5py.File(run, "r")
 # H5MD 1.1
 assert list(f["h5md"].attrs["version"]) == [1, 1]
 assert f["h5md/modules/units"].attrs["system"].decode() == "SI"
-assert list(f["h5md/modules/grseg"].attrs["version"]) == [1, 1]
+assert list(f["h5md/modules/grseg"].attrs["version"]) == [1, 0]
 box = f["particles/grains/box"]
 assert box.attrs["dimension"] == 2
 assert [b.decode() for b in box.attrs["boundary"]] == ["periodic", "none"]
