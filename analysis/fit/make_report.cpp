@@ -11,7 +11,6 @@
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
