@@ -102,14 +102,21 @@ def read(path, columns=None):
         return parse(table.read(), columns, path)
 
 
-def write(path, comment, names, rows):
-    """Writes a table, complete or not at all; cells are words or numbers."""
-    cell = lambda value: value if isinstance(value, str) else f"{value:.8g}"
+def save(path, text):
+    """Writes a file, complete or not at all."""
     with open(path + ".part", "w") as out:
-        out.write(f"# {comment}\n" + "\t".join(names) + "\n")
-        for row in rows:
-            out.write("\t".join(cell(row[name]) for name in names) + "\n")
+        out.write(text)
     os.replace(path + ".part", path)
+
+
+def cell(value):
+    """Of a table: words as they are, numbers with eight digits."""
+    return value if isinstance(value, str) else f"{value:.8g}"
+
+
+def write(path, comment, names, rows):
+    lines = [f"# {comment}", "\t".join(names), *("\t".join(cell(row[name]) for name in names) for row in rows)]
+    save(path, "\n".join(lines) + "\n")
 
 
 # ------------------------------------------------------------------------------------------- tools
@@ -216,6 +223,4 @@ def rewrite(command, paths, parts, optional=()):
             sys.exit(f"{command}: one of {', '.join(paths)} must have <!-- {name} --> and <!-- /{name} --> once")
         texts[places[0]] = marked.sub(lambda match: match[1] + part + "\n" + match[2], texts[places[0]])
     for path, text in texts.items():
-        with open(path + ".part", "w") as out:
-            out.write(text)
-        os.replace(path + ".part", path)
+        save(path, text)

@@ -4,14 +4,48 @@ Times, speeds and rates are drawn in the scene's own units, made of d_S and grav
 """
 import dataclasses
 import math
-
-from random_scenes.dice import Dice
+import random
 
 # Steps of the presets, in sqrt(d_S/g) (sim/scene/keys/accuracy.hpp).
 STEPS = {"draft": 0.01771, "standard": 0.01107, "reference": 0.00443}
 LONGEST_STEP = 0.05  # in sqrt(d_S/g)
 MOST_GRAINS = 250
 SOLID = 0.81 * 4 / math.pi  # discs of diameter 1 in a unit of area
+
+
+class Dice:
+    """Draws from one stream. It uses random() alone, which no version of Python changes."""
+
+    def __init__(self, seed, number):
+        self._next = random.Random(f"{seed}-{number}").random
+
+    def chance(self, probability):
+        return self._next() < probability
+
+    def uniform(self, low, high):
+        return low + (high - low) * self._next()
+
+    def log(self, low, high):
+        """Uniform in its logarithm."""
+        return math.exp(self.uniform(math.log(low), math.log(high)))
+
+    def whole(self, low, high):
+        return low + int(self._next() * (high - low + 1))
+
+    def pick(self, *options):
+        return options[int(self._next() * len(options))]
+
+    def weighted(self, **weights):
+        """A word, as often as its weight says."""
+        left = self._next() * sum(weights.values())
+        for word, weight in weights.items():
+            left -= weight
+            if left < 0:
+                return word
+        return word
+
+    def sign(self):
+        return self.pick(-1, 1)
 
 
 @dataclasses.dataclass
