@@ -64,19 +64,12 @@ def lines_of(path):
     return lines[:head], lines[head].split("\t"), [line.split("\t") for line in lines[head + 1:]]
 
 
-def number(text):
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
 def numbers(cells):
     """The cells of a row, as numbers where they are numbers."""
     try:
         return [float(cell) for cell in cells]
     except ValueError:
-        return [number(cell) for cell in cells]
+        return [numbers([cell])[0] for cell in cells] if len(cells) > 1 else cells
 
 
 def parse(text, columns=None, path="table"):

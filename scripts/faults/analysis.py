@@ -479,7 +479,7 @@ FAULTS = [
     ("flows: shear rate over sqrt(d/g)", "scripts/reproduce/campaign/tables.py",
      "bed, rate * math.sqrt(d / g)", "bed, rate / math.sqrt(d / g)"),
     ("flows: B of any heights", "scripts/reproduce/campaign/flows.py",
-     " and row[\"heights\"] == \"inside\" \\\n", " \\\n"),
+     " and row[\"heights\"] == \"inside\" and row", " and row"),
     ("choices: differences to the first row instead of its own base", "scripts/reproduce/campaign/fits.py",
      "in BASES or base is None else base", "in BASES and base is None else base or row"),
 ]

@@ -71,7 +71,7 @@ class Simulator:
         """A run that did not finish has to end with one sentence, and leaves no file under its name."""
         trial, code = self.trial, done.returncode
         there, part = (os.path.exists(f"{self.folder}/{name}") for name in (output, output + ".part"))
-        said = [line for line in done.stderr.splitlines() if line.startswith("grseg-sim: ")]
+        said = [line for line in done.stderr.splitlines() if re.match(r"grseg-sim: (?!\d+ grains, )", line)]  # but the estimate
         if code in (0, 4):
             if not there or part:
                 trial.fail("files at the end", f"{output}: {there}, {output}.part: {part}", "the trajectory alone")

@@ -45,13 +45,10 @@ def of_run(options, run):
 
 def fitted(fits, flow, quantity, stage, label):
     """B of one fit of the flow, with its interval, under names that begin with label."""
-    for row in fits:
-        if (row["set"], row["quantity"], row["stage"]) == (flow, quantity, stage) \
-                and row["component"] == "yy" and row["heights"] == "inside" \
-                and row["rule"] in ("size", "kinetic"):
-            name = "paper_B" if quantity == "kinetic" else "B"
-            return {label + end: row[name + end] for end in tables.ENDS}
-    return {label + end: math.nan for end in tables.ENDS}
+    name = "paper_B" if quantity == "kinetic" else "B"
+    row = next((row for row in fits if (row["set"], row["quantity"], row["stage"]) == (flow, quantity, stage) and row["component"] == "yy"
+                and row["heights"] == "inside" and row["rule"] in ("size", "kinetic")), {})
+    return {label + end: row.get(name + end, math.nan) for end in tables.ENDS}
 
 
 def line(options, flow, runs, fits):

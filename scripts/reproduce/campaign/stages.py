@@ -4,6 +4,7 @@ import math
 import numpy as np
 
 import tables
+import grseg
 
 STRESS = ["t0", "t1", "y0", "y1", "frames", "area_S", "area_L", "A_SS_yy", "A_LL_yy", "M_yy", "Msize_yy", "A_Sb_yy", "A_Lb_yy"]
 FLUX = ["t0", "y0", "frames", "q_L", "q_L_error", "dphi_dy"]
@@ -12,17 +13,12 @@ BED = 60  # d_S, height of the bed
 BLOCK = 60  # s, of a single run
 
 
-def rows_of(path, columns):
-    header, rows = tables.read(path, columns)
-    return header, np.array([[row[name] for name in columns] for row in rows])
-
-
 def points_of(run, options):
     """Rows time, y/H, phi_L, psi_L - phi_L, frames, q_L/sqrt(g d_S), d_S dphi_L/dy, variance of the sixth."""
-    header, stress = rows_of(run.path("stress"), STRESS)
-    _, flux = rows_of(run.path("segregation"), FLUX)
-    d = float(header["small_diameter"])
-    speed = np.sqrt(np.hypot(float(header["gravity_x"]), float(header["gravity_y"])) * d)
+    sums, fluxes = (grseg.read_table(run.path(name)) for name in ("stress", "segregation"))
+    stress, flux = (np.stack([table[name] for name in names], 1) for table, names in ((sums, STRESS), (fluxes, FLUX)))
+    d = sums.number("small_diameter")
+    speed = np.sqrt(np.hypot(float(sums.header["gravity_x"]), float(sums.header["gravity_y"])) * d)
     at = {(round(row[0], 6), round(row[1], 9)): row for row in flux[~np.isnan(flux[:, 1])]}
     groups = {}
     for row in stress:
