@@ -7,6 +7,17 @@ fail() {
   exit "${2:-1}"
 }
 
+# needs_mmdebstrap, and to be root
+needs_mmdebstrap() {
+  [ "$(id -u)" = 0 ] || fail "run me as root: a Debian is made and entered" 2
+  command -v mmdebstrap >/dev/null || fail "mmdebstrap is missing; apt-get install mmdebstrap" 2
+}
+
+# keep_or_remove: $folder, by $keep.
+keep_or_remove() {
+  if [ -n "$keep" ]; then echo "kept: $folder"; else rm -rf --one-file-system "$folder"; fi
+}
+
 # make_root ROOT SUITE OPTION...: options of mmdebstrap. Where this machine runs SUITE too, packages come from
 # the same mirrors; proxy and name servers are those of this machine anyway.
 make_root() {

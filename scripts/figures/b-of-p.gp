@@ -16,8 +16,6 @@ p_zero = real(system("awk '/^# p_zero:/ {print $3}' ".quoted(scan)))
 set xlabel "share p of a mixed contact given to its large grain"
 set xzeroaxis
 set style fill transparent solid 0.25 noborder
-blue = "#1f77b4"
-red = "#d62728"
 set lmargin 11
 set multiplot layout 2,1
 

@@ -11,8 +11,6 @@ fits = folder."/fits.tsv"
 set datafile separator tab
 set datafile missing NaN
 eval picture(named(ARG2), 1200, 440, 12, "background rgb 'white'")
-blue = "#1f77b4"
-red = "#d62728"
 grey = "#606060"
 is(name, value) = strcol(name) eq value
 mixture(rule) = is("rule", rule) && is("stage", "all") && is("heights", "inside") && is("component", "yy") \

@@ -5,8 +5,6 @@ load ARG0[:strstrt(ARG0, "micro-over-time.gp") - 1]."names.gp"
 eval figure("micro-over-time", 1200, 900, 12)
 time = folder."/time.tsv"
 set datafile missing NaN
-small = "#1f77b4"
-large = "#d62728"
 set multiplot layout 2,2
 set key top right samplen 2
 # Rows of the whole bed have no heights of a layer.

@@ -4,8 +4,6 @@
 load ARG0[:strstrt(ARG0, "microstructure.gp") - 1]."names.gp"
 eval figure("microstructure", 1500, 450, 11)
 set datafile missing NaN
-small = "#1f77b4"
-large = "#d62728"
 set multiplot layout 1,3
 set key top right samplen 2
 

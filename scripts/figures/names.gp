@@ -19,3 +19,6 @@ terminal_of(path, width, height, font) = ends_in_pdf(path) \
 picture(path, width, height, font, more) = (picture_path = path, sprintf("set terminal %s %s; set output picture_path", terminal_of(path, width, height, font), more))
 # eval figure(NAME, WIDTH, HEIGHT, FONT): begins the picture that ARG2 names, or NAME.png in the folder that ARG1 names; its tables have tabs.
 figure(name, width, height, font) = (folder = named(ARG1), picture(asked("ARG2", folder."/".name.".png"), width, height, font, "")."; set datafile separator tab")
+# Colours of small and of large grains, or of two curves.
+small = "#1f77b4"; large = "#d62728"
+blue = small; red = large

@@ -4,8 +4,6 @@
 load ARG0[:strstrt(ARG0, "pressure-estimates.gp") - 1]."names.gp"
 eval figure("pressure-estimates", 900, 700, 13)
 set datafile missing NaN
-small = "#1f77b4"
-large = "#d62728"
 set key top right samplen 2
 set xlabel "φ_L"
 set xrange [0:1]

@@ -5,8 +5,6 @@ load ARG0[:strstrt(ARG0, "step.gp") - 1]."names.gp"
 eval figure("step", 1400, 480, 12)
 flows = folder."/flows.tsv"
 set multiplot layout 1,3
-small = "#1f77b4"
-large = "#d62728"
 # Flows that differ only in step and accuracy.
 steps(value) = column("phi") == 0.45 && column("slope") == 23 && strstrt("none draft reference step0.000125", stringcolumn("variant")) ? value : NaN
 set xlabel "step (10^{-4} s)"
