@@ -56,6 +56,13 @@ def unsealed(text, name="table"):
     return text[:at]
 
 
+def changed(text, pattern, to):
+    """The table with other text in place of the pattern, and with a line that ends it as it is then."""
+    body = unsealed(text)
+    new = re.sub(pattern, to, body)
+    return text if new == body else sealed(new)
+
+
 def lines_of(path):
     """Lines before the rows, names of the columns with units, rows of words."""
     with open(path) as table:

@@ -4,9 +4,7 @@
 load ARG0[:strstrt(ARG0, "b-by-rule.gp") - 1]."names.gp"
 folder = named(ARG1)
 rules = folder."/rules.tsv"
-set datafile separator tab
-set datafile missing NaN
-eval picture(named(ARG2), 1200, 460, 12, "background rgb 'white'")
+eval note(ARG2, 1200, 460)
 flows = system("awk -F '\\t' '/^phi/ && !seen[$1]++ {print $1}' ".quoted(rules))
 phi(flow) = flow[4:strstrt(flow, "-s") - 1]
 set palette defined (0 "#440154", 0.25 "#3b528b", 0.5 "#21918c", 0.75 "#5ec962", 1 "#d0b000")
@@ -14,8 +12,6 @@ unset colorbox
 set cbrange [0:0.75]
 set style fill transparent solid 0.3 noborder
 set xzeroaxis lt 1 lw 1.5 lc rgb "#606060"
-set tics nomirror
-set border 3
 is(rule) = strcol("rule") eq rule
 set multiplot layout 1,2
 set lmargin 9

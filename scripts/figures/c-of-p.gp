@@ -3,14 +3,10 @@
 #   gnuplot -c scripts/figures/c-of-p.gp closures.tsv c-of-p.png
 load ARG0[:strstrt(ARG0, "c-of-p.gp") - 1]."names.gp"
 table = named(ARG1)
-set datafile separator tab
-set datafile missing NaN
-eval picture(named(ARG2), 1200, 460, 12, "background rgb 'white'")
+eval note(ARG2, 1200, 460)
 set palette defined (0 "#440154", 0.25 "#3b528b", 0.5 "#21918c", 0.75 "#5ec962", 1 "#d0b000")
 unset colorbox
 set cbrange [0:0.75]
-set tics nomirror
-set border 3
 set multiplot layout 1,2
 set lmargin 10
 stats table using "phi" skip 1 nooutput

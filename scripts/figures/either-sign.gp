@@ -8,9 +8,7 @@ folder = named(ARG1)
 scan = folder."/scan.tsv"
 stock = folder."/stock.tsv"
 fits = folder."/fits.tsv"
-set datafile separator tab
-set datafile missing NaN
-eval picture(named(ARG2), 1200, 440, 12, "background rgb 'white'")
+eval note(ARG2, 1200, 440)
 grey = "#606060"
 is(name, value) = strcol(name) eq value
 mixture(rule) = is("rule", rule) && is("stage", "all") && is("heights", "inside") && is("component", "yy") \
@@ -27,8 +25,6 @@ EOD
 
 set style fill transparent solid 0.25 noborder
 set xzeroaxis lt 1 lw 1.5 lc rgb grey
-set tics nomirror
-set border 3
 set multiplot
 
 set size 0.66,1

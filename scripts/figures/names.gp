@@ -19,6 +19,8 @@ terminal_of(path, width, height, font) = ends_in_pdf(path) \
 picture(path, width, height, font, more) = (picture_path = path, sprintf("set terminal %s %s; set output picture_path", terminal_of(path, width, height, font), more))
 # eval figure(NAME, WIDTH, HEIGHT, FONT): begins the picture that ARG2 names, or NAME.png in the folder that ARG1 names; its tables have tabs.
 figure(name, width, height, font) = (folder = named(ARG1), picture(asked("ARG2", folder."/".name.".png"), width, height, font, "")."; set datafile separator tab")
+# eval note(PATH, WIDTH, HEIGHT): begins a picture without a frame on white; missing numbers are NaN.
+note(path, width, height) = picture(named(path), width, height, 12, "background rgb 'white'")."; set datafile separator tab; set datafile missing NaN; set tics nomirror; set border 3"
 # Colours of small and of large grains, or of two curves.
 small = "#1f77b4"; large = "#d62728"
 blue = small; red = large

@@ -3,12 +3,8 @@
 #   gnuplot -c scripts/figures/p-star.gp FOLDER p-star.png
 load ARG0[:strstrt(ARG0, "p-star.gp") - 1]."names.gp"
 rules = named(ARG1)."/rules.tsv"
-set datafile separator tab
-set datafile missing NaN
-eval picture(named(ARG2), 760, 460, 12, "background rgb 'white'")
+eval note(ARG2, 760, 460)
 only(value) = strcol("rule") eq "size" ? value : NaN
-set tics nomirror
-set border 3
 set xrange [0:0.82]
 set yrange [0.63:0.675]
 set xlabel "large grains, Φ_L of the mixture"

@@ -1,5 +1,6 @@
 """Every number that the paper prints, under every combination of what it does not state."""
 import collections
+import functools
 import itertools
 import math
 import os
@@ -151,19 +152,17 @@ def over_shear_rate(of_slopes, layers, form):
     return {"4 level": (level, math.sqrt(covariance[1, 1])), "4 slope": (slope, math.sqrt(covariance[0, 0]))}
 
 
+table_in = functools.cache(Table)
+
+
 class Runs:
     """The tables of `make combinations`, each read once."""
 
     def __init__(self, folder):
-        self.runs, self.read = tables.runs_in(folder), {}
+        self.runs = tables.runs_in(folder)
 
     def tables(self, name, chosen):
-        return [self.table(run.path(name)) for run in self.runs if chosen(run)]
-
-    def table(self, path):
-        if path not in self.read:
-            self.read[path] = Table(path)
-        return self.read[path]
+        return [table_in(run.path(name)) for run in self.runs if chosen(run)]
 
     def seeds(self, variant):
         """Those of which all mixtures have run."""

@@ -88,9 +88,7 @@ def small_table(run, table, question=False):
     kept = [name in KEYS or bool(re.fullmatch(wanted, name)) for name in plain]
     if quantity == "segregation" and not question:
         rows = [row for row in rows if math.isnan(row[plain.index("y0")])]
-    window = WINDOW.get(quantity)
-    if question:
-        window = QUESTION_WINDOW
+    window = QUESTION_WINDOW if question else WINDOW.get(quantity)
     if window:
         errors = [c for c, name in enumerate(plain) if name.endswith("_error")]
         of_present = [c for c, name in enumerate(plain) if name in OF_PRESENT]
@@ -115,29 +113,20 @@ def snapshots(run):
 
 def without_folders(text):
     """Removes folders from the file names in the history."""
-    body = shared.unsealed(text)
-    shorter = re.sub(r"(?m)^(# history: .*)$", lambda line: re.sub(r"(?<=\s)/\S*/", "", line[0]), body)
-    return text if shorter == body else shared.sealed(shorter)
+    return shared.changed(text, r"(?m)^(# history: .*)$", lambda line: re.sub(r"(?<=\s)/\S*/", "", line[0]))
 
 
-def files_of_question(run):
-    for table in OF_QUESTIONS:
-        if run.has(table):
-            yield table + ".tsv", small_table(run, table, question=True)
-    for table in WHOLE:
-        if run.has(table):
+def files_of(run, question):
+    kept = OF_QUESTIONS if question else {"": OF_PLAIN, tables.CONTROL: OF_CONTROL}.get(run.variant, OF_VARIANTS)
+    for table in (*kept, *WHOLE):
+        if question and not run.has(table):
+            continue
+        if table in WHOLE:
             with open(run.path(table)) as whole:
                 yield table + ".tsv", whole.read()
-    yield "checksums", "kept\n"
-
-
-def files_of(run):
-    for quantity in {"": OF_PLAIN, tables.CONTROL: OF_CONTROL}.get(run.variant, OF_VARIANTS):
-        yield quantity + ".tsv", small_table(run, quantity)
-    for quantity in WHOLE:
-        with open(run.path(quantity)) as table:
-            yield quantity + ".tsv", table.read()
-    if run.flow == DRAWN and run.seed == 1:
+        else:
+            yield table + ".tsv", small_table(run, table, question)
+    if run.flow == DRAWN and run.seed == 1 and not question:
         yield "snapshots.tsv", snapshots(run)
     yield "checksums", "kept\n"
 
@@ -151,12 +140,11 @@ def keep(options):
     two or three digits, windows merged (WINDOW) as means weighted by frames, where a layer that is missing in a window
     counts as empty. The same tables give the same bytes. make -C scripts reproduction.md reads them.
     """
-    files_of_run = files_of_question if options.questions else files_of
     part = options.archive + ".part"
     with tarfile.open(part, "w:bz2") as archive:
         # Similar files are stored together, for compression.
         files = sorted((name, run.name, without_folders(text)) for run in tables.runs_in(options.tables)
-                       for name, text in files_of_run(run))
+                       for name, text in files_of(run, options.questions))
         for name, run, text in files:
             entry = tarfile.TarInfo(f"{run}/{name}")
             entry.size = len(text.encode())

@@ -45,14 +45,12 @@ class Layer:
         self.grains = min(total("grains_S"), total("grains_L")) / self.frames
         self.n = {pair: total(f"n_{pair}") for pair in PAIRS}
         self.f = {pair: total(f"sum_fn_{pair}") for pair in PAIRS}
-        self.stress = {}
-        for c in ("xx", "yy"):
-            large = total(f"A_LL_{c}", f"A_Lb_{c}", f"Msize_{c}")
-            self.stress[c] = (total(f"A_SS_{c}", f"A_Sb_{c}", f"M_{c}", f"A_LL_{c}", f"A_Lb_{c}") - large, large)
+        large = total("A_LL_yy", "A_Lb_yy", "Msize_yy")
+        self.stress = total("A_SS_yy", "A_Sb_yy", "M_yy", "A_LL_yy", "A_Lb_yy") - large, large  # small, large
         self.phi, self.r, self.gradient = self.area_l / (self.area_s + self.area_l), r, math.nan
         self.q = self.phi * (1 - self.phi)
-        whole = sum(self.stress["yy"]) or math.nan
-        self.excess = self.stress["yy"][1] / whole - self.phi
+        whole = sum(self.stress) or math.nan
+        self.excess = self.stress[1] / whole - self.phi
         self.mixed, self.by_size = total("M_yy") / whole, total("Msize_yy") / whole
         self.neutral = self.q * (1 + r) / (self.phi + r * (1 - self.phi))
 
@@ -69,7 +67,7 @@ class Layer:
                           / ((2 * self.f["LL"] + self.f["LS"] + self.f["Lb"]) / large))
         mean = {pair: self.f[pair] / self.n[pair] for pair in ("SS", "LS", "LL")}
         forces = -math.log((small * mean["SS"] + large * mean["LS"]) / (small * mean["LS"] + large * mean["LL"]))
-        yy = -math.log(self.stress["yy"][0] / self.stress["yy"][1] * self.area_l / self.area_s)
+        yy = -math.log(self.stress[0] / self.stress[1] * self.area_l / self.area_s)
         return {"ends": ends, "forces": forces, "pairing": whole - forces, "normal": yy - ends - whole}
 
 
