@@ -1,6 +1,16 @@
 # What users pass to make, kept from running anything: included by Makefile, reproduce/Makefile and
 # reproduce/document.mk.
 
+# Where make was called, unless another make says it, and where programs are.
+HERE ?= $(or $(value PWD),$(CURDIR))
+BIN ?= $(dir $(abspath $(lastword $(MAKEFILE_LIST))))../build/bin
+
+# The comment at the top of the Makefile; no default goal.
+.PHONY: help FORCE
+help:
+	@sed -n '1,/^$$/s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+.DEFAULT_GOAL :=
+
 # quote TEXT: one word for the shell. quote_each LIST: so is each of its words.
 quote = '$(subst ','\'',$(1))'
 quote_each = $(foreach word,$(1),$(call quote,$(word)))

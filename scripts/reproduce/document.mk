@@ -10,8 +10,6 @@
 
 include ../values.mk
 
-HERE ?= $(or $(value PWD),$(CURDIR))
-BIN ?= $(CURDIR)/../../build/bin
 KEPT := $(CURDIR)/../../data/reproduction
 TABLES ?=
 WORK ?= reproduction-figures

@@ -10,12 +10,6 @@ import tables
 QUARTERS = 4
 
 
-def inside(profile):
-    """Layers that lie inside."""
-    return [y for y in sorted(profile.layers)
-            if tables.INSIDE[0] < profile.middle(y) < tables.INSIDE[1]]
-
-
 class Part:
     """Runs that are measured together, between two times."""
 
@@ -42,7 +36,7 @@ def pressures(_, part):
     """Figures 2a and 3a: profiles of one run."""
     run = part.runs[0]
     profile = profiles.Profile([run.path("stress")], [run.path("kinetic")], part.begin, part.end)
-    layers = inside(profile)
+    layers = [y for y in sorted(profile.layers) if tables.INSIDE[0] < profile.middle(y) < tables.INSIDE[1]]
     at = [{name: value for name, value, _ in profile.columns(y)} for y in layers]
     height = [profile.middle(y) for y in layers]
     line = lambda name: statistics.linear_regression(height, [row[name] for row in at])

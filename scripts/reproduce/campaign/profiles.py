@@ -24,10 +24,6 @@ def half_trace(tensor, *words):
     return lambda row: (tensor(row, "xx", *words) + tensor(row, "yy", *words)) / 2
 
 
-def volume(row):
-    return row["V"]
-
-
 def area(row):
     return row["area_S"] + row["area_L"]
 
@@ -80,7 +76,7 @@ class Profile:
 
     def columns(self, y):
         """Triples of name, value and standard error of one layer, in units of rho g d_S."""
-        rows, pressure = self.layers[y], half_trace(contact)
+        rows, pressure, volume = self.layers[y], half_trace(contact), lambda row: row["V"]
         found = {"P": (pressure, volume), "P_solid": (pressure, area),
                  "syy": (lambda row: contact(row, "yy"), volume)}
         if self.with_kinetic:

@@ -38,12 +38,6 @@ def inside(run):
     return ["--heights", f"4dS:{int(depth[1]) - 4 if depth else 56}dS"]
 
 
-def seconds(run):
-    """Of the flow, from the last window of its table."""
-    _, rows = tables.read(run.path("stress"), ["t1"])
-    return rows[-1]["t1"]
-
-
 def strengths(options, runs, begin, end):
     """Everything that grseg-fit tells of these runs between two times."""
     where = [*inside(runs[0]), "--begin", begin, "--end", end]
@@ -86,7 +80,7 @@ def force_ratio(run):
 
 
 def line(options, flow, runs, paper):
-    end = min(map(seconds, runs))
+    end = min(tables.read(run.path("stress"), ["t1"])[1][-1]["t1"] for run in runs)
     row = {"flow": flow, "phi": runs[0].phi, "slope": runs[0].slope, "runs": len(runs), "end": end}
     own = strengths(options, runs, 0, end)
     before = FLOW_BEFORE if "-lammps" in flow else 0
