@@ -5,7 +5,6 @@ import os
 import combined
 import errata
 from measured import Measured, Value, plain
-import tables
 from tables import shared
 import targets
 import verdicts

@@ -1,7 +1,6 @@
 """What is wrong or left open in the paper's text, and the measurement that bears on it."""
 import statements as paper
 import verdicts
-from measured import plain
 from targets import signed
 
 
