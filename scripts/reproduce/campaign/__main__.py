@@ -60,7 +60,8 @@ COMMANDS = {
 def main():
     name = sys.argv[1] if len(sys.argv) > 1 else "--help"
     if name not in COMMANDS:
-        sys.exit(f"{__doc__.strip()}\n\nCommands: {', '.join(COMMANDS)}")
+        print(f"{__doc__}\nCommands: {', '.join(COMMANDS)}", file=sys.stdout if name == "--help" else sys.stderr)
+        sys.exit(0 if name == "--help" else 2)
     module_name, words, others = COMMANDS[name]
     command = getattr(importlib.import_module(module_name), name.replace("-", "_"))
     parser = argparse.ArgumentParser(prog=f"campaign {name}", description=inspect.getdoc(command),
