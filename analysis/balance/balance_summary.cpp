@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/balance/balance_summary.hpp"
 
+#include "analysis/frames/sums.hpp"
+
 #include <fmt/format.h>
 #include <gsl/gsl_statistics.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace grseg {
 
 MeanOfWindows mean_of_windows(const std::vector<double>& values)
 {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = values.size();
-  if (n == 0) return {nan, nan};
+  if (n == 0) return {no_number, no_number};
   const double mean = gsl_stats_mean(values.data(), 1, n);
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  if (*most - *least <= 1e-6 * std::max(std::abs(*most), std::abs(*least))) return {mean, nan};
+  if (*most - *least <= 1e-6 * std::max(std::abs(*most), std::abs(*least)))
+    return {mean, no_number};
   return {mean, gsl_stats_sd_m(values.data(), 1, n, mean) / std::sqrt(static_cast<double>(n))};
 }
 
@@ -286,14 +287,14 @@ std::string PartitionSummary<D>::text() const
 }
 
 template <int D>
-std::string PartitionSummary<D>::to_json() const
+nlohmann::ordered_json PartitionSummary<D>::json() const
 {
   using Json = nlohmann::ordered_json;
   Json all{{"unit", "weight of the large grains"},
            {"windows", push_kinetic_.size()},
            {"difference_of_N_between_rules", difference_},
            {"difference_of_N_from_stored_forces", from_forces_}};
-  if (push_kinetic_.empty()) return all.dump();
+  if (push_kinetic_.empty()) return all;
   all["N"] = json_of(mean_of_windows(contact_force_));
   all["push_kinetic"] = json_of(mean_of_windows(push_kinetic_));
   all["dpush_dp"] = json_of(mean_of_windows(slopes_of(over_share_)));
@@ -307,7 +308,15 @@ std::string PartitionSummary<D>::to_json() const
                             {"push", json_of(mean_of_windows(own.push))},
                             {"drag", json_of(mean_of_windows(own.drag))}});
   }
-  return all.dump();
+  return all;
+}
+
+template <int D>
+std::string PartitionSummary<D>::to_json(const Table& table) const
+{
+  auto all = nlohmann::ordered_json::parse(table.to_json());
+  all["summary"] = json();
+  return all.dump(2) + '\n';
 }
 
 template class PartitionSummary<2>;

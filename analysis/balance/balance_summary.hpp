@@ -4,6 +4,9 @@
 #include "analysis/balance/driving_forces.hpp"
 #include "analysis/balance/momentum_balance.hpp"
 #include "analysis/balance/partitioned_balance.hpp"
+#include "formats/cli/table.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>
@@ -64,14 +67,15 @@ class PartitionSummary {
 
   /// A line for each rule, with what they have in common above and below.
   std::string text() const;
-  /// The same numbers as a JSON object.
-  std::string to_json() const;
+  /// The table as JSON, with the same numbers as its "summary".
+  std::string to_json(const Table& table) const;
 
  private:
   /// By window. Of the rule: its divergence of stress C, interaction beta, push and drag.
   struct OfRule {
     std::vector<double> contact, interaction, push, drag;
   };
+  nlohmann::ordered_json json() const;
   void add_difference(const MomentumBalance<D>& window, const PartitionedBalance<D>& contacts);
 
   Layers layers_;

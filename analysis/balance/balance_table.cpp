@@ -2,7 +2,7 @@
 #include "analysis/balance/balance_table.hpp"
 
 #include "analysis/balance/driving_forces.hpp"
-#include "analysis/frames/cells.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/stress/contact_sums.hpp"
 
 #include <fmt/format.h>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/balance/driving_forces.hpp"
 
-#include <limits>
+#include "analysis/frames/sums.hpp"
 
 namespace grseg {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // A species with a smaller share reaches the layer only by the tail of the kernel.
 constexpr double least_part = 1e-9;
 
@@ -15,7 +14,7 @@ struct Shared {
   double small, large;              // N/m or Pa
   double slope_small, slope_large;  // N/m^2 or N/m^3
 
-  double part() const { return small + large > 0 ? large / (small + large) : nan; }
+  double part() const { return small + large > 0 ? large / (small + large) : no_number; }
   /// 0 where there is no stress to share.
   double push(double phi) const
   {
@@ -42,7 +41,7 @@ DrivingForces driving_forces(const MomentumBalance<D>& balance, std::size_t laye
   DrivingForces of{};
   of.phi = large.content / (small.content + large.content);
   of.mass_share = large.density / (small.density + large.density);
-  if (!(of.phi > least_part && of.phi < 1 - least_part)) of.phi = of.mass_share = nan;
+  if (!(of.phi > least_part && of.phi < 1 - least_part)) of.phi = of.mass_share = no_number;
   of.psi = contact.part();
   of.psi_kinetic = kinetic.part();
   of.b = (of.psi - of.phi) / (of.phi * (1 - of.phi));
@@ -95,9 +94,9 @@ RuleForces rule_forces(const DrivingForces& forces, const PartitionedBalance<D>&
   const Mixture mixture(contacts, layer);
   const auto large = contacts.mean(layer, Species::large, rule);
   RuleForces of{};
-  of.psi = mixture.stress > 0 ? large.stress(1, 1) / mixture.stress : nan;
+  of.psi = mixture.stress > 0 ? large.stress(1, 1) / mixture.stress : no_number;
   const bool adds_up = contacts.rules()[rule].adds_up();
-  of.b = adds_up ? (of.psi - forces.phi) / (forces.phi * (1 - forces.phi)) : nan;
+  of.b = adds_up ? (of.psi - forces.phi) / (forces.phi * (1 - forces.phi)) : no_number;
   of.push = push_of(of.psi, forces.mass_share, mixture.stress, mixture.slope);
   of.spread = -(large.contact + large.base).y() - forces.mass_share * mixture.slope + of.push;
   of.drag = forces.drag + forces.push - of.push;

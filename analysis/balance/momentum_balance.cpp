@@ -2,20 +2,14 @@
 #include "analysis/balance/momentum_balance.hpp"
 
 #include "analysis/frames/contacts.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/core/species.hpp"
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
 namespace grseg {
 namespace {
-
-template <int D, class Of = SpeciesMomentum<D>>
-constexpr std::array tensors{&Of::contact_stress, &Of::momentum_flux};
-template <int D, class Of = SpeciesMomentum<D>>
-constexpr std::array vectors{&Of::momentum, &Of::rate,        &Of::gravity, &Of::contact,
-                             &Of::kinetic,  &Of::interaction, &Of::base,    &Of::force};
 
 std::size_t index(Species species)
 {
@@ -25,22 +19,9 @@ std::size_t index(Species species)
 }  // namespace
 
 template <int D>
-SpeciesMomentum<D>& SpeciesMomentum<D>::operator+=(const SpeciesMomentum& other)
-{
-  density += other.density;
-  content += other.content;
-  for (const auto member : tensors<D>) this->*member += other.*member;
-  for (const auto member : vectors<D>) this->*member += other.*member;
-  return *this;
-}
-
-template <int D>
 SpeciesMomentum<D>& SpeciesMomentum<D>::operator*=(double factor)
 {
-  density *= factor;
-  content *= factor;
-  for (const auto member : tensors<D>) this->*member *= factor;
-  for (const auto member : vectors<D>) this->*member *= factor;
+  std::apply([&](auto... member) { ((this->*member *= factor), ...); }, members);
   return *this;
 }
 
@@ -162,11 +143,7 @@ template <int D>
 void MomentumBalance<D>::merge(const MomentumBalance& later)
 {
   frames_ += later.frames_;
-  sums_.resize(std::max(sums_.size(), later.sums_.size()),
-               std::vector<SpeciesMomentum<D>>(species_));
-  for (std::size_t n = 0; n < later.sums_.size(); ++n)
-    for (std::size_t species = 0; species < species_; ++species)
-      sums_[n][species] += later.sums_[n][species];
+  accumulate(sums_, later.sums_);
   if (!first_) first_ = later.first_;
   same_grains_ = same_grains_ && later.same_grains_ &&
                  (!later.first_ || first_->grains == later.first_->grains);
@@ -184,7 +161,7 @@ SpeciesMomentum<D> MomentumBalance<D>::mean(std::size_t layer, Species species) 
 template <int D>
 Vector<D> MomentumBalance<D>::change(std::size_t layer, Species species) const
 {
-  if (!same_grains_) return Vector<D>::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (!same_grains_) return Vector<D>::Constant(no_number);
   const Vector<D> gained = last_->at(layer, species) - first_->at(layer, species);
   return gained / ((last_->time - first_->time) * layers_.volume(layer));
 }

@@ -3,9 +3,11 @@
 
 #include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/layers.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/core/frame.hpp"
 
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -31,7 +33,11 @@ struct SpeciesMomentum {
   /// What the terms leave of the rate: round-off.
   Vector<D> residual() const { return rate - (gravity + contact + kinetic + interaction + base); }
 
-  SpeciesMomentum& operator+=(const SpeciesMomentum& other);
+  static constexpr auto members = std::tuple(
+      &SpeciesMomentum::density, &SpeciesMomentum::content, &SpeciesMomentum::momentum,
+      &SpeciesMomentum::contact_stress, &SpeciesMomentum::momentum_flux, &SpeciesMomentum::rate,
+      &SpeciesMomentum::gravity, &SpeciesMomentum::contact, &SpeciesMomentum::kinetic,
+      &SpeciesMomentum::interaction, &SpeciesMomentum::base, &SpeciesMomentum::force);
   SpeciesMomentum& operator*=(double factor);
 };
 

@@ -15,15 +15,6 @@ std::size_t number(Species species)
   return static_cast<std::size_t>(species);
 }
 
-template <int D>
-void add_to(PartitionedForces<D>& sums, const PartitionedForces<D>& others)
-{
-  sums.stress += others.stress;
-  sums.contact += others.contact;
-  sums.interaction += others.interaction;
-  sums.base += others.base;
-}
-
 }  // namespace
 
 template <int D>
@@ -47,6 +38,7 @@ void PartitionedBalance<D>::grow_to(std::size_t layers)
 template <int D>
 void PartitionedBalance<D>::add(const Grains& grains, const Frame<D>& frame)
 {
+  if (rules_.empty()) return;
   ++frames_;
   count_ = layers_.count(grains, frame);
   grow_to(count_);
@@ -150,16 +142,7 @@ void PartitionedBalance<D>::merge(const PartitionedBalance& others)
 {
   frames_ += others.frames_;
   grow_to(others.layers());
-  for (std::size_t n = 0; n < others.layers(); ++n) {
-    auto& own = sums_[n];
-    const auto& more = others.sums_[n];
-    for (std::size_t k = 0; k < species_; ++k) {
-      add_to(own.unmixed[k], more.unmixed[k]);
-      own.at_centre[k] += more.at_centre[k];
-    }
-    for (std::size_t k = 0; k < own.mixed.size(); ++k) add_to(own.mixed[k], more.mixed[k]);
-    own.whole += more.whole;
-  }
+  accumulate(sums_, others.sums_);
 }
 
 template <int D>
@@ -174,7 +157,7 @@ PartitionedForces<D> PartitionedBalance<D>::mean(std::size_t layer, Species spec
 {
   const auto& sums = sums_[layer];
   auto mean = sums.unmixed[number(species)];
-  add_to(mean, sums.mixed[rule * species_ + number(species)]);
+  mean += sums.mixed[rule * species_ + number(species)];
   const double factor = per_frame_and_volume(layer);
   mean.stress *= factor;
   for (auto* force : {&mean.contact, &mean.interaction, &mean.base}) *force *= factor;
@@ -199,8 +182,6 @@ Tensor<D> PartitionedBalance<D>::mixed_stress(std::size_t layer) const
   return per_frame_and_volume(layer) * sums_[layer].whole;
 }
 
-template struct PartitionedForces<2>;
-template struct PartitionedForces<3>;
 template class PartitionedBalance<2>;
 template class PartitionedBalance<3>;
 

@@ -3,9 +3,11 @@
 
 #include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/layers.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/frame.hpp"
 
+#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -19,6 +21,9 @@ struct PartitionedForces {
   Vector<D> interaction = Vector<D>::Zero();  // beta, from the other species
   Vector<D> base = Vector<D>::Zero();         // from boundary grains and walls, under any rule
 
+  static constexpr auto members =
+      std::tuple(&PartitionedForces::stress, &PartitionedForces::contact,
+                 &PartitionedForces::interaction, &PartitionedForces::base);
   /// N: the same under every rule, to round-off.
   Vector<D> sum() const { return contact + interaction + base; }
 };
@@ -46,7 +51,7 @@ class PartitionedBalance {
   PartitionedBalance(const Layers& layers, const Kernel& kernel, std::vector<PartitionRule> rules,
                      std::size_t species = 2);
 
-  /// Frames with contacts, in any order.
+  /// Frames with contacts, in any order. Without rules nothing is summed.
   void add(const Grains& grains, const Frame<D>& frame);
   void merge(const PartitionedBalance& others);
 
@@ -69,6 +74,8 @@ class PartitionedBalance {
     std::vector<Vector<D>> at_centre;           // by species
     std::vector<PartitionedForces<D>> mixed;    // by rule and species
     Tensor<D> whole = Tensor<D>::Zero();        // of mixed contacts
+    static constexpr auto members = std::tuple(&LayerSums::unmixed, &LayerSums::at_centre,
+                                               &LayerSums::mixed, &LayerSums::whole);
   };
   /// A contact between two species, seen from its larger grain.
   struct Mixed {

@@ -33,6 +33,26 @@ std::string description(const CheckLine& line)
 
 }  // namespace
 
+CheckLine judged(const std::string& quantity, double measured, double tolerance,
+                 const std::string& remark)
+{
+  CheckLine line;
+  line.quantity = quantity;
+  line.measured = measured;
+  line.tolerance = tolerance;
+  line.verdict = measured <= tolerance ? Verdict::passed : Verdict::failed;
+  line.remark = remark;
+  return line;
+}
+
+CheckLine skipped(const std::string& quantity, const std::string& why)
+{
+  CheckLine line;
+  line.quantity = quantity;
+  line.remark = why;
+  return line;
+}
+
 std::string CheckReport::failures() const
 {
   std::vector<std::string> failed;
@@ -102,17 +122,6 @@ std::string to_json(const CheckReport& report)
 
 namespace {
 
-CheckLine line_of(const Check& check, double measured, double tolerance, const std::string& remark)
-{
-  CheckLine line;
-  line.quantity = check.name;
-  line.measured = measured;
-  line.tolerance = tolerance;
-  line.verdict = measured <= tolerance ? Verdict::passed : Verdict::failed;
-  line.remark = remark;
-  return line;
-}
-
 std::string place_of(const WorstCase& worst, const std::string& what)
 {
   if (worst.count == 0) return "there is none";
@@ -123,14 +132,6 @@ std::string place_of(const WorstCase& worst, const std::string& what)
 
 }  // namespace
 
-CheckLine Judge::skipped(const Check& check, const std::string& why)
-{
-  CheckLine line;
-  line.quantity = check.name;
-  line.remark = why;
-  return line;
-}
-
 double Judge::tolerance_of(const Check& check) const
 {
   const bool rounded = single_precision_ && check.tolerance == &CheckTolerances::round_off;
@@ -140,12 +141,12 @@ double Judge::tolerance_of(const Check& check) const
 CheckLine Judge::largest(const Check& check, const WorstCase& worst, const std::string& what,
                          double unit) const
 {
-  return line_of(check, worst.largest / unit, tolerance_of(check), place_of(worst, what));
+  return judged(check.name, worst.largest / unit, tolerance_of(check), place_of(worst, what));
 }
 
 CheckLine Judge::mean(const Check& check, const WorstCase& worst, double unit) const
 {
-  return line_of(check, worst.mean() / unit, tolerance_of(check), "");
+  return judged(check.name, worst.mean() / unit, tolerance_of(check));
 }
 
 CheckLine Judge::statistical(const Check& check, double deviation, double error,
@@ -154,7 +155,7 @@ CheckLine Judge::statistical(const Check& check, double deviation, double error,
   const double tail = tolerances_.false_alarm / 2 / static_cast<double>(together);
   const double quantile = gsl_cdf_tdist_Qinv(tail, static_cast<double>(windows) - 1);
   const double stated = tolerances_.*check.tolerance, chance = quantile * error;
-  auto line = line_of(check, std::abs(deviation), std::max(stated, chance), "");
+  auto line = judged(check.name, std::abs(deviation), std::max(stated, chance));
   line.error = error;
   if (line.verdict == Verdict::passed && chance > stated) line.verdict = Verdict::undecided;
   return line;

@@ -3,12 +3,11 @@
 
 #include "analysis/check/checks.hpp"
 #include "analysis/check/laws_of_motion.hpp"
-#include "analysis/check/tolerances.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/verdict.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,16 +17,20 @@ namespace grseg {
 /// chance alone explains, where that is more than the tolerance: a deviation that the tolerance does
 /// not allow would not have been seen.
 struct CheckLine {
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-  std::string quantity;         // "force_balance", or the path inside the file that departs
-  double y0 = none, y1 = none;  // m, of a layer
-  double measured = none;
-  double error = none;      // standard error of `measured`, where it is statistical
-  double tolerance = none;  // or what chance alone explains, where that is more
+  std::string quantity;  // "force_balance", or the path inside the file that departs
+  double y0 = no_number, y1 = no_number;  // m, of a layer
+  double measured = no_number;
+  double error = no_number;      // standard error of `measured`, where it is statistical
+  double tolerance = no_number;  // or what chance alone explains, where that is more
   Verdict verdict = Verdict::skipped;
   std::string remark;  // where the largest value is, or why the check was skipped
 };
+
+/// What was measured against a tolerance, passed or failed.
+CheckLine judged(const std::string& quantity, double measured, double tolerance,
+                 const std::string& remark = "");
+/// What was not measured, and why.
+CheckLine skipped(const std::string& quantity, const std::string& why);
 
 /// The output of grseg-check.
 struct CheckReport {
@@ -54,7 +57,6 @@ class Judge {
   {
   }
 
-  static CheckLine skipped(const Check& check, const std::string& why);
   /// The largest value, in units of `unit`; `what` ("grain") has the number that the remark names.
   CheckLine largest(const Check& check, const WorstCase& worst, const std::string& what,
                     double unit = 1) const;

@@ -21,28 +21,20 @@ template void ContentCheck::add(std::size_t, const Frame<3>&);
 
 std::vector<CheckLine> ContentCheck::lines() const
 {
-  const auto line = [](const char* quantity, double measured, double tolerance, bool passed) {
-    CheckLine result;
-    result.quantity = quantity;
-    result.measured = measured;
-    result.tolerance = tolerance;
-    result.verdict = passed ? Verdict::passed : Verdict::failed;
-    return result;
-  };
   const bool closed = run_.closed();
-  auto missing = line("not_closed", closed ? 0 : 1, 0, closed);
-  if (!closed) missing.remark = "/grseg/seal is empty: the run was interrupted or goes on";
-  auto damaged = line("damaged_frames", static_cast<double>(damaged_), 0, damaged_ == 0);
-  damaged.remark =
+  const char* not_closed = "/grseg/seal is empty: the run was interrupted or goes on";
+  const auto damaged =
       damaged_ == 0 ? fmt::format("{} frames agree with their digests", frames_)
                     : fmt::format("frame {} is the first that is not as written", first_damaged_);
-  auto empty = line("no_frames", frames_ == 0 ? 1 : 0, 0, frames_ > 0);
-  const auto damage = run_.damage_outside_frames();
-  auto outside = line("damaged_outside_frames", damage.empty() ? 0 : 1, 0, damage.empty());
-  outside.remark =
-      damage.empty() ? "what the file holds once agrees with its digests and its seal" : damage;
-  if (!closed && damage.empty()) outside.remark = "what the file holds once agrees with its digest";
-  return {missing, empty, damaged, outside};
+  const auto missing = judged("not_closed", closed ? 0 : 1, 0, closed ? "" : not_closed),
+             of_frames = judged("damaged_frames", static_cast<double>(damaged_), 0, damaged),
+             empty = judged("no_frames", frames_ == 0 ? 1 : 0, 0);
+  auto damage = run_.damage_outside_frames();
+  const bool whole = damage.empty();
+  if (whole)
+    damage = closed ? "what the file holds once agrees with its digests and its seal"
+                    : "what the file holds once agrees with its digest";
+  return {missing, empty, of_frames, judged("damaged_outside_frames", whole ? 0 : 1, 0, damage)};
 }
 
 SpecificationCheck::SpecificationCheck(const TrajectoryReader& run)
@@ -148,13 +140,7 @@ std::vector<CheckLine> SpecificationCheck::lines() const
 {
   std::vector<CheckLine> lines;
   const auto add = [&](const std::string& quantity, std::size_t count, const std::string& remark) {
-    CheckLine line;
-    line.quantity = quantity;
-    line.measured = static_cast<double>(count);
-    line.tolerance = 0;
-    line.verdict = count == 0 ? Verdict::passed : Verdict::failed;
-    line.remark = remark;
-    lines.push_back(line);
+    lines.push_back(judged(quantity, static_cast<double>(count), 0, remark));
   };
   add("specification", layout_.departures.size(),
       fmt::format("{} datasets read whole, {} chunks", layout_.datasets, layout_.chunks));

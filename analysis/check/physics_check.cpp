@@ -209,12 +209,7 @@ template <int D>
 std::vector<CheckLine> PhysicsCheck<D>::lines() const
 {
   std::vector<CheckLine> lines;
-  if (motion_.frames() == 0) {
-    CheckLine none;
-    none.quantity = "physics";
-    none.remark = "no frame between --begin and --end";
-    return {none};
-  }
+  if (motion_.frames() == 0) return {skipped("physics", "no frame between --begin and --end")};
   add_balances(lines);
   add_contacts(lines);
   add_layers(lines);
@@ -227,7 +222,7 @@ void PhysicsCheck<D>::add_balances(std::vector<CheckLine>& lines) const
 {
   const auto add = [&](const Check& check, const WorstCase& worst, const char* what,
                        const char* why_skipped) {
-    lines.push_back(why_skipped != nullptr ? Judge::skipped(check, why_skipped)
+    lines.push_back(why_skipped != nullptr ? skipped(check.name, why_skipped)
                                            : judge_.largest(check, worst, what));
   };
   const auto &torques = forces_.torques(), &momentum = motion_.momentum();
@@ -252,7 +247,7 @@ void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
   const auto add = [&](const Check& largest, const Check& mean, const WorstCase& worst, double unit,
                        const char* why_skipped = nullptr) {
     if (why_skipped != nullptr) {
-      for (const auto& check : {largest, mean}) lines.push_back(Judge::skipped(check, why_skipped));
+      for (const auto& check : {largest, mean}) lines.push_back(skipped(check.name, why_skipped));
       return;
     }
     lines.push_back(judge_.largest(largest, worst, "contact", unit));
@@ -301,7 +296,7 @@ void PhysicsCheck<D>::add_layers(std::vector<CheckLine>& lines) const
   }
   if (!why_skipped.empty()) {
     for (const auto& check : {named("weight"), named("slope"), named("slope_across")})
-      if (applies(check)) lines.push_back(Judge::skipped(check, why_skipped));
+      if (applies(check)) lines.push_back(skipped(check.name, why_skipped));
     return;
   }
   const auto add = [&](const Check& check, const LayerBalance& layer, double deviation,
@@ -333,7 +328,7 @@ void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
   if (windows_.size() < least_windows) {
     for (const auto& check :
          {named("overlap_drift"), named("energy_defect_drift"), named("x_drift"), named("z_drift")})
-      if (applies(check)) lines.push_back(Judge::skipped(check, few_windows));
+      if (applies(check)) lines.push_back(skipped(check.name, few_windows));
     return;
   }
   const WindowMeans means(window_starts_);
@@ -348,7 +343,7 @@ void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
   if (energy_.count > 0)
     add_change(named("energy_defect_drift"), means.energy_defect, 1);
   else
-    lines.push_back(Judge::skipped(named("energy_defect_drift"), no_energy_defect));
+    lines.push_back(skipped(named("energy_defect_drift").name, no_energy_defect));
   add_strays(named("x_drift"), means.stray_rate, lines);
   if (applies(named("z_drift"))) add_strays(named("z_drift"), means.stray_rate_across, lines);
 }
@@ -358,7 +353,7 @@ void PhysicsCheck<D>::add_strays(const Check& check, const std::vector<double>& 
                                  std::vector<CheckLine>& lines) const
 {
   if (!(gravity_.norm() > 0)) {
-    lines.push_back(Judge::skipped(check, "without gravity it has no scale"));
+    lines.push_back(skipped(check.name, "without gravity it has no scale"));
     return;
   }
   const double speed = std::sqrt(gravity_.norm() * small_diameter_);

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "analysis/check/check_lines.hpp"
+#include "analysis/check/checks.hpp"
 #include "analysis/check/contact_violations.hpp"
 #include "analysis/check/laws_of_motion.hpp"
-#include "analysis/check/tolerances.hpp"
 #include "analysis/check/weight_balance.hpp"
 #include "analysis/frames/windows.hpp"
 #include "formats/trajectory/reader.hpp"

@@ -5,12 +5,12 @@
 #include "analysis/balance/momentum_balance.hpp"
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/maps/fields.hpp"
 #include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
 #include "analysis/segregation/segregation_table.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/length.hpp"
 #include "formats/core/text.hpp"
@@ -167,8 +167,7 @@ Json micro_table(FrameLoop& loop)
 {
   const auto constants = constants_of<D>(loop);
   const auto& layers = loop.layers();
-  LayerTable table("micro", "grseg-micro --derived",
-                   "Contacts per grain, mean forces, friction and fabric.",
+  LayerTable table("micro", "grseg-derive", "Contacts per grain, mean forces, friction and fabric.",
                    {"z_S", "z_L", "f_S[N]", "f_L[N]", "f_SS[N]", "f_LS[N]", "f_LL[N]",
                     "mixed_share", "neutral_share", "sliding_all"});
   for (const auto& window : loop.windows()) {

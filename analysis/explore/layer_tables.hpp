@@ -9,7 +9,7 @@
 
 namespace grseg {
 
-/// What grseg-stress, -kinetic, -micro --derived and -balance tell of a run with their defaults, by layer:
+/// What grseg-stress, -kinetic, -derive and -balance tell of a run with their defaults, by layer:
 /// means of the rows of all windows, weighted by frames. A list of
 ///
 ///   {"name": "kinetic", "tool": "grseg-kinetic", "note": "...", "columns": ["y0[m]", ...],

@@ -172,7 +172,7 @@ Json rule_object(const RuleFit& fit, const std::vector<Flow>& flows)
           {"used_by", fit.rule.used_by()},
           {"share", fit.share},
           {"points", fit.points},
-          {"over", word_of(fit.over, overs)},
+          {"over", word_of(fit.over, populations)},
           {"doubt", fit.doubt},
           {"B", b_with_interval(fit)}};
 }
@@ -256,7 +256,7 @@ Json partition_data(const PartitionInput& input, const PartitionSettings& settin
   }
   const auto over = object["rules"].back()["over"].get<std::string>();
   object["over"] = over;
-  object["over_words"] = estimand_words(choose(over, "over", overs), selected.flows.size());
+  object["over_words"] = estimand_words(choose(over, "over", populations), selected.flows.size());
   return object;
 }
 

@@ -4,7 +4,6 @@
 #include "analysis/explore/binary_arrays.hpp"
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/fit_pairs.hpp"
-#include "analysis/fit/fit_points.hpp"
 #include "formats/cli/table.hpp"
 
 #include <nlohmann/json.hpp>

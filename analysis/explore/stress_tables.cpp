@@ -2,6 +2,7 @@
 #include "analysis/explore/stress_tables.hpp"
 
 #include "analysis/frames/composition.hpp"
+#include "analysis/frames/table_writer.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
@@ -55,8 +56,8 @@ Table table_of(const FrameLoop& loop, std::optional<double> power, const std::st
                   {"volume", "bulk"}};
   if (power) settings.emplace_back("power", format_number(*power));
   const auto& species = loop.species();
-  auto table = loop.make_table(
-      command, settings,
+  auto table = empty_table(
+      loop, command, settings,
       joined(content_columns(species, D), no_contacts<D>(loop, power).columns(species)));
   table.name = loop.run().path();
   return table;
@@ -81,7 +82,7 @@ StressTables make_tables(FrameLoop& loop, std::span<const double> powers,
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
       const auto content = composition.mean(layer);
       const auto row = [&](const PartialContactStress<D>& sums) {
-        return loop.row(window, layer, joined(content, sums.row(layer)));
+        return table_row(loop, window, layer, joined(content, sums.row(layer)));
       };
       tables.sums.rows.push_back(row(stress));
       for (std::size_t k = 0; k < powers.size(); ++k)
@@ -97,7 +98,7 @@ std::size_t run_of(const Table& table, const std::vector<RunIdentity>& runs)
 {
   const auto program = header_or(table, "program", "");
   const auto name = printable(table.name);
-  if (!program.starts_with("grseg-stress "))
+  if (!program.starts_with("grseg-stress ") && !program.starts_with("grseg-merge "))
     throw FormatError(fmt::format(
         "{}: is {}; beside runs only tables of grseg-stress are used", name,
         program.empty() ? "not a table made by grseg" : "a table of " + printable(program)));

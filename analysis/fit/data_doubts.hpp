@@ -2,7 +2,6 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
-#include "analysis/fit/fit_points.hpp"
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/fit/fit_points.hpp"
+#include "analysis/fit/fit_data.hpp"
+#include "analysis/frames/sums.hpp"
+#include "analysis/statistics/confidence.hpp"
 #include "analysis/statistics/dependence.hpp"
 
 #include <Eigen/Core>
 #include <array>
-#include <limits>
 #include <vector>
 
 namespace grseg {
@@ -21,14 +22,13 @@ namespace grseg {
 /// y = s x (eq. 2), which means B(phi_L) = (1 - s)/(phi_L + s phi_S), and the power law y = k x^a. NaN
 /// where a number is not defined.
 struct Estimators {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-  double B = nan;           // sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
-  double paper_s = nan;     // exp of the weighted mean of ln(y/x)
-  double paper_B = nan;     // ((1 - s) + (1 - s)/s)/2: half the sum of the ends of the range of B
-  double paper_k = nan;     // of y = k x^a, weighted least squares of the logarithms
-  double paper_a = nan;     //
-  double minus_ln_s = nan;  // mean of B over phi_L; for the exponent of sizes (fit_pairs.hpp)
+  double B = no_number;        // sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
+  double paper_s = no_number;  // exp of the weighted mean of ln(y/x)
+  double paper_B =
+      no_number;  // ((1 - s) + (1 - s)/s)/2: half the sum of the ends of the range of B
+  double paper_k = no_number;     // of y = k x^a, weighted least squares of the logarithms
+  double paper_a = no_number;     //
+  double minus_ln_s = no_number;  // mean of B over phi_L; for the exponent of sizes (fit_pairs.hpp)
 };
 
 /// Name and place of every estimator, in the order in which they are printed.
@@ -84,5 +84,43 @@ Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool ad
 
 /// The same estimates as from the points, from totals of those sums.
 Estimators estimators_from_sums(const Eigen::RowVectorXd& total);
+
+/// By how much each window moves every estimator: d(estimator)/d(sums) times the window's sums, one
+/// column per entry of estimator_columns. Columns of `sums` add up to 0, since estimators are ratios.
+struct Influences {
+  Eigen::MatrixXd sums;  // of all that the window holds: what whole runs differ by
+  Eigen::MatrixXd
+      noise;  // of what composition does not explain: what windows inside a run differ by
+};
+Influences influences_of(const WindowSums& windows);
+/// Where an estimator stands in them.
+Eigen::Index column_of_estimator(double Estimators::*place);
+
+/// Errors of statistics over whole runs, the flows being fixed: those of the flows added. Of a
+/// flow with a single run the scatter of its windows stands for that of runs, about what each
+/// window would add if it were like the run, which goes by its weight.
+class RunErrors {
+ public:
+  /// weight: of each window.
+  RunErrors(const FitData& data, const Eigen::VectorXd& weight);
+
+  /// Of a statistic whose deviation is the sum of the windows' influences.
+  StandardError within_flows(const Eigen::VectorXd& sums, const Eigen::VectorXd& noise) const;
+  /// The chance that runs of like flows differ between flows as much as these do, by Fisher's
+  /// test of the mean squares of influence over weight between and within flows; 1 where it cannot
+  /// be told. `fitted`: of the differences between flows, how many degrees of freedom were taken
+  /// out of the influence beforehand; at least one counts as left.
+  double chance_of_likeness(const Eigen::VectorXd& influence, double fitted) const;
+  /// Flows with a single run.
+  std::size_t single_runs() const;
+
+ private:
+  struct Group {
+    std::vector<std::size_t> first, length;  // of each run: its first window, how many
+    Eigen::VectorXd weight;                  // of each run
+  };
+  Eigen::VectorXd weight_;  // of each window
+  std::vector<Group> groups_;
+};
 
 }  // namespace grseg

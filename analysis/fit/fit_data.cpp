@@ -3,7 +3,6 @@
 
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
-#include "analysis/statistics/median_of_positive.hpp"
 #include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "formats/cli/provenance.hpp"
@@ -80,12 +79,13 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
   return rows;
 }
 
-double median_solid_fraction(const std::vector<FitRow>& rows)
+std::vector<LayerSolid> layers_of(const std::vector<FitRow>& rows)
 {
-  std::vector<double> solid;
-  solid.reserve(rows.size());
-  for (const auto& row : rows) solid.push_back(row.solid());
-  return median_of_positive(std::move(solid));
+  std::vector<LayerSolid> layers;
+  layers.reserve(rows.size());
+  for (const auto& row : rows)
+    layers.push_back({row.key.bottom, row.key.top, row.key.frames, row.solid()});
+  return layers;
 }
 
 /// Counts a row under the reason why it is left out, or as used; true if it becomes a point.
@@ -135,11 +135,8 @@ UsedRows used_rows(const FitTable& run, const FitFilters& filters,
   const auto& table = *run.table;
   const LengthUnits units{table.header_positive("small_diameter"),
                           table.header_positive("large_diameter")};
-  std::vector<LayerSolid> layers;
-  layers.reserve(run.rows.size());
-  for (const auto& row : run.rows)
-    layers.push_back({row.key.bottom, row.key.top, row.key.frames, row.solid()});
-  const RowRange range{filters.begin, filters.end, parse_heights(filters.heights, units, layers)};
+  const RowRange range{filters.begin, filters.end,
+                       parse_heights(filters.heights, units, layers_of(run.rows))};
   UsedRows used;
   for (const auto& row : run.rows)
     for (const auto& pair : pairs)
@@ -265,7 +262,7 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
   for (const auto& table : tables) {
     const auto species = species_of(table);
     auto rows = read_rows(table, species, quantity, rules);
-    const double median = median_solid_fraction(rows);
+    const double median = median_solid(layers_of(rows));
     all.push_back({&table, species, std::move(rows), median});
     require_alike(all.front(), all.back());
   }
@@ -308,6 +305,66 @@ FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
                       const FitFilters& filters, const std::vector<PartitionRule>& rules)
 {
   return select_fit_data(read_fit_tables(tables, quantity, rules), quantity, filters, {{0, 1}});
+}
+
+namespace {
+
+double component_of(const Tensor3& stress, const FitData& data, Component component)
+{
+  return component == Component::yy ? stress(1, 1) : stress.trace() / data.dimension;
+}
+
+bool is_finite(const FitPoint& point)
+{
+  return std::isfinite(point.small + point.large + point.total);
+}
+
+[[noreturn]] void refuse(const std::string& table, const PartitionRule& rule, Component component)
+{
+  throw FormatError(
+      fmt::format("{}: the stress ({}) by {} is not finite: a sum that it needs was not kept (see "
+                  "the line '# not kept: ...') or is too large; make the table anew",
+                  table, word_of(component, components), rule.name()));
+}
+
+/// One per sample, finite or not.
+std::vector<FitPoint> points_of(const FitData& data, const PartitionRule& rule,
+                                const FitSettings& settings)
+{
+  std::vector<PartialStress<3>> stresses;
+  stresses.reserve(data.rows.size());
+  for (const auto& sums : data.rows) stresses.push_back(partial_stress(sums, rule, settings.base));
+  std::vector<FitPoint> points;
+  points.reserve(data.samples.size());
+  for (const auto& sample : data.samples) {
+    const auto& stress = stresses[sample.row];
+    const auto of = [&](const Tensor3& tensor) {
+      return component_of(tensor, data, settings.component);
+    };
+    const auto &smaller = stress.of_species[sample.pair.smaller],
+               &larger = stress.of_species[sample.pair.larger];
+    const bool only_two = stress.of_species.size() == 2;
+    points.push_back({.window = sample.window,
+                      .phi_large = sample.phi_large,
+                      .weight = sample.weight,
+                      .frames = sample.frames,
+                      .size_ratio = sample.size_ratio,
+                      .small = of(smaller),
+                      .large = of(larger),
+                      .total = only_two ? of(stress.total) : of(smaller) + of(larger)});
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
+                                 const FitSettings& settings)
+{
+  auto points = points_of(data, rule, settings);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (!is_finite(points[k])) refuse(data.tables[data.samples[k].table], rule, settings.component);
+  return points;
 }
 
 }  // namespace grseg

@@ -4,7 +4,6 @@
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/flows.hpp"
 #include "analysis/fit/rule_fit.hpp"
-#include "analysis/fit/run_errors.hpp"
 #include "analysis/statistics/confidence.hpp"
 
 #include <fmt/format.h>
@@ -36,23 +35,23 @@ std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
   return scaled;
 }
 
-StandardError error_of(const WindowSums& windows, const FitData& data, Over over,
+StandardError error_of(const WindowSums& windows, const FitData& data, Population over,
                        const Dependence& how_dependent, const Bootstrap& bootstrap)
 {
-  if (over != Over::windows && over != Over::compositions) {
+  if (over != Population::windows && over != Population::compositions) {
     const auto influences = influences_of(windows);
     const auto column = column_of_estimator(&Estimators::minus_ln_s);
     return RunErrors(data, windows.weight_of_logarithms())
         .within_flows(influences.sums.col(column), influences.noise.col(column));
   }
   const auto& times =
-      over == Over::windows ? bootstrap.blocks(how_dependent.block) : bootstrap.whole_runs();
+      over == Population::windows ? bootstrap.blocks(how_dependent.block) : bootstrap.whole_runs();
   const Eigen::MatrixXd totals = windows.totals(times);
   Eigen::VectorXd samples(totals.rows());
   for (Eigen::Index k = 0; k < samples.size(); ++k)
     samples[k] = estimators_from_sums(totals.row(k)).minus_ln_s;
-  return over == Over::windows ? bootstrap.window_error(samples, how_dependent)
-                               : bootstrap.run_error(samples, how_dependent);
+  return over == Population::windows ? bootstrap.window_error(samples, how_dependent)
+                                     : bootstrap.run_error(samples, how_dependent);
 }
 
 /// Of all points together.
@@ -72,12 +71,12 @@ Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
 Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                        const Resampling& resampling)
 {
-  const bool equal = settings.over == Over::equal_flows,
-             random = settings.over == Over::random_flows;
+  const bool equal = settings.over == Population::equal_flows,
+             random = settings.over == Population::random_flows;
   if (data.number_of_flows() == 1 || (!equal && !random))
     return pooled_exponent(data, rule, settings, resampling).estimate();
   auto of_one = settings;
-  of_one.over = Over::automatic;
+  of_one.over = Population::automatic;
   std::vector<Measured> of_each;
   of_each.reserve(data.number_of_flows());
   for (const auto flow : std::set(data.flows.begin(), data.flows.end()))
@@ -117,7 +116,7 @@ std::string doubt_of_random(std::size_t flows)
 /// Makes the mean over flows the result. Whatever stands beside it is such a mean, too.
 void take_mean(RuleFit& all, const std::vector<RuleFit>& flows)
 {
-  const bool random = all.over == Over::random_flows;
+  const bool random = all.over == Population::random_flows;
   const auto error_of = [random](const MeanOfEquals& mean) {
     return random ? mean.by_scatter : mean.by_errors;
   };
@@ -142,7 +141,7 @@ void doubt_mean(RuleFit& all, const std::vector<RuleFit>& flows)
 {
   const auto single =
       std::count_if(flows.begin(), flows.end(), [](const RuleFit& fit) { return fit.runs == 1; });
-  all.doubt = all.over == Over::random_flows
+  all.doubt = all.over == Population::random_flows
                   ? doubt_of_random(flows.size())
                   : doubt_of_flows(all, static_cast<std::size_t>(single), flows.size());
 }
@@ -151,9 +150,9 @@ void doubt_mean(RuleFit& all, const std::vector<RuleFit>& flows)
 void combine(RuleFit& all, const std::vector<RuleFit>& flows)
 {
   const auto b = mean_of(flows, &Estimators::B);
-  all.at(Over::equal_flows) = b.by_errors.around(b.value);
-  all.at(Over::random_flows) = b.by_scatter.around(b.value);
-  if (all.over != Over::equal_flows && all.over != Over::random_flows) return;
+  all.at(Population::equal_flows) = b.by_errors.around(b.value);
+  all.at(Population::random_flows) = b.by_scatter.around(b.value);
+  if (all.over != Population::equal_flows && all.over != Population::random_flows) return;
   take_mean(all, flows);
   doubt_mean(all, flows);
 }
@@ -169,7 +168,7 @@ FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSett
   FlowFits fits{fit(data, settings), {}};
   if (data.number_of_flows() == 1) return fits;
   auto of_one = settings;
-  of_one.over = Over::automatic;
+  of_one.over = Population::automatic;
   for (const auto flow : std::set(data.flows.begin(), data.flows.end())) {
     fits.of_each.push_back(fit(of_flow(data, flow), of_one));
     fits.of_each.back().flow = flow;
@@ -217,7 +216,7 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
       auto of_pair =
           fit_flows(pairs.size() == 1 ? data : select_fit_data(tables, quantity, filters, {pair}),
                     rule, settings, resampling);
-      if (settings.over == Over::automatic)
+      if (settings.over == Population::automatic)
         fits.insert(fits.end(), of_pair.of_each.begin(), of_pair.of_each.end());
       fits.push_back(std::move(of_pair.all));
     }

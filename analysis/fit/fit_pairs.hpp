@@ -2,25 +2,14 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
-#include "analysis/fit/fit_points.hpp"
 #include "analysis/fit/rule_fit.hpp"
 #include "analysis/statistics/confidence.hpp"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace grseg {
-
-/// The exponent a of a partition of stress by a power of grain size,
-///   sigma^nu/sigma = phi^nu s_nu^a / sum over mu of phi^mu s_mu^a,   s: nominal diameter
-/// (Marks, Rognon & Einav 2012; Tunuguntla, Bokhove & Thornton 2014): 0 where stress goes by volume,
-/// 1, 2 or 3 where it goes with diameter, surface or volume of the single grain. For any two species
-/// ln(sigma^nu/sigma^mu) - ln(phi^nu/phi^mu) = a ln(s_nu/s_mu), and a is the weighted least-squares
-/// slope of this line through the origin over the samples of all pairs in `data`. Of two species it
-/// is B_mean/ln r, also over equal or random flows, where it is the mean of the flows'. Its
-/// interval is that of B_mean of the same data. NaN without points.
-Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                       const Resampling& resampling);
 
 /// How samples are drawn (Bootstrap).
 struct Resampling {
@@ -28,19 +17,29 @@ struct Resampling {
   unsigned long seed = 1;
 };
 
+/// The exponent a of a partition of stress by a power of grain size,
+///   sigma^nu/sigma = phi^nu s_nu^a / sum over mu of phi^mu s_mu^a,   s: nominal diameter
+/// (Marks, Rognon & Einav 2012; Tunuguntla, Bokhove & Thornton 2014): 0 where stress goes by volume,
+/// 1, 2 or 3 where it goes with diameter, surface or volume of the single grain. For any two species
+/// ln(sigma^nu/sigma^mu) - ln(phi^nu/phi^mu) = a ln(s_nu/s_mu), and a is the weighted least-squares
+/// slope of this line through the origin over the samples of all pairs in `data`. Of two species it
+/// is minus_ln_s/ln r (estimators.hpp), also over equal or random flows, where it is the mean of the
+/// flows'. Its interval is that of minus_ln_s of the same data. NaN without points.
+Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
+                       const Resampling& resampling);
+
 /// One rule for all flows together and for each of them; the latter is empty where there is one.
 struct FlowFits {
   RuleFit all;
   std::vector<RuleFit> of_each;
 };
 
-/// Fits data of one pair of species, with B_yy and B_pressure. A flow's interval is over its
-/// runs, of a single one over its windows, whatever the intervals of all are over.
+/// Fits data of one pair of species. A flow's interval is over its runs, of a single one over its
+/// windows, whatever the intervals of all are over.
 ///
 /// Over equal flows each number of all is the unweighted mean of those of the flows, whose
 /// errors add up (confidence.hpp); over random flows the same mean with the scatter of the
-/// flows' values, n - 1 degrees of freedom for n flows. Those of B_half and B_sums stand in
-/// RuleFit::at() and sums_at() always.
+/// flows' values, n - 1 degrees of freedom for n flows. B over each stands in RuleFit::at() always.
 FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                    const Resampling& resampling);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_report.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/core/text.hpp"
@@ -47,7 +48,7 @@ Header header_of(const FitReport& report)
   for (const auto& names : report.shared_runs)
     lines.emplace_back("one run", fmt::format("{}", fmt::join(names, " ")));
   for (const auto& [over, words] : estimands(report))
-    lines.emplace_back("estimand", fmt::format("{}: {}", word_of(over, overs), words));
+    lines.emplace_back("estimand", fmt::format("{}: {}", word_of(over, populations), words));
   for (const auto& doubt : doubts(report)) lines.emplace_back("doubt", doubt);
   return lines;
 }
@@ -56,7 +57,7 @@ Header header_of(const FitReport& report)
 /// flow.
 double phi_large_of(const FitReport& report, const RuleFit& fit)
 {
-  if (!fit.flow && report.flows.size() != 1) return Estimators::nan;
+  if (!fit.flow && report.flows.size() != 1) return no_number;
   return report.flows[fit.flow.value_or(0)].phi_large();
 }
 
@@ -102,7 +103,7 @@ class NumbersOf {
   void add_b()
   {
     add("B", {fit_.value.B, fit_.low.B, fit_.high.B}, fit_.over, fit_.degrees);
-    for (const auto& [word, population, meaning] : overs)
+    for (const auto& [word, population, meaning] : populations)
       if (population != fit_.over) add("B", fit_.at(population), population);
   }
   void add_measured(const char* quantity, const Measured& measured)
@@ -110,8 +111,8 @@ class NumbersOf {
     add(quantity, measured.estimate(), fit_.over, measured.error.degrees);
   }
   /// Nothing where there is no number.
-  void add(const std::string& quantity, const Estimate& number, Over over = Over::automatic,
-           double degrees = Estimators::nan)
+  void add(const std::string& quantity, const Estimate& number,
+           Population over = Population::automatic, double degrees = no_number)
   {
     if (!std::isfinite(number.value)) return;
     const bool has_interval = std::isfinite(number.low);
@@ -119,10 +120,10 @@ class NumbersOf {
                      .flow = flow_name(report_, fit_),
                      .pair = pair_name(report_, fit_),
                      .quantity = quantity,
-                     .over = has_interval ? word_of(over, overs) : "-",
+                     .over = has_interval ? word_of(over, populations) : "-",
                      .of_flow = fit_.flow,
                      .number = number,
-                     .degrees = has_interval ? degrees : Estimators::nan});
+                     .degrees = has_interval ? degrees : no_number});
   }
 
   const FitReport& report_;
@@ -243,18 +244,18 @@ std::string flow_name(const FitReport& report, const RuleFit& fit)
   return report.flows.size() == 1 ? report.flows.front().name : "all";
 }
 
-std::vector<std::pair<Over, std::string>> estimands(const FitReport& report)
+std::vector<std::pair<Population, std::string>> estimands(const FitReport& report)
 {
-  std::set<Over> used;
+  std::set<Population> used;
   for (const auto& fit : report.rules) {
     used.insert(fit.over);
-    for (const auto& [word, population, meaning] : overs)
+    for (const auto& [word, population, meaning] : populations)
       if (std::isfinite(fit.at(population).low)) used.insert(population);
   }
   if (report.scan) used = {report.scan->fits.front().over};
   const auto flows = static_cast<std::size_t>(
       std::count_if(report.shares.begin(), report.shares.end(), [](double s) { return s > 0; }));
-  std::vector<std::pair<Over, std::string>> words;
+  std::vector<std::pair<Population, std::string>> words;
   words.reserve(used.size());
   for (const auto over : used) words.emplace_back(over, estimand_words(over, flows));
   return words;
@@ -309,7 +310,7 @@ std::string to_json(const FitReport& report)
                             {"tables", tables_of(report, report.flows[m])}});
   if (!report.shared_runs.empty()) all["one_run"] = report.shared_runs;
   for (const auto& [over, words] : estimands(report))
-    all["estimands"][word_of(over, overs)] = words;
+    all["estimands"][word_of(over, populations)] = words;
   all["inputs"] = report.inputs;
   for (const auto& [key, value] : report.trust) all[key].push_back(value);
   all["history"] = Json::array();

@@ -5,6 +5,7 @@
 #include "analysis/fit/flows.hpp"
 #include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/rule_fit.hpp"
+#include "analysis/frames/sums.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -60,7 +61,7 @@ std::string flow_name(const FitReport& report, const RuleFit& fit);
 std::string share_words(const FitReport& report, std::size_t flow);
 
 /// What each kind of interval in the report is over, in words.
-std::vector<std::pair<Over, std::string>> estimands(const FitReport& report);
+std::vector<std::pair<Population, std::string>> estimands(const FitReport& report);
 
 /// Reasons why intervals may be too narrow, mostly none: those of the tables, one for each rule, one for
 /// the scan.
@@ -72,7 +73,7 @@ struct NumberRow {
   std::string rule, flow, pair, quantity, over;  // "-" where it is of all rules, or has no interval
   std::optional<std::size_t> of_flow;            // that it is of
   Estimate number;
-  double degrees = Estimators::nan;  // of freedom of the interval
+  double degrees = no_number;  // of freedom of the interval
 };
 
 /// All numbers, in the order of the table. Quantities of a rule: B, over each population that is known,

@@ -2,7 +2,6 @@
 #include "analysis/fit/line_over_share.hpp"
 
 #include "analysis/fit/estimators.hpp"
-#include "analysis/fit/run_errors.hpp"
 
 #include <cmath>
 
@@ -53,7 +52,7 @@ double zero_of_b(const FitData& data, const FitSettings& settings)
 // With E the sum over frames of psi_L - phi_L, a window adds its part of E over -dE/dp to p*, and its
 // part of dE/dp over sum f phi_L phi_S to dB/dp.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
-                              const Bootstrap& bootstrap, Over over)
+                              const Bootstrap& bootstrap, Population over)
 {
   if (data.quantity != Quantity::contact || data.species.size() > 2) return {};
   const double zero = zero_of_b(data, settings);
@@ -65,9 +64,9 @@ LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
   const auto how_dependent = dependence(at.value, data.runs, true);
   const RunErrors run_errors(data, weight);
   const auto error = [&](const Eigen::VectorXd& sums, const Eigen::VectorXd& noise) {
-    if (over == Over::windows)
+    if (over == Population::windows)
       return bootstrap.window_error(bootstrap.blocks(how_dependent.block) * noise, how_dependent);
-    if (over == Over::compositions)
+    if (over == Population::compositions)
       return bootstrap.run_error(bootstrap.whole_runs() * noise, how_dependent);
     return run_errors.within_flows(sums, noise);
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/fit/fit_points.hpp"
+#include "analysis/fit/fit_data.hpp"
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/confidence.hpp"
 
@@ -19,7 +19,7 @@ struct LineOverShare {
 /// The line of contact stress and two species, NaN of others; errors are over `over`, with windows as
 /// dependent as they are at p*.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
-                              const Bootstrap& bootstrap, Over over);
+                              const Bootstrap& bootstrap, Population over);
 
 /// The part of what B gains from p = 0 to 1 that it gains from p = 0 to `points`, those of some rule:
 /// the share of all mixed contacts that gives the same B.

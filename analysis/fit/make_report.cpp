@@ -74,8 +74,8 @@ po::options_description FitOptions::description()
       "also a of sigma^nu/sigma = phi^nu s^a/sum(phi s^a), s the diameters; of more than two "
       "species always");
   add("scan", text(scan, "p0:p1:dp"), "print B over the share p instead of the rules");
-  add("over", word_option(&over, words_of(overs)),
-      ("what intervals are over, in one row per rule: " + list_of(overs) +
+  add("over", word_option(&over, words_of(populations)),
+      ("what intervals are over, in one row per rule: " + list_of(populations) +
        " (default: windows of one run, runs of one flow; of several flows each over its runs, then "
        "all over flows)")
           .c_str());
@@ -110,7 +110,7 @@ void FitOptions::check(const po::variables_map& values)
   if (std::isnan(filters.begin) || std::isnan(filters.end))
     throw UsageError("--begin and --end are times in seconds");
   if (!(filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
-  if (!over.empty()) choose(over, "--over", overs);
+  if (!over.empty()) choose(over, "--over", populations);
   if (!fit.empty() && fit != fit_words[0]) throw UsageError(unknown_word("--fit", fit, fit_words));
   parse_rules(partition);
   check_heights(filters.heights);
@@ -149,25 +149,25 @@ std::vector<SpeciesPair> pairs_of(const FitOptions& s, const SpeciesList& specie
 void require_population(const FitOptions& s, const FitData& data)
 {
   if (s.over.empty()) return;
-  const auto over = choose(s.over, "--over", overs);
+  const auto over = choose(s.over, "--over", populations);
   const auto flows = data.number_of_flows();
-  if (over == Over::runs && flows > 1)
+  if (over == Population::runs && flows > 1)
     throw UsageError(
         fmt::format("--over runs: the tables hold runs of {} flows; without --over each has its "
                     "own interval, --over flows gives one number for all, and --flows tells "
                     "which tables belong together",
                     flows));
-  if ((over == Over::runs || over == Over::compositions) && data.runs.size() < 2)
+  if ((over == Population::runs || over == Population::compositions) && data.runs.size() < 2)
     throw UsageError(fmt::format(
         "--over {}: there is one run; give the tables of several, or --over windows", s.over));
-  const bool of_flows =
-      over == Over::flows || over == Over::equal_flows || over == Over::random_flows;
+  const bool of_flows = over == Population::flows || over == Population::equal_flows ||
+                        over == Population::random_flows;
   if (of_flows && flows < 2)
     throw UsageError(fmt::format(
         "--over {}: all tables are of one flow; leave the option out, or tell with --flows "
         "which tables belong together",
         s.over));
-  if (!s.scan.empty() && (over == Over::equal_flows || over == Over::random_flows))
+  if (!s.scan.empty() && (over == Population::equal_flows || over == Population::random_flows))
     throw UsageError(
         fmt::format("--scan: B(p) has no intervals over {}; choose --over flows or windows, or "
                     "scan each flow by itself",
@@ -177,7 +177,7 @@ void require_population(const FitOptions& s, const FitData& data)
 /// What the rows' intervals are over: "runs", or "runs, then flows" of flows one by one.
 std::string over_words(const FitReport& report)
 {
-  const auto of = [](const RuleFit& fit) { return std::string(word_of(fit.over, overs)); };
+  const auto of = [](const RuleFit& fit) { return std::string(word_of(fit.over, populations)); };
   const auto& rows = report.scan ? report.scan->fits : report.rules;
   return rows.front().flow ? of(rows.front()) + ", then " + of(rows.back()) : of(rows.back());
 }
@@ -224,8 +224,9 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   FitReport report;
   report.quantity = choose(s.quantity, "--quantity", quantities);
   report.component = choose(s.component, "--component", components);
-  const FitSettings settings{report.component, choose(base, "--base-part", base_parts),
-                             s.over.empty() ? Over::automatic : choose(s.over, "--over", overs)};
+  const FitSettings settings{
+      report.component, choose(base, "--base-part", base_parts),
+      s.over.empty() ? Population::automatic : choose(s.over, "--over", populations)};
   const auto rules = rules_of(s, tables[0]);
   auto read = rules;
   if (!s.scan.empty()) read.push_back({PartitionRule::Kind::uniform});

@@ -5,36 +5,36 @@
 
 namespace grseg {
 
-Over resolved(Over over, std::size_t runs, std::size_t flows)
+Population resolved(Population over, std::size_t runs, std::size_t flows)
 {
-  if (over == Over::compositions && runs < 2) return Over::windows;
-  if (over != Over::automatic) return over;
-  if (flows > 1) return Over::flows;
-  return runs > 1 ? Over::runs : Over::windows;
+  if (over == Population::compositions && runs < 2) return Population::windows;
+  if (over != Population::automatic) return over;
+  if (flows > 1) return Population::flows;
+  return runs > 1 ? Population::runs : Population::windows;
 }
 
-std::string estimand_words(Over over, std::size_t flows)
+std::string estimand_words(Population over, std::size_t flows)
 {
   const std::string within = "over all their runs; from the scatter of runs within flows";
   const std::string weighted = "weighted as they are (by frames x phi_L phi_S), ";
   switch (over) {
-    case Over::automatic:
+    case Population::automatic:
       break;
-    case Over::windows:
+    case Population::windows:
       return "B of these very runs, had they lasted longer; from the scatter of windows inside runs: "
              "how other runs would differ is not in it";
-    case Over::runs:
+    case Population::runs:
       return "B of one flow, over all its runs; from the scatter of runs";
-    case Over::flows:
+    case Population::flows:
       return fmt::format("B of these {} flows, {}{}", flows, weighted, within);
-    case Over::equal_flows:
+    case Population::equal_flows:
       return fmt::format("mean B of these {} flows, each counting the same, {}", flows, within);
-    case Over::random_flows:
+    case Population::random_flows:
       return fmt::format(
           "mean B of all flows of which these {} are a random sample, each counting the same; "
           "from the scatter between flows. Flows that were chosen are not a sample of that kind",
           flows);
-    case Over::compositions:
+    case Population::compositions:
       return fmt::format(
           "B of these layers' compositions, {}if B is one function of composition "
           "for all runs; from the scatter of runs about its regression on ln(phi_S/phi_L) and phi_L, "

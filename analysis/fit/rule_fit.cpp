@@ -2,7 +2,7 @@
 #include "analysis/fit/rule_fit.hpp"
 
 #include "analysis/fit/estimators.hpp"
-#include "analysis/fit/run_errors.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>
@@ -16,8 +16,7 @@ namespace {
 /// Removes what has no meaning where the partial stresses do not add up.
 void remove_b(RuleFit& fit)
 {
-  for (auto* all : {&fit.value, &fit.low, &fit.high, &fit.error})
-    all->B = all->paper_B = Estimators::nan;
+  for (auto* all : {&fit.value, &fit.low, &fit.high, &fit.error}) all->B = all->paper_B = no_number;
   fit.B_over.fill({});
 }
 
@@ -63,14 +62,15 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
         (is_b ? of_b : of_logarithms)
             .within_flows(influences.sums.col(column), influences.noise.col(column));
     set_error(fit, place,
-              fit.over == Over::windows        ? over_windows
-              : fit.over == Over::compositions ? about_one_function
-                                               : within);
+              fit.over == Population::windows        ? over_windows
+              : fit.over == Population::compositions ? about_one_function
+                                                     : within);
     if (!is_b) continue;
-    fit.at(Over::windows) = over_windows.around(fit.value.B);
+    fit.at(Population::windows) = over_windows.around(fit.value.B);
     if (fit.runs < 2) continue;
-    fit.at(Over::compositions) = about_one_function.around(fit.value.B);
-    fit.at(data.number_of_flows() > 1 ? Over::flows : Over::runs) = within.around(fit.value.B);
+    fit.at(Population::compositions) = about_one_function.around(fit.value.B);
+    fit.at(data.number_of_flows() > 1 ? Population::flows : Population::runs) =
+        within.around(fit.value.B);
   }
 }
 
@@ -78,13 +78,13 @@ StandardError error_of_minus_size(const RuleFit& fit, const FitData& data,
                                   const WindowSums& windows, const WindowSums& by_size,
                                   const Bootstrap& bootstrap)
 {
-  if (fit.over == Over::windows || fit.over == Over::compositions) {
-    const auto& times =
-        fit.over == Over::windows ? bootstrap.blocks(fit.dependence.block) : bootstrap.whole_runs();
+  if (fit.over == Population::windows || fit.over == Population::compositions) {
+    const auto& times = fit.over == Population::windows ? bootstrap.blocks(fit.dependence.block)
+                                                        : bootstrap.whole_runs();
     const Eigen::VectorXd samples = column_of(replicate(times, windows), &Estimators::B) -
                                     column_of(replicate(times, by_size), &Estimators::B);
-    return fit.over == Over::windows ? bootstrap.window_error(samples, fit.dependence)
-                                     : bootstrap.run_error(samples, fit.dependence);
+    return fit.over == Population::windows ? bootstrap.window_error(samples, fit.dependence)
+                                           : bootstrap.run_error(samples, fit.dependence);
   }
   const auto column = column_of_estimator(&Estimators::B);
   const auto own = influences_of(windows), others = influences_of(by_size);
@@ -127,11 +127,11 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
     return fmt::format("in none of {} layers and windows does either species bear a stress",
                        fit.points);
   if (bootstrap.count() == 0) return {};
-  if (fit.over == Over::windows) return bootstrap.doubt_of_windows(fit.dependence);
+  if (fit.over == Population::windows) return bootstrap.doubt_of_windows(fit.dependence);
   const auto flows = data.number_of_flows();
   if (flows == 1) return bootstrap.doubt_of_runs(fit.dependence);
   const RunErrors errors(data, windows.weight());
-  if (fit.over == Over::compositions) {
+  if (fit.over == Population::compositions) {
     const auto column = column_of_estimator(&Estimators::B);
     const double chance = errors.chance_of_likeness(influences_of(windows).noise.col(column),
                                                     degrees_taken_by_composition(data));

@@ -3,6 +3,7 @@
 
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/line_over_share.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/confidence.hpp"
 
@@ -16,19 +17,22 @@ namespace grseg {
 /// only where there is no third one.
 struct RuleFit {
   PartitionRule rule;
-  std::size_t points = 0;           // layers and windows
-  double share = Estimators::nan;   // the p that gives this B (line_over_share.hpp); drop: NaN
-  Over over = Over::windows;        // what the intervals of 95 % are over
-  std::optional<std::size_t> flow;  // number of the one that the fit is of; none: of all
+  std::size_t points = 0;    // layers and windows
+  double share = no_number;  // the p that gives this B (line_over_share.hpp); drop: NaN
+  Population over = Population::windows;  // what the intervals of 95 % are over
+  std::optional<std::size_t> flow;        // number of the one that the fit is of; none: of all
   std::size_t runs = 0;
   Estimators value, low, high, error;
-  double degrees = Estimators::nan;  // of freedom of the interval of B
+  double degrees = no_number;  // of freedom of the interval of B
   // B over each population, as far as it is known: see at().
-  std::array<Estimate, std::size(overs) + 1> B_over = {};
-  Estimate& at(Over population) { return B_over[static_cast<std::size_t>(population)]; }
-  const Estimate& at(Over population) const { return B_over[static_cast<std::size_t>(population)]; }
+  std::array<Estimate, std::size(populations) + 1> B_over = {};
+  Estimate& at(Population population) { return B_over[static_cast<std::size_t>(population)]; }
+  const Estimate& at(Population population) const
+  {
+    return B_over[static_cast<std::size_t>(population)];
+  }
   LineOverShare line = {};  // whatever the fit's rule
-  double neutral = Estimators::nan;
+  double neutral = no_number;
   Measured minus_size = {};  // B less that of rule size, same samples
   Dependence dependence;
   std::string doubt;  // a sentence on the intervals, mostly empty

@@ -119,7 +119,7 @@ std::string populations_text(const FitReport& report)
   std::string text;
   std::vector<Line> lines;
   for (const auto& fit : report.rules)
-    for (const auto& [word, population, meaning] : overs) {
+    for (const auto& [word, population, meaning] : populations) {
       const auto& b = fit.at(population);
       if (report.shares.size() < 2 || fit.flow || !std::isfinite(b.value)) continue;
       lines.push_back({row_name(report, fit), b_text(report, b), word});
@@ -132,7 +132,7 @@ std::string populations_text(const FitReport& report)
   if (!words.empty() && !report.flows.empty()) text += '\n';
   if (!report.flows.empty())
     for (const auto& [over, sentence] : words)
-      text += wrapped(fmt::format("over {}: {}", word_of(over, overs), sentence));
+      text += wrapped(fmt::format("over {}: {}", word_of(over, populations), sentence));
   if (report.flows.size() < 2) return text;
   text += '\n';
   for (std::size_t m = 0; m < report.flows.size(); ++m)

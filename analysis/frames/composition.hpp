@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/cells.hpp"
 #include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/layers.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
 #include <cassert>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -54,11 +53,9 @@ class Composition {
 
 /// Heights of the bed, m; NaN where they are not known.
 struct BedHeights {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
   // y_L, y_S: centres of mass of the species, where there are two.
-  double large = unknown, small = unknown;
-  double bed = unknown;  // twice the mean height of the mobile grains' area or volume
+  double large = no_number, small = no_number;
+  double bed = no_number;  // twice the mean height of the mobile grains' area or volume
 };
 
 /// Those of one frame; NaN for a species without mobile grains.

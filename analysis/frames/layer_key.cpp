@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_key.hpp"
 
-#include "analysis/statistics/median_of_positive.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_statistics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,10 +37,7 @@ HeightRange between(const std::string& text, LengthUnits units)
 
 HeightRange inside_of(const std::vector<LayerSolid>& layers, double small_diameter)
 {
-  std::vector<double> solid;
-  solid.reserve(layers.size());
-  for (const auto& layer : layers) solid.push_back(layer.solid);
-  const double median = median_of_positive(std::move(solid));
+  const double median = median_solid(layers);
   struct Mean {
     double top = 0, frames = 0, solid = 0;
   };
@@ -62,6 +59,14 @@ HeightRange inside_of(const std::vector<LayerSolid>& layers, double small_diamet
 }
 
 }  // namespace
+
+double median_solid(const std::vector<LayerSolid>& layers)
+{
+  std::vector<double> solid;
+  for (const auto& layer : layers)
+    if (layer.solid > 0) solid.push_back(layer.solid);
+  return solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
+}
 
 std::string heights_in_words(const std::string& text)
 {

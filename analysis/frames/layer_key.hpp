@@ -27,6 +27,9 @@ struct LayerSolid {
   double solid = 0;            // area, volume or mass of its grains over its own
 };
 
+/// The median solid fraction of the layers that are not empty; 0 where there are none.
+double median_solid(const std::vector<LayerSolid>& layers);
+
 /// The word, which is the default of every tool that puts layers together.
 inline constexpr const char* inside_the_bed = "inside";
 /// For --help: what the option may be.

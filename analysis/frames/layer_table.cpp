@@ -114,6 +114,18 @@ SpeciesList species_of(const Table& table)
       table.name, table.header_text("species")));
 }
 
+Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
+                     const std::string& preset, const std::string& command)
+{
+  Header header{program_line(info)};
+  if (!info.presets.empty()) header.emplace_back("preset", preset);
+  for (const auto& line : header_values(tables, "history")) header.emplace_back("history", line);
+  header.emplace_back("history", command);
+  for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
+  for (auto& line : trust_of(tables)) header.push_back(std::move(line));
+  return header;
+}
+
 void refuse_map(const Table& table)
 {
   const auto bins = header_or(table, "bins", "");

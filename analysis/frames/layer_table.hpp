@@ -2,7 +2,9 @@
 #pragma once
 
 #include "analysis/frames/layer_key.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/cli/tool.hpp"
 #include "formats/core/species.hpp"
 
 #include <cstddef>
@@ -19,6 +21,10 @@ int dimension_of(const Table& table);
 /// the diameters of the header. FormatError where they are not to be understood.
 SpeciesList species_of(const Table& table);
 
+/// The first lines of a table that a tool makes of others (provenance.hpp): program, preset where the
+/// tool has them, history of all with `command` as its last line, inputs, and what was verified.
+Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
+                     const std::string& preset, const std::string& command);
 /// FormatError where a table is a map, whose rows are not of layers.
 void refuse_map(const Table& table);
 

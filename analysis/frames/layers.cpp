@@ -44,8 +44,8 @@ double sphere_volume_below(double radius, double height)
   return std::numbers::pi / 3 * (radius + d) * (radius + d) * (2 * radius - d);
 }
 
-Layers::Layers(double thickness, double length, std::optional<double> width)
-    : thickness_(thickness), length_(length), width_(width)
+Layers::Layers(double thickness, double length, std::optional<double> width, Kind kind)
+    : thickness_(thickness), length_(length), width_(width), kind_(std::move(kind))
 {
   if (!(thickness > 0) || !std::isfinite(thickness))
     throw UsageError(fmt::format("a layer of {:g} m has no thickness; give e.g. 4dS", thickness));
@@ -58,40 +58,34 @@ Layers::Layers(double thickness, double length, std::optional<double> width)
 Layers Layers::annuli(double thickness, double length, const Vec2& axis,
                       std::optional<double> width)
 {
-  Layers layers(thickness, length, width);
-  layers.axis_ = axis;
-  return layers;
+  return {thickness, length, width, Annuli{axis}};
 }
 
 Layers Layers::map(const MapGrid& cells, double length, std::optional<double> width)
 {
-  Layers layers(cells.thickness(), length, width);
-  layers.axis_ = cells.axis();
-  layers.map_ = cells;
-  return layers;
+  return {cells.thickness(), length, width, cells};
 }
 
 Layers Layers::with_thickness(double thickness) const
 {
-  Layers layers(thickness, length_, width_);
-  layers.axis_ = axis_;
-  return layers;
+  return {thickness, length_, width_, kind_};
 }
 
 double Layers::volume(std::size_t layer) const
 {
-  if (map_) return map_->volume(layer);
+  if (const auto* cells = map()) return cells->volume(layer);
   const double n = static_cast<double>(layer);
   const double area =
-      axis_ ? std::numbers::pi * thickness_ * thickness_ * (2 * n + 1) : thickness_ * length_;
+      axis() ? std::numbers::pi * thickness_ * thickness_ * (2 * n + 1) : thickness_ * length_;
   return width_ ? area * *width_ : area;
 }
 
 template <int D>
 Vector<D> Layers::turned(const Vector<D>& vector, const Vector<D>& position) const
 {
-  if (!axis_) return vector;
-  const Vec2 arm = position.template head<2>() - *axis_, of = vector.template head<2>();
+  const Vec2* about = axis();
+  if (!about) return vector;
+  const Vec2 arm = position.template head<2>() - *about, of = vector.template head<2>();
   const double distance = arm.norm();
   const Vec2 outward = distance > 0 ? Vec2(arm / distance) : Vec2(0, 1);
   Vector<D> result = vector;
@@ -106,7 +100,7 @@ template Vec3 Layers::turned(const Vec3&, const Vec3&) const;
 template <int D>
 std::size_t Layers::count(const Grains& grains, const Frame<D>& frame) const
 {
-  if (map_) return map_->cells();
+  if (const auto* cells = map()) return cells->cells();
   double highest = 0;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, frame, g))
@@ -115,7 +109,7 @@ std::size_t Layers::count(const Grains& grains, const Frame<D>& frame) const
     throw RunError(
         fmt::format("at t = {:.6g} s a grain is {:.3g} m {}, more than {:g} layers; is "
                     "it lost, or are the layers too thin?",
-                    frame.time, highest, axis_ ? "from the axis" : "above the base", most_layers));
+                    frame.time, highest, axis() ? "from the axis" : "above the base", most_layers));
   const std::size_t n = at(highest);
   return highest > bottom(n) ? n + 1 : std::max<std::size_t>(n, 1);
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
+#include <variant>
 
 namespace grseg {
 
@@ -22,9 +24,9 @@ double disc_area_within(double radius, double distance, double limit);
 double sphere_volume_below(double radius, double height);
 
 /// Layers parallel to the base: layer n is [n h, (n+1) h), of volume V = Lx h in two dimensions and
-/// Lx Lz h in three. The first also takes
-/// all that is below y = 0, and the last all that is above it. There are as many as the highest
-/// mobile grain reaches; the last one keeps its full thickness and volume.
+/// Lx Lz h in three. The first also takes all that is below y = 0, and the last all that is above it.
+/// There are as many as the highest mobile grain reaches; the last one keeps its full thickness and
+/// volume.
 ///
 /// Or annuli about an axis along z, as a drum asks for: y is then the distance from the axis,
 /// outward, and x goes round it clockwise, so that (x, y) is right-handed as over a base. Annulus n
@@ -36,7 +38,10 @@ class Layers {
  public:
   /// Thickness h, and length Lx and, in three dimensions, width Lz of the cell, m. UsageError unless
   /// they are positive.
-  Layers(double thickness, double length, std::optional<double> width = std::nullopt);
+  Layers(double thickness, double length, std::optional<double> width = std::nullopt)
+      : Layers(thickness, length, width, Parallel{})
+  {
+  }
   /// `axis`: its x and y.
   static Layers annuli(double thickness, double length, const Vec2& axis,
                        std::optional<double> width = std::nullopt);
@@ -44,8 +49,10 @@ class Layers {
   /// The same with another thickness; not of a map.
   Layers with_thickness(double thickness) const;
 
-  const std::optional<Vec2>& axis() const { return axis_; }  // of annuli and of rz
-  const std::optional<MapGrid>& map() const { return map_; }
+  /// x and y of the axis of annuli and of a map in the plane rz; else null.
+  const Vec2* axis() const;
+  /// The cells of a map; else null.
+  const MapGrid* map() const { return std::get_if<MapGrid>(&kind_); }
   double thickness() const { return thickness_; }
   double volume(std::size_t layer) const;                        // m^2 or m^3
   double length() const { return length_; }                      // m
@@ -60,7 +67,8 @@ class Layers {
   template <int D>
   double height(const Vector<D>& position) const
   {
-    return axis_ ? Vec2(position.template head<2>() - *axis_).norm() : position.y();
+    const Vec2* about = axis();
+    return about ? Vec2(position.template head<2>() - *about).norm() : position.y();
   }
   /// Components along and across the layer of a vector at `position`; that along z stays.
   template <int D>
@@ -81,14 +89,15 @@ class Layers {
   template <int D>
   std::size_t holding(const Vector<D>& position, double y) const
   {
-    if (map_) [[unlikely]]
-      return map_->at<D>(position);
+    if (const auto* cells = map()) [[unlikely]]
+      return cells->at<D>(position);
     return at(y);
   }
   /// Height over the bottom of a layer or cell, m.
   double above_bottom(double y, std::size_t layer) const
   {
-    return y - (map_ ? map_->bottom(layer) : bottom(layer));
+    const auto* cells = map();
+    return y - (cells ? cells->bottom(layer) : bottom(layer));
   }
   /// Layers up to the top of the highest mobile grain, at least 1. RunError where that would be
   /// more than a bed can have, which means that a grain is lost. Of a map all cells.
@@ -112,15 +121,30 @@ class Layers {
   double part_below_top(std::size_t layer, double y, double radius) const
   {
     if constexpr (D == 3) return sphere_volume_below(radius, top(layer) - y);
-    return axis_ ? disc_area_within(radius, y, top(layer))
-                 : disc_area_below(radius, top(layer) - y);
+    return axis() ? disc_area_within(radius, y, top(layer))
+                  : disc_area_below(radius, top(layer) - y);
   }
+
+  struct Parallel {};
+  struct Annuli {
+    Vec2 axis;
+  };
+  using Kind = std::variant<Parallel, Annuli, MapGrid>;
+  Layers(double thickness, double length, std::optional<double> width, Kind kind);
 
   double thickness_, length_;
   std::optional<double> width_;
-  std::optional<Vec2> axis_;
-  std::optional<MapGrid> map_;
+  Kind kind_;
 };
+
+inline const Vec2* Layers::axis() const
+{
+  if (std::holds_alternative<Parallel>(kind_)) [[likely]]
+    return nullptr;
+  if (const auto* annuli = std::get_if<Annuli>(&kind_)) return &annuli->axis;
+  const auto& of_map = map()->axis();
+  return of_map ? &*of_map : nullptr;
+}
 
 inline std::size_t Layers::at(double y) const
 {

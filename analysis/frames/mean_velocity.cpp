@@ -5,10 +5,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace grseg {
+
+template <int D>
+void LayerFlowSums::add(double grain_mass, double above_bottom, const Vector<D>& velocity)
+{
+  mass += grain_mass;
+  my += grain_mass * above_bottom;
+  myy += grain_mass * above_bottom * above_bottom;
+  mu += grain_mass * velocity.x();
+  mv += grain_mass * velocity.y();
+  muy += grain_mass * velocity.x() * above_bottom;
+}
+
+template void LayerFlowSums::add(double, double, const Vec2&);
+template void LayerFlowSums::add(double, double, const Vec3&);
+
+LayerFlow LayerFlowSums::mean(double thickness) const
+{
+  if (!(mass > 0)) return {no_number, no_number, no_number};
+  const double y = my / mass, u = mu / mass;
+  const double variance = myy / mass - y * y;
+  const double covariance = muy / mass - y * u;
+  const double resolved = 1e-12 * thickness * thickness;
+  return {u, mv / mass, variance > resolved ? covariance / variance : no_number};
+}
 
 template <int D>
 MeanVelocity<D>::MeanVelocity(const Layers& layers, double bin, std::size_t species)
@@ -34,29 +57,6 @@ void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
     if (profile) of_bin_[bins_.at(y)].add(1, y, mass, own.momentum / mass);
     of_layer_[layers_.holding<D>(position, y)][static_cast<std::size_t>(grains.species[g])] += own;
   }
-}
-
-template <int D>
-typename MeanVelocity<D>::Sum& MeanVelocity<D>::Sum::operator+=(const Sum& other)
-{
-  mass += other.mass;
-  momentum += other.momentum;
-  return *this;
-}
-
-template <int D>
-typename MeanVelocity<D>::BinSum& MeanVelocity<D>::BinSum::operator+=(const BinSum& other)
-{
-  motion += other.motion;
-  moment += other.moment;
-  grains += other.grains;
-  squares += other.squares;
-  squares_y += other.squares_y;
-  squares_yy += other.squares_yy;
-  weighted += other.weighted;
-  weighted_y += other.weighted_y;
-  product += other.product;
-  return *this;
 }
 
 /// Adds a grain, or takes it away with the sign -1.
@@ -140,7 +140,7 @@ template <int D>
 Motion<D> MeanVelocity<D>::on_profile(double y) const
 {
   const std::size_t n = profile_.size();
-  if (n == 0) return Motion<D>::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (n == 0) return Motion<D>::Constant(no_number);
   if (n == 1) return profile_[0].motion;
   const auto line = [y](const Point& a, const Point& b) -> Motion<D> {
     return a.motion + (b.motion - a.motion) * ((y - a.y) / (b.y - a.y));
@@ -200,14 +200,6 @@ std::optional<MotionOfOthers<D>> MeanVelocity<D>::on_profile_of_others(
 }
 
 template <int D>
-MotionProduct<D>& MotionProduct<D>::operator+=(const MotionProduct& other)
-{
-  velocities += other.velocities;
-  spins += other.spins;
-  return *this;
-}
-
-template <int D>
 MotionProduct<D> symmetric_product(double weight, const Motion<D>& a, const Motion<D>& b)
 {
   const Vector<D> u = a.template head<D>(), v = b.template head<D>();
@@ -216,8 +208,6 @@ MotionProduct<D> symmetric_product(double weight, const Motion<D>& a, const Moti
           weight * a.tail(spins).dot(b.tail(spins))};
 }
 
-template struct MotionProduct<2>;
-template struct MotionProduct<3>;
 template MotionProduct<2> symmetric_product<2>(double, const Motion<2>&, const Motion<2>&);
 template MotionProduct<3> symmetric_product<3>(double, const Motion<3>&, const Motion<3>&);
 template class MeanVelocity<2>;

@@ -2,14 +2,37 @@
 #pragma once
 
 #include "analysis/frames/layers.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 
 #include <cstddef>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace grseg {
+
+/// Mean flow of the mobile grains in one layer, weighted by mass; NaN where there are none.
+struct LayerFlow {
+  double u,
+      v;  // m/s, along and across the layer: down-slope and along y, in annuli round and outward
+  double du_dy;  // 1/s, slope of the least-squares line u(y); NaN for less than two heights. In
+                 // annuli no shear rate: a body that turns as a whole has du_dy = u/y
+};
+
+/// The sums it is made of. Heights are counted from the layer's bottom, so that little cancels.
+struct LayerFlowSums {
+  double mass = 0, my = 0, myy = 0, mu = 0, mv = 0, muy = 0;
+
+  template <int D>
+  void add(double grain_mass, double above_bottom, const Vector<D>& velocity);
+  static constexpr auto members =
+      std::tuple(&LayerFlowSums::mass, &LayerFlowSums::my, &LayerFlowSums::myy, &LayerFlowSums::mu,
+                 &LayerFlowSums::mv, &LayerFlowSums::muy);
+  /// Heights that differ by less than a millionth of `thickness` (m) are the same.
+  LayerFlow mean(double thickness) const;
+};
 
 /// About which mean velocity fluctuations are counted. The paper does not say.
 enum class MeanFlow {
@@ -63,7 +86,7 @@ struct MotionProduct {
   Tensor<D> velocities = Tensor<D>::Zero();
   double spins = 0;
 
-  MotionProduct& operator+=(const MotionProduct& other);
+  static constexpr auto members = std::tuple(&MotionProduct::velocities, &MotionProduct::spins);
 };
 /// The symmetric part of a (x) b, times a weight.
 template <int D>
@@ -118,7 +141,7 @@ class MeanVelocity {
   struct Sum {
     double mass = 0;  // kg
     Motion<D> momentum = Motion<D>::Zero();
-    Sum& operator+=(const Sum& other);
+    static constexpr auto members = std::tuple(&Sum::mass, &Sum::momentum);
   };
   static Motion<D> mean(const std::vector<Sum>& of_species);
   struct BinSum {
@@ -129,7 +152,9 @@ class MeanVelocity {
     double squares = 0, squares_y = 0, squares_yy = 0;
     Motion<D> weighted = Motion<D>::Zero(), weighted_y = Motion<D>::Zero();
     MotionProduct<D> product;
-    BinSum& operator+=(const BinSum& other);
+    static constexpr auto members = std::tuple(
+        &BinSum::motion, &BinSum::moment, &BinSum::grains, &BinSum::squares, &BinSum::squares_y,
+        &BinSum::squares_yy, &BinSum::weighted, &BinSum::weighted_y, &BinSum::product);
     BinSum& add(double sign, double y, double mass, const Motion<D>& motion);
     double height() const { return moment / motion.mass; }
     Motion<D> velocity() const { return motion.momentum / motion.mass; }

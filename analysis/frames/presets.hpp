@@ -20,6 +20,8 @@ inline constexpr PresetOption kinetic[] = {
 };
 inline constexpr PresetOption micro[] = {
     {"composition", "clipped", "clipped"},
+};
+inline constexpr PresetOption derive[] = {
     {"force", "modulus", "normal"},  // with f_n, over ends, Pi is the pressure of each species
     {"average", "contacts", "ends"},
     {"partition", "uniform:0.66667", "size"},

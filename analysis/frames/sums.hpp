@@ -3,27 +3,71 @@
 
 #include <cstddef>
 #include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace grseg {
+
+/// Stands in tables for what is not known or has no meaning.
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// a/b, or NaN unless b > 0: a mean over nothing is not known.
 inline double ratio(double a, double b)
 {
-  return b > 0 ? a / b : std::numeric_limits<double>::quiet_NaN();
+  return b > 0 ? a / b : no_number;
 }
 
-/// Adds sums to sums, place by place: numbers and whatever has +=, arrays and vectors of them. A
-/// vector of layers grows to the length of the other.
+/// Adds sums to sums, place by place: structs that list their `members`, numbers and whatever has +=,
+/// arrays and vectors of them. A vector of layers grows to the length of the other.
 template <class Sums>
 void accumulate(Sums& sums, const Sums& others)
 {
-  if constexpr (requires { sums += others; }) {
+  if constexpr (requires { Sums::members; }) {
+    std::apply([&](auto... member) { (accumulate(sums.*member, others.*member), ...); },
+               Sums::members);
+  } else if constexpr (requires { sums += others; }) {
     sums += others;
   } else {
     if constexpr (requires { sums.resize(others.size()); })
       if (sums.size() < others.size()) sums.resize(others.size());
     for (std::size_t k = 0; k < others.size(); ++k) accumulate(sums[k], others[k]);
   }
+}
+
+/// The same of structs that list their members.
+template <class Sums>
+requires requires
+{
+  Sums::members;
+}
+Sums& operator+=(Sums& sums, const Sums& others)
+{
+  accumulate(sums, others);
+  return sums;
+}
+
+/// One number of a table's row with the name and unit of its column, "f_S[N]". Tables list their
+/// cells once and take both the line of column names and the rows from that list.
+struct Cell {
+  std::string column;
+  double value;
+};
+
+inline std::vector<std::string> columns_of(const std::vector<Cell>& cells)
+{
+  std::vector<std::string> columns;
+  columns.reserve(cells.size());
+  for (const auto& cell : cells) columns.push_back(cell.column);
+  return columns;
+}
+
+inline std::vector<double> values_of(const std::vector<Cell>& cells)
+{
+  std::vector<double> values;
+  values.reserve(cells.size());
+  for (const auto& cell : cells) values.push_back(cell.value);
+  return values;
 }
 
 }  // namespace grseg

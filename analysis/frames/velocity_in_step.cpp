@@ -4,6 +4,8 @@
 #include "analysis/frames/contacts.hpp"
 #include "formats/core/errors.hpp"
 
+#include <fmt/format.h>
+
 namespace grseg {
 
 template <int D>
@@ -26,5 +28,16 @@ void to_middle_of_step(const Grains& grains, double step, bool turning, Frame<D>
 
 template void to_middle_of_step(const Grains&, double, bool, Frame<2>&);
 template void to_middle_of_step(const Grains&, double, bool, Frame<3>&);
+
+std::string velocity_line(const TrajectoryReader& run, const std::string& word, bool chosen)
+{
+  if (run.parameters().text("import_format").empty()) return word;
+  if (chosen)
+    throw UsageError(fmt::format(
+        "--velocity {}: {} was imported, so that a frame is an instant, not a step, and has one "
+        "velocity; leave --velocity out",
+        word, run.path()));
+  return "instant";
+}
 
 }  // namespace grseg

@@ -3,6 +3,9 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
+#include "formats/trajectory/reader.hpp"
+
+#include <string>
 
 namespace grseg {
 
@@ -22,5 +25,27 @@ inline constexpr Choice<VelocityInStep> velocities_in_step[] = {
 /// after, at e = 1 no velocity at all. FormatError where the frame has no forces of grains.
 template <int D>
 void to_middle_of_step(const Grains& grains, double step, bool turning, Frame<D>& frame);
+
+/// What the header of a table says of --velocity: the word, or "instant" of an imported run, whose frames
+/// have one velocity. UsageError where one was chosen of such a run.
+std::string velocity_line(const TrajectoryReader& run, const std::string& word, bool chosen);
+
+/// Sums over frames with the velocities of one kind, made of those that frames hold.
+template <int D, class Sums>
+struct AtVelocity {
+  Sums sums;
+  VelocityInStep which;
+  double step;  // s
+  bool turning;
+
+  void add(const Grains& grains, const Frame<D>& frame)
+  {
+    if (which == VelocityInStep::after) return sums.add(grains, frame);
+    Frame<D> middle = frame;
+    to_middle_of_step(grains, step_of_force(frame, step), turning, middle);
+    sums.add(grains, middle);
+  }
+  void merge(const AtVelocity& others) { sums.merge(others.sums); }
+};
 
 }  // namespace grseg

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace grseg {
@@ -34,8 +33,7 @@ template PressureEstimate estimate_pressure(const StructureSums<3>&, const Force
 double partition_slope(double stress_small, double stress_large, double phi_large)
 {
   const double phi_small = 1 - phi_large;
-  if (!(phi_large > 0 && phi_small > 0 && stress_large > 0))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (!(phi_large > 0 && phi_small > 0 && stress_large > 0)) return no_number;
   return stress_small * phi_large / (stress_large * phi_small);
 }
 
@@ -46,7 +44,6 @@ double local_b(double slope, double phi_large)
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double pi = std::numbers::pi;
 
 /// A row of derived quantities in the making and what it is derived from.
@@ -136,7 +133,7 @@ void add_forces(Derivation<D>& to)
     const double f = to.sums().mean_force(species, to.settings.measure);
     const double below = depth - height_of(to, species);
     const double pressure =
-        below > 0 ? -run.mean_density * run.gravity_y * below * perimeter<D>(d) : nan;
+        below > 0 ? -run.mean_density * run.gravity_y * below * perimeter<D>(d) : no_number;
     const double neutral =
         pi * perimeter<D>(small ? 1 : to.size_ratio()) / to.sums().coordination(species);
     const char* name = small ? "S" : "L";
@@ -219,9 +216,9 @@ template <int D>
 PrincipalStress<D> no_stress()
 {
   if constexpr (D == 2)
-    return {0, 0, nan};
+    return {0, 0, no_number};
   else
-    return {0, 0, nan, Vec3::Constant(nan)};
+    return {0, 0, no_number, Vec3::Constant(no_number)};
 }
 
 /// How large a pair type's anisotropies are and where they point.
@@ -271,7 +268,8 @@ void add_fabric(Derivation<D>& to)
     const auto a = anisotropy(pair.fabric, pair.contacts, pair.normal);
     add_anisotropy(to.cells, name, a, pair.contacts > 0 ? principal_stress(pair.stress) : none);
     to.add(fmt::format("rothenburg_{}", name), a.rothenburg());
-    to.add(fmt::format("rothenburg_full_{}", name), std::isnan(a.a_n) ? nan : a.stress_ratio());
+    to.add(fmt::format("rothenburg_full_{}", name),
+           std::isnan(a.a_n) ? no_number : a.stress_ratio());
   };
   for (std::size_t type = 0; type < pair_types; ++type)
     add(pair_type_names[type], to.sums().pair[type]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/cells.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/micro/structure_sums.hpp"
 #include "analysis/micro/sums_table.hpp"
 

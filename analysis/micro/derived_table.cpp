@@ -3,11 +3,13 @@
 
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
+#include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/sums_table.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
+#include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +39,7 @@ PartitionRule rule_of(const DerivedOptions& options)
 {
   const auto rule = parse_rule(options.partition);
   if (!is_known(rule.definition()))
-    throw UsageError(fmt::format("--partition {}: grseg-micro takes {}", rule.name(),
+    throw UsageError(fmt::format("--partition {}: grseg-derive takes {}", rule.name(),
                                  list_of_words(known_rules())));
   return rule;
 }
@@ -49,11 +51,11 @@ std::string heights_of(const DerivedOptions& options)
   return options.pool == "composition" ? inside_the_bed : "all";
 }
 
-RowFilter filter_of(const DerivedOptions& options, const FrameOptions& frames)
+RowFilter filter_of(const DerivedOptions& options)
 {
   RowFilter filter;
-  filter.begin = frames.windows.begin.value_or(filter.begin);
-  filter.end = frames.windows.end.value_or(filter.end);
+  filter.begin = options.begin.value_or(filter.begin);
+  filter.end = options.end.value_or(filter.end);
   filter.heights = heights_of(options);
   return filter;
 }
@@ -80,30 +82,18 @@ void require_same_constants(const Table& first, const Table& other)
       refuse_difference(first, other, key);
 }
 
-/// The header of the first table, with the inputs and histories of all.
-Table empty_table(const ToolInfo& info, const std::vector<Table>& tables,
-                  const DerivedOptions& options, const std::string& preset,
-                  const std::string& command)
+/// The settings of the first table, and those of what is derived.
+void add_settings(Header& header, const Table& first, const DerivedOptions& options)
 {
-  Table result;
-  auto& header = result.header;
-  header = {program_line(info), {"preset", preset}};
-  for (const auto& line : header_values(tables, "history")) header.emplace_back("history", line);
-  header.emplace_back("history", command);
-  for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
-  for (auto& line : trust_of(tables)) header.push_back(std::move(line));
-  for (const auto& line : settings_of(tables[0]))
+  for (const auto& line : settings_of(first))
     if (line.first != "preset") header.push_back(line);
   const std::string depth = options.depth.empty() ? "height of the bed" : options.depth;
-  const std::string heights = heights_in_words(heights_of(options));
-  for (const auto& [key, value] : {std::pair{"force", options.force},
-                                   {"average", options.average},
-                                   {"partition", options.partition},
-                                   {"depth", depth},
-                                   {"heights", heights},
-                                   {"pool", options.pool}})
-    header.emplace_back(key, value);
-  return result;
+  header.insert(header.end(), {{"force", options.force},
+                               {"average", options.average},
+                               {"partition", options.partition},
+                               {"depth", depth},
+                               {"heights", heights_in_words(heights_of(options))},
+                               {"pool", options.pool}});
 }
 
 template <int D>
@@ -133,68 +123,59 @@ void DerivedOptions::add_to(po::options_description& options)
 {
   auto add = options.add_options();
   add("force", word_option(&force, words_of(force_words)),
-      "with --derived: the force of a contact, modulus or normal (its normal part)");
+      "the force of a contact, modulus or normal (its normal part)");
   add("average", word_option(&average, words_of(average_words)),
-      "with --derived: f_S and f_L are means over contacts (with at least one such grain, each "
-      "counted once) or over ends (contact ends on such grains)");
+      "f_S and f_L are means over contacts (with at least one such grain, each counted once) or over "
+      "ends (contact ends on such grains)");
+  const auto rules = list_of_words(known_rules());
   add("partition", word_option(&partition, known_rules()),
-      ("with --derived: the large grain's share of a mixed contact in P_S and P_L: " +
-       list_of_words(known_rules()))
-          .c_str());
+      ("the large grain's share of a mixed contact in P_S and P_L: " + rules).c_str());
   add("pool", word_option(&pool, words_of(pool_words)),
-      "with --derived: which rows to merge: none, windows (each layer over all windows) or "
-      "composition (layers by phi_L)");
+      "which rows to merge: none, windows (each layer over all windows) or composition (layers by "
+      "phi_L)");
   add("depth", po::value(&depth)->value_name("LENGTH"),
-      "with --derived: H of the pressure at H - y by which forces are divided (default: height of "
-      "the bed)");
+      "H of the pressure at H - y by which forces are divided (default: height of the bed)");
   add("heights", po::value(&heights)->value_name("y0:y1"),
-      fmt::format(
-          "with --derived: layers that take part: {} (default: inside of layers that are pooled by composition, else all)",
-          heights_help)
+      fmt::format("layers that take part: {} (default: inside of layers that are pooled by "
+                  "composition, else all)",
+                  heights_help)
           .c_str());
+  add("begin", time_option(begin), "no window that begins before this (default: all)");
+  add("end", time_option(end), "no window that ends after this (default: all)");
 }
 
-void refuse_options(const po::variables_map& values, const std::vector<const char*>& options,
-                    const char* why)
+void DerivedOptions::check() const
 {
-  for (const char* option : options)
-    if (values.contains(option) && !values[option].defaulted())
-      throw UsageError(fmt::format("--{} {}", option, why));
+  choose(pool, "--pool", pool_words);
+  if (!heights.empty()) check_heights(heights);
+  choose(force, "--force", force_words);
+  choose(average, "--average", average_words);
+  rule_of(*this);
 }
 
-void write_derived_table(const ToolInfo& info, const po::variables_map& values,
-                         const DerivedOptions& options, const FrameOptions& frames,
-                         const std::string& command)
+Table derived_table(const std::vector<Table>& tables, const DerivedOptions& options,
+                    const Header& provenance)
 {
-  refuse_options(values,
-                 {"layer", "window", "stride", "threads", "composition", "friction", "unit", "bin",
-                  "distribution"},
-                 "concerns the sums, which the table already holds; leave it out with --derived");
   const auto pool = choose(options.pool, "--pool", pool_words);
-  frames.output.check(values);
-  if (!options.heights.empty()) check_heights(options.heights);
   DerivedSettings settings{{choose(options.force, "--force", force_words),
                             choose(options.average, "--average", average_words)},
                            rule_of(options),
                            0};
-  const auto tables = read_tables(values);
-  if (tables.empty())
-    throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
   Table table;
+  table.header = provenance;
+  add_settings(table.header, tables[0], options);
   with_dimension(dimension_of(tables[0]), [&](auto d) {
     auto rows = read_rows<d>(tables);
     find_runs(tables);
     const auto constants = read_run_constants(tables[0]);
     const LengthUnits units{constants.small_diameter, constants.large_diameter};
     if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
-    table = empty_table(info, tables, options, preset_of(values), command);
-    const auto filter = filter_of(options, frames);
-    for (const auto& row : pooled(filtered(std::move(rows), filter, units), pool))
+    for (const auto& row : pooled(filtered(std::move(rows), filter_of(options), units), pool))
       add_row(table, row, derived_quantities(row, constants, settings));
   });
   if (table.rows.empty())
     throw RunError("no row is left; choose another --begin, --end or --heights");
-  write_table(frames.output, frames.json ? table.to_json() : table.to_text());
+  return table;
 }
 
 }  // namespace grseg

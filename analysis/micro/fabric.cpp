@@ -8,15 +8,12 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
 namespace grseg {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Complex moment(const Vec2& sum, double number)
 {
@@ -56,18 +53,6 @@ void FabricSums<3>::add(const Vec3& n, double f_n, const Vec3& f_t)
   tangential_force += f_t * n.transpose();
 }
 
-template <int D>
-FabricSums<D>& FabricSums<D>::operator+=(const FabricSums& others)
-{
-  normal += others.normal;
-  normal_force += others.normal_force;
-  tangential_force += others.tangential_force;
-  return *this;
-}
-
-template struct FabricSums<2>;
-template struct FabricSums<3>;
-
 // With A = a exp(2 i theta_0) for each of the three, the moments of the expansions are
 //   <exp 2i theta>     = A_c/2
 //   <f_n>              = f_0 (1 + Re(conj(A_c) A_n)/2)
@@ -76,10 +61,10 @@ template struct FabricSums<3>;
 // which is linear in 1/f_0, A_n and A_t once A_c is known.
 Anisotropy<2> anisotropy(const FabricSums<2>& sums, double contacts, double force)
 {
-  if (!(contacts > 0)) return {nan, nan, nan, nan, nan, nan};
+  if (!(contacts > 0)) return {no_number, no_number, no_number, no_number, no_number, no_number};
   const Complex c = 2.0 * moment(sums.normal, contacts);
   const double a_c = std::abs(c), theta_c = axis(std::arg(c) / 2);
-  if (a_c >= 1) return {a_c, nan, nan, theta_c, nan, nan};
+  if (a_c >= 1) return {a_c, no_number, no_number, theta_c, no_number, no_number};
 
   const Complex force_moment = moment(sums.normal_force, contacts);
   const double f_0 =
@@ -107,8 +92,6 @@ PrincipalStress<2> principal_stress(const Tensor2& stress)
 // Anisotropies and principal stresses in three dimensions.
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Tensor3 symmetric(const Tensor3& tensor)
 {
@@ -197,8 +180,8 @@ Expansion expansion_of(const Tensor3& measured, const Moment& moment)
 // known.
 Anisotropy<3> anisotropy(const FabricSums<3>& sums, double contacts, double)
 {
-  const Tensor3 unknown = Tensor3::Constant(nan);
-  if (!(contacts > 0)) return {unknown, unknown, unknown, nan, nan, nan};
+  const Tensor3 unknown = Tensor3::Constant(no_number);
+  if (!(contacts > 0)) return {unknown, unknown, unknown, no_number, no_number, no_number};
   const Tensor3 c = 7.5 * deviator(sums.normal / contacts);
   const Tensor3 forces = sums.normal_force / contacts;
   const Tensor3 tangential = symmetric(sums.tangential_force / contacts);
@@ -207,7 +190,8 @@ Anisotropy<3> anisotropy(const FabricSums<3>& sums, double contacts, double)
     return inner(a, stress) < 0 ? -size(a) : size(a);
   };
   const Eigen::SelfAdjointEigenSolver<Tensor3> solver(c, Eigen::EigenvaluesOnly);
-  if (solver.eigenvalues()[0] <= -1) return {c, unknown, unknown, signed_size(c), nan, nan};
+  if (solver.eigenvalues()[0] <= -1)
+    return {c, unknown, unknown, signed_size(c), no_number, no_number};
 
   const auto normal = expansion_of(
       forces, [&](const Expansion& of) { return normal_moment(c, of.scale, of.deviator); });
@@ -236,7 +220,7 @@ PrincipalStress<3> principal_stress(const Tensor3& stress)
 
 Vec3 major_axis(const Tensor3& tensor)
 {
-  if (!tensor.allFinite()) return Vec3::Constant(nan);
+  if (!tensor.allFinite()) return Vec3::Constant(no_number);
   return principal_stress(tensor).major;
 }
 

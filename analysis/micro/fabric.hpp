@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/sums.hpp"
 #include "formats/core/frame.hpp"
 
+#include <tuple>
 #include <type_traits>
 
 namespace grseg {
@@ -23,7 +25,8 @@ struct FabricSums {
   Moment tangential_force = Moment::Zero();  // N
 
   void add(const Vector<D>& n, double f_n, const Tangential& f_t);
-  FabricSums& operator+=(const FabricSums& others);
+  static constexpr auto members =
+      std::tuple(&FabricSums::normal, &FabricSums::normal_force, &FabricSums::tangential_force);
 };
 
 /// Second-order anisotropies of contacts and forces.

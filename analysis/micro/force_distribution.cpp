@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/force_distribution.hpp"
 
-#include "analysis/frames/cells.hpp"
 #include "analysis/frames/contacts.hpp"
 #include "analysis/frames/sums.hpp"
 
@@ -48,14 +47,6 @@ std::vector<Cell> cells(const Bin& bin)
 }
 
 }  // namespace
-
-template <int D>
-typename MeanNormalForce<D>::Sum& MeanNormalForce<D>::Sum::operator+=(const Sum& other)
-{
-  contacts += other.contacts;
-  force += other.force;
-  return *this;
-}
 
 template <int D>
 void MeanNormalForce<D>::add(const Grains& grains, const Frame<D>& frame)

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "analysis/frames/layers.hpp"
+#include "analysis/frames/sums.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/species.hpp"
 
 #include <array>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -27,7 +30,7 @@ class MeanNormalForce {
  private:
   struct Sum {
     double contacts = 0, force = 0;
-    Sum& operator+=(const Sum& other);
+    static constexpr auto members = std::tuple(&Sum::contacts, &Sum::force);
   };
   Layers layers_;
   std::vector<std::array<Sum, pair_types>> sums_;
@@ -38,6 +41,8 @@ enum class ForceUnit {
   layer,  ///< that of all contacts between mobile grains
   type,   ///< that of the contacts of its own pair type
 };
+inline constexpr Choice<ForceUnit> force_units[] = {{"layer", ForceUnit::layer},
+                                                    {"type", ForceUnit::type}};
 
 /// Distribution of x = f_n/<f_n> by pair type: counts of contacts in bins of x, per frame, the last
 /// bin open above. The frames of a window are read twice, first for the mean, then for the counts.

@@ -10,8 +10,6 @@
 namespace grseg {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 std::size_t at(PairType type)
 {
   return static_cast<std::size_t>(type);
@@ -125,7 +123,7 @@ void StructureByLayer<D>::add_ends(const Grains& grains, const Frame<D>& frame, 
 template <int D>
 double StructureByLayer<D>::slides(double f_n, double f_t) const
 {
-  if (std::isnan(friction_)) return nan;
+  if (std::isnan(friction_)) return no_number;
   return f_n > 0 && std::abs(f_t) >= (1 - sliding_tolerance) * friction_ * f_n ? 1 : 0;
 }
 
@@ -209,6 +207,23 @@ std::vector<double> StructureByLayer<D>::bed_row() const
   return values_of(cells(mean(), heights()));
 }
 
+template <int D>
+std::vector<Cell> map_cells(const StructureSums<D>& sums)
+{
+  auto cells = sums.cells();
+  const auto between = sums.between_grains();
+  const auto &small = sums.of(Species::small), &large = sums.of(Species::large);
+  cells.insert(cells.end(), {{"z", ratio(small.ends + large.ends, small.grains + large.grains)},
+                             {"z_S", sums.coordination(Species::small)},
+                             {"z_L", sums.coordination(Species::large)},
+                             {"f_n[N]", ratio(between.normal, between.contacts)},
+                             {"sliding", ratio(between.sliding, between.contacts)},
+                             {"mixed_share", sums.mixed_share()}});
+  return cells;
+}
+
+template std::vector<Cell> map_cells(const StructureSums<2>&);
+template std::vector<Cell> map_cells(const StructureSums<3>&);
 template class StructureByLayer<2>;
 template class StructureByLayer<3>;
 

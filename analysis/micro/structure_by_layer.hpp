@@ -3,10 +3,10 @@
 
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/layers.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/micro/structure_sums.hpp"
 #include "formats/core/frame.hpp"
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,8 +21,7 @@ template <int D>
 class StructureByLayer {
  public:
   /// `friction` is the mu of the Coulomb limit; NaN where it is unknown.
-  StructureByLayer(const Layers& layers, GrainArea area,
-                   double friction = std::numeric_limits<double>::quiet_NaN());
+  StructureByLayer(const Layers& layers, GrainArea area, double friction = no_number);
 
   void add(const Grains& grains, const Frame<D>& frame);
   void merge(const StructureByLayer& others);
@@ -55,5 +54,10 @@ class StructureByLayer {
   std::vector<StructureSums<D>> sums_;  // without contents: those are in composition_
   BedHeights heights_{0, 0, 0};         // sums over frames
 };
+
+/// The sums of a cell of a map, and what is looked at: contacts per grain, mean normal force, and
+/// the parts of contacts that slide and that are mixed.
+template <int D>
+std::vector<Cell> map_cells(const StructureSums<D>& sums);
 
 }  // namespace grseg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/cells.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/micro/fabric.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/core/frame.hpp"

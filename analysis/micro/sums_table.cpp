@@ -2,6 +2,7 @@
 #include "analysis/micro/sums_table.hpp"
 
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -16,11 +17,9 @@
 namespace grseg {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 double number_or_unknown(const Table& table, const std::string& key)
 {
-  return table.header_text(key) == "unknown" ? nan : table.header_number(key);
+  return table.header_text(key) == "unknown" ? no_number : table.header_number(key);
 }
 
 /// Windows of one run differ in their beginning.
@@ -32,7 +31,7 @@ void set_bed_heights(std::vector<SumsRow<D>>& rows)
     if (row.is_bed()) height_at[row.begin] = row.heights.bed;
   for (auto& row : rows) {
     const auto found = height_at.find(row.begin);
-    row.bed_height = found == height_at.end() ? nan : found->second;
+    row.bed_height = found == height_at.end() ? no_number : found->second;
   }
 }
 
@@ -54,7 +53,7 @@ SumKind kind_of(const std::string& name)
 
 double value_of(const Table& table, std::size_t row, const SumColumn& sum)
 {
-  if (!sum.column) return nan;
+  if (!sum.column) return no_number;
   if (sum.kind == SumKind::may_be_nan) return table.rows[row][*sum.column];
   constexpr double round_off = 1e-15;  // m^2 or m^3, of areas and volumes
   return sum.kind == SumKind::any ? finite_cell(table, row, *sum.column)
@@ -67,7 +66,7 @@ RunConstants read_run_constants(const Table& table)
 {
   const auto species = species_of(table);
   if (species.size() != 2)
-    throw FormatError(fmt::format("{}: --derived compares two species, and the table has {}",
+    throw FormatError(fmt::format("{}: grseg-derive compares two species, and the table has {}",
                                   table.name, species.size()));
   const bool densities_differ = table.has_header("mean_density");
   return {.small_diameter = species[0].diameter,
@@ -83,7 +82,7 @@ RunConstants read_run_constants(const Table& table)
 template <int D>
 std::vector<SumsRow<D>> read_sums_rows(const Table& table)
 {
-  const char* remedy = "--derived needs a table of grseg-micro";
+  const char* remedy = "grseg-derive needs a table of grseg-micro";
   std::vector<SumColumn> sums;
   for (const auto& name : columns_of(StructureSums<D>{}.cells()))
     sums.push_back({find_kept_column(table, name, remedy), kind_of(name)});
@@ -109,7 +108,7 @@ std::vector<SumsRow<D>> read_sums_rows(const Table& table)
          .volume = key.volume,
          .sums = StructureSums<D>::from_values(values),
          .heights = {numbers[of_heights[0]], numbers[of_heights[1]], numbers[of_heights[2]]},
-         .bed_height = nan});
+         .bed_height = no_number});
   }
   set_bed_heights(rows);
   return rows;
@@ -119,8 +118,6 @@ template std::vector<SumsRow<2>> read_sums_rows(const Table&);
 template std::vector<SumsRow<3>> read_sums_rows(const Table&);
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Up to round-off: 1.4 d_S of 5 mm are 7 mm, but for the last bits.
 template <int D>
@@ -150,7 +147,7 @@ class MergedRow {
       all_.bottom = row.bottom;
       all_.top = row.top;
     } else if (!same_layer(row, all_)) {
-      all_.bottom = all_.top = nan;
+      all_.bottom = all_.top = no_number;
     }
     ++rows_;
   }
@@ -171,8 +168,8 @@ class MergedRow {
   std::size_t rows_ = 0;
   SumsRow<D> all_{.begin = std::numeric_limits<double>::infinity(),
                   .end = -std::numeric_limits<double>::infinity(),
-                  .bottom = nan,
-                  .top = nan,
+                  .bottom = no_number,
+                  .top = no_number,
                   .frames = 0,
                   .volume = 0,
                   .sums = {},

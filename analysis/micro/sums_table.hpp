@@ -11,7 +11,7 @@
 
 namespace grseg {
 
-/// The table of sums that grseg-micro writes, read again by grseg-micro --derived.
+/// The table of sums that grseg-micro writes, read again by grseg-derive.
 
 /// A row of the table, or several merged; y0 = y1 = NaN for the whole bed and where different
 /// layers were merged.

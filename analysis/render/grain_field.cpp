@@ -2,6 +2,7 @@
 #include "analysis/render/grain_field.hpp"
 
 #include "analysis/frames/contacts.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/render/local_composition.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/errors.hpp"
@@ -18,7 +19,6 @@
 namespace grseg {
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr TrajectoryReader::Fields velocity{.velocity = true, .contacts = false, .force = false};
 constexpr TrajectoryReader::Fields contacts{.velocity = false, .contacts = true, .force = false};
 constexpr TrajectoryReader::Fields image{.velocity = false, .contacts = false, .force = true};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/closure.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/confidence.hpp"
 #include "analysis/statistics/dependence.hpp"
@@ -19,7 +20,6 @@
 namespace grseg {
 namespace {
 
-constexpr double unknown = ClosurePoint::nan;
 // Beyond it the errors of both coefficients are over three times those of one alone.
 constexpr double collinear = 0.95;
 
@@ -30,7 +30,7 @@ Eigen::Index index_of(std::size_t n)
 
 /// A number and what each window's noise adds to it.
 struct Linear {
-  double value = unknown;
+  double value = no_number;
   Eigen::VectorXd influence;
   Eigen::VectorXd weight;          // of the windows in it
   std::vector<Linear> parts = {};  // of what it was combined
@@ -140,7 +140,7 @@ class Regressions {
       for (std::size_t k = 0; k < used.size(); ++k) all[index_of(k)] = of(*used[k]);
       return all;
     };
-    if (used.empty()) return none(unknown);
+    if (used.empty()) return none(no_number);
     const Eigen::VectorXd values = list(value), weights = list(weight);
     const Eigen::VectorXd noise =
         composition_noise(list([](const ClosurePoint& p) { return p.phi_large; }), values, weights);
@@ -197,7 +197,7 @@ class Report {
   /// Of the errors of two numbers.
   double correlation(const Linear& a, const Linear& b) const
   {
-    if (bootstrap_.count() == 0) return unknown;
+    if (bootstrap_.count() == 0) return no_number;
     const auto how =
         worse(dependence_of(a, bootstrap_.runs()), dependence_of(b, bootstrap_.runs()));
     const auto centred = [&](const Linear& of) -> Eigen::VectorXd {
@@ -213,7 +213,7 @@ class Report {
     if (!doubt.empty()) summary.remarks.push_back(doubt);
   }
 
-  SegregationSummary summary;
+  NamedNumbers summary;
 
  private:
   Eigen::VectorXd sampled(const Linear& of, const Dependence& how) const
@@ -323,14 +323,14 @@ void add_rules(Report& report, const Regressions& regressions,
 
 }  // namespace
 
-SegregationSummary closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
-                                   const ClosureResampling& resampling)
+NamedNumbers closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
+                             const ClosureResampling& resampling)
 {
   Report report(data, resampling);
   const Regressions regressions(data);
   if (regressions.is_singular()) {
-    report.add("B_over_c[s]", unknown);
-    report.add("d_over_c[m^2/s]", unknown);
+    report.add("B_over_c[s]", no_number);
+    report.add("d_over_c[m^2/s]", no_number);
     report.add("regressor_correlation", regressions.correlation());
     report.summary.remarks.emplace_back(
         "driving and gradient are the same up to a factor in all rows, so that B/c and d/c cannot be "

@@ -47,8 +47,8 @@ struct ClosureResampling {
 /// 95 %: of one run moving blocks of windows are drawn, of several whole runs, all from one population,
 /// whatever their mixtures, unlike grseg-fit. They are linear in the noise of the flux at fixed
 /// regressors. NaN where there is no interval.
-SegregationSummary closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
-                                   const ClosureResampling& resampling);
+NamedNumbers closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
+                             const ClosureResampling& resampling);
 
 /// What the intervals are over, of so many runs, as a sentence without its full stop.
 std::string closure_population(std::size_t runs);

@@ -3,7 +3,7 @@
 
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
-#include "analysis/statistics/median_of_positive.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/provenance.hpp"
@@ -20,8 +20,6 @@
 
 namespace grseg {
 namespace {
-
-constexpr double missing = ClosurePoint::nan;
 
 /// The two tables of one run.
 struct RunTables {
@@ -57,7 +55,7 @@ std::vector<RunTables> runs_of(const std::vector<Table>& tables)
     else
       throw FormatError(fmt::format(
           "{}: neither q_L of grseg-segregation nor Mcp_yy of grseg-stress is among its columns; "
-          "--closure needs such tables of each run",
+          "grseg-closure needs such tables of each run",
           table.name));
   }
   std::vector<RunTables> runs;
@@ -91,12 +89,12 @@ Place place_of(const LayerKey& key)
 }
 
 /// What a row of grseg-segregation says of a layer; NaN where the table lacks it.
-struct Motion {
+struct LayerMotion {
   LayerKey key;
   double small = 0, large = 0;  // m^2 or m^3
-  double phi = missing, flux = missing, gradient = missing, diffusivity = missing;
-  double mass = missing, flux_small = missing, flux_large = missing;  // kg, J
-  double gain_small = missing, gain_large = missing;                  // N
+  double phi = no_number, flux = no_number, gradient = no_number, diffusivity = no_number;
+  double mass = no_number, flux_small = no_number, flux_large = no_number;  // kg, J
+  double gain_small = no_number, gain_large = no_number;                    // N
 
   double solid() const { return (small + large) / key.volume; }
   double density() const { return mass / key.volume; }
@@ -105,7 +103,7 @@ struct Motion {
 };
 
 /// The layers of a table, in order, without the rows of the whole bed.
-std::vector<Motion> motions_of(const Table& table, bool& has_kinetic)
+std::vector<LayerMotion> motions_of(const Table& table, bool& has_kinetic)
 {
   const char* remedy = "a table of grseg-segregation has it";
   const auto keys = read_layer_keys(table, remedy);
@@ -120,11 +118,11 @@ std::vector<Motion> motions_of(const Table& table, bool& has_kinetic)
     if (table.has_column(without_unit(name))) kinetic.push_back(column(name));
   has_kinetic = has_kinetic && kinetic.size() == 6;
 
-  std::vector<Motion> motions;
+  std::vector<LayerMotion> motions;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (std::isnan(keys[row].bottom)) continue;
     const auto& cells = table.rows[row];
-    Motion motion;
+    LayerMotion motion;
     motion.key = keys[row];
     motion.small = non_negative_cell(table, row, small);
     motion.large = non_negative_cell(table, row, large);
@@ -148,7 +146,7 @@ std::vector<Motion> motions_of(const Table& table, bool& has_kinetic)
 template <class Row, class Of>
 double slope(const Row* below, const Row* above, const Of& of)
 {
-  if (below == nullptr || above == nullptr) return missing;
+  if (below == nullptr || above == nullptr) return no_number;
   const auto height = [](const Row& row) { return (row.key.bottom + row.key.top) / 2; };
   return (of(*above) - of(*below)) / (height(*above) - height(*below));
 }
@@ -166,13 +164,14 @@ const Row* neighbour(const std::map<Place, Row>& rows, const LayerKey& key, int 
 }
 
 /// The forces per mass of a layer, from its neighbours; returns -sigma'/rho, m/s^2.
-double add_forces(ClosurePoint& point, const Motion& here, const Motion* below, const Motion* above,
-                  double gravity)
+double add_forces(ClosurePoint& point, const LayerMotion& here, const LayerMotion* below,
+                  const LayerMotion* above, double gravity)
 {
   point.driving = here.phi * (1 - here.phi) * -gravity;
   const double k = here.k_total(), density = here.density();
-  const double k_slope = slope(below, above, [](const Motion& m) { return m.k_total(); });
-  const double k_large_slope = slope(below, above, [](const Motion& m) { return m.k_large(); });
+  const double k_slope = slope(below, above, [](const LayerMotion& m) { return m.k_total(); });
+  const double k_large_slope =
+      slope(below, above, [](const LayerMotion& m) { return m.k_large(); });
   const double rate = (here.gain_small + here.gain_large) / here.key.volume;
   if (std::isnan(k_slope + rate)) return -gravity;
   const double share = k > 0 ? here.k_large() / k : here.phi;
@@ -185,8 +184,8 @@ double add_forces(ClosurePoint& point, const Motion& here, const Motion* below, 
 }
 
 /// Of the window before, that follows on this one without a gap.
-void add_window_before(ClosurePoint& point, const Motion& here,
-                       const std::map<Place, Motion>& motions, double gravity)
+void add_window_before(ClosurePoint& point, const LayerMotion& here,
+                       const std::map<Place, LayerMotion>& motions, double gravity)
 {
   LayerKey before = here.key;
   before.end = here.key.begin;
@@ -231,7 +230,7 @@ void add_stress(ClosurePoint& point, const Stress& stress, const std::vector<Par
     const auto parts = partial_stress(stress.sums, rule);
     const double total = parts.total(1, 1);
     const bool has_share = rule.adds_up() && total > 0;
-    point.excess.push_back(has_share ? parts.large()(1, 1) / total - phi : missing);
+    point.excess.push_back(has_share ? parts.large()(1, 1) / total - phi : no_number);
   }
 }
 
@@ -239,14 +238,6 @@ bool is_usable(const ClosurePoint& point)
 {
   return point.weight > 0 && std::isfinite(point.flux + point.driving + point.gradient) &&
          point.product > 0 && std::isfinite(point.excess.back());
-}
-
-double median_solid(const std::vector<Motion>& motions)
-{
-  std::vector<double> solid;
-  solid.reserve(motions.size());
-  for (const auto& motion : motions) solid.push_back(motion.solid());
-  return median_of_positive(std::move(solid));
 }
 
 class RunReader {
@@ -277,7 +268,8 @@ class RunReader {
   void read();
 
  private:
-  std::optional<ClosurePoint> point_of(const Motion& motion, const std::map<Place, Motion>& motions,
+  std::optional<ClosurePoint> point_of(const LayerMotion& motion,
+                                       const std::map<Place, LayerMotion>& motions,
                                        const std::map<Place, Stress>& stresses) const;
 
   RunTables tables_;
@@ -289,8 +281,8 @@ class RunReader {
   double gravity_ = 0;  // along y, m/s^2
 };
 
-std::optional<ClosurePoint> RunReader::point_of(const Motion& motion,
-                                                const std::map<Place, Motion>& motions,
+std::optional<ClosurePoint> RunReader::point_of(const LayerMotion& motion,
+                                                const std::map<Place, LayerMotion>& motions,
                                                 const std::map<Place, Stress>& stresses) const
 {
   const auto& key = motion.key;
@@ -330,8 +322,8 @@ void RunReader::read()
   for (const auto& motion : list)
     layers.push_back({motion.key.bottom, motion.key.top, motion.key.frames, motion.solid()});
   range.heights = parse_heights(filter_.heights, units, layers);
-  const double least_solid = filter_.min_solid * median_solid(list);
-  std::map<Place, Motion> motions;
+  const double least_solid = filter_.min_solid * median_solid(layers);
+  std::map<Place, LayerMotion> motions;
   for (const auto& motion : list) motions.emplace(place_of(motion.key), motion);
   const auto stresses = stresses_of(*tables_.stress, rules_);
 

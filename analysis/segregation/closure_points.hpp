@@ -2,13 +2,13 @@
 #pragma once
 
 #include "analysis/frames/layer_key.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/dependence.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/words.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -36,18 +36,17 @@ namespace grseg {
 /// balance of the mixture gives -sigma'/rho = -g_y + (K' + rate)/rho, with less noise than a
 /// difference of stresses. All terms hold inside the bed, where the base does not act. One density.
 struct ClosurePoint {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
   std::size_t window = 0;            // in the series of all windows, run after run
   double frames = 0;                 // of the window
   double weight = 0;                 // frames x area or volume of the grains
   double flux = 0;                   // q_L, m/s
   double driving = 0, gradient = 0;  // X and G
   // X and G of the same layer in the window before, NaN where there is none.
-  double driving_before = nan, gradient_before = nan;
-  double kinetic_push = nan, kinetic_spread = nan, inertia = nan;  // m/s^2; NaN: not in the table
-  double diffusivity = nan;                                        // m^2/s, from displacements
-  double weight_above = nan;  // -sigma' of the table of stress over that of the balance
+  double driving_before = no_number, gradient_before = no_number;
+  double kinetic_push = no_number, kinetic_spread = no_number,
+         inertia = no_number;       // m/s^2; NaN: not in the table
+  double diffusivity = no_number;   // m^2/s, from displacements
+  double weight_above = no_number;  // -sigma' of the table of stress over that of the balance
   // Of the table of stress: phi_L, phi_L phi_S, and psi_L - phi_L by rule; behind those of the rules stand
   // the ones where large grains get nothing and all of mixed contacts.
   double phi_large = 0;

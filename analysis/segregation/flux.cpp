@@ -8,13 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace grseg {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A quantity that is printed with its error: name, unit and where it is.
 struct Quantity {
@@ -46,25 +43,12 @@ LayerSegregation jackknife(const std::vector<LayerSegregation>& left_out)
     double mean = 0, squares = 0;
     for (const auto& value : left_out) mean += value.*place / n;
     for (const auto& value : left_out) squares += std::pow(value.*place - mean, 2);
-    error.*place = n > 1 ? std::sqrt((n - 1) / n * squares) : nan;
+    error.*place = n > 1 ? std::sqrt((n - 1) / n * squares) : no_number;
   }
   return error;
 }
 
 }  // namespace
-
-template <int D>
-typename SegregationFlux<D>::Sums& SegregationFlux<D>::Sums::operator+=(const Sums& others)
-{
-  accumulate(content, others.content);
-  accumulate(mass, others.mass);
-  accumulate(mvv, others.mvv);
-  excess += others.excess;
-  flow += others.flow;
-  accumulate(squares, others.squares);
-  accumulate(number, others.number);
-  return *this;
-}
 
 template <int D>
 SegregationFlux<D>::SegregationFlux(const Layers& layers, const Window& window,
@@ -170,7 +154,7 @@ double SegregationFlux<D>::gradient(const Profile& profile, std::size_t layer) c
   };
   const std::size_t below = layer > 0 && usable(layer - 1) ? layer - 1 : layer;
   const std::size_t above = usable(layer + 1) ? layer + 1 : layer;
-  if (below == above) return nan;
+  if (below == above) return no_number;
   return (profile[above].phi_large() - profile[below].phi_large()) /
          (height(above) - height(below));
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/cells.hpp"
-#include "analysis/frames/layer_flow.hpp"
 #include "analysis/frames/layers.hpp"
+#include "analysis/frames/mean_velocity.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/frames/windows.hpp"
 #include "formats/core/frame.hpp"
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -32,7 +33,7 @@ struct LayerSegregation {
 };
 
 /// Sums over the grains of one species with their centre in the layer, means over the frames of a
-/// window: what the closure of grseg-segregation --closure needs beside the fluxes.
+/// window: what the closure of grseg-closure needs beside the fluxes.
 struct LayerMomentum {
   double mass = 0;  // kg
   double flux = 0;  // J, m v_y^2 in the frame of the base
@@ -87,7 +88,9 @@ class SegregationFlux {
     // By lag and species: sums of squares over twice the lag, and their number less one per drift.
     std::array<std::array<double, 2>, 2> squares{}, number{};
 
-    Sums& operator+=(const Sums& others);
+    static constexpr auto members =
+        std::tuple(&Sums::content, &Sums::mass, &Sums::mvv, &Sums::excess, &Sums::flow,
+                   &Sums::squares, &Sums::number);
     double phi_large() const { return content[1] / (content[0] + content[1]); }
   };
   using Profile = std::vector<Sums>;  // by layer

@@ -3,11 +3,12 @@
 
 #include "formats/cli/table.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace grseg {
 
-std::string to_tsv(const SegregationSummary& summary, Header header)
+std::string to_tsv(const NamedNumbers& summary, Header header)
 {
   for (const auto& remark : summary.remarks) header.emplace_back("remark", remark);
   std::vector<std::vector<std::string>> rows;
@@ -17,7 +18,7 @@ std::string to_tsv(const SegregationSummary& summary, Header header)
   return table_text(header, {"quantity", "value", "low", "high"}, rows);
 }
 
-std::string to_json(const SegregationSummary& summary, const Header& header)
+std::string to_json(const NamedNumbers& summary, const Header& header)
 {
   using Json = nlohmann::ordered_json;
   Json numbers = Json::object();
@@ -31,6 +32,14 @@ std::string to_json(const SegregationSummary& summary, const Header& header)
                           "undecided", "waived", "doubt"})
     if (rest.contains(key)) all[key] = rest[key];
   return all.dump(2) + '\n';
+}
+
+void write_numbers(const NamedNumbers& numbers, const Header& header, const ToolInfo& info,
+                   const TableOptions& output, bool json, bool quiet)
+{
+  if (!quiet)
+    for (const auto& remark : numbers.remarks) fmt::print(stderr, "{}: {}\n", info.name, remark);
+  write_table(output, json ? to_json(numbers, header) : to_tsv(numbers, header));
 }
 
 }  // namespace grseg

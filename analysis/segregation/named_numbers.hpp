@@ -2,7 +2,9 @@
 #pragma once
 
 #include "analysis/statistics/confidence.hpp"
+#include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/tool.hpp"
 
 #include <string>
 #include <utility>
@@ -12,11 +14,11 @@ namespace grseg {
 
 /// Numbers of a whole run under their names with units, and remarks on those that the run does not
 /// determine.
-struct SegregationSummary {
+struct NamedNumbers {
   std::vector<std::pair<std::string, Estimate>> numbers;
   std::vector<std::string> remarks;
 
-  void append(const SegregationSummary& others)
+  void append(const NamedNumbers& others)
   {
     numbers.insert(numbers.end(), others.numbers.begin(), others.numbers.end());
     remarks.insert(remarks.end(), others.remarks.begin(), others.remarks.end());
@@ -24,8 +26,11 @@ struct SegregationSummary {
 };
 
 /// Rows of quantity, value, low and high under the header of a table, which also holds the remarks.
-std::string to_tsv(const SegregationSummary& summary, Header header);
+std::string to_tsv(const NamedNumbers& summary, Header header);
 /// {"numbers": {"tau[s]": {"value", "interval"}, ...}, "remarks", "settings", "inputs", "history"}
-std::string to_json(const SegregationSummary& summary, const Header& header);
+std::string to_json(const NamedNumbers& summary, const Header& header);
+/// Either of these goes to where `output` says; the remarks to standard error, unless `quiet`.
+void write_numbers(const NamedNumbers& numbers, const Header& header, const ToolInfo& info,
+                   const TableOptions& output, bool json, bool quiet);
 
 }  // namespace grseg

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/rates.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
 #include "analysis/statistics/least_squares.hpp"
-#include "analysis/statistics/median_of_positive.hpp"
+#include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@
 namespace grseg {
 namespace {
 
-using Moment = SegregationMoment;
+using Moment = BedState;
 
 Eigen::VectorXd series(const std::vector<Moment>& moments, double Moment::*place)
 {
@@ -28,8 +29,7 @@ Eigen::VectorXd series(const std::vector<Moment>& moments, double Moment::*place
 }
 
 /// The exponential approach of y_L, fitted against time or against strain.
-void add_approach(const std::vector<Moment>& moments, bool against_time,
-                  SegregationSummary& summary)
+void add_approach(const std::vector<Moment>& moments, bool against_time, NamedNumbers& summary)
 {
   const auto x = series(moments, against_time ? &Moment::time : &Moment::strain);
   const auto y = series(moments, &Moment::large);
@@ -85,7 +85,7 @@ Estimate about(const WindowMean& mean)
 }
 
 void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_t>& windows,
-                SegregationSummary& summary)
+                NamedNumbers& summary)
 {
   const auto means = window_means(moments, windows);
   const auto most = std::max_element(
@@ -119,10 +119,10 @@ void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_
 
 }  // namespace
 
-SegregationSummary segregation_times(const std::vector<Moment>& moments,
-                                     const std::vector<std::size_t>& windows)
+NamedNumbers segregation_times(const std::vector<Moment>& moments,
+                               const std::vector<std::size_t>& windows)
 {
-  SegregationSummary summary;
+  NamedNumbers summary;
   add_approach(moments, true, summary);
   add_approach(moments, false, summary);
   add_mixing(moments, windows, summary);
@@ -143,7 +143,7 @@ class Regression {
  public:
   template <class MakeEquation>
   Regression(const std::vector<RatePoint>& points, Eigen::Index unknowns, const MakeEquation& make)
-      : value(Eigen::VectorXd::Constant(unknowns, std::nan("")))
+      : value(Eigen::VectorXd::Constant(unknowns, no_number))
   {
     std::vector<std::pair<std::size_t, Equation>> equations;
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(unknowns, unknowns);
@@ -214,26 +214,34 @@ Estimate quotient(const Regression& a, const Regression& b, double factor)
 
 }  // namespace
 
+void RateFilter::check() const
+{
+  if (!(min_solid >= 0)) throw UsageError("--min-solid must not be negative");
+  check_heights(heights);
+}
+
+Header RateFilter::lines() const
+{
+  return {{"heights", heights_in_words(heights)},
+          {"min_solid", format_number(min_solid)},
+          {"interval", "95 %"}};
+}
+
 std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter,
                                 LengthUnits units)
 {
-  std::vector<double> solid;
-  solid.reserve(points.size());
   std::vector<LayerSolid> layers;
   layers.reserve(points.size());
-  for (const auto& point : points) {
-    solid.push_back(point.solid);
-    layers.push_back({point.bottom, point.top, 1, point.solid});
-  }
+  for (const auto& point : points) layers.push_back({point.bottom, point.top, 1, point.solid});
   const auto heights = parse_heights(filter.heights, units, layers);
-  const double median = median_of_positive(std::move(solid));
+  const double median = median_solid(layers);
   std::erase_if(points, [&](const RatePoint& point) {
     return !heights.holds(point.bottom, point.top) || !(point.solid >= filter.min_solid * median);
   });
   return points;
 }
 
-SegregationSummary segregation_rates(const std::vector<RatePoint>& points)
+NamedNumbers segregation_rates(const std::vector<RatePoint>& points)
 {
   using Values = LayerSegregation;
   const Regression velocity(points, 1, [](const RatePoint& p) -> Equation {
@@ -254,7 +262,7 @@ SegregationSummary segregation_rates(const std::vector<RatePoint>& points)
   double bed = 0;
   for (const auto& point : points) bed += point.bed / static_cast<double>(points.size());
 
-  SegregationSummary summary;
+  NamedNumbers summary;
   summary.numbers = {{"D_S[m^2/s]", mean(points, 0, &Values::D_small).estimate()},
                      {"D_L[m^2/s]", mean(points, 1, &Values::D_large).estimate()},
                      {"Dhat_S", mean(points, 0, &Values::Dhat_small).estimate()},

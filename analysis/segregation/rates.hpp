@@ -19,8 +19,8 @@ namespace grseg {
 ///   t_mixing      middle of the window that is mixed most; the interval reaches from the first to
 ///                 the last window whose index does not differ significantly
 /// `windows` lists the number of moments in each window.
-SegregationSummary segregation_times(const std::vector<SegregationMoment>& moments,
-                                     const std::vector<std::size_t>& windows);
+NamedNumbers segregation_times(const std::vector<BedState>& moments,
+                               const std::vector<std::size_t>& windows);
 
 /// One layer in one window.
 struct RatePoint {
@@ -36,6 +36,11 @@ struct RatePoint {
 struct RateFilter {
   std::string heights = "all";  // as on the command line (layer_key.hpp)
   double min_solid = 0.5;       // least solid fraction over the median of all points
+
+  /// UsageError where they cannot be.
+  void check() const;
+  /// What the header of a table says of them, and of the intervals.
+  Header lines() const;
 };
 std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter,
                                 LengthUnits units);
@@ -54,6 +59,6 @@ std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter&
 ///                   grains S_flux is not 0 (docs/studies/segregation.md); closure.hpp is free of it
 /// Intervals come from how windows differ from their neighbours in time (error_about_trend), so
 /// that what changes as the bed segregates is part of the mean and not of its error.
-SegregationSummary segregation_rates(const std::vector<RatePoint>& points);
+NamedNumbers segregation_rates(const std::vector<RatePoint>& points);
 
 }  // namespace grseg

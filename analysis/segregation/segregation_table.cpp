@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/segregation_table.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "analysis/segregation/rates.hpp"
 
 #include <array>
-#include <limits>
 
 namespace grseg {
 namespace {
 
-using Moment = SegregationMoment;
+using Moment = BedState;
 
 struct BedColumn {
   const char* column;
@@ -42,7 +42,7 @@ std::vector<Cell> cells(const Moment& bed)
 /// NaN in every column.
 std::vector<Cell> without_values(std::vector<Cell> cells)
 {
-  for (auto& cell : cells) cell.value = std::numeric_limits<double>::quiet_NaN();
+  for (auto& cell : cells) cell.value = no_number;
   return cells;
 }
 
@@ -55,8 +55,8 @@ std::vector<Cell> together(std::vector<Cell> first, const std::vector<Cell>& the
 }  // namespace
 
 template <int D>
-SegregationRun<D>::SegregationRun(const Layers& layers, double small_diameter,
-                                  double large_diameter)
+SegregationTable<D>::SegregationTable(const Layers& layers, double small_diameter,
+                                      double large_diameter)
     : layers_(layers),
       small_diameter_(small_diameter),
       large_diameter_(large_diameter),
@@ -65,8 +65,8 @@ SegregationRun<D>::SegregationRun(const Layers& layers, double small_diameter,
 }
 
 template <int D>
-void SegregationRun<D>::add(const Grains& grains, const SegregationSeries<D>& series,
-                            const SegregationFlux<D>& flux)
+void SegregationTable<D>::add(const Grains& grains, const SegregationSeries<D>& series,
+                              const SegregationFlux<D>& flux)
 {
   series_.merge(series);
   const auto count = series.moments().size();
@@ -83,32 +83,32 @@ void SegregationRun<D>::add(const Grains& grains, const SegregationSeries<D>& se
 }
 
 template <int D>
-std::vector<std::string> SegregationRun<D>::columns()
+std::vector<std::string> SegregationTable<D>::columns()
 {
   return columns_of(together(SegregationResult{}.cells(D), cells(Moment{})));
 }
 
 template <int D>
-std::vector<double> SegregationRun<D>::row(std::size_t layer) const
+std::vector<double> SegregationTable<D>::row(std::size_t layer) const
 {
   return values_of(together(results_[layer].cells(D), without_values(cells(bed_))));
 }
 
 template <int D>
-std::vector<double> SegregationRun<D>::bed_row() const
+std::vector<double> SegregationTable<D>::bed_row() const
 {
   return values_of(together(without_values(SegregationResult{}.cells(D)), cells(bed_)));
 }
 
 template <int D>
-SegregationSummary SegregationRun<D>::summary(const RateFilter& filter) const
+NamedNumbers SegregationTable<D>::summary(const RateFilter& filter) const
 {
   auto summary = segregation_times(series_.moments(), windows_);
   summary.append(segregation_rates(filtered(points_, filter, {small_diameter_, large_diameter_})));
   return summary;
 }
 
-template class SegregationRun<2>;
-template class SegregationRun<3>;
+template class SegregationTable<2>;
+template class SegregationTable<3>;
 
 }  // namespace grseg

@@ -14,10 +14,10 @@ namespace grseg {
 /// The windows of a run one after the other, and what follows from all of them. Keeps a few numbers
 /// per frame and per layer and window.
 template <int D>
-class SegregationRun {
+class SegregationTable {
  public:
   /// Nominal diameters, m.
-  SegregationRun(const Layers& layers, double small_diameter, double large_diameter);
+  SegregationTable(const Layers& layers, double small_diameter, double large_diameter);
 
   /// The next window.
   void add(const Grains& grains, const SegregationSeries<D>& series,
@@ -31,7 +31,7 @@ class SegregationRun {
   std::vector<double> bed_row() const;
   double bed() const { return bed_.bed; }  // height, m
 
-  SegregationSummary summary(const RateFilter& filter) const;
+  NamedNumbers summary(const RateFilter& filter) const;
 
  private:
   Layers layers_;
@@ -40,7 +40,7 @@ class SegregationRun {
   std::vector<std::size_t> windows_;  // number of moments in each
   std::vector<RatePoint> points_;
   std::vector<SegregationResult> results_;  // of the last window
-  SegregationMoment bed_;                   // of the last window
+  BedState bed_;                            // of the last window
 };
 
 }  // namespace grseg

@@ -2,10 +2,10 @@
 #include "analysis/segregation/series.hpp"
 
 #include "analysis/frames/composition.hpp"
-#include "analysis/frames/layer_flow.hpp"
+#include "analysis/frames/mean_velocity.hpp"
+#include "analysis/frames/sums.hpp"
 
 #include <array>
-#include <limits>
 
 namespace grseg {
 
@@ -19,7 +19,7 @@ double mixing_index(const Layers& layers, const Grains& grains, const Frame<D>& 
     if (is_mobile(grains, frame, g)) ++number[static_cast<std::size_t>(grains.species[g])];
   const auto all = composition.mean();
   const double volume = all[0] + all[1], phi = all[1] / volume;
-  if (!(phi > 0 && phi < 1)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(phi > 0 && phi < 1)) return no_number;
 
   double variance = 0, occupied = 0;
   for (std::size_t n = 0; n < composition.layers(); ++n) {
@@ -60,7 +60,7 @@ template <int D>
 void SegregationSeries<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   const auto heights = bed_heights(grains, frame);
-  SegregationMoment now;
+  BedState now;
   now.time = frame.time;
   now.large = heights.large;
   now.small = heights.small;

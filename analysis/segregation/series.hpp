@@ -19,7 +19,7 @@ template <int D>
 double mixing_index(const Layers& layers, const Grains& grains, const Frame<D>& frame);
 
 /// The mobile grains of one frame; NaN where a species is missing.
-struct SegregationMoment {
+struct BedState {
   double time = 0;                       // s
   double large = 0, small = 0, bed = 0;  // m, as in BedHeights
   double shear_rate = 0;                 // 1/s, slope of the least-squares line u(y) from 10 to
@@ -38,11 +38,11 @@ class SegregationSeries {
   void add(const Grains& grains, const Frame<D>& frame);
   /// Appends the frames of another, which come later.
   void merge(const SegregationSeries& later);
-  const std::vector<SegregationMoment>& moments() const { return moments_; }
+  const std::vector<BedState>& moments() const { return moments_; }
 
  private:
   Layers layers_;
-  std::vector<SegregationMoment> moments_;
+  std::vector<BedState> moments_;
 };
 
 }  // namespace grseg

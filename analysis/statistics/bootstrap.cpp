@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/statistics/bootstrap.hpp"
 
+#include "analysis/frames/sums.hpp"
+
 #include <fmt/format.h>
 #include <gsl/gsl_rng.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 
 namespace grseg {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // With fewer, the correlation time comes out too short now and then, and hides that there are too few
 // independent ones (docs/studies/uncertainty.md).
 constexpr std::size_t enough_windows = 120;
@@ -48,7 +48,8 @@ double variance(const Eigen::VectorXd& replicates)
     mean += step / n;
     squares += step * (value - mean);
   }
-  return n > 1 && n >= 0.95 * static_cast<double>(replicates.size()) ? squares / (n - 1) : nan;
+  return n > 1 && n >= 0.95 * static_cast<double>(replicates.size()) ? squares / (n - 1)
+                                                                     : no_number;
 }
 
 /// Variance of the mean over blocks of `length` windows of an AR(1) series, relative to what it

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/statistics/confidence.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/dependence.hpp"
 
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace grseg {
 
@@ -15,7 +15,7 @@ double StandardError::reach() const
 {
   return degrees >= least_degrees && std::isfinite(error)
              ? gsl_cdf_tdist_Pinv(0.975, degrees) * error
-             : std::numeric_limits<double>::quiet_NaN();
+             : no_number;
 }
 
 Estimate StandardError::around(double value) const
@@ -32,19 +32,18 @@ Interval StandardError::interval_around(double value) const
 
 StandardError standard_error(const Eigen::VectorXd& influence, int fitted)
 {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto n = static_cast<double>(influence.size());
-  if (n < 2 || !influence.allFinite()) return {nan, 0};
+  if (n < 2 || !influence.allFinite()) return {no_number, 0};
   const double time = autocorrelation_time(influence, {static_cast<std::size_t>(influence.size())});
   const double degrees = n / time - fitted;
-  if (!(degrees >= least_degrees)) return {nan, 0};
+  if (!(degrees >= least_degrees)) return {no_number, 0};
   return {std::sqrt(influence.squaredNorm() * time * (degrees + fitted) / degrees), degrees};
 }
 
 StandardError error_about_trend(const Eigen::VectorXd& influence)
 {
   const auto n = influence.size();
-  if (n < 3 || !influence.allFinite()) return {std::numeric_limits<double>::quiet_NaN(), 0};
+  if (n < 3 || !influence.allFinite()) return {no_number, 0};
   const auto differences = static_cast<double>(n - 1);
   const double squares = (influence.tail(n - 1) - influence.head(n - 1)).squaredNorm() / 2;
   return {std::sqrt(static_cast<double>(n) / differences * squares), 2 * differences / 3};
@@ -52,7 +51,7 @@ StandardError error_about_trend(const Eigen::VectorXd& influence)
 
 namespace {
 
-constexpr StandardError unknown{std::numeric_limits<double>::quiet_NaN(), 0};
+constexpr StandardError unknown{no_number, 0};
 
 }  // namespace
 

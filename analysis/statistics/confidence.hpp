@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/sums.hpp"
+
 #include <Eigen/Core>
-#include <limits>
 #include <vector>
 
 namespace grseg {
 
 /// A number with its 95 % interval; NaN where it cannot be told.
 struct Estimate {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double low = std::numeric_limits<double>::quiet_NaN();
-  double high = std::numeric_limits<double>::quiet_NaN();
+  double value = no_number;
+  double low = no_number;
+  double high = no_number;
 };
 
 /// A 95 % interval alone.
@@ -35,8 +36,8 @@ struct StandardError {
 
 /// A number with its standard error; NaN and 0 degrees where it is not known.
 struct Measured {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  StandardError error{std::numeric_limits<double>::quiet_NaN(), 0};
+  double value = no_number;
+  StandardError error{no_number, 0};
 
   Estimate estimate() const { return error.around(value); }
   Interval interval() const { return error.interval_around(value); }

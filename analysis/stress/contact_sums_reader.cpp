@@ -2,12 +2,12 @@
 #include "analysis/stress/contact_sums_reader.hpp"
 
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace grseg {
 namespace {
@@ -102,8 +102,7 @@ ContactSums<3> ContactSumsReader::read(std::size_t row) const
   for (const auto& [sum, columns] : places_)
     for (std::size_t c = 0; c < columns.size(); ++c)
       sum.in(sums)(components_[c].row, components_[c].column) =
-          columns[c] ? finite_cell(table_, row, *columns[c])
-                     : std::numeric_limits<double>::quiet_NaN();
+          columns[c] ? finite_cell(table_, row, *columns[c]) : no_number;
   return sums;
 }
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace grseg {
 
@@ -59,8 +58,6 @@ template class UnbiasedFluctuations<2>;
 template class UnbiasedFluctuations<3>;
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 template <int D>
 double moment_of_inertia(double mass, double radius)
@@ -116,14 +113,6 @@ std::vector<std::string> freedoms()
 }  // namespace
 
 template <int D>
-Fluctuations<D>& Fluctuations<D>::operator+=(const Fluctuations& other)
-{
-  kinetic += other.kinetic;
-  rotational += other.rotational;
-  return *this;
-}
-
-template <int D>
 Fluctuations<D> Fluctuations<D>::operator/(double number) const
 {
   return {kinetic / number, rotational / number};
@@ -135,31 +124,10 @@ template struct Fluctuations<3>;
 template <int D>
 typename KineticStress<D>::Temperatures KineticStress<D>::Mean::temperature() const
 {
-  if (!(mass > 0)) return Temperatures::Constant(nan);
+  if (!(mass > 0)) return Temperatures::Constant(no_number);
   Temperatures energies;
   energies << about_mean.kinetic.diagonal(), about_mean.rotational;
   return energies / mass;
-}
-
-template <int D>
-typename KineticStress<D>::Mean& KineticStress<D>::Mean::operator+=(const Mean& other)
-{
-  mass += other.mass;
-  content += other.content;
-  grains += other.grains;
-  left_out += other.left_out;
-  own_part += other.own_part;
-  about_mean += other.about_mean;
-  layer_bias += other.layer_bias;
-  return *this;
-}
-
-template <int D>
-typename KineticStress<D>::Sums& KineticStress<D>::Sums::operator+=(const Sums& others)
-{
-  accumulate(species, others.species);
-  flow += others.flow;
-  return *this;
 }
 
 template <int D>
@@ -186,7 +154,7 @@ Motion<D> KineticStress<D>::mean_in(std::size_t layer, Species species,
     case MeanFlow::species:
       return mean_velocity_.of_species(layer, species);
   }
-  return Motion<D>::Constant(nan);
+  return Motion<D>::Constant(no_number);
 }
 
 template <int D>
@@ -314,7 +282,7 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
                        temperatures[static_cast<Eigen::Index>(f)]});
   }
   if (words.size() == 2) {
-    const auto quotient = layer ? equipartition(*layer) : Temperatures::Constant(nan);
+    const auto quotient = layer ? equipartition(*layer) : Temperatures::Constant(no_number);
     for (std::size_t f = 0; f < all_freedoms.size(); ++f)
       cells.push_back({fmt::format("equipartition_{}", all_freedoms[f]),
                        quotient[static_cast<Eigen::Index>(f)]});
@@ -328,7 +296,7 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
                          means[k].layer_bias.kinetic(row, column)});
     cells.push_back({fmt::format("layer_bias_{}_r[J]", words[k]), means[k].layer_bias.rotational});
     cells.push_back({fmt::format("shear_bias_{}_xx[J]", words[k]),
-                     layer ? shear_bias(*layer, static_cast<Species>(k)) : nan});
+                     layer ? shear_bias(*layer, static_cast<Species>(k)) : no_number});
   }
   return cells;
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/frames/cells.hpp"
-#include "analysis/frames/layer_flow.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/frames/mean_velocity.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/species.hpp"
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -67,7 +67,7 @@ struct Fluctuations {
   Tensor<D> kinetic = Tensor<D>::Zero();
   double rotational = 0;
 
-  Fluctuations& operator+=(const Fluctuations& other);
+  static constexpr auto members = std::tuple(&Fluctuations::kinetic, &Fluctuations::rotational);
   Fluctuations operator/(double number) const;
 };
 
@@ -105,7 +105,9 @@ class KineticStress {
     /// means, m^2/s^2; NaN without grains. Energies per grain and degree of freedom are half the
     /// grain's mass times that; the spin of a sphere has three.
     Temperatures temperature() const;
-    Mean& operator+=(const Mean& other);
+    static constexpr auto members =
+        std::tuple(&Mean::mass, &Mean::content, &Mean::grains, &Mean::left_out, &Mean::own_part,
+                   &Mean::about_mean, &Mean::layer_bias);
   };
 
   /// About the mean over the frames that `mean` was given, which are those to be added.
@@ -136,7 +138,7 @@ class KineticStress {
   struct Sums {
     std::vector<Mean> species;
     LayerFlowSums flow;
-    Sums& operator+=(const Sums& others);
+    static constexpr auto members = std::tuple(&Sums::species, &Sums::flow);
   };
   Motion<D> mean_in(std::size_t layer, Species species, const MeanVelocity<D>& now) const;
 

@@ -50,7 +50,8 @@ std::vector<std::string> inputs_of(const Table& table)
 void require_stress_table(const Table& table)
 {
   const auto& program = table.header_text("program");
-  if (program.substr(0, program.find(' ')) != "grseg-stress")
+  const auto name = program.substr(0, program.find(' '));
+  if (name != "grseg-stress" && name != "grseg-merge")
     throw FormatError(fmt::format(
         "{}: was made by {}; only tables of grseg-stress can be merged, all of whose columns are "
         "means per frame",

@@ -9,7 +9,7 @@
 
 namespace grseg {
 
-/// Several tables of grseg-stress as one: rows of one window (t0, t1) and layer become their mean
+/// Several tables of grseg-stress, or of several of them, as one: rows of one window (t0, t1) and layer become their mean
 /// weighted by frames, and `frames` their sum. A layer that a run does not reach counts as empty in
 /// all of that run's frames. With `all_windows` all windows become one, from the earliest t0 to the
 /// latest t1.

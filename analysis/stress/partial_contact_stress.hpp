@@ -2,10 +2,14 @@
 #pragma once
 
 #include "analysis/frames/coarse_graining.hpp"
+#include "analysis/frames/composition.hpp"
+#include "analysis/frames/frame_options.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
+#include "formats/cli/tool.hpp"
 #include "formats/core/frame.hpp"
+#include "formats/core/length.hpp"
 
 #include <optional>
 #include <string>
@@ -124,6 +128,29 @@ class PartialContactStress {
   std::size_t count_ = 0;         // layers of the frame that is being added
   std::vector<Tensor<D>> sums_;   // by layer and place
   std::vector<double> contacts_;  // by layer and contact_index
+};
+
+/// To which layer contacts and grains count, as given on the command line.
+struct ContactAssignment {
+  Assignment assignment;
+  std::optional<KernelShape> shape;  // where the assignment is a kernel
+  GrainArea area;
+};
+
+/// The options from which a ContactAssignment follows.
+struct ContactAssignmentOptions {
+  std::string assign = "contact-point", width = "1dS", composition;
+
+  /// Adds --assign --kernel-width --composition.
+  void add_to(po::options_description& options);
+  /// UsageError for an unknown word, or a width without a kernel. Sets `composition` to what
+  /// follows from `assign`, or to `otherwise`, where it was not given.
+  ContactAssignment contact_assignment(const po::variables_map& values,
+                                       const std::string& otherwise = "clipped");
+  /// UsageError where it spreads over layers what annuli or the cells of a map do not share.
+  void require_bins(const ContactAssignment& chosen, const FrameOptions& frames) const;
+  /// The kernel of `contact_assignment`, if it has one; UsageError where --kernel-width is not a length.
+  std::optional<Kernel> kernel(const ContactAssignment& chosen, const LengthUnits& units) const;
 };
 
 }  // namespace grseg

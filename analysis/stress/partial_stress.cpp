@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/partial_stress.hpp"
 
+#include "analysis/frames/sums.hpp"
+
 #include <numeric>
 
 namespace grseg {
@@ -102,5 +104,27 @@ template PartialStress<2> partial_stress(const ContactSums<2>&, const PartitionR
                                          StressVolume);
 template PartialStress<3> partial_stress(const ContactSums<3>&, const PartitionRule&, BasePart,
                                          StressVolume);
+
+template <int D>
+std::vector<Cell> stress_fields(const ContactSums<D>& sums, const SpeciesList& species,
+                                const MapStress& how)
+{
+  const char* unit = D == 3 ? "[Pa]" : "[N/m]";
+  const double solid = std::accumulate(sums.content.begin(), sums.content.end(), 0.0);
+  std::vector<Cell> fields{{"nu", solid / sums.volume}};
+  const auto words = column_words(species);
+  for (std::size_t k = words.size() == 2 ? 1 : 0; k < words.size(); ++k)
+    fields.push_back({"phi_" + words[k], ratio(sums.content[k], solid)});
+  const Tensor<D> stress = partial_stress(sums, how.rule, how.base, how.volume).total;
+  fields.push_back({std::string("pressure") + unit, stress.trace() / D});
+  fields.push_back({std::string("sigma_yy") + unit, stress(1, 1)});
+  fields.push_back({"stress_ratio", ratio(-stress(0, 1), stress(1, 1))});
+  return fields;
+}
+
+template std::vector<Cell> stress_fields(const ContactSums<2>&, const SpeciesList&,
+                                         const MapStress&);
+template std::vector<Cell> stress_fields(const ContactSums<3>&, const SpeciesList&,
+                                         const MapStress&);
 
 }  // namespace grseg

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/sums.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/species.hpp"
 
 #include <vector>
 
@@ -47,5 +49,20 @@ template <int D>
 PartialStress<D> partial_stress(const ContactSums<D>& sums, const PartitionRule& rule,
                                 BasePart base = BasePart::contact_point,
                                 StressVolume volume = StressVolume::bulk);
+
+/// How the stress of a map is made of its sums.
+struct MapStress {
+  PartitionRule rule;
+  BasePart base = BasePart::contact_point;
+  StressVolume volume = StressVolume::bulk;
+};
+
+/// What one looks at in the cell of a map. nu, the solid fraction; phi_L, or phi_NAME of each species
+/// where they are not two; pressure, the mean of the normal components; sigma_yy; stress_ratio =
+/// -sigma_xy/sigma_yy, the friction of a flow along x. Where a cell is empty sums and densities are 0,
+/// and what is divided by them is NaN.
+template <int D>
+std::vector<Cell> stress_fields(const ContactSums<D>& sums, const SpeciesList& species,
+                                const MapStress& how);
 
 }  // namespace grseg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/partition_rule.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/species.hpp"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <sstream>
 
 namespace grseg {
@@ -202,6 +202,21 @@ std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts)
   return rules;
 }
 
+std::vector<PartitionRule> without_repeats(const std::vector<PartitionRule>& rules)
+{
+  std::vector<PartitionRule> once;
+  for (const auto& rule : rules)
+    if (std::find(once.begin(), once.end(), rule) == once.end()) once.push_back(rule);
+  return once;
+}
+
+std::string names_of(const std::vector<PartitionRule>& rules)
+{
+  std::string names;
+  for (const auto& rule : rules) names += (names.empty() ? "" : ",") + rule.name();
+  return names;
+}
+
 template <int D>
 ContactShares contact_shares(const Grains& grains, const Frame<D>& frame, std::size_t contact,
                              const PartitionRule& rule)
@@ -240,7 +255,7 @@ double neutral_mixed_share(double phi_large, double size_ratio)
 double nominal_share(const PartitionRule& rule, double size_ratio)
 {
   const auto share = rule.definition().share;
-  if (share == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  if (share == nullptr) return no_number;
   return share({size_ratio, 1, neutral_zero_share(size_ratio)}, rule.value);
 }
 

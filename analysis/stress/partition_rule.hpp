@@ -78,6 +78,10 @@ PartitionRule parse_rule(const std::string& text);
 /// Several rules; each text may be a list "size,uniform:0.8", in which "stock" stands for all that
 /// are marked so.
 std::vector<PartitionRule> parse_rules(const std::vector<std::string>& texts);
+/// Each rule once, in order.
+std::vector<PartitionRule> without_repeats(const std::vector<PartitionRule>& rules);
+/// "size,uniform:0.8".
+std::string names_of(const std::vector<PartitionRule>& rules);
 
 /// The parts of a contact's force (x) branch that belong to its grains i and j. They add up to 1,
 /// but where `drop` leaves a mixed contact out, and at the base, whose part is nobody's.

@@ -2,6 +2,7 @@
 #include "analysis/check/checks.hpp"
 #include "analysis/check/file_check.hpp"
 #include "analysis/check/physics_check.hpp"
+#include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
@@ -16,6 +17,8 @@
 
 #include <cstdio>
 #include <iostream>
+#include <optional>
+#include <vector>
 
 using namespace grseg;
 
@@ -23,10 +26,9 @@ namespace {
 
 constexpr const char* name = "grseg-check";
 
-/// The examples and what --physics checks.
-const std::string& help()
+ToolInfo info()
 {
-  static const std::string text =
+  static const std::string help =
       "  grseg-check run.h5                               closed, readable, digests agree\n"
       "  grseg-check run.h5 --deep                        every path and chunk as specified in\n"
       "                                                   formats/README.md\n"
@@ -34,14 +36,9 @@ const std::string& help()
       "  grseg-check run.h5 --physics --begin 20 --mean-overlap 1e-3 --json -o check.json\n"
       "\nChecks of --physics: what is measured, tolerance and law; see docs/studies/check.md:\n" +
       checks::listed();
-  return text;
-}
-
-ToolInfo info()
-{
   return {name,
           "tells whether a run is whole, as specified (--deep) and obeys mechanics (--physics).",
-          "grseg-check run.h5 [options] > check.tsv", help().c_str()};
+          "grseg-check run.h5 [options] > check.tsv", help.c_str()};
 }
 
 struct Settings {
@@ -89,7 +86,7 @@ Header header_of(const TrajectoryReader& run, const Settings& s, const std::stri
 }
 
 template <int D>
-CheckReport check(const TrajectoryReader& run, const Settings& s, const std::string& command)
+std::vector<CheckLine> check(const TrajectoryReader& run, const Settings& s)
 {
   ContentCheck content(run);
   std::optional<SpecificationCheck> specification;
@@ -106,33 +103,34 @@ CheckReport check(const TrajectoryReader& run, const Settings& s, const std::str
     if (physics) physics->add(k, frame);
     progress.show(static_cast<double>(k + 1));
   }
-  CheckReport report{header_of(run, s, command), content.lines()};
-  const auto append = [&](const auto& part) {
-    if (!part) return;
-    for (auto& line : part->lines()) report.lines.push_back(std::move(line));
+  auto lines = content.lines();
+  const auto append = [&](const std::vector<CheckLine>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
   };
-  append(specification);
-  append(physics);
-  return report;
+  if (specification) append(specification->lines());
+  if (physics) append(physics->lines());
+  return lines;
+}
+
+void check(Settings& s, const po::variables_map& values, const std::string& command)
+{
+  s.output.check(values);
+  const TrajectoryReader run(single_input(values, "check one at a time"), Verify::no);
+  const CheckReport report{header_of(run, s, command), with_dimension(run.dimension(), [&](auto d) {
+                             return check<d>(run, s);
+                           })};
+  write_table(s.output, s.json ? to_json(report) : to_tsv(report));
+  std::cout.flush();
+  if (const auto failures = report.failures(); !failures.empty())
+    throw CheckError(fmt::format("{}: {}", run.path(), failures));
+  if (const auto undecided = report.undecided(); !undecided.empty() && !s.quiet)
+    fmt::print(stderr, "{}: {}: {}\n", name, run.path(), undecided);
+  say_next(fmt::format("grseg-stress {} -o stress.tsv", shell_word(run.path())), s.quiet);
 }
 
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  Settings settings;
-  const auto options = options_into(settings);
-  return run_tool(argc, argv, info(), options, [&](const po::variables_map& values) {
-    settings.output.check(values);
-    const TrajectoryReader run(single_input(values, "check one at a time"), Verify::no);
-    const auto report = with_dimension(
-        run.dimension(), [&](auto d) { return check<d>(run, settings, command_line(argc, argv)); });
-    write_table(settings.output, settings.json ? to_json(report) : to_tsv(report));
-    std::cout.flush();
-    if (const auto failures = report.failures(); !failures.empty())
-      throw CheckError(fmt::format("{}: {}", run.path(), failures));
-    if (const auto undecided = report.undecided(); !undecided.empty() && !settings.quiet)
-      fmt::print(stderr, "{}: {}: {}\n", name, run.path(), undecided);
-    say_next(fmt::format("grseg-stress {} -o stress.tsv", shell_word(run.path())), settings.quiet);
-  });
+  return tool_main<Settings>(argc, argv, info(), options_into, check);
 }

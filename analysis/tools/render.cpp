@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/frames/frame_options.hpp"
 #include "analysis/frames/grouping.hpp"
 #include "analysis/frames/in_order.hpp"
-#include "analysis/micro/derived_table.hpp"
 #include "analysis/render/film.hpp"
 #include "analysis/render/picture.hpp"
 #include "analysis/render/picture_options.hpp"

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/presets.hpp"
-#include "analysis/maps/fields.hpp"
-#include "analysis/stress/contact_assignment.hpp"
-#include "analysis/stress/merge_tables.hpp"
+#include "analysis/frames/table_writer.hpp"
+#include "analysis/stress/partial_contact_stress.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
+#include "analysis/tools/tool_main.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
 
 #include <fmt/format.h>
-
-#include <set>
 
 using namespace grseg;
 
@@ -22,37 +19,32 @@ namespace {
 constexpr ToolInfo info{
     "grseg-stress",
     "sums of force (x) branch by layer, window and pair of species: contact stress.",
-    "grseg-stress run.h5 [options] > sums.tsv\n       grseg-stress --merge a.tsv b.tsv > sums.tsv",
+    "grseg-stress run.h5 [options] > sums.tsv",
     "  grseg-stress run.h5 -o sums.tsv                  layers of 4 dS, windows of 1.25 s\n"
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
     "  grseg-stress run.h5 --assign gauss --kernel-width 1dS   coarse grained by a Gaussian\n"
     "  grseg-stress drum.h5 --bins radius --layer 2dS   annuli about the axis of a drum\n"
     "  grseg-stress drum.h5 --bins xy --layer 2dS -o map.h5           a map, for h5py or xarray\n"
-    "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n"
-    "  grseg-stress --merge seed1.tsv seed2.tsv         the sums of two runs as one table\n",
+    "  grseg-stress run.h5 --partition power:2 | grseg-fit - --partition power:2\n",
     presets::stress};
 
 struct Settings {
   FrameOptions frames;
   ContactAssignmentOptions assignment;
   std::string base = "contact-point", volume = "bulk", partition = "size";
-  bool merge = false, all_windows = false;
 };
 
 po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
   s.assignment.add_to(options);
-  const auto base = "likewise, the part of contacts with base and walls: " + list_of(base_parts);
-  const auto volume = "likewise, the volume of a stress: " + list_of(stress_volumes);
-  options.add_options()("partition", word_option(&s.partition, words_of_rule()),
-                        "default rule of grseg-fit for this table; power:Q adds columns Mpower_*");
-  options.add_options()("base-part", word_option(&s.base, words_of(base_parts)), base.c_str());
-  options.add_options()("volume", word_option(&s.volume, words_of(stress_volumes)), volume.c_str());
-  options.add_options()("merge", po::bool_switch(&s.merge),
-                        "of tables instead of a run: means weighted by frames, window by window");
-  options.add_options()("all-windows", po::bool_switch(&s.all_windows),
-                        "with --merge: of all windows together");
+  auto add = options.add_options();
+  add("partition", word_option(&s.partition, words_of_rule()),
+      "default rule of grseg-fit for this table; power:Q adds columns Mpower_*");
+  add("base-part", word_option(&s.base, words_of(base_parts)),
+      ("likewise, the part of contacts with base and walls: " + list_of(base_parts)).c_str());
+  add("volume", word_option(&s.volume, words_of(stress_volumes)),
+      ("likewise, the volume of a stress: " + list_of(stress_volumes)).c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
   s.frames.add_parts_to(options);
@@ -70,58 +62,24 @@ MapStress stress_of(Settings& s)
   return {rule, base, volume};
 }
 
-/// The exponent of Mpower_*, where the rule asks for these columns.
-std::optional<double> power_of(const PartitionRule& rule)
-{
-  if (rule.kind != PartitionRule::Kind::power) return {};
-  return rule.value;
-}
-
-void require_layers(const Settings& s, const ContactAssignment& chosen)
-{
-  const bool whole =
-      chosen.assignment == Assignment::contact_point || chosen.assignment == Assignment::grain;
-  const bool map = s.frames.map().has_value();
-  if ((s.frames.annuli() || map) && !whole)
-    throw UsageError(
-        fmt::format("--assign {} spreads contacts over layers, not over {}; with --bins {} take "
-                    "contact-point or grain",
-                    s.assignment.assign, map ? "the cells of a map" : "annuli", s.frames.bins));
-  if (map && chosen.area != GrainArea::centre)
-    throw UsageError(fmt::format(
-        "--composition {}: in a map a grain counts to the cell of its centre; take centre",
-        s.assignment.composition));
-}
-
 template <class T>
-std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
+void append(std::vector<T>& to, const std::vector<T>& more)
 {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
-template <int D>
-std::vector<Cell> map_fields(const FrameLoop& loop, const MapStress& how,
-                             const std::vector<double>& contents, ContactSums<D> sums,
-                             std::size_t cell)
-{
-  sums.content = contents;
-  sums.volume = loop.layers().volume(cell);
-  return stress_fields(sums, loop.species(), how);
+  to.insert(to.end(), more.begin(), more.end());
 }
 
 template <int D>
 void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chosen,
               const MapStress& how, const std::string& command)
 {
-  const auto power = power_of(how.rule);
-  const bool map = loop.layers().map().has_value();
-  std::vector<std::pair<std::string, std::string>> settings{
-      {"assign", s.assignment.assign},
-      {"composition", s.assignment.composition},
-      {"partition", s.partition},
-      {"base", s.base},
-      {"volume", s.volume}};
+  std::optional<double> power;  // the exponent of Mpower_*, where the rule asks for these columns
+  if (how.rule.kind == PartitionRule::Kind::power) power = how.rule.value;
+  const bool map = loop.layers().map() != nullptr;
+  Header settings{{"assign", s.assignment.assign},
+                  {"composition", s.assignment.composition},
+                  {"partition", s.partition},
+                  {"base", s.base},
+                  {"volume", s.volume}};
   if (power) settings.emplace_back("power", format_number(*power));
   const auto kernel =
       s.assignment.kernel(chosen, {loop.run().small_diameter(), loop.run().large_diameter()});
@@ -130,31 +88,32 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
   const Composition<D> no_grains(loop.layers(), chosen.area, kernel, species.size());
   const PartialContactStress<D> no_contacts(loop.layers(), chosen.assignment, power, kernel,
                                             species.size());
-  auto columns = joined(content_columns(species, D), no_contacts.columns(species));
-  if (map)
-    columns =
-        joined(columns, columns_of(stress_fields(ContactSums<D>(species.size()), species, how)));
-  auto table = loop.make_table(command, settings, columns);
+  auto columns = content_columns(species, D);
+  append(columns, no_contacts.columns(species));
+  if (map) append(columns, columns_of(stress_fields(ContactSums<D>(species.size()), species, how)));
+  TableWriter table(loop, command, settings, columns);
+
   for (const auto& window : loop.windows()) {
     const auto [composition, stress] =
         loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
-      const auto contents = composition.mean(layer);
-      auto row = joined(contents, stress.row(layer));
-      if (map)
-        row = joined(row,
-                     values_of(map_fields<D>(loop, how, contents, stress.mean(layer).sums, layer)));
-      loop.add(table, loop.row(window, layer, row));
+      auto row = composition.mean(layer);
+      auto sums = stress.mean(layer).sums;
+      sums.content = row;
+      sums.volume = loop.layers().volume(layer);
+      append(row, stress.row(layer));
+      if (map) append(row, values_of(stress_fields(sums, species, how)));
+      table.add(window, layer, row);
     }
   }
-  loop.write(std::move(table), map ? "" : "grseg-fit");
+  table.write(map ? "" : "grseg-fit");
 }
 
-void tabulate(Settings s, const po::variables_map& values, const std::string& command)
+void tabulate(Settings& s, const po::variables_map& values, const std::string& command)
 {
   const auto chosen =
       s.assignment.contact_assignment(values, s.frames.map() ? "centre" : "clipped");
-  require_layers(s, chosen);
+  s.assignment.require_bins(chosen, s.frames);
   const auto how = stress_of(s);
   FrameLoop loop(info, values, s.frames);
   with_dimension(loop.dimension(), [&](auto d) {
@@ -165,29 +124,9 @@ void tabulate(Settings s, const po::variables_map& values, const std::string& co
   });
 }
 
-void merge(const Settings& s, const po::variables_map& values, const std::string& command)
-{
-  const std::set<std::string> about_merging{"merge", "all-windows", "input", "output", "overwrite",
-                                            "quiet", "json",        "short", "digits"};
-  for (const auto& [name, value] : values)
-    if (!value.defaulted() && !about_merging.contains(name))
-      throw UsageError(
-          fmt::format("--{} does not go with --merge: tables keep what they were made with", name));
-  s.frames.output.check(values);
-  const auto merged = merge_tables(read_tables(values), s.all_windows, info, command);
-  write_table(s.frames.output, s.frames.json ? merged.to_json() : merged.to_text());
-}
-
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  Settings settings;
-  const auto options = options_into(settings);
-  return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
-    const auto command = command_line(argc, argv);
-    if (settings.merge) return merge(settings, values, command);
-    if (settings.all_windows) throw UsageError("--all-windows goes with --merge");
-    tabulate(settings, values, command);
-  });
+  return tool_main<Settings>(argc, argv, info, options_into, tabulate);
 }

@@ -1,5 +1,5 @@
 # Height of the large grains, contacts per grain and mean forces of the whole bed over time (Staron &
-# Phillips 2015, figure 6), of FOLDER/time.tsv (grseg-micro --derived):
+# Phillips 2015, figure 6), of FOLDER/time.tsv (grseg-derive):
 #   gnuplot -c scripts/figures/micro-over-time.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "micro-over-time.gp") - 1]."names.gp"
 eval figure("micro-over-time", 1200, 900, 12)

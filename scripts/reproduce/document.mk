@@ -59,7 +59,7 @@ $(names:%=figures/%.png) $(names:%=figures/%.pdf): figures/%: $(work)/%
 inside := --heights 4dS:56dS --quiet
 # One number for all mixtures, as published (docs/studies/uncertainty.md).
 fit = $(bin)/grseg-fit --over compositions --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
-micro = $(bin)/grseg-micro --derived --overwrite -o $@
+micro = $(bin)/grseg-derive --overwrite -o $@
 code = $(1:%=campaign/%.py) campaign/tables.py ../shared.py
 every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
 

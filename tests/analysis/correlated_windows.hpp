@@ -3,6 +3,7 @@
 
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/rule_fit.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
@@ -79,7 +80,7 @@ inline bool holds(const Interval& interval, double truth)
 
 inline Interval percentiles(Eigen::VectorXd samples)
 {
-  if (samples.size() == 0) return {Estimators::nan, Estimators::nan};
+  if (samples.size() == 0) return {no_number, no_number};
   std::sort(samples.begin(), samples.end());
   const auto tail = static_cast<Eigen::Index>(0.025 * static_cast<double>(samples.size()));
   return {samples[tail], samples[samples.size() - 1 - tail]};
@@ -288,7 +289,7 @@ class RunsOfFlows {
         sums.volume = 1;
         sums.of(OwnSum::inside, 0)(1, 1) = ratio / (1 + ratio);
         sums.of(OwnSum::inside, 1)(1, 1) = 1 / (1 + ratio);
-        sums.of(OwnSum::inside, 0)(0, 0) = Estimators::nan;  // xx was not kept
+        sums.of(OwnSum::inside, 0)(0, 0) = no_number;  // xx was not kept
         data.samples.push_back({.window = first + k,
                                 .phi_large = phi,
                                 .weight = layer_weight(phi),

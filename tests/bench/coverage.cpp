@@ -112,7 +112,7 @@ void print_runs(std::size_t runs, double scatter)
     const auto fit =
         fit_rule(ScatteredStress::windows(lengths, run_scatter, noise), {}, {}, bootstrap);
     b.add(fit.value.B, of(fit, &Estimators::B));
-    const auto& of_windows = fit.at(Over::windows);
+    const auto& of_windows = fit.at(Population::windows);
     inside.add(fit.value.B, {of_windows.low, of_windows.high});
   }
   fmt::print("{:4} {:7} {:6.3f} {:6.3f} {:6.2f} {:13.3f} {:6.2f}\n", runs, scatter, mean.coverage(),
@@ -175,7 +175,7 @@ void print_starts()
 
 /// Of one population.
 struct PopulationTally {
-  Over over;
+  Population over;
   Tally b{0};
 };
 
@@ -184,32 +184,32 @@ void add_to(Tally& tally, const Estimate& b, double truth)
   tally.add(b.value - truth, {b.low - truth, b.high - truth});
 }
 
-double truth_of(Over over, const RunsOfFlows::Draw::Truth& truth)
+double truth_of(Population over, const RunsOfFlows::Draw::Truth& truth)
 {
   switch (over) {
-    case Over::windows:
+    case Population::windows:
       return truth.of_runs;
-    case Over::runs:
+    case Population::runs:
       return truth.of_each[0];
-    case Over::equal_flows:
+    case Population::equal_flows:
       return truth.of_equal;
-    case Over::random_flows:
+    case Population::random_flows:
       return truth.of_all;
     default:
       return truth.of_flows;
   }
 }
 
-bool is_defined(Over over, std::size_t flows)
+bool is_defined(Population over, std::size_t flows)
 {
-  return flows > 1 || over == Over::windows || over == Over::runs || over == Over::compositions;
+  return flows > 1 || over == Population::windows || over == Population::runs || over == Population::compositions;
 }
 
 void print_flows(const FlowDesign& design)
 {
   RunsOfFlows source(design);
   std::vector<PopulationTally> tallies;
-  for (const auto& [word, over, meaning] : overs) tallies.push_back({over});
+  for (const auto& [word, over, meaning] : populations) tallies.push_back({over});
   int doubted = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const auto drawn = source.draw();
@@ -217,7 +217,7 @@ void print_flows(const FlowDesign& design)
         fit_flows(drawn.data, {}, {}, {flow_samples, static_cast<unsigned long>(trial) + 1});
     doubted += !fits.all.doubt.empty();
     for (auto& [over, b] : tallies) {
-      if (over == Over::runs && !fits.of_each.empty()) {
+      if (over == Population::runs && !fits.of_each.empty()) {
         for (std::size_t m = 0; m < fits.of_each.size(); ++m)
           add_to(b, fits.of_each[m].at(over), drawn.truth.of_each[m]);
         continue;
@@ -244,7 +244,7 @@ void print_all_flows()
       "# coverage and the width of the interval of B; doubt: share of the trials\n"
       "# design scatter variance",
       trials, flow_samples, RunsOfFlows::windows, RunsOfFlows::rho);
-  for (const auto& [word, over, meaning] : overs) fmt::print(" | {}", word);
+  for (const auto& [word, over, meaning] : populations) fmt::print(" | {}", word);
   fmt::print(" | doubt\n");
   std::fflush(stdout);
   for (const auto& [flows, runs] :

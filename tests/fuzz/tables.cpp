@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables, as grseg-fit, grseg-stress --merge and grseg-micro --derived read them. The parts of an
+// Tables, as grseg-fit, grseg-merge and grseg-derive read them. The parts of an
 // input are tables, with the last line that they should have.
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/micro/sums_table.hpp"

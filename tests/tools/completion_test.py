@@ -26,15 +26,16 @@ TYPED = {
 # An option of each place where words are listed, and one of its words.
 WORDS = {
     "grseg-balance": {"kernel": "lucy", "partition": "stock", "preset": "rigorous"},
+    "grseg-closure": {"instruments": "previous"},
+    "grseg-derive": {"force": "normal", "average": "ends", "pool": "windows", "partition": "uniform:"},
     "grseg-explore": {"partition": "contact-point", "rules": "stock", "component": "yy", "base-part": "half"},
     "grseg-export": {"to": "extxyz"},
     "grseg-fit": {"component": "pressure", "quantity": "kinetic", "fit": "paper", "completion": "zsh"},
+    "grseg-forces": {"unit": "type"},
     "grseg-import": {"format": "siconos", "repeated": "last", "units": "cgs", "grains-are": "spheres", "origin": "centre"},
     "grseg-kinetic": {"mean": "profile-unbiased", "velocity": "middle", "bins": "radius:"},
-    "grseg-micro": {"composition": "clipped", "unit": "type", "force": "normal", "average": "ends", "pool": "windows",
-                    "partition": "uniform:"},
+    "grseg-micro": {"composition": "clipped"},
     "grseg-render": {"color": "pressure", "plane": "zx", "theme": "dark"},
-    "grseg-segregation": {"instruments": "previous"},
     "grseg-sim": {"accuracy": "draft", "contact-law": "centred", "geometry": "drum", "rotation": "off"},
     "grseg-stress": {"assign": "branch", "composition": "kernel", "volume": "solid", "base-part": "half"},
 }

@@ -1,6 +1,6 @@
 """A campaign of runs whose tables are known in advance, beside programs that know their answers.
 
-grseg-fit, grseg-micro and grseg-segregation are stood in for by a script that prints what the test put down for its arguments, so
+grseg-fit, grseg-derive and grseg-closure are stood in for by a script that prints what the test put down for its arguments, so
 that what is asked of them, and what is made of their answers, is tested and not they.
 """
 import json
@@ -68,7 +68,7 @@ class Campaign:
         os.makedirs(self.tables)
         os.makedirs(self.bin)
         self.folder, self.answers = folder, []
-        for name in ("grseg-fit", "grseg-micro", "grseg-segregation"):
+        for name in ("grseg-fit", "grseg-derive", "grseg-closure"):
             path = os.path.join(self.bin, name)
             with open(path, "w") as program:
                 program.write(STAND_IN)

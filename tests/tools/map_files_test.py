@@ -12,7 +12,7 @@ import xml.etree.ElementTree
 import h5py
 import numpy as np
 
-stress, kinetic, micro, fit, run = sys.argv[1:]
+stress, merge, kinetic, micro, fit, run = sys.argv[1:]
 folder = tempfile.TemporaryDirectory()  # gone with the script
 os.chdir(folder.name)
 MAP = ["--bins", "xy", "--layer", "6dS", "--window", "4", "--quiet"]
@@ -158,13 +158,12 @@ def check_refusals():
     refused([stress, run, "--bins", "xy", "--composition", "clipped"], 2, "take centre")
     refused([micro, run, "--bins", "xy", "--composition", "clipped"], 2, "take centre")
     refused([micro, run, "--bins", "radius:0,0"], 2, "grseg-micro knows layers, xy and xz")
-    refused([micro, run, "--bins", "xy", "--distribution"], 2, "has no effect on --distribution")
     refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "take layer, instant or instant-unbiased")
     refused([stress, run, "--bins", "xy", "--layer", "1e-6m"], 1, "are the cells too small?")
     refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json prints text")
     assert call(stress, run, *MAP, "-o", "map.tsv").returncode == 0
     refused([fit, "map.tsv"], 3, "map.tsv: a map (bins: xy), whose rows are cells, not layers")
-    refused([stress, "--merge", "map.tsv"], 3, "map.tsv: a map (bins: xy)")
+    refused([merge, "map.tsv"], 3, "map.tsv: a map (bins: xy)")
     os.mkdir("mine")
     refused([stress, run, *MAP, "-o", "mine.pvd"], 2, "already exists")
     refused([stress, run, *MAP, "-o", "mine.pvd", "--overwrite"], 2, "holds no 000000.vti")

@@ -23,11 +23,11 @@ $bin/grseg-sim --restart run.chk --duration 1.6 --quiet --perturb 1e-6 --seed-pe
 # Times of run and more are no binary fractions; the window of all is as long as the run.
 for window in 0.1 0.2 0.3 0.06; do
   for run in run more; do sums $run --window $window -o $run.tsv; done
-  $bin/grseg-stress --merge run.tsv more.tsv --overwrite -o merged.tsv || fail "--window $window does not merge"
+  $bin/grseg-merge run.tsv more.tsv --overwrite -o merged.tsv || fail "--window $window does not merge"
   [ "$(grep -c . merged.tsv)" -gt "$(grep -c . run.tsv)" ] || fail "--window $window: $(cat merged.tsv)"
 done
 for run in run more; do sums $run --window all -o $run.tsv; done
-$bin/grseg-stress --merge run.tsv more.tsv --all-windows --overwrite -o merged.tsv
+$bin/grseg-merge run.tsv more.tsv --all-windows --overwrite -o merged.tsv
 has merged.tsv 'window: 1\.6.*'
 
 for run in run more twin other again; do sums $run --window 0.2 -o $run.tsv; done
@@ -43,7 +43,7 @@ grep -q '^# doubt: .*count as tables' fit.tsv && fail "what is known is doubted:
 
 # Half as many frames of the same motion, in single precision; as if a window of one were half that of another.
 sums run --window 0.4 -o run.tsv
-for command in "grseg-fit run.tsv again.tsv" "grseg-stress --merge run.tsv again.tsv --all-windows"; do
+for command in "grseg-fit run.tsv again.tsv" "grseg-merge run.tsv again.tsv --all-windows"; do
   code=0
   # shellcheck disable=SC2086
   $bin/$command >table 2>words || code=$?

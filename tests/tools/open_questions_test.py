@@ -147,7 +147,7 @@ class Closures(Pipeline):
             self.campaign.run(name)
         numbers = ("B_over_c[s]", "d_over_c[m^2/s]", "p_zero", "dc_dp[1/s]", "c@size[1/s]", "c@half[1/s]", "d@size[m^2/s^2]", "error_factor")
         for phi, first in (("0.30", 1.0), ("0.60", 101.0)):
-            self.campaign.answer("grseg-segregation", f"phi{phi}-s23-e0.25-seed1/stress.tsv",
+            self.campaign.answer("grseg-closure", f"phi{phi}-s23-e0.25-seed1/stress.tsv",
                                  rows=[{"quantity": name, "value": first + n, "low": first + n - 0.5, "high": math.nan} for n, name in enumerate(numbers)])
         thirty, sixty = self.campaign.made_by("closures")
         self.assertEqual((thirty["flow"], thirty["runs"], sixty["phi"], sixty["runs"]), ("phi0.30-s23-e0.25", 2, 0.6, 1))
@@ -305,7 +305,7 @@ class Denser(Pipeline):
         numbers = ("d_over_c[m^2/s]", "p_zero", "dc_dp[1/s]", "c@size[1/s]", "c@half[1/s]", "d@size[m^2/s^2]", "error_factor")
         for ratio, factor in (("1.5", 2e-4 / 1.25), ("0.5", 6e-4 / 0.75), ("1", 4e-4)):
             rows = [{"quantity": name, "value": 1.0, "low": 1.0, "high": 1.0} for name in numbers]
-            self.campaign.answer("grseg-segregation", f"density{ratio}-t60-seed1/stress.tsv",
+            self.campaign.answer("grseg-closure", f"density{ratio}-t60-seed1/stress.tsv",
                                  rows=[{"quantity": "B_over_c[s]", "value": factor, "low": factor - 1e-5, "high": factor + 1e-5}, *rows])
         rows = {row["of"]: row for row in self.campaign.made_by("denser", "--flow", "phi0.50-s23-mixed")}
         self.assertAlmostEqual(rows["D = -0.5"]["value"], 6e-4)  # by volume instead of mass

@@ -46,8 +46,8 @@ keeps() {
 }
 for tool in stress kinetic micro balance segregation check; do keeps run.h5 "$bin/grseg-$tool" run.h5; done
 keeps sums.tsv "$bin/grseg-fit" sums.tsv
-keeps sums.tsv "$bin/grseg-stress" --merge sums.tsv
-keeps micro.tsv "$bin/grseg-micro" --derived micro.tsv
+keeps sums.tsv "$bin/grseg-merge" sums.tsv
+keeps micro.tsv "$bin/grseg-derive" micro.tsv
 for form in extxyz lammps h5md3d; do keeps run.h5 "$bin/grseg-export" run.h5 --to $form; done
 # shellcheck disable=SC2086
 keeps archive/atoms.dump "$bin/grseg-import" $import

@@ -29,7 +29,7 @@ for tool in stress kinetic micro; do
   in_parts 4 $bin/grseg-$tool spheres.h5 --window 8
 done
 in_parts 2 $bin/grseg-stress chute.h5 --bins xy --layer 4dS
-in_parts 2 $bin/grseg-micro chute.h5 --distribution --window 5
+in_parts 2 $bin/grseg-forces chute.h5 --window 5
 
 refused() {
   code=0

@@ -68,7 +68,7 @@ def main():
         # Where not all columns fit, those stand there that most readers look for.
         sums = f"{folder}/sums.tsv"
         in_pipe([f"{programs}/grseg-micro", *COMMANDS["micro"], "--quiet", "-o", sums])
-        derived, _ = on_terminal([f"{programs}/grseg-micro", "--derived", sums, "--quiet"])
+        derived, _ = on_terminal([f"{programs}/grseg-derive", sums, "--quiet"])
         assert {"phi_L", "z_S", "z_L", "f_S[N]"} <= set(derived.splitlines()[0].split()), derived
 
 

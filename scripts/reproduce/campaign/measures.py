@@ -60,7 +60,7 @@ def pressures(_, part):
 
 
 def derived(options, runs, *words, columns=None):
-    return tables.program(options, "grseg-micro", "--derived", *(run.path("micro") for run in runs),
+    return tables.program(options, "grseg-derive", *(run.path("micro") for run in runs),
                           "--quiet", *words, columns=columns)[1]
 
 

@@ -101,7 +101,7 @@ TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
     b += below[k] / n;
   }
   for (std::size_t k = 0; k < 5; ++k) squares += std::pow(above[k] - a / b * below[k], 2);
-  const auto zero = nlohmann::json::parse(summary.to_json())["p_zero"];
+  const auto zero = nlohmann::json::parse(summary.to_json({}))["summary"]["p_zero"];
   EXPECT_NEAR(zero["mean"].get<double>(), a / b, 1e-12);
   EXPECT_NEAR(zero["standard_error"].get<double>(), std::sqrt(squares / (n - 1) / n) / std::abs(b),
               1e-12);

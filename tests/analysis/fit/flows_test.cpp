@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/flows.hpp"
 
+#include "analysis/fit/estimators.hpp"
 #include "analysis/fit/fit_pairs.hpp"
-#include "analysis/fit/run_errors.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
@@ -209,7 +209,7 @@ FitData three_runs_of_each(const std::vector<KnownFlow>& flows)
   return data;
 }
 
-RuleFit fit_over(const FitData& data, Over over)
+RuleFit fit_over(const FitData& data, Population over)
 {
   return fit_flows(data, {}, {.over = over}, {200, 1}).all;
 }
@@ -223,19 +223,19 @@ double reach(const RuleFit& fit)
 // degrees of freedom. minus_ln_s = -ln s is linear in the runs.
 TEST(Populations, OfOneFlowAreItsRuns)
 {
-  const auto fit = fit_over(three_runs_of_each({{0.04, 0.003, 2}}), Over::automatic);
-  EXPECT_EQ(fit.over, Over::runs);
+  const auto fit = fit_over(three_runs_of_each({{0.04, 0.003, 2}}), Population::automatic);
+  EXPECT_EQ(fit.over, Population::runs);
   EXPECT_NEAR(fit.value.minus_ln_s, 0.04, 1e-15);
   EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 2) * 0.003 / std::sqrt(3), 1e-10);
   EXPECT_NEAR(fit.degrees, 2, 1e-12);
-  EXPECT_NEAR(fit.at(Over::runs).low, fit.low.B, 1e-15);
+  EXPECT_NEAR(fit.at(Population::runs).low, fit.low.B, 1e-15);
 }
 
 TEST(Populations, FlowsAsTheyAreCountByTheirWeights)
 {
   const auto fit =
-      fit_over(three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}}), Over::automatic);
-  EXPECT_EQ(fit.over, Over::flows);
+      fit_over(three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}}), Population::automatic);
+  EXPECT_EQ(fit.over, Population::flows);
   EXPECT_NEAR(fit.value.minus_ln_s, (0.03 + 3 * 0.05) / 4, 1e-15);
   // Both flows contribute the same error: 0.003/4 and 3 x 0.001/4, over sqrt(3).
   const double error = std::sqrt(2.0 / 3) * 0.003 / 4;
@@ -245,7 +245,7 @@ TEST(Populations, FlowsAsTheyAreCountByTheirWeights)
 TEST(Populations, EqualFlowsAreTheMeanOfTheirBs)
 {
   const auto data = three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}, {0.07, 0.002, 9}});
-  const auto fit = fit_over(data, Over::equal_flows);
+  const auto fit = fit_over(data, Population::equal_flows);
   EXPECT_NEAR(fit.value.minus_ln_s, 0.05, 1e-15);
   // Squares of 0.003, 0.001 and 0.002 over 27, with two degrees of freedom each.
   const double sum = 14e-6, fourths = (81e-12 + 1e-12 + 16e-12) / (2 + 2);
@@ -254,7 +254,7 @@ TEST(Populations, EqualFlowsAreTheMeanOfTheirBs)
   EXPECT_NEAR(fit.degrees, degrees, 0.01);  // those of B, which is not quite linear
   // How flows differ is not in it.
   const auto apart = three_runs_of_each({{-0.53, 0.003, 1}, {0.05, 0.001, 3}, {0.63, 0.002, 9}});
-  EXPECT_NEAR(reach(fit_over(apart, Over::equal_flows)), reach(fit), 1e-10);
+  EXPECT_NEAR(reach(fit_over(apart, Population::equal_flows)), reach(fit), 1e-10);
 }
 
 /// Two flows, of two runs each, that scatter by `scatter`; large grains are twice as large.
@@ -271,7 +271,7 @@ FitData four_runs(double scatter)
 TEST(Populations, AllNumbersOfARowAreOfTheSameOnes)
 {
   const auto data = four_runs(0.2);
-  for (const auto over : {Over::equal_flows, Over::random_flows}) {
+  for (const auto over : {Population::equal_flows, Population::random_flows}) {
     const auto fits = fit_flows(data, parse_rule("half"), {.over = over}, {200, 1});
     const auto &half = fits.all, &first = fits.of_each.at(0), &second = fits.of_each.at(1);
     const auto size = fit_over(data, over);
@@ -292,7 +292,7 @@ TEST(Populations, AllNumbersOfARowAreOfTheSameOnes)
 TEST(Populations, TheDifferenceToSizeHasTheErrorsOfTheFlowsDifferences)
 {
   const auto fits =
-      fit_flows(four_runs(0.2), parse_rule("half"), {.over = Over::equal_flows}, {200, 1});
+      fit_flows(four_runs(0.2), parse_rule("half"), {.over = Population::equal_flows}, {200, 1});
   const double sum = std::hypot(fits.of_each.at(0).minus_size.error.error,
                                 fits.of_each.at(1).minus_size.error.error);
   EXPECT_GT(sum, 0);
@@ -304,22 +304,23 @@ TEST(Populations, EqualFlowsAreByTheirRunsAlsoBesideIntervalsOverWindows)
 {
   synthetic::RunsOfFlows source({3, 4, 2, 3});
   const auto data = source.draw().data;
-  const auto by_windows = fit_over(data, Over::windows), by_runs = fit_over(data, Over::flows);
-  ASSERT_TRUE(std::isfinite(by_runs.at(Over::equal_flows).low));
-  EXPECT_EQ(by_windows.at(Over::equal_flows).low, by_runs.at(Over::equal_flows).low);
-  EXPECT_EQ(by_windows.at(Over::equal_flows).high, by_runs.at(Over::equal_flows).high);
+  const auto by_windows = fit_over(data, Population::windows),
+             by_runs = fit_over(data, Population::flows);
+  ASSERT_TRUE(std::isfinite(by_runs.at(Population::equal_flows).low));
+  EXPECT_EQ(by_windows.at(Population::equal_flows).low, by_runs.at(Population::equal_flows).low);
+  EXPECT_EQ(by_windows.at(Population::equal_flows).high, by_runs.at(Population::equal_flows).high);
 }
 
 // Student's interval of the mean of 0.03, 0.05 and 0.07.
 TEST(Populations, RandomFlowsScatterLikeTheirBs)
 {
   const auto data = three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}, {0.07, 0.002, 9}});
-  const auto fit = fit_over(data, Over::random_flows);
+  const auto fit = fit_over(data, Population::random_flows);
   EXPECT_NEAR(fit.value.minus_ln_s, 0.05, 1e-15);
   EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 2) * 0.02 / std::sqrt(3), 1e-12);
   EXPECT_NE(fit.doubt.find("3 flows tell little of how flows differ"), std::string::npos);
-  EXPECT_TRUE(std::isfinite(fit.at(Over::equal_flows).low));
-  EXPECT_NEAR(fit.at(Over::flows).value, fit_over(data, Over::flows).value.B, 1e-15);
+  EXPECT_TRUE(std::isfinite(fit.at(Population::equal_flows).low));
+  EXPECT_NEAR(fit.at(Population::flows).value, fit_over(data, Population::flows).value.B, 1e-15);
 }
 
 /// The share of trials in which an interval of B holds a number.
@@ -348,13 +349,13 @@ TEST(Coverage, OfEachPopulationIsThatOfItsOwnNumberAndNotOfAnother)
     const auto [data, truth] = source.draw();
     const auto fits = fit_flows(data, {}, {}, {100, trial});
     const auto& all = fits.all;
-    windows.add(all.at(Over::windows), truth.of_runs);
-    flows.add(all.at(Over::flows), truth.of_flows);
-    equal.add(all.at(Over::equal_flows), truth.of_equal);
-    random.add(all.at(Over::random_flows), truth.of_all);
-    equal_for_all.add(all.at(Over::equal_flows), truth.of_all);
+    windows.add(all.at(Population::windows), truth.of_runs);
+    flows.add(all.at(Population::flows), truth.of_flows);
+    equal.add(all.at(Population::equal_flows), truth.of_equal);
+    random.add(all.at(Population::random_flows), truth.of_all);
+    equal_for_all.add(all.at(Population::equal_flows), truth.of_all);
     for (std::size_t m = 0; m < fits.of_each.size(); ++m)
-      runs.add(fits.of_each[m].at(Over::runs), truth.of_each[m]);
+      runs.add(fits.of_each[m].at(Population::runs), truth.of_each[m]);
   }
   windows.expect_95_percent("windows");
   runs.expect_95_percent("runs");
@@ -373,8 +374,8 @@ TEST(Coverage, OfTwoRunsOfEachFlowIsThatOfMore)
   for (unsigned long trial = 1; trial <= 300; ++trial) {
     const auto [data, truth] = source.draw();
     const auto all = fit_flows(data, {}, {}, {100, trial}).all;
-    flows.add(all.at(Over::flows), truth.of_flows);
-    equal.add(all.at(Over::equal_flows), truth.of_equal);
+    flows.add(all.at(Population::flows), truth.of_flows);
+    equal.add(all.at(Population::equal_flows), truth.of_equal);
   }
   flows.expect_95_percent("flows");
   equal.expect_95_percent("equal flows");
@@ -388,7 +389,7 @@ int doubts_of_one_function(double flow_scatter, unsigned long trials)
   for (unsigned long trial = 1; trial <= trials; ++trial) {
     const auto data = source.draw().data;
     const auto fit =
-        fit_rule(data, {}, {.over = Over::compositions}, Bootstrap(data.runs, 100, trial));
+        fit_rule(data, {}, {.over = Population::compositions}, Bootstrap(data.runs, 100, trial));
     doubts += fit.doubt.starts_with("flows differ by more");
   }
   return doubts;
@@ -412,8 +413,8 @@ TEST(Populations, WindowsStandForRunsOfAFlowThatHasOne)
   for (unsigned long trial = 1; trial <= 30; ++trial) {
     const auto fits = fit_flows(source.draw().data, {}, {}, {100, trial});
     ASSERT_EQ(fits.of_each.size(), 2u);
-    EXPECT_EQ(fits.of_each[0].over, Over::windows);
-    EXPECT_EQ(fits.all.over, Over::flows);
+    EXPECT_EQ(fits.of_each[0].over, Population::windows);
+    EXPECT_EQ(fits.all.over, Population::flows);
     EXPECT_TRUE(fits.all.doubt.starts_with("2 of 2 flows have one run")) << fits.all.doubt;
     with_interval += fits.all.low.B < fits.all.value.B;
   }
@@ -465,11 +466,12 @@ TEST(Populations, FishersTestCountsTheDegreesThatCompositionHasTaken)
 
 TEST(Populations, EachIsNamedInWordsWithItsWeights)
 {
-  EXPECT_NE(estimand_words(Over::flows, 6)
+  EXPECT_NE(estimand_words(Population::flows, 6)
                 .find("these 6 flows, weighted as they are (by frames x phi_L phi_S)"),
             std::string::npos);
-  EXPECT_NE(estimand_words(Over::equal_flows, 6).find("each counting the same"), std::string::npos);
-  for (const auto& [word, over, meaning] : overs)
+  EXPECT_NE(estimand_words(Population::equal_flows, 6).find("each counting the same"),
+            std::string::npos);
+  for (const auto& [word, over, meaning] : populations)
     EXPECT_GT(estimand_words(over, 2).size(), 40u) << word;
 }
 

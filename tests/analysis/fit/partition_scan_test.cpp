@@ -112,7 +112,7 @@ TEST(PartitionScan, TheSlopeAtTheZeroIsThatOfBOfPartsAtTheGrainsToo)
   const auto b_at = [&](double share) {
     return fit_rule(data, uniform(share), {}, bootstrap).value.B;
   };
-  const auto line = line_over_share(data, {}, bootstrap, Over::windows);
+  const auto line = line_over_share(data, {}, bootstrap, Population::windows);
   const double zero = line.p_zero.value;
   constexpr double step = 1e-5;
   EXPECT_NEAR(b_at(zero), 0, 1e-12);
@@ -122,7 +122,7 @@ TEST(PartitionScan, TheSlopeAtTheZeroIsThatOfBOfPartsAtTheGrainsToo)
 TEST(PartitionScan, BIsAStraightLineOverTheShare)
 {
   const auto data = neutral_data(0.1);
-  const auto line = line_over_share(data, {}, no_bootstrap(data), Over::windows);
+  const auto line = line_over_share(data, {}, no_bootstrap(data), Population::windows);
   for (const double share : {0.0, 0.4, 1.0})
     EXPECT_NEAR(fit_rule(data, uniform(share), {}, no_bootstrap(data)).value.B,
                 line.dB_dp.value * (share - line.p_zero.value), 1e-12);
@@ -205,7 +205,7 @@ TEST(PartitionScan, WithoutMixedContactsThereIsNoZero)
   const auto data = read({stress_table(
       {{0, 1, 10,
         synthetic::separate_sums(0.3, synthetic::any_tensor(), synthetic::any_tensor())}})});
-  const auto line = line_over_share(data, {}, no_bootstrap(data), Over::windows);
+  const auto line = line_over_share(data, {}, no_bootstrap(data), Population::windows);
   EXPECT_TRUE(std::isnan(line.p_zero.value) && std::isnan(line.dB_dp.value));
 }
 

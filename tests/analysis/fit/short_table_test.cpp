@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/short_table.hpp"
 
+#include "analysis/frames/sums.hpp"
+
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -26,7 +28,7 @@ FitReport report()
   report.rules = {
       fit({PartitionRule::Kind::size}, {0.03449, 0.0295, 0.0394999}, 0.66651),
       fit({PartitionRule::Kind::half}, {-0.31451, -0.3205, -0.3095}, 0.5),
-      fit({PartitionRule::Kind::drop}, {}, Estimators::nan),
+      fit({PartitionRule::Kind::drop}, {}, no_number),
       fit({PartitionRule::Kind::uniform, 0.65}, {-0.0004}, 0.65),
   };
   report.rules[0].line = {{0.6481, {0.001 / 3.182446, 3}}, {2.0996}};  // -+ 0.001
@@ -110,7 +112,7 @@ TEST(ShortTable, KineticStressHasNoRuleAndNoZero)
 {
   auto kinetic = report();
   kinetic.quantity = Quantity::kinetic;
-  kinetic.rules = {fit({}, {-0.3731, -0.38, -0.366}, Estimators::nan)};
+  kinetic.rules = {fit({}, {-0.3731, -0.38, -0.366}, no_number)};
   const auto text = short_table(kinetic);
   EXPECT_TRUE(text.ends_with("kinetic  -0.373 [-0.380, -0.366]      -  -\n")) << text;
 }

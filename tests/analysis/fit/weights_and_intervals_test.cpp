@@ -4,7 +4,6 @@
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/flows.hpp"
 #include "analysis/fit/partition_scan.hpp"
-#include "analysis/fit/run_errors.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gtest/gtest.h>
@@ -175,7 +174,7 @@ TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
       series.mean(), bootstrap.blocks(fit.dependence.block) * series / 96, fit.dependence);
   EXPECT_NEAR(fit.low.minus_ln_s, expected.low, 1e-10);
   EXPECT_NEAR(fit.high.minus_ln_s, expected.high, 1e-10);
-  EXPECT_NEAR(fit.at(Over::windows).low, fit.low.B, 1e-14);
+  EXPECT_NEAR(fit.at(Population::windows).low, fit.low.B, 1e-14);
 }
 
 // A layer with few large grains changes slowly, an even one by half as much from window to window. Weighted

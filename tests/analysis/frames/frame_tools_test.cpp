@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grseg-stress, grseg-kinetic, grseg-micro and grseg-segregation as programs, on a run known by
+// The tools that sum over frames, and those that read their tables, as programs, on a run known by
 // heart.
 #include "formats/cli/table.hpp"
 #include "formats/trajectory/digest.hpp"
@@ -51,7 +51,8 @@ class FrameTools : public testing::Test {
   }
 };
 
-const std::string stress = GRSEG_STRESS, kinetic = GRSEG_KINETIC, micro = GRSEG_MICRO,
+const std::string stress = GRSEG_STRESS, merge = GRSEG_MERGE, kinetic = GRSEG_KINETIC,
+                  micro = GRSEG_MICRO, derive = GRSEG_DERIVE, forces = GRSEG_FORCES,
                   balance = GRSEG_BALANCE, segregation = GRSEG_SEGREGATION;
 
 TEST_F(FrameTools, RowsOfAllToolsHaveTheSameKeys)
@@ -200,12 +201,12 @@ TEST_F(FrameTools, ARunInTwoPartsMergesIntoTheWhole)
     const auto a = part("a.tsv", "--window 0.5 --end 1" + assign),
                b = part("b.tsv", "--window 0.5 --begin 1" + assign);
     const auto whole = table(stress, "--layer 6mm --window 0.5" + assign);
-    const auto merged = Table::parse(run(stress + " --merge" + b + a).out, "merged");
+    const auto merged = Table::parse(run(merge + b + a).out, "merged");
     EXPECT_EQ(merged.columns, whole.columns);
     EXPECT_EQ(merged.rows, whole.rows);
 
     const auto once = table(stress, "--layer 6mm --window 3" + assign);
-    const auto all = Table::parse(run(stress + " --merge --all-windows" + a + b).out, "merged");
+    const auto all = Table::parse(run(merge + " --all-windows" + a + b).out, "merged");
     ASSERT_EQ(all.rows.size(), once.rows.size());
     for (std::size_t row = 0; row < once.rows.size(); ++row)
       for (std::size_t c = 0; c < once.columns.size(); ++c)
@@ -288,7 +289,7 @@ TEST_F(FrameTools, DerivedNumbersFollowFromTheSumsAlone)
 {
   const auto sums = (folder / "micro.tsv").string();
   EXPECT_EQ(run(micro + " " + file + " --friction 0.6 -o " + sums).code, 0);
-  const auto t = Table::parse(run(micro + " --derived " + sums).out, "derived");
+  const auto t = Table::parse(run(derive + " " + sums).out, "derived");
   ASSERT_EQ(t.rows.size(), 2 * 2u);
   EXPECT_NEAR(cell(t, 1, "z_S"), 1, 1e-15);
   EXPECT_NEAR(cell(t, 1, "z_L"), 2, 1e-15);
@@ -301,8 +302,7 @@ TEST_F(FrameTools, DerivedNumbersFollowFromTheSumsAlone)
   EXPECT_EQ(t.header_number("friction"), 0.6);
   EXPECT_EQ(t.header_text("input"), "xxh3 " + format_digest(TrajectoryReader(file).digest()));
   const auto normal = Table::parse(
-      run(micro + " --derived " + sums + " --force normal --average ends --pool windows").out,
-      "derived");
+      run(derive + " " + sums + " --force normal --average ends --pool windows").out, "derived");
   ASSERT_EQ(normal.rows.size(), 2u);
   EXPECT_EQ(cell(normal, 0, "frames"), 50);
   EXPECT_NEAR(cell(normal, 0, "f_L"), (2e-4 + 1e-3) / 2, 1e-18);
@@ -313,18 +313,17 @@ TEST_F(FrameTools, SumsPassThroughAPipe)
 {
   const auto sums = (folder / "micro.tsv").string();
   EXPECT_EQ(run(micro + " " + file + " -o " + sums).code, 0);
-  const auto stored = Table::parse(run(micro + " --derived " + sums).out, "stored");
-  const auto piped =
-      Table::parse(run(micro + " " + file + " | " + micro + " --derived -").out, "-");
+  const auto stored = Table::parse(run(derive + " " + sums).out, "stored");
+  const auto piped = Table::parse(run(micro + " " + file + " | " + derive + " -").out, "-");
   ASSERT_EQ(stored.rows.size(), piped.rows.size());
   for (std::size_t row = 0; row < stored.rows.size(); ++row)
     EXPECT_EQ(cell(stored, row, "Pi"), cell(piped, row, "Pi"));
 }
 
 // One mixed contact and one with the base: each is the mean of its own pair type.
-TEST_F(FrameTools, MicroDistributesForcesByTheirMean)
+TEST_F(FrameTools, ForcesAreDistributedByTheirMean)
 {
-  const auto t = table(micro, "--distribution --unit type --begin 0 --end 1.25");
+  const auto t = table(forces, "--unit type --begin 0 --end 1.25");
   ASSERT_EQ(t.rows.size(), 2 * 101u);
   EXPECT_EQ(cell(t, 10, "x0"), 1);
   EXPECT_EQ(cell(t, 10, "n_LS") + cell(t, 9, "n_LS"), 1);  // round-off may fall below the mean
@@ -468,10 +467,6 @@ TEST_F(FrameTools, TroubleHasItsExitCodeAndASentence)
   EXPECT_EQ(code(file + " --assign branch --kernel-width 1dS"), 2);
   EXPECT_EQ(code(file + " --composition kernel"), 2);
   EXPECT_EQ(code(file + " --all-windows"), 2);
-  EXPECT_EQ(code("--merge"), 2);
-  EXPECT_EQ(code("--merge --layer 2dS sums.tsv"), 2);
-  EXPECT_EQ(code("--merge " + (folder / "absent.tsv").string()), 2);
-  EXPECT_EQ(code("--merge " + file), 3);
   EXPECT_EQ(code(file + " --layer 4dX"), 2);
   EXPECT_EQ(code(file + " --layer 0"), 2);
   EXPECT_EQ(code(file + " --partition thirds"), 2);
@@ -487,6 +482,19 @@ TEST_F(FrameTools, TroubleHasItsExitCodeAndASentence)
   EXPECT_EQ(code(file + " -o " + (folder / "absent" / "sums.tsv").string()), 1);
   std::ofstream(folder / "no.h5") << "no trajectory\n";
   EXPECT_EQ(code((folder / "no.h5").string()), 3);
+}
+
+TEST_F(FrameTools, TroubleOfMergingHasItsExitCodeAndASentence)
+{
+  const auto code = [&](const std::string& arguments) {
+    const auto outcome = run(merge + " " + arguments + " 2>&1");
+    EXPECT_NE(outcome.out.find("grseg-merge: "), std::string::npos) << arguments;
+    return outcome.code;
+  };
+  EXPECT_EQ(code(""), 2);
+  EXPECT_EQ(code("--layer 2dS sums.tsv"), 2);
+  EXPECT_EQ(code((folder / "absent.tsv").string()), 2);
+  EXPECT_EQ(code(file), 3);
 }
 
 }  // namespace

@@ -62,5 +62,18 @@ TEST(HeightRange, HoldsLayersThatReachItsEndsExactlyAndTheWholeBed)
   EXPECT_TRUE(range.holds(std::nan(""), std::nan("")));
 }
 
+TEST(MedianSolid, LeavesOutWhatIsEmptyOrNotANumber)
+{
+  const auto median = [](const std::vector<double>& solid) {
+    std::vector<LayerSolid> layers;
+    for (const double one : solid) layers.push_back({.solid = one});
+    return median_solid(layers);
+  };
+  EXPECT_EQ(median({0, 3, 0, 1, 2, 0, 0, std::nan("")}), 2);
+  EXPECT_EQ(median({0, 3, 1}), 2);  // half way between the two
+  EXPECT_EQ(median({0, 0}), 0);
+  EXPECT_EQ(median({}), 0);
+}
+
 }  // namespace
 }  // namespace grseg

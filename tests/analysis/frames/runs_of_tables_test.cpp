@@ -112,7 +112,7 @@ TEST(Kinship, OfMergedTablesIsTheClosestOfTheirRuns)
 {
   auto both = source_of("1", {sim + " --seed 1"});
   for (const auto& line : source_of("2", {sim + " --seed 2"})) both.push_back(line);
-  both.emplace_back("history", "grseg-stress --merge a.tsv b.tsv");
+  both.emplace_back("history", "grseg-merge a.tsv b.tsv");
   EXPECT_EQ(sources_of(table_of("m", both, {})).size(), 2u);
   EXPECT_EQ(kin(both, source_of("3", {sim + " --seed 2", longer})), Kinship::one_bed);
   EXPECT_EQ(kin(both, source_of("3", {sim + " --seed 3"})), Kinship::none);

@@ -55,7 +55,7 @@ TEST(SumsTable, AMissingColumnIsNamed)
     FAIL();
   } catch (const FormatError& error) {
     EXPECT_STREQ(error.what(),
-                 "micro.tsv: no column 'c2_LS'; --derived needs a table of grseg-micro");
+                 "micro.tsv: no column 'c2_LS'; grseg-derive needs a table of grseg-micro");
   }
 }
 

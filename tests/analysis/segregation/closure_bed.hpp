@@ -16,7 +16,7 @@ inline constexpr double b_over_c = 3e-4, d_over_c = 1.3e-4;   // s, m^2/s
 inline constexpr double weight_of_mass = 9.02, layer = 0.02;  // g cos, m/s^2; m
 inline const std::vector<PartitionRule> two_rules = parse_rules({"uniform:0.8,half"});
 
-inline Estimate number_of(const SegregationSummary& summary, const std::string& name)
+inline Estimate number_of(const NamedNumbers& summary, const std::string& name)
 {
   for (const auto& [known, estimate] : summary.numbers)
     if (known == name) return estimate;
@@ -24,7 +24,7 @@ inline Estimate number_of(const SegregationSummary& summary, const std::string& 
   return {};
 }
 
-inline bool remarks_hold(const SegregationSummary& summary, const std::string& words)
+inline bool remarks_hold(const NamedNumbers& summary, const std::string& words)
 {
   return std::any_of(
       summary.remarks.begin(), summary.remarks.end(),

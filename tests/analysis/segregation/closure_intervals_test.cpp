@@ -114,7 +114,7 @@ TEST(SegregationClosure, IntervalsOfSeveralRunsHoldTheTruthAlsoWhereRunsDiffer)
   expect_coverage(tried(400, [&](auto& noise) { return noisy(six, 0.5, noise, false, 0.5); }), 400);
 }
 
-double width_of(const SegregationSummary& summary, const std::string& name)
+double width_of(const NamedNumbers& summary, const std::string& name)
 {
   const auto estimate = number_of(summary, name);
   return estimate.high - estimate.low;

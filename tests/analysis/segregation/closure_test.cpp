@@ -2,6 +2,7 @@
 // What the flux of large grains fixes of Gray & Thornton's closure, and what a rule makes of it.
 #include "analysis/segregation/closure.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/correlated_windows.hpp"
@@ -102,9 +103,8 @@ Tables tables_of(const Made& made, const std::string& input, synthetic::Ar1* noi
       for (auto& content : sums.content) content *= area;
       rows.push_back({begin, begin + 1.25, 25, sums, n * layer, (n + 1) * layer});
     }
-    motion.rows.push_back(
-        with_key({begin, begin + 1.25, ClosurePoint::nan, ClosurePoint::nan, 25, 0.1},
-                 std::vector<double>(12, ClosurePoint::nan)));
+    motion.rows.push_back(with_key({begin, begin + 1.25, no_number, no_number, 25, 0.1},
+                                   std::vector<double>(12, no_number)));
   }
   tables.stress = synthetic::stress_table(rows);
   tables.stress.name = input + ".stress.tsv";
@@ -119,9 +119,9 @@ Tables tables_of(const Made& made, const std::string& input, synthetic::Ar1* noi
   return tables;
 }
 
-SegregationSummary summary_of(const std::vector<Table>& tables,
-                              const std::vector<PartitionRule>& rules = two_rules,
-                              const ClosureFilter& filter = {})
+NamedNumbers summary_of(const std::vector<Table>& tables,
+                        const std::vector<PartitionRule>& rules = two_rules,
+                        const ClosureFilter& filter = {})
 {
   return closure_summary(read_closure(tables, rules, filter), rules, {});
 }

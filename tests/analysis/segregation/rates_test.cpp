@@ -43,7 +43,7 @@ std::vector<RatePoint> points(double noise, unsigned seed = 1)
   return all;
 }
 
-Estimate number(const SegregationSummary& summary, const std::string& name)
+Estimate number(const NamedNumbers& summary, const std::string& name)
 {
   for (const auto& [known, estimate] : summary.numbers)
     if (known == name) return estimate;

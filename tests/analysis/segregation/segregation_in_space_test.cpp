@@ -129,9 +129,9 @@ TEST(SegregationInSpace, RowsOfARunHaveTheirColumns)
     series.add(now.grains, now.frame);
     flux.add(now.grains, now.frame);
   }
-  SegregationRun<3> run(slabs, 0.02, 0.04);
+  SegregationTable<3> run(slabs, 0.02, 0.04);
   run.add(scene.grains, series, flux);
-  const auto columns = SegregationRun<3>::columns();
+  const auto columns = SegregationTable<3>::columns();
   EXPECT_EQ(columns[0], "volume_S[m^3]");
   ASSERT_EQ(run.row(1).size(), columns.size());
   const auto bed = run.bed_row();

@@ -58,13 +58,13 @@ TEST(SegregationSeries, StrainIsTheIntegralOfTheShearRate)
 
 /// y_L rises exponentially in strain; the shear rate falls from 20 to 10 over the run; the mixing
 /// index is a parabola with its top at 16.3 s.
-std::vector<SegregationMoment> history(int count, double scatter)
+std::vector<BedState> history(int count, double scatter)
 {
   std::mt19937 random(4);
   std::normal_distribution<double> kick(0, scatter);
-  std::vector<SegregationMoment> moments;
+  std::vector<BedState> moments;
   for (int k = 0; k < count; ++k) {
-    SegregationMoment now;
+    BedState now;
     now.time = 2 + 0.05 * k;
     const double t = 0.05 * k;
     now.strain = 20 * t - t * t / 10;
@@ -75,7 +75,7 @@ std::vector<SegregationMoment> history(int count, double scatter)
   return moments;
 }
 
-Estimate number(const SegregationSummary& summary, const std::string& name)
+Estimate number(const NamedNumbers& summary, const std::string& name)
 {
   for (const auto& [known, estimate] : summary.numbers)
     if (known == name) return estimate;

@@ -45,7 +45,7 @@ Table table(const std::string& input, const std::vector<TableRow>& rows)
 Table merged(const std::vector<Table>& tables, bool all_windows = false)
 {
   constexpr ToolInfo info{"grseg-stress", "", "", ""};
-  return merge_tables(tables, all_windows, info, "grseg-stress --merge");
+  return merge_tables(tables, all_windows, info, "grseg-merge");
 }
 
 double cell(const Table& table, std::size_t row, const std::string& column)
@@ -185,7 +185,7 @@ TEST(MergeTables, HistoriesAndDigestsOfAllTablesAreKept)
       {"input", "xxh3 a"},
       {"history", "grseg-sim of b"},
       {"input", "xxh3 b"},
-      {"history", "grseg-stress --merge"},
+      {"history", "grseg-merge"},
       {"doubt", t.header_text("doubt")},
       {"step", "0.001"},
       {"layer", "0.02"},

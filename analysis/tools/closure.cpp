@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/segregation/closure.hpp"
+
+#include "analysis/frames/layer_table.hpp"
+#include "analysis/segregation/rates.hpp"
+#include "analysis/tools/tool_main.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
+#include "formats/cli/words.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+using namespace grseg;
+
+namespace {
+
+constexpr ToolInfo info{
+    "grseg-closure",
+    "the closure of Gray & Thornton from fluxes: B/c, d/c, and c under each partition rule.",
+    "grseg-closure a.segregation.tsv a.stress.tsv ... [options] > closure.tsv",
+    "  grseg-closure *.segregation.tsv *.stress.tsv --heights 4dS:56dS --begin 10\n"
+    "  grseg-closure *.segregation.tsv *.stress.tsv --partition size,half --instruments same\n"};
+
+struct Settings {
+  RateFilter filter;
+  std::optional<double> begin = {}, end = {};  // s
+  std::vector<std::string> partition;
+  std::string instruments = "previous";
+  int bootstrap = 1000;
+  long seed = 1;
+  TableOptions output;
+  bool json = false, quiet = false;
+};
+
+po::options_description options_into(Settings& s)
+{
+  po::options_description options("Options");
+  auto add = options.add_options();
+  const auto rules = "rules for c, " + list_of_rules() + ", or stock (default)";
+  add("partition", words_option(s.partition, words_of_rules()), rules.c_str());
+  const auto instruments =
+      "instrumental variables of the regression: " + list_of(instrument_choices);
+  add("instruments", word_option(&s.instruments, words_of(instrument_choices)),
+      instruments.c_str());
+  add("bootstrap", po::value(&s.bootstrap)->default_value(s.bootstrap)->value_name("N"),
+      "samples for the 95 % intervals; 0: no intervals");
+  add("seed", po::value(&s.seed)->default_value(s.seed)->value_name("N"), "seed of the samples");
+  add("heights", po::value(&s.filter.heights)->value_name("y0:y1")->default_value(inside_the_bed),
+      fmt::format("layers that take part: {}", heights_help).c_str());
+  add("min-solid", po::value(&s.filter.min_solid)->default_value(0.5, "0.5")->value_name("X"),
+      "leave out layers whose solid fraction is less than X times the median");
+  add("begin", time_option(s.begin), "no window that begins before this (default: all)");
+  add("end", time_option(s.end), "no window that ends after this (default: all)");
+  add("json", po::bool_switch(&s.json), "print JSON instead of a table");
+  add("quiet", po::bool_switch(&s.quiet), "no remarks");
+  s.output.add_to(options);
+  return options;
+}
+
+/// What cannot be meant, before any table is read.
+void check(const Settings& s, const po::variables_map& values)
+{
+  if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))
+    throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", s.bootstrap));
+  if (s.seed < 0) throw UsageError("--seed must not be negative");
+  s.output.check(values);
+  s.filter.check();
+}
+
+std::string text_of_times(const Settings& s)
+{
+  if (!s.begin && !s.end) return "all";
+  const auto text = [](const std::optional<double>& time) {
+    return time ? fmt::format("{:g}", *time) : "";
+  };
+  return fmt::format("{}:{}", text(s.begin), text(s.end));
+}
+
+void close(Settings& s, const po::variables_map& values, const std::string& command)
+{
+  check(s, values);
+  if (s.partition.empty()) s.partition = {"stock"};
+  const auto rules = parse_rules(s.partition);
+  ClosureFilter filter{.heights = s.filter.heights,
+                       .min_solid = s.filter.min_solid,
+                       .instruments = choose(s.instruments, "--instruments", instrument_choices)};
+  filter.range.begin = s.begin.value_or(filter.range.begin);
+  filter.range.end = s.end.value_or(filter.range.end);
+  const auto tables = read_tables(info, values, s.quiet);
+  if (tables.empty())
+    throw UsageError(
+        "no table given; name a table of grseg-segregation and one of grseg-stress of each run");
+  const auto data = read_closure(tables, rules, filter);
+  auto header = provenance_of(tables, info, "", command);
+  if (!data.doubt.empty()) header.emplace_back("doubt", data.doubt);
+  header.insert(header.end(), {{"closure", "q_L = (B/c) driving - (d/c) gradient"},
+                               {"partition", names_of(rules)},
+                               {"instruments", s.instruments},
+                               {"times", text_of_times(s)},
+                               {"rows", fmt::format("{} of {}", data.points.size(), data.rows)},
+                               {"runs", fmt::format("{}", data.runs.size())},
+                               {"windows", fmt::format("{}", number_of_windows(data.runs))},
+                               {"over", closure_population(data.runs.size())},
+                               {"bootstrap", fmt::format("{}", s.bootstrap)},
+                               {"seed", fmt::format("{}", s.seed)}});
+  for (auto& line : s.filter.lines()) header.push_back(std::move(line));
+  const ClosureResampling resampling{static_cast<std::size_t>(s.bootstrap),
+                                     static_cast<unsigned long>(s.seed)};
+  write_numbers(closure_summary(data, rules, resampling), header, info, s.output, s.json, s.quiet);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return tool_main(argc, argv, info, options_into, close);
+}

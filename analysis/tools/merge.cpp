@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/stress/merge_tables.hpp"
+#include "analysis/tools/tool_main.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
+
+using namespace grseg;
+
+namespace {
+
+constexpr ToolInfo info{
+    "grseg-merge", "tables of grseg-stress as one: means weighted by frames, window by window.",
+    "grseg-merge a.tsv b.tsv ... [options] > sums.tsv",
+    "  grseg-merge seed1.tsv seed2.tsv -o sums.tsv      the sums of two runs as one table\n"
+    "  grseg-merge sums.tsv --all-windows               one window of all\n"};
+
+struct Settings {
+  TableOptions output;
+  bool all_windows = false, json = false, quiet = false;
+};
+
+po::options_description options_into(Settings& s)
+{
+  po::options_description options("Options");
+  auto add = options.add_options();
+  add("all-windows", po::bool_switch(&s.all_windows), "one window of all windows together");
+  add("json", po::bool_switch(&s.json), "print JSON instead of a table");
+  add("quiet", po::bool_switch(&s.quiet), "no remarks");
+  s.output.add_to(options);
+  return options;
+}
+
+void merge(Settings& s, const po::variables_map& values, const std::string& command)
+{
+  s.output.check(values);
+  const auto merged =
+      merge_tables(read_tables(info, values, s.quiet), s.all_windows, info, command);
+  write_table(s.output, s.json ? merged.to_json() : merged.to_text());
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return tool_main(argc, argv, info, options_into, merge);
+}
