@@ -12,7 +12,7 @@ NAMES = {"B_over_c": "B_over_c[s]", "d_over_c": "d_over_c[m^2/s]", "p_star": "p_
 def closure(options, runs):
     """Value and interval of every number in NAMES."""
     paths = [run.path(table) for run in runs for table in ("segregation", "stress")]
-    _, rows = tables.program(options, "grseg-segregation", "--closure", *paths, "--heights", options.heights, "--begin", options.begin,
+    _, rows = tables.program(options, "grseg-closure", *paths, "--heights", options.heights, "--begin", options.begin,
                              *(["--end", options.end] if options.end else []), "--partition", "size,half", "--bootstrap", options.bootstrap, "--quiet")
     by_name = {row["quantity"]: row for row in rows}
     return {name + end: float(by_name[quantity][of]) for name, quantity in NAMES.items()
@@ -23,7 +23,7 @@ def closures(options):
     """Gray & Thornton's c and d of each mixture, from the flux of its large grains, and what each rule makes of c.
 
     A row per flow (by default all mixtures at 23 degrees with e = 0.25, of which make questions keeps the flux of every layer), by
-    grseg-segregation --closure over layers from 12 to 56 d_S (the gradient of lower ones reaches over the trapped row), from 10 s on, when the flow is developed, and all seeds together, with 95 % intervals:
+    grseg-closure over layers from 12 to 56 d_S (the gradient of lower ones reaches over the trapped row), from 10 s on, when the flow is developed, and all seeds together, with 95 % intervals:
         B_over_c [s], d_over_c [m^2/s]   of the flux, whatever the rule
         p_star, dc_dp [1/s]              c(p) = dc_dp (p - p_star)
         c_size, c_half [1/s]             c under two rules
@@ -93,7 +93,7 @@ def denser(options):
     B = a c; no rule enters. grseg-segregation gives the
     flux relative to the mean weighted with mass, which is q/(1 + phi_L D); the mean Phi_L stands for phi_L.
 
-    Rows: one per density ratio (flows FLOW-densityR-t60), factor = (1 + Phi_L D) x B_over_c of grseg-segregation --closure, as in
+    Rows: one per density ratio (flows FLOW-densityR-t60), factor = (1 + Phi_L D) x B_over_c of grseg-closure, as in
     `closures`, run by run, and its mean. Then the least-squares line through
     all runs over D. Intervals are 95 %, by Student's t with the scatter of all runs about that line: slope, at_zero (B/c), c [1/s], B,
     stops, the density ratio 1 - a/s at which segregation stops, and share, the p by which contacts give that B: p_zero + c/dc_dp of the runs with D = 0.

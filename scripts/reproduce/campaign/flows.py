@@ -19,7 +19,7 @@ def of_segregation(run):
 
 def of_contacts(options, run, duration):
     """Contacts and forces of the whole bed (last row of the pooled windows); of a short run, its second half."""
-    _, rows = tables.program(options, "grseg-micro", "--derived", run.path("micro"), "--pool",
+    _, rows = tables.program(options, "grseg-derive", run.path("micro"), "--pool",
                              "windows", "--begin", min(10, duration / 2), "--end", 60, "--quiet")
     bed = rows[-1]
     found = {"z_S": bed["z_S"], "z_L": bed["z_L"], "f_S": bed["f_weight_S"], "f_L": bed["f_weight_L"]}
