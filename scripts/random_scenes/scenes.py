@@ -6,7 +6,7 @@ import dataclasses
 import math
 import random
 
-# Steps of the presets, in sqrt(d_S/g) (sim/scene/keys/accuracy.hpp).
+# Steps of the presets, in sqrt(d_S/g) (sim/scene/keys/keys.hpp).
 STEPS = {"draft": 0.01771, "standard": 0.01107, "reference": 0.00443}
 LONGEST_STEP = 0.05  # in sqrt(d_S/g)
 MOST_GRAINS = 250

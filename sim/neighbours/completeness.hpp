@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "sim/neighbours/cell_grid.hpp"
 #include "sim/neighbours/grain_state.hpp"
 #include "sim/neighbours/pair_list_lanes.hpp"
+#include "sim/neighbours/pair_search.hpp"
 #include "sim/neighbours/pairs.hpp"
 
 #include <cstdint>

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace grseg {
@@ -27,10 +28,31 @@ struct GrainState {
   /// Index of the body that never moves.
   std::size_t immobile() const { return row.size(); }
   /// Makes room for as many grains as `other` has.
-  void resize_like(const GrainState& other);
+  void resize_like(const GrainState& other)
+  {
+    position.resize(other.position.size(), Vec2::Zero());
+    motion.resize(other.motion.size());
+    radius.resize(other.radius.size());
+    image.resize(other.image.size());
+    row.resize(other.row.size());
+  }
 };
 
 /// Grains at rest at `position`, m, in the order of their rows.
-GrainState make_state(const Grains& grains, const std::vector<Vec2>& position);
+inline GrainState make_state(const Grains& grains, const std::vector<Vec2>& position)
+{
+  const std::size_t count = position.size();
+  GrainState state;
+  state.position = position;
+  state.position.resize(count + 1, Vec2::Zero());
+  state.motion.resize(count + 1);
+  for (std::size_t g = 0; g < count; ++g)
+    state.motion[g].inverse_mass = grains.fixed[g] ? 0 : 1 / grains.mass[g];
+  state.radius = grains.radius;
+  state.image.assign(count, 0);
+  state.row.resize(count);
+  std::iota(state.row.begin(), state.row.end(), 0);
+  return state;
+}
 
 }  // namespace grseg

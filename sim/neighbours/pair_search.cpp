@@ -5,8 +5,152 @@
 #include "sim/contact/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace grseg {
+namespace {
+
+// A strip's contacts fit into the second cache, and there are several for every thread.
+constexpr std::size_t grains_per_strip = 3500;
+// From two columns on, contacts of strips that are not neighbours share no grain.
+constexpr std::int32_t least_columns_per_strip = 4;
+
+/// The index below `x`, or the nearest one that exists; 0 if x is not a number.
+std::int32_t nearest_index(double x, std::int32_t count)
+{
+  return x > 0 ? static_cast<std::int32_t>(std::min(x, count - 1.0)) : 0;
+}
+
+}  // namespace
+
+CellGrid::CellGrid(const Box& box, double cell, int threads)
+    : length_(box.periodic_x ? box.length_x : 0),
+      inverse_length_(box.periodic_x ? 1 / box.length_x : 0),
+      cell_(cell),
+      threads_(threads)
+{
+}
+
+void CellGrid::sort(std::span<const Vec2> position)
+{
+  lay(position);
+  cut_into_strips(position.size());
+  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(bands_);
+  begin_.assign(cells + 1, 0);
+  cell_of_.resize(position.size());
+  order_.resize(position.size());
+  for_ranges(threads_, position.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g)
+      cell_of_[g] =
+          static_cast<std::uint32_t>(cell(column(position[g].x()), band(position[g].y())));
+  });
+  for (const auto c : cell_of_) ++begin_[c + 1];
+  for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+  next_ = begin_;
+  for (std::size_t g = 0; g < position.size(); ++g)
+    order_[next_[cell_of_[g]]++] = static_cast<std::uint32_t>(g);
+}
+
+void CellGrid::lay(std::span<const Vec2> position)
+{
+  Vec2 low = position.front(), high = low;
+  for (const auto& x : position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  bottom_ = low.y();
+  left_ = length_ > 0 ? 0 : low.x();
+  const double width = length_ > 0 ? length_ : high.x() - low.x();
+  // A grain that flies far away must not cost memory: what lies beyond shares the last cells.
+  const double most = 4.0 * static_cast<double>(position.size()) + 16;
+  columns_ = static_cast<std::int32_t>(std::clamp(std::floor(width / cell_), 1.0, most));
+  if (length_ > 0 && columns_ < 3) columns_ = 1;
+  column_width_ = std::max(width / columns_, std::numeric_limits<double>::min());
+  columns_per_metre_ = 1 / column_width_;
+  const double height = high.y() - low.y();
+  bands_ =
+      static_cast<std::int32_t>(std::clamp(std::ceil(height / cell_), 1.0, most / columns_ + 1));
+}
+
+void CellGrid::cut_into_strips(std::size_t grains)
+{
+  auto count =
+      std::min(static_cast<std::int32_t>(grains < cut_from ? 1 : grains / grains_per_strip),
+               columns_ / least_columns_per_strip);
+  if (length_ > 0) count -= count % 2;
+  count = std::max(count, 1);
+  first_column_.resize(static_cast<std::size_t>(count) + 1);
+  base_.resize(static_cast<std::size_t>(columns_));
+  width_.resize(static_cast<std::size_t>(columns_));
+  first_column_[0] = 0;
+  for (std::int32_t s = 0; s < count; ++s) {
+    const auto first = static_cast<std::int32_t>(std::int64_t{columns_} * s / count);
+    const auto last = static_cast<std::int32_t>(std::int64_t{columns_} * (s + 1) / count);
+    first_column_[static_cast<std::size_t>(s) + 1] = last;
+    for (auto c = first; c < last; ++c) {
+      base_[static_cast<std::size_t>(c)] =
+          static_cast<std::size_t>(bands_) * static_cast<std::size_t>(first) +
+          static_cast<std::size_t>(c - first);
+      width_[static_cast<std::size_t>(c)] = static_cast<std::size_t>(last - first);
+    }
+  }
+}
+
+Range CellGrid::bodies_of_strip(std::size_t strip) const
+{
+  return {begin_[cell(first_column_[strip], 0)],
+          begin_[cell(first_column_[strip + 1] - 1, bands_ - 1) + 1]};
+}
+
+double CellGrid::wrapped(double x) const
+{
+  if (length_ == 0 || (x >= 0 && x < length_)) return x;
+  return x - length_ * std::floor(x * inverse_length_);
+}
+
+std::int32_t CellGrid::column(double x) const
+{
+  return nearest_index((wrapped(x) - left_) * columns_per_metre_, columns_);
+}
+
+std::int32_t CellGrid::band(double y) const
+{
+  return nearest_index((y - bottom_) / cell_, bands_);
+}
+
+Search CellGrid::search(std::size_t strip, std::int32_t column, std::int32_t band) const
+{
+  const auto first = first_column_[strip], last = first_column_[strip + 1] - 1;
+  const bool above = band + 1 < bands_;
+  const auto left = std::max(column - 1, first), right = std::min(column + 1, last);
+  Search search;
+  search.cell = bodies(column, column, band);
+  search.end = bodies(column, right, band).end;
+  if (above) search.above = bodies(left, right, band + 1);
+  if (columns_ == 1) {
+    search.length = length_;  // either image may be the nearest
+    return search;
+  }
+  if (column == first && above) {
+    const bool wraps = column == 0;
+    if (!wraps || length_ > 0) {
+      const auto other = wraps ? columns_ - 1 : column - 1;
+      search.across_above = bodies(other, other, band + 1);
+      search.offset = wraps ? -length_ : 0;
+    }
+  }
+  if (column == last) {
+    const bool wraps = column == columns_ - 1;
+    if (!wraps || length_ > 0) {
+      const auto other = wraps ? 0 : column + 1;
+      search.across = bodies(other, other, band);
+      if (above) search.across_above = bodies(other, other, band + 1);
+      search.offset = wraps ? length_ : 0;
+    }
+  }
+  return search;
+}
 
 PairSearch::PairSearch(const std::vector<Wall>& walls, const Box& box, double cell, double skin,
                        int threads)

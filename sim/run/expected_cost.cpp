@@ -4,8 +4,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "sim/scene/deposition.hpp"
-#include "sim/scene/geometry/geometries.hpp"
-#include "sim/scene/release.hpp"
+#include "sim/scene/geometry.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 
 #include "formats/core/errors.hpp"
 #include "sim/step/energies.hpp"
-#include "sim/step/energy_balance.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +15,49 @@ namespace {
 // In d_S, of the mean overlap. Grains that approach by more in a step may overlap by as much.
 constexpr double most_overlap = 0.01;
 
+/// What a frame's observables are about.
+struct Written {
+  const StepTotals& t;  // since the frame before
+  const Simulation& simulation;
+  const Frame<2>& frame;
+  EnergyBalance energy;
+
+  const World& world() const { return simulation.world(); }
+};
+
+struct Column {
+  const char *name, *unit;
+  double (*value)(const Written&);
+};
+
+// clang-format off
+constexpr Column columns[] = {
+  {"translational_energy", "J", [](const Written& w) { return translational_energy(w.simulation); }},
+  {"rotational_energy", "J", [](const Written& w) { return rotational_energy(w.simulation); }},
+  {"potential_energy", "J", [](const Written& w) { return potential_energy(w.simulation); }},
+  {"momentum_defect", "", [](const Written& w) {
+     return momentum_defect(w.world().grains, w.frame, w.world().gravity); }},
+  {"energy_defect", "", [](const Written& w) { return w.energy.defect(); }},
+  {"work_of_contacts", "J", [](const Written& w) { return w.energy.work_of_contacts; }},
+  {"work_of_boundaries", "J", [](const Written& w) { return w.energy.work_of_boundaries; }},
+  {"steps", "", [](const Written& w) { return static_cast<double>(w.t.steps); }},
+  {"missed_steps", "", [](const Written& w) { return static_cast<double>(w.t.missed); }},
+  {"sweeps", "", [](const Written& w) { return w.t.per_step(w.t.sweeps); }},
+  {"residual", "", [](const Written& w) { return w.t.largest_residual; }},
+  {"residual_rms", "", [](const Written& w) { return w.t.per_step(w.t.residual_rms); }},
+  {"touching", "", [](const Written& w) { return w.t.per_step(w.t.touching); }},
+  {"contacts", "", [](const Written& w) { return w.t.per_step(w.t.force_bearing); }},
+  {"mean_overlap", "m", [](const Written& w) { return w.t.mean_overlap(); }},
+  {"largest_overlap", "m", [](const Written& w) { return w.t.largest_overlap; }},
+  {"mean_gap", "m", [](const Written& w) { return w.t.mean_gap_bearing(); }},
+  {"fastest_approach", "m s-1", [](const Written& w) { return w.t.fastest_approach; }},
+  {"frame_step", "s", [](const Written& w) { return w.simulation.written_step(); }},
+  {"base_force_x", "N", [](const Written& w) {
+     return w.t.per_step(w.t.base_impulse.x()) / w.world().step; }},
+  {"base_force_y", "N", [](const Written& w) {
+     return w.t.per_step(w.t.base_impulse.y()) / w.world().step; }}};
+// clang-format on
+
 bool all_finite(const std::vector<Vec2>& values)
 {
   return std::all_of(values.begin(), values.end(), [](const Vec2& v) { return v.allFinite(); });
@@ -25,20 +67,21 @@ bool all_finite(const std::vector<Vec2>& values)
 
 void StepTotals::add(const StepReport& report)
 {
-  ++steps;
-  missed += !report.solver.converged;
-  sweeps += report.solver.sweeps;
-  residual_rms += report.solver.residual_rms;
-  touching += static_cast<double>(report.touching);
-  force_bearing += static_cast<double>(report.force_bearing);
-  sum_overlap += report.sum_overlap;
-  sum_gap_bearing += report.sum_gap_bearing;
-  largest_residual = std::max(largest_residual, report.solver.residual);
-  largest_overlap = std::max(largest_overlap, report.largest_overlap);
-  fastest_approach = std::max(fastest_approach, report.fastest_approach);
-  farthest_approach = std::max(farthest_approach, report.farthest_approach);
-  divided += report.parts > 1;
-  base_impulse += report.base_impulse;
+  const auto& solver = report.solver;
+  add(StepTotals{.steps = 1,
+                 .missed = solver.converged ? 0 : 1,
+                 .sweeps = static_cast<double>(solver.sweeps),
+                 .residual_rms = solver.residual_rms,
+                 .touching = static_cast<double>(report.touching),
+                 .force_bearing = static_cast<double>(report.force_bearing),
+                 .sum_overlap = report.sum_overlap,
+                 .sum_gap_bearing = report.sum_gap_bearing,
+                 .largest_residual = solver.residual,
+                 .largest_overlap = report.largest_overlap,
+                 .fastest_approach = report.fastest_approach,
+                 .farthest_approach = report.farthest_approach,
+                 .divided = report.parts > 1 ? 1 : 0,
+                 .base_impulse = report.base_impulse});
 }
 
 void StepTotals::add(const StepTotals& other)
@@ -61,27 +104,9 @@ void StepTotals::add(const StepTotals& other)
 
 std::vector<Observable> Recorder::observables()
 {
-  return {{"translational_energy", "J"},
-          {"rotational_energy", "J"},
-          {"potential_energy", "J"},
-          {"momentum_defect", ""},
-          {"energy_defect", ""},
-          {"work_of_contacts", "J"},
-          {"work_of_boundaries", "J"},
-          {"steps", ""},
-          {"missed_steps", ""},
-          {"sweeps", ""},
-          {"residual", ""},
-          {"residual_rms", ""},
-          {"touching", ""},
-          {"contacts", ""},
-          {"mean_overlap", "m"},
-          {"largest_overlap", "m"},
-          {"mean_gap", "m"},
-          {"fastest_approach", "m s-1"},
-          {"frame_step", "s"},
-          {"base_force_x", "N"},
-          {"base_force_y", "N"}};
+  std::vector<Observable> all;
+  for (const auto& column : columns) all.push_back({column.name, column.unit});
+  return all;
 }
 
 Recorder::Recorder(TrajectoryWriter& writer, double small_diameter, const State& state)
@@ -92,32 +117,12 @@ Recorder::Recorder(TrajectoryWriter& writer, double small_diameter, const State&
 void Recorder::write(const Frame<2>& frame, const Simulation& simulation)
 {
   check_bounds(frame, simulation);
-  const auto& t = state_.since_frame;
   const auto& world = simulation.world();
-  const auto energy = energy_balance(world.grains, frame, simulation.before(), world.gravity,
-                                     simulation.written_step());
-  const std::vector<double> values{
-      translational_energy(simulation),
-      rotational_energy(simulation),
-      potential_energy(simulation),
-      momentum_defect(simulation.world().grains, frame, simulation.world().gravity),
-      energy.defect(),
-      energy.work_of_contacts,
-      energy.work_of_boundaries,
-      static_cast<double>(t.steps),
-      static_cast<double>(t.missed),
-      t.per_step(t.sweeps),
-      t.largest_residual,
-      t.per_step(t.residual_rms),
-      t.per_step(t.touching),
-      t.per_step(t.force_bearing),
-      t.mean_overlap(),
-      t.largest_overlap,
-      t.mean_gap_bearing(),
-      t.fastest_approach,
-      simulation.written_step(),
-      t.per_step(t.base_impulse.x()) / simulation.world().step,
-      t.per_step(t.base_impulse.y()) / simulation.world().step};
+  const Written now{state_.since_frame, simulation, frame,
+                    energy_balance(world.grains, frame, simulation.before(), world.gravity,
+                                   simulation.written_step())};
+  std::vector<double> values;
+  for (const auto& column : columns) values.push_back(column.value(now));
   writer_.append(frame, values);
   state_.totals.add(state_.since_frame);
   state_.since_frame = {};

@@ -3,9 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "sim/scene/deposition.hpp"
-#include "sim/scene/keys/accuracy.hpp"
-#include "sim/scene/keys/resolve.hpp"
-#include "sim/scene/keys/scene_file.hpp"
+#include "sim/scene/keys/keys.hpp"
 #include "sim/scene/keys/scene_text.hpp"
 #include "sim/scene/random_numbers.hpp"
 

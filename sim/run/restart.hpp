@@ -34,7 +34,7 @@ void require_same_bed(const Scene& before, const Scene& now);
 bool same_steps(const Scene& before, const Scene& now);
 
 /// The simulation that `checkpoint` holds, made under the scene `before`, under the scene `now`;
-/// its flow is not started yet (release.hpp). Where the step differs, the clock counts in new steps
+/// its flow is not started yet (start_flow). Where the step differs, the clock counts in new steps
 /// and the impulses with which the solver begins become those of a new step. UsageError where the
 /// time is not a whole number of new steps.
 Simulation restored_simulation(const Checkpoint& checkpoint, const Scene& before, const Scene& now,

@@ -11,10 +11,9 @@
 #include "sim/run/recorder.hpp"
 #include "sim/run/run_files.hpp"
 #include "sim/run/summary.hpp"
-#include "sim/run/truncate_to_checkpoint.hpp"
 #include "sim/scene/deposition.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/scene_text.hpp"
-#include "sim/scene/release.hpp"
 
 #include <fmt/format.h>
 

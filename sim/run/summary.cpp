@@ -2,7 +2,7 @@
 #include "sim/run/summary.hpp"
 
 #include "formats/cli/words.hpp"
-#include "sim/run/effects_report.hpp"
+#include "sim/run/provenance.hpp"
 #include "sim/scene/geometry.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace grseg {
 namespace {
 
-// Marks of rigid discs: k/P (sim/step/stiffness.hpp), and the mean overlap in d_S
+// Marks of rigid discs: k/P (NumericalStiffness), and the mean overlap in d_S
 // (docs/studies/first-flow.md).
 constexpr double rigid = 1e4;
 constexpr double small_overlap = 1e-3;
@@ -177,6 +177,22 @@ std::string next_steps(const std::string& output)
   return line("next",
               fmt::format("grseg-stress {} -o stress.tsv, then grseg-fit stress.tsv", run)) +
          line("look", fmt::format("grseg-explore {} -o explore.html", run));
+}
+
+NumericalStiffness numerical_stiffness(const StiffnessInput& in)
+{
+  constexpr double rigid = 1e4, sinking = 1e-3;
+  // Both conditions ask for a least N/h^2.
+  const double for_rigidity = rigid * in.base_pressure / in.mass;
+  const double for_sinking = in.layers * in.layers * in.gravity / (2 * sinking * in.diameter);
+  const double least = std::max(for_rigidity, for_sinking);
+  NumericalStiffness out;
+  out.stiffness = in.sweeps * in.mass / (in.step * in.step);
+  out.rigidity = out.stiffness / in.base_pressure;
+  out.sound_speed = in.diameter * std::sqrt(in.sweeps) / in.step;
+  out.advised_step = std::sqrt(in.sweeps / least);
+  out.advised_sweeps = least * in.step * in.step;
+  return out;
 }
 
 }  // namespace grseg

@@ -4,11 +4,35 @@
 #include "formats/core/parameters.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/scene/scene.hpp"
-#include "sim/step/stiffness.hpp"
 
 #include <string>
 
 namespace grseg {
+
+/// What sets the stiffness of a bed that an iterative solver holds up.
+struct StiffnessInput {
+  double sweeps = 0;         // N per step, warm-started
+  double step = 0;           // h, s
+  double mass = 0;           // kg, of a small grain
+  double diameter = 0;       // m, of a small grain
+  double base_pressure = 0;  // N/m, weight of the bed per length of base
+  double layers = 0;         // n, height of the bed in diameters
+  double gravity = 0;        // m/s^2, normal to the base
+};
+
+/// Rigid discs whose contact impulses are corrected N times in a step pass news on by N grains a
+/// step, and so behave as if they were elastic (Unger, Brendel, Wolf & Kertesz, Phys. Rev. E 65,
+/// 061305, 2002; ordered Gauss-Seidel sweeps, where their factor q is 1).
+struct NumericalStiffness {
+  double stiffness = 0;    // k_eff = N m/h^2, N/m
+  double rigidity = 0;     // kappa = k_eff/P: discs count as rigid from 1e4 on
+  double sound_speed = 0;  // d sqrt(N)/h, m/s
+  /// The longest step at these sweeps, s, and the fewest sweeps at this step for kappa >= 1e4 and
+  /// for a bed that sinks by n^2 g h^2/(2N) <= 1e-3 d as a wave passes.
+  double advised_step = 0, advised_sweeps = 0;
+};
+
+NumericalStiffness numerical_stiffness(const StiffnessInput& in);
 
 /// A run in numbers.
 struct RunSummary {

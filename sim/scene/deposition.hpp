@@ -31,7 +31,7 @@ struct DepositionHooks {
 /// velocities every 2 sqrt(d_S/g) until it rests.
 ///
 /// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
-/// gravity points straight down; release (release.hpp) starts the flow.
+/// gravity points straight down; release() (geometry.hpp) starts the flow.
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks = {});
 
 /// Number of grains that deposit() tries first, the boundary's included.

@@ -51,4 +51,25 @@ bool moves_boundaries(const Scene& scene)
   return !bodies_of(scene, {}).empty();
 }
 
+const std::vector<const Geometry*>& geometries()
+{
+  static const std::vector<const Geometry*> all{
+      &bed_geometry(), &drum_geometry(), &shear_geometry(), &column_geometry(), &hopper_geometry()};
+  return all;
+}
+
+Simulation release(const Simulation& deposited, const Scene& scene)
+{
+  auto simulation = scene.geometry->release(deposited, scene);
+  simulation.set_clock(0);
+  start_flow(simulation, scene);
+  return simulation;
+}
+
+void start_flow(Simulation& simulation, const Scene& scene)
+{
+  simulation.tilt(gravity_of(scene));
+  simulation.drive(bodies_of(scene, simulation.world().grains));
+}
+
 }  // namespace grseg

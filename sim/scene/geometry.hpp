@@ -85,4 +85,22 @@ std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
 /// Whether any boundary grain moves.
 bool moves_boundaries(const Scene& scene);
 
+// Each in the file of its name.
+const Geometry& bed_geometry();
+const Geometry& drum_geometry();
+const Geometry& shear_geometry();
+const Geometry& column_geometry();
+const Geometry& hopper_geometry();
+
+/// All of them, in the order of --help.
+const std::vector<const Geometry*>& geometries();
+
+/// The scene at t = 0: what held the deposited grains until then is gone (the gate of a column, the
+/// plug of a hopper), the plate of a shear cell lies on them and they are sheared; gravity is that
+/// of the flow, and boundaries begin to move.
+Simulation release(const Simulation& deposited, const Scene& scene);
+
+/// Gives `simulation`, whose clock is set, the gravity and the moving boundaries of the flow.
+void start_flow(Simulation& simulation, const Scene& scene);
+
 }  // namespace grseg

@@ -5,6 +5,7 @@
 
 #include <gsl/gsl_rng.h>
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -33,5 +34,41 @@ class RandomNumbers {
  private:
   std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> generator_;
 };
+
+inline RandomNumbers::RandomNumbers(std::uint64_t seed)
+    : generator_(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free)
+{
+  gsl_rng_set(generator_.get(), seed);
+}
+
+inline double RandomNumbers::uniform()
+{
+  return gsl_rng_uniform(generator_.get());
+}
+
+// Gaussian numbers and directions follow gsl_ran_gaussian and gsl_ran_dir_2d operation by operation.
+// They are compiled here, without contraction, because GSL on Arm rounds them differently.
+
+inline double RandomNumbers::gaussian(double deviation)
+{
+  double y = 0, squared = 0;
+  do {
+    const double x = -1 + 2 * gsl_rng_uniform_pos(generator_.get());
+    y = -1 + 2 * gsl_rng_uniform_pos(generator_.get());
+    squared = x * x + y * y;
+  } while (squared > 1 || squared == 0);
+  return deviation * y * std::sqrt(-2 * std::log(squared) / squared);
+}
+
+inline Vec2 RandomNumbers::direction()
+{
+  double x = 0, y = 0, squared = 0;
+  do {
+    x = -1 + 2 * uniform();
+    y = -1 + 2 * uniform();
+    squared = x * x + y * y;
+  } while (squared > 1 || squared == 0);
+  return {(x * x - y * y) / squared, 2 * x * y / squared};
+}
 
 }  // namespace grseg

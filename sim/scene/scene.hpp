@@ -39,7 +39,7 @@ struct Scene {
   ContactLaw law{};
   double horizon = 0;  // steps, of the speculative law
   enum class Base { grains, wall } base{};
-  double base_diameter = 0;         // m, mean; all of the base: sim/scene/geometry/base_row.hpp
+  double base_diameter = 0;         // m, mean; all of the base: sim/scene/base_row.hpp
   double base_diameter_spread = 0;  // (d_max - d_min)/mean
   double base_height_spread = 0;    // m
   double base_spacing = 0;          // m, mean along x

@@ -2,11 +2,8 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "sim/solver/contact_place.hpp"
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
 namespace grseg {
 
@@ -32,35 +29,5 @@ Vec2 displacement(const BoundaryBody& body, double time);
 /// be at `time` + `step`: along the chord, so that distances from the axis stay the same. Of a free
 /// body, only x counts.
 Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time, double step);
-
-/// Free bodies within the solve of one step. In a sweep boundary grains have infinite mass; after
-/// each, every free body and its contacts are solved together. The contacts are relaxed and the body
-/// takes the velocity V of one Newton step towards
-///   M (V - V_free) = P(V),  dP/dV = - (sum of the effective masses of its contacts under force),
-/// in turn, until V settles. P is the sum of its contact impulses along y, V_free its velocity without
-/// contacts. A body that keeps a small part of its load's impulse each step sinks into its grains.
-class FreeBodies {
- public:
-  /// `place` gives the index in `motion` of each row of Grains.
-  FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std::uint32_t> place,
-             std::span<const BlockRuns> strips, std::span<const Motion> motion);
-
-  /// Sets the velocities of all bodies from the impulses in the blocks. Returns the largest change,
-  /// m/s.
-  double update_velocities(std::span<Motion> motion);
-  /// Solves the bodies and their own contacts, the impulses of which it changes. Returns the largest
-  /// change of a body's velocity, m/s.
-  double balance(std::span<Motion> motion, double friction, Effects effects);
-
- private:
-  void relax_contacts(std::span<Motion> motion, double friction, Effects effects);
-
-  struct Body {
-    double mass, free_velocity;  // kg, m/s without contacts
-    std::vector<std::uint32_t> members;
-    std::vector<ContactPlace> contacts;
-  };
-  std::vector<Body> bodies_;
-};
 
 }  // namespace grseg

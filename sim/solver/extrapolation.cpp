@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 // Highway compiles what follows once per instruction set.
@@ -23,62 +25,40 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// now += factor (now - before), and before = what now was.
+/// now += factor (now - before), and before = what now was, in rows of `count` numbers: those of `before`
+/// lie side by side, those of `now` are `apart` numbers from each other.
 template <class Real>
-HWY_INLINE void extrapolate_numbers(Real* now, Real* before, std::size_t count, Real factor)
+HWY_INLINE void extrapolate_rows(Real* now, std::size_t apart, Real* before, std::size_t count,
+                                 std::size_t rows, Real factor)
 {
   const TagOf<Real> d;
   const auto f = hn::Set(d, factor);
-  std::size_t k = 0;
-  for (; k + hn::MaxLanes(d) <= count; k += hn::MaxLanes(d)) {
-    const auto n = hn::LoadU(d, now + k);
-    const auto way = hn::Sub(n, hn::LoadU(d, before + k));
-    hn::StoreU(n, d, before + k);
-    hn::StoreU(hn::Add(n, hn::Mul(f, way)), d, now + k);
+  for (; rows > 0; --rows, now += apart, before += count) {
+    std::size_t k = 0;
+    for (; k + hn::MaxLanes(d) <= count; k += hn::MaxLanes(d)) {
+      const auto n = hn::LoadU(d, now + k), way = n - hn::LoadU(d, before + k);
+      hn::StoreU(n, d, before + k);
+      hn::StoreU(n + f * way, d, now + k);
+    }
+    for (; k < count; ++k) {
+      const Real n = now[k];
+      now[k] = n + factor * (n - before[k]);
+      before[k] = n;
+    }
   }
-  for (; k < count; ++k) {
-    const Real n = now[k];
-    now[k] = n + factor * (n - before[k]);
-    before[k] = n;
-  }
-}
-
-template <class Real>
-HWY_INLINE void extrapolate_blocks(std::span<BlockOf<Real>> now, Real* before, Real factor)
-{
-  using Numbers = typename BlockOf<Real>::Lanes;
-  using Members = MembersOf<Real, Numbers>;
-  static_assert(offsetof(Members, impulse_t) == offsetof(Members, impulse_n) + sizeof(Numbers));
-  constexpr std::size_t per_block = std::size_t{2} * lanes_of<Real>;
-  for (std::size_t b = 0; b < now.size(); ++b)
-    extrapolate_numbers(now[b].impulse_n.data(), before + per_block * b, per_block, factor);
-  leave_vectors();
-}
-
-template <class Real>
-HWY_INLINE void extrapolate_bodies(MotionOf<Real>* now, MotionOf<Real>* before, std::size_t count,
-                                   Real factor)
-{
-  extrapolate_numbers(&now->vx, &before->vx, 4 * count, factor);
   leave_vectors();
 }
 
 // Dispatch takes no templates.
-void blocks_double(std::span<ContactBlock> now, double* before, double factor)
+void rows_of_doubles(double* now, std::size_t apart, double* before, std::size_t count,
+                     std::size_t rows, double factor)
 {
-  extrapolate_blocks(now, before, factor);
+  extrapolate_rows(now, apart, before, count, rows, factor);
 }
-void blocks_single(std::span<BlockOf<float>> now, float* before, float factor)
+void rows_of_singles(float* now, std::size_t apart, float* before, std::size_t count,
+                     std::size_t rows, float factor)
 {
-  extrapolate_blocks(now, before, factor);
-}
-void bodies_double(Motion* now, Motion* before, std::size_t count, double factor)
-{
-  extrapolate_bodies(now, before, count, factor);
-}
-void bodies_single(MotionOf<float>* now, MotionOf<float>* before, std::size_t count, float factor)
-{
-  extrapolate_bodies(now, before, count, factor);
+  extrapolate_rows(now, apart, before, count, rows, factor);
 }
 
 }  // namespace
@@ -90,27 +70,34 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(blocks_double);
-HWY_EXPORT(blocks_single);
-HWY_EXPORT(bodies_double);
-HWY_EXPORT(bodies_single);
+HWY_EXPORT(rows_of_doubles);
+HWY_EXPORT(rows_of_singles);
 
-void extrapolate_impulses(std::span<ContactBlock> now, double* before, double factor)
+template <class Real>
+void extrapolate_rows(Real* now, std::size_t apart, Real* before, std::size_t count,
+                      std::size_t rows, Real factor)
 {
-  HWY_DYNAMIC_DISPATCH(blocks_double)(now, before, factor);
+  if constexpr (std::is_same_v<Real, double>)
+    HWY_DYNAMIC_DISPATCH(rows_of_doubles)(now, apart, before, count, rows, factor);
+  else
+    HWY_DYNAMIC_DISPATCH(rows_of_singles)(now, apart, before, count, rows, factor);
 }
-void extrapolate_impulses(std::span<BlockOf<float>> now, float* before, float factor)
+
+template <class Real, class Impulses>
+void extrapolate_impulses(std::span<BlockOf<Real>> now, Impulses* before, Real factor)
 {
-  HWY_DYNAMIC_DISPATCH(blocks_single)(now, before, factor);
+  using Members = MembersOf<Real, typename BlockOf<Real>::Lanes>;
+  static_assert(offsetof(Members, impulse_t) ==
+                offsetof(Members, impulse_n) + sizeof(typename BlockOf<Real>::Lanes));
+  if (!now.empty())
+    extrapolate_rows(now[0].impulse_n.data(), sizeof(BlockOf<Real>) / sizeof(Real),
+                     before->n.data(), std::size_t{2} * lanes_of<Real>, now.size(), factor);
 }
-void extrapolate_motion(Motion* now, Motion* before, std::size_t count, double factor)
+
+template <class Real>
+void extrapolate_motion(std::span<MotionOf<Real>> now, MotionOf<Real>* before, Real factor)
 {
-  HWY_DYNAMIC_DISPATCH(bodies_double)(now, before, count, factor);
-}
-void extrapolate_motion(MotionOf<float>* now, MotionOf<float>* before, std::size_t count,
-                        float factor)
-{
-  HWY_DYNAMIC_DISPATCH(bodies_single)(now, before, count, factor);
+  if (!now.empty()) extrapolate_rows(&now[0].vx, 0, &before->vx, 4 * now.size(), 1, factor);
 }
 
 }  // namespace
@@ -153,11 +140,10 @@ void ExtrapolationOf<Real>::extrapolate(std::span<const RunsOf<Real>> strips,
   const auto factor = static_cast<Real>(next_factor());
   if (factor == 0) return remember(strips, motion, threads);
   for_each_part(threads, strips.size(), [&](std::size_t s) {
-    if (!strips[s].blocks.empty())
-      extrapolate_impulses(strips[s].blocks, impulses_[s][0].n.data(), factor);
+    extrapolate_impulses<Real>(strips[s].blocks, impulses_[s].data(), factor);
   });
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
-    extrapolate_motion(&motion[begin], &motion_[begin], end - begin, factor);
+    extrapolate_motion<Real>(motion.subspan(begin, end - begin), &motion_[begin], factor);
   });
 }
 
@@ -175,9 +161,9 @@ void ExtrapolationOf<Real>::extrapolate_strip(std::span<const RunsOf<Real>> stri
 {
   const auto& [blocks, ends, bodies] = strips[strip];
   const auto f = static_cast<Real>(factor);
-  if (!blocks.empty()) extrapolate_impulses(blocks, impulses_[strip][0].n.data(), f);
-  if (bodies.end > bodies.begin)
-    extrapolate_motion(&motion[bodies.begin], &motion_[bodies.begin], bodies.end - bodies.begin, f);
+  extrapolate_impulses<Real>(blocks, impulses_[strip].data(), f);
+  extrapolate_motion<Real>(motion.subspan(bodies.begin, bodies.end - bodies.begin),
+                           motion_.data() + bodies.begin, f);
 }
 
 template class ExtrapolationOf<double>;

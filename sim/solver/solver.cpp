@@ -123,7 +123,7 @@ class Sweeping {
   SweepResult first_of_several();
   SweepResult sweep_all();
   double solve_apart();
-  void sweep_strip(std::size_t strip, Findings findings);
+  void sweep_strip(std::size_t strip, Measured measured);
   SolverReport report_on(const SweepResult& result);
   /// m/s, the mean of W p, within its range.
   double reference(const SweepResult& result) const
@@ -146,10 +146,10 @@ class Sweeping {
 };
 
 template <class Real>
-void Sweeping<Real>::sweep_strip(std::size_t strip, Findings findings)
+void Sweeping<Real>::sweep_strip(std::size_t strip, Measured measured)
 {
-  const auto quick = choose_sweep<Real>(task_.effects, Findings::squares),
-             last = choose_sweep<Real>(task_.effects, findings);
+  const auto quick = choose_sweep<Real>(task_.effects, Measured::squares),
+             last = choose_sweep<Real>(task_.effects, measured);
   const auto friction = static_cast<Real>(task_.friction);
   if (at_a_time_ > 1) quick(strips_[strip], motion_.data(), friction);
   results_[strip] = last(strips_[strip], motion_.data(), friction);
@@ -171,7 +171,7 @@ SweepResult Sweeping<Real>::first_of_several()
           task_.threads,
           [&](std::size_t s, std::size_t round) {
             before[s] = results_[s];
-            sweep_strip(s, round < last ? Findings::squares : Findings::all);
+            sweep_strip(s, round < last ? Measured::squares : Measured::all);
           },
           [&](std::size_t s, std::size_t round) {
             if (task_.settings.acceleration && round < last)
@@ -202,7 +202,7 @@ SweepResult Sweeping<Real>::sweep_all()
 {
   const bool may_be_last = sweeps_ + at_a_time_ >= least_;
   for_alternate_strips(task_.threads, strips_.size(), [&](std::size_t s) {
-    if (work_.swept(s)) sweep_strip(s, may_be_last ? Findings::all : Findings::squares);
+    if (work_.swept(s)) sweep_strip(s, may_be_last ? Measured::all : Measured::squares);
   });
   sweeps_ += at_a_time_;
   work_.count();

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "sim/contact/contact_blocks.hpp"
-#include "sim/solver/boundary_body.hpp"
 #include "sim/solver/extrapolation.hpp"
 #include "sim/solver/single_contacts.hpp"
+#include "sim/solver/solved_apart.hpp"
 #include "sim/solver/sweep.hpp"
-#include "sim/solver/wedged_grains.hpp"
 
 #include <limits>
 #include <span>
@@ -30,14 +29,6 @@ struct SolverSettings {
   /// not mean small errors: such a bed is soft if every step stops at the first or second sweep.
   int min_sweeps = 1;
   Precision precision = Precision::doubles;
-};
-
-/// What is solved apart after each sweep; null where there is none.
-struct SolvedApart {
-  FreeBodies* free = nullptr;
-  WedgedGrains* wedged = nullptr;
-
-  bool any() const { return free != nullptr || wedged != nullptr; }
 };
 
 /// What the solver works on, kept by the caller from step to step to reuse its memory.

@@ -25,7 +25,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// SweepResult, lane by lane.
-template <class Real, Findings findings>
+template <class Real, Measured measured>
 struct alignas(64) LaneResults {
   using Tag = TagOf<Real>;
   using V = hn::Vec<Tag>;
@@ -42,7 +42,7 @@ struct alignas(64) LaneResults {
                             };
     const auto add_square = [](V sum, V x) HWY_ATTR { return sum + x * x; };
     update(squares, add_square, r.change_n, r.change_t);
-    if constexpr (findings == Findings::squares) return;
+    if constexpr (measured == Measured::squares) return;
     update(
         largest, [](V most, V x) HWY_ATTR { return larger(most, x); }, r.change_n, r.change_t);
     update(reference, add_square, r.level_n, r.level_t);
@@ -82,10 +82,10 @@ HWY_INLINE void sweep_run(BlockOf<Real>* block, const BlockOf<Real>* end, Real* 
   }
 }
 
-template <Effects with, class Real, Findings findings>
+template <Effects with, class Real, Measured measured>
 SweepResult sweep(const RunsOf<Real>& contacts, MotionOf<Real>* motion, Real friction)
 {
-  LaneResults<Real, findings> results;
+  LaneResults<Real, measured> results;
   const auto coefficient = hn::Set(TagOf<Real>(), friction);
   auto* blocks = contacts.blocks.data();
   std::uint32_t begin = 0;
@@ -111,35 +111,35 @@ void apply(std::span<const ContactBlock> blocks, Motion* motion)
 }
 
 /// The only place where a scene's effects become a compile-time choice.
-template <class Real, Findings findings>
+template <class Real, Measured measured>
 SweepOf<Real> sweep_for(Effects e)
 {
   // [friction][rotation][restitution]
   static constexpr SweepOf<Real> table[2][2][2] = {
-      {{sweep<Effects{false, false, false}, Real, findings>,
-        sweep<Effects{false, false, true}, Real, findings>},
-       {sweep<Effects{false, true, false}, Real, findings>,
-        sweep<Effects{false, true, true}, Real, findings>}},
-      {{sweep<Effects{true, false, false}, Real, findings>,
-        sweep<Effects{true, false, true}, Real, findings>},
-       {sweep<Effects{true, true, false}, Real, findings>,
-        sweep<Effects{true, true, true}, Real, findings>}}};
+      {{sweep<Effects{false, false, false}, Real, measured>,
+        sweep<Effects{false, false, true}, Real, measured>},
+       {sweep<Effects{false, true, false}, Real, measured>,
+        sweep<Effects{false, true, true}, Real, measured>}},
+      {{sweep<Effects{true, false, false}, Real, measured>,
+        sweep<Effects{true, false, true}, Real, measured>},
+       {sweep<Effects{true, true, false}, Real, measured>,
+        sweep<Effects{true, true, true}, Real, measured>}}};
   return table[e.friction][e.rotation][e.restitution];
 }
 template <class Real>
-SweepOf<Real> sweep_for(Effects e, Findings findings)
+SweepOf<Real> sweep_for(Effects e, Measured measured)
 {
-  return findings == Findings::all ? sweep_for<Real, Findings::all>(e)
-                                   : sweep_for<Real, Findings::squares>(e);
+  return measured == Measured::all ? sweep_for<Real, Measured::all>(e)
+                                   : sweep_for<Real, Measured::squares>(e);
 }
 // Dispatch takes no templates.
-SweepOf<double> double_sweep_for(Effects e, Findings findings)
+SweepOf<double> double_sweep_for(Effects e, Measured measured)
 {
-  return sweep_for<double>(e, findings);
+  return sweep_for<double>(e, measured);
 }
-SweepOf<float> single_sweep_for(Effects e, Findings findings)
+SweepOf<float> single_sweep_for(Effects e, Measured measured)
 {
-  return sweep_for<float>(e, findings);
+  return sweep_for<float>(e, measured);
 }
 
 void apply_for(std::span<const ContactBlock> blocks, Motion* motion, Effects e)
@@ -178,14 +178,14 @@ std::string name_of(std::int64_t target)
 }  // namespace
 
 template <>
-SweepOf<double> choose_sweep<double>(Effects effects, Findings findings)
+SweepOf<double> choose_sweep<double>(Effects effects, Measured measured)
 {
-  return HWY_DYNAMIC_DISPATCH(double_sweep_for)(effects, findings);
+  return HWY_DYNAMIC_DISPATCH(double_sweep_for)(effects, measured);
 }
 template <>
-SweepOf<float> choose_sweep<float>(Effects effects, Findings findings)
+SweepOf<float> choose_sweep<float>(Effects effects, Measured measured)
 {
-  return HWY_DYNAMIC_DISPATCH(single_sweep_for)(effects, findings);
+  return HWY_DYNAMIC_DISPATCH(single_sweep_for)(effects, measured);
 }
 
 void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects)

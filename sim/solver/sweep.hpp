@@ -21,13 +21,13 @@ struct SweepResult {
 };
 
 /// What a sweep finds out beside relaxing: only the sum of squares, or all of SweepResult.
-enum class Findings { squares, all };
+enum class Measured { squares, all };
 
 /// Relaxes all contacts once, block after block. Real is double or float.
 template <class Real>
 using SweepOf = SweepResult (*)(const RunsOf<Real>&, MotionOf<Real>*, Real friction);
 template <class Real = double>
-SweepOf<Real> choose_sweep(Effects effects, Findings findings = Findings::all);
+SweepOf<Real> choose_sweep(Effects effects, Measured measured = Measured::all);
 
 /// Applies the impulses of the blocks to the bodies.
 void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects);

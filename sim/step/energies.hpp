@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/core/frame.hpp"
+#include "sim/contact/contact_law.hpp"
 #include "sim/step/simulation.hpp"
+
+#include <span>
 
 namespace grseg {
 
@@ -10,5 +14,22 @@ namespace grseg {
 double translational_energy(const Simulation& simulation);
 double rotational_energy(const Simulation& simulation);
 double potential_energy(const Simulation& simulation);
+
+/// Where the kinetic energy (J per metre of depth) of a step comes from. The mid-point scheme obeys
+/// KE' - KE = sum m g h . (v + v')/2 + sum p . (u + u')/2 to round-off, with p a contact's impulse
+/// and u the relative velocity of the grains where they touch, before and after (theta = 1/2;
+/// Acary & Brogliato 2008, section 10.1). Work of contacts below zero is dissipation; what moving
+/// boundaries do to the grains is counted apart.
+struct EnergyBalance {
+  double kinetic_before = 0, kinetic_after = 0, work_of_gravity = 0, work_of_contacts = 0,
+         work_of_boundaries = 0;
+
+  /// What the terms leave unexplained, over the largest of them; 0 if nothing moves.
+  double defect() const;
+};
+
+/// `before` is the motion of each grain at the beginning of the step in `frame`.
+EnergyBalance energy_balance(const Grains& grains, const Frame<2>& frame,
+                             std::span<const Motion> before, const Vec2& gravity, double step);
 
 }  // namespace grseg

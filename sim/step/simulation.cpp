@@ -4,7 +4,6 @@
 #include "formats/core/errors.hpp"
 #include "sim/contact/parallel.hpp"
 #include "sim/step/free_flight.hpp"
-#include "sim/step/moving_boundaries.hpp"
 #include "sim/step/snapshot.hpp"
 
 #include <fmt/format.h>

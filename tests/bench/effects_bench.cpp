@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/run/effects_report.hpp"
+#include "sim/run/provenance.hpp"
 #include "sim/run/recorder.hpp"
 #include "tests/bench/flow.hpp"
 

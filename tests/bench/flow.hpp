@@ -2,9 +2,9 @@
 #pragma once
 
 #include "sim/scene/deposition.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
-#include "sim/scene/keys/resolve.hpp"
-#include "sim/scene/release.hpp"
+#include "sim/scene/keys/scene_text.hpp"
 
 #include <cmath>
 #include <map>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scene files.
-#include "sim/scene/keys/resolve.hpp"
-#include "sim/scene/keys/scene_file.hpp"
 #include "sim/scene/keys/scene_text.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/scene/release.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/step/energies.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/sim/small_chute.hpp"

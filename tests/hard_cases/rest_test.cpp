@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/scene/release.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/step/energies.hpp"
-#include "sim/step/energy_balance.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/sim/small_chute.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/step/energy_balance.hpp"
+#include "sim/step/energies.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/flows.hpp"
 #include "tests/hard_cases/observed.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A bed on its base, which may be shaken.
-#include "sim/scene/geometry/beads.hpp"
-#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/geometry.hpp"
+#include "sim/scene/packing.hpp"
 
 #include <numbers>
 

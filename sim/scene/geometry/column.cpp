@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A column between the left wall and a gate, which is gone at t = 0.
-#include "sim/scene/geometry/beads.hpp"
-#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/scene/packing.hpp"
 
 namespace grseg {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ring of beads that turns.
-#include "sim/scene/geometry/beads.hpp"
-#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/geometry.hpp"
+#include "sim/scene/packing.hpp"
 
 #include <algorithm>
 #include <cmath>

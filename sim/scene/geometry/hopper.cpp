@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A bed over an outlet in its base; a plug of beads closes it until t = 0.
-#include "sim/scene/geometry/beads.hpp"
-#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/scene/packing.hpp"
 
 #include <cmath>

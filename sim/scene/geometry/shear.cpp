@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A shear cell: at t = 0 gravity ends, and a plate of beads lies on the grains, presses and shears
 // them.
-#include "sim/scene/geometry/beads.hpp"
-#include "sim/scene/geometry/geometries.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/scene/packing.hpp"
 
 #include <algorithm>

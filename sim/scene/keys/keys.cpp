@@ -2,8 +2,7 @@
 #include "sim/scene/keys/keys.hpp"
 
 #include "formats/cli/words.hpp"
-#include "sim/scene/geometry/geometries.hpp"
-#include "sim/scene/keys/accuracy.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/key_value.hpp"
 
 #include <fmt/ranges.h>

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "sim/scene/scene.hpp"
+#include "sim/solver/solver.hpp"
 
 #include <boost/program_options.hpp>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -60,5 +62,29 @@ const std::vector<SceneKey>& scene_keys();
 
 /// The keys as options for Boost.ProgramOptions.
 boost::program_options::options_description scene_options();
+
+/// The scene that `values`, parsed with scene_options(), state: reads every key of the table,
+/// checks its range, and sets what follows from other keys where the user gives none (step and
+/// solver by accuracy, the mass of a plate). SceneError names the key that is wrong.
+Scene resolve_scene(const boost::program_options::variables_map& values);
+
+/// What a value of the key `accuracy` stands for, where the keys below are not given.
+struct Accuracy {
+  const char* name;
+  double step;                 // in sqrt(d_S/g)
+  double tolerance;            // of the solver
+  int min_sweeps, max_sweeps;  // per step
+  Precision precision;         // of the sweeps, where no body moves freely
+};
+
+constexpr std::array<Accuracy, 3> accuracies{{
+    {"draft", 0.01771, 1, 8, 100, Precision::mixed},
+    {"standard", 0.01107, 0.5, 8, 500, Precision::mixed},
+    {"reference", 0.00443, 0.1, 8, 5000, Precision::doubles},
+}};
+
+/// The keys that `accuracy` sets.
+constexpr std::array<const char*, 5> keys_of_accuracy{"step", "tolerance", "min-sweeps",
+                                                      "max-sweeps", "precision"};
 
 }  // namespace grseg

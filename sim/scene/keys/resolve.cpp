@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/scene/keys/resolve.hpp"
-
+#include "sim/scene/base_row.hpp"
 #include "sim/scene/geometry.hpp"
-#include "sim/scene/geometry/base_row.hpp"
-#include "sim/scene/keys/accuracy.hpp"
 #include "sim/scene/keys/keys.hpp"
 
 #include <fmt/format.h>

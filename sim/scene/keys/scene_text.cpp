@@ -2,13 +2,114 @@
 #include "sim/scene/keys/scene_text.hpp"
 
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/words.hpp"
+#include "formats/core/files.hpp"
+#include "formats/core/text.hpp"
 #include "sim/scene/geometry.hpp"
+#include "sim/scene/keys/keys.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <sstream>
 
 namespace grseg {
+namespace {
+
+namespace po = boost::program_options;
+
+/// The text of a file without a byte-order mark.
+std::string text_of(const std::string& path)
+{
+  std::ifstream file(path);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  return text;
+}
+
+/// "file:12" of the line that sets `key`, or "file" where none does.
+std::string place_of(const std::string& path, const std::string& key)
+{
+  std::istringstream file(text_of(path));
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const auto begin = line.find_first_not_of(" \t");
+    const auto end = line.find_first_of(" \t=", begin);
+    if (begin != std::string::npos && line.substr(begin, end - begin) == key)
+      return fmt::format("{}:{}", path, number);
+  }
+  return path;
+}
+
+/// "file:12" of the first line that is neither 'key = value' nor a comment, or "file".
+std::string place_of_bad_line(const std::string& text, const std::string& name)
+{
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const auto words = line.substr(0, line.find('#'));
+    if (words.find_first_not_of(" \t\r") != std::string::npos &&
+        words.find('=') == std::string::npos)
+      return fmt::format("{}:{}", name, number);
+  }
+  return name;
+}
+
+std::string without_dashes(std::string option)
+{
+  option.erase(0, option.find_first_not_of('-'));
+  return option;
+}
+
+using ParsedKeys = po::parsed_options;
+
+/// Stores the keys that `text` sets, after `change` had a look at them. `place` gives the line of a key.
+void read_keys(const std::string& text, const std::string& name,
+               const std::function<std::string(const std::string&)>& place,
+               const std::function<void(ParsedKeys&)>& change, po::variables_map& values)
+{
+  if (const auto word = placeholder_in(text); !word.empty())
+    throw FormatError(fmt::format("{}: no key and no value may hold {}", name, word));
+  const auto keys = scene_options();
+  std::istringstream in(text);
+  try {
+    auto parsed = po::parse_config_file(in, keys);
+    change(parsed);
+    po::store(parsed, values);
+    po::notify(values);
+  } catch (const po::unknown_option& unknown) {
+    const auto key = without_dashes(unknown.get_option_name());
+    std::vector<std::string> known;
+    for (const auto& option : keys.options()) known.push_back(option->long_name());
+    const auto suggestion = nearest(key, known);
+    throw FormatError(fmt::format("{}: unknown key '{}'{}", place(key), key,
+                                  suggestion.empty()
+                                      ? "; grseg-sim --help lists all"
+                                      : fmt::format(", did you mean '{}'?", suggestion)));
+  } catch (const po::invalid_config_file_syntax&) {
+    throw FormatError(
+        fmt::format("{}: lines are 'key = value' or '# comment'", place_of_bad_line(text, name)));
+  } catch (const po::error_with_option_name& wrong) {
+    throw FormatError(
+        fmt::format("{}: {}", place(without_dashes(wrong.get_option_name())), wrong.what()));
+  }
+}
+
+/// Gives the lengths of a text in SI their unit.
+void add_units(ParsedKeys& parsed)
+{
+  for (auto& option : parsed.options)
+    for (const auto& key : scene_keys())
+      if (option.string_key == key.name && !option.value.empty())
+        option.value[0] = key.with_unit(option.value[0]);
+}
+
+}  // namespace
 
 std::string to_text(const Scene& scene)
 {
@@ -57,6 +158,41 @@ std::string differing_key(const Scene& a, const Scene& b, KeyRole role)
   for (const auto& key : scene_keys())
     if (key.role == role && key.value.text(a) != key.value.text(b)) return key.name;
   return "";
+}
+
+void read_scene_file(const std::string& path, po::variables_map& values)
+{
+  require_file(path);
+  read_keys(
+      text_of(path), path, [&](const std::string& key) { return place_of(path, key); },
+      [](ParsedKeys&) {}, values);
+}
+
+void read_scene_text(const std::string& text, const std::string& name,
+                     const std::vector<std::string>& leave_out, po::variables_map& values)
+{
+  const auto change = [&](ParsedKeys& parsed) {
+    std::erase_if(parsed.options, [&](const auto& option) {
+      return std::find(leave_out.begin(), leave_out.end(), option.string_key) != leave_out.end();
+    });
+    add_units(parsed);
+  };
+  read_keys(
+      text, name, [&](const std::string&) { return name; }, change, values);
+}
+
+Scene resolve_scene(const std::string& path, const po::variables_map& given)
+{
+  auto values = given;
+  read_scene_file(path, values);
+  try {
+    return resolve_scene(values);
+  } catch (const SceneError& wrong) {
+    const bool from_command_line = given.count(wrong.key) > 0 && !given[wrong.key].defaulted();
+    const auto place = place_of(path, wrong.key);
+    if (from_command_line || place == path) throw;
+    throw FormatError(fmt::format("{}: {}", place, wrong.what()));
+  }
 }
 
 }  // namespace grseg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/neighbours/cell_grid.hpp"
+#include "sim/neighbours/pair_search.hpp"
 
 #include <gtest/gtest.h>
 

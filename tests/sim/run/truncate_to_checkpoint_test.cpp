@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/run/truncate_to_checkpoint.hpp"
-
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/reader.hpp"
+#include "sim/run/run_files.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>

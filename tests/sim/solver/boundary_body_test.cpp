@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/solver/boundary_body.hpp"
 
-#include "sim/step/energy_balance.hpp"
+#include "sim/step/energies.hpp"
 #include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>

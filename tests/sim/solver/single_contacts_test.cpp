@@ -106,7 +106,7 @@ TEST(SinglePrecision, SweepsAreTheLawOfAPairToTheLastBitOnEveryInstructionSet)
   }
 }
 
-TEST(SinglePrecision, FindingsAreThoseOfEveryContact)
+TEST(SinglePrecision, MeasuresAreThoseOfEveryContact)
 {
   auto p = problem();
   ContactBlocks packed;

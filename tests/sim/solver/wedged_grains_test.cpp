@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/solver/wedged_grains.hpp"
-
+#include "sim/solver/solved_apart.hpp"
 #include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>

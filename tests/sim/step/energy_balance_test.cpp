@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/step/energy_balance.hpp"
-
+#include "sim/step/energies.hpp"
 #include "tests/sim/worlds.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/geometry.hpp"
 
-#include "sim/run/effects_report.hpp"
+#include "sim/run/provenance.hpp"
 #include "sim/scene/deposition.hpp"
-#include "sim/scene/release.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>

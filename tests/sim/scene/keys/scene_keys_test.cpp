@@ -3,8 +3,6 @@
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
 #include "sim/scene/keys/keys.hpp"
-#include "sim/scene/keys/resolve.hpp"
-#include "sim/scene/keys/scene_file.hpp"
 #include "sim/scene/keys/scene_text.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/scene/geometry/base_row.hpp"
+#include "sim/scene/base_row.hpp"
 
 #include "sim/scene/deposition.hpp"
-#include "sim/scene/release.hpp"
+#include "sim/scene/geometry.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/step/stiffness.hpp"
+#include "sim/run/summary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/scene/geometry/base_row.hpp"
+#include "sim/scene/base_row.hpp"
 
 #include "sim/scene/random_numbers.hpp"
 
@@ -17,8 +17,8 @@ namespace {
 // Of the smallest grain's diameter. Weight wedges a grain into a gap: on a gap of 0.9 a grain pushes
 // with twice its weight on each of two beads twice its size, on one of 0.99 with six times.
 constexpr double widest_gap_that_holds = 0.9;
-constexpr double fewest_beads = 4;  // so that no bead meets its own image
-constexpr double round_off = 1e-9;  // of a number of beads
+constexpr double fewest_beads = 4;       // so that no bead meets its own image
+constexpr double error_of_count = 1e-9;  // of a number of beads
 constexpr std::uint64_t own_stream = 1U
                                      << 31;  // a seed of the base differs from that of grains here
 
@@ -75,7 +75,7 @@ void check_that_it_holds(const Scene& scene, const char* key)
 
 long beads_at_spacing(const Scene& scene, double spacing)
 {
-  return std::lround(std::floor(scene.length / spacing + round_off));
+  return std::lround(std::floor(scene.length / spacing + error_of_count));
 }
 
 double widest_gap(const Scene& scene)
