@@ -26,8 +26,7 @@ ImportSettings settings_of(std::string_view words)
   return settings;
 }
 
-template <int D>
-void require_a_whole_frame(const Frame<D>& frame, const Grains& grains)
+void require_a_whole_frame(const Frame<3>& frame, const Grains& grains)
 {
   const auto n = grains.size(), contacts = frame.contacts.size();
   fuzz::require(frame.position.size() == n && frame.velocity.size() == n, "a row for each grain");
@@ -63,12 +62,9 @@ void import(const std::vector<std::string_view>& parts)
   settings.files.grains = {grains.path()};
   if (parts.size() > 2) settings.files.contacts = {contacts.path()};
   if (parts.size() > 3) settings.files.restart = restart.path();
-  OpenedArchive opened(settings, settings.files.columns);
-  with_dimension(opened.facts.dimension, [&](auto d) {
-    VerifiedFrames<d> frames(std::move(opened), settings);
-    for (Frame<d> frame; frames.next(frame);)
-      if (!frames.complaint()) require_a_whole_frame(frame, frames.builder().bed().grains);
-  });
+  VerifiedFrames frames(ScannedArchive(settings), settings);
+  for (Frame<3> frame; frames.next(frame);)
+    if (!frames.complaint()) require_a_whole_frame(frame, frames.bed().grains);
 }
 
 }  // namespace

@@ -171,16 +171,13 @@ void archive(const std::vector<std::string>& words, const std::string& original,
     for (auto& file : *list)
       if (file == original) file = path;
   if (settings.files.restart == original) settings.files.restart = path;
-  OpenedArchive opened(settings, settings.files.columns);
-  with_dimension(opened.facts.dimension, [&](auto d) {
-    VerifiedFrames<d> frames(std::move(opened), settings);
-    content.add(frames.builder().bed().grains);
-    content.add(frames.builder().bed().box);
-    for (Frame<d> frame; frames.next(frame);) {
-      if (frames.complaint()) throw CheckError(frames.complaint()->sentence);
-      content.add(frame);
-    }
-  });
+  VerifiedFrames frames(ScannedArchive(settings), settings);
+  content.add(frames.bed().grains);
+  content.add(frames.bed().box);
+  for (Frame<3> frame; frames.next(frame);) {
+    if (frames.complaint()) throw CheckError(frames.complaint()->sentence);
+    content.add(frame);
+  }
 }
 
 std::vector<Way> ways_to_read(const std::string& kind, const std::string& original,

@@ -237,6 +237,7 @@ struct ArchiveFormat {
 };
 
 /// Each stands in the folder of its program.
-extern const ArchiveFormat lammps_format, liggghts_format, mercury_format, siconos_format, csv_format;
+extern const ArchiveFormat lammps_format, liggghts_format, mercury_format, siconos_format,
+    csv_format;
 
 }  // namespace grseg

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <sstream>
 
 namespace grseg {
 
@@ -39,6 +40,14 @@ bool read_as_c(const std::string& text, double& number)
 }
 
 }  // namespace
+
+std::vector<std::string> parts_of(const std::string& text, char separator)
+{
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
 
 bool read_number(std::string_view word, double& number)
 {
@@ -82,8 +91,7 @@ constexpr double largest_type = std::numeric_limits<std::int32_t>::max();
 bool is_nan_or_infinite(std::string_view word)
 {
   double number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() && !std::isfinite(number);
+  return parse_whole(word, number) && !std::isfinite(number);
 }
 
 }  // namespace

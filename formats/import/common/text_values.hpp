@@ -4,6 +4,8 @@
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/text_source.hpp"
 
+#include <charconv>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +14,24 @@
 #include <vector>
 
 namespace grseg {
+
+/// Whether the whole text is a number, as from_chars reads it.
+template <class Number>
+bool parse_whole(std::string_view text, Number& number)
+{
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  return error == std::errc() && end == last;
+}
+
+/// The same of a finite one.
+inline bool parse_finite(std::string_view text, double& number)
+{
+  return parse_whole(text, number) && std::isfinite(number);
+}
+
+/// What stands between separators; nothing behind the last one.
+std::vector<std::string> parts_of(const std::string& text, char separator);
 
 /// A finite number as C or Fortran writes it: 1e-5, +.5, 1.0D-05, 1.0-105; one too small to be held is 0.
 /// False for other words.

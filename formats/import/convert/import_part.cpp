@@ -2,6 +2,7 @@
 #include "formats/import/convert/import_part.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <sstream>
 
 namespace grseg {
 namespace {
@@ -28,14 +28,6 @@ std::string existing(const std::string& output, const OutputPart& part)
   if (!std::filesystem::exists(path, error))
     throw UsageError(fmt::format("{} is missing; {}", path, remedy(part)));
   return path;
-}
-
-std::vector<std::string> lines_of(const std::string& text)
-{
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
 }
 
 std::vector<Observable> all_observables()
@@ -71,24 +63,25 @@ std::vector<Observable> part_observables()
 }
 
 /// NaN where there is no residual, or no late damping; observables may be NaN.
-std::vector<double> part_values(const MomentRecord& record)
+void add_part_values(const MomentRecord& record, std::vector<double>& values)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto& residual = record.residual;
   const bool late = residual && residual->late;
-  return {residual ? residual->median : none, residual ? residual->unexplained : none,
-          late ? residual->late->normal : none, late ? residual->late->tangential : none};
+  values.insert(values.end(),
+                {residual ? residual->median : none, residual ? residual->unexplained : none,
+                 late ? residual->late->normal : none, late ? residual->late->tangential : none});
 }
 
-Parameters PartPlace::parameters() const
+Parameters PartPlace::parameters(const ImportReport& report) const
 {
   Parameters all;
   const auto number = [](std::size_t n) { return static_cast<double>(n); };
   all.numbers[place_name] = {number(part.number), number(part.count), number(begin), number(end),
                              number(moments)};
-  all.texts["import_part_tolerance_reason"] = tolerance_reason;
-  all.texts["import_part_columns"] = columns;
-  all.texts["import_part_remarks"] = fmt::format("{}", fmt::join(remarks, "\n"));
+  all.texts["import_part_tolerance_reason"] = report.tolerance_reason;
+  all.texts["import_part_columns"] = report.columns;
+  all.texts["import_part_remarks"] = fmt::format("{}", fmt::join(report.remarks, "\n"));
   return all;
 }
 
@@ -104,12 +97,9 @@ ImportPart::ImportPart(const std::string& output, const OutputPart& part)
     if (!(value >= 0 && value < 1e15) || value != std::floor(value)) fail("is damaged");
     return static_cast<std::size_t>(value);
   };
-  place_ = {{whole(0), whole(1)}, whole(2), whole(3), whole(4), {}, {}, {}};
+  place_ = {{whole(0), whole(1)}, whole(2), whole(3), whole(4)};
   if (place_.part.number != part.number || place_.part.count != part.count)
     fail(fmt::format("is part {}, not {}", place_.part.text(), part.text()));
-  place_.tolerance_reason = parameters.text("import_part_tolerance_reason");
-  place_.columns = parameters.text("import_part_columns");
-  place_.remarks = lines_of(parameters.text("import_part_remarks"));
   if (!run_.closed() || place_.end < place_.begin || run_.size() != place_.end - place_.begin)
     fail("does not hold all its moments");
   for (const auto& observable : all_observables()) {
@@ -133,6 +123,14 @@ MomentRecord ImportPart::record(std::size_t frame) const
   record.residual = Residual{values[0], more[0], 0, more[1], more[1], {}};
   if (!std::isnan(more[2])) record.residual->late = LateDamping{more[2], more[3]};
   return record;
+}
+
+void ImportPart::add_to(ImportReport& report) const
+{
+  const auto& parameters = run_.parameters();
+  report.tolerance_reason = parameters.text("import_part_tolerance_reason");
+  report.columns = parameters.text("import_part_columns");
+  report.remarks = parts_of(parameters.text("import_part_remarks"), '\n');
 }
 
 RunDescription ImportPart::description() const

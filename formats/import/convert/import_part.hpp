@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/import/convert/importer.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "formats/import/verify/check_series.hpp"
 #include "formats/import/verify/verification.hpp"
@@ -28,16 +29,15 @@ std::vector<Observable> import_observables();
 std::vector<double> import_values(const MomentRecord& record);
 /// Of a part there are more, which come after these.
 std::vector<Observable> part_observables();
-std::vector<double> part_values(const MomentRecord& record);
+void add_part_values(const MomentRecord& record, std::vector<double>& values);
 
-/// Where a part stands in its archive, and what an import by one process says at its end.
+/// Where a part stands in its archive.
 struct PartPlace {
   OutputPart part;
   std::size_t begin = 0, end = 0, moments = 0;  // of the archive: those of the part, and all
-  std::string tolerance_reason, columns;
-  std::vector<std::string> remarks;
 
-  Parameters parameters() const;
+  /// Says it, and what of the report an import by one process says at its end.
+  Parameters parameters(const ImportReport& report) const;
 };
 
 /// The file of a part, open.
@@ -49,6 +49,8 @@ class ImportPart {
   const TrajectoryReader& run() const { return run_; }
   const PartPlace& place() const { return place_; }
   MomentRecord record(std::size_t frame) const;
+  /// Fills in what the report of the whole import says at its end.
+  void add_to(ImportReport& report) const;
   /// The description of the whole run.
   RunDescription description() const;
   /// FormatError naming the file and what to do.

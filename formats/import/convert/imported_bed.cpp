@@ -55,10 +55,16 @@ SpeciesSettings base_settings(const ArchiveMoment& first, const RunFacts& facts,
 }  // namespace
 
 ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
-                         const ImportSettings& settings)
-    : axes(facts.orientation.axes)
+                         const ImportSettings& settings, bool come_and_go)
+    : axes(facts.orientation.axes),
+      gravity(facts.orientation.gravity),
+      step(facts.step),
+      has_force(!first.grains.force.empty()),
+      counts_periods(first.grains.counts_periods()),
+      grains_come_and_go(come_and_go)
 {
   box.dimension = facts.dimension;
+  if (facts.dimension == 2) gravity.z() = 0;
   box.periodic_x = false;
   walls = parse_walls(settings.walls);
   make_grains(first, facts, base_settings(first, facts, settings.species));
@@ -68,6 +74,19 @@ ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
   make_box(first);
   find_origin(first, settings.origin);
   shift.y() = -origin;
+}
+
+Vec3 ImportedBed::components(const Vec3& vector) const
+{
+  Vec3 in_flow = axes.components(vector);
+  if (box.dimension == 2) in_flow.z() = 0;
+  return in_flow;
+}
+
+Vec3 ImportedBed::spin(const Vec3& angular_velocity) const
+{
+  if (box.dimension == 3) return axes.components(angular_velocity);
+  return {0, 0, axes.spin_in_plane(angular_velocity)};
 }
 
 void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
@@ -118,7 +137,7 @@ void ImportedBed::make_box(const ArchiveMoment& first)
 {
   double bottom = infinity, top = -infinity;
   for (const auto& position : first.grains.position) {
-    const double y = axes.components<2>(position).y();
+    const double y = axes.components(position).y();
     bottom = std::min(bottom, y);
     top = std::max(top, y);
   }
@@ -157,7 +176,7 @@ double ImportedBed::make_length(const ArchiveMoment& first, int direction)
     if (first.periodic[k]) periods.push_back({direction, high - low, *axis, forward});
   } else {
     for (const auto& position : first.grains.position) {
-      const double x = axes.components<3>(position)[direction];
+      const double x = axes.components(position)[direction];
       low = std::min(low, x);
       high = std::max(high, x);
     }
@@ -194,9 +213,7 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
         fmt::format("--origin '{}' is not top, centre, or a height in the archive", text));
   double sum = 0;
   std::size_t mobile = 0;
-  const auto height = [&](std::size_t g) {
-    return axes.components<2>(first.grains.position[g]).y();
-  };
+  const auto height = [&](std::size_t g) { return axes.components(first.grains.position[g]).y(); };
   const auto& ids = first.grains.id;
   for (std::size_t g = 0; g < ids.size(); ++g)
     if (!is_boundary(static_cast<std::size_t>(rows.find(ids[g])))) {
@@ -210,7 +227,7 @@ void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& tex
         height(g) * static_cast<double>(mobile) <= sum)
       origin = std::max(origin, height(g) + (*top ? first.grains.radius[g] : 0));
   for (const auto& wall : walls) {
-    const double up = axes.components<3>(Vec3::Unit(wall.axis)).y();
+    const double up = axes.components(Vec3::Unit(wall.axis)).y();
     const bool is_floor =
         std::abs(up) > 1 - 1e-6 && up * wall.position * static_cast<double>(mobile) <= sum;
     if (!has_base && is_floor) origin = std::max(origin, up * wall.position);
@@ -225,7 +242,7 @@ std::string proposed_origin(const ArchiveGrains& grains, const Axes& axes)
 {
   double lowest = infinity;
   for (std::size_t g = 0; g < grains.size(); ++g)
-    lowest = std::min(lowest, axes.components<2>(grains.position[g]).y() - grains.radius[g]);
+    lowest = std::min(lowest, axes.components(grains.position[g]).y() - grains.radius[g]);
   return fmt::format("--origin {:.6g}", lowest);
 }
 

@@ -40,11 +40,29 @@ struct Period {
 struct ImportedBed {
   /// UsageError where the command line does not fit the grains, FormatError where the grains are
   /// impossible.
-  ImportedBed(const ArchiveMoment& all, const RunFacts& facts, const ImportSettings& settings);
+  ImportedBed(const ArchiveMoment& all, const RunFacts& facts, const ImportSettings& settings,
+              bool come_and_go = false);
 
   bool is_boundary(std::size_t row) const { return grains.species[row] == Species::boundary; }
+  /// A vector of the archive in the axes of the flow; in two dimensions the part in its plane.
+  Vec3 components(const Vec3& vector) const;
+  Vec3 spin(const Vec3& angular_velocity) const;
+  /// A moment of the archive as a frame of a trajectory (formats/README.md), in the archive's units.
+  /// Every moment must have all grains, unless they come and go: then those that a moment does not
+  /// have are absent in its frame. Grain i of a contact is mobile; contacts between two boundary
+  /// grains are left out; the order of contacts is kept. FormatError naming the moment where grains
+  /// or contacts are impossible, or lack components in three dimensions; OtherGrains where a moment
+  /// has not all grains, or others.
+  void build(const ArchiveMoment& moment, Frame<3>& frame) const;
 
   Axes axes;
+  Vec3 gravity;
+  double step;     // of the integration
+  bool has_force;  // on grains
+  /// Whether images of frames are those of the archive. Where it does not tell how often grains have
+  /// crossed a period, images are 0 for positions within the cell.
+  bool counts_periods;
+  bool grains_come_and_go;
   Grains grains;
   Box box;
   SpeciesFound species;

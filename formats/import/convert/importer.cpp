@@ -55,39 +55,74 @@ SpeciesList with_diameters(SpeciesList list, const Grains& grains, const Units& 
   return list;
 }
 
-/// The description of the run, in SI.
-template <int D>
-RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& settings,
+const char* source(bool of_the_archive)
+{
+  return of_the_archive ? "archive" : "command line";
+}
+
+/// What check_context() wants to know and no other parameter says: which facts are the archive's own,
+/// its axes, the types of species, tolerance, waivers.
+void add_check_parameters(Parameters& parameters, const VerifiedFrames& frames,
+                          const ImportSettings& settings)
+{
+  const auto& archive = frames.archive().facts();
+  auto& directions = parameters.numbers["import_directions"];
+  for (int k = 0; k < 3; ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      directions.push_back(frames.bed().axes.components(Vec3::Unit(axis))[k]);
+  parameters.numbers["import_tolerance_of_program"] = {archive.tolerance};
+  const auto& mass = frames.scanned().all_grains().grains.mass;
+  const bool has_masses = !mass.empty() && std::all_of(mass.begin(), mass.end(), [](double m) {
+    return std::isfinite(m) && m > 0;
+  });
+  const auto& moment = frames.scanned().moment;
+  auto& texts = parameters.texts;
+  texts["import_tolerance_reason"] = archive.tolerance_reason;
+  texts["import_gravity"] = source(archive.gravity && !settings.gravity);
+  texts["import_masses"] = source(archive.density.has_value() || has_masses);
+  texts["import_step"] = source(archive.step.has_value());
+  texts["import_times"] = !moment.time ? "steps" : moment.step ? "both" : "times";
+  if (!frames.facts().doubt_of_masses.empty())
+    texts["import_masses_doubt"] = frames.facts().doubt_of_masses;
+  texts["import_accepted"] = frames.waivers().text();
+  const auto& species = settings.species;
+  if (species.small || species.large)
+    texts["import_types"] =
+        fmt::format("{}\n{}", species.small.value_or(""), species.large.value_or(""));
+}
+
+/// The description of the run, in SI, before its first frame.
+RunDescription describe(const VerifiedFrames& frames, const ImportSettings& settings,
                         const std::string& command_line)
 {
   const auto& facts = frames.facts();
   const auto& units = facts.units;
+  const auto& bed = frames.bed();
   RunDescription run;
-  run.grains = frames.builder().bed().grains;
+  run.grains = bed.grains;
   units.convert(run.grains);
-  run.box = frames.builder().bed().box;
-  run.box.length_x *= units.length;
-  run.box.length_y *= units.length;
-  run.box.length_z *= units.length;
-  run.has_force = frames.has_force();
-  run.grains_come_and_go = frames.roster() != nullptr;
+  run.box = bed.box;
+  for (auto* length : {&run.box.length_x, &run.box.length_y, &run.box.length_z})
+    *length *= units.length;
+  run.has_force = bed.has_force;
+  run.grains_come_and_go = bed.grains_come_and_go;
   run.observables = import_observables();
-
+  const double tolerance = frames.waivers().limit("balance", frames.archive().facts().tolerance);
   auto& numbers = run.parameters.numbers;
-  const Vector<D> gravity = facts.orientation.gravity.template head<D>() * units.acceleration();
-  numbers["gravity"] = {gravity.begin(), gravity.end()};
+  const Vec3 gravity = bed.gravity * units.acceleration();
+  numbers["gravity"] = {gravity.begin(), gravity.begin() + bed.box.dimension};
   numbers["slope"] = {std::atan2(gravity.x(), -gravity.y()) * 180 / std::numbers::pi};
   numbers["step"] = {facts.step * units.time};
-  numbers["density"] = {mean_density<D>(run.grains)};
-  run.species = with_diameters(frames.builder().bed().species.list, run.grains, units);
+  numbers["density"] = {
+      with_dimension(facts.dimension, [&](auto d) { return mean_density<d>(run.grains); })};
+  run.species = with_diameters(bed.species.list, run.grains, units);
   numbers["small_diameter"] = {run.species.front().diameter};
   numbers["large_diameter"] = {run.species.back().diameter};
-  numbers["import_tolerance"] = {frames.tolerance()};
-  numbers["import_origin"] = {frames.builder().bed().origin};
+  numbers["import_tolerance"] = {tolerance};
+  numbers["import_origin"] = {bed.origin};
   numbers["import_units"] = {units.length, units.time, units.mass};
-  const auto& bed = frames.builder().bed();
   if (bed.has_new_ids) numbers["import_ids"] = {bed.known.id.begin(), bed.known.id.end()};
-
+  if (settings.interval) numbers["import_frame_interval"] = {*settings.interval * units.time};
   auto& texts = run.parameters.texts;
   texts["program"] = "grseg-import " + version_with_hash();
   texts["command_line"] = command_line;
@@ -97,14 +132,13 @@ RunDescription describe(const VerifiedFrames<D>& frames, const ImportSettings& s
   texts["import_axes"] = facts.axes;
   texts["import_units_as_told"] = facts.units_as_given;
   texts["import_grains"] = facts.discs ? "discs" : "spheres";
-  texts["import_base"] = frames.builder().bed().species.base;
-  texts["import_sizes"] = frames.builder().bed().species.sizes;
-  texts["import_cell"] = frames.builder().bed().cell;
+  texts["import_base"] = bed.species.base;
+  texts["import_sizes"] = bed.species.sizes;
+  texts["import_cell"] = bed.cell;
   texts["import_columns"] = frames.archive().columns();
   if (run.box.periodic_x || run.box.periodic_z)
-    texts["import_images"] = frames.builder().counts_periods() ? "known" : "unknown";
+    texts["import_images"] = bed.counts_periods ? "known" : "unknown";
   if (!facts.walls.empty()) texts["import_walls"] = fmt::format("{}", fmt::join(facts.walls, ", "));
-  if (settings.interval) numbers["import_frame_interval"] = {*settings.interval * units.time};
   if (settings.begin) texts["import_begin"] = *settings.begin;
   if (settings.end) texts["import_end"] = *settings.end;
   if (settings.repeated) texts["import_repeated"] = *settings.repeated;
@@ -129,12 +163,11 @@ Vec3 gravity_in_archive(const RunFacts& facts)
   Vec3 gravity;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     gravity[axis] =
-        facts.orientation.gravity.dot(facts.orientation.axes.components<3>(Vec3::Unit(axis)));
+        facts.orientation.gravity.dot(facts.orientation.axes.components(Vec3::Unit(axis)));
   return gravity;
 }
 
-template <int D>
-[[noreturn]] void refuse(const VerifiedFrames<D>& frames, const Judgement& judgement)
+[[noreturn]] void refuse(const VerifiedFrames& frames, const Judgement& judgement)
 {
   const auto& complaint = *frames.complaint();
   const auto fit = complaint.of_columns
@@ -153,21 +186,17 @@ template <int D>
 }
 
 /// What is left out of the archive, and the like: complete once it has been read to its end.
-template <int D>
-std::vector<std::string> remarks_of(const VerifiedFrames<D>& frames)
+std::vector<std::string> remarks_of(const VerifiedFrames& frames)
 {
-  auto remarks = frames.remarks();
-  if (const auto& roster = frames.roster())
-    remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} present",
-                                  roster->all.grains.size(), roster->fewest, roster->most));
-  if (frames.builder().bed().has_new_ids)
+  auto remarks = frames.scanned().remarks();
+  if (frames.bed().has_new_ids)
     remarks.emplace_back(
         "ids beyond 2^31 are 1, 2, 3, ... in their order; /parameters/import_ids has those of the "
         "archive");
   if (frames.walls()) remarks.push_back(frames.walls()->remark());
-  if (!frames.has_force())
+  if (!frames.bed().has_force)
     remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
-  if (!frames.has_angular_velocity())
+  if (frames.scanned().all_grains().grains.angular_velocity.empty())
     remarks.emplace_back("the archive has no angular velocities; they are written as 0");
   return remarks;
 }
@@ -186,140 +215,130 @@ ImportReport report_of(const RunDescription& run)
   return report;
 }
 
-/// `frame` in SI.
-template <int D>
-void count(ImportReport& report, const Frame<D>& frame)
+/// A frame in SI at this time.
+void count(ImportReport& report, double time, std::size_t contacts)
 {
-  if (report.frames == 0) report.first_time = frame.time;
-  report.last_time = frame.time;
+  if (report.frames == 0) report.first_time = time;
+  report.last_time = time;
   ++report.frames;
-  report.contacts += frame.contacts.size();
+  report.contacts += contacts;
 }
 
-/// Of the moment that has just been read.
-template <int D>
-MomentRecord record_of(const VerifiedFrames<D>& frames)
+/// The part of a frame in the plane of the flow.
+void flatten(const Frame<3>& from, Frame<2>& to)
 {
-  return {frames.residual(), in_si(frames.moment(), frames.facts().units)};
+  const auto take = [](const std::vector<Vec3>& vectors, std::vector<Vec2>& flat) {
+    flat.clear();
+    for (const auto& vector : vectors) flat.emplace_back(vector.head<2>());
+  };
+  to.step = from.step;
+  to.time = from.time;
+  take(from.position, to.position);
+  take(from.velocity, to.velocity);
+  take(from.force, to.force);
+  to.image.clear();
+  for (const auto& image : from.image) to.image.push_back({image[0], image[1]});
+  to.angular_velocity.clear();
+  for (const auto& spin : from.angular_velocity) to.angular_velocity.push_back(spin.z());
+  const auto& contacts = from.contacts;
+  to.contacts.i = contacts.i;
+  to.contacts.j = contacts.j;
+  to.contacts.gap = contacts.gap;
+  take(contacts.force, to.contacts.force);
+  take(contacts.branch, to.contacts.branch);
 }
 
-/// Verifies and writes all frames to the file `path`.
-template <int D>
-ImportReport write_frames(VerifiedFrames<D> frames, const ImportSettings& settings,
-                          const std::string& command_line, const std::string& path)
+/// Verifies and writes all frames to the file `path`. Those of a part are only judged one by one, and
+/// all of them when parts are joined.
+ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
+                     const ImportSettings& settings, const std::string& command_line,
+                     const std::string& path)
 {
-  const auto run = describe(frames, settings, command_line);
+  auto run = describe(frames, settings, command_line);
   auto report = report_of(run);
-  report.tolerance_reason = frames.archive().facts().tolerance_reason;
+  Judgement judgement(run);
+  if (part) {
+    const auto more = part_observables();
+    run.observables.insert(run.observables.end(), more.begin(), more.end());
+    frames.skip(part->begin);
+  }
+  const std::size_t moments = part ? part->end - part->begin : 0;
   TrajectoryWriter writer(path, run, settings.storage);
-  Closing closing(run);
-  ProgressBar progress(program, {.things = "moments"}, settings.quiet);
-  for (Frame<D> frame; frames.next(frame);) {
+  ProgressBar progress(program, {.things = "moments", .total = static_cast<double>(moments)},
+                       settings.quiet);
+  Frame<3> frame;
+  Frame<2> flat;
+  while ((!part || report.frames < moments) && frames.next(frame)) {
     stop_if_interrupted();
-    if (frames.complaint()) refuse(frames, closing.judgement());
+    if (frames.complaint()) refuse(frames, judgement);
     frames.facts().units.convert(frame);
-    count(report, frame);
-    const auto record = record_of(frames);
-    closing.add(record, frames.place());
-    writer.append(frame, import_values(record));
+    count(report, frame.time, frame.contacts.size());
+    const MomentRecord record{frames.residual(), in_si(frames.moment(), frames.facts().units)};
+    auto values = import_values(record);
+    if (part)
+      add_part_values(record, values);
+    else
+      judgement.add(record, frames.place());
+    if (run.box.dimension == 2) flatten(frame, flat);
+    run.box.dimension == 2 ? writer.append(flat, values) : writer.append(frame, values);
     progress.show(static_cast<double>(report.frames));
   }
   report.columns = frames.archive().columns();
   report.remarks = remarks_of(frames);
-  writer.add_parameters(closing.close(report, settings.strict));
+  report.tolerance_reason = frames.archive().facts().tolerance_reason;
+  if (part) {
+    if (report.frames != moments || (part->part.number == part->part.count && frames.next(frame)))
+      throw RunError(fmt::format("{}: the archive changes while it is read", frames.place()));
+    writer.add_parameters(part->parameters(report));
+  } else {
+    writer.add_parameters(judgement.close(report, settings.strict));
+  }
   writer.close();
-  if (frames.walls())
+  if (!part && frames.walls())
     for (auto& count : frames.walls()->counts()) report.remarks.push_back(std::move(count));
   return report;
 }
 
-/// The same of a part, whose moments are only judged one by one.
-template <int D>
-ImportReport write_part(VerifiedFrames<D> frames, PartPlace place, const ImportSettings& settings,
-                        const std::string& command_line, const std::string& path)
-{
-  auto run = describe(frames, settings, command_line);
-  const Judgement judgement(run);
-  const auto more = part_observables();
-  run.observables.insert(run.observables.end(), more.begin(), more.end());
-  auto report = report_of(run);
-  TrajectoryWriter writer(path, run, settings.storage);
-  Frame<D> frame;
-  if (place.begin > 0) {  // what is verified with velocities needs the moment before
-    frames.skip(place.begin - 1);
-    frames.next(frame);
-  }
-  ProgressBar progress(program,
-                       {.things = "moments", .total = static_cast<double>(place.end - place.begin)},
-                       settings.quiet);
-  for (auto left = place.end - place.begin; left > 0 && frames.next(frame); --left) {
-    stop_if_interrupted();
-    if (frames.complaint()) refuse(frames, judgement);
-    frames.facts().units.convert(frame);
-    count(report, frame);
-    const auto record = record_of(frames);
-    auto values = import_values(record);
-    const auto of_part = part_values(record);
-    values.insert(values.end(), of_part.begin(), of_part.end());
-    writer.append(frame, values);
-    progress.show(static_cast<double>(report.frames));
-  }
-  if (report.frames != place.end - place.begin ||
-      (place.part.number == place.part.count && frames.next(frame)))
-    throw RunError(fmt::format("{}: the archive changes while it is read", frames.place()));
-  place.tolerance_reason = frames.archive().facts().tolerance_reason;
-  place.columns = frames.archive().columns();
-  place.remarks = remarks_of(frames);
-  writer.add_parameters(place.parameters());
-  writer.close();
-  report.remarks.push_back(
-      fmt::format("part {}: moments {} to {} of {}; checks of all moments are "
-                  "made when parts are joined",
-                  place.part.text(), place.begin + 1, place.end, place.moments));
-  return report;
-}
-
+/// Where a moment has other grains than those that were scanned, all moments are, and it begins again.
 ImportReport import_whole(const ImportSettings& settings, const std::string& command_line)
 {
   Output output(settings.output, settings.overwrite, inputs_of(settings.files));
-  const auto write = [&](OpenedArchive opened) {
-    return with_dimension(opened.facts.dimension, [&](auto d) {
-      return write_frames(VerifiedFrames<d>(std::move(opened), settings), settings, command_line,
-                          output.temporary());
-    });
+  const auto run = [&](Scan how_far) {
+    return convert(VerifiedFrames(scan(settings, how_far), settings), std::nullopt, settings,
+                   command_line, output.temporary());
   };
   ImportReport report;
   try {
-    report = write(open_with_grains(settings));
+    report = run(Scan::first_moments);
   } catch (const OtherGrains&) {
-    report = write(open_with_roster(settings));
+    report = run(Scan::all_moments);
   }
   output.publish();
   return report;
 }
 
-/// Each part reads the grains of all moments first: how many moments there are, and whether grains
-/// come and go.
+/// Each part scans all moments first: how many there are, and whether grains come and go.
 ImportReport import_part(const ImportSettings& settings, const std::string& command_line)
 {
   const auto& part = *settings.parts.part;
   Output output(part.path(settings.output, fs::path(settings.output).extension().string()),
                 settings.overwrite, inputs_of(settings.files));
-  const auto write = [&](OpenedArchive opened, std::size_t moments) {
-    const auto range = part.range(moments);
-    return with_dimension(opened.facts.dimension, [&](auto d) {
-      return write_part(VerifiedFrames<d>(std::move(opened), settings),
-                        {part, range.first, range.second, moments, {}, {}, {}}, settings,
-                        command_line, output.temporary());
-    });
-  };
-  auto opened = open_with_grains(settings);
-  const auto roster =
-      opened.roster() ? opened.roster() : std::make_shared<const Roster>(read_roster(settings));
-  const bool is_complete = opened.roster() || !roster->grains_change();
-  auto report =
-      write(is_complete ? std::move(opened) : open_with_roster(settings), roster->moments);
+  auto scanned = scan(settings);
+  auto roster = scanned.roster();
+  if (!roster) {
+    roster = std::make_shared<const Roster>(read_roster(settings));
+    if (roster->grains_change()) scanned = scan(settings, Scan::all_moments);
+  }
+  const auto [begin, end] = part.range(roster->moments);
+  const PartPlace place{part, begin, end, roster->moments};
+  auto report = convert(VerifiedFrames(std::move(scanned), settings), place, settings, command_line,
+                        output.temporary());
   output.publish();
+  report.remarks = {
+      fmt::format("part {}: moments {} to {} of {}; checks of all moments are "
+                  "made when parts are joined",
+                  part.text(), begin + 1, end, roster->moments)};
+  report.tolerance_reason.clear();
   return report;
 }
 
@@ -336,16 +355,16 @@ void require_next_part(const ImportPart& first, const ImportPart& part, std::siz
 }
 
 template <int D>
-void append_part(TrajectoryWriter& writer, const ImportPart& part, Closing& closing,
+void append_part(TrajectoryWriter& writer, const ImportPart& part, Judgement& judgement,
                  ImportReport& report, ProgressBar& progress)
 {
   Frame<D> frame;
   for (std::size_t k = 0; k < part.run().size(); ++k) {
     stop_if_interrupted();
     part.run().read(k, frame, {.velocity = true, .contacts = true, .force = true});
-    count(report, frame);
+    count(report, frame.time, frame.contacts.size());
     const auto record = part.record(k);
-    closing.add(record, fmt::format("{}, frame {}", part.run().path(), k));
+    judgement.add(record, fmt::format("{}, frame {}", part.run().path(), k));
     writer.append(frame, import_values(record));
     progress.show(static_cast<double>(report.frames));
   }
@@ -361,7 +380,7 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
   const auto run = first.description();
   auto report = report_of(run);
   TrajectoryWriter writer(output.temporary(), run, settings.storage);
-  Closing closing(run);
+  Judgement judgement(run);
   ProgressBar progress(program,
                        {.things = "moments", .total = static_cast<double>(first.place().moments)},
                        settings.quiet);
@@ -369,13 +388,11 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
     const ImportPart part(settings.output, {k, parts});
     require_next_part(first, part, report.frames, command_line);
     with_dimension(run.box.dimension,
-                   [&](auto d) { append_part<d>(writer, part, closing, report, progress); });
-    report.columns = part.place().columns;
-    report.remarks = part.place().remarks;
-    report.tolerance_reason = part.place().tolerance_reason;
+                   [&](auto d) { append_part<d>(writer, part, judgement, report, progress); });
+    part.add_to(report);
   }
   if (report.frames != first.place().moments) first.fail("is a part of another archive");
-  writer.add_parameters(closing.close(report, settings.strict));
+  writer.add_parameters(judgement.close(report, settings.strict));
   writer.close();
   output.publish();
   return report;
@@ -385,7 +402,7 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
 
 ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
 {
-  if (settings.output.empty()) open_with_grains(settings);  // asks for it
+  if (settings.output.empty()) scan(settings);  // asks for it
   settings.parts.check(settings.output);
   if (settings.parts.part) return import_part(settings, command_line);
   if (settings.parts.join > 0) return join_parts(settings, command_line);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/convert/inferred_walls.hpp"
 
+#include "formats/import/common/frame_tools.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,11 +11,6 @@
 namespace grseg {
 namespace {
 
-std::size_t row(std::int32_t index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 /// Numbers of text and of grains held in single precision are off by less, over their size.
 constexpr double rounding = 1e-5;
 /// Contacts of a grain with the same wall have branches that differ by less, over its radius.
@@ -21,34 +18,31 @@ constexpr double same_branch = 0.01;
 
 }  // namespace
 
-template <int D>
-InferredWalls<D>::InferredWalls(const std::vector<WallPlane>& walls, const ImportedBed& bed,
-                                const Vector<D>& gravity)
-    : walls_(walls), bed_(bed), gravity_(gravity), contacts_of_(walls.size())
+InferredWalls::InferredWalls(const ImportedBed& bed) : bed_(bed), contacts_of_(bed.walls.size())
 {
-  for (const auto& wall : walls_) {
+  for (const auto& wall : bed_.walls) {
     for (const auto& period : bed_.periods)
       if (period.axis == wall.axis)
         throw UsageError(fmt::format(
             "--wall {} ({}): the cell is periodic along {}, where there can be no wall across; "
             "leave it out",
             wall.name, wall.place(), "xyz"[wall.axis]));
-    const Vec3 direction = bed_.axes.components<3>(Vec3::Unit(wall.axis));
-    if (D == 2 && std::abs(direction.z()) > 1e-6)
+    const Vec3 direction = bed_.axes.components(Vec3::Unit(wall.axis));
+    if (bed_.box.dimension == 2 && std::abs(direction.z()) > 1e-6)
       throw UsageError(
           fmt::format("--wall {} ({}) is parallel to the plane of the flow, --axes; "
                       "leave it out",
                       wall.name, wall.place()));
-    planes_.push_back({direction.head<D>(), wall.position + direction.dot(bed_.shift)});
+    planes_.push_back(
+        {bed_.components(Vec3::Unit(wall.axis)), wall.position + direction.dot(bed_.shift)});
   }
 }
 
-template <int D>
-std::vector<Vector<D>> InferredWalls<D>::missing_forces(const Frame<D>& frame) const
+std::vector<Vec3> InferredWalls::missing_forces(const Frame<3>& frame) const
 {
   const auto& contacts = frame.contacts;
-  std::vector<Vector<D>> missing = frame.force;
-  for (std::size_t g = 0; g < missing.size(); ++g) missing[g] -= bed_.grains.mass[g] * gravity_;
+  std::vector<Vec3> missing = frame.force;
+  for (std::size_t g = 0; g < missing.size(); ++g) missing[g] -= bed_.grains.mass[g] * bed_.gravity;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     missing[row(contacts.i[c])] -= contacts.force[c];
     if (contacts.j[c] >= 0) missing[row(contacts.j[c])] += contacts.force[c];
@@ -57,9 +51,8 @@ std::vector<Vector<D>> InferredWalls<D>::missing_forces(const Frame<D>& frame) c
 }
 
 /// Where rounding hides whether they touch, what is missing has to push.
-template <int D>
-auto InferredWalls<D>::touches(const Frame<D>& frame, std::size_t grain,
-                               const Vector<D>& missing) const -> std::vector<Touch>
+auto InferredWalls::touches(const Frame<3>& frame, std::size_t grain, const Vec3& missing) const
+    -> std::vector<Touch>
 {
   std::vector<Touch> found;
   const auto& x = frame.position[grain];
@@ -67,9 +60,9 @@ auto InferredWalls<D>::touches(const Frame<D>& frame, std::size_t grain,
   for (std::size_t w = 0; w < planes_.size(); ++w) {
     const auto& [direction, position] = planes_[w];
     const double height = direction.dot(x) - position;
-    const Vector<D> normal = height < 0 ? Vector<D>(-direction) : direction;
+    const Vec3 normal = height < 0 ? Vec3(-direction) : direction;
     const double doubt =
-        rounding * std::max({radius, std::abs(position), std::abs(walls_[w].position)});
+        rounding * std::max({radius, std::abs(position), std::abs(bed_.walls[w].position)});
     const double gap = std::abs(height) - radius;
     if (gap < -doubt || (gap < doubt && missing.dot(normal) > rounding * largest_force_))
       found.push_back({w, height * direction, normal});
@@ -77,9 +70,8 @@ auto InferredWalls<D>::touches(const Frame<D>& frame, std::size_t grain,
   return found;
 }
 
-template <int D>
-void InferredWalls<D>::append(Frame<D>& frame, std::size_t grain, const Touch& touch,
-                              const Vector<D>& force)
+void InferredWalls::append(Frame<3>& frame, std::size_t grain, const Touch& touch,
+                           const Vec3& force)
 {
   auto& contacts = frame.contacts;
   contacts.i.push_back(static_cast<std::int32_t>(grain));
@@ -95,9 +87,8 @@ void InferredWalls<D>::append(Frame<D>& frame, std::size_t grain, const Touch& t
   largest_pull_ = std::max(largest_pull_, pull / largest_force_);
 }
 
-template <int D>
-void InferredWalls<D>::add(Frame<D>& frame, std::size_t grain, std::vector<Touch> touches,
-                           const Vector<D>& missing)
+void InferredWalls::add(Frame<3>& frame, std::size_t grain, std::vector<Touch> touches,
+                        const Vec3& missing)
 {
   const auto push = [&](const Touch& touch) { return missing.dot(touch.normal); };
   if (touches.size() > 1) ++at_two_;
@@ -107,7 +98,7 @@ void InferredWalls<D>::add(Frame<D>& frame, std::size_t grain, std::vector<Touch
   while (touches.size() > 1 && !(push(touches.back()) > 0)) touches.pop_back();
   if (touches.size() == 1) return append(frame, grain, touches.front(), missing);
   double pushes = 0;
-  Vector<D> rest = missing;
+  Vec3 rest = missing;
   for (const auto& touch : touches) {
     pushes += push(touch);
     rest -= push(touch) * touch.normal;
@@ -117,8 +108,7 @@ void InferredWalls<D>::add(Frame<D>& frame, std::size_t grain, std::vector<Touch
 }
 
 /// Contacts with walls that the frame already has, by grain.
-template <int D>
-auto InferredWalls<D>::renumber(ContactList<D>& contacts) const -> std::vector<GrainAtWall>
+auto InferredWalls::renumber(ContactList<3>& contacts) const -> std::vector<GrainAtWall>
 {
   std::vector<GrainAtWall> rows;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -131,19 +121,17 @@ auto InferredWalls<D>::renumber(ContactList<D>& contacts) const -> std::vector<G
 }
 
 /// Of contacts and weights.
-template <int D>
-double InferredWalls<D>::largest_force(const Frame<D>& frame) const
+double InferredWalls::largest_force(const Frame<3>& frame) const
 {
   double largest = 0;
   for (const auto& force : frame.contacts.force) largest = std::max(largest, force.norm());
   for (std::size_t g = 0; g < bed_.grains.size(); ++g)
     if (is_mobile(bed_.grains, frame, g))
-      largest = std::max(largest, bed_.grains.mass[g] * gravity_.norm());
+      largest = std::max(largest, bed_.grains.mass[g] * bed_.gravity.norm());
   return largest;
 }
 
-template <int D>
-void InferredWalls<D>::add_to(Frame<D>& frame)
+void InferredWalls::add_to(Frame<3>& frame)
 {
   if (frame.force.empty())
     throw UsageError(
@@ -177,17 +165,15 @@ void InferredWalls<D>::add_to(Frame<D>& frame)
   ++frames_;
 }
 
-template <int D>
-std::string InferredWalls<D>::remark() const
+std::string InferredWalls::remark() const
 {
   return fmt::format(
       "forces of {} are inferred from the balance of the grains that touch them, of which it is then "
       "no check",
-      list_of(walls_));
+      list_of(bed_.walls));
 }
 
-template <int D>
-std::vector<std::string> InferredWalls<D>::counts() const
+std::vector<std::string> InferredWalls::counts() const
 {
   std::vector<std::string> remarks;
   if (contacts_ > 0)
@@ -201,16 +187,13 @@ std::vector<std::string> InferredWalls<D>::counts() const
     remarks.push_back(fmt::format(
         "{} of these {} contacts pull, the most by {:.2g} of the largest force of its moment",
         pulling_, contacts_, largest_pull_));
-  for (std::size_t w = 0; w < walls_.size(); ++w)
+  for (std::size_t w = 0; w < bed_.walls.size(); ++w)
     if (contacts_of_[w] == 0)
       remarks.push_back(
           fmt::format("no grain ever touches the wall {} ({}), of which the archive "
                       "has no contacts either: is it there?",
-                      walls_[w].name, walls_[w].place()));
+                      bed_.walls[w].name, bed_.walls[w].place()));
   return remarks;
 }
-
-template class InferredWalls<2>;
-template class InferredWalls<3>;
 
 }  // namespace grseg

@@ -19,18 +19,16 @@ namespace grseg {
 /// Errors of all these forces add up in it, damping half a step late among them, and the grain's
 /// balance is no check any more. A grain that touches two walls shares this force out: along each
 /// normal it is that wall's, the rest is shared in proportion; a wall that would pull gets nothing.
-template <int D>
 class InferredWalls {
  public:
   /// In the archive's units. UsageError where a wall lies across the plane of a flow in two
   /// dimensions or across a period.
-  InferredWalls(const std::vector<WallPlane>& walls, const ImportedBed& bed,
-                const Vector<D>& gravity);
+  explicit InferredWalls(const ImportedBed& bed);
 
   /// Appends these contacts to those of the frame. The walls here have the first numbers; those of
   /// contacts that the frame already has move up by as many. A wall that the grain already has a
   /// contact with is left out. UsageError where grains have no forces.
-  void add_to(Frame<D>& frame);
+  void add_to(Frame<3>& frame);
 
   /// By row, of the last frame: 1 where the balance of the grain went into a wall's force.
   const std::vector<std::uint8_t>& inferred() const { return inferred_; }
@@ -41,28 +39,24 @@ class InferredWalls {
 
  private:
   struct Plane {
-    Vector<D> direction;  // unit
-    double position;      // of the plane along it, in the flow's axes
+    Vec3 direction;   // unit
+    double position;  // of the plane along it, in the flow's axes
   };
   /// A grain at a wall.
   struct Touch {
     std::size_t wall;
-    Vector<D> branch;  // from the plane to the centre
-    Vector<D> normal;  // towards the grain
+    Vec3 branch;  // from the plane to the centre
+    Vec3 normal;  // towards the grain
   };
   using GrainAtWall = std::pair<std::size_t, std::size_t>;  // its row, and that of the contact
-  std::vector<GrainAtWall> renumber(ContactList<D>& contacts) const;
-  double largest_force(const Frame<D>& frame) const;
-  std::vector<Vector<D>> missing_forces(const Frame<D>& frame) const;
-  std::vector<Touch> touches(const Frame<D>& frame, std::size_t grain,
-                             const Vector<D>& missing) const;
-  void add(Frame<D>& frame, std::size_t grain, std::vector<Touch> touches,
-           const Vector<D>& missing);
-  void append(Frame<D>& frame, std::size_t grain, const Touch& touch, const Vector<D>& force);
+  std::vector<GrainAtWall> renumber(ContactList<3>& contacts) const;
+  double largest_force(const Frame<3>& frame) const;
+  std::vector<Vec3> missing_forces(const Frame<3>& frame) const;
+  std::vector<Touch> touches(const Frame<3>& frame, std::size_t grain, const Vec3& missing) const;
+  void add(Frame<3>& frame, std::size_t grain, std::vector<Touch> touches, const Vec3& missing);
+  void append(Frame<3>& frame, std::size_t grain, const Touch& touch, const Vec3& force);
 
-  std::vector<WallPlane> walls_;
   const ImportedBed& bed_;
-  Vector<D> gravity_;
   std::vector<Plane> planes_;
   std::vector<std::uint8_t> inferred_;
   std::vector<std::size_t> contacts_of_;  // of each wall, in all frames so far

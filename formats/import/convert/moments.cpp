@@ -3,26 +3,18 @@
 
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/import/common/text_values.hpp"
 #include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 namespace grseg {
 namespace {
-
-template <class Number>
-bool parse(const std::string& text, Number& number)
-{
-  const char* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, number);
-  return error == std::errc() && end == last;
-}
 
 std::string in_words(const ArchiveMoment& moment)
 {
@@ -31,80 +23,27 @@ std::string in_words(const ArchiveMoment& moment)
   return fmt::format("t = {:g} (step {})", *moment.time, *moment.step);
 }
 
-}  // namespace
-
-MomentBound parse_bound(const std::string& text, const std::string& option)
+/// The step, or the time where there is none.
+double time_of(const ArchiveMoment& moment)
 {
-  MomentBound bound;
-  if (text.starts_with("step:")) {
-    if (parse(text.substr(5), bound.step)) return bound;
-  } else if (double time = 0; parse(text, time) && std::isfinite(time)) {
-    bound.time = time;
-    return bound;
+  return moment.step ? static_cast<double>(*moment.step) : *moment.time;
+}
+
+/// Of all moments, as they follow in the archive.
+std::vector<double> times_of(Archive& archive)
+{
+  std::vector<double> times;
+  ArchiveMoment moment;
+  try {
+    while (archive.next_grains(moment)) {
+      stop_if_interrupted();
+      times.push_back(time_of(moment));
+    }
+  } catch (const TruncatedArchive&) {
+    // Told when it is imported.
   }
-  throw UsageError(
-      fmt::format("{} {} is neither a time in the archive's units, as in 12.5, nor a step, as in "
-                  "step:100000",
-                  option, text));
+  return times;
 }
-
-MomentRange::MomentRange(const std::optional<std::string>& begin,
-                         const std::optional<std::string>& end)
-{
-  const auto take = [&](const std::optional<std::string>& text, const char* option) {
-    std::optional<MomentBound> bound;
-    if (!text) return bound;
-    bound = parse_bound(*text, option);
-    text_ += fmt::format("{}{} {}", text_.empty() ? "" : " ", option, *text);
-    return bound;
-  };
-  begin_ = take(begin, "--begin");
-  end_ = take(end, "--end");
-}
-
-/// -1, 0 or 1: the moment comes before the bound, at it, or after it.
-int MomentRange::compare(const ArchiveMoment& moment, const MomentBound& bound,
-                         const char* option) const
-{
-  const bool known = bound.time ? moment.time.has_value() : moment.step.has_value();
-  if (!known && !(step_ && *step_ > 0))
-    throw UsageError(fmt::format(
-        "{} is a {}, but the archive has {} only, and the length of a time step is not known: pass "
-        "it with --step, or give a {}",
-        option, bound.time ? "time" : "step", bound.time ? "steps" : "times",
-        bound.time ? "step, as in step:100000" : "time"));
-  if (!bound.time) {
-    const auto step = moment.step ? *moment.step : std::llround(*moment.time / *step_);
-    return step < bound.step ? -1 : step > bound.step ? 1 : 0;
-  }
-  constexpr double digits = 1e-9;
-  const double time = moment.time ? *moment.time : static_cast<double>(*moment.step) * *step_;
-  if (std::abs(time - *bound.time) <= digits * std::max(std::abs(time), std::abs(*bound.time)))
-    return 0;
-  return time < *bound.time ? -1 : 1;
-}
-
-MomentRange::Side MomentRange::side(const ArchiveMoment& moment)
-{
-  last_ = in_words(moment);
-  if (count_++ == 0) first_ = last_;
-  if (begin_ && compare(moment, *begin_, "--begin") < 0) return Side::before;
-  if (end_ && compare(moment, *end_, "--end") >= 0) return Side::after;
-  return Side::within;
-}
-
-std::string MomentRange::seen() const
-{
-  return count_ == 1 ? fmt::format("one moment, {}", first_)
-                     : fmt::format("{} moments from {} to {}", count_, first_, last_);
-}
-
-std::string MomentRange::text() const
-{
-  return text_;
-}
-
-namespace {
 
 /// Of ids and positions, whatever the order of the rows.
 std::uint64_t digest_of(const ArchiveGrains& grains)
@@ -118,9 +57,68 @@ std::uint64_t digest_of(const ArchiveGrains& grains)
 
 }  // namespace
 
-double RepeatedMoments::time_of(const ArchiveMoment& moment)
+MomentRange::MomentRange(const std::optional<std::string>& begin,
+                         const std::optional<std::string>& end)
 {
-  return moment.step ? static_cast<double>(*moment.step) : *moment.time;
+  add("--begin", begin);
+  add("--end", end);
+}
+
+void MomentRange::add(const char* option, const std::optional<std::string>& text)
+{
+  if (!text) return;
+  text_ += fmt::format("{}{} {}", text_.empty() ? "" : " ", option, *text);
+  auto& bound = bounds_.emplace_back(Bound{option, option == std::string_view("--end"), {}, 0});
+  if (text->starts_with("step:")) {
+    if (parse_whole(text->substr(5), bound.step)) return;
+  } else if (double time = 0; parse_whole(*text, time) && std::isfinite(time)) {
+    bound.time = time;
+    return;
+  }
+  throw UsageError(
+      fmt::format("{} {} is neither a time in the archive's units, as in 12.5, nor a step, as in "
+                  "step:100000",
+                  option, *text));
+}
+
+/// -1, 0 or 1: the moment comes before the bound, at it, or after it.
+int MomentRange::compare(const ArchiveMoment& moment, const Bound& bound,
+                         const std::optional<double>& step)
+{
+  const bool known = bound.time ? moment.time.has_value() : moment.step.has_value();
+  if (!known && !(step && *step > 0))
+    throw UsageError(fmt::format(
+        "{} is a {}, but the archive has {} only, and the length of a time step is not known: pass "
+        "it with --step, or give a {}",
+        bound.option, bound.time ? "time" : "step", bound.time ? "steps" : "times",
+        bound.time ? "step, as in step:100000" : "time"));
+  if (!bound.time) {
+    const auto at = moment.step ? *moment.step : std::llround(*moment.time / *step);
+    return at < bound.step ? -1 : at > bound.step ? 1 : 0;
+  }
+  constexpr double digits = 1e-9;
+  const double time = moment.time ? *moment.time : static_cast<double>(*moment.step) * *step;
+  if (std::abs(time - *bound.time) <= digits * std::max(std::abs(time), std::abs(*bound.time)))
+    return 0;
+  return time < *bound.time ? -1 : 1;
+}
+
+MomentRange::Side MomentRange::side(const ArchiveMoment& moment, const std::optional<double>& step)
+{
+  last_ = in_words(moment);
+  if (count_++ == 0) first_ = last_;
+  for (const auto& bound : bounds_) {
+    const int where = compare(moment, bound, step);
+    if (bound.is_end && where >= 0) return Side::after;
+    if (!bound.is_end && where < 0) return Side::before;
+  }
+  return Side::within;
+}
+
+std::string MomentRange::seen() const
+{
+  return count_ == 1 ? fmt::format("one moment, {}", first_)
+                     : fmt::format("{} moments from {} to {}", count_, first_, last_);
 }
 
 void RepeatedMoments::set_times(const std::vector<double>& times)
@@ -177,34 +175,8 @@ std::string RepeatedMoments::remark() const
   return "";
 }
 
-namespace {
-
-ArchiveFiles with_columns(ArchiveFiles files, const std::string& columns)
-{
-  files.columns = columns;
-  return files;
-}
-
-/// Of all moments, as they follow in the archive.
-std::vector<double> times_of(Archive& archive)
-{
-  std::vector<double> times;
-  ArchiveMoment moment;
-  try {
-    while (archive.next_grains(moment)) {
-      stop_if_interrupted();
-      times.push_back(RepeatedMoments::time_of(moment));
-    }
-  } catch (const TruncatedArchive&) {
-    // Told when it is imported.
-  }
-  return times;
-}
-
-}  // namespace
-
-Moments::Moments(const ImportSettings& settings, const std::string& columns)
-    : archive_(open_archive(settings.format, with_columns(settings.files, columns))),
+Moments::Moments(const ImportSettings& settings)
+    : archive_(open_archive(settings.format, settings.files)),
       step_(settings.step),
       interval_(settings.interval),
       drop_incomplete_(settings.drop_incomplete),
@@ -214,8 +186,7 @@ Moments::Moments(const ImportSettings& settings, const std::string& columns)
       range_(settings.begin, settings.end)
 {
   if (repeated_.needs_all_times())
-    repeated_.set_times(
-        times_of(*open_archive(settings.format, with_columns(settings.files, columns))));
+    repeated_.set_times(times_of(*open_archive(settings.format, settings.files)));
 }
 
 bool Moments::read_one(ArchiveMoment& moment, Read read)
@@ -235,7 +206,7 @@ bool Moments::read_one(ArchiveMoment& moment, Read read)
 std::vector<std::string> Moments::remarks() const
 {
   std::vector<std::string> remarks;
-  if (!range_.is_all())
+  if (!range_.text().empty())
     remarks.push_back(fmt::format("only moments in the range {} are imported", range_.text()));
   if (dropped_ > 0)
     remarks.push_back(fmt::format("{} incomplete moment{} left out (--drop-incomplete)", dropped_,
@@ -262,8 +233,7 @@ bool Moments::advance(ArchiveMoment& moment, Read read)
   while (!ended_ && read_one(moment, read)) {
     stop_if_interrupted();
     if (!repeated_.counts(moment)) continue;
-    range_.set_step(step_ ? step_ : archive_->facts().step);
-    const auto side = range_.side(moment);
+    const auto side = range_.side(moment, step_ ? step_ : archive_->facts().step);
     if (side == MomentRange::Side::within) return found_ = true;
     // Without a moment in the range it is read to its end, to say what it has.
     ended_ = found_ && side == MomentRange::Side::after;

@@ -22,149 +22,111 @@ class Collector {
   void add(const ArchiveMoment& moment)
   {
     const auto& now = moment.grains;
-    if (moments_++ == 0) begin(moment);
-    enclose(moment);
+    if (roster_.moments++ == 0) begin(moment);
+    auto& all = roster_.all;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (all.periodic[static_cast<std::size_t>(axis)]) continue;
+      all.low[axis] = std::min(all.low[axis], moment.low[axis]);
+      all.high[axis] = std::max(all.high[axis], moment.high[axis]);
+    }
     roster_.fewest = std::min(roster_.fewest, now.size());
     roster_.most = std::max(roster_.most, now.size());
     for (std::size_t g = 0; g < now.size(); ++g) add_grain(moment, g);
-    if (now.size() > 0) roster_.all.grains.missing = now.missing;
-    roster_.all.grains.type_names = now.type_names;
-    if (now.size() > 0) counts_periods_ = counts_periods_ && now.counts_periods();
+    all.grains.type_names = now.type_names;
+    if (now.size() == 0) return;
+    all.grains.missing = now.missing;
+    all.grains.unwrapped = all.grains.unwrapped && now.counts_periods();
   }
-  Roster finish();
+
+  Roster finish()
+  {
+    auto& all = roster_.all.grains;
+    for (std::size_t row = 0; row < all.size(); ++row)
+      all.position[row] /= static_cast<double>(seen_[row].times);
+    return std::move(roster_);
+  }
 
  private:
   void begin(const ArchiveMoment& first)
   {
-    roster_.all.step = first.step;
-    roster_.all.time = first.time;
-    roster_.all.low = first.low;
-    roster_.all.high = first.high;
-    roster_.all.periodic = first.periodic;
-    roster_.all.cell = first.cell;
-    roster_.all.place = fmt::format("all moments from {} on", first.place);
+    auto& all = roster_.all;
+    all = first;
+    all.grains = {};
+    all.grains.unwrapped = true;
+    all.contacts = {};
+    all.questions.clear();
+    all.place = fmt::format("all moments from {} on", first.place);
     roster_.fewest = first.grains.size();
   }
-  void enclose(const ArchiveMoment& moment)
+
+  void add_grain(const ArchiveMoment& moment, std::size_t g)
   {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      if (roster_.all.periodic[static_cast<std::size_t>(axis)]) continue;
-      roster_.all.low[axis] = std::min(roster_.all.low[axis], moment.low[axis]);
-      roster_.all.high[axis] = std::max(roster_.all.high[axis], moment.high[axis]);
-    }
+    const auto& now = moment.grains;
+    auto& all = roster_.all.grains;
+    const auto [place, is_new] = row_.try_emplace(now.id[g], all.size());
+    const std::size_t row = place->second;
+    if (is_new) add_new(moment, g);
+    auto& seen = seen_[row];
+    if (seen.last == roster_.moments)
+      throw FormatError(fmt::format("{}: grain {} appears twice", moment.place, now.id[g]));
+    seen.last = roster_.moments;
+    ++seen.times;
+    if (!is_new) require_same_grain(all, row, now, g, moment.place);
+    all.position[row] += now.position[g];
+    if (!now.velocity.empty() && now.velocity[g].norm() > all.velocity[row].norm())
+      all.velocity[row] = now.velocity[g];
   }
-  void add_grain(const ArchiveMoment& moment, std::size_t g);
-  void add_new(const ArchiveMoment& moment, std::size_t g);
+
+  void add_new(const ArchiveMoment& moment, std::size_t g)
+  {
+    const auto& now = moment.grains;
+    auto& all = roster_.all.grains;
+    all.id.push_back(now.id[g]);
+    all.position.emplace_back(Vec3::Zero());
+    seen_.emplace_back();
+    const auto require_all = [&](const auto& values, const char* what) {
+      if (!values.empty() && values.size() != all.size())
+        throw FormatError(fmt::format(
+            "{}: some moments have {} of grains and some do not; import them separately, with "
+            "--begin and --end",
+            moment.place, what));
+    };
+    const auto copy = [&](const auto& from, auto& to, const char* what) {
+      if (!from.empty()) to.push_back(from[g]);
+      require_all(to, what);
+    };
+    const auto make_room = [&](const auto& from, auto& to, const char* what) {
+      if (!from.empty()) to.emplace_back(Vec3::Zero());
+      require_all(to, what);
+    };
+    copy(now.type, all.type, "types");
+    copy(now.radius, all.radius, "radii");
+    copy(now.mass, all.mass, "masses");
+    copy(now.fixed, all.fixed, "fixed flags");
+    make_room(now.velocity, all.velocity, "velocities");
+    make_room(now.angular_velocity, all.angular_velocity, "angular velocities");
+    make_room(now.force, all.force, "forces");
+  }
 
   struct Seen {
     std::size_t times = 0, last = 0;  // the number of the moment
   };
   Roster roster_;
-  std::size_t moments_ = 0;
-  bool counts_periods_ = true;  // every moment so far
   std::unordered_map<std::int64_t, std::size_t> row_;
   std::vector<Seen> seen_;
 };
-
-void Collector::add_grain(const ArchiveMoment& moment, std::size_t g)
-{
-  const auto& now = moment.grains;
-  auto& all = roster_.all.grains;
-  const auto [place, is_new] = row_.try_emplace(now.id[g], all.size());
-  const std::size_t row = place->second;
-  if (is_new) add_new(moment, g);
-  auto& seen = seen_[row];
-  if (seen.last == moments_)
-    throw FormatError(fmt::format("{}: grain {} appears twice", moment.place, now.id[g]));
-  seen.last = moments_;
-  ++seen.times;
-  if (!is_new) require_same_grain(all, row, now, g, moment.place);
-  all.position[row] += now.position[g];
-  if (!now.velocity.empty() && now.velocity[g].norm() > all.velocity[row].norm())
-    all.velocity[row] = now.velocity[g];
-}
-
-void Collector::add_new(const ArchiveMoment& moment, std::size_t g)
-{
-  const auto& now = moment.grains;
-  auto& all = roster_.all.grains;
-  const auto copy = [g](const auto& from, auto& to) {
-    if (!from.empty()) to.push_back(from[g]);
-  };
-  all.id.push_back(now.id[g]);
-  copy(now.type, all.type);
-  copy(now.radius, all.radius);
-  copy(now.mass, all.mass);
-  copy(now.fixed, all.fixed);
-  all.position.emplace_back(Vec3::Zero());
-  const auto make_room = [](const auto& from, auto& to) {
-    if (!from.empty()) to.emplace_back(Vec3::Zero());
-  };
-  make_room(now.velocity, all.velocity);
-  make_room(now.angular_velocity, all.angular_velocity);
-  make_room(now.force, all.force);
-  seen_.emplace_back();
-  const auto require = [&](const auto& values, const char* what) {
-    if (!values.empty() && values.size() != all.size())
-      throw FormatError(fmt::format(
-          "{}: some moments have {} of grains and some do not; import them separately, with --begin "
-          "and --end",
-          moment.place, what));
-  };
-  require(all.type, "types");
-  require(all.radius, "radii");
-  require(all.mass, "masses");
-  require(all.fixed, "fixed flags");
-  require(all.velocity, "velocities");
-  require(all.angular_velocity, "angular velocities");
-  require(all.force, "forces");
-}
-
-Roster Collector::finish()
-{
-  auto& all = roster_.all.grains;
-  for (std::size_t row = 0; row < all.size(); ++row)
-    all.position[row] /= static_cast<double>(seen_[row].times);
-  all.unwrapped = counts_periods_;
-  roster_.moments = moments_;
-  return std::move(roster_);
-}
-
-bool same_ids(const ArchiveGrains& a, const ArchiveGrains& b)
-{
-  if (a.size() != b.size()) return false;
-  if (a.id == b.id) return true;  // programs often keep the order
-  auto first = a.id, second = b.id;
-  std::sort(first.begin(), first.end());
-  std::sort(second.begin(), second.end());
-  return first == second;
-}
 
 }  // namespace
 
 Roster read_roster(const ImportSettings& settings)
 {
-  Moments moments(settings, settings.files.columns);
+  Moments moments(settings);
   Collector collector;
   for (ArchiveMoment moment; moments.next_grains(moment);) {
     stop_if_interrupted();
     collector.add(moment);
   }
   return collector.finish();
-}
-
-bool grains_change_early(const ImportSettings& settings)
-{
-  constexpr int early = 20;
-  try {
-    Moments moments(settings, settings.files.columns);
-    ArchiveMoment first, moment;
-    if (!moments.next_grains(first)) return false;
-    for (int k = 1; k < early && moments.next_grains(moment); ++k)
-      if (!same_ids(first.grains, moment.grains)) return true;
-  } catch (const ToolError&) {  // to be reported when it is that moment's turn
-  }
-  return false;
 }
 
 void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,
@@ -198,6 +160,31 @@ void require_same_grain(const ArchiveGrains& known, std::size_t row, const Archi
 
 namespace {
 
+bool same_ids(const ArchiveGrains& a, const ArchiveGrains& b)
+{
+  if (a.size() != b.size()) return false;
+  if (a.id == b.id) return true;  // programs often keep the order
+  auto first = a.id, second = b.id;
+  std::sort(first.begin(), first.end());
+  std::sort(second.begin(), second.end());
+  return first == second;
+}
+
+/// Whether the grains of the first few moments differ.
+bool grains_change_early(const ImportSettings& settings)
+{
+  constexpr int early = 20;
+  try {
+    Moments moments(settings);
+    ArchiveMoment first, moment;
+    if (!moments.next_grains(first)) return false;
+    for (int k = 1; k < early && moments.next_grains(moment); ++k)
+      if (!same_ids(first.grains, moment.grains)) return true;
+  } catch (const ToolError&) {  // to be reported when it is that moment's turn
+  }
+  return false;
+}
+
 /// Where walls bound the flow there need not be one.
 bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
 {
@@ -225,9 +212,9 @@ SpeciesSettings with_one_species(const SpeciesSettings& settings)
 
 }  // namespace
 
-OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& columns,
-                             std::shared_ptr<const Roster> roster, Questions questions)
-    : moments_(settings, columns), roster_(std::move(roster))
+ScannedArchive::ScannedArchive(const ImportSettings& settings, std::shared_ptr<const Roster> roster,
+                               Questions questions)
+    : moments_(settings), roster_(std::move(roster))
 {
   if (!moments_.next(moment))
     throw FormatError(fmt::format(
@@ -235,15 +222,25 @@ OpenedArchive::OpenedArchive(const ImportSettings& settings, const std::string& 
         settings.files.grains.empty() ? settings.files.restart : settings.files.grains.front()));
   if (!roster_ && moment.grains.size() == 0)
     throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
-  const auto full = roster_ ? full_moment(settings, columns) : moment;
+  const auto full = roster_ ? full_moment(settings) : moment;
   for (const auto& question : full.questions) questions.ask(question);
-  const auto resting = resting_grains_of(settings, columns);
+  const auto resting = resting_grains_of(settings);
   facts = collect_facts(archive().facts(), {all_grains(), full, resting}, settings, questions);
   ask_for_the_bed(settings, resting, questions);
   questions.report();
 }
 
-bool OpenedArchive::next()
+std::vector<std::string> ScannedArchive::remarks() const
+{
+  auto remarks = archive().remarks();
+  for (auto& of_moments : moments_.remarks()) remarks.push_back(std::move(of_moments));
+  if (roster_)
+    remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} present",
+                                  roster_->all.grains.size(), roster_->fewest, roster_->most));
+  return remarks;
+}
+
+bool ScannedArchive::next()
 {
   if (!moments_.next(moment)) return false;
   if (!moment.questions.empty()) throw OpenQuestions(moment.questions);
@@ -251,12 +248,11 @@ bool OpenedArchive::next()
 }
 
 /// Where nothing says which grains are the base. Without a roster the next moment tells, too.
-std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& settings,
-                                                   const std::string& columns) const
+std::vector<bool> ScannedArchive::resting_grains_of(const ImportSettings& settings) const
 {
   if (!base_is_open(all_grains().grains, settings)) return {};
   if (roster_) return resting_grains(roster_->all.grains, nullptr);
-  Moments ahead(settings, columns);
+  Moments ahead(settings);
   ArchiveMoment later;
   const bool more = ahead.next_grains(later) && ahead.next_grains(later);
   return resting_grains(moment.grains, more ? &later.grains : nullptr);
@@ -264,11 +260,10 @@ std::vector<bool> OpenedArchive::resting_grains_of(const ImportSettings& setting
 
 /// One of the first moments that has half of the grains, or as many as there are; with the questions
 /// of all before it.
-ArchiveMoment OpenedArchive::full_moment(const ImportSettings& settings,
-                                         const std::string& columns) const
+ArchiveMoment ScannedArchive::full_moment(const ImportSettings& settings) const
 {
   constexpr int furthest = 100;
-  Moments ahead(settings, columns);
+  Moments ahead(settings);
   ArchiveMoment full, next;
   std::vector<Question> questions;
   for (int k = 0; k < furthest && 2 * full.grains.size() < roster_->most && ahead.next(next); ++k) {
@@ -281,8 +276,8 @@ ArchiveMoment OpenedArchive::full_moment(const ImportSettings& settings,
 
 /// What species and origin leave open. Where other answers are missing, what else is wrong may come
 /// from that.
-void OpenedArchive::ask_for_the_bed(const ImportSettings& settings,
-                                    const std::vector<bool>& resting, Questions& questions) const
+void ScannedArchive::ask_for_the_bed(const ImportSettings& settings,
+                                     const std::vector<bool>& resting, Questions& questions) const
 {
   auto trial = settings;
   const auto& grains = all_grains().grains;
@@ -310,7 +305,7 @@ void OpenedArchive::ask_for_the_bed(const ImportSettings& settings,
 }
 
 /// All moments are read for what is proposed.
-Question OpenedArchive::question_of_cell(const ImportSettings& settings, int axis) const
+Question ScannedArchive::question_of_cell(const ImportSettings& settings, int axis) const
 {
   double low = all_grains().low[axis], high = all_grains().high[axis];
   if (!roster_) {
@@ -328,7 +323,7 @@ Question OpenedArchive::question_of_cell(const ImportSettings& settings, int axi
 }
 
 /// Areas and volumes are those of the cell.
-void OpenedArchive::ask_for_the_cell(const ImportSettings& settings, Questions& questions) const
+void ScannedArchive::ask_for_the_cell(const ImportSettings& settings, Questions& questions) const
 {
   const auto walls = parse_walls(settings.walls);
   for (const int direction : {0, 2}) {
@@ -339,25 +334,17 @@ void OpenedArchive::ask_for_the_cell(const ImportSettings& settings, Questions& 
   }
 }
 
-OpenedArchive open_with_roster(const ImportSettings& settings)
+ScannedArchive scan(const ImportSettings& settings, Scan how_far)
 {
   Questions questions;
   const auto proposed = with_proposed_files(settings, questions);
-  return {proposed, proposed.files.columns, std::make_shared<const Roster>(read_roster(proposed)),
-          questions};
-}
-
-OpenedArchive open_with_grains(const ImportSettings& settings)
-{
-  Questions questions;
-  const auto proposed = with_proposed_files(settings, questions);
-  try {
-    return {proposed, proposed.files.columns, nullptr, questions};
-  } catch (const OtherGrains&) {
-  } catch (const UsageError&) {
-    if (!grains_change_early(proposed)) throw;
-  }
-  return open_with_roster(settings);
+  if (how_far == Scan::first_moments) try {
+      return ScannedArchive(proposed, nullptr, questions);
+    } catch (const OtherGrains&) {
+    } catch (const UsageError&) {
+      if (!grains_change_early(proposed)) throw;
+    }
+  return ScannedArchive(proposed, std::make_shared<const Roster>(read_roster(proposed)), questions);
 }
 
 }  // namespace grseg

@@ -33,41 +33,34 @@ struct Roster {
   bool grains_change() const { return fewest < all.grains.size(); }
 };
 
-/// Reads the grains of all moments between --begin and --end. FormatError naming moment and grain
-/// where an id occurs twice at a moment or changes what a grain keeps (require_same_grain).
-Roster read_roster(const ImportSettings& settings);
-
-/// Whether the grains of the first few moments differ.
-bool grains_change_early(const ImportSettings& settings);
-
 /// What a grain keeps for as long as it has its id: radius, mass, type, and whether it is fixed, as
 /// far as the archive has them. FormatError naming `place`, with what to do, where grain g of `now`
 /// is not the same as grain `row` of `known`.
 void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,
                         std::size_t g, const std::string& place);
 
-/// A moment has other grains than the first one: the import begins anew, with a roster.
+/// A moment has other grains than the first one, so that all moments have to be scanned.
 struct OtherGrains : FormatError {
   using FormatError::FormatError;
 };
 
-/// An archive at one of its moments, from the first on, and the facts of its run. Where grains come
-/// and go there is a roster of them, and facts are found from it.
-class OpenedArchive {
+/// What a scan of an archive finds: the facts of its run, and, where grains come and go, a roster of
+/// them; and the archive itself at one of its moments, from the first on.
+class ScannedArchive {
  public:
-  /// Reads the first moment. Throws what readers and facts throw; OpenQuestions with `questions` and
-  /// all that is missing; FormatError where the archive holds no moment, OtherGrains where it begins
-  /// without grains and there is no roster.
-  OpenedArchive(const ImportSettings& settings, const std::string& columns,
-                std::shared_ptr<const Roster> roster = nullptr, Questions questions = {});
+  /// From the grains of the first moments alone, without a roster. Throws what readers and facts
+  /// throw; OpenQuestions with `questions` and all that is missing; FormatError where the archive
+  /// holds no moment, OtherGrains where it begins without grains and there is no roster.
+  explicit ScannedArchive(const ImportSettings& settings,
+                          std::shared_ptr<const Roster> roster = nullptr, Questions questions = {});
 
   /// Reads the next moment; false at the end. OpenQuestions where the reader cannot go on.
   bool next();
   /// The same without its contacts.
   bool next_grains() { return moments_.next_grains(moment); }
-
   const Archive& archive() const { return moments_.archive(); }
-  std::vector<std::string> remarks() const { return moments_.remarks(); }
+  /// Sentences on what is left out so far.
+  std::vector<std::string> remarks() const;
   /// Of all moments; null where they all have the grains of the first one.
   const std::shared_ptr<const Roster>& roster() const { return roster_; }
   /// A moment with all grains of the run: the roster's, or as long as it has not been left the first.
@@ -77,12 +70,10 @@ class OpenedArchive {
   RunFacts facts;
 
  private:
-  std::vector<bool> resting_grains_of(const ImportSettings& settings,
-                                      const std::string& columns) const;
-  ArchiveMoment full_moment(const ImportSettings& settings, const std::string& columns) const;
+  std::vector<bool> resting_grains_of(const ImportSettings& settings) const;
+  ArchiveMoment full_moment(const ImportSettings& settings) const;
   void ask_for_the_bed(const ImportSettings& settings, const std::vector<bool>& resting,
                        Questions& questions) const;
-
   void ask_for_the_cell(const ImportSettings& settings, Questions& questions) const;
   Question question_of_cell(const ImportSettings& settings, int axis) const;
 
@@ -90,10 +81,15 @@ class OpenedArchive {
   std::shared_ptr<const Roster> roster_;
 };
 
-/// Opens an archive, of which the command line may name files only. Where its facts cannot be found
-/// from the grains of the first moment, and other moments have others, with a roster.
-OpenedArchive open_with_grains(const ImportSettings& settings);
-/// Opens an archive with a roster.
-OpenedArchive open_with_roster(const ImportSettings& settings);
+/// How far a scan goes. All moments are read where they are needed: it takes as long as half an import.
+enum class Scan { first_moments, all_moments };
+
+/// Scans an archive, of which the command line may name files only. Where its facts cannot be found
+/// from the grains of the first moment, and other moments have others, of all moments. FormatError
+/// naming moment and grain where an id occurs twice at a moment or changes what a grain keeps.
+ScannedArchive scan(const ImportSettings& settings, Scan how_far = Scan::first_moments);
+
+/// The number of moments in the range of the import, and whether all of them have the same grains.
+Roster read_roster(const ImportSettings& settings);
 
 }  // namespace grseg

@@ -3,20 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace grseg {
 namespace {
-
-OwnFacts own_facts(const ArchiveMoment& all, const ArchiveMoment& moment)
-{
-  const auto& mass = all.grains.mass;
-  const bool masses = !mass.empty() && std::all_of(mass.begin(), mass.end(), [](double m) {
-    return std::isfinite(m) && m > 0;
-  });
-  return {masses, !moment.time ? "steps" : moment.step ? "both" : "times"};
-}
 
 std::array<AxisInArchive, 3> axes_of(const ImportedBed& bed)
 {
@@ -29,46 +17,39 @@ std::array<AxisInArchive, 3> axes_of(const ImportedBed& bed)
 
 }  // namespace
 
-template <int D>
-VerifiedFrames<D>::VerifiedFrames(OpenedArchive opened, const ImportSettings& settings)
-    : opened_(std::move(opened)),
+VerifiedFrames::VerifiedFrames(ScannedArchive scanned, const ImportSettings& settings)
+    : scanned_(std::move(scanned)),
       waivers_(settings.accept_residual),
-      own_(own_facts(opened_.all_grains(), opened_.moment)),
-      builder_(std::make_unique<FrameBuilder>(opened_.all_grains(), facts(), settings,
-                                              opened_.roster() != nullptr)),
+      bed_(scanned_.all_grains(), facts(), settings, scanned_.roster() != nullptr),
       verification_(
-          builder_->bed().grains, builder_->bed().box,
-          facts().orientation.gravity.template head<D>(),
+          bed_.grains, bed_.box, bed_.gravity,
           {archive().facts().tolerance, archive().facts().forces_are_late, facts().step,
            facts().discs ? inertia_factor<2> : inertia_factor<3>, archive().facts().lists_all},
-          waivers_, axes_of(builder_->bed())),
-      has_force_(!opened_.all_grains().grains.force.empty()),
-      has_angular_velocity_(!opened_.all_grains().grains.angular_velocity.empty())
+          waivers_, axes_of(bed_))
 {
-  const auto& bed = builder_->bed();
-  if (!bed.walls.empty())
-    walls_ = std::make_unique<InferredWalls<D>>(bed.walls, bed,
-                                                facts().orientation.gravity.template head<D>());
-  if (walls_) verification_.leave_out(walls_->inferred());
+  if (bed_.walls.empty()) return;
+  walls_ = std::make_unique<InferredWalls>(bed_);
+  verification_.leave_out(walls_->inferred());
 }
 
-template <int D>
-void VerifiedFrames<D>::skip(std::size_t moments)
+void VerifiedFrames::skip(std::size_t moments)
 {
-  for (std::size_t k = 1; k < moments; ++k) opened_.next_grains();
-  if (moments > 0) opened_.next();
+  if (moments == 0) return;
+  for (std::size_t k = 2; k < moments; ++k) scanned_.next_grains();
+  if (moments > 1) scanned_.next();
+  Frame<3> before;
+  next(before);
 }
 
-template <int D>
-bool VerifiedFrames<D>::next(Frame<D>& frame)
+bool VerifiedFrames::next(Frame<3>& frame)
 {
-  if (!std::exchange(first_, false) && !opened_.next()) return false;
-  const auto& moment = opened_.moment;
-  if (moment.grains.size() > 0 && moment.grains.force.empty() == has_force_)
+  if (!std::exchange(first_, false) && !scanned_.next()) return false;
+  const auto& moment = scanned_.moment;
+  if (moment.grains.size() > 0 && moment.grains.force.empty() == bed_.has_force)
     throw FormatError(fmt::format(
         "{}: some moments have forces on grains and some do not; import them separately",
         moment.place));
-  builder_->build(moment, frame);
+  bed_.build(moment, frame);
   if (walls_) walls_->add_to(frame);
   if (last_ && (frame.step <= last_->first || frame.time <= last_->second))
     throw FormatError(
@@ -79,8 +60,5 @@ bool VerifiedFrames<D>::next(Frame<D>& frame)
   complaint_ = verification_.check(frame, !moment.grains.image.empty());
   return true;
 }
-
-template class VerifiedFrames<2>;
-template class VerifiedFrames<3>;
 
 }  // namespace grseg

@@ -48,7 +48,7 @@ Axes::Axes(const std::string& letters)
 
 void Axes::turn_to_slope(const Vec3& gravity, double slope)
 {
-  const Vec2 now = components<2>(gravity), wanted = down_a_slope(1, slope).head<2>();
+  const Vec2 now = components(gravity).head<2>(), wanted = down_a_slope(1, slope).head<2>();
   // The angle from what gravity should be in the axes to what it is.
   const double turn = std::atan2(wanted.x() * now.y() - wanted.y() * now.x(), wanted.dot(now));
   if (std::abs(turn) < smallest_turn) return;
@@ -64,28 +64,16 @@ void Axes::look_from_behind()
   direction_[2] = -direction_[2];
 }
 
-template <int D>
-Vector<D> Axes::components(const Vec3& vector) const
+Vec3 Axes::components(const Vec3& vector) const
 {
-  Vector<D> in_axes;
-  for (int k = 0; k < D; ++k)
-    in_axes[k] = component(vector, direction_[static_cast<std::size_t>(k)]);
-  return in_axes;
+  return {component(vector, direction_[0]), component(vector, direction_[1]),
+          component(vector, direction_[2])};
 }
 
-template <int D>
-Spin<D> Axes::spin(const Vec3& angular_velocity) const
+double Axes::spin_in_plane(const Vec3& angular_velocity) const
 {
-  if constexpr (D == 2)
-    return component(angular_velocity, direction_[0].cross(direction_[1]));
-  else
-    return components<3>(angular_velocity);
+  return component(angular_velocity, direction_[0].cross(direction_[1]));
 }
-
-template Vector<2> Axes::components<2>(const Vec3&) const;
-template Vector<3> Axes::components<3>(const Vec3&) const;
-template Spin<2> Axes::spin<2>(const Vec3&) const;
-template Spin<3> Axes::spin<3>(const Vec3&) const;
 
 std::optional<int> Axes::axis_of(int direction) const
 {
@@ -151,13 +139,13 @@ Orientation orientation_of(const std::string& letters, const GravityText& gravit
     return {axes, down_a_slope(*gravity.magnitude, *slope)};
   }
   const Vec3 g = *gravity.vector;
-  if (dimension == 2 && std::abs(axes.components<3>(g).z()) > 1e-6 * g.norm())
+  if (dimension == 2 && std::abs(axes.components(g).z()) > 1e-6 * g.norm())
     throw UsageError(fmt::format(
         "gravity ({:g}, {:g}, {:g}) is not in the plane of --axes {}; name the plane of the flow",
         g.x(), g.y(), g.z(), letters));
-  if (axes.components<2>(g).x() < 0 && slope.value_or(1) > 0) axes.look_from_behind();
+  if (axes.components(g).x() < 0 && slope.value_or(1) > 0) axes.look_from_behind();
   if (slope) axes.turn_to_slope(g, *slope);
-  return {axes, axes.components<3>(g) + Vec3::Zero()};  // not -0
+  return {axes, axes.components(g) + Vec3::Zero()};  // not -0
 }
 
 namespace {

@@ -24,13 +24,11 @@ class Axes {
   /// Turned half about y: x and z the other way, y as it was.
   void look_from_behind();
 
-  /// The components of a vector of the archive; in two dimensions those in the plane of x and y.
-  template <int D>
-  Vector<D> components(const Vec3& vector) const;
-  /// In two dimensions counter-clockwise as it is seen with x to the right and y up: in x-z that is
-  /// -omega_y, for right-handed axes x, z, -y.
-  template <int D>
-  Spin<D> spin(const Vec3& angular_velocity) const;
+  /// The components of a vector of the archive.
+  Vec3 components(const Vec3& vector) const;
+  /// Counter-clockwise as it is seen with x to the right and y up: in x-z that is -omega_y, for
+  /// right-handed axes x, z, -y.
+  double spin_in_plane(const Vec3& angular_velocity) const;
 
   /// The archive's axis that x, y or z (0, 1, 2) lies along, if any; and whether in its direction.
   std::optional<int> axis_of(int direction) const;

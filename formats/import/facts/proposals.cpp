@@ -3,6 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/species.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/facts/axes.hpp"
 
 #include <fmt/format.h>
@@ -34,13 +35,6 @@ std::vector<Vec3> contact_sums(const ArchiveMoment& moment)
     if (const auto j = row.find(contacts.j[c]); j != row.end()) sum[j->second] -= contacts.force[c];
   }
   return sum;
-}
-
-double median(std::vector<double>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The grains of one type.

@@ -21,8 +21,7 @@ void multiply(Values& values, double factor)
 
 }  // namespace
 
-template <int D>
-void Units::convert(Frame<D>& frame) const
+void Units::convert(Frame<3>& frame) const
 {
   frame.time *= time;
   multiply(frame.position, length);
@@ -33,9 +32,6 @@ void Units::convert(Frame<D>& frame) const
   multiply(frame.contacts.branch, length);
   multiply(frame.contacts.gap, length);
 }
-
-template void Units::convert<2>(Frame<2>&) const;
-template void Units::convert<3>(Frame<3>&) const;
 
 void Units::convert(Grains& grains) const
 {

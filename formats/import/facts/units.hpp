@@ -17,8 +17,7 @@ struct Units {
   double force() const { return mass * acceleration(); }
 
   /// Converts from the archive's units to SI.
-  template <int D>
-  void convert(Frame<D>& frame) const;
+  void convert(Frame<3>& frame) const;
   void convert(Grains& grains) const;
 };
 

@@ -30,8 +30,7 @@ struct SlopeSums {
   double grains = 0, xx = 0, xy = 0, yy = 0;  // sums of 1, x.x, x.y, y.y
   double xx_xx = 0, xx_xy = 0, xy_xy = 0;     // sums of products of these
 
-  template <int D>
-  void add(const Vector<D>& x, const Vector<D>& y)
+  void add(const Vec3& x, const Vec3& y)
   {
     const double a = x.dot(x), b = x.dot(y);
     grains += 1, xx += a, xy += b, yy += y.dot(y);

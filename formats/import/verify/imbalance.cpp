@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/imbalance.hpp"
 
-#include "formats/import/common/minimum_image.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/unlisted_pairs.hpp"
 
 #include <fmt/format.h>
@@ -24,11 +24,6 @@ constexpr double at_face = 0.3, deep = 0.1;
 /// coefficients up to 1.7.
 constexpr double along_normal = 0.5;
 
-std::size_t row(std::int32_t index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 /// One of the sides of the bed: the lower or upper end of an axis of the flow.
 struct Side {
   int axis = 0;
@@ -37,24 +32,24 @@ struct Side {
 };
 
 /// How far the near edge of a grain is outside; the largest of all grains is where the side lies.
-template <int D>
-double reach(const Grains& grains, const Frame<D>& frame, std::size_t g, const Side& side)
+double reach(const Grains& grains, const Frame<3>& frame, std::size_t g, const Side& side)
 {
   const double x = frame.position[g][side.axis];
   return side.upper ? x + grains.radius[g] : grains.radius[g] - x;
 }
 
-template <int D>
-std::vector<Side> open_sides(const Grains& grains, const Box& box, const Frame<D>& frame)
+std::vector<Side> open_sides(const Grains& grains, const Box& box, const Frame<3>& frame)
 {
   std::vector<Side> sides;
-  for (int axis = 0; axis < D; ++axis) {
-    if ((axis == 0 && box.periodic_x) || (axis == 2 && box.periodic_z)) continue;
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((axis == 2 && box.dimension == 2) || (axis == 0 && box.periodic_x) ||
+        (axis == 2 && box.periodic_z))
+      continue;
     for (const bool upper : {false, true}) {
       Side side{axis, upper, -std::numeric_limits<double>::infinity()};
       for (std::size_t g = 0; g < grains.size(); ++g)
         if (is_mobile(grains, frame, g))
-          side.position = std::max(side.position, reach<D>(grains, frame, g, side));
+          side.position = std::max(side.position, reach(grains, frame, g, side));
       sides.push_back(side);
     }
   }
@@ -73,12 +68,11 @@ std::string text_of(const Side& side, const AxisInArchive& axis)
                      axis.letter, axis.forward ? x - axis.shift : axis.shift - x);
 }
 
-template <int D>
-std::string missing_walls(const Grains& grains, const Box& box, const Frame<D>& frame,
-                          const Imbalance<D>& imbalance, const std::vector<std::size_t>& unbalanced,
+std::string missing_walls(const Grains& grains, const Box& box, const Frame<3>& frame,
+                          const Imbalance& imbalance, const std::vector<std::size_t>& unbalanced,
                           const std::array<AxisInArchive, 3>& axes)
 {
-  const auto sides = open_sides<D>(grains, box, frame);
+  const auto sides = open_sides(grains, box, frame);
   std::vector<std::size_t> count(sides.size());
   std::size_t explained = 0;
   double missing = 0, missing_at_sides = 0;
@@ -89,7 +83,7 @@ std::string missing_walls(const Grains& grains, const Box& box, const Frame<D>& 
       const auto& side = sides[s];
       // What is missing pushes away from the side: the opposite of the defect.
       const double push = (side.upper ? 1 : -1) * imbalance.defect[g][side.axis];
-      if (reach<D>(grains, frame, g, side) < side.position - at_face * grains.radius[g] ||
+      if (reach(grains, frame, g, side) < side.position - at_face * grains.radius[g] ||
           push < along_normal * imbalance.defect[g].norm())
         continue;
       ++count[s];
@@ -116,20 +110,18 @@ std::string missing_walls(const Grains& grains, const Box& box, const Frame<D>& 
 }
 
 /// Whether two grains alone do not balance, by opposite forces.
-template <int D>
-bool is_pair(const Imbalance<D>& imbalance, const std::vector<std::size_t>& unbalanced)
+bool is_pair(const Imbalance& imbalance, const std::vector<std::size_t>& unbalanced)
 {
   if (unbalanced.size() != 2) return false;
-  const Vector<D>&a = imbalance.defect[unbalanced[0]], &b = imbalance.defect[unbalanced[1]];
+  const Vec3 &a = imbalance.defect[unbalanced[0]], &b = imbalance.defect[unbalanced[1]];
   return (a + b).norm() < 0.1 * (a.norm() + b.norm());
 }
 
-template <int D>
-bool all_along_normals(const ContactList<D>& contacts)
+bool all_along_normals(const ContactList<3>& contacts)
 {
   double normal = 0, tangential = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const Vector<D> n = contacts.branch[c].normalized();
+    const Vec3 n = contacts.branch[c].normalized();
     const double along = contacts.force[c].dot(n);
     normal += std::abs(along);
     tangential += (contacts.force[c] - along * n).norm();
@@ -137,8 +129,7 @@ bool all_along_normals(const ContactList<D>& contacts)
   return normal > 0 && tangential < 1e-4 * normal;
 }
 
-template <int D>
-std::size_t deeply_overlapping(const Grains& grains, const ContactList<D>& contacts,
+std::size_t deeply_overlapping(const Grains& grains, const ContactList<3>& contacts,
                                const std::vector<std::size_t>& unbalanced)
 {
   std::vector<bool> is_deep(grains.size());
@@ -154,25 +145,24 @@ std::size_t deeply_overlapping(const Grains& grains, const ContactList<D>& conta
 
 }  // namespace
 
-template <int D>
-std::string likely_cause(const Grains& grains, const Box& box, const Frame<D>& frame,
-                         const Imbalance<D>& imbalance, const std::array<AxisInArchive, 3>& axes)
+std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& frame,
+                         const Imbalance& imbalance, const std::array<AxisInArchive, 3>& axes)
 {
   std::vector<std::size_t> unbalanced;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g) && imbalance.defect[g].norm() > imbalance.limit)
       unbalanced.push_back(g);
   if (unbalanced.empty()) return "";
-  if (is_pair<D>(imbalance, unbalanced))
+  if (is_pair(imbalance, unbalanced))
     return fmt::format(
         "; what is missing on grain {} is the opposite of that on grain {}: their contact is missing, "
         "or has a row too many",
         grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
-  const auto walls = missing_walls<D>(grains, box, frame, imbalance, unbalanced, axes);
+  const auto walls = missing_walls(grains, box, frame, imbalance, unbalanced, axes);
   if (!walls.empty()) return "; " + walls;
-  if (all_along_normals<D>(frame.contacts))
+  if (all_along_normals(frame.contacts))
     return "; all contact forces are along their normals: is the tangential part missing?";
-  const auto overlapping = deeply_overlapping<D>(grains, frame.contacts, unbalanced);
+  const auto overlapping = deeply_overlapping(grains, frame.contacts, unbalanced);
   if (static_cast<double>(overlapping) >= most * static_cast<double>(unbalanced.size()))
     return fmt::format(
         "; {} of the {} grains that do not balance overlap others by more than {} of a radius: a bed "
@@ -180,11 +170,6 @@ std::string likely_cause(const Grains& grains, const Box& box, const Frame<D>& f
         overlapping, unbalanced.size(), deep);
   return "";
 }
-
-template std::string likely_cause<2>(const Grains&, const Box&, const Frame<2>&,
-                                     const Imbalance<2>&, const std::array<AxisInArchive, 3>&);
-template std::string likely_cause<3>(const Grains&, const Box&, const Frame<3>&,
-                                     const Imbalance<3>&, const std::array<AxisInArchive, 3>&);
 
 namespace {
 
@@ -202,34 +187,31 @@ struct PairForce {
   bool pushes = false;
 };
 
-template <int D>
-bool counts(const Grains& grains, const Frame<D>& frame, const Imbalance<D>& imbalance,
-            std::size_t g)
+bool counts(const Grains& grains, const Frame<3>& frame, const Imbalance& imbalance, std::size_t g)
 {
   return is_mobile(grains, frame, g) && imbalance.defect[g].norm() > imbalance.limit;
 }
 
 /// The forces between `pairs` that leave the least of what is missing (least squares), and the part of
 /// the squares that they explain on the grains that do not balance.
-template <int D>
 std::pair<std::vector<PairForce>, double> forces_between(const std::vector<NearPair>& pairs,
                                                          const Grains& grains, const Box& box,
-                                                         const Frame<D>& frame,
-                                                         const Imbalance<D>& imbalance)
+                                                         const Frame<3>& frame,
+                                                         const Imbalance& imbalance)
 {
-  const auto rows = static_cast<Eigen::Index>(D * grains.size());
-  const auto columns = static_cast<Eigen::Index>(D * pairs.size());
+  const auto rows = static_cast<Eigen::Index>(3 * grains.size());
+  const auto columns = static_cast<Eigen::Index>(3 * pairs.size());
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd missing = Eigen::VectorXd::Zero(rows);
   const auto is_open = [&](std::size_t g) {
     return is_mobile(grains, frame, g) && !std::isnan(imbalance.defect[g].y());
   };
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_open(g)) missing.segment<D>(static_cast<Eigen::Index>(D * g)) = -imbalance.defect[g];
+    if (is_open(g)) missing.segment<3>(static_cast<Eigen::Index>(3 * g)) = -imbalance.defect[g];
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    for (int axis = 0; axis < D; ++axis) {
-      const auto place = [&](std::int32_t of) { return static_cast<int>(D * of) + axis; };
-      const auto column = static_cast<int>(D * k) + axis;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto place = [&](std::int32_t of) { return static_cast<int>(3 * of) + axis; };
+      const auto column = static_cast<int>(3 * k) + axis;
       if (is_open(static_cast<std::size_t>(pairs[k].i)))
         entries.emplace_back(place(pairs[k].i), column, 1);
       if (is_open(static_cast<std::size_t>(pairs[k].j)))
@@ -244,16 +226,16 @@ std::pair<std::vector<PairForce>, double> forces_between(const std::vector<NearP
   const Eigen::VectorXd left = sums * forces - missing;
   double rest = 0, all = 0;
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!counts<D>(grains, frame, imbalance, g)) continue;
-    rest += left.segment<D>(static_cast<Eigen::Index>(D * g)).squaredNorm();
+    if (!counts(grains, frame, imbalance, g)) continue;
+    rest += left.segment<3>(static_cast<Eigen::Index>(3 * g)).squaredNorm();
     all += imbalance.defect[g].squaredNorm();
   }
   std::vector<PairForce> found;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const Vector<D> force = forces.segment<D>(static_cast<Eigen::Index>(D * k));
+    const Vec3 force = forces.segment<3>(static_cast<Eigen::Index>(3 * k));
     if (force.norm() <= imbalance.limit) continue;
     const auto i = static_cast<std::size_t>(pairs[k].i), j = static_cast<std::size_t>(pairs[k].j);
-    const auto branch = minimum_image<D>(box, frame.position[i] - frame.position[j]);
+    const auto branch = minimum_image(box, frame.position[i] - frame.position[j]);
     found.push_back({pairs[k], force.norm(), force.dot(branch) > 0});
   }
   return {std::move(found), all > 0 ? 1 - rest / all : 0};
@@ -287,13 +269,12 @@ std::string text_of(const Grains& grains, const std::vector<PairForce>& pairs)
 
 /// k of the drag -k x on each grain that leaves the least of what is missing on the grains that do not
 /// balance, and the part of the squares that it explains.
-template <int D>
-std::pair<double, double> drag_along(const std::vector<Vector<D>>& x, const Grains& grains,
-                                     const Frame<D>& frame, const Imbalance<D>& imbalance)
+std::pair<double, double> drag_along(const std::vector<Vec3>& x, const Grains& grains,
+                                     const Frame<3>& frame, const Imbalance& imbalance)
 {
   double xx = 0, xy = 0, all = 0, count = 0;
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!counts<D>(grains, frame, imbalance, g)) continue;
+    if (!counts(grains, frame, imbalance, g)) continue;
     xx += x[g].squaredNorm();
     xy += x[g].dot(imbalance.defect[g]);
     all += imbalance.defect[g].squaredNorm();
@@ -305,22 +286,21 @@ std::pair<double, double> drag_along(const std::vector<Vector<D>>& x, const Grai
 
 }  // namespace
 
-template <int D>
-UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame<D>& frame,
-                               const Imbalance<D>& imbalance)
+UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame<3>& frame,
+                               const Imbalance& imbalance)
 {
   auto momentum = frame.velocity, weight = frame.velocity;
-  Vector<D> missing = Vector<D>::Zero();  // over the mass, summed over grains
+  Vec3 missing = Vec3::Zero();  // over the mass, summed over grains
   for (std::size_t g = 0; g < grains.size(); ++g) {
     momentum[g] *= grains.mass[g];
-    if (counts<D>(grains, frame, imbalance, g)) missing += imbalance.defect[g] / grains.mass[g];
+    if (counts(grains, frame, imbalance, g)) missing += imbalance.defect[g] / grains.mass[g];
   }
   for (std::size_t g = 0; g < grains.size(); ++g) weight[g] = grains.mass[g] * missing;
-  const bool as_weight = drag_along<D>(weight, grains, frame, imbalance).second >= most_squares;
-  const std::pair<const std::vector<Vector<D>>&, const char*> drags[] = {
-      {momentum, "momentum"}, {frame.velocity, "velocity"}};
+  const bool as_weight = drag_along(weight, grains, frame, imbalance).second >= most_squares;
+  const std::pair<const std::vector<Vec3>&, const char*> drags[] = {{momentum, "momentum"},
+                                                                    {frame.velocity, "velocity"}};
   for (const auto& [x, name] : drags) {
-    const auto [factor, explained] = drag_along<D>(x, grains, frame, imbalance);
+    const auto [factor, explained] = drag_along(x, grains, frame, imbalance);
     if (explained < most_squares || factor <= 0) continue;
     return {
         fmt::format("; what is missing is {:.4g} times the {} of each grain, against it: {}",
@@ -333,19 +313,14 @@ UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame
   }
   const ListedPairs pushing(frame.contacts, true);
   for (const double reach : reaches) {
-    const auto pairs = near_pairs<D>(grains, box, frame, reach, [&](const NearPair& pair) {
+    const auto pairs = near_pairs(grains, box, frame, reach, [&](const NearPair& pair) {
       return !pushing.contains(pair.i, pair.j);
     });
     if (pairs.empty()) continue;
-    const auto [forces, explained] = forces_between<D>(pairs, grains, box, frame, imbalance);
+    const auto [forces, explained] = forces_between(pairs, grains, box, frame, imbalance);
     if (explained >= most_squares && !forces.empty()) return {text_of(grains, forces), false};
   }
   return {};
 }
-
-template UnlistedForces unlisted_forces<2>(const Grains&, const Box&, const Frame<2>&,
-                                           const Imbalance<2>&);
-template UnlistedForces unlisted_forces<3>(const Grains&, const Box&, const Frame<3>&,
-                                           const Imbalance<3>&);
 
 }  // namespace grseg

@@ -17,9 +17,8 @@ struct AxisInArchive {
 };
 
 /// Grains that do not balance: by how much, N (contact forces + m g - force), and from where on.
-template <int D>
 struct Imbalance {
-  const std::vector<Vector<D>>& defect;
+  const std::vector<Vec3>& defect;
   double limit = 0;
 };
 
@@ -27,9 +26,8 @@ struct Imbalance {
 /// shows nothing: most of them lie at a face of the bed, away from which they are pushed (a wall is
 /// missing); all contact forces are along their normals (the tangential part is missing); they
 /// overlap deeply (a bed that is being filled).
-template <int D>
-std::string likely_cause(const Grains& grains, const Box& box, const Frame<D>& frame,
-                         const Imbalance<D>& imbalance, const std::array<AxisInArchive, 3>& axes);
+std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& frame,
+                         const Imbalance& imbalance, const std::array<AxisInArchive, 3>& axes);
 
 /// Which forces that the archive does not list would balance its grains, as part of a sentence; ""
 /// where none of these would: forces along pairs that bear none in the list, opposite on the two grains (bonds,
@@ -40,8 +38,7 @@ struct UnlistedForces {
   bool acts_as_weight = false;  // gravity found from the grains would be wrong by them
 };
 
-template <int D>
-UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame<D>& frame,
-                               const Imbalance<D>& imbalance);
+UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame<3>& frame,
+                               const Imbalance& imbalance);
 
 }  // namespace grseg

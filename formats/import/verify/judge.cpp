@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/judge.hpp"
 
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/check_series.hpp"
 
 #include <fmt/format.h>
@@ -85,13 +86,11 @@ std::string why_balance_is_open(const CheckSeries& series)
            "on grains, or several steps";
   std::vector<double> changes;
   for (std::size_t k = 1; k < series.size(); ++k) changes.push_back(series[k].change);
-  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
-  std::nth_element(changes.begin(), middle, changes.end());
   return fmt::format(
       "it cannot be judged at this interval: there are no forces on grains, and from one moment to "
       "the next the contact forces on a grain change by {:.2g} of their size, so that accelerations "
       "do not follow from velocities; write forces on grains, or consecutive steps",
-      *middle);
+      median(changes));
 }
 
 Finding judge_balance(const CheckSeries& series, const CheckContext& context)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/check_series.hpp"
 #include "formats/import/verify/judge.hpp"
 
@@ -54,10 +55,7 @@ double median_acceleration(const CheckSeries& series)
 {
   std::vector<double> values;
   for (const auto& moment : series) values.push_back(moment.acceleration);
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(values);
 }
 
 /// What on the command line would agree with the archive.

@@ -23,8 +23,7 @@ struct LateDamping {
 /// the coefficients, not negative, that minimise the rest. `inertia` is I/(m r^2); `frame.force` is
 /// required. A contact counts as sliding where friction over normal force is within 1 % of its
 /// largest value.
-template <int D>
-LateDamping subtract_late_damping(const Grains& grains, const Frame<D>& frame, double step,
-                                  double inertia, std::vector<Vector<D>>& defect);
+LateDamping subtract_late_damping(const Grains& grains, const Frame<3>& frame, double step,
+                                  double inertia, std::vector<Vec3>& defect);
 
 }  // namespace grseg

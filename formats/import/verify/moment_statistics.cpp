@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/moment_statistics.hpp"
 
-#include "formats/import/common/minimum_image.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/check_context.hpp"
 
 #include <algorithm>
@@ -28,49 +28,24 @@ constexpr double share_of_period = 0.25;
 /// that to the standard error of its median times the root of the number of values.
 constexpr double deviation_of_normal = 1.4826, error_of_median = 1.2533;
 
-std::size_t row(std::int32_t index)
-{
-  return static_cast<std::size_t>(index);
-}
-
-template <int D>
-bool is_there(const std::vector<Vector<D>>& position, std::size_t g)
+bool is_there(const std::vector<Vec3>& position, std::size_t g)
 {
   return !std::isnan(position[g].y());
 }
 
-double median_of(std::vector<double>& values)
-{
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-template <int D>
-Vec3 in_space(const Vector<D>& vector)
-{
-  Vec3 all = Vec3::Zero();
-  all.head<D>() = vector;
-  return all;
-}
-
-template <int D>
-bool is_steady(const Vector<D>& before, const Vector<D>& now)
+bool is_steady(const Vec3& before, const Vec3& now)
 {
   const double mean = (before + now).norm() / 2;
   return mean > 0 && (now - before).norm() <= steady * mean;
 }
 
-template <int D>
-bool is_along(const Vector<D>& change, const Vector<D>& force)
+bool is_along(const Vec3& change, const Vec3& force)
 {
   return change.dot(force) > std::sqrt(1 - along * along) * change.norm() * force.norm();
 }
 
 /// Sum of the sizes of the contact forces on each grain.
-template <int D>
-std::vector<double> sizes_of_forces(std::size_t grains, const ContactList<D>& contacts)
+std::vector<double> sizes_of_forces(std::size_t grains, const ContactList<3>& contacts)
 {
   std::vector<double> sizes(grains);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -83,11 +58,10 @@ std::vector<double> sizes_of_forces(std::size_t grains, const ContactList<D>& co
 
 }  // namespace
 
-template <int D>
-std::vector<Vector<D>> contact_sums(std::size_t grains, const ContactList<D>& contacts,
-                                    const std::vector<Vector<D>>& forces)
+std::vector<Vec3> contact_sums(std::size_t grains, const ContactList<3>& contacts,
+                               const std::vector<Vec3>& forces)
 {
-  std::vector<Vector<D>> sum(grains, Vector<D>::Zero());
+  std::vector<Vec3> sum(grains, Vec3::Zero());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     sum[row(contacts.i[c])] += forces[c];
     if (contacts.j[c] >= 0) sum[row(contacts.j[c])] -= forces[c];
@@ -95,9 +69,8 @@ std::vector<Vector<D>> contact_sums(std::size_t grains, const ContactList<D>& co
   return sum;
 }
 
-template <int D>
-double change_of_sums(const Grains& grains, const Frame<D>& frame,
-                      const std::vector<Vector<D>>& before, const std::vector<Vector<D>>& now)
+double change_of_sums(const Grains& grains, const Frame<3>& frame, const std::vector<Vec3>& before,
+                      const std::vector<Vec3>& now)
 {
   const auto sizes = sizes_of_forces(grains.size(), frame.contacts);
   std::vector<double> changes, forces;
@@ -107,13 +80,12 @@ double change_of_sums(const Grains& grains, const Frame<D>& frame,
     changes.push_back(change);
     forces.push_back(sizes[g]);
   }
-  const double change = median_of(changes), force = median_of(forces);
+  const double change = median(changes), force = median(forces);
   if (!(change > 0)) return 0;
   return force > 0 ? change / force : 1;
 }
 
-template <int D>
-MomentStatistics<D>::MomentStatistics(const Grains& grains, const Box& box)
+MomentStatistics::MomentStatistics(const Grains& grains, const Box& box)
     : grains_(grains), box_(box), split_(split_of_sizes(grains))
 {
   double sum = 0, count = 0;
@@ -122,8 +94,7 @@ MomentStatistics<D>::MomentStatistics(const Grains& grains, const Box& box)
   diameter_ = count > 0 ? sum / count : 1;
 }
 
-template <int D>
-bool MomentStatistics<D>::is_in(Group group, std::size_t grain) const
+bool MomentStatistics::is_in(Group group, std::size_t grain) const
 {
   if (group == Group::all) return true;
   return split_ > 0 && (grains_.radius[grain] >= split_) == (group == Group::larger);
@@ -131,26 +102,24 @@ bool MomentStatistics<D>::is_in(Group group, std::size_t grain) const
 
 /// What of the motion of every grain its contacts do not explain, over its mass: gravity. NaN where
 /// it cannot be known or where a wall takes part.
-template <int D>
-auto MomentStatistics<D>::weights(const Frame<D>& frame, const Vectors& sums,
-                                  const std::optional<MomentBefore<D>>& before) const -> Vectors
+auto MomentStatistics::weights(const Frame<3>& frame, const Vectors& sums,
+                               const std::optional<MomentBefore>& before) const -> Vectors
 {
   const bool has_force = !frame.force.empty();
-  Vectors weights(grains_.size(), Vector<D>::Constant(NAN));
+  Vectors weights(grains_.size(), Vec3::Constant(NAN));
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, frame, g)) continue;
     if (left_out_ && g < left_out_->size() && (*left_out_)[g] != 0) continue;
     if (has_force)
       weights[g] = (frame.force[g] - sums[g]) / grains_.mass[g];
-    else if (before && is_there<D>(before->position, g))
+    else if (before && is_there(before->position, g))
       weights[g] = (frame.velocity[g] - before->velocity[g]) / (frame.time - before->time) -
                    (sums[g] + before->sums[g]) / (2 * grains_.mass[g]);
   }
   return weights;
 }
 
-template <int D>
-GravityEstimate MomentStatistics<D>::median(Group group, const Vectors& weights) const
+GravityEstimate MomentStatistics::by_median(Group group, const Vectors& weights) const
 {
   std::vector<std::size_t> members;
   for (std::size_t g = 0; g < weights.size(); ++g)
@@ -160,24 +129,23 @@ GravityEstimate MomentStatistics<D>::median(Group group, const Vectors& weights)
   if (members.empty()) return estimate;
   double squares = 0;
   std::vector<double> values(members.size());
-  for (int k = 0; k < D; ++k) {
+  for (int k = 0; k < 3; ++k) {
     std::transform(members.begin(), members.end(), values.begin(),
                    [&](std::size_t g) { return weights[g][k]; });
-    const double middle = median_of(values);
+    const double middle = median(values);
     estimate.gravity[k] = middle;
     for (auto& value : values) value = std::abs(value - middle);
-    squares += std::pow(median_of(values), 2);
+    squares += std::pow(median(values), 2);
   }
   estimate.error = error_of_median * deviation_of_normal * std::sqrt(squares / estimate.grains);
   return estimate;
 }
 
 /// Weighted with masses, so that the forces between the grains of a group cancel.
-template <int D>
-GravityEstimate MomentStatistics<D>::mean(Group group, const Vectors& weights) const
+GravityEstimate MomentStatistics::by_mean(Group group, const Vectors& weights) const
 {
   GravityEstimate estimate;
-  Vector<D> sum = Vector<D>::Zero();
+  Vec3 sum = Vec3::Zero();
   double mass = 0;
   for (std::size_t g = 0; g < weights.size(); ++g) {
     if (!is_in(group, g) || std::isnan(weights[g].y())) continue;
@@ -185,59 +153,55 @@ GravityEstimate MomentStatistics<D>::mean(Group group, const Vectors& weights) c
     mass += grains_.mass[g];
     ++estimate.grains;
   }
-  if (mass > 0) estimate.gravity = in_space<D>(sum / mass);
+  if (mass > 0) estimate.gravity = sum / mass;
   return estimate;
 }
 
-template <int D>
-double MomentStatistics<D>::acceleration(const Frame<D>& frame) const
+double MomentStatistics::acceleration(const Frame<3>& frame) const
 {
   const auto sizes = sizes_of_forces(grains_.size(), frame.contacts);
   std::vector<double> values;
   for (std::size_t g = 0; g < sizes.size(); ++g)
     if (is_mobile(grains_, frame, g)) values.push_back(sizes[g] / grains_.mass[g]);
-  return median_of(values);
+  return median(values);
 }
 
 /// Grains that bore no contact force at either moment.
-template <int D>
-std::vector<bool> free_grains(const Frame<D>& frame, const std::vector<Vector<D>>& sums,
-                              const MomentBefore<D>& before)
+std::vector<bool> free_grains(const Frame<3>& frame, const std::vector<Vec3>& sums,
+                              const MomentBefore& before)
 {
   std::vector<bool> is_free(sums.size());
   for (std::size_t g = 0; g < sums.size(); ++g)
-    is_free[g] = is_present(frame, g) && is_there<D>(before.position, g) && sums[g].isZero(0) &&
+    is_free[g] = is_present(frame, g) && is_there(before.position, g) && sums[g].isZero(0) &&
                  before.sums[g].isZero(0);
   return is_free;
 }
 
 /// Displacements and velocities of grains whose velocity is steady or has changed along the force of
 /// a free flight, for which the mean velocity of the two moments is that over the time between them.
-template <int D>
-void MomentStatistics<D>::add_motion(SlopeSums& all, const Frame<D>& frame,
-                                     const MomentBefore<D>& before,
-                                     const std::vector<bool>& is_free, bool has_images) const
+void MomentStatistics::add_motion(SlopeSums& all, const Frame<3>& frame, const MomentBefore& before,
+                                  const std::vector<bool>& is_free, bool has_images) const
 {
   SlopeSums sums;
   const double time = frame.time - before.time;
   const double lengths[] = {box_.length_x, 0, box_.length_z};
   const bool periodic[] = {box_.periodic_x, false, box_.periodic_z};
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, frame, g) || !is_there<D>(before.position, g)) continue;
+    if (!is_mobile(grains_, frame, g) || !is_there(before.position, g)) continue;
     const bool falls = is_free[g] && !frame.force.empty() &&
-                       is_along<D>(frame.velocity[g] - before.velocity[g], frame.force[g]);
-    if (!falls && !is_steady<D>(before.velocity[g], frame.velocity[g])) continue;
-    const Vector<D> expected = (before.velocity[g] + frame.velocity[g]) / 2 * time;
-    Vector<D> moved = frame.position[g] - before.position[g];
+                       is_along(frame.velocity[g] - before.velocity[g], frame.force[g]);
+    if (!falls && !is_steady(before.velocity[g], frame.velocity[g])) continue;
+    const Vec3 expected = (before.velocity[g] + frame.velocity[g]) / 2 * time;
+    Vec3 moved = frame.position[g] - before.position[g];
     bool known = true;
-    for (int k = 0; k < D; ++k) {
+    for (int k = 0; k < 3; ++k) {
       if (!periodic[k]) continue;
       const auto axis = static_cast<std::size_t>(k);
       if (has_images) moved[k] += lengths[k] * (frame.image[g][axis] - before.image[g][axis]);
       known = known && (has_images || std::abs(expected[k]) <= share_of_period * lengths[k]);
     }
-    if (!has_images) moved = minimum_image<D>(box_, moved);
-    if (known) sums.add<D>(expected / diameter_, moved / diameter_);
+    if (!has_images) moved = minimum_image(box_, moved);
+    if (known) sums.add(expected / diameter_, moved / diameter_);
   }
   if (frame.step <= before.step + no_swing || sums.yy >= has_moved * has_moved * sums.grains)
     all += sums;
@@ -245,26 +209,24 @@ void MomentStatistics<D>::add_motion(SlopeSums& all, const Frame<D>& frame,
 
 /// Forces and accelerations of grains whose force is steady and which are free or seen at every step:
 /// over a collision the mean of two forces is less than the force between.
-template <int D>
-void MomentStatistics<D>::add_inertia(SlopeSums& sums, const Frame<D>& frame,
-                                      const MomentBefore<D>& before,
-                                      const std::vector<bool>& is_free) const
+void MomentStatistics::add_inertia(SlopeSums& sums, const Frame<3>& frame,
+                                   const MomentBefore& before,
+                                   const std::vector<bool>& is_free) const
 {
   if (frame.force.empty()) return;
   const bool each_step = frame.step == before.step + 1;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, frame, g) || !is_there<D>(before.position, g) ||
-        !(each_step || is_free[g]) || !is_steady<D>(before.force[g], frame.force[g]))
+    if (!is_mobile(grains_, frame, g) || !is_there(before.position, g) ||
+        !(each_step || is_free[g]) || !is_steady(before.force[g], frame.force[g]))
       continue;
-    sums.add<D>((frame.velocity[g] - before.velocity[g]) / (frame.time - before.time),
-                (before.force[g] + frame.force[g]) / (2 * grains_.mass[g]));
+    sums.add((frame.velocity[g] - before.velocity[g]) / (frame.time - before.time),
+             (before.force[g] + frame.force[g]) / (2 * grains_.mass[g]));
   }
 }
 
-template <int D>
-void MomentStatistics<D>::add_to(CheckMoment& moment, const Frame<D>& frame, const Vectors& sums,
-                                 const std::optional<MomentBefore<D>>& before, bool close,
-                                 bool has_images) const
+void MomentStatistics::add_to(CheckMoment& moment, const Frame<3>& frame, const Vectors& sums,
+                              const std::optional<MomentBefore>& before, bool close,
+                              bool has_images) const
 {
   moment.acceleration = acceleration(frame);
   auto weights = this->weights(frame, sums, before);
@@ -274,26 +236,15 @@ void MomentStatistics<D>::add_to(CheckMoment& moment, const Frame<D>& frame, con
     for (std::size_t c = 0; c < frame.contacts.size(); ++c)
       if (frame.contacts.j[c] < 0) weights[row(frame.contacts.i[c])].setConstant(NAN);
   const auto estimate = [&](Group group) {
-    return medians ? median(group, weights) : mean(group, weights);
+    return medians ? by_median(group, weights) : by_mean(group, weights);
   };
   moment.all = estimate(Group::all);
   moment.smaller = estimate(Group::smaller);
   moment.larger = estimate(Group::larger);
   if (!before) return;
-  const auto is_free = free_grains<D>(frame, sums, *before);
+  const auto is_free = free_grains(frame, sums, *before);
   add_motion(moment.motion, frame, *before, is_free, has_images);
   add_inertia(moment.force, frame, *before, is_free);
 }
-
-template std::vector<Vec2> contact_sums<2>(std::size_t, const ContactList<2>&,
-                                           const std::vector<Vec2>&);
-template std::vector<Vec3> contact_sums<3>(std::size_t, const ContactList<3>&,
-                                           const std::vector<Vec3>&);
-template double change_of_sums<2>(const Grains&, const Frame<2>&, const std::vector<Vec2>&,
-                                  const std::vector<Vec2>&);
-template double change_of_sums<3>(const Grains&, const Frame<3>&, const std::vector<Vec3>&,
-                                  const std::vector<Vec3>&);
-template class MomentStatistics<2>;
-template class MomentStatistics<3>;
 
 }  // namespace grseg

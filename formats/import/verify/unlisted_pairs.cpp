@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/unlisted_pairs.hpp"
 
-#include "formats/import/common/minimum_image.hpp"
+#include "formats/import/common/frame_tools.hpp"
 
 #include <gsl/gsl_statistics_double.h>
 
@@ -17,24 +17,22 @@ namespace grseg {
 namespace {
 
 /// A present grain; whether it is mobile.
-template <int D>
 struct Present {
-  Vector<D> x;
+  Vec3 x;
   double radius = 0;
   std::int32_t row = 0;
   bool mobile = false;
 };
 
 /// The present grains by cells of one size, a few of them in each.
-template <int D>
 class Cells {
  public:
-  using Place = std::array<std::ptrdiff_t, D>;
+  using Place = std::array<std::ptrdiff_t, 3>;
 
-  Cells(const Grains& grains, const Frame<D>& frame)
+  Cells(const Grains& grains, const Frame<3>& frame)
   {
     std::vector<double> radii;
-    high_ = Vector<D>::Constant(-INFINITY);
+    high_ = Vec3::Constant(-INFINITY);
     low_ = -high_;
     for (std::size_t g = 0; g < grains.size(); ++g) {
       if (!is_present(frame, g)) continue;
@@ -45,21 +43,18 @@ class Cells {
       high_ = high_.cwiseMax(frame.position[g]);
     }
     if (grains_.empty()) return;
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
     // No more cells than a few for each grain, however far apart grains are.
     const double limit = 8 * static_cast<double>(grains_.size()) + 64;
-    for (side_ = 2 * *middle; !(cells_of(high_) <= limit);) side_ *= 2;
+    for (side_ = 2 * median(radii); !(cells_of(high_) <= limit);) side_ *= 2;
     sort();
   }
 
   /// In the order of their cells.
-  const std::vector<Present<D>>& grains() const { return grains_; }
+  const std::vector<Present>& grains() const { return grains_; }
 
   /// use(grain) for each grain in the cells that a box meets, from the grain `beyond` on.
   template <class Use>
-  void for_each_in(const Vector<D>& from, const Vector<D>& to, std::size_t beyond,
-                   const Use& use) const
+  void for_each_in(const Vec3& from, const Vec3& to, std::size_t beyond, const Use& use) const
   {
     if ((from.array() > high_.array()).any() || (to.array() < low_.array()).any()) return;
     const Place first = place(from.cwiseMax(low_)), last = place(to.cwiseMin(high_));
@@ -71,33 +66,33 @@ class Cells {
       at[0] = first[0];
       for (auto k = std::max(begin, beyond); k < end; ++k) use(grains_[k]);
       std::size_t axis = 1;
-      while (axis < D && ++at[axis] > last[axis]) at[axis] = first[axis], ++axis;
-      if (axis == D) return;
+      while (axis < 3 && ++at[axis] > last[axis]) at[axis] = first[axis], ++axis;
+      if (axis == 3) return;
     }
   }
 
  private:
-  double cells_of(const Vector<D>& high)
+  double cells_of(const Vec3& high)
   {
     double cells = 1;
-    for (int k = 0; k < D; ++k) {
+    for (int k = 0; k < 3; ++k) {
       const double count = std::floor((high[k] - low_[k]) / side_) + 1;
       cells *= count;
       counts_[static_cast<std::size_t>(k)] = static_cast<std::ptrdiff_t>(std::min(count, 1e9));
     }
     return cells;
   }
-  Place place(const Vector<D>& x) const
+  Place place(const Vec3& x) const
   {
     Place at;
-    for (int k = 0; k < D; ++k)
+    for (int k = 0; k < 3; ++k)
       at[static_cast<std::size_t>(k)] = static_cast<std::ptrdiff_t>((x[k] - low_[k]) / side_);
     return at;
   }
   std::size_t index(const Place& at) const
   {
     std::ptrdiff_t place = 0;
-    for (std::size_t axis = D; axis-- > 0;) place = place * counts_[axis] + at[axis];
+    for (std::size_t axis = 3; axis-- > 0;) place = place * counts_[axis] + at[axis];
     return static_cast<std::size_t>(place);
   }
   void sort()
@@ -117,48 +112,45 @@ class Cells {
     grains_ = std::move(sorted);
   }
 
-  Vector<D> low_, high_;
+  Vec3 low_, high_;
   double side_ = 0;
   Place counts_{};
   std::vector<std::size_t> begins_;  // of each cell in grains_, and the end
-  std::vector<Present<D>> grains_;
+  std::vector<Present> grains_;
 };
 
 /// The vectors by which a grain is shifted to meet others across a period, 0 among them.
-template <int D>
-std::vector<Vector<D>> shifts(const Box& box)
+std::vector<Vec3> shifts(const Box& box)
 {
-  std::vector<Vector<D>> all{Vector<D>::Zero()};
+  std::vector<Vec3> all{Vec3::Zero()};
   const auto add = [&](int axis, double length) {
     for (std::size_t k = all.size(); k-- > 0;)
-      for (const int side : {-1, 1}) all.push_back(all[k] + side * length * Vector<D>::Unit(axis));
+      for (const int side : {-1, 1}) all.push_back(all[k] + side * length * Vec3::Unit(axis));
   };
   if (box.periodic_x) add(0, box.length_x);
-  if constexpr (D == 3)
-    if (box.periodic_z) add(2, box.length_z);
+  if (box.periodic_z) add(2, box.length_z);
   return all;
 }
 
 }  // namespace
 
-template <int D>
-std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Frame<D>& frame,
+std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Frame<3>& frame,
                                  double widest, const std::function<bool(const NearPair&)>& counts)
 {
-  const Cells<D> cells(grains, frame);
+  const Cells cells(grains, frame);
   std::vector<NearPair> pairs;
-  const auto all_shifts = shifts<D>(box);
+  const auto all_shifts = shifts(box);
   const auto& present = cells.grains();
   double smallest = INFINITY;
   for (const auto& grain : present) smallest = std::min(smallest, grain.radius);
   for (const auto& large : present) {
-    const Vector<D> reach = Vector<D>::Constant((2 + widest) * large.radius);
+    const Vec3 reach = Vec3::Constant((2 + widest) * large.radius);
     const auto own = static_cast<std::size_t>(&large - present.data());
     for (const auto& shift : all_shifts) {
-      const Vector<D> x = large.x + shift;
+      const Vec3 x = large.x + shift;
       // The larger of two grains finds the other, the first of two that are equal.
       const auto beyond = large.radius == smallest ? own + 1 : 0;
-      cells.for_each_in(x - reach, x + reach, beyond, [&](const Present<D>& small) {
+      cells.for_each_in(x - reach, x + reach, beyond, [&](const Present& small) {
         if (small.radius > large.radius) return;
         if (small.radius == large.radius && &small <= &large) return;
         const double range = large.radius + (1 + widest) * small.radius;
@@ -180,13 +172,7 @@ std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Fra
   return pairs;
 }
 
-template std::vector<NearPair> near_pairs<2>(const Grains&, const Box&, const Frame<2>&, double,
-                                             const std::function<bool(const NearPair&)>&);
-template std::vector<NearPair> near_pairs<3>(const Grains&, const Box&, const Frame<3>&, double,
-                                             const std::function<bool(const NearPair&)>&);
-
-template <int D>
-ListedPairs::ListedPairs(const ContactList<D>& contacts, bool pushing_only)
+ListedPairs::ListedPairs(const ContactList<3>& contacts, bool pushing_only)
 {
   const auto for_each = [&](const auto& use) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -226,9 +212,6 @@ std::optional<ListedPairs::Pair> ListedPairs::twice() const
   return std::nullopt;
 }
 
-template ListedPairs::ListedPairs(const ContactList<2>&, bool);
-template ListedPairs::ListedPairs(const ContactList<3>&, bool);
-
 namespace {
 
 /// Surfaces of one rigid body may be this far apart, over the smaller radius.
@@ -239,49 +222,27 @@ constexpr double same_motion = 1e-4;
 
 constexpr double errors = 3, part_of_median = 0.25;
 
-Vec2 cross(double spin, const Vec2& b)
-{
-  return {-spin * b.y(), spin * b.x()};
-}
-
-Vec3 cross(const Vec3& spin, const Vec3& b)
-{
-  return spin.cross(b);
-}
-
-double size(double spin)
-{
-  return std::abs(spin);
-}
-
-double size(const Vec3& spin)
-{
-  return spin.norm();
-}
-
 /// Whether two grains move as one body: with the same spin and with the velocities that it makes.
 /// Without any spin, if they are `joined`: whether they move, but not along their branch.
-template <int D>
-bool moves_as_one(const Box& box, const Frame<D>& frame, const NearPair& pair, bool joined)
+bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, bool joined)
 {
   const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-  const double spin = size(frame.angular_velocity[i]);
-  const Spin<D> other = frame.angular_velocity[i] - frame.angular_velocity[j];
-  const double differing = size(other);
+  const double spin = frame.angular_velocity[i].norm();
+  const Vec3 other = frame.angular_velocity[i] - frame.angular_velocity[j];
+  const double differing = other.norm();
   if (differing > same_motion * spin) return false;
-  const Vector<D> branch = minimum_image<D>(box, frame.position[i] - frame.position[j]);
-  const Vector<D> relative = frame.velocity[i] - frame.velocity[j];
+  const Vec3 branch = minimum_image(box, frame.position[i] - frame.position[j]);
+  const Vec3 relative = frame.velocity[i] - frame.velocity[j];
   if (spin == 0)
     return joined && std::abs(relative.dot(branch)) < same_motion * relative.norm() * branch.norm();
-  const Vector<D> turning = cross(frame.angular_velocity[i], branch);
+  const Vec3 turning = frame.angular_velocity[i].cross(branch);
   return (relative - turning).norm() <= same_motion * spin * branch.norm();
 }
 
 /// Whether normal forces grow with overlaps, as a rank correlation. Per moment it was 0.79 to 1 in
 /// archives of soft grains (LAMMPS, LIGGGHTS, YADE) and 0.04 to 0.66 in runs of contact dynamics,
 /// where overlaps are what earlier steps have left; 100 contacts know it to 0.1.
-template <int D>
-bool forces_grow_with_overlaps(const ContactList<D>& contacts)
+bool forces_grow_with_overlaps(const ContactList<3>& contacts)
 {
   constexpr double soft = 0.75;
   constexpr std::size_t fewest = 100;
@@ -298,14 +259,6 @@ bool forces_grow_with_overlaps(const ContactList<D>& contacts)
          soft;
 }
 
-double median_overlap(std::vector<double>& overlaps)
-{
-  if (overlaps.empty()) return 0;
-  const auto middle = overlaps.begin() + static_cast<std::ptrdiff_t>(overlaps.size() / 2);
-  std::nth_element(overlaps.begin(), middle, overlaps.end());
-  return *middle;
-}
-
 double part_of_mobile(const Grains& grains, const std::vector<NearPair>& pairs)
 {
   if (pairs.empty()) return 0;
@@ -318,24 +271,23 @@ double part_of_mobile(const Grains& grains, const std::vector<NearPair>& pairs)
 
 }  // namespace
 
-template <int D>
-UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Frame<D>& frame,
+UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Frame<3>& frame,
                                 const ListedPairs& listed, double error)
 {
   UnlistedPairs found;
   std::vector<double> overlaps;
   const auto is_open = [&](const NearPair& pair) {
     if (!listed.contains(pair.i, pair.j))
-      return pair.gap < 0 || moves_as_one<D>(box, frame, pair, true);
+      return pair.gap < 0 || moves_as_one(box, frame, pair, true);
     if (pair.gap < 0) overlaps.push_back(-pair.gap);
     return false;
   };
-  const auto open = near_pairs<D>(grains, box, frame, widest, is_open);
+  const auto open = near_pairs(grains, box, frame, widest, is_open);
   if (open.empty()) return found;
-  const double least = std::max(errors * error, part_of_median * median_overlap(overlaps));
+  const double least = std::max(errors * error, part_of_median * median(overlaps));
   for (const auto& pair : open) {
     const bool overlaps_without = -pair.gap > least;
-    if (moves_as_one<D>(box, frame, pair, overlaps_without)) found.rigid.push_back(pair);
+    if (moves_as_one(box, frame, pair, overlaps_without)) found.rigid.push_back(pair);
     if (!overlaps_without) continue;
     found.unlisted.push_back(pair);
     found.at_boundary += !is_mobile(grains, static_cast<std::size_t>(pair.i)) ||
@@ -343,14 +295,9 @@ UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Fram
   }
   std::sort(found.unlisted.begin(), found.unlisted.end(),
             [](const NearPair& a, const NearPair& b) { return a.gap < b.gap; });
-  if (!found.unlisted.empty()) found.forces_grow = forces_grow_with_overlaps<D>(frame.contacts);
+  if (!found.unlisted.empty()) found.forces_grow = forces_grow_with_overlaps(frame.contacts);
   found.rigid_grains = part_of_mobile(grains, found.rigid);
   return found;
 }
-
-template UnlistedPairs unlisted_pairs_of<2>(const Grains&, const Box&, const Frame<2>&,
-                                            const ListedPairs&, double);
-template UnlistedPairs unlisted_pairs_of<3>(const Grains&, const Box&, const Frame<3>&,
-                                            const ListedPairs&, double);
 
 }  // namespace grseg

@@ -21,8 +21,7 @@ struct NearPair {
 /// All pairs of present grains with a gap of at most `widest` and that `counts` is true of, in order of
 /// i and j, across periods too; not pairs of which neither grain is mobile. Sizes may differ by any
 /// factor.
-template <int D>
-std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Frame<D>& frame,
+std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Frame<3>& frame,
                                  double widest, const std::function<bool(const NearPair&)>& counts);
 
 /// The pairs that a list of contacts joins: rows of two grains, or of a grain and a wall, which has a
@@ -32,8 +31,7 @@ class ListedPairs {
   using Pair = std::pair<std::int32_t, std::int32_t>;
 
   /// With `pushing_only`, those that bear a force.
-  template <int D>
-  explicit ListedPairs(const ContactList<D>& contacts, bool pushing_only = false);
+  explicit ListedPairs(const ContactList<3>& contacts, bool pushing_only = false);
 
   bool contains(std::int32_t i, std::int32_t j) const;
   /// A pair that the list has more than once.
@@ -62,8 +60,7 @@ struct UnlistedPairs {
 /// positions may be wrong, over the smaller radius. What overlaps by three times this, and by a
 /// quarter of the median of the pairs with a row, must have one, too: larger errors of positions
 /// would show as gaps of these.
-template <int D>
-UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Frame<D>& frame,
+UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Frame<3>& frame,
                                 const ListedPairs& listed, double error);
 
 }  // namespace grseg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/verification.hpp"
 
-#include "formats/import/common/minimum_image.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/imbalance.hpp"
 #include "formats/import/verify/judge.hpp"
 
@@ -15,13 +15,7 @@
 namespace grseg {
 namespace {
 
-std::size_t row(std::int32_t index)
-{
-  return static_cast<std::size_t>(index);
-}
-
-template <int D>
-Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect, double scale)
+Residual residual_of(const Grains& grains, const std::vector<Vec3>& defect, double scale)
 {
   std::vector<std::pair<double, std::size_t>> sizes;
   for (std::size_t g = 0; g < grains.size(); ++g)
@@ -36,10 +30,9 @@ Residual residual_of(const Grains& grains, const std::vector<Vector<D>>& defect,
 
 }  // namespace
 
-template <int D>
-Verification<D>::Verification(const Grains& grains, const Box& box, const Vector<D>& gravity,
-                              const OutputAccuracy& accuracy, const Waivers& waivers,
-                              const std::array<AxisInArchive, 3>& axes)
+Verification::Verification(const Grains& grains, const Box& box, const Vec3& gravity,
+                           const OutputAccuracy& accuracy, const Waivers& waivers,
+                           const std::array<AxisInArchive, 3>& axes)
     : grains_(grains),
       box_(box),
       gravity_(gravity),
@@ -50,13 +43,12 @@ Verification<D>::Verification(const Grains& grains, const Box& box, const Vector
 {
 }
 
-template <int D>
-std::optional<Complaint> Verification<D>::check(const Frame<D>& frame, bool has_images)
+std::optional<Complaint> Verification::check(const Frame<3>& frame, bool has_images)
 {
   moment_ = {};
   moment_.step = frame.step;
   moment_.time = frame.time;
-  auto sums = sums_as(frame, [](const Vector<D>& force, const Vector<D>&) { return force; });
+  auto sums = sums_as(frame, [](const Vec3& force, const Vec3&) { return force; });
   residual_ = residual_with(frame, sums);
   auto complaint = distance_moved(frame);
   if (auto other = geometry(frame); !complaint) complaint = other;
@@ -76,8 +68,7 @@ std::optional<Complaint> Verification<D>::check(const Frame<D>& frame, bool has_
 }
 
 /// Rows of grains; negative for a wall.
-template <int D>
-std::string Verification<D>::pair_of(std::int32_t i, std::int32_t j) const
+std::string Verification::pair_of(std::int32_t i, std::int32_t j) const
 {
   if (i < 0) std::swap(i, j);
   const auto first = grains_.id[row(i)];
@@ -86,8 +77,7 @@ std::string Verification<D>::pair_of(std::int32_t i, std::int32_t j) const
 }
 
 /// Contacts that carry force must join grains that touch. Wall contacts are not checked.
-template <int D>
-std::optional<Complaint> Verification<D>::geometry(const Frame<D>& frame)
+std::optional<Complaint> Verification::geometry(const Frame<3>& frame)
 {
   const auto& contacts = frame.contacts;
   std::optional<Complaint> first;
@@ -98,14 +88,13 @@ std::optional<Complaint> Verification<D>::geometry(const Frame<D>& frame)
   return first;
 }
 
-template <int D>
-std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::size_t c)
+std::optional<Complaint> Verification::touching(const Frame<3>& frame, std::size_t c)
 {
   const auto& contacts = frame.contacts;
   const auto i = row(contacts.i[c]), j = row(contacts.j[c]);
   const double smaller = std::min(grains_.radius[i], grains_.radius[j]);
   const double radii = grains_.radius[i] + grains_.radius[j];
-  const auto between = minimum_image<D>(box_, frame.position[i] - frame.position[j]);
+  const auto between = minimum_image(box_, frame.position[i] - frame.position[j]);
   const double stated = radii + contacts.gap[c], apart = between.norm();
   // Contact dynamics finds contacts where a step begins; grains may part until it ends.
   const double parted = (frame.velocity[i] - frame.velocity[j]).norm() * accuracy_.step;
@@ -140,8 +129,7 @@ std::optional<Complaint> Verification<D>::touching(const Frame<D>& frame, std::s
   return std::nullopt;
 }
 
-template <int D>
-std::optional<Complaint> Verification<D>::double_rows(const ListedPairs& listed) const
+std::optional<Complaint> Verification::double_rows(const ListedPairs& listed) const
 {
   const auto twice = listed.twice();
   if (!twice) return std::nullopt;
@@ -152,18 +140,16 @@ std::optional<Complaint> Verification<D>::double_rows(const ListedPairs& listed)
 }
 
 /// Whether the forces on every grain are known to add up at this moment.
-template <int D>
-bool Verification<D>::all_balance() const
+bool Verification::all_balance() const
 {
   return residual_ && std::max(residual_->worst, residual_->unexplained) <= tolerance();
 }
 
-template <int D>
-std::optional<Complaint> Verification<D>::completeness(const Frame<D>& frame,
-                                                       const ListedPairs& listed)
+std::optional<Complaint> Verification::completeness(const Frame<3>& frame,
+                                                    const ListedPairs& listed)
 {
   const auto found =
-      unlisted_pairs_of<D>(grains_, box_, frame, listed, std::max(moment_.gap, moment_.distance));
+      unlisted_pairs_of(grains_, box_, frame, listed, std::max(moment_.gap, moment_.distance));
   const bool is_soft = accuracy_.lists_all || found.forces_grow;
   if (is_soft || !all_balance()) {
     moment_.unlisted = found.deepest();
@@ -179,8 +165,7 @@ std::optional<Complaint> Verification<D>::completeness(const Frame<D>& frame,
   return std::nullopt;
 }
 
-template <int D>
-std::string Verification<D>::rigid_bodies_of(const UnlistedPairs& found) const
+std::string Verification::rigid_bodies_of(const UnlistedPairs& found) const
 {
   return fmt::format(
       "{:.0f} % of the grains move as one body with a neighbour without a contact (the first: {}): "
@@ -188,8 +173,7 @@ std::string Verification<D>::rigid_bodies_of(const UnlistedPairs& found) const
       100 * found.rigid_grains, pair_of(found.rigid.front().i, found.rigid.front().j));
 }
 
-template <int D>
-std::string Verification<D>::missing_rows_of(const UnlistedPairs& found) const
+std::string Verification::missing_rows_of(const UnlistedPairs& found) const
 {
   const auto& deepest = found.unlisted.front();
   const auto pairs = found.unlisted.size();
@@ -209,8 +193,7 @@ std::string Verification<D>::missing_rows_of(const UnlistedPairs& found) const
       what, where, std::ceil(-deepest.gap * 10) / 10);
 }
 
-template <int D>
-std::optional<Complaint> Verification<D>::pull(const Frame<D>& frame)
+std::optional<Complaint> Verification::pull(const Frame<3>& frame)
 {
   const auto& contacts = frame.contacts;
   double pushing = 0, pulling = 0;
@@ -226,11 +209,10 @@ std::optional<Complaint> Verification<D>::pull(const Frame<D>& frame)
                    true};
 }
 
-template <int D>
-auto Verification<D>::sums_as(const Frame<D>& frame, const Reading& reading) const -> Sums
+auto Verification::sums_as(const Frame<3>& frame, const Reading& reading) const -> Sums
 {
   Sums sums;
-  const auto of = [&](const ContactList<D>& contacts) {
+  const auto of = [&](const ContactList<3>& contacts) {
     Forces forces(contacts.size());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
@@ -245,8 +227,7 @@ auto Verification<D>::sums_as(const Frame<D>& frame, const Reading& reading) con
 }
 
 /// By how much a grain can have moved since the moment before, by its faster velocity, in radii.
-template <int D>
-double Verification<D>::longest_path(const Frame<D>& frame) const
+double Verification::longest_path(const Frame<3>& frame) const
 {
   double longest = 0;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
@@ -259,30 +240,23 @@ double Verification<D>::longest_path(const Frame<D>& frame) const
 
 /// How many times as far most grains have moved since the moment before as their velocities allow.
 /// 0 where they have moved by less than a thousandth of their radius, which digits may do.
-template <int D>
-double Verification<D>::too_far(const Frame<D>& frame) const
+double Verification::too_far(const Frame<3>& frame) const
 {
   std::vector<double> moved, expected;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, frame, g) || std::isnan(before_->position[g].y())) continue;
-    const auto between = minimum_image<D>(box_, frame.position[g] - before_->position[g]);
+    const auto between = minimum_image(box_, frame.position[g] - before_->position[g]);
     const double speed = std::max(frame.velocity[g].norm(), before_->velocity[g].norm());
     moved.push_back(between.norm() / grains_.radius[g]);
     expected.push_back(speed * (frame.time - before_->time) / grains_.radius[g]);
   }
   if (moved.empty()) return 0;
-  const auto median = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
   const double way = median(moved), allowed = median(expected);
   return way > 1e-3 ? way / allowed : 0;
 }
 
 /// That two moments are one step apart is believed where grains have not moved farther than that.
-template <int D>
-std::optional<Complaint> Verification<D>::distance_moved(const Frame<D>& frame) const
+std::optional<Complaint> Verification::distance_moved(const Frame<3>& frame) const
 {
   if (!before_ || frame.step != before_->step + 1) return std::nullopt;
   const double factor = too_far(frame);
@@ -296,8 +270,7 @@ std::optional<Complaint> Verification<D>::distance_moved(const Frame<D>& frame) 
       false};
 }
 
-template <int D>
-auto Verification<D>::from_before(const Frame<D>& frame, const Sums& sums) const -> Distance
+auto Verification::from_before(const Frame<3>& frame, const Sums& sums) const -> Distance
 {
   if (!before_) return Distance::none;
   if (frame.step == before_->step + 1)
@@ -308,16 +281,15 @@ auto Verification<D>::from_before(const Frame<D>& frame, const Sums& sums) const
   return close ? Distance::close : Distance::far;
 }
 
-template <int D>
-auto Verification<D>::defect_of(const Frame<D>& frame, const Sums& sums) const
+auto Verification::defect_of(const Frame<3>& frame, const Sums& sums) const
     -> std::pair<Forces, double>
 {
   const bool has_force = !frame.force.empty();
   double scale = sums.largest;
-  Forces defect(grains_.size(), Vector<D>::Constant(NAN));  // also of what is absent, now or before
+  Forces defect(grains_.size(), Vec3::Constant(NAN));  // also of what is absent, now or before
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, frame, g)) continue;
-    const Vector<D> weight = grains_.mass[g] * gravity_;
+    const Vec3 weight = grains_.mass[g] * gravity_;
     scale = std::max(scale, weight.norm());
     if (has_force)
       defect[g] = sums.now[g] + weight - frame.force[g];
@@ -329,9 +301,7 @@ auto Verification<D>::defect_of(const Frame<D>& frame, const Sums& sums) const
   return {std::move(defect), scale};
 }
 
-template <int D>
-std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
-                                                       const Sums& sums) const
+std::optional<Residual> Verification::residual_with(const Frame<3>& frame, const Sums& sums) const
 {
   const bool has_force = !frame.force.empty();
   if (!has_force) {
@@ -355,10 +325,8 @@ std::optional<Residual> Verification<D>::residual_with(const Frame<D>& frame,
 /// A mean force over a short time differs from that of the two moments by half of their difference
 /// at most. Over more steps a few grains may have collided meanwhile, but not the median one of those
 /// in contact.
-template <int D>
-void Verification<D>::judge_by_velocities(const Frame<D>& frame, const Sums& sums,
-                                          const Forces& defect, double scale,
-                                          Residual& residual) const
+void Verification::judge_by_velocities(const Frame<3>& frame, const Sums& sums,
+                                       const Forces& defect, double scale, Residual& residual) const
 {
   const bool each = frame.step == before_->step + 1;
   std::vector<double> sizes;
@@ -380,8 +348,7 @@ void Verification<D>::judge_by_velocities(const Frame<D>& frame, const Sums& sum
   residual.unexplained = *place;
 }
 
-template <int D>
-std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame)
+std::optional<Complaint> Verification::balance(const Frame<3>& frame)
 {
   if (!residual_) return std::nullopt;
   moment_.balance = residual_->unexplained;
@@ -392,16 +359,14 @@ std::optional<Complaint> Verification<D>::balance(const Frame<D>& frame)
   return imbalance(frame);
 }
 
-template <int D>
-Complaint Verification<D>::imbalance(const Frame<D>& frame) const
+Complaint Verification::imbalance(const Frame<3>& frame) const
 {
-  const auto sums = sums_as(frame, [](const Vector<D>& force, const Vector<D>&) { return force; });
+  const auto sums = sums_as(frame, [](const Vec3& force, const Vec3&) { return force; });
   const auto [defect, scale] = defect_of(frame, sums);
-  const Imbalance<D> missing{defect, tolerance() * scale};
+  const Imbalance missing{defect, tolerance() * scale};
   UnlistedForces cause{other_readings(frame), false};
-  if (cause.sentence.empty()) cause = unlisted_forces<D>(grains_, box_, frame, missing);
-  if (cause.sentence.empty())
-    cause.sentence = likely_cause<D>(grains_, box_, frame, missing, axes_);
+  if (cause.sentence.empty()) cause = unlisted_forces(grains_, box_, frame, missing);
+  if (cause.sentence.empty()) cause.sentence = likely_cause(grains_, box_, frame, missing, axes_);
   return {
       "balance",
       fmt::format(
@@ -420,21 +385,17 @@ Complaint Verification<D>::imbalance(const Frame<D>& frame) const
 }
 
 /// Another meaning of the rows with which the grains balance, if there is one.
-template <int D>
-std::string Verification<D>::other_readings(const Frame<D>& frame) const
+std::string Verification::other_readings(const Frame<3>& frame) const
 {
-  const auto normal = [](const Vector<D>& f, const Vector<D>& n) {
-    return Vector<D>(f.dot(n) * n);
-  };
+  const auto normal = [](const Vec3& f, const Vec3& n) { return Vec3(f.dot(n) * n); };
   const std::pair<const char*, Reading> readings[] = {
       {"with the opposite sign, the force being that on j: exchange i and j",
-       [](const Vector<D>& f, const Vector<D>&) { return Vector<D>(-f); }},
+       [](const Vec3& f, const Vec3&) { return Vec3(-f); }},
       {"with half of every force: is each contact in two rows?",
-       [](const Vector<D>& f, const Vector<D>&) { return Vector<D>(f / 2); }},
-      {"with the normal part alone",
-       [&](const Vector<D>& f, const Vector<D>& n) { return normal(f, n); }},
+       [](const Vec3& f, const Vec3&) { return Vec3(f / 2); }},
+      {"with the normal part alone", [&](const Vec3& f, const Vec3& n) { return normal(f, n); }},
       {"with the tangential part reversed",
-       [&](const Vector<D>& f, const Vector<D>& n) { return Vector<D>(2 * normal(f, n) - f); }},
+       [&](const Vec3& f, const Vec3& n) { return Vec3(2 * normal(f, n) - f); }},
   };
   for (const auto& [what, reading] : readings) {
     const auto residual = residual_with(frame, sums_as(frame, reading));
@@ -443,8 +404,5 @@ std::string Verification<D>::other_readings(const Frame<D>& frame) const
   }
   return "";
 }
-
-template class Verification<2>;
-template class Verification<3>;
 
 }  // namespace grseg

@@ -52,11 +52,10 @@ struct OutputAccuracy {
 /// of velocities from the frame before is used, with the mean contact forces of the two frames: of
 /// every grain where the two follow step by step, of the median grain where they are close together
 /// (judge.hpp), and not at all otherwise. What can only be told from many frames goes into `moment`.
-template <int D>
 class Verification {
  public:
   /// In any consistent units. `axes` are for sentences.
-  Verification(const Grains& grains, const Box& box, const Vector<D>& gravity,
+  Verification(const Grains& grains, const Box& box, const Vec3& gravity,
                const OutputAccuracy& accuracy, const Waivers& waivers = {},
                const std::array<AxisInArchive, 3>& axes = {});
 
@@ -64,7 +63,7 @@ class Verification {
   void leave_out(const std::vector<std::uint8_t>& grains) { statistics_.leave_out(grains); }
   /// To be called for the frames in order; what is wrong with this one, if anything that is not
   /// waived. `has_images`: images of positions are the archive's.
-  std::optional<Complaint> check(const Frame<D>& frame, bool has_images = true);
+  std::optional<Complaint> check(const Frame<3>& frame, bool has_images = true);
 
   /// Of the last frame; empty where there is nothing to compare with.
   const std::optional<Residual>& residual() const { return residual_; }
@@ -72,54 +71,54 @@ class Verification {
   const CheckMoment& moment() const { return moment_; }
 
  private:
-  using Forces = std::vector<Vector<D>>;
+  using Forces = std::vector<Vec3>;
 
-  std::optional<Complaint> geometry(const Frame<D>& frame);
-  std::optional<Complaint> touching(const Frame<D>& frame, std::size_t contact);
+  std::optional<Complaint> geometry(const Frame<3>& frame);
+  std::optional<Complaint> touching(const Frame<3>& frame, std::size_t contact);
   std::optional<Complaint> double_rows(const ListedPairs& listed) const;
-  std::optional<Complaint> completeness(const Frame<D>& frame, const ListedPairs& listed);
+  std::optional<Complaint> completeness(const Frame<3>& frame, const ListedPairs& listed);
   std::string rigid_bodies_of(const UnlistedPairs& found) const;
   std::string missing_rows_of(const UnlistedPairs& found) const;
   bool all_balance() const;
-  std::optional<Complaint> pull(const Frame<D>& frame);
-  std::optional<Complaint> balance(const Frame<D>& frame);
+  std::optional<Complaint> pull(const Frame<3>& frame);
+  std::optional<Complaint> balance(const Frame<3>& frame);
 
   /// What a row's force means, given the unit vector along its branch.
-  using Reading = std::function<Vector<D>(const Vector<D>& force, const Vector<D>& n)>;
+  using Reading = std::function<Vec3(const Vec3& force, const Vec3& n)>;
   /// The contact forces on each grain by a reading, in this frame and, where there is one, in that
   /// before; and the largest force of a contact.
   struct Sums {
     Forces now, before;
     double largest = 0;
   };
-  Sums sums_as(const Frame<D>& frame, const Reading& reading) const;
+  Sums sums_as(const Frame<3>& frame, const Reading& reading) const;
 
   /// How the frame and the one before can be compared.
   enum class Distance { none, far, close, step };
-  double longest_path(const Frame<D>& frame) const;
-  double too_far(const Frame<D>& frame) const;
-  std::optional<Complaint> distance_moved(const Frame<D>& frame) const;
-  Distance from_before(const Frame<D>& frame, const Sums& sums) const;
+  double longest_path(const Frame<3>& frame) const;
+  double too_far(const Frame<3>& frame) const;
+  std::optional<Complaint> distance_moved(const Frame<3>& frame) const;
+  Distance from_before(const Frame<3>& frame, const Sums& sums) const;
   /// What is missing on each mobile grain, and the largest force.
-  std::pair<Forces, double> defect_of(const Frame<D>& frame, const Sums& sums) const;
-  std::optional<Residual> residual_with(const Frame<D>& frame, const Sums& sums) const;
-  void judge_by_velocities(const Frame<D>& frame, const Sums& sums, const Forces& defect,
+  std::pair<Forces, double> defect_of(const Frame<3>& frame, const Sums& sums) const;
+  std::optional<Residual> residual_with(const Frame<3>& frame, const Sums& sums) const;
+  void judge_by_velocities(const Frame<3>& frame, const Sums& sums, const Forces& defect,
                            double scale, Residual& residual) const;
-  std::string other_readings(const Frame<D>& frame) const;
-  Complaint imbalance(const Frame<D>& frame) const;
+  std::string other_readings(const Frame<3>& frame) const;
+  Complaint imbalance(const Frame<3>& frame) const;
   std::string pair_of(std::int32_t i, std::int32_t j) const;
   double tolerance() const { return waivers_.limit("balance", accuracy_.tolerance); }
 
   const Grains& grains_;
   Box box_;
-  Vector<D> gravity_;
+  Vec3 gravity_;
   OutputAccuracy accuracy_;
   Waivers waivers_;
   std::array<AxisInArchive, 3> axes_;
-  MomentStatistics<D> statistics_;
+  MomentStatistics statistics_;
   std::optional<Residual> residual_;
   CheckMoment moment_;
-  std::optional<MomentBefore<D>> before_;
+  std::optional<MomentBefore> before_;
 };
 
 }  // namespace grseg

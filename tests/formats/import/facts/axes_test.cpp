@@ -18,7 +18,7 @@ Orientation plane(const std::string& letters, const Vec3& gravity, std::optional
 /// Velocity of the point of a disc that touches a base below it, in the plane of the flow.
 double slip(const Axes& axes, const Vec3& velocity, const Vec3& angular_velocity, double radius)
 {
-  return axes.components<2>(velocity).x() + axes.spin<2>(angular_velocity) * radius;
+  return axes.components(velocity).x() + axes.spin_in_plane(angular_velocity) * radius;
 }
 
 // Without slip v + omega x (r_contact - x) = 0, a product that is right-handed in whatever axes.
@@ -38,15 +38,15 @@ TEST(Axes, ARollingDiscRollsInEveryPlane)
       EXPECT_DOUBLE_EQ(slip(axes, velocity, spin, radius), 0) << letters;
     }
   }
-  EXPECT_EQ(Axes("xz").spin<2>({0, 2, 0}), -2);
-  EXPECT_EQ(Axes("xy").spin<2>({0, 0, 2}), 2);
+  EXPECT_EQ(Axes("xz").spin_in_plane({0, 2, 0}), -2);
+  EXPECT_EQ(Axes("xy").spin_in_plane({0, 0, 2}), 2);
 }
 
 TEST(Axes, GravityAloneTurnsNothing)
 {
   const auto p = plane("xz", {5, 0, -8});
   EXPECT_EQ(p.gravity, Vec3(5, -8, 0));
-  EXPECT_EQ(p.axes.components<2>({1, 2, 3}), Vec2(1, 3));
+  EXPECT_EQ(p.axes.components({1, 2, 3}).head<2>(), Vec2(1, 3));
   EXPECT_EQ(p.axes.axis_of(0), 0);
 }
 
@@ -54,8 +54,8 @@ TEST(Axes, FlowToTheLeftIsLookedAtFromBehind)
 {
   const auto p = plane("xy", {-5, -8, 0});
   EXPECT_EQ(p.gravity, Vec3(5, -8, 0));
-  EXPECT_EQ(p.axes.components<2>({1, 2, 0}), Vec2(-1, 2));
-  EXPECT_EQ(p.axes.spin<2>({0, 0, 3}), -3);
+  EXPECT_EQ(p.axes.components({1, 2, 0}).head<2>(), Vec2(-1, 2));
+  EXPECT_EQ(p.axes.spin_in_plane({0, 0, 3}), -3);
   EXPECT_FALSE(p.axes.is_forward(0));
 }
 
@@ -64,9 +64,9 @@ TEST(Axes, VerticalGravityIsTurnedToTheSlopeOfTheBase)
   const auto p = plane("xy", {0, -10, 0}, 30);
   EXPECT_TRUE(p.gravity.isApprox(Vec3(10 * sin_30, -10 * cos_30, 0)));
   // Down the slope of a base that falls to the right.
-  EXPECT_TRUE(p.axes.components<2>({cos_30, -sin_30, 0}).isApprox(Vec2(1, 0)));
-  EXPECT_TRUE(p.axes.components<2>({sin_30, cos_30, 0}).isApprox(Vec2(0, 1)));
-  EXPECT_NEAR(p.axes.spin<2>({0, 0, 3}), 3, 1e-15);
+  EXPECT_TRUE(p.axes.components({cos_30, -sin_30, 0}).head<2>().isApprox(Vec2(1, 0)));
+  EXPECT_TRUE(p.axes.components({sin_30, cos_30, 0}).head<2>().isApprox(Vec2(0, 1)));
+  EXPECT_NEAR(p.axes.spin_in_plane({0, 0, 3}), 3, 1e-15);
   EXPECT_FALSE(p.axes.axis_of(0));
 }
 
@@ -86,7 +86,7 @@ TEST(Axes, AMagnitudeNeedsASlope)
 
 TEST(Axes, SignsOfZerosSurvive)
 {
-  EXPECT_TRUE(std::signbit(Axes("xy").components<2>({-0.0, 1, 2}).x()));
+  EXPECT_TRUE(std::signbit(Axes("xy").components({-0.0, 1, 2}).x()));
 }
 
 TEST(Axes, AWrongPlaneOrGravityIsRefused)
@@ -101,10 +101,10 @@ TEST(Axes, AWrongPlaneOrGravityIsRefused)
 
 TEST(Axes, AcrossIsWhatMakesThemRightHanded)
 {
-  EXPECT_EQ(Axes("xy").components<3>({1, 2, 3}), Vec3(1, 2, 3));
-  EXPECT_EQ(Axes("xz").components<3>({1, 2, 3}), Vec3(1, 3, -2));
-  EXPECT_EQ(Axes("yz").components<3>({1, 2, 3}), Vec3(2, 3, 1));
-  EXPECT_EQ(Axes("xz").spin<3>({1, 2, 3}), Vec3(1, 3, -2));
+  EXPECT_EQ(Axes("xy").components({1, 2, 3}), Vec3(1, 2, 3));
+  EXPECT_EQ(Axes("xz").components({1, 2, 3}), Vec3(1, 3, -2));
+  EXPECT_EQ(Axes("yz").components({1, 2, 3}), Vec3(2, 3, 1));
+  EXPECT_EQ(Axes("xz").components({1, 2, 3}), Vec3(1, 3, -2));
   EXPECT_EQ(Axes("xz").axis_of(2), 1);
   EXPECT_FALSE(Axes("xz").is_forward(2));
 }
@@ -113,8 +113,8 @@ TEST(Axes, FromBehindAcrossIsTheOtherWayToo)
 {
   const auto p = orientation_of("xz", parse_gravity("-5,1,-8"), {}, 3);
   EXPECT_EQ(p.gravity, Vec3(5, -8, 1));
-  EXPECT_EQ(p.axes.components<3>({1, 2, 3}), Vec3(-1, 3, 2));
-  EXPECT_EQ(p.axes.spin<3>({1, 2, 3}), Vec3(-1, 3, 2));
+  EXPECT_EQ(p.axes.components({1, 2, 3}), Vec3(-1, 3, 2));
+  EXPECT_EQ(p.axes.components({1, 2, 3}), Vec3(-1, 3, 2));
   EXPECT_TRUE(p.axes.is_forward(2));
 }
 

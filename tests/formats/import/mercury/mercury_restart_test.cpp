@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/common/minimum_image.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/common/archive.hpp"
 #include "tests/formats/import/archive_balance.hpp"
 #include "tests/formats/import/lammps_text.hpp"

@@ -88,7 +88,7 @@ TEST(JudgeTime, ThatRunsTwiceAsFastInTheSecondHalfIsRefused)
   for (std::size_t k = 0; k < series.size(); ++k) {
     series[k].step = static_cast<std::int64_t>(k);
     const double slope = k < 4 ? 1 : 2;
-    for (int g = 1; g <= 10; ++g) series[k].motion.add<2>(Vec2(g, 0), Vec2(slope * g, 0));
+    for (int g = 1; g <= 10; ++g) series[k].motion.add(Vec3(g, 0, 0), Vec3(slope * g, 0, 0));
   }
   const auto finding = judge_time(series, context_of());
   EXPECT_EQ(finding.verdict, Verdict::failed);
@@ -224,7 +224,8 @@ SlopeSums line(double k, double noise = 0)
 {
   SlopeSums sums;
   for (int g = 1; g <= 20; ++g)
-    sums.add<2>(Vec2(g, 0.5 * g), k * Vec2(g, 0.5 * g) + Vec2(g % 2 == 0 ? noise : -noise, 0));
+    sums.add(Vec3(g, 0.5 * g, 0),
+             k * Vec3(g, 0.5 * g, 0) + Vec3(g % 2 == 0 ? noise : -noise, 0, 0));
   return sums;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/unlisted_pairs.hpp"
-
-#include "formats/import/common/minimum_image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,18 +11,17 @@
 namespace grseg {
 namespace {
 
-template <int D>
 struct Crowd {
   Grains grains;
   Box box;
-  Frame<D> frame;
+  Frame<3> frame;
 };
 
 /// Grains with radii from 0.01 to 0.5, some absent, some of the boundary, in a cell of length 3.
-template <int D>
-Crowd<D> crowd()
+Crowd crowd(int dimension)
 {
-  Crowd<D> crowd{{}, {3, 3, true, D, D == 3 ? 3.0 : 0.0, D == 3}, {}};
+  const bool in_space = dimension == 3;
+  Crowd crowd{{}, {3, 3, true, dimension, in_space ? 3.0 : 0.0, in_space}, {}};
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(0, 3), size(std::log(0.01), std::log(0.5));
   for (int g = 0; g < 300; ++g) {
@@ -32,29 +30,27 @@ Crowd<D> crowd()
     crowd.grains.mass.push_back(1);
     crowd.grains.fixed.push_back(g % 7 == 0);
     crowd.grains.species.push_back(g % 7 == 0 ? Species::boundary : Species::small);
-    Vector<D> x;
-    for (auto& component : x) component = place(random);
+    Vec3 x = Vec3::Zero();
+    for (int axis = 0; axis < dimension; ++axis) x[axis] = place(random);
     if (g % 11 == 0) x.setConstant(NAN);
     crowd.frame.position.push_back(x);
   }
   return crowd;
 }
 
-template <int D>
-void expect_all_pairs()
+void expect_all_pairs(int dimension)
 {
-  const auto [grains, box, frame] = crowd<D>();
+  const auto [grains, box, frame] = crowd(dimension);
   std::vector<std::pair<int, int>> expected, found;
   for (std::size_t i = 0; i < grains.size(); ++i)
     for (std::size_t j = i + 1; j < grains.size(); ++j) {
       if (i % 11 == 0 || j % 11 == 0 || (i % 7 == 0 && j % 7 == 0)) continue;
-      const auto between = minimum_image<D>(box, frame.position[i] - frame.position[j]);
+      const auto between = minimum_image(box, frame.position[i] - frame.position[j]);
       const double smaller = std::min(grains.radius[i], grains.radius[j]);
       if (between.norm() <= grains.radius[i] + grains.radius[j] + 0.1 * smaller)
         expected.emplace_back(i, j);
     }
-  for (const auto& pair :
-       near_pairs<D>(grains, box, frame, 0.1, [](const NearPair&) { return true; }))
+  for (const auto& pair : near_pairs(grains, box, frame, 0.1, [](const NearPair&) { return true; }))
     found.emplace_back(pair.i, pair.j);
   EXPECT_GT(expected.size(), 100u);
   EXPECT_EQ(found, expected);
@@ -62,12 +58,12 @@ void expect_all_pairs()
 
 TEST(NearPairs, AreThoseOfAllPairsInAPlane)
 {
-  expect_all_pairs<2>();
+  expect_all_pairs(2);
 }
 
 TEST(NearPairs, AreThoseOfAllPairsInSpace)
 {
-  expect_all_pairs<3>();
+  expect_all_pairs(3);
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ using lammps_text::mentions;
 struct Scene {
   Grains grains;
   Box box{10, 10, true};
-  Vec2 gravity{0, -10};
-  Frame<2> frame;
+  Vec3 gravity{0, -10, 0};
+  Frame<3> frame;
 
   Scene()
   {
@@ -27,17 +27,17 @@ struct Scene {
     grains.radius = {0.5, 1, 1};
     grains.mass = {2, 3, 3};
     grains.fixed = {0, 0, 1};
-    frame.position = {{5, 5}, {1, 2}, {1, 0}};
-    frame.velocity = {{0, 0}, {0, 0}, {0, 0}};
-    frame.angular_velocity = {0, 0, 0};
-    frame.force = {{0, -20}, {0, 0}, {0, 0}};
+    frame.position = {{5, 5, 0}, {1, 2, 0}, {1, 0, 0}};
+    frame.velocity = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    frame.angular_velocity.assign(3, Vec3::Zero());
+    frame.force = {{0, -20, 0}, {0, 0, 0}, {0, 0, 0}};
     frame.contacts.i = {1};
     frame.contacts.j = {2};
-    frame.contacts.force = {{0, 30}};
-    frame.contacts.branch = {{0, 2}};
+    frame.contacts.force = {{0, 30, 0}};
+    frame.contacts.branch = {{0, 2, 0}};
     frame.contacts.gap = {0};
   }
-  Verification<2> verification(double tolerance = 1e-10) const
+  Verification verification(double tolerance = 1e-10) const
   {
     return {grains, box, gravity, OutputAccuracy{tolerance, false, 0, 0.5}};
   }
@@ -59,7 +59,7 @@ TEST(Verification, HasNoComplaintWhereForcesAddUp)
 TEST(Verification, ResidualIsTheMissingForceOverTheLargestForce)
 {
   Scene scene;
-  scene.frame.contacts.force[0] = {0, 32};
+  scene.frame.contacts.force[0] = {0, 32, 0};
   auto verification = scene.verification(0.1);
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_DOUBLE_EQ(verification.residual()->largest, 2.0 / 32);
@@ -70,38 +70,38 @@ TEST(Verification, ResidualIsTheMissingForceOverTheLargestForce)
 TEST(Verification, SaysWhichOtherReadingFits)
 {
   Scene scene;
-  scene.frame.contacts.force[0] = {0, 60};
+  scene.frame.contacts.force[0] = {0, 60, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "with half of every force"));
-  scene.frame.contacts.force[0] = {7, 30};
+  scene.frame.contacts.force[0] = {7, 30, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "with the normal part alone"));
-  scene.frame.force[1] = {-7, 0};
+  scene.frame.force[1] = {-7, 0, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "with the tangential part reversed"));
-  scene.frame.force[1] = {0, 0};
-  scene.frame.contacts.force[0] = {0, -30};
+  scene.frame.force[1] = {0, 0, 0};
+  scene.frame.contacts.force[0] = {0, -30, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "contacts pull: 100 %"));
   EXPECT_TRUE(mentions(scene.complaint(), "with the opposite sign"));
-  scene.frame.contacts.force[0] = {0, 50};
+  scene.frame.contacts.force[0] = {0, 50, 0};
   EXPECT_FALSE(mentions(scene.complaint(), "with")) << "nothing fits";
 }
 
 TEST(Verification, ContactsJoinGrainsThatTouch)
 {
   Scene scene;
-  scene.frame.position[1] = {1, 3};
+  scene.frame.position[1] = {1, 3, 0};
   EXPECT_TRUE(
       mentions(scene.complaint(), "grains 2 and 3 are listed as touching, but their centres"));
-  scene.frame.contacts.branch[0] = {0, 3};
+  scene.frame.contacts.branch[0] = {0, 3, 0};
   scene.frame.contacts.gap[0] = 1;
   EXPECT_TRUE(mentions(scene.complaint(), "3 apart and the radii add up to 2: "));
-  scene.frame.contacts.force[0] = {0, 0};
+  scene.frame.contacts.force[0] = {0, 0, 0};
   EXPECT_FALSE(mentions(scene.complaint(), "listed as touching")) << "rows without force may";
 }
 
 TEST(Verification, OverlapOfSoftGrainsIsNoGapInTheGeometry)
 {
   Scene scene;
-  scene.frame.position[1] = {1, 1.9};
-  scene.frame.contacts.branch[0] = {0, 1.9};
+  scene.frame.position[1] = {1, 1.9, 0};
+  scene.frame.contacts.branch[0] = {0, 1.9, 0};
   scene.frame.contacts.gap[0] = -0.1;
   EXPECT_EQ(scene.complaint(), "no complaint");
   scene.frame.contacts.gap[0] = 0.02;
@@ -112,7 +112,7 @@ TEST(Verification, OverlapOfSoftGrainsIsNoGapInTheGeometry)
 Scene overlapping_discs()
 {
   Scene scene;
-  scene.frame.position[0] = {2.4, 2};
+  scene.frame.position[0] = {2.4, 2, 0};
   return scene;
 }
 
@@ -124,14 +124,14 @@ TEST(Verification, APairThatOverlapsWithoutARowIsRefused)
                        "not in the list of contacts"));
   scene.frame.position[0].x() += scene.box.length_x;
   EXPECT_TRUE(mentions(scene.complaint(), "grains 1 and 2 overlap")) << "across the period, too";
-  scene.frame.position[0] = {2.6, 2};
+  scene.frame.position[0] = {2.6, 2, 0};
   EXPECT_EQ(scene.complaint(), "no complaint") << "the two are apart";
 }
 
 TEST(Verification, APairThatOverlapsWithoutARowOfTheBaseNamesTheBase)
 {
   Scene scene;
-  scene.frame.position[0] = {2.4, 0};
+  scene.frame.position[0] = {2.4, 0, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "rows with the base are missing"));
 }
 
@@ -141,7 +141,7 @@ TEST(Verification, RigidGrainsThatBalanceMayOverlapWithoutARow)
   const auto scene = overlapping_discs();
   OutputAccuracy accuracy{1e-10, false, 0, 0.5};
   accuracy.lists_all = false;
-  Verification<2> verification(scene.grains, scene.box, scene.gravity, accuracy);
+  Verification verification(scene.grains, scene.box, scene.gravity, accuracy);
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_EQ(verification.moment().unlisted, 0);
 }
@@ -153,7 +153,7 @@ TEST(Verification, OfRigidGrainsAtASingleMomentCompletenessIsOpen)
   scene.frame.force.clear();
   OutputAccuracy accuracy{1e-10, false, 0, 0.5};
   accuracy.lists_all = false;
-  Verification<2> verification(scene.grains, scene.box, scene.gravity, accuracy);
+  Verification verification(scene.grains, scene.box, scene.gravity, accuracy);
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_NEAR(verification.moment().unlisted, 0.2, 1e-12);
   EXPECT_EQ(verification.moment().unlisted_may_part, 1);
@@ -163,9 +163,9 @@ TEST(Verification, OfRigidGrainsAtASingleMomentCompletenessIsOpen)
 TEST(Verification, NeighboursThatShareSpinAndMotionAreOneBody)
 {
   auto scene = overlapping_discs();
-  scene.frame.angular_velocity = {3, 3, 0};
-  scene.frame.velocity[0] = {1, 4.2};
-  scene.frame.velocity[1] = {1, 0};
+  scene.frame.angular_velocity = {{0, 0, 3}, {0, 0, 3}, {0, 0, 0}};
+  scene.frame.velocity[0] = {1, 4.2, 0};
+  scene.frame.velocity[1] = {1, 0, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "rigid bodies of several grains are not supported"));
   scene.frame.position[0].x() += 0.1;
   scene.frame.velocity[0].y() += 0.3;
@@ -179,12 +179,12 @@ TEST(Verification, DampingMayPullALittle)
   Scene scene;
   scene.frame.contacts.i.push_back(0);
   scene.frame.contacts.j.push_back(-1);
-  scene.frame.contacts.branch.emplace_back(0, 0.5);
+  scene.frame.contacts.branch.emplace_back(0, 0.5, 0);
   scene.frame.contacts.gap.push_back(0);
-  scene.frame.contacts.force.emplace_back(0, -3);
-  scene.frame.force[0] = {0, -23};
+  scene.frame.contacts.force.emplace_back(0, -3, 0);
+  scene.frame.force[0] = {0, -23, 0};
   EXPECT_EQ(scene.complaint(), "no complaint");
-  scene.frame.contacts.force[1] = {0, -13};
+  scene.frame.contacts.force[1] = {0, -13, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "contacts pull: 30 %"));
 }
 
@@ -193,17 +193,17 @@ TEST(Verification, DampingMayPullALittle)
 TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsTheMissingForce)
 {
   Scene scene;
-  scene.frame.force[1] = {0, 6};
-  scene.frame.contacts.force[0] = {0, 36 - 7 * 3 * 2 * 0.05};
-  Verification<2> verification(scene.grains, scene.box, scene.gravity,
-                               OutputAccuracy{1e-10, true, 0.1, 0.5});
+  scene.frame.force[1] = {0, 6, 0};
+  scene.frame.contacts.force[0] = {0, 36 - 7 * 3 * 2 * 0.05, 0};
+  Verification verification(scene.grains, scene.box, scene.gravity,
+                            OutputAccuracy{1e-10, true, 0.1, 0.5});
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_NEAR(verification.residual()->late->normal, 7, 1e-12);
   EXPECT_EQ(verification.residual()->late->tangential, 0);
   EXPECT_NEAR(verification.residual()->largest, 2.1 / 33.9, 1e-12);
   EXPECT_LT(verification.residual()->unexplained, 1e-14);
 
-  scene.frame.contacts.force[0] = {0, 36 + 7 * 3 * 2 * 0.05};
+  scene.frame.contacts.force[0] = {0, 36 + 7 * 3 * 2 * 0.05, 0};
   EXPECT_TRUE(verification.check(scene.frame)) << "damping does not drive";
 }
 
@@ -217,7 +217,7 @@ TEST(Verification, WithoutForcesVelocitiesOfTwoStepsAreUsed)
   EXPECT_FALSE(verification.residual()) << "nothing to compare with yet";
   scene.frame.step = 1;
   scene.frame.time = 0.5;
-  scene.frame.velocity[0] = {0, -5};
+  scene.frame.velocity[0] = {0, -5, 0};
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_LT(verification.residual()->largest, 1e-15);
   scene.frame.step = 2;
@@ -237,13 +237,13 @@ TEST(Verification, AForceThatChangesOverAStepIsKnownToHalfOfTheChange)
     auto verification = scene.verification();
     scene.frame.step = 0;
     scene.frame.time = 0;
-    scene.frame.velocity = {{0, 0}, {0, 0}, {0, 0}};
-    scene.frame.contacts.force[0] = {0, 30};
+    scene.frame.velocity = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    scene.frame.contacts.force[0] = {0, 30, 0};
     EXPECT_FALSE(verification.check(scene.frame));
     scene.frame.step = 1;
     scene.frame.time = 1;
-    scene.frame.velocity = {{0, -10}, {0, velocity}, {0, 0}};
-    scene.frame.contacts.force[0] = {0, 60};
+    scene.frame.velocity = {{0, -10, 0}, {0, velocity, 0}, {0, 0, 0}};
+    scene.frame.contacts.force[0] = {0, 60, 0};
     // m v = 0 to 30
     EXPECT_EQ(verification.check(scene.frame).has_value(), velocity < 0 || velocity > 10)
         << velocity;
@@ -258,7 +258,7 @@ TEST(Verification, MomentsFarApartBalanceNeitherWellNorBadly)
   EXPECT_FALSE(verification.check(scene.frame));
   scene.frame.step = 1000;
   scene.frame.time = 1000;
-  scene.frame.contacts.force[0] = {0, 40};
+  scene.frame.contacts.force[0] = {0, 40, 0};
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_FALSE(verification.residual());
   EXPECT_EQ(verification.moment().balance_grains, 0);
@@ -278,12 +278,12 @@ TEST(Verification, MomentsAreFarApartWhereAGrainMayHaveMetAnotherInBetween)
   for (const double speed : {0.0, 0.04}) {
     Scene scene;
     scene.frame.force.clear();
-    scene.frame.velocity[0] = {0, -1};
+    scene.frame.velocity[0] = {0, -1, 0};
     auto verification = scene.verification(1e-3);
     ASSERT_FALSE(verification.check(scene.frame));
     scene.frame.step = 1000;
     scene.frame.time = 0.4;
-    scene.frame.velocity[0] = {0, -speed};
+    scene.frame.velocity[0] = {0, -speed, 0};
     EXPECT_FALSE(verification.check(scene.frame));
     EXPECT_FALSE(verification.residual());
   }
@@ -292,16 +292,16 @@ TEST(Verification, MomentsAreFarApartWhereAGrainMayHaveMetAnotherInBetween)
 TEST(Verification, ADeepOverlapHasItsOwnNameAndCanBeWaived)
 {
   Scene scene;
-  scene.frame.position[1] = {1, 1.5};
-  scene.frame.contacts.branch[0] = {0, 1.5};
+  scene.frame.position[1] = {1, 1.5, 0};
+  scene.frame.contacts.branch[0] = {0, 1.5, 0};
   scene.frame.contacts.gap[0] = -0.5;
   const auto complaint = scene.verification().check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_EQ(complaint->check, "overlap");
   EXPECT_TRUE(mentions(complaint->sentence, "grains 2 and 3 overlap by 0.5 of the smaller radius"));
   EXPECT_TRUE(mentions(complaint->sentence, "--accept-residual overlap=0.5"));
-  Verification<2> waived(scene.grains, scene.box, scene.gravity, {1e-10, false, 0, 0.5},
-                         Waivers({"overlap=0.6"}));
+  Verification waived(scene.grains, scene.box, scene.gravity, {1e-10, false, 0, 0.5},
+                      Waivers({"overlap=0.6"}));
   EXPECT_FALSE(waived.check(scene.frame));
   EXPECT_DOUBLE_EQ(waived.moment().overlap, 0.5);
 }
@@ -311,9 +311,9 @@ TEST(Verification, AMissingWallIsNamedWhereGrainsLackItsPush)
 {
   Scene scene;
   scene.frame.contacts.clear();
-  scene.frame.position[2] = {5, -3};
-  Verification<2> verification(scene.grains, scene.box, scene.gravity, {1e-10, false, 0, 0.5}, {},
-                               {AxisInArchive{'x', true, 0}, {'z', true, 0.5}});
+  scene.frame.position[2] = {5, -3, 0};
+  Verification verification(scene.grains, scene.box, scene.gravity, {1e-10, false, 0, 0.5}, {},
+                            {AxisInArchive{'x', true, 0}, {'z', true, 0.5}});
   const auto complaint = verification.check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(mentions(complaint->sentence,
@@ -334,9 +334,9 @@ TEST(Verification, AMissingContactIsNamedByItsGrains)
 TEST(Verification, OppositeForcesOnNeighboursWithoutARowAreContactsThatPull)
 {
   Scene scene;
-  scene.frame.position[0] = {2.55, 2};
-  scene.frame.force[0] = {-6, -20};
-  scene.frame.force[1] = {6, 0};
+  scene.frame.position[0] = {2.55, 2, 0};
+  scene.frame.force[0] = {-6, -20, 0};
+  scene.frame.force[1] = {6, 0, 0};
   EXPECT_TRUE(
       mentions(scene.complaint(), "what is missing acts along 1 pairs without a listed force"));
   EXPECT_TRUE(mentions(scene.complaint(), "(the largest: grains 1 and 2): contacts that pull"));
@@ -346,13 +346,13 @@ TEST(Verification, OppositeForcesOnNeighboursWithoutARowAreContactsThatPull)
 TEST(Verification, GrainsThatPartWithinAStepHaveTouchedWhereItBegan)
 {
   Scene scene;
-  scene.frame.velocity[1] = {0, 10};
+  scene.frame.velocity[1] = {0, 10, 0};
   scene.frame.position[1].y() = 3;
-  scene.frame.contacts.branch = {{0, 3}};
+  scene.frame.contacts.branch = {{0, 3, 0}};
   scene.frame.contacts.gap = {1};
   EXPECT_TRUE(mentions(scene.complaint(), "are listed as touching, but their centres are 3 apart"));
   const auto with_step = [&](double step) {
-    return Verification<2>(scene.grains, scene.box, scene.gravity, {1e-10, false, step, 0.5})
+    return Verification(scene.grains, scene.box, scene.gravity, {1e-10, false, step, 0.5})
         .check(scene.frame);
   };
   EXPECT_FALSE(with_step(0.1));
@@ -360,13 +360,13 @@ TEST(Verification, GrainsThatPartWithinAStepHaveTouchedWhereItBegan)
 }
 
 /// Three discs that fly, each slowed down by twice its momentum.
-Scene flight(const std::vector<Vec2>& velocity)
+Scene flight(const std::vector<Vec3>& velocity)
 {
   Scene scene;
   scene.frame.contacts.clear();
   scene.grains.fixed[2] = 0;
   scene.grains.species[2] = Species::large;
-  scene.frame.position = {{5, 5}, {1, 2}, {8, 8}};
+  scene.frame.position = {{5, 5, 0}, {1, 2, 0}, {8, 8, 0}};
   scene.frame.velocity = velocity;
   for (std::size_t g = 0; g < 3; ++g)
     scene.frame.force[g] = scene.grains.mass[g] * (scene.gravity - 2 * velocity[g]);
@@ -375,7 +375,7 @@ Scene flight(const std::vector<Vec2>& velocity)
 
 TEST(Verification, ADragIsNotToldFromAnotherGravityWhereGrainsMoveAlike)
 {
-  const auto scene = flight({{1, 2}, {1, 2}, {1, 2}});
+  const auto scene = flight({{1, 2, 0}, {1, 2, 0}, {1, 2, 0}});
   const auto complaint = scene.verification().check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(mentions(complaint->sentence, "a drag on all grains, or another gravity"));
@@ -384,7 +384,7 @@ TEST(Verification, ADragIsNotToldFromAnotherGravityWhereGrainsMoveAlike)
 
 TEST(Verification, ADragOnAllGrainsIsNamedAndIsNoOtherGravity)
 {
-  const auto scene = flight({{1, 2}, {-3, 1}, {0.5, -4}});
+  const auto scene = flight({{1, 2, 0}, {-3, 1, 0}, {0.5, -4, 0}});
   const auto complaint = scene.verification().check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(
@@ -397,8 +397,8 @@ TEST(Verification, MomentsWhoseGrainsMovedTooFarAreNotOneStepApart)
 {
   Scene scene;
   scene.frame.contacts.clear();
-  scene.frame.position = {{5, 5}, {1, 7}, {5, -3}};
-  scene.frame.velocity = {{1, 0}, {1, 0}, {0, 0}};
+  scene.frame.position = {{5, 5, 0}, {1, 7, 0}, {5, -3, 0}};
+  scene.frame.velocity = {{1, 0, 0}, {1, 0, 0}, {0, 0, 0}};
   scene.frame.force.clear();
   scene.frame.step = 1;
   scene.frame.time = 0.1;
@@ -416,19 +416,19 @@ TEST(Verification, MomentsWhoseGrainsMovedTooFarAreNotOneStepApart)
 TEST(Verification, AMissingTangentialPartIsNamed)
 {
   Scene scene;
-  scene.gravity = {4, -10};
-  scene.frame.force[0] = {8, -20};
+  scene.gravity = {4, -10, 0};
+  scene.frame.force[0] = {8, -20, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "is the tangential part missing?"));
 }
 
 TEST(Verification, ABedThatIsStillFillingIsNamed)
 {
   Scene scene;
-  scene.frame.position[1] = {1, 1.8};
+  scene.frame.position[1] = {1, 1.8, 0};
   auto& contacts = scene.frame.contacts;
-  contacts.branch[0] = {0, 1.8};
+  contacts.branch[0] = {0, 1.8, 0};
   contacts.gap[0] = -0.2;
-  contacts.force[0] = {9, 80};
+  contacts.force[0] = {9, 80, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "a bed that is still being filled"));
 }
 
@@ -455,8 +455,7 @@ struct SceneInSpace {
   std::string complaint(double tolerance = 1e-10) const
   {
     const auto found =
-        Verification<3>(grains, box, gravity, OutputAccuracy{tolerance, false, 0, 0.4})
-            .check(frame);
+        Verification(grains, box, gravity, OutputAccuracy{tolerance, false, 0, 0.4}).check(frame);
     return found ? found->sentence : "no complaint";
   }
 };
@@ -511,8 +510,8 @@ TEST(VerificationInSpace, LateDampingOfARollingSphereIsFoundInEveryDirection)
   contacts.gap.push_back(0);
   contacts.force.emplace_back(40, 20, -30);
   scene.frame.force[0] = 2 * scene.gravity + contacts.force[1];
-  Verification<3> verification(scene.grains, scene.box, scene.gravity,
-                               OutputAccuracy{1e-10, true, 2 * half_step, 0.4});
+  Verification verification(scene.grains, scene.box, scene.gravity,
+                            OutputAccuracy{1e-10, true, 2 * half_step, 0.4});
   const auto complaint = verification.check(scene.frame);
   EXPECT_FALSE(complaint) << complaint->sentence;
   EXPECT_NEAR(verification.residual()->late->normal, c_n, 1e-12);

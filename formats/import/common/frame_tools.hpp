@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/// What builds and verifies frames. Until it is written, a frame of an import has three components, also
+/// where the flow is one in a plane: then all that lies across it is 0.
+namespace grseg {
+
+/// The shortest of the vectors that differ from this one by periods of the cell.
+inline Vec3 minimum_image(const Box& box, Vec3 between)
+{
+  if (box.periodic_x) between.x() -= box.length_x * std::round(between.x() / box.length_x);
+  if (box.periodic_z) between.z() -= box.length_z * std::round(between.z() / box.length_z);
+  return between;
+}
+
+/// Of a grain that a contact names.
+inline std::size_t row(std::int32_t index)
+{
+  return static_cast<std::size_t>(index);
+}
+
+/// The upper of two in the middle; 0 where there are none. Changes their order.
+inline double median(std::vector<double>& values)
+{
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace grseg
