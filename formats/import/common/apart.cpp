@@ -122,6 +122,62 @@ std::string how_it_ends(int status)
   throw ToolError(static_cast<ExitCode>(code), sentence);
 }
 
+/// What the archive says when it has been opened, and with each moment.
+struct News {
+  ArchiveFacts facts;
+  std::vector<std::string> remarks;
+  bool more = true;
+  ArchiveMoment moment;
+};
+
+template <class Pass>
+void each_of(News& news, Pass& pass)
+{
+  auto& [facts, remarks, more, moment] = news;
+  pass(facts, remarks, more, moment);
+}
+
+void read_apart(Archive& archive, const Apart::Send& send)
+{
+  News news;
+  const auto tell = [&] {
+    news.facts = archive.facts();
+    news.remarks = archive.remarks();
+    send(packing::packed(news));
+  };
+  tell();
+  while (news.more) {
+    news.more = archive.next(news.moment);
+    tell();
+  }
+}
+
+class ApartArchive : public Archive {
+ public:
+  ApartArchive(const std::string& file, const std::function<std::unique_ptr<Archive>()>& open)
+      : apart_(file, [&](const Apart::Send& send) { read_apart(*open(), send); }), place_(file)
+  {
+    hear();
+  }
+  const ArchiveFacts& facts() const override { return news_.facts; }
+  std::vector<std::string> remarks() const override { return news_.remarks; }
+  bool next(ArchiveMoment& moment) override
+  {
+    if (!news_.more) return false;
+    hear();
+    std::swap(moment, news_.moment);  // memory is kept for the next but one
+    if (news_.more) place_ = fmt::format("{} or behind", moment.place);
+    return news_.more;
+  }
+
+ private:
+  void hear() { packing::unpack(apart_.receive(place_), news_); }
+
+  Apart apart_;
+  News news_;
+  std::string place_;
+};
+
 }  // namespace
 
 Apart::Apart(std::string file, const Work& work) : file_(std::move(file))
@@ -215,73 +271,6 @@ void each_of(ArchiveFacts& facts, Pass& pass)
   auto& [step, density, gravity, discs, walls, units, late, lists_all, tolerance, reason] = facts;
   pass(step, density, gravity, discs, walls, units, late, lists_all, tolerance, reason);
 }
-
-namespace {
-
-/// What the archive says when it has been opened, and with each moment.
-struct News {
-  ArchiveFacts facts;
-  std::vector<std::string> remarks;
-  bool more = true;
-  ArchiveMoment moment;
-};
-
-template <class Pass>
-void each_of(News& news, Pass& pass)
-{
-  auto& [facts, remarks, more, moment] = news;
-  pass(facts, remarks, more, moment);
-}
-
-void read_apart(Archive& archive, const Apart::Send& send)
-{
-  News news;
-  packing::Pack pack;
-  const auto tell = [&] {
-    news.facts = archive.facts();
-    news.remarks = archive.remarks();
-    pack.bytes.clear();
-    pack(news);
-    send(pack.bytes);
-  };
-  tell();
-  while (news.more) {
-    news.more = archive.next(news.moment);
-    tell();
-  }
-}
-
-class ApartArchive : public Archive {
- public:
-  ApartArchive(const std::string& file, const std::function<std::unique_ptr<Archive>()>& open)
-      : apart_(file, [&](const Apart::Send& send) { read_apart(*open(), send); }), place_(file)
-  {
-    hear();
-  }
-  const ArchiveFacts& facts() const override { return news_.facts; }
-  std::vector<std::string> remarks() const override { return news_.remarks; }
-  bool next(ArchiveMoment& moment) override
-  {
-    if (!news_.more) return false;
-    hear();
-    std::swap(moment, news_.moment);  // memory is kept for the next but one
-    if (news_.more) place_ = fmt::format("{} or behind", moment.place);
-    return news_.more;
-  }
-
- private:
-  void hear()
-  {
-    packing::Unpack unpack(apart_.receive(place_));
-    unpack(news_);
-  }
-
-  Apart apart_;
-  News news_;
-  std::string place_;
-};
-
-}  // namespace
 
 std::unique_ptr<Archive> open_apart(const std::string& file,
                                     const std::function<std::unique_ptr<Archive>()>& open)

@@ -6,12 +6,13 @@
 
 #include <sys/types.h>
 
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace grseg {
@@ -53,103 +54,78 @@ namespace grseg::packing {
 template <class T>
 constexpr bool is_plain = std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3>;
 
-class Pack {
+/// Writes values to bytes, or reads them from bytes.
+template <bool writes>
+class Pass {
  public:
+  std::conditional_t<writes, std::string, std::string_view> bytes;
+
   template <class... T>
   void operator()(T&... values)
   {
-    (add(values), ...);
-  }
-  std::string bytes;
-
- private:
-  void add_bytes(const void* data, std::size_t count)
-  {
-    bytes.append(static_cast<const char*>(data), count);
-  }
-  void add_size(std::size_t size) { add_bytes(&size, sizeof size); }
-  template <class T>
-  void add(std::optional<T>& value)
-  {
-    add_size(value ? 1 : 0);
-    if (value) add(*value);
-  }
-  void add(std::string& text)
-  {
-    add_size(text.size());
-    add_bytes(text.data(), text.size());
-  }
-  template <class T>
-  void add(std::vector<T>& values)
-  {
-    add_size(values.size());
-    if constexpr (is_plain<T>)
-      add_bytes(values.data(), values.size() * sizeof(T));
-    else
-      for (auto& value : values) add(value);
-  }
-  template <class T>
-  void add(T& value)
-  {
-    if constexpr (is_plain<T>)
-      add_bytes(&value, sizeof(T));
-    else
-      each_of(value, *this);
-  }
-};
-
-class Unpack {
- public:
-  explicit Unpack(const std::string& bytes) : next_(bytes.data()) {}
-  template <class... T>
-  void operator()(T&... values)
-  {
-    (take(values), ...);
+    (pass(values), ...);
   }
 
  private:
-  void take_bytes(void* data, std::size_t count)
+  void pass_bytes(void* data, std::size_t count)
   {
-    if (count > 0) std::memcpy(data, next_, count);
-    next_ += count;
+    if constexpr (writes)
+      bytes.append(static_cast<const char*>(data), count);
+    else
+      bytes.remove_prefix(bytes.copy(static_cast<char*>(data), count));
   }
-  std::size_t take_size()
+  std::size_t pass_size(std::size_t size)
   {
-    std::size_t size = 0;
-    take_bytes(&size, sizeof size);
+    pass_bytes(&size, sizeof size);
     return size;
   }
+
   template <class T>
-  void take(std::optional<T>& value)
+  void pass(std::optional<T>& value)
   {
-    value.reset();
-    if (take_size() > 0) take(value.emplace());
+    const bool has_value = pass_size(value ? 1 : 0) > 0;
+    if (!writes) value.reset();
+    if (!writes && has_value) value.emplace();
+    if (has_value) pass(*value);
   }
-  void take(std::string& text)
+  void pass(std::string& text)
   {
-    text.resize(take_size());
-    take_bytes(text.data(), text.size());
+    text.resize(pass_size(text.size()));
+    pass_bytes(text.data(), text.size());
   }
   template <class T>
-  void take(std::vector<T>& values)
+  void pass(std::vector<T>& values)
   {
-    values.resize(take_size());
+    values.resize(pass_size(values.size()));
     if constexpr (is_plain<T>)
-      take_bytes(values.data(), values.size() * sizeof(T));
+      pass_bytes(values.data(), values.size() * sizeof(T));
     else
-      for (auto& value : values) take(value);
+      for (auto& value : values) pass(value);
   }
   template <class T>
-  void take(T& value)
+  void pass(T& value)
   {
     if constexpr (is_plain<T>)
-      take_bytes(&value, sizeof(T));
+      pass_bytes(&value, sizeof(T));
     else
       each_of(value, *this);
   }
-
-  const char* next_;
 };
+
+/// The bytes of values, and values from their bytes.
+template <class... T>
+std::string packed(T&... values)
+{
+  Pass<true> pass;
+  pass(values...);
+  return std::move(pass.bytes);
+}
+template <class... T>
+void unpack(std::string_view bytes, T&... values)
+{
+  Pass<false> pass{bytes};
+  pass(values...);
+}
 
 }  // namespace grseg::packing
 

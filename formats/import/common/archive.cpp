@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace grseg {
 namespace {
 
@@ -27,6 +29,16 @@ std::string OpenQuestions::options() const
   std::string text;
   for (const auto& question : questions) text += (text.empty() ? "" : " ") + question.option;
   return text;
+}
+
+Vec3 ArchiveMoment::minimum_image(Vec3 between) const
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = high[axis] - low[axis];
+    if (periodic[static_cast<std::size_t>(axis)] && length > 0)
+      between[axis] -= length * std::round(between[axis] / length);
+  }
+  return between;
 }
 
 void enclose_grains(ArchiveMoment& moment)

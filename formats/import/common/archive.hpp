@@ -142,11 +142,25 @@ struct ArchiveMoment {
   std::string place;                // "atoms.dump, line 12": for sentences about this moment
   std::vector<Question> questions;  // what the reader has to be told; what it could not read for
                                     // lack of an answer is empty
+
+  /// The shortest of the vectors that differ from this one by periods of the cell.
+  Vec3 minimum_image(Vec3 between) const;
 };
 
 /// Sets the cell of a moment to one that encloses its grains along the axes that are not periodic.
 /// For archives that state no cell; there must be grains.
 void enclose_grains(ArchiveMoment& moment);
+
+/// Moments that one of the tables of an archive lacks.
+struct Unmatched {
+  std::size_t count = 0;
+  double first = 0;  // its time or step
+
+  void add(double moment)
+  {
+    if (count++ == 0) first = moment;
+  }
+};
 
 /// What an archive states once about its run. What it does not state stays empty and must come from
 /// the command line; nothing is guessed.

@@ -45,57 +45,6 @@ std::vector<std::string> matches_of(std::string pattern)
   return matches_of(std::move(pattern));
 }
 
-}  // namespace
-
-bool natural_less(const std::string& a, const std::string& b)
-{
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[j])) {
-      const auto x = number_at(a, i), y = number_at(b, j);
-      if (x.size() != y.size()) return x.size() < y.size();
-      if (x != y) return x < y;
-    } else if (a[i] != b[j]) {
-      return a[i] < b[j];
-    } else {
-      ++i;
-      ++j;
-    }
-  }
-  return a.size() - i < b.size() - j;
-}
-
-std::vector<std::string> files_meant(const std::vector<std::string>& names)
-{
-  auto files = names;
-  for (const auto& name : names) {
-    const auto found = matches_of(name);
-    files.insert(files.end(), found.begin(), found.end());
-  }
-  return files;
-}
-
-std::vector<std::string> archive_files(const std::vector<std::string>& names,
-                                       const std::string& option)
-{
-  if (names.empty()) throw UsageError(fmt::format("name files with {}", option));
-  std::vector<std::string> files;
-  for (const auto& name : names) {
-    if (name.find_first_of("*%") == std::string::npos || std::filesystem::exists(name)) {
-      require_file(name);
-      files.push_back(name);
-      continue;
-    }
-    const auto found = matches_of(name);
-    if (found.empty()) throw UsageError(fmt::format("{} {}: no file matches", option, name));
-    files.insert(files.end(), found.begin(), found.end());
-  }
-  std::stable_sort(files.begin(), files.end(), natural_less);
-  return files;
-}
-
-namespace {
-
 using namespace std::string_view_literals;
 
 constexpr auto unpack_first = "unpack it, and name the files that were in it";
@@ -221,7 +170,71 @@ bool is_data_of_lammps(const std::vector<std::vector<std::string_view>>& lines)
   return has(2, "atoms") && (has(4, "xhi") || has(3, "types"));
 }
 
+struct Hdf5Start {
+  std::vector<std::string> groups;  // names in the root
+  bool of_grseg = false;
+};
+
+Hdf5Start start_of_hdf5(const std::string& path)
+{
+  Apart apart(path, [&](const Apart::Send& send) {
+    const auto file = hdf5::open_for_reading(path);
+    Hdf5Start start{hdf5::names_in(file, "/"), hdf5::exists(file, "/h5md/modules/grseg")};
+    send(packing::packed(start.groups, start.of_grseg));
+  });
+  Hdf5Start start;
+  packing::unpack(apart.receive(path), start.groups, start.of_grseg);
+  return start;
+}
+
 }  // namespace
+
+bool natural_less(const std::string& a, const std::string& b)
+{
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const auto x = number_at(a, i), y = number_at(b, j);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else if (a[i] != b[j]) {
+      return a[i] < b[j];
+    } else {
+      ++i;
+      ++j;
+    }
+  }
+  return a.size() - i < b.size() - j;
+}
+
+std::vector<std::string> files_meant(const std::vector<std::string>& names)
+{
+  auto files = names;
+  for (const auto& name : names) {
+    const auto found = matches_of(name);
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+std::vector<std::string> archive_files(const std::vector<std::string>& names,
+                                       const std::string& option)
+{
+  if (names.empty()) throw UsageError(fmt::format("name files with {}", option));
+  std::vector<std::string> files;
+  for (const auto& name : names) {
+    if (name.find_first_of("*%") == std::string::npos || std::filesystem::exists(name)) {
+      require_file(name);
+      files.push_back(name);
+      continue;
+    }
+    const auto found = matches_of(name);
+    if (found.empty()) throw UsageError(fmt::format("{} {}: no file matches", option, name));
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  std::stable_sort(files.begin(), files.end(), natural_less);
+  return files;
+}
 
 std::string other_kind(std::string_view start)
 {
@@ -253,30 +266,6 @@ std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
   if (has("frame") || has("coordinates")) return is_of("a netCDF file", to_dumps);
   return "";
 }
-
-namespace {
-
-struct Hdf5Start {
-  std::vector<std::string> groups;  // names in the root
-  bool of_grseg = false;
-};
-
-Hdf5Start start_of_hdf5(const std::string& path)
-{
-  Apart apart(path, [&](const Apart::Send& send) {
-    const auto file = hdf5::open_for_reading(path);
-    Hdf5Start start{hdf5::names_in(file, "/"), hdf5::exists(file, "/h5md/modules/grseg")};
-    packing::Pack pack;
-    pack(start.groups, start.of_grseg);
-    send(pack.bytes);
-  });
-  Hdf5Start start;
-  packing::Unpack unpack(apart.receive(path));
-  unpack(start.groups, start.of_grseg);
-  return start;
-}
-
-}  // namespace
 
 void refuse_other_kind(const std::string& path)
 {

@@ -39,6 +39,16 @@ bool read_as_c(const std::string& text, double& number)
   return std::isfinite(number);
 }
 
+constexpr std::size_t most_words = 10'000;
+constexpr double first_word = 1e10;  // codes of words are above those of numbers
+constexpr double largest_type = std::numeric_limits<std::int32_t>::max();
+
+bool is_nan_or_infinite(std::string_view word)
+{
+  double number = 0;
+  return parse_whole(word, number) && !std::isfinite(number);
+}
+
 }  // namespace
 
 std::vector<std::string> parts_of(const std::string& text, char separator)
@@ -81,20 +91,6 @@ void read_numbers(const TextSource& source, std::vector<double>& numbers, char s
     numbers.push_back(value);
   }
 }
-
-namespace {
-
-constexpr std::size_t most_words = 10'000;
-constexpr double first_word = 1e10;  // codes of words are above those of numbers
-constexpr double largest_type = std::numeric_limits<std::int32_t>::max();
-
-bool is_nan_or_infinite(std::string_view word)
-{
-  double number = 0;
-  return parse_whole(word, number) && !std::isfinite(number);
-}
-
-}  // namespace
 
 bool TypeNames::is_type(double number)
 {

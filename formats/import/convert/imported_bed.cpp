@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/convert/imported_bed.hpp"
 
+#include "formats/import/common/text_values.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -205,8 +206,7 @@ void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
 /// the others.
 void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& text)
 {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), origin);
-  if (error == std::errc() && end == text.data() + text.size() && std::isfinite(origin)) return;
+  if (parse_finite(text, origin)) return;
   const auto top = find_choice(text, origin_words);
   if (!top)
     throw UsageError(

@@ -9,6 +9,7 @@
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 #include "formats/import/common/archive_files.hpp"
+#include "formats/import/common/text_values.hpp"
 #include "formats/import/convert/import_part.hpp"
 #include "formats/import/convert/judgement.hpp"
 #include "formats/import/convert/verified_frames.hpp"
@@ -21,7 +22,6 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <sstream>
 
 namespace grseg {
 namespace {
@@ -417,8 +417,7 @@ std::string to_text(const ImportReport& report)
                   report.dimension == 3 ? ", in three dimensions" : "");
   if (!report.columns.empty()) text += fmt::format("columns: {}\n", report.columns);
   text += fmt::format("base: {}; {}\n", report.base, report.sizes);
-  std::istringstream cell(report.cell);
-  for (std::string line; std::getline(cell, line);) text += fmt::format("cell: {}\n", line);
+  for (const auto& line : parts_of(report.cell, '\n')) text += fmt::format("cell: {}\n", line);
   if (report.largest_residual)
     text +=
         fmt::format("grains balance: largest residual {:.3g}, median {:.3g} of the largest force\n",

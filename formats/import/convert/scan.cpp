@@ -116,50 +116,6 @@ class Collector {
   std::vector<Seen> seen_;
 };
 
-}  // namespace
-
-Roster read_roster(const ImportSettings& settings)
-{
-  Moments moments(settings);
-  Collector collector;
-  for (ArchiveMoment moment; moments.next_grains(moment);) {
-    stop_if_interrupted();
-    collector.add(moment);
-  }
-  return collector.finish();
-}
-
-void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,
-                        std::size_t g, const std::string& place)
-{
-  const auto refuse = [&](const char* what, double before, double after, const char* remedy) {
-    throw FormatError(fmt::format("{}: the {} of grain {} changes from {:g} to {:g}; {}", place,
-                                  what, now.id[g], before, after, remedy));
-  };
-  constexpr const char* used_again =
-      "was its id used again after a grain had been removed? Then import the moments before and "
-      "after it separately, with --begin and --end";
-  constexpr const char* later =
-      "was its mass set only after it had been poured in, or its id used again after a removal? Then "
-      "import the moments before and after it separately, with --begin and --end";
-  constexpr const char* frozen =
-      "grains that are frozen or let go later are another bed: import the phases separately, with "
-      "--begin and --end";
-  const auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(a)); };
-  const auto compare = [&](const auto& before, const auto& after, const char* what,
-                           const auto& different, const char* remedy) {
-    if (before.empty() || after.empty() || !different(before[row], after[g])) return;
-    refuse(what, before[row], after[g], remedy);
-  };
-  const auto unequal = [](auto a, auto b) { return a != b; };
-  compare(known.radius, now.radius, "radius", differ, used_again);
-  compare(known.mass, now.mass, "mass", differ, later);
-  compare(known.type, now.type, "type", unequal, frozen);
-  compare(known.fixed, now.fixed, "fixed flag", unequal, frozen);
-}
-
-namespace {
-
 bool same_ids(const ArchiveGrains& a, const ArchiveGrains& b)
 {
   if (a.size() != b.size()) return false;
@@ -211,6 +167,46 @@ SpeciesSettings with_one_species(const SpeciesSettings& settings)
 }
 
 }  // namespace
+
+Roster read_roster(const ImportSettings& settings)
+{
+  Moments moments(settings);
+  Collector collector;
+  for (ArchiveMoment moment; moments.next_grains(moment);) {
+    stop_if_interrupted();
+    collector.add(moment);
+  }
+  return collector.finish();
+}
+
+void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,
+                        std::size_t g, const std::string& place)
+{
+  const auto refuse = [&](const char* what, double before, double after, const char* remedy) {
+    throw FormatError(fmt::format("{}: the {} of grain {} changes from {:g} to {:g}; {}", place,
+                                  what, now.id[g], before, after, remedy));
+  };
+  constexpr const char* used_again =
+      "was its id used again after a grain had been removed? Then import the moments before and "
+      "after it separately, with --begin and --end";
+  constexpr const char* later =
+      "was its mass set only after it had been poured in, or its id used again after a removal? Then "
+      "import the moments before and after it separately, with --begin and --end";
+  constexpr const char* frozen =
+      "grains that are frozen or let go later are another bed: import the phases separately, with "
+      "--begin and --end";
+  const auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(a)); };
+  const auto compare = [&](const auto& before, const auto& after, const char* what,
+                           const auto& different, const char* remedy) {
+    if (before.empty() || after.empty() || !different(before[row], after[g])) return;
+    refuse(what, before[row], after[g], remedy);
+  };
+  const auto unequal = [](auto a, auto b) { return a != b; };
+  compare(known.radius, now.radius, "radius", differ, used_again);
+  compare(known.mass, now.mass, "mass", differ, later);
+  compare(known.type, now.type, "type", unequal, frozen);
+  compare(known.fixed, now.fixed, "fixed flag", unequal, frozen);
+}
 
 ScannedArchive::ScannedArchive(const ImportSettings& settings, std::shared_ptr<const Roster> roster,
                                Questions questions)

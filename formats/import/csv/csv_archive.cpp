@@ -17,6 +17,7 @@
 #include <vector>
 
 namespace grseg {
+namespace {
 
 /// What the comments above a table of grains say of the run, in the table's units, a line each:
 ///   # periodic: x 0 0.35          for each axis that is
@@ -30,11 +31,6 @@ struct CsvComments {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // of the periods
   std::array<bool, 3> periodic{};
 };
-
-/// FormatError where one of these lines is not of its form.
-CsvComments read_csv_comments(const std::vector<std::string>& comments);
-
-namespace {
 
 /// NaN where the next word is not a number.
 double next_number(std::istream& text)
@@ -100,8 +96,7 @@ constexpr Line lines[] = {{"# periodic:", read_period, "# periodic: x 0 0.35"},
                           {"# units:", read_units, "# units: si"},
                           {"# grains:", read_grains, "# grains: spheres"}};
 
-}  // namespace
-
+/// FormatError where one of these lines is not of its form.
 CsvComments read_csv_comments(const std::vector<std::string>& comments)
 {
   CsvComments found;
@@ -115,8 +110,6 @@ CsvComments read_csv_comments(const std::vector<std::string>& comments)
     }
   return found;
 }
-
-namespace {
 
 namespace of_grain {
 enum Column : std::size_t {
@@ -216,8 +209,7 @@ std::vector<std::string> all_names(std::span<const CsvTable::Column> columns)
 {
   std::vector<std::string> names;
   for (const auto& column : columns) {
-    std::istringstream words(column.names);
-    for (std::string word; std::getline(words, word, '|');) names.push_back(word);
+    for (const auto& word : parts_of(column.names, '|')) names.push_back(word);
   }
   return names;
 }
@@ -232,16 +224,146 @@ void require_y_or_z(const CsvTable& table, std::size_t x, const char* y)
 
 class CsvArchive : public Archive {
  public:
-  explicit CsvArchive(const ArchiveFiles& files);
+  explicit CsvArchive(const ArchiveFiles& files)
+      : grains_map_(files.map, all_names(of_grain::columns), all_names(of_contact::columns)),
+        contacts_map_(files.map, all_names(of_contact::columns), all_names(of_grain::columns)),
+        grains_(csv_files(files.grains, "--grains"), of_grain::columns, grains_map_),
+        contacts_(csv_files(files.contacts, "--contacts"), of_contact::columns, contacts_map_),
+        comments_(read_csv_comments(grains_.comments())),
+        facts_(comments_.facts)
+  {
+    grains_map_.require_all_used(contacts_map_);
+    require_y_or_z(grains_, of_grain::x, "y");
+    require_y_or_z(grains_, of_grain::vx, "vy");
+    require_y_or_z(contacts_, of_contact::fx, "fy");
+    facts_.tolerance = 1e-4;
+    facts_.lists_all = false;  // they may be those of contact dynamics
+    facts_.tolerance_reason = "the digits of the tables";
+  }
+
   const ArchiveFacts& facts() const override { return facts_; }
-  bool next(ArchiveMoment& moment) override;
-  std::vector<std::string> remarks() const override;
+
+  bool next(ArchiveMoment& moment) override
+  {
+    if (!next_of_both()) return false;
+    moment = ArchiveMoment{};
+    const auto [value, is_step] = grains_.moment();
+    if (!is_step)
+      moment.time = value;
+    else if (std::trunc(value) == value && std::abs(value) < 9e15)
+      moment.step = static_cast<std::int64_t>(value);
+    else
+      grains_.fail(fmt::format("{:g} is not a step", value));
+    moment.place = fmt::format("{} = {:g} ({}; {})", is_step ? "step" : "t", value, grains_.begin(),
+                               contacts_.begin());
+    moment.periodic = comments_.periodic;
+    moment.low = comments_.low;
+    moment.high = comments_.high;
+    fill(moment.grains);
+    enclose_grains(moment);
+    fill(moment.contacts);
+    return true;
+  }
+
+  std::vector<std::string> remarks() const override
+  {
+    std::vector<std::string> remarks;
+    if (grains_alone_ > 0)
+      remarks.push_back(
+          fmt::format("{} moments have grains but no contacts and are left out", grains_alone_));
+    if (contacts_alone_ > 0)
+      remarks.push_back(
+          fmt::format("{} moments have contacts but no grains and are left out", contacts_alone_));
+    return remarks;
+  }
 
  private:
-  bool next_of_both();
-  void require_no_moments();
-  void fill(ArchiveGrains& grains);
-  void fill(ArchiveContacts& contacts) const;
+  /// Goes to the next moment that both tables have.
+  bool next_of_both()
+  {
+    bool more_grains = grains_.next(), more_contacts = contacts_.next();
+    while (more_grains && more_contacts) {
+      if (grains_.moment().is_step != contacts_.moment().is_step)
+        contacts_.fail(fmt::format(
+            "the table of contacts has {}, but that of grains has {}: give both the same, as a column "
+            "or in the names of files",
+            contacts_.moment().is_step ? "steps" : "times",
+            grains_.moment().is_step ? "steps" : "times"));
+      const double a = grains_.moment().value, b = contacts_.moment().value;
+      const double scale =
+          std::max({std::abs(a), std::abs(b), grains_.interval(), contacts_.interval()});
+      if (std::abs(a - b) <= 1e-9 * scale) return any_of_both_ = true;
+      if (a < b) {
+        ++grains_alone_;
+        more_grains = grains_.next();
+      } else {
+        ++contacts_alone_;
+        more_contacts = contacts_.next();
+      }
+    }
+    if (!any_of_both_) require_no_moments();
+    return false;
+  }
+
+  /// Where both tables have moments, but none in common.
+  void require_no_moments()
+  {
+    constexpr std::size_t enough = 3;
+    for (auto* table : {&grains_, &contacts_})
+      while (table->first_moments().size() < enough && table->next()) {
+      }
+    const auto &of_grains = grains_.first_moments(), &of_contacts = contacts_.first_moments();
+    if (of_grains.empty() || of_contacts.empty()) return;
+    throw FormatError(fmt::format(
+        "no moment is in both tables: {0} of the grains begin with {1:.10g}, those of the contacts with "
+        "{2:.10g}; write the same {0} in both",
+        grains_.moment().is_step ? "steps" : "times", fmt::join(of_grains, ", "),
+        fmt::join(of_contacts, ", ")));
+  }
+
+  void fill(ArchiveGrains& grains)
+  {
+    using namespace of_grain;
+    auto& table = grains_;
+    std::vector<double> types;
+    for (std::size_t k = 0; k < table.rows(); ++k) {
+      grains.id.push_back(whole_number_at(table, k, id, "an id"));
+      grains.position.push_back(vector_at(table, k, x));
+      grains.velocity.push_back(vector_at(table, k, vx));
+      if (table.has(radius) || table.has(diameter))
+        grains.radius.push_back(table.has(radius) ? table.value(k, radius)
+                                                  : table.value(k, diameter) / 2);
+      if (has_any(table, wx)) grains.angular_velocity.push_back(vector_at(table, k, wx));
+      if (table.has(mass)) grains.mass.push_back(table.value(k, mass));
+      if (table.has(type)) types.push_back(table.value(k, type));
+      if (table.has(fixed)) grains.fixed.push_back(table.value(k, fixed) != 0);
+      if (has_any(table, fx)) grains.force.push_back(vector_at(table, k, fx));
+    }
+    table.words().fill(types, table.begin(), grains);
+    add_missing(table, x, {"x", "y", "z"}, grains.missing);
+    add_missing(table, vx, {"vx", "vy", "vz"}, grains.missing);
+    add_missing(table, wx, {"wx", "wy", "wz"}, grains.missing);
+    add_missing(table, fx, {"fx", "fy", "fz"}, grains.missing);
+  }
+
+  void fill(ArchiveContacts& contacts) const
+  {
+    using namespace of_contact;
+    const auto& table = contacts_;
+    for (std::size_t k = 0; k < table.rows(); ++k) {
+      const auto second = whole_number_at(table, k, j, "an id");
+      if (second < 0 && !has_any(table, bx))
+        fail_at(table, k, "a contact with a wall needs its branch, columns bx and by (and bz)");
+      contacts.i.push_back(whole_number_at(table, k, i, "an id"));
+      contacts.j.push_back(second);
+      contacts.wall.push_back(wall_at(table, k, second));
+      contacts.force.push_back(vector_at(table, k, fx));
+      if (table.has(overlap)) contacts.overlap.push_back(table.value(k, overlap));
+      if (has_any(table, bx)) contacts.branch.push_back(vector_at(table, k, bx));
+    }
+    add_missing(table, fx, {"fx", "fy", "fz"}, contacts.missing);
+    add_missing(table, bx, {"bx", "by", "bz"}, contacts.missing);
+  }
 
   CsvMap grains_map_, contacts_map_;
   CsvTable grains_, contacts_;
@@ -250,144 +372,6 @@ class CsvArchive : public Archive {
   std::size_t grains_alone_ = 0, contacts_alone_ = 0;
   bool any_of_both_ = false;
 };
-
-CsvArchive::CsvArchive(const ArchiveFiles& files)
-    : grains_map_(files.map, all_names(of_grain::columns), all_names(of_contact::columns)),
-      contacts_map_(files.map, all_names(of_contact::columns), all_names(of_grain::columns)),
-      grains_(csv_files(files.grains, "--grains"), of_grain::columns, grains_map_),
-      contacts_(csv_files(files.contacts, "--contacts"), of_contact::columns, contacts_map_),
-      comments_(read_csv_comments(grains_.comments())),
-      facts_(comments_.facts)
-{
-  grains_map_.require_all_used(contacts_map_);
-  require_y_or_z(grains_, of_grain::x, "y");
-  require_y_or_z(grains_, of_grain::vx, "vy");
-  require_y_or_z(contacts_, of_contact::fx, "fy");
-  facts_.tolerance = 1e-4;
-  facts_.lists_all = false;  // they may be those of contact dynamics
-  facts_.tolerance_reason = "the digits of the tables";
-}
-
-/// Goes to the next moment that both tables have.
-bool CsvArchive::next_of_both()
-{
-  bool more_grains = grains_.next(), more_contacts = contacts_.next();
-  while (more_grains && more_contacts) {
-    if (grains_.moment().is_step != contacts_.moment().is_step)
-      contacts_.fail(fmt::format(
-          "the table of contacts has {}, but that of grains has {}: give both the same, as a column "
-          "or in the names of files",
-          contacts_.moment().is_step ? "steps" : "times",
-          grains_.moment().is_step ? "steps" : "times"));
-    const double a = grains_.moment().value, b = contacts_.moment().value;
-    const double scale =
-        std::max({std::abs(a), std::abs(b), grains_.interval(), contacts_.interval()});
-    if (std::abs(a - b) <= 1e-9 * scale) return any_of_both_ = true;
-    if (a < b) {
-      ++grains_alone_;
-      more_grains = grains_.next();
-    } else {
-      ++contacts_alone_;
-      more_contacts = contacts_.next();
-    }
-  }
-  if (!any_of_both_) require_no_moments();
-  return false;
-}
-
-/// Where both tables have moments, but none in common.
-void CsvArchive::require_no_moments()
-{
-  constexpr std::size_t enough = 3;
-  for (auto* table : {&grains_, &contacts_})
-    while (table->first_moments().size() < enough && table->next()) {
-    }
-  const auto &of_grains = grains_.first_moments(), &of_contacts = contacts_.first_moments();
-  if (of_grains.empty() || of_contacts.empty()) return;
-  throw FormatError(fmt::format(
-      "no moment is in both tables: {0} of the grains begin with {1:.10g}, those of the contacts with "
-      "{2:.10g}; write the same {0} in both",
-      grains_.moment().is_step ? "steps" : "times", fmt::join(of_grains, ", "),
-      fmt::join(of_contacts, ", ")));
-}
-
-bool CsvArchive::next(ArchiveMoment& moment)
-{
-  if (!next_of_both()) return false;
-  moment = ArchiveMoment{};
-  const auto [value, is_step] = grains_.moment();
-  if (!is_step)
-    moment.time = value;
-  else if (std::trunc(value) == value && std::abs(value) < 9e15)
-    moment.step = static_cast<std::int64_t>(value);
-  else
-    grains_.fail(fmt::format("{:g} is not a step", value));
-  moment.place = fmt::format("{} = {:g} ({}; {})", is_step ? "step" : "t", value, grains_.begin(),
-                             contacts_.begin());
-  moment.periodic = comments_.periodic;
-  moment.low = comments_.low;
-  moment.high = comments_.high;
-  fill(moment.grains);
-  enclose_grains(moment);
-  fill(moment.contacts);
-  return true;
-}
-
-void CsvArchive::fill(ArchiveGrains& grains)
-{
-  using namespace of_grain;
-  auto& table = grains_;
-  std::vector<double> types;
-  for (std::size_t k = 0; k < table.rows(); ++k) {
-    grains.id.push_back(whole_number_at(table, k, id, "an id"));
-    grains.position.push_back(vector_at(table, k, x));
-    grains.velocity.push_back(vector_at(table, k, vx));
-    if (table.has(radius) || table.has(diameter))
-      grains.radius.push_back(table.has(radius) ? table.value(k, radius)
-                                                : table.value(k, diameter) / 2);
-    if (has_any(table, wx)) grains.angular_velocity.push_back(vector_at(table, k, wx));
-    if (table.has(mass)) grains.mass.push_back(table.value(k, mass));
-    if (table.has(type)) types.push_back(table.value(k, type));
-    if (table.has(fixed)) grains.fixed.push_back(table.value(k, fixed) != 0);
-    if (has_any(table, fx)) grains.force.push_back(vector_at(table, k, fx));
-  }
-  table.words().fill(types, table.begin(), grains);
-  add_missing(table, x, {"x", "y", "z"}, grains.missing);
-  add_missing(table, vx, {"vx", "vy", "vz"}, grains.missing);
-  add_missing(table, wx, {"wx", "wy", "wz"}, grains.missing);
-  add_missing(table, fx, {"fx", "fy", "fz"}, grains.missing);
-}
-
-void CsvArchive::fill(ArchiveContacts& contacts) const
-{
-  using namespace of_contact;
-  const auto& table = contacts_;
-  for (std::size_t k = 0; k < table.rows(); ++k) {
-    const auto second = whole_number_at(table, k, j, "an id");
-    if (second < 0 && !has_any(table, bx))
-      fail_at(table, k, "a contact with a wall needs its branch, columns bx and by (and bz)");
-    contacts.i.push_back(whole_number_at(table, k, i, "an id"));
-    contacts.j.push_back(second);
-    contacts.wall.push_back(wall_at(table, k, second));
-    contacts.force.push_back(vector_at(table, k, fx));
-    if (table.has(overlap)) contacts.overlap.push_back(table.value(k, overlap));
-    if (has_any(table, bx)) contacts.branch.push_back(vector_at(table, k, bx));
-  }
-  add_missing(table, fx, {"fx", "fy", "fz"}, contacts.missing);
-  add_missing(table, bx, {"bx", "by", "bz"}, contacts.missing);
-}
-
-std::vector<std::string> CsvArchive::remarks() const
-{
-  std::vector<std::string> remarks;
-  if (grains_alone_ > 0)
-    remarks.push_back(
-        fmt::format("{} moments have grains but no contacts and are left out", grains_alone_));
-  if (contacts_alone_ > 0)
-    remarks.push_back(
-        fmt::format("{} moments have contacts but no grains and are left out", contacts_alone_));
-  return remarks;
-}
 
 /// Contacts name two grains in the line of names.
 FileRole role_of(const FileStart& start)

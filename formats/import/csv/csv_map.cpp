@@ -3,15 +3,14 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <iterator>
 #include <set>
-#include <sstream>
 
 namespace grseg {
 namespace {
@@ -38,8 +37,7 @@ std::vector<std::string> of_both(std::vector<std::string> names,
 std::size_t column_number(const std::string& name)
 {
   std::size_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return error == std::errc() && end == name.data() + name.size() ? number : 0;
+  return parse_whole(name, number) ? number : 0;
 }
 
 }  // namespace
@@ -68,8 +66,7 @@ CsvMap::CsvMap(const std::vector<std::string>& given, const std::vector<std::str
 void CsvMap::add_list(const std::string& list)
 {
   std::vector<Part> parts;
-  std::istringstream words(list);
-  for (std::string part; std::getline(words, part, ',');) {
+  for (const auto& part : parts_of(list, ',')) {
     const auto sign = part.rfind('=');
     const auto name = bare_name(part.substr(0, sign));
     if (sign == std::string::npos || name.empty())

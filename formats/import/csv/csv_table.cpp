@@ -41,9 +41,7 @@ std::string moment_in(const std::string& path, const std::vector<std::string>& p
 void read_moment(const std::string& text, CsvFile& file)
 {
   double time = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-  if (error == std::errc() && end == text.data() + text.size() && std::isfinite(time) &&
-      text.find('.') != std::string::npos) {
+  if (parse_finite(text, time) && text.find('.') != std::string::npos) {
     file.time = time;
     return;
   }
@@ -55,20 +53,6 @@ void read_moment(const std::string& text, CsvFile& file)
   if (std::from_chars(text.data() + first, text.data() + last + 1, step).ec == std::errc())
     file.step = step;
 }
-
-}  // namespace
-
-std::vector<CsvFile> csv_files(const std::vector<std::string>& names, const std::string& option)
-{
-  std::vector<CsvFile> files;
-  for (const auto& path : archive_files(names, option)) {
-    files.push_back({path, std::nullopt, std::nullopt});
-    read_moment(moment_in(path, names), files.back());
-  }
-  return files;
-}
-
-namespace {
 
 constexpr std::string_view blanks = " \t";
 
@@ -93,7 +77,36 @@ std::size_t end_of_field(std::string_view line, std::size_t at, char separator)
   return line.size();
 }
 
+void drop_empty_end(std::vector<std::string_view>& fields)
+{
+  while (!fields.empty() && fields.back().empty()) fields.pop_back();
+}
+
+std::size_t numbers_among(const std::vector<std::string_view>& fields, char separator)
+{
+  CsvNumbers numbers(separator);
+  double number = 0;
+  return static_cast<std::size_t>(
+      std::count_if(fields.begin(), fields.end(),
+                    [&](std::string_view field) { return numbers.read(field, number); }));
+}
+
+bool is_comment(std::string_view line)
+{
+  return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
+}
+
 }  // namespace
+
+std::vector<CsvFile> csv_files(const std::vector<std::string>& names, const std::string& option)
+{
+  std::vector<CsvFile> files;
+  for (const auto& path : archive_files(names, option)) {
+    files.push_back({path, std::nullopt, std::nullopt});
+    read_moment(moment_in(path, names), files.back());
+  }
+  return files;
+}
 
 char csv_separator(std::string_view names)
 {
@@ -139,40 +152,6 @@ const char* CsvNumbers::why_not(std::string_view field) const
              ? "; numbers have a decimal point or a decimal comma, the same in the whole table"
              : "";
 }
-
-namespace {
-
-std::vector<std::string> words_between_bars(std::string_view names)
-{
-  std::vector<std::string> words(1);
-  for (const char c : names)
-    if (c == '|')
-      words.emplace_back();
-    else
-      words.back() += c;
-  return words;
-}
-
-void drop_empty_end(std::vector<std::string_view>& fields)
-{
-  while (!fields.empty() && fields.back().empty()) fields.pop_back();
-}
-
-std::size_t numbers_among(const std::vector<std::string_view>& fields, char separator)
-{
-  CsvNumbers numbers(separator);
-  double number = 0;
-  return static_cast<std::size_t>(
-      std::count_if(fields.begin(), fields.end(),
-                    [&](std::string_view field) { return numbers.read(field, number); }));
-}
-
-bool is_comment(std::string_view line)
-{
-  return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
-}
-
-}  // namespace
 
 CsvTable::CsvTable(std::vector<CsvFile> files, std::span<const Column> columns, CsvMap& map)
     : files_(std::move(files)), columns_(columns), map_(map)
@@ -249,7 +228,7 @@ void CsvTable::name_columns()
     std::string example;
     for (std::size_t k = 0, number = 0; k < columns_.size() && number < 2; ++k)
       if (columns_[k].needed)
-        example += fmt::format("{}={},", ++number, words_between_bars(columns_[k].names)[0]);
+        example += fmt::format("{}={},", ++number, parts_of(columns_[k].names, '|')[0]);
     fail(fmt::format("the first line holds numbers, not names: give --map {}... for the columns",
                      example));
   }
@@ -275,7 +254,7 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
   first_row_.reset();
   for (const auto& column : columns_) {
     place_.push_back(-1);
-    const auto known = words_between_bars(column.names);
+    const auto known = parts_of(column.names, '|');
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (std::find(known.begin(), known.end(), names[k]) == known.end()) continue;
       if (place_.back() >= 0)

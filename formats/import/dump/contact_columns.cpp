@@ -3,6 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,11 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
-#include <sstream>
 
 namespace grseg {
 namespace {
@@ -22,78 +21,9 @@ namespace {
 std::optional<std::size_t> column_number(const std::string& text)
 {
   std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < 1) return std::nullopt;
+  if (!parse_whole(text, number) || number < 1) return std::nullopt;
   return number;
 }
-
-}  // namespace
-
-ColumnMap::ColumnMap(const ColumnWords& words, const std::string& text)
-    : words_(words), text_(text), column_(words.words.size()), place_(words.words.size(), -1)
-{
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
-    const auto equals = part.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
-      throw UsageError(fmt::format("{}: '{}' is not of the form meaning=column, as in {}",
-                                   words_.option, part, words_.example));
-    assign(part.substr(0, equals), part.substr(equals + 1));
-  }
-}
-
-void ColumnMap::assign(const std::string& word, const std::string& column)
-{
-  const auto& words = words_.words;
-  for (const auto& [triple, first] : words_.triples) {
-    if (word != triple) continue;
-    const auto number = column_number(column);
-    if (!number)
-      throw UsageError(fmt::format(
-          "{}: {}={}: give the number of the first of three columns, or {} {} {} one "
-          "by one",
-          words_.option, word, column, words[first], words[first + 1], words[first + 2]));
-    for (std::size_t k = 0; k < 3; ++k) column_[first + k] = std::to_string(*number + k);
-    return;
-  }
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found == words.end()) {
-    std::vector<std::string> known(words.begin(), words.end());
-    for (const auto& triple : words_.triples) known.emplace_back(triple.first);
-    throw UsageError(unknown_word(fmt::format("meaning in {}", words_.option), word, known));
-  }
-  column_[static_cast<std::size_t>(found - words.begin())] = column;
-}
-
-void ColumnMap::look_up(const std::vector<std::string>& names, const std::string& place)
-{
-  wanted_.clear();
-  for (std::size_t w = 0; w < column_.size(); ++w) {
-    place_[w] = -1;
-    if (column_[w].empty()) continue;
-    std::size_t column = 0;
-    if (const auto number = column_number(column_[w]))
-      column = *number - 1;
-    else
-      column = static_cast<std::size_t>(std::find(names.begin(), names.end(), column_[w]) -
-                                        names.begin());
-    if (column >= names.size())
-      throw UsageError(fmt::format("{}: {}={}, but {} has the columns {}", words_.option,
-                                   words_.words[w], column_[w], place, fmt::join(names, " ")));
-    const auto before = std::find(wanted_.begin(), wanted_.end(), column);
-    place_[w] = static_cast<int>(before - wanted_.begin());
-    if (before == wanted_.end()) wanted_.push_back(column);
-  }
-}
-
-const std::vector<double>& ColumnMap::of(std::size_t word,
-                                         const std::vector<std::vector<double>>& values) const
-{
-  static const std::vector<double> none;
-  return place_[word] < 0 ? none : values[static_cast<std::size_t>(place_[word])];
-}
-
-namespace {
 
 const ColumnWords& contact_words()
 {
@@ -104,76 +34,6 @@ const ColumnWords& contact_words()
       {{"force", 2}, {"tangential", 5}}};
   return words;
 }
-
-}  // namespace
-
-ContactColumns::ContactColumns(const std::string& text) : map_(contact_words(), text)
-{
-  require_sense();
-}
-
-void ContactColumns::require_sense() const
-{
-  const bool has_force = has(fx) || has(fy) || has(fz);
-  if (!has(i) || !has(j) || !has_force)
-    throw UsageError(fmt::format(
-        "--columns '{}' does not name the columns of i, j and a force, as in i=2,j=3,force=5",
-        map_.text()));
-  if (has(dist) && has(overlap))
-    throw UsageError("--columns: dist and overlap both give the overlap; leave one out");
-  if (has(wall) && !(has(bx) || has(by) || has(bz)))
-    throw UsageError("--columns: wall needs the branch bx by bz to the contact point");
-}
-
-void ContactColumns::fill(const std::vector<std::vector<double>>& values, const std::string& place,
-                          ArchiveContacts& contacts) const
-{
-  const auto of = [&](std::size_t meaning) -> const std::vector<double>& {
-    return map_.of(meaning, values);
-  };
-  const auto ids = [&](Meaning meaning, std::vector<std::int64_t>& out) {
-    out.clear();
-    for (const double id : of(meaning)) {
-      if (!(std::abs(id) < 9e15) || std::trunc(id) != id)
-        throw FormatError(
-            fmt::format("{}: {:g} in the column of {} is not an id of a grain; say "
-                        "what the columns mean with --columns",
-                        place, id, contact_words().words[meaning]));
-      out.push_back(static_cast<std::int64_t>(id));
-    }
-  };
-  const auto add = [&](Meaning x, std::vector<Vec3>& out) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto& column = of(x + axis);
-      for (std::size_t c = 0; c < column.size(); ++c)
-        out[c][static_cast<Eigen::Index>(axis)] += column[c];
-    }
-  };
-  ids(i, contacts.i);
-  ids(j, contacts.j);
-  // To -0 everything adds without loss, the sign of 0 included.
-  contacts.force.assign(contacts.size(), Vec3::Constant(-0.0));
-  add(fx, contacts.force);
-  add(tx, contacts.force);
-  contacts.branch.assign(has(bx) || has(by) || has(bz) ? contacts.size() : 0, Vec3::Constant(-0.0));
-  add(bx, contacts.branch);
-  contacts.missing.clear();
-  const auto& words = contact_words().words;
-  for (const auto x : {fx, tx, bx})
-    add_missing({has(x), has(x + 1), has(x + 2)}, {words[x], words[x + 1], words[x + 2]},
-                contacts.missing);
-  contacts.overlap = of(overlap);
-  contacts.distance = of(dist);
-  contacts.wall.clear();
-  for (const double number : of(wall)) {
-    if (!(std::abs(number) < 1e9) || std::trunc(number) != number)
-      throw FormatError(
-          fmt::format("{}: {:g} in the column of wall is not a number of a wall", place, number));
-    contacts.wall.push_back(number < 0 ? -1 : static_cast<std::int32_t>(number));
-  }
-}
-
-namespace {
 
 using Names = std::initializer_list<const char*>;
 
@@ -233,6 +93,135 @@ class Namer {
 };
 
 }  // namespace
+
+ColumnMap::ColumnMap(const ColumnWords& words, const std::string& text)
+    : words_(words), text_(text), column_(words.words.size()), place_(words.words.size(), -1)
+{
+  for (const auto& part : parts_of(text, ',')) {
+    const auto equals = part.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
+      throw UsageError(fmt::format("{}: '{}' is not of the form meaning=column, as in {}",
+                                   words_.option, part, words_.example));
+    assign(part.substr(0, equals), part.substr(equals + 1));
+  }
+}
+
+void ColumnMap::assign(const std::string& word, const std::string& column)
+{
+  const auto& words = words_.words;
+  for (const auto& [triple, first] : words_.triples) {
+    if (word != triple) continue;
+    const auto number = column_number(column);
+    if (!number)
+      throw UsageError(fmt::format(
+          "{}: {}={}: give the number of the first of three columns, or {} {} {} one "
+          "by one",
+          words_.option, word, column, words[first], words[first + 1], words[first + 2]));
+    for (std::size_t k = 0; k < 3; ++k) column_[first + k] = std::to_string(*number + k);
+    return;
+  }
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) {
+    std::vector<std::string> known(words.begin(), words.end());
+    for (const auto& triple : words_.triples) known.emplace_back(triple.first);
+    throw UsageError(unknown_word(fmt::format("meaning in {}", words_.option), word, known));
+  }
+  column_[static_cast<std::size_t>(found - words.begin())] = column;
+}
+
+void ColumnMap::look_up(const std::vector<std::string>& names, const std::string& place)
+{
+  wanted_.clear();
+  for (std::size_t w = 0; w < column_.size(); ++w) {
+    place_[w] = -1;
+    if (column_[w].empty()) continue;
+    std::size_t column = 0;
+    if (const auto number = column_number(column_[w]))
+      column = *number - 1;
+    else
+      column = static_cast<std::size_t>(std::find(names.begin(), names.end(), column_[w]) -
+                                        names.begin());
+    if (column >= names.size())
+      throw UsageError(fmt::format("{}: {}={}, but {} has the columns {}", words_.option,
+                                   words_.words[w], column_[w], place, fmt::join(names, " ")));
+    const auto before = std::find(wanted_.begin(), wanted_.end(), column);
+    place_[w] = static_cast<int>(before - wanted_.begin());
+    if (before == wanted_.end()) wanted_.push_back(column);
+  }
+}
+
+const std::vector<double>& ColumnMap::of(std::size_t word,
+                                         const std::vector<std::vector<double>>& values) const
+{
+  static const std::vector<double> none;
+  return place_[word] < 0 ? none : values[static_cast<std::size_t>(place_[word])];
+}
+
+ContactColumns::ContactColumns(const std::string& columns) : ColumnMap(contact_words(), columns)
+{
+  require_sense();
+}
+
+void ContactColumns::require_sense() const
+{
+  const bool has_force = has(fx) || has(fy) || has(fz);
+  if (!has(i) || !has(j) || !has_force)
+    throw UsageError(fmt::format(
+        "--columns '{}' does not name the columns of i, j and a force, as in i=2,j=3,force=5",
+        text()));
+  if (has(dist) && has(overlap))
+    throw UsageError("--columns: dist and overlap both give the overlap; leave one out");
+  if (has(wall) && !(has(bx) || has(by) || has(bz)))
+    throw UsageError("--columns: wall needs the branch bx by bz to the contact point");
+}
+
+void ContactColumns::fill(const std::vector<std::vector<double>>& values, const std::string& place,
+                          ArchiveContacts& contacts) const
+{
+  const auto of = [&](std::size_t meaning) -> const std::vector<double>& {
+    return ColumnMap::of(meaning, values);
+  };
+  const auto ids = [&](Meaning meaning, std::vector<std::int64_t>& out) {
+    out.clear();
+    for (const double id : of(meaning)) {
+      if (!(std::abs(id) < 9e15) || std::trunc(id) != id)
+        throw FormatError(
+            fmt::format("{}: {:g} in the column of {} is not an id of a grain; say "
+                        "what the columns mean with --columns",
+                        place, id, contact_words().words[meaning]));
+      out.push_back(static_cast<std::int64_t>(id));
+    }
+  };
+  const auto add = [&](Meaning x, std::vector<Vec3>& out) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& column = of(x + axis);
+      for (std::size_t c = 0; c < column.size(); ++c)
+        out[c][static_cast<Eigen::Index>(axis)] += column[c];
+    }
+  };
+  ids(i, contacts.i);
+  ids(j, contacts.j);
+  // To -0 everything adds without loss, the sign of 0 included.
+  contacts.force.assign(contacts.size(), Vec3::Constant(-0.0));
+  add(fx, contacts.force);
+  add(tx, contacts.force);
+  contacts.branch.assign(has(bx) || has(by) || has(bz) ? contacts.size() : 0, Vec3::Constant(-0.0));
+  add(bx, contacts.branch);
+  contacts.missing.clear();
+  const auto& words = contact_words().words;
+  for (const auto x : {fx, tx, bx})
+    add_missing({has(x), has(x + 1), has(x + 2)}, {words[x], words[x + 1], words[x + 2]},
+                contacts.missing);
+  contacts.overlap = of(overlap);
+  contacts.distance = of(dist);
+  contacts.wall.clear();
+  for (const double number : of(wall)) {
+    if (!(std::abs(number) < 1e9) || std::trunc(number) != number)
+      throw FormatError(
+          fmt::format("{}: {:g} in the column of wall is not a number of a wall", place, number));
+    contacts.wall.push_back(number < 0 ? -1 : static_cast<std::int32_t>(number));
+  }
+}
 
 std::string compared_name(std::string_view name)
 {

@@ -78,6 +78,44 @@ std::vector<std::vector<std::string>> lists_of(const FilesByStep& by_step)
   return lists;
 }
 
+void require_same_rows(const DumpHeader& a, const DumpHeader& b)
+{
+  if (a.step == b.step && a.columns == b.columns) return;
+  const auto in_words = [](const DumpHeader& header) {
+    return fmt::format("{} has step {} with the columns {}", header.place, header.step,
+                       fmt::join(header.columns, " "));
+  };
+  throw FormatError(
+      fmt::format("{}, and {}: these files begin with the same step, but are not the parts of one "
+                  "dump; name one dump alone",
+                  in_words(a), in_words(b)));
+}
+
+constexpr std::size_t enough_steps = 3;  // for a sentence
+
+/// From the first two blocks, read ahead of the import.
+std::optional<double> step_by_times(const std::vector<std::string>& files)
+{
+  JoinedDumps dump(files);
+  if (!dump.next() || !dump.header().time) return std::nullopt;
+  const auto first = dump.header();
+  if (!dump.next() || !dump.header().time) return std::nullopt;
+  const auto& second = dump.header();
+  return (*second.time - *first.time) / static_cast<double>(second.step - first.step);
+}
+
+/// How many jobs have written it, by the headers alone.
+int jobs_of(const std::vector<std::string>& files)
+{
+  DumpOfJobs dump(files);
+  int jobs = 1;
+  try {
+    while (dump.next()) jobs += dump.begins_job ? 1 : 0;
+  } catch (const FormatError&) {  // to be reported when it is that block's turn
+  }
+  return jobs;
+}
+
 }  // namespace
 
 DumpParts parts_of_dump(const std::vector<std::string>& files)
@@ -104,23 +142,6 @@ DumpParts parts_of_dump(const std::vector<std::string>& files)
   parts.lists = lists_of(by_step);
   return parts;
 }
-
-namespace {
-
-void require_same_rows(const DumpHeader& a, const DumpHeader& b)
-{
-  if (a.step == b.step && a.columns == b.columns) return;
-  const auto in_words = [](const DumpHeader& header) {
-    return fmt::format("{} has step {} with the columns {}", header.place, header.step,
-                       fmt::join(header.columns, " "));
-  };
-  throw FormatError(
-      fmt::format("{}, and {}: these files begin with the same step, but are not the parts of one "
-                  "dump; name one dump alone",
-                  in_words(a), in_words(b)));
-}
-
-}  // namespace
 
 JoinedDumps::JoinedDumps(const std::vector<std::string>& files)
 {
@@ -166,23 +187,6 @@ void JoinedDumps::read_rows(std::span<const std::size_t> wanted,
   }
 }
 
-namespace {
-
-constexpr std::size_t enough_steps = 3;  // for a sentence
-
-/// From the first two blocks, read ahead of the import.
-std::optional<double> step_by_times(const std::vector<std::string>& files)
-{
-  JoinedDumps dump(files);
-  if (!dump.next() || !dump.header().time) return std::nullopt;
-  const auto first = dump.header();
-  if (!dump.next() || !dump.header().time) return std::nullopt;
-  const auto& second = dump.header();
-  return (*second.time - *first.time) / static_cast<double>(second.step - first.step);
-}
-
-}  // namespace
-
 bool DumpOfJobs::next()
 {
   if (!dump.next()) return false;
@@ -192,22 +196,6 @@ bool DumpOfJobs::next()
   if (first_steps.size() < enough_steps) first_steps.push_back(step);
   return true;
 }
-
-namespace {
-
-/// How many jobs have written it, by the headers alone.
-int jobs_of(const std::vector<std::string>& files)
-{
-  DumpOfJobs dump(files);
-  int jobs = 1;
-  try {
-    while (dump.next()) jobs += dump.begins_job ? 1 : 0;
-  } catch (const FormatError&) {  // to be reported when it is that block's turn
-  }
-  return jobs;
-}
-
-}  // namespace
 
 DumpPair::DumpPair(const std::vector<std::string>& grain_files,
                    const std::vector<std::string>& contact_files,
@@ -228,7 +216,7 @@ bool DumpPair::next()
 {
   while (next_pair()) {
     if (!walls_ || walls_have_it()) return any_ = true;
-    without_walls_.add(grains_.at.second);
+    without_walls_.add(static_cast<double>(grains_.at.second));
   }
   if (!any_) require_no_steps();
   return false;
@@ -280,11 +268,11 @@ bool DumpPair::next_pair()
     const bool both = more_grains && more_contacts;
     if (both && grains_.at == contacts_.at) return true;
     if (!more_contacts || (both && grains_.at < contacts_.at)) {
-      grains_alone_.add(grains_.at.second);
+      grains_alone_.add(static_cast<double>(grains_.at.second));
       more_grains = advance(grains_);
       grains_are_new_ = true;
     } else {
-      contacts_alone_.add(contacts_.at.second);
+      contacts_alone_.add(static_cast<double>(contacts_.at.second));
       more_contacts = advance(contacts_);
     }
   }
@@ -309,7 +297,7 @@ std::vector<std::string> DumpPair::remarks() const
     if (alone.count > 0)
       remarks.push_back(
           fmt::format("{} moments have {} but no {} and are left out, the first at "
-                      "step {}",
+                      "step {:.0f}",
                       alone.count, what, without, alone.first));
   };
   add(grains_alone_, "grains", "contacts");

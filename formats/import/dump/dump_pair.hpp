@@ -92,14 +92,6 @@ class DumpPair {
   std::vector<std::string> remarks() const;
 
  private:
-  struct Unmatched {
-    std::size_t count = 0;
-    std::int64_t first = 0;
-    void add(std::int64_t step)
-    {
-      if (count++ == 0) first = step;
-    }
-  };
   bool next_pair();
   void require_no_steps();
   bool walls_have_it();

@@ -16,15 +16,6 @@ namespace {
 constexpr std::string_view item_word = "ITEM: ";
 constexpr std::size_t most_rows = std::size_t{1} << 31;
 
-template <class Number>
-std::optional<Number> parse(std::string_view word)
-{
-  Number value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
 bool is_blank(char c)
 {
   return c == ' ' || c == '\t';
@@ -160,15 +151,12 @@ void DumpReader::read_item(std::string_view item, std::string& label)
   if (item.starts_with(number_of)) {
     label = item.substr(number_of.size());
     next_line("a header");
-    const auto rows = parse<std::size_t>(source_.line());
-    if (!rows || *rows > most_rows)
+    if (!parse_whole(source_.line(), header_.rows) || header_.rows > most_rows)
       fail(fmt::format("{} is not a number of rows", in_quotes(source_.line())));
-    header_.rows = *rows;
   } else if (item == "TIMESTEP") {
     next_line("a header");
-    const auto step = parse<std::int64_t>(source_.line());
-    if (!step) fail(fmt::format("{} is not a time step", in_quotes(source_.line())));
-    header_.step = *step;
+    if (!parse_whole(source_.line(), header_.step))
+      fail(fmt::format("{} is not a time step", in_quotes(source_.line())));
   } else if (item == "TIME") {
     next_line("a header");
     double time = 0;

@@ -30,6 +30,55 @@ double median(std::vector<double> values)
   return quantile(std::move(values), 0.5);
 }
 
+ArchiveGrains read_grains(DumpPair& dumps)
+{
+  ArchiveGrains grains;
+  DumpGrains().read(dumps.grains(), grains);
+  return grains;
+}
+
+/// One moment, with all columns of its contacts.
+class ColumnTrial {
+ public:
+  ColumnTrial(DumpPair& dumps, const DumpDialect& dialect, const std::optional<Vec3>& gravity)
+      : dialect_(dialect),
+        header_(dumps.contacts().header()),
+        grains_(read_grains(dumps)),
+        balance_(grains_, gravity)
+  {
+    std::vector<std::size_t> all(header_.columns.size());
+    std::iota(all.begin(), all.end(), 0);
+    dumps.contacts().read_rows(all, rows_);
+  }
+
+  /// Nothing where a column cannot have the meaning that `columns` gives it, or where forces do not
+  /// tell.
+  std::optional<double> residual(const std::string& columns)
+  {
+    try {
+      ContactColumns map(dialect_.mapping(columns, header_));
+      map.look_up(header_.columns, header_.place);
+      std::vector<std::vector<double>> values;
+      for (const auto column : map.wanted()) values.push_back(rows_[column]);
+      map.fill(values, header_.place, contacts_);
+    } catch (const Interruption&) {
+      throw;
+    } catch (const ToolError&) {
+      return std::nullopt;
+    }
+    return balance_.residual(contacts_);
+  }
+  std::vector<std::string> others() const { return dialect_.others(header_); }
+
+ private:
+  const DumpDialect& dialect_;
+  DumpHeader header_;
+  ArchiveGrains grains_;
+  std::vector<std::vector<double>> rows_;
+  ArchiveContacts contacts_;
+  ContactBalance balance_;
+};
+
 }  // namespace
 
 ContactBalance::ContactBalance(const ArchiveGrains& grains, const std::optional<Vec3>& gravity)
@@ -97,59 +146,6 @@ double ContactBalance::weight(std::size_t grain) const
   if (!grains_.mass.empty()) return grains_.mass[grain];
   return grains_.radius.empty() ? 1 : std::pow(grains_.radius[grain], 3);
 }
-
-namespace {
-
-ArchiveGrains read_grains(DumpPair& dumps)
-{
-  ArchiveGrains grains;
-  DumpGrains().read(dumps.grains(), grains);
-  return grains;
-}
-
-/// One moment, with all columns of its contacts.
-class ColumnTrial {
- public:
-  ColumnTrial(DumpPair& dumps, const DumpDialect& dialect, const std::optional<Vec3>& gravity)
-      : dialect_(dialect),
-        header_(dumps.contacts().header()),
-        grains_(read_grains(dumps)),
-        balance_(grains_, gravity)
-  {
-    std::vector<std::size_t> all(header_.columns.size());
-    std::iota(all.begin(), all.end(), 0);
-    dumps.contacts().read_rows(all, rows_);
-  }
-
-  /// Nothing where a column cannot have the meaning that `columns` gives it, or where forces do not
-  /// tell.
-  std::optional<double> residual(const std::string& columns)
-  {
-    try {
-      ContactColumns map(dialect_.mapping(columns, header_));
-      map.look_up(header_.columns, header_.place);
-      std::vector<std::vector<double>> values;
-      for (const auto column : map.wanted()) values.push_back(rows_[column]);
-      map.fill(values, header_.place, contacts_);
-    } catch (const Interruption&) {
-      throw;
-    } catch (const ToolError&) {
-      return std::nullopt;
-    }
-    return balance_.residual(contacts_);
-  }
-  std::vector<std::string> others() const { return dialect_.others(header_); }
-
- private:
-  const DumpDialect& dialect_;
-  DumpHeader header_;
-  ArchiveGrains grains_;
-  std::vector<std::vector<double>> rows_;
-  ArchiveContacts contacts_;
-  ContactBalance balance_;
-};
-
-}  // namespace
 
 std::optional<ColumnFit> fitting_columns(const std::vector<std::string>& grain_files,
                                          const std::vector<std::string>& contact_files,

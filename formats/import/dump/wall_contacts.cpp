@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/wall_contacts.hpp"
 
+#include "formats/import/common/text_values.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <unordered_map>
 
 namespace grseg {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// x - point, of the nearest of the point's images.
-Vec3 branch_to(const ArchiveMoment& moment, const Vec3& x, const Vec3& point)
-{
-  Vec3 branch = x - point;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double length = moment.high[axis] - moment.low[axis];
-    if (moment.periodic[static_cast<std::size_t>(axis)] && length > 0)
-      branch[axis] -= length * std::round(branch[axis] / length);
-  }
-  return branch;
-}
 
 void append(ArchiveContacts& contacts, std::int64_t grain, std::int32_t wall, const Vec3& force,
             const Vec3& branch)
@@ -54,9 +42,7 @@ std::size_t first_column(const std::string& word, const DumpHeader& header)
 {
   if (const auto named = header.find(word)) return *named;
   std::size_t number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error == std::errc() && end == word.data() + word.size() && number > 0 &&
-      number + 7 <= header.columns.size())
+  if (parse_whole(word, number) && number > 0 && number + 7 <= header.columns.size())
     return number - 1;
   throw UsageError(
       fmt::format("--wall-columns: {} is not the first of eight columns of {}, which are {}",
@@ -87,8 +73,7 @@ void WallColumns::look_up(const DumpHeader& grains)
     for (std::size_t k = 0; k < 8; ++k) wanted_.push_back(first + k);
   };
   if (text_ == "none") return;
-  std::istringstream parts(text_);
-  for (std::string part; std::getline(parts, part, ',');) {
+  for (const auto& part : parts_of(text_, ',')) {
     const auto equals = part.find('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError(fmt::format(
@@ -113,7 +98,7 @@ void WallColumns::add(ArchiveMoment& moment, std::size_t wall, std::size_t grain
   if (values[0] == 0) return;
   const auto& grains = moment.grains;
   const Vec3 force{values[1], values[2], values[3]}, point{values[4], values[5], values[6]};
-  const Vec3 branch = branch_to(moment, grains.position[grain], point);
+  const Vec3 branch = moment.minimum_image(grains.position[grain] - point);
   const double radius = grains.radius.empty() ? values[7] : grains.radius[grain];
   if (values[0] != 1 || std::abs(values[7] - radius) > 1e-4 * radius || branch.norm() > 2 * radius)
     throw FormatError(fmt::format(
@@ -171,7 +156,7 @@ void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
       wall = static_cast<std::int32_t>(number);
     }
     append(moment.contacts, grain, wall, triple(fx, row),
-           branch_to(moment, centre, triple(px, row)));
+           moment.minimum_image(centre - triple(px, row)));
   }
 }
 

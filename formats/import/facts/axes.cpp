@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/axes.hpp"
 
+#include "formats/import/common/text_values.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -28,6 +29,22 @@ Vec3 down_a_slope(double gravity, double slope)
 {
   const double angle = slope * std::numbers::pi / 180;
   return {gravity * std::sin(angle), -gravity * std::cos(angle), 0};
+}
+
+/// How far apart the centres of the grains lie along each of the archive's axes.
+Vec3 extent_of(const ArchiveGrains& grains)
+{
+  Vec3 low = grains.position.front(), high = low;
+  for (const auto& x : grains.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  return high - low;
+}
+
+double thickness_of_a_plane(const ArchiveGrains& grains)
+{
+  return *std::max_element(grains.radius.begin(), grains.radius.end()) / 10;
 }
 
 }  // namespace
@@ -116,8 +133,7 @@ GravityText parse_gravity(const std::string& text)
   bool good = !text.empty();
   for (std::string part; std::getline(parts, part, ',');) {
     double value = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    good = good && error == std::errc() && end == part.data() + part.size() && std::isfinite(value);
+    good = good && parse_finite(part, value);
     numbers.push_back(value);
   }
   if (good && numbers.size() == 1 && numbers[0] >= 0) return {numbers[0], std::nullopt};
@@ -147,26 +163,6 @@ Orientation orientation_of(const std::string& letters, const GravityText& gravit
   if (slope) axes.turn_to_slope(g, *slope);
   return {axes, axes.components(g) + Vec3::Zero()};  // not -0
 }
-
-namespace {
-
-/// How far apart the centres of the grains lie along each of the archive's axes.
-Vec3 extent_of(const ArchiveGrains& grains)
-{
-  Vec3 low = grains.position.front(), high = low;
-  for (const auto& x : grains.position) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return high - low;
-}
-
-double thickness_of_a_plane(const ArchiveGrains& grains)
-{
-  return *std::max_element(grains.radius.begin(), grains.radius.end()) / 10;
-}
-
-}  // namespace
 
 std::string plane_of(const ArchiveGrains& grains)
 {

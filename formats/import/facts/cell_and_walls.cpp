@@ -3,7 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/species.hpp"
-#include "formats/import/common/text_source.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 
@@ -15,30 +15,44 @@
 namespace grseg {
 namespace {
 
-bool read(const std::string& text, double& number)
-{
-  const char* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, number);
-  return error == std::errc() && end == last && std::isfinite(number);
-}
-
 ToldCell parse_cell(const std::string& text)
 {
-  std::istringstream stream(text);
-  std::vector<std::string> parts;
-  for (std::string part; std::getline(stream, part, ':');) parts.push_back(part);
+  const auto parts = parts_of(text, ':');
   ToldCell cell;
   cell.periodic = parts.size() == 4 && parts[3] == "periodic";
   const auto axis = parts.empty() || parts[0].size() != 1 ? std::string_view::npos
                                                           : std::string_view("xyz").find(parts[0]);
   if ((parts.size() != 3 && !cell.periodic) || axis == std::string_view::npos ||
-      !read(parts[1], cell.low) || !read(parts[2], cell.high) || !(cell.low < cell.high))
+      !parse_finite(parts[1], cell.low) || !parse_finite(parts[2], cell.high) ||
+      !(cell.low < cell.high))
     throw UsageError(fmt::format(
         "--cell {}: write AXIS:LOW:HIGH in the archive's axes and units, as in x:0:0.4, or "
         "x:0:0.4:periodic",
         in_quotes(text)));
   cell.axis = static_cast<int>(axis);
   return cell;
+}
+
+WallPlane parse_wall(const std::string& text)
+{
+  const auto equals = text.find('='), colon = text.find(':', equals);
+  const auto refuse = [&](const char* why) {
+    throw UsageError(fmt::format(
+        "--wall {}: {}; write NAME=AXIS:POSITION in the archive's axes and units, as in floor=z:0 "
+        "or left=x:-10. Cylinders, cones and inclined planes are not imported from their names",
+        in_quotes(text), why));
+  };
+  if (equals == std::string::npos || colon == std::string::npos)
+    refuse("this is not a name, an axis and a position");
+  WallPlane wall;
+  wall.name = text.substr(0, equals);
+  if (!is_species_name(wall.name)) refuse("a name has 1 to 15 of the characters A-Z a-z 0-9 _ - .");
+  const auto axis = text.substr(equals + 1, colon - equals - 1);
+  const auto place = std::string("xyz").find(axis);
+  if (axis.size() != 1 || place == std::string::npos) refuse("the axis is not x, y or z");
+  wall.axis = static_cast<int>(place);
+  if (!parse_finite(text.substr(colon + 1), wall.position)) refuse("the position is not a number");
+  return wall;
 }
 
 }  // namespace
@@ -75,35 +89,6 @@ void tell(const ToldCell& cell, ArchiveMoment& moment)
   moment.periodic[axis] = cell.periodic;
   moment.cell[axis] = CellSource::told;
 }
-
-namespace {
-
-WallPlane parse_wall(const std::string& text)
-{
-  const auto equals = text.find('='), colon = text.find(':', equals);
-  const auto refuse = [&](const char* why) {
-    throw UsageError(fmt::format(
-        "--wall {}: {}; write NAME=AXIS:POSITION in the archive's axes and units, as in floor=z:0 "
-        "or left=x:-10. Cylinders, cones and inclined planes are not imported from their names",
-        in_quotes(text), why));
-  };
-  if (equals == std::string::npos || colon == std::string::npos)
-    refuse("this is not a name, an axis and a position");
-  WallPlane wall;
-  wall.name = text.substr(0, equals);
-  if (!is_species_name(wall.name)) refuse("a name has 1 to 15 of the characters A-Z a-z 0-9 _ - .");
-  const auto axis = text.substr(equals + 1, colon - equals - 1);
-  const auto place = std::string("xyz").find(axis);
-  if (axis.size() != 1 || place == std::string::npos) refuse("the axis is not x, y or z");
-  wall.axis = static_cast<int>(place);
-  const char *from = text.data() + colon + 1, *to = text.data() + text.size();
-  const auto [end, error] = std::from_chars(from, to, wall.position);
-  if (error != std::errc() || end != to || !std::isfinite(wall.position))
-    refuse("the position is not a number");
-  return wall;
-}
-
-}  // namespace
 
 std::string WallPlane::place() const
 {

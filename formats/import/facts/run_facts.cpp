@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace grseg {
 namespace {
@@ -24,8 +23,7 @@ bool good_mass(const ArchiveGrains& grains, std::size_t g)
 /// Area of a disc or volume of a sphere.
 double content(double radius, bool discs)
 {
-  return discs ? std::numbers::pi * radius * radius
-               : 4 * std::numbers::pi / 3 * radius * radius * radius;
+  return discs ? grain_volume<2>(radius) : grain_volume<3>(radius);
 }
 
 /// Largest deviation of mass/content among the grains that have a mass, relative.
@@ -112,16 +110,136 @@ class FactFinder {
       : archive_(archive), look_(look), settings_(settings), questions_(questions)
   {
   }
-  RunFacts find();
+
+  RunFacts find()
+  {
+    find_units();
+    find_step();
+    find_grains();
+    const auto direction = gravity();
+    find_axes(direction);
+    find_base();
+    facts_.dimension = dimension_of(look_.all, facts_.axes, facts_.discs, settings_.dimension);
+    find_orientation(direction);
+    // At once, whatever else is open, unless the axes may be others.
+    const auto normal = facts_.orientation.axes.axis_of(1);
+    if (normal && (settings_.axes || (direction && direction->vector)))
+      require_open_normal(look_.all, *normal);
+    return facts_;
+  }
 
  private:
-  void find_units();
-  void find_step();
-  void find_grains();
-  void find_base();
-  std::optional<GravityText> gravity();
-  void find_axes(const std::optional<GravityText>& gravity);
-  void find_orientation(const std::optional<GravityText>& gravity);
+  void find_units()
+  {
+    const auto units = units_of(archive_, settings_);
+    if (!units && archive_.units)
+      questions_.ask({fmt::format("what its units {} are", *archive_.units),
+                      "--units LENGTH:TIME:MASS", "in m, s, kg"});
+    else if (!units)
+      questions_.ask(
+          {"its units", "--units UNITS",
+           fmt::format("si, cgs, or LENGTH:TIME:MASS in m, s, kg; grains are up to {:.4g} "
+                       "wide",
+                       widest(look_.all.grains))});
+    facts_.units_as_given = units.value_or("si");
+    facts_.units = parse_units(facts_.units_as_given);
+  }
+
+  void find_step()
+  {
+    const auto step = either(archive_.step, settings_.step, "--step");
+    if (!step) questions_.ask({"the length of a time step", "--step DT", "in the archive's units"});
+    facts_.step = step.value_or(1);
+    if (!(facts_.step > 0))
+      throw UsageError(fmt::format("a time step of {:g} is not positive", facts_.step));
+  }
+
+  void find_grains()
+  {
+    const auto& grains = look_.all.grains;
+    auto discs = discs_or_spheres(archive_, settings_);
+    if (!discs && plane_of(grains).empty()) discs = false;
+    const auto by_mass = discs_by_mass(grains);
+    if (!discs && by_mass == true) discs = true;
+    if (discs && by_mass && discs != by_mass)
+      facts_.doubt_of_masses = fmt::format(
+          "grains are taken for {}, but their masses grow as the {} of the radius: their densities "
+          "differ by a factor of {:.3g}, or they are {}",
+          *discs ? "discs" : "spheres", *discs ? "cube" : "square",
+          1 + spread_of_density(grains, *discs), *discs ? "spheres" : "discs");
+    if (!discs)
+      questions_.ask(
+          {"whether grains are discs or spheres",
+           by_mass ? "--grains-are spheres" : "--grains-are WHAT",
+           by_mass ? "masses grow as the cube of the radius; discs of two densities may do so, too"
+                   : "discs or spheres: LAMMPS makes spheres without density/disc, also in two "
+                     "dimensions"});
+    facts_.discs = discs.value_or(true);
+    facts_.density = either(archive_.density, settings_.density, "--density");
+    if (settings_.density && discs) require_density(grains, *settings_.density, *discs);
+    if (grains.mass.empty() && !facts_.density)
+      questions_.ask({"the masses of the grains", "--density RHO",
+                      facts_.discs ? "per area of discs" : "per volume of spheres"});
+  }
+
+  void find_base()
+  {
+    for (const auto& wall : parse_walls(settings_.walls)) facts_.walls.push_back(list_of({wall}));
+    facts_.walls.insert(facts_.walls.end(), archive_.walls.begin(), archive_.walls.end());
+    if (settings_.species.boundary || settings_.species.boundary_ids ||
+        !look_.all.grains.fixed.empty())
+      return;
+    if (look_.resting.empty()) return;  // without walls it is asked beside the origin
+    const auto question = question_of_base(look_.all.grains, look_.resting);
+    // With walls there need not be a base, unless there are grains that never move.
+    if (facts_.walls.empty() || question.option != "--boundary none") questions_.ask(question);
+  }
+
+  /// Where it is missing, what is proposed.
+  std::optional<GravityText> gravity()
+  {
+    if (settings_.gravity) return parse_gravity(*settings_.gravity);
+    if (archive_.gravity) return GravityText{std::nullopt, archive_.gravity};
+    const auto& grains = look_.moment.grains;
+    const bool has_mass = !grains.mass.empty() || facts_.density;
+    const auto suggested = suggested_gravity(
+        look_.moment, has_mass ? masses_of(grains, facts_) : std::vector<double>(),
+        resting_grains(grains, nullptr));
+    if (suggested)
+      questions_.ask({"gravity", "--gravity " + gravity_option(*suggested),
+                      "what the forces on the grains suggest; or its magnitude and --slope"});
+    else
+      questions_.ask({"gravity", "--gravity GX,GY,GZ", "or --gravity G --slope DEGREES"});
+    if (!suggested) return std::nullopt;
+    return GravityText{std::nullopt, suggested};
+  }
+
+  void find_axes(const std::optional<GravityText>& gravity)
+  {
+    if (settings_.axes) {
+      facts_.axes = *settings_.axes;
+      return;
+    }
+    const auto axes = question_of_axes(look_.all, settings_.dimension == 3,
+                                       gravity ? gravity->vector : std::nullopt);
+    if (!axes) return;
+    questions_.ask(*axes);
+    facts_.axes = axes->option.substr(axes->option.size() - 2);
+  }
+
+  /// Where gravity or its slope is asked for, the axes are as they were named.
+  void find_orientation(const std::optional<GravityText>& gravity)
+  {
+    auto slope = settings_.slope;
+    if (gravity && gravity->magnitude && !slope)
+      questions_.ask({"the inclination of the base", "--slope DEGREES",
+                      "--gravity is a magnitude; or give the vector, as in --gravity 3.8,-9.0,0"});
+    if (!gravity || gravity->magnitude) slope = slope.value_or(0);
+    facts_.orientation = orientation_of(facts_.axes, gravity.value_or(GravityText{1, std::nullopt}),
+                                        slope, facts_.dimension);
+    if (gravity && gravity->vector && !slope)
+      require_towards_the_base(*gravity->vector, facts_.orientation, facts_.axes);
+  }
 
   const ArchiveFacts& archive_;
   const FirstLook& look_;
@@ -129,134 +247,6 @@ class FactFinder {
   Questions& questions_;
   RunFacts facts_;
 };
-
-void FactFinder::find_units()
-{
-  const auto units = units_of(archive_, settings_);
-  if (!units && archive_.units)
-    questions_.ask({fmt::format("what its units {} are", *archive_.units),
-                    "--units LENGTH:TIME:MASS", "in m, s, kg"});
-  else if (!units)
-    questions_.ask({"its units", "--units UNITS",
-                    fmt::format("si, cgs, or LENGTH:TIME:MASS in m, s, kg; grains are up to {:.4g} "
-                                "wide",
-                                widest(look_.all.grains))});
-  facts_.units_as_given = units.value_or("si");
-  facts_.units = parse_units(facts_.units_as_given);
-}
-
-void FactFinder::find_step()
-{
-  const auto step = either(archive_.step, settings_.step, "--step");
-  if (!step) questions_.ask({"the length of a time step", "--step DT", "in the archive's units"});
-  facts_.step = step.value_or(1);
-  if (!(facts_.step > 0))
-    throw UsageError(fmt::format("a time step of {:g} is not positive", facts_.step));
-}
-
-void FactFinder::find_grains()
-{
-  const auto& grains = look_.all.grains;
-  auto discs = discs_or_spheres(archive_, settings_);
-  if (!discs && plane_of(grains).empty()) discs = false;
-  const auto by_mass = discs_by_mass(grains);
-  if (!discs && by_mass == true) discs = true;
-  if (discs && by_mass && discs != by_mass)
-    facts_.doubt_of_masses = fmt::format(
-        "grains are taken for {}, but their masses grow as the {} of the radius: their densities "
-        "differ by a factor of {:.3g}, or they are {}",
-        *discs ? "discs" : "spheres", *discs ? "cube" : "square",
-        1 + spread_of_density(grains, *discs), *discs ? "spheres" : "discs");
-  if (!discs)
-    questions_.ask(
-        {"whether grains are discs or spheres",
-         by_mass ? "--grains-are spheres" : "--grains-are WHAT",
-         by_mass ? "masses grow as the cube of the radius; discs of two densities may do so, too"
-                 : "discs or spheres: LAMMPS makes spheres without density/disc, also in two "
-                   "dimensions"});
-  facts_.discs = discs.value_or(true);
-  facts_.density = either(archive_.density, settings_.density, "--density");
-  if (settings_.density && discs) require_density(grains, *settings_.density, *discs);
-  if (grains.mass.empty() && !facts_.density)
-    questions_.ask({"the masses of the grains", "--density RHO",
-                    facts_.discs ? "per area of discs" : "per volume of spheres"});
-}
-
-void FactFinder::find_base()
-{
-  for (const auto& wall : parse_walls(settings_.walls)) facts_.walls.push_back(list_of({wall}));
-  facts_.walls.insert(facts_.walls.end(), archive_.walls.begin(), archive_.walls.end());
-  if (settings_.species.boundary || settings_.species.boundary_ids ||
-      !look_.all.grains.fixed.empty())
-    return;
-  if (look_.resting.empty()) return;  // without walls it is asked beside the origin
-  const auto question = question_of_base(look_.all.grains, look_.resting);
-  // With walls there need not be a base, unless there are grains that never move.
-  if (facts_.walls.empty() || question.option != "--boundary none") questions_.ask(question);
-}
-
-/// Where it is missing, what is proposed.
-std::optional<GravityText> FactFinder::gravity()
-{
-  if (settings_.gravity) return parse_gravity(*settings_.gravity);
-  if (archive_.gravity) return GravityText{std::nullopt, archive_.gravity};
-  const auto& grains = look_.moment.grains;
-  const bool has_mass = !grains.mass.empty() || facts_.density;
-  const auto suggested =
-      suggested_gravity(look_.moment, has_mass ? masses_of(grains, facts_) : std::vector<double>(),
-                        resting_grains(grains, nullptr));
-  if (suggested)
-    questions_.ask({"gravity", "--gravity " + gravity_option(*suggested),
-                    "what the forces on the grains suggest; or its magnitude and --slope"});
-  else
-    questions_.ask({"gravity", "--gravity GX,GY,GZ", "or --gravity G --slope DEGREES"});
-  if (!suggested) return std::nullopt;
-  return GravityText{std::nullopt, suggested};
-}
-
-void FactFinder::find_axes(const std::optional<GravityText>& gravity)
-{
-  if (settings_.axes) {
-    facts_.axes = *settings_.axes;
-    return;
-  }
-  const auto axes = question_of_axes(look_.all, settings_.dimension == 3,
-                                     gravity ? gravity->vector : std::nullopt);
-  if (!axes) return;
-  questions_.ask(*axes);
-  facts_.axes = axes->option.substr(axes->option.size() - 2);
-}
-
-/// Where gravity or its slope is asked for, the axes are as they were named.
-void FactFinder::find_orientation(const std::optional<GravityText>& gravity)
-{
-  auto slope = settings_.slope;
-  if (gravity && gravity->magnitude && !slope)
-    questions_.ask({"the inclination of the base", "--slope DEGREES",
-                    "--gravity is a magnitude; or give the vector, as in --gravity 3.8,-9.0,0"});
-  if (!gravity || gravity->magnitude) slope = slope.value_or(0);
-  facts_.orientation = orientation_of(facts_.axes, gravity.value_or(GravityText{1, std::nullopt}),
-                                      slope, facts_.dimension);
-  if (gravity && gravity->vector && !slope)
-    require_towards_the_base(*gravity->vector, facts_.orientation, facts_.axes);
-}
-
-RunFacts FactFinder::find()
-{
-  find_units();
-  find_step();
-  find_grains();
-  const auto direction = gravity();
-  find_axes(direction);
-  find_base();
-  facts_.dimension = dimension_of(look_.all, facts_.axes, facts_.discs, settings_.dimension);
-  find_orientation(direction);
-  // At once, whatever else is open, unless the axes may be others.
-  const auto normal = facts_.orientation.axes.axis_of(1);
-  if (normal && (settings_.axes || (direction && direction->vector)))
-    require_open_normal(look_.all, *normal);
-  return facts_;
-}
 
 }  // namespace
 

@@ -4,12 +4,12 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/import/common/text_source.hpp"
+#include "formats/import/common/text_values.hpp"
 #include "formats/import/facts/proposals.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -21,56 +21,9 @@ namespace {
 std::optional<std::int64_t> whole(std::string_view text)
 {
   std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
+  if (!parse_whole(text, number) || number < 0) return std::nullopt;
   return number;
 }
-
-}  // namespace
-
-NumberList::NumberList(const std::string& text, const std::string& option)
-{
-  if (text == "none") return;
-  bool good = !text.empty() && text.back() != ',';
-  std::istringstream parts(text);
-  for (std::string part; good && std::getline(parts, part, ',');) {
-    const auto dash = part.find('-');
-    const auto first = whole(std::string_view(part).substr(0, dash));
-    const auto last = dash == std::string::npos ? first : whole(part.substr(dash + 1));
-    good = first && last && *first <= *last;
-    if (good) ranges_.emplace_back(*first, *last);
-  }
-  if (!good)
-    throw UsageError(
-        fmt::format("{} '{}' is not a list of numbers, such as 3 or 1,4-9, or none", option, text));
-}
-
-bool NumberList::contains(std::int64_t number) const
-{
-  return std::any_of(ranges_.begin(), ranges_.end(), [&](const auto& range) {
-    return range.first <= number && number <= range.second;
-  });
-}
-
-TypeList::TypeList(const std::string& text, const std::string& option, const ArchiveGrains& grains)
-    : numbers_(grains.type_names.empty() ? text : "none", option), named_(grains.type_names.size())
-{
-  if (text == "none") return;
-  const auto& names = grains.type_names;
-  std::istringstream words(text);
-  for (std::string word; !names.empty() && std::getline(words, word, ',');) {
-    const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) throw UsageError(unknown_word("type in " + option, word, names));
-    named_[static_cast<std::size_t>(found - names.begin())] = true;
-  }
-}
-
-bool TypeList::contains(std::int32_t type) const
-{
-  return named_.empty() ? numbers_.contains(type) : named_[static_cast<std::size_t>(type)];
-}
-
-namespace {
 
 /// A species on the command line, and the range of diameters of its grains.
 struct Named {
@@ -96,9 +49,7 @@ void require_a_name(const std::string& name, const std::string& text)
 double diameter_in(const std::string& word, const std::string& text)
 {
   double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) ||
-      !(value > 0))
+  if (!parse_finite(word, value) || !(value > 0))
     throw UsageError(
         fmt::format("--species {}: {} is not a diameter", in_quotes(text), in_quotes(word)));
   return value;
@@ -154,52 +105,6 @@ std::string in_words(const Named& species)
   if (species.holds_all()) return fmt::format("{} all grains", species.name);
   return fmt::format("{} types {}", species.name, species.types);
 }
-
-}  // namespace
-
-NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
-                                  const std::vector<std::string>& texts)
-{
-  auto all = parse_all(texts, grains);
-  if (grains.type.empty() &&
-      !std::all_of(all.begin(), all.end(), [](const Named& s) { return s.holds_all(); }))
-    throw UsageError(
-        "--species names types, but the grains of the archive have no types; --species NAME=all "
-        "takes them as one species");
-  std::vector<std::size_t> place(grains.size());
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (boundary[g]) continue;
-    auto& species = all[place[g] = place_of(grains, g, all)];
-    species.low = std::min(species.low, 2 * grains.radius[g]);
-    species.high = std::max(species.high, 2 * grains.radius[g]);
-  }
-  for (const auto& species : all)
-    if (species.given == 0 && species.high == 0)
-      throw UsageError(
-          fmt::format("--species {0}={1}: no mobile grain is of these types; leave it out, or give "
-                      "its diameter, {0}={1}:DIAMETER",
-                      species.name, species.types));
-
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return all[a].nominal() < all[b].nominal();
-  });
-  NamedSpecies found;
-  std::vector<Species> number(all.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const auto& species = all[order[k]];
-    number[order[k]] = static_cast<Species>(k);
-    found.list.push_back({species.name, species.given});
-    found.sizes += (k == 0 ? "" : ", ") + in_words(species);
-  }
-  found.sizes = "in order of size: " + found.sizes;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    found.species.push_back(boundary[g] ? Species::boundary : number[place[g]]);
-  return found;
-}
-
-namespace {
 
 constexpr double far_apart = 1.2;
 
@@ -293,6 +198,90 @@ double diameter_that_splits(const std::vector<double>& diameter, const ArchiveGr
 }
 
 }  // namespace
+
+NumberList::NumberList(const std::string& text, const std::string& option)
+{
+  if (text == "none") return;
+  bool good = !text.empty() && text.back() != ',';
+  for (const auto& part : parts_of(text, ',')) {
+    if (!good) break;
+    const auto dash = part.find('-');
+    const auto first = whole(std::string_view(part).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : whole(part.substr(dash + 1));
+    good = first && last && *first <= *last;
+    if (good) ranges_.emplace_back(*first, *last);
+  }
+  if (!good)
+    throw UsageError(
+        fmt::format("{} '{}' is not a list of numbers, such as 3 or 1,4-9, or none", option, text));
+}
+
+bool NumberList::contains(std::int64_t number) const
+{
+  return std::any_of(ranges_.begin(), ranges_.end(), [&](const auto& range) {
+    return range.first <= number && number <= range.second;
+  });
+}
+
+TypeList::TypeList(const std::string& text, const std::string& option, const ArchiveGrains& grains)
+    : numbers_(grains.type_names.empty() ? text : "none", option), named_(grains.type_names.size())
+{
+  if (text == "none") return;
+  const auto& names = grains.type_names;
+  if (names.empty()) return;
+  for (const auto& word : parts_of(text, ',')) {
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) throw UsageError(unknown_word("type in " + option, word, names));
+    named_[static_cast<std::size_t>(found - names.begin())] = true;
+  }
+}
+
+bool TypeList::contains(std::int32_t type) const
+{
+  return named_.empty() ? numbers_.contains(type) : named_[static_cast<std::size_t>(type)];
+}
+
+NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
+                                  const std::vector<std::string>& texts)
+{
+  auto all = parse_all(texts, grains);
+  if (grains.type.empty() &&
+      !std::all_of(all.begin(), all.end(), [](const Named& s) { return s.holds_all(); }))
+    throw UsageError(
+        "--species names types, but the grains of the archive have no types; --species NAME=all "
+        "takes them as one species");
+  std::vector<std::size_t> place(grains.size());
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (boundary[g]) continue;
+    auto& species = all[place[g] = place_of(grains, g, all)];
+    species.low = std::min(species.low, 2 * grains.radius[g]);
+    species.high = std::max(species.high, 2 * grains.radius[g]);
+  }
+  for (const auto& species : all)
+    if (species.given == 0 && species.high == 0)
+      throw UsageError(
+          fmt::format("--species {0}={1}: no mobile grain is of these types; leave it out, or give "
+                      "its diameter, {0}={1}:DIAMETER",
+                      species.name, species.types));
+
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return all[a].nominal() < all[b].nominal();
+  });
+  NamedSpecies found;
+  std::vector<Species> number(all.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto& species = all[order[k]];
+    number[order[k]] = static_cast<Species>(k);
+    found.list.push_back({species.name, species.given});
+    found.sizes += (k == 0 ? "" : ", ") + in_words(species);
+  }
+  found.sizes = "in order of size: " + found.sizes;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    found.species.push_back(boundary[g] ? Species::boundary : number[place[g]]);
+  return found;
+}
 
 SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& settings)
 {

@@ -2,11 +2,11 @@
 #include "formats/import/facts/units.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -48,9 +48,7 @@ Units parse_units(const std::string& text)
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ':'); ++count) {
     double number = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-    good = good && count < 3 && error == std::errc() && end == part.data() + part.size() &&
-           number > 0 && std::isfinite(number);
+    good = good && count < 3 && parse_whole(part, number) && number > 0 && std::isfinite(number);
     if (good) value[count] = number;
   }
   if (!good || count != 3)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/errors.hpp"
 #include "formats/import/common/archive.hpp"
+#include "formats/import/common/text_values.hpp"
 #include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/dump/dump_archive.hpp"
 #include "formats/import/liggghts/liggghts_columns.hpp"
@@ -9,9 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
-#include <sstream>
 
 namespace grseg {
 namespace {
@@ -82,15 +81,13 @@ struct Layout {
 std::size_t number_of(const std::string& text)
 {
   std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() ? number : 0;
+  return parse_whole(text, number) ? number : 0;
 }
 
 Layout layout_of(const std::string& columns)
 {
   std::array<std::size_t, std::size(blocks)> width{};
-  std::istringstream words(keywords_of(columns));
-  for (std::string word; std::getline(words, word, ',');) {
+  for (const auto& word : parts_of(keywords_of(columns), ',')) {
     const auto colon = word.find(':');
     const auto name = word.substr(0, colon);
     const auto* const block = std::find_if(std::begin(blocks), std::end(blocks),
@@ -157,6 +154,61 @@ class Dumped {
   std::vector<std::size_t> numbers_;
   bool numbered_ = false;
 };
+
+/// Whether the ids and the force of both mappings are the same columns.
+bool are_at_the_same_places(const std::string& keywords, const std::string& named,
+                            const DumpHeader& contacts)
+{
+  const auto places_of = [&](const std::string& mapping) {
+    ContactColumns columns(mapping);
+    columns.look_up(contacts.columns, contacts.place);
+    const auto& places = columns.wanted();
+    return std::vector(places.begin(),
+                       places.begin() + std::min<std::ptrdiff_t>(std::ssize(places), 3));
+  };
+  return places_of(liggghts_mapping(keywords, contacts)) == places_of(named);
+}
+
+/// All its grains are spheres, also where they move in a plane.
+ArchiveFacts facts_of_liggghts()
+{
+  auto facts = facts_of_late_forces("LIGGGHTS");
+  facts.discs = false;
+  return facts;
+}
+
+/// Names that say what columns hold choose the list of keywords that has ids and force there, if one
+/// does: only the list knows the order of all others. Without such names it is a preset.
+std::string assumed_columns(const DumpHeader& contacts, const ArchiveGrains&)
+{
+  auto named = columns_by_name(contacts, PlainForce::whole);
+  for (auto& columns : liggghts_columns_of(contacts)) {
+    const bool is_preset = columns.find(',') == std::string::npos;
+    if (named.empty() ? is_preset : are_at_the_same_places(columns, named, contacts))
+      return columns;
+  }
+  return named;
+}
+
+bool is_of_liggghts(const FileStart& start)
+{
+  return role_of_dump(start) == FileRole::grains || are_of_liggghts(columns_of_dump(start));
+}
+
+/// `dump custom` of grains beside `dump local` of `compute pair/gran/local`, as LIGGGHTS writes
+/// them (compute_pair_gran_local.cpp; liggghts_columns.hpp for its columns). Without --columns a
+/// dump of 12, 25 or 35 columns is assumed to be the preset of that size; the grains' balance
+/// verifies it. `force` is the whole force on the first of the two ids. Text has 6 digits unless
+/// dump_modify says otherwise, so `delta` is used as the overlap where it is dumped. Contacts with
+/// meshes are the rows of another dump, of `compute wall/gran/local`; those with primitive walls are in
+/// none.
+std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
+{
+  static const DumpDialect dialect{assumed_columns,       liggghts_mapping,
+                                   liggghts_columns_of,   "pos,id,force,delta",
+                                   liggghts_wall_mapping, facts_of_liggghts()};
+  return open_dumps(files, dialect);
+}
 
 }  // namespace
 
@@ -260,65 +312,6 @@ std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts)
     if (layout_of(keywords).columns == count && dumped.fits(count)) fitting.emplace_back(keywords);
   return fitting;
 }
-
-namespace {
-
-/// Whether the ids and the force of both mappings are the same columns.
-bool are_at_the_same_places(const std::string& keywords, const std::string& named,
-                            const DumpHeader& contacts)
-{
-  const auto places_of = [&](const std::string& mapping) {
-    ContactColumns columns(mapping);
-    columns.look_up(contacts.columns, contacts.place);
-    const auto& places = columns.wanted();
-    return std::vector(places.begin(),
-                       places.begin() + std::min<std::ptrdiff_t>(std::ssize(places), 3));
-  };
-  return places_of(liggghts_mapping(keywords, contacts)) == places_of(named);
-}
-
-/// All its grains are spheres, also where they move in a plane.
-ArchiveFacts facts_of_liggghts()
-{
-  auto facts = facts_of_late_forces("LIGGGHTS");
-  facts.discs = false;
-  return facts;
-}
-
-/// Names that say what columns hold choose the list of keywords that has ids and force there, if one
-/// does: only the list knows the order of all others. Without such names it is a preset.
-std::string assumed_columns(const DumpHeader& contacts, const ArchiveGrains&)
-{
-  auto named = columns_by_name(contacts, PlainForce::whole);
-  for (auto& columns : liggghts_columns_of(contacts)) {
-    const bool is_preset = columns.find(',') == std::string::npos;
-    if (named.empty() ? is_preset : are_at_the_same_places(columns, named, contacts))
-      return columns;
-  }
-  return named;
-}
-
-bool is_of_liggghts(const FileStart& start)
-{
-  return role_of_dump(start) == FileRole::grains || are_of_liggghts(columns_of_dump(start));
-}
-
-/// `dump custom` of grains beside `dump local` of `compute pair/gran/local`, as LIGGGHTS writes
-/// them (compute_pair_gran_local.cpp; liggghts_columns.hpp for its columns). Without --columns a
-/// dump of 12, 25 or 35 columns is assumed to be the preset of that size; the grains' balance
-/// verifies it. `force` is the whole force on the first of the two ids. Text has 6 digits unless
-/// dump_modify says otherwise, so `delta` is used as the overlap where it is dumped. Contacts with
-/// meshes are the rows of another dump, of `compute wall/gran/local`; those with primitive walls are in
-/// none.
-std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
-{
-  static const DumpDialect dialect{assumed_columns,       liggghts_mapping,
-                                   liggghts_columns_of,   "pos,id,force,delta",
-                                   liggghts_wall_mapping, facts_of_liggghts()};
-  return open_dumps(files, dialect);
-}
-
-}  // namespace
 
 const ArchiveFormat liggghts_format{
     .name = "liggghts",

@@ -12,22 +12,6 @@
 #include <unordered_map>
 
 namespace grseg {
-
-/// The contacts of a block of .fstat, whose rows of grains are those of `moment`:
-/// * Force on i = fn n + ft t, n from j to i; at a wall n and t have the opposite signs.
-/// * Most pairs stand in two rows, (i, j) and (j, i), those with a fixed grain or across a periodic
-///   boundary in one: the first row is used, with its whole force.
-/// * Branch = n (r_i + r_j - delta): x_i - x_j is not the branch across a periodic boundary. A
-///   wall's contact point is where it cuts its normal through the grain, at r_i - delta.
-/// FormatError naming the row where the two do not belong together. Unless `period_is_known`, a
-/// pair that is too far apart to touch is refused.
-void add_mercury_contacts(const MercuryForces& rows, bool period_is_known, ArchiveMoment& moment);
-
-/// The contacts of the block Interactions, between grains of `moment` by their ids. Overlap and
-/// branch of two grains are those of their positions. `path` is for sentences.
-void add_mercury_contacts(const MercuryRestart& restart, const std::string& path,
-                          ArchiveMoment& moment);
-
 namespace {
 
 [[noreturn]] void fail_at(const MercuryForces& rows, const MercuryContact& row,
@@ -64,16 +48,6 @@ void add_row(const MercuryForces& rows, const MercuryContact& row, bool period_i
   contacts.overlap.push_back(row.overlap);
 }
 
-Vec3 minimum_image(const ArchiveMoment& moment, Vec3 between)
-{
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!moment.periodic[static_cast<std::size_t>(axis)]) continue;
-    const double length = moment.high[axis] - moment.low[axis];
-    between[axis] -= length * std::round(between[axis] / length);
-  }
-  return between;
-}
-
 /// x - contact point, at a distance of r - overlap.
 Vec3 branch_to_wall(const ArchiveMoment& moment, const MercuryRestart& restart,
                     const MercuryRestart::Interaction& row, std::size_t g)
@@ -81,7 +55,7 @@ Vec3 branch_to_wall(const ArchiveMoment& moment, const MercuryRestart& restart,
   const Vec3 x = moment.grains.position[g];
   const double radius = moment.grains.radius[g];
   if (row.point) {
-    const Vec3 arm = minimum_image(moment, x - *row.point);  // r - overlap/2
+    const Vec3 arm = moment.minimum_image(x - *row.point);  // r - overlap/2
     return (2 - radius / arm.norm()) * arm;
   }
   const auto wall = restart.walls.find(row.j);
@@ -109,7 +83,7 @@ void add_interaction(const MercuryRestart& restart, const MercuryRestart::Intera
   const auto& grains = moment.grains;
   const auto i = find(row.i), j = row.wall ? i : find(row.j);
   const Vec3 branch = row.wall ? branch_to_wall(moment, restart, row, i)
-                               : minimum_image(moment, grains.position[i] - grains.position[j]);
+                               : moment.minimum_image(grains.position[i] - grains.position[j]);
   auto& contacts = moment.contacts;
   contacts.i.push_back(row.i);
   contacts.j.push_back(row.wall ? row.i : row.j);
@@ -119,8 +93,14 @@ void add_interaction(const MercuryRestart& restart, const MercuryRestart::Intera
   contacts.overlap.push_back(grains.radius[i] + (row.wall ? 0 : grains.radius[j]) - branch.norm());
 }
 
-}  // namespace
-
+/// The contacts of a block of .fstat, whose rows of grains are those of `moment`:
+/// * Force on i = fn n + ft t, n from j to i; at a wall n and t have the opposite signs.
+/// * Most pairs stand in two rows, (i, j) and (j, i), those with a fixed grain or across a periodic
+///   boundary in one: the first row is used, with its whole force.
+/// * Branch = n (r_i + r_j - delta): x_i - x_j is not the branch across a periodic boundary. A
+///   wall's contact point is where it cuts its normal through the grain, at r_i - delta.
+/// FormatError naming the row where the two do not belong together. Unless `period_is_known`, a
+/// pair that is too far apart to touch is refused.
 void add_mercury_contacts(const MercuryForces& rows, bool period_is_known, ArchiveMoment& moment)
 {
   std::set<std::pair<std::int64_t, std::int64_t>> known;
@@ -136,6 +116,8 @@ void add_mercury_contacts(const MercuryForces& rows, bool period_is_known, Archi
   }
 }
 
+/// The contacts of the block Interactions, between grains of `moment` by their ids. Overlap and
+/// branch of two grains are those of their positions. `path` is for sentences.
 void add_mercury_contacts(const MercuryRestart& restart, const std::string& path,
                           ArchiveMoment& moment)
 {
@@ -150,19 +132,7 @@ void add_mercury_contacts(const MercuryRestart& restart, const std::string& path
   }
 }
 
-namespace {
-
 constexpr const char* info_is_species = "info=species";
-
-/// Moments of one table that are missing in the other.
-struct Unmatched {
-  std::size_t count = 0;
-  double first = 0;
-  void add(double time)
-  {
-    if (count++ == 0) first = time;
-  }
-};
 
 void require_later(const ArchiveMoment& moment, std::optional<double>& last)
 {
@@ -194,12 +164,60 @@ class MercuryTables : public Archive {
   {
   }
   const ArchiveFacts& facts() const override { return facts_; }
-  bool next(ArchiveMoment& moment) override;
-  std::vector<std::string> remarks() const override;
+
+  bool next(ArchiveMoment& moment) override
+  {
+    if (!next_of_both(moment)) return false;
+    require_later(moment, last_time_);
+    add_mercury_contacts(forces_, grains_->restart() != nullptr, moment);
+    return true;
+  }
+
+  std::vector<std::string> remarks() const override
+  {
+    std::vector<std::string> remarks;
+    const auto add = [&](const Unmatched& alone, const char* has, const char* lacks) {
+      if (alone.count > 0)
+        remarks.push_back(fmt::format(
+            "{} moments are in {} but not in {} and are left out, the first at t = {:g}",
+            alone.count, has, lacks, alone.first));
+    };
+    add(grains_alone_, "the grains' files", ".fstat");
+    add(forces_alone_, ".fstat", "the grains' files");
+    return remarks;
+  }
 
  private:
-  bool next_of_both(ArchiveMoment& moment);
-  bool same_time(double a, double b) const;
+  /// Advances to the next time in both tables.
+  bool next_of_both(ArchiveMoment& moment)
+  {
+    bool more_grains = grains_->next(moment), more_forces = fstat_.next(forces_);
+    while (more_grains && more_forces) {
+      if (same_time(*moment.time, forces_.time)) return any_of_both_ = true;
+      if (*moment.time < forces_.time) {
+        grains_alone_.add(*moment.time);
+        more_grains = grains_->next(moment);
+      } else {
+        forces_alone_.add(forces_.time);
+        more_forces = fstat_.next(forces_);
+      }
+    }
+    if (any_of_both_) return false;
+    if (more_grains) grains_alone_.add(*moment.time);
+    if (more_forces) forces_alone_.add(forces_.time);
+    if (grains_alone_.count > 0 && forces_alone_.count > 0)
+      throw FormatError(fmt::format(
+          "no time is in both tables: those of the grains begin with {:.10g}, those of .fstat with {:.10g}; "
+          "write both at the same times",
+          grains_alone_.first, forces_alone_.first));
+    return false;
+  }
+
+  /// Equal to the digits of the text, of which .data and .fstat have ten and old files eight or six.
+  bool same_time(double a, double b) const
+  {
+    return std::abs(a - b) <= 2e-6 * std::max(std::abs(a), std::abs(b));
+  }
 
   std::unique_ptr<MercuryGrainsSource> grains_;
   MercuryFStat fstat_;
@@ -209,59 +227,6 @@ class MercuryTables : public Archive {
   Unmatched grains_alone_, forces_alone_;
   bool any_of_both_ = false;
 };
-
-/// Equal to the digits of the text, of which .data and .fstat have ten and old files eight or six.
-bool MercuryTables::same_time(double a, double b) const
-{
-  return std::abs(a - b) <= 2e-6 * std::max(std::abs(a), std::abs(b));
-}
-
-/// Advances to the next time in both tables.
-bool MercuryTables::next_of_both(ArchiveMoment& moment)
-{
-  bool more_grains = grains_->next(moment), more_forces = fstat_.next(forces_);
-  while (more_grains && more_forces) {
-    if (same_time(*moment.time, forces_.time)) return any_of_both_ = true;
-    if (*moment.time < forces_.time) {
-      grains_alone_.add(*moment.time);
-      more_grains = grains_->next(moment);
-    } else {
-      forces_alone_.add(forces_.time);
-      more_forces = fstat_.next(forces_);
-    }
-  }
-  if (any_of_both_) return false;
-  if (more_grains) grains_alone_.add(*moment.time);
-  if (more_forces) forces_alone_.add(forces_.time);
-  if (grains_alone_.count > 0 && forces_alone_.count > 0)
-    throw FormatError(fmt::format(
-        "no time is in both tables: those of the grains begin with {:.10g}, those of .fstat with {:.10g}; "
-        "write both at the same times",
-        grains_alone_.first, forces_alone_.first));
-  return false;
-}
-
-bool MercuryTables::next(ArchiveMoment& moment)
-{
-  if (!next_of_both(moment)) return false;
-  require_later(moment, last_time_);
-  add_mercury_contacts(forces_, grains_->restart() != nullptr, moment);
-  return true;
-}
-
-std::vector<std::string> MercuryTables::remarks() const
-{
-  std::vector<std::string> remarks;
-  const auto add = [&](const Unmatched& alone, const char* has, const char* lacks) {
-    if (alone.count > 0)
-      remarks.push_back(
-          fmt::format("{} moments are in {} but not in {} and are left out, the first at t = {:g}",
-                      alone.count, has, lacks, alone.first));
-  };
-  add(grains_alone_, "the grains' files", ".fstat");
-  add(forces_alone_, ".fstat", "the grains' files");
-  return remarks;
-}
 
 /// .restart files, each with its contacts.
 class MercuryRestarts : public Archive {
@@ -273,26 +238,25 @@ class MercuryRestarts : public Archive {
     facts_.tolerance_reason = "MercuryDPM writes fifteen digits into .restart";
   }
   const ArchiveFacts& facts() const override { return facts_; }
-  bool next(ArchiveMoment& moment) override;
+
+  bool next(ArchiveMoment& moment) override
+  {
+    if (!grains_.next(moment)) return false;
+    require_later(moment, last_time_);
+    if (grains_.restart()->positional > 0)
+      throw UsageError(fmt::format(
+          "{}: a .restart of version {} has no contact forces; give it as --grains and the .fstat of "
+          "the run as --contacts",
+          grains_.path(), grains_.restart()->positional));
+    add_mercury_contacts(*grains_.restart(), grains_.path(), moment);
+    return true;
+  }
 
  private:
   MercuryRestartGrains grains_;
   ArchiveFacts facts_;
   std::optional<double> last_time_;
 };
-
-bool MercuryRestarts::next(ArchiveMoment& moment)
-{
-  if (!grains_.next(moment)) return false;
-  require_later(moment, last_time_);
-  if (grains_.restart()->positional > 0)
-    throw UsageError(fmt::format(
-        "{}: a .restart of version {} has no contact forces; give it as --grains and the .fstat of "
-        "the run as --contacts",
-        grains_.path(), grains_.restart()->positional));
-  add_mercury_contacts(*grains_.restart(), grains_.path(), moment);
-  return true;
-}
 
 /// Files for each moment have numbers behind: run.data.0001.
 FileRole role_of(const FileStart& start)

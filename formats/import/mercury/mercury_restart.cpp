@@ -3,19 +3,19 @@
 
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/text_source.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace grseg {
+namespace {
 
 /// The lines of a .restart of MercuryDPM: words, each followed by its values, or values alone.
 class MercuryLines {
@@ -23,108 +23,90 @@ class MercuryLines {
   explicit MercuryLines(const std::string& path) : source_({path}) {}
 
   /// False at the end of the file.
-  bool next();
+  bool next()
+  {
+    if (!source_.next()) return false;
+    words_ = words_of(source_.line());
+    return true;
+  }
+
   /// The next line; TruncatedArchive where the file ends before or inside it, `where` being "in its
   /// particles".
-  void need_next(const std::string& where);
+  void need_next(const std::string& where)
+  {
+    if (!next() || !source_.line_is_whole())
+      throw TruncatedArchive(
+          fmt::format("{}: the file ends {}; copy it again", source_.place(), where));
+    if (kind() == "...") fail("the rest of the block is left out; write the restart file whole");
+  }
 
   bool has(std::string_view key) const { return place_of(key) < words_.size(); }
   /// The first word; empty in an empty line.
   std::string_view kind() const { return words_.empty() ? std::string_view() : words_[0]; }
   const std::vector<std::string_view>& words() const { return words_; }
-  /// The `place`-th value behind a word of the line.
-  double value(std::string_view key, std::size_t place = 0) const;
-  Vec3 vector(std::string_view key) const { return {value(key), value(key, 1), value(key, 2)}; }
-  std::int64_t whole_number(std::string_view key, std::size_t place = 0) const;
-  /// Where the line is "key count".
-  std::optional<std::size_t> count(std::string_view key) const;
-  /// The words from the `first`-th on as numbers.
-  std::vector<double> numbers(std::size_t first) const;
 
-  [[noreturn]] void fail(const std::string& why) const;
+  /// The `place`-th value behind a word of the line.
+  double value(std::string_view key, std::size_t place = 0) const
+  {
+    const auto at = place_of(key) + 1 + place;
+    if (at >= words_.size()) fail(fmt::format("'{}' with its value is missing", key));
+    return number(at, key);
+  }
+
+  Vec3 vector(std::string_view key) const { return {value(key), value(key, 1), value(key, 2)}; }
+
+  std::int64_t whole_number(std::string_view key, std::size_t place = 0) const
+  {
+    const double number = value(key, place);
+    if (std::abs(number) > 2147483647 || std::trunc(number) != number)
+      fail(fmt::format("{:g} after '{}' is not a whole number", number, key));
+    return static_cast<std::int64_t>(number);
+  }
+
+  /// Where the line is "key count".
+  std::optional<std::size_t> count(std::string_view key) const
+  {
+    if (kind() != key) return std::nullopt;
+    const double number = value(key);
+    if (number < 0 || number > 1e9 || std::trunc(number) != number)
+      fail(fmt::format("{} is not a number of {}", in_quotes(source_.line()), key));
+    return static_cast<std::size_t>(number);
+  }
+
+  /// The words from the `first`-th on as numbers.
+  std::vector<double> numbers(std::size_t first) const
+  {
+    std::vector<double> numbers;
+    for (auto k = first; k < words_.size(); ++k)
+      numbers.push_back(number(k, k > 0 ? words_[k - 1] : "the beginning of the line"));
+    return numbers;
+  }
+
+  [[noreturn]] void fail(const std::string& why) const
+  {
+    throw FormatError(fmt::format("{}: {}", source_.place(), why));
+  }
 
  private:
-  std::size_t place_of(std::string_view key) const;
-  double number(std::size_t place, std::string_view behind) const;
+  std::size_t place_of(std::string_view key) const
+  {
+    std::size_t at = 0;
+    while (at < words_.size() && words_[at] != key) ++at;
+    return at;
+  }
+
+  double number(std::size_t place, std::string_view behind) const
+  {
+    const auto word = words_[place];
+    double number = 0;
+    if (!parse_finite(word, number))
+      fail(fmt::format("{} after '{}' is not a finite number", in_quotes(word), behind));
+    return number;
+  }
 
   TextSource source_;
   std::vector<std::string_view> words_;
 };
-
-bool MercuryLines::next()
-{
-  if (!source_.next()) return false;
-  words_ = words_of(source_.line());
-  return true;
-}
-
-void MercuryLines::need_next(const std::string& where)
-{
-  if (!next() || !source_.line_is_whole())
-    throw TruncatedArchive(
-        fmt::format("{}: the file ends {}; copy it again", source_.place(), where));
-  if (kind() == "...") fail("the rest of the block is left out; write the restart file whole");
-}
-
-std::size_t MercuryLines::place_of(std::string_view key) const
-{
-  std::size_t at = 0;
-  while (at < words_.size() && words_[at] != key) ++at;
-  return at;
-}
-
-double MercuryLines::number(std::size_t place, std::string_view behind) const
-{
-  const auto word = words_[place];
-  double number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number))
-    fail(fmt::format("{} after '{}' is not a finite number", in_quotes(word), behind));
-  return number;
-}
-
-double MercuryLines::value(std::string_view key, std::size_t place) const
-{
-  const auto at = place_of(key) + 1 + place;
-  if (at >= words_.size()) fail(fmt::format("'{}' with its value is missing", key));
-  return number(at, key);
-}
-
-std::int64_t MercuryLines::whole_number(std::string_view key, std::size_t place) const
-{
-  const double number = value(key, place);
-  if (std::abs(number) > 2147483647 || std::trunc(number) != number)
-    fail(fmt::format("{:g} after '{}' is not a whole number", number, key));
-  return static_cast<std::int64_t>(number);
-}
-
-std::optional<std::size_t> MercuryLines::count(std::string_view key) const
-{
-  if (kind() != key) return std::nullopt;
-  const double number = value(key);
-  if (number < 0 || number > 1e9 || std::trunc(number) != number)
-    fail(fmt::format("{} is not a number of {}", in_quotes(source_.line()), key));
-  return static_cast<std::size_t>(number);
-}
-
-std::vector<double> MercuryLines::numbers(std::size_t first) const
-{
-  std::vector<double> numbers;
-  for (auto k = first; k < words_.size(); ++k)
-    numbers.push_back(number(k, k > 0 ? words_[k - 1] : "the beginning of the line"));
-  return numbers;
-}
-
-void MercuryLines::fail(const std::string& why) const
-{
-  throw FormatError(fmt::format("{}: {}", source_.place(), why));
-}
-
-/// Takes the period of the boundary in the line at hand into `restart`, if it is one. FormatError
-/// where the cell is periodic in a way that is not imported.
-void read_mercury_boundary(const MercuryLines& lines, MercuryRestart& restart);
-
-namespace {
 
 struct Refused {
   std::string_view part;  // of the kind's name
@@ -150,8 +132,8 @@ std::array<double, 2> places_of(const MercuryLines& lines)
   lines.fail("'distanceLeft' of the periodic boundary is missing");
 }
 
-}  // namespace
-
+/// Takes the period of the boundary in the line at hand into `restart`, if it is one. FormatError
+/// where the cell is periodic in a way that is not imported.
 void read_mercury_boundary(const MercuryLines& lines, MercuryRestart& restart)
 {
   const auto kind = lines.kind();
@@ -174,13 +156,6 @@ void read_mercury_boundary(const MercuryLines& lines, MercuryRestart& restart)
   }
   lines.fail("the cell is periodic along none of the axes, which is not imported");
 }
-
-/// The particle in the line at hand; `row` is its number. FormatError where it is not one sphere or
-/// belongs to no species.
-MercuryRestart::Particle read_mercury_particle(const MercuryLines& lines,
-                                               const MercuryRestart& restart, std::size_t row);
-
-namespace {
 
 using Particle = MercuryRestart::Particle;
 
@@ -255,8 +230,8 @@ Particle positional_particle(const MercuryLines& lines, const MercuryRestart& re
   return particle;
 }
 
-}  // namespace
-
+/// The particle in the line at hand; `row` is its number. FormatError where it is not one sphere or
+/// belongs to no species.
 MercuryRestart::Particle read_mercury_particle(const MercuryLines& lines,
                                                const MercuryRestart& restart, std::size_t row)
 {
@@ -270,8 +245,6 @@ MercuryRestart::Particle read_mercury_particle(const MercuryLines& lines,
     lines.fail("the radius of the particle is not positive, or its mass is negative");
   return particle;
 }
-
-namespace {
 
 /// The first line: the version.
 void read_version(const MercuryLines& lines, const std::string& path, MercuryRestart& restart)
@@ -395,8 +368,8 @@ bool MercuryRestart::ids_are_rows() const
 double MercuryRestart::mass_of(const Particle& particle) const
 {
   if (particle.inverse_mass > 0) return 1 / particle.inverse_mass;
-  const double r = particle.radius;
-  const double content = discs() ? std::numbers::pi * r * r : 4 * std::numbers::pi / 3 * r * r * r;
+  const double content =
+      discs() ? grain_volume<2>(particle.radius) : grain_volume<3>(particle.radius);
   return density[static_cast<std::size_t>(particle.species)] * content;
 }
 

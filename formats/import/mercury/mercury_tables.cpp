@@ -31,6 +31,21 @@ Vec3 three(const std::vector<double>& numbers, std::size_t first)
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
 }
 
+constexpr const char* removed =
+    "MercuryDPM moves the last row to the place of a grain that it removes, so that rows no longer "
+    "name grains; import the .restart files of the moments instead, which have ids "
+    "(restartFile.setFileType(FileType::MULTIPLE_FILES); --restart 'run.restart.*')";
+
+void add_period(const MercuryRestart& restart, ArchiveMoment& moment)
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!restart.periodic[static_cast<std::size_t>(axis)]) continue;
+    moment.periodic[static_cast<std::size_t>(axis)] = true;
+    moment.low[axis] = restart.low[axis];
+    moment.high[axis] = restart.high[axis];
+  }
+}
+
 }  // namespace
 
 void MercuryData::fail(const std::string& why) const
@@ -147,25 +162,6 @@ bool MercuryFStat::next(MercuryForces& block)
   }
   return true;
 }
-
-namespace {
-
-constexpr const char* removed =
-    "MercuryDPM moves the last row to the place of a grain that it removes, so that rows no longer "
-    "name grains; import the .restart files of the moments instead, which have ids "
-    "(restartFile.setFileType(FileType::MULTIPLE_FILES); --restart 'run.restart.*')";
-
-void add_period(const MercuryRestart& restart, ArchiveMoment& moment)
-{
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!restart.periodic[static_cast<std::size_t>(axis)]) continue;
-    moment.periodic[static_cast<std::size_t>(axis)] = true;
-    moment.low[axis] = restart.low[axis];
-    moment.high[axis] = restart.high[axis];
-  }
-}
-
-}  // namespace
 
 MercuryDataGrains::MercuryDataGrains(std::vector<std::string> files, std::string restart_path,
                                      bool info_is_species)

@@ -19,6 +19,7 @@
 #include <vector>
 
 namespace grseg {
+namespace {
 
 /// The steps of a Siconos run, all of one length.
 struct SiconosSteps {
@@ -26,14 +27,6 @@ struct SiconosSteps {
   std::int64_t every = 1;  // most steps between two that were written (output_frequency)
   bool has_start = true;   // the state before the first one is there
 };
-
-/// From the first time of /data/dynamic, which is before the first step, and /data/solv, which has a
-/// row per step that was written: the first step, and then every output_frequency-th. Where the first
-/// rows of a run were taken away, so that /data/dynamic does not begin before /data/solv, the first
-/// two rows of /data/solv give the step. FormatError where the steps differ in length.
-SiconosSteps read_siconos_steps(hid_t file, const std::string& path);
-
-namespace {
 
 using namespace siconos;
 
@@ -67,8 +60,10 @@ std::string why_not_later(double time, double before)
   return "is not later than the row before it: the file is damaged, or holds two runs";
 }
 
-}  // namespace
-
+/// From the first time of /data/dynamic, which is before the first step, and /data/solv, which has a
+/// row per step that was written: the first step, and then every output_frequency-th. Where the first
+/// rows of a run were taken away, so that /data/dynamic does not begin before /data/solv, the first
+/// two rows of /data/solv give the step. FormatError where the steps differ in length.
 SiconosSteps read_siconos_steps(hid_t file, const std::string& path)
 {
   const auto solved = solved_times(file, path);
@@ -102,30 +97,236 @@ SiconosSteps read_siconos_steps(hid_t file, const std::string& path)
   return found;
 }
 
-namespace {
-
 using namespace hdf5;
 using namespace siconos;
 
 class SiconosArchive : public Archive {
  public:
-  SiconosArchive(std::string path, File file);
+  SiconosArchive(std::string path, File file)
+      : path_(std::move(path)),
+        file_(std::move(file)),
+        steps_(read_siconos_steps(file_, path_)),
+        bodies_(read_siconos_bodies(file_, path_)),
+        places_(file_, "/data/dynamic", path_, written_by),
+        velocities_(file_, "/data/velocities", path_, "make the run write it (output_velocities)"),
+        points_(file_, "/data/cf", path_, "make the run write it (output_contact_forces)")
+  {
+    wall_.assign(bodies_.all.size(), -1);
+    std::int32_t next_wall = 0;
+    for (std::size_t b = bodies_.all.size(); b-- > 0;) {  // ids count downwards as bodies are added
+      const auto& body = bodies_.all[b];
+      if (body.radius == 0) wall_[b] = next_wall++;
+      if (body.mass > 0) static_mass_per_size_ = body.mass / size_of(body);
+    }
+    for (const auto& body : bodies_.all) previous_velocity_.push_back(body.velocity);
+    facts_.step = steps_.length;
+    facts_.discs = bodies_.discs;
+    facts_.tolerance = 1e-4;
+    facts_.lists_all = false;
+    facts_.tolerance_reason =
+        "Siconos writes single precision, and its solver stops at a tolerance of its own";
+  }
+
   const ArchiveFacts& facts() const override { return facts_; }
-  bool next(ArchiveMoment& moment) override;
-  std::vector<std::string> remarks() const override;
+
+  bool next(ArchiveMoment& moment) override
+  {
+    while (const auto time = places_.time()) {
+      const auto place = places_.rows_of(*time, place_rows_);
+      const auto velocity = velocities_.rows_of(*time, velocity_rows_);
+      const auto point = points_.rows_of(*time, point_rows_);
+      const bool whole = !velocity_rows_.empty();
+      const bool follows = knows_state_;
+      knows_state_ = follows || whole || steps_.has_start;
+      if (whole) {
+        moment = ArchiveMoment{};
+        moment.time = *time;
+        moment.step = std::llround(*time / steps_.length);
+        moment.place = fmt::format("{}, t = {:.6g}", path_, *time);
+        fill_places(place, moment.grains);
+        fill_velocities(*time, velocity, moment.grains);
+        fill_contacts(*time, point, moment.grains, moment.contacts);
+        enclose_grains(moment);
+      }
+      previous_time_ = *time;
+      if (whole && follows) return true;
+    }
+    return false;
+  }
+
+  std::vector<std::string> remarks() const override
+  {
+    std::vector<std::string> remarks;
+    if (!steps_.has_start)
+      remarks.push_back(fmt::format(
+          "{}: the file does not have the state before its first step, which is left out", path_));
+    if (steps_.every > 1)
+      remarks.push_back(fmt::format(
+          "{}: at most every {} steps were written (output_frequency), which does not tell contacts that "
+          "had opened in the step before: their rows, with an impulse that no body felt, are among the "
+          "others",
+          path_, steps_.every));
+    else if (left_out_ > 0)
+      remarks.push_back(fmt::format(
+          "{}: {} rows of /data/cf repeat a contact that had opened a step before, with "
+          "an impulse that no body felt; they are left out",
+          path_, left_out_));
+    return remarks;
+  }
 
  private:
-  double size_of(const SiconosBody& body) const;
-  std::int64_t id_of(std::size_t body) const;
-  std::size_t body_of(std::int64_t id, const char* table, hsize_t row) const;
-  bool follows_previous(double time) const;
-  void add_grain(std::size_t body, const Vec3& position, ArchiveGrains& grains);
-  void fill_places(hsize_t first_row, ArchiveGrains& grains);
-  void fill_velocities(double time, hsize_t first_row, ArchiveGrains& grains);
+  double size_of(const SiconosBody& body) const
+  {
+    return bodies_.discs ? body.radius * body.radius : std::pow(body.radius, 3);
+  }
+
+  std::int64_t id_of(std::size_t body) const
+  {
+    const auto id = bodies_.all[body].id;
+    return id > 0 ? id : bodies_.all.back().id - id;
+  }
+
+  std::size_t body_of(std::int64_t id, const char* table, hsize_t row) const
+  {
+    const auto at = std::lower_bound(bodies_.all.begin(), bodies_.all.end(), id,
+                                     [](const SiconosBody& b, std::int64_t k) { return b.id < k; });
+    if (at == bodies_.all.end() || at->id != id || at->mass == 0)
+      throw FormatError(
+          fmt::format("{}: row {} of {} names body {}, which is not a mobile body of /data/input",
+                      path_, row, table, id));
+    return static_cast<std::size_t>(at - bodies_.all.begin());
+  }
+
+  bool follows_previous(double time) const
+  {
+    return std::abs(time - previous_time_ - steps_.length) <
+           0.25 * steps_.length + 2.4e-7 * std::abs(time);
+  }
+
+  void add_grain(std::size_t body, const Vec3& position, ArchiveGrains& grains)
+  {
+    const auto& of = bodies_.all[body];
+    grain_of_[body] = static_cast<std::ptrdiff_t>(grains.size());
+    grains.id.push_back(id_of(body));
+    grains.radius.push_back(of.radius);
+    grains.mass.push_back(of.mass > 0 ? of.mass : static_mass_per_size_ * size_of(of));
+    grains.fixed.push_back(of.mass == 0);
+    grains.position.push_back(position);
+    grains.velocity.emplace_back(0, 0, 0);
+    grains.angular_velocity.emplace_back(0, 0, 0);
+  }
+
+  void fill_places(hsize_t first_row, ArchiveGrains& grains)
+  {
+    grain_of_.assign(bodies_.all.size(), -1);
+    turned_.assign(bodies_.all.size(), Eigen::Quaterniond::Identity());
+    for (std::size_t b = 0; b < bodies_.all.size(); ++b)
+      if (bodies_.all[b].mass == 0 && wall_[b] < 0) add_grain(b, bodies_.all[b].position, grains);
+    for (std::size_t k = 0; k < place_rows_.size(); ++k) {
+      const auto& row = place_rows_[k];
+      const auto b = body_of(id_at(row, 1), "/data/dynamic", first_row + k);
+      const Vec3 position = vector_at(row, 2);
+      if (grain_of_[b] >= 0) {  // a run that was continued says twice where it stood
+        if (grains.position[static_cast<std::size_t>(grain_of_[b])] == position) continue;
+        throw FormatError(
+            fmt::format("{}: row {} of /data/dynamic: single precision no longer "
+                        "separates the times of two steps; write fewer steps",
+                        path_, first_row + k));
+      }
+      add_grain(b, position, grains);
+      const auto q = [&row](std::size_t c) { return static_cast<double>(row[5 + c]); };
+      turned_[b] = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized();
+    }
+  }
+
+  void fill_velocities(double time, hsize_t first_row, ArchiveGrains& grains)
+  {
+    std::vector<Vec3> velocity(bodies_.all.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < velocity_rows_.size(); ++k) {
+      const auto& row = velocity_rows_[k];
+      const auto b = body_of(id_at(row, 1), "/data/velocities", first_row + k);
+      velocity[b] = vector_at(row, 2);
+      if (grain_of_[b] < 0) continue;
+      const auto g = static_cast<std::size_t>(grain_of_[b]);
+      grains.velocity[g] = velocity[b];
+      grains.angular_velocity[g] =
+          turned_[b] * vector_at(row, 5);  // written in the body's own axes
+    }
+    if (steps_.every == 1 && follows_previous(time)) {
+      grains.force.assign(grains.size(), Vec3::Zero());
+      for (std::size_t b = 0; b < bodies_.all.size(); ++b)
+        if (grain_of_[b] >= 0)
+          grains.force[static_cast<std::size_t>(grain_of_[b])] =
+              bodies_.all[b].mass * (velocity[b] - previous_velocity_[b]) / steps_.length;
+    }
+    previous_velocity_ = std::move(velocity);
+  }
+
   void fill_contacts(double time, hsize_t first_row, const ArchiveGrains& grains,
-                     ArchiveContacts& contacts);
-  bool has_opened(const Points::Row& row, double radius) const;
-  std::size_t second_body(const Points::Row& row, hsize_t number, double radius) const;
+                     ArchiveContacts& contacts)
+  {
+    const bool follows = follows_previous(time);
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // bodies: entry of contacts
+    for (std::size_t k = 0; k < point_rows_.size(); ++k) {
+      const auto& row = point_rows_[k];
+      const auto first = body_of(id_at(row, first_at), "/data/cf", first_row + k);
+      const double radius = bodies_.all[first].radius;
+      if (follows && has_opened(row, radius)) {
+        ++left_out_;
+        continue;
+      }
+      const auto second = second_body(row, first_row + k, radius);
+      if (grain_of_[first] < 0 || (wall_[second] < 0 && grain_of_[second] < 0))
+        throw FormatError(fmt::format(
+            "{}: row {} of /data/cf names a body that /data/dynamic does not have at t = {:.6g}",
+            path_, first_row + k, time));
+      const Vec3 force = vector_at(row, impulse_at) / steps_.length;
+      const auto [at, is_new] = known.try_emplace({first, second}, contacts.size());
+      if (!is_new) {
+        contacts.force[at->second] += force;
+        continue;
+      }
+      const Vec3 x = grains.position[static_cast<std::size_t>(grain_of_[first])];
+      const Vec3 normal = vector_at(row, normal_at).normalized();
+      const Vec3 branch =
+          wall_[second] < 0 ? Vec3(x - grains.position[static_cast<std::size_t>(grain_of_[second])])
+                            : Vec3(normal * normal.dot(x - vector_at(row, second_point_at)));
+      contacts.i.push_back(id_of(first));
+      contacts.j.push_back(id_of(second));
+      contacts.wall.push_back(wall_[second]);
+      contacts.force.push_back(force);
+      contacts.branch.push_back(branch);
+      contacts.overlap.push_back(radius + bodies_.all[second].radius - branch.norm());
+    }
+    previous_points_.clear();
+    for (const auto& row : point_rows_) previous_points_.emplace(id_at(row, interaction_at), row);
+  }
+
+  bool has_opened(const Points::Row& row, double radius) const
+  {
+    const auto before = previous_points_.find(id_at(row, interaction_at));
+    if (before == previous_points_.end()) return false;
+    const auto& old = before->second;
+    const bool same =
+        std::equal(row.begin() + 2, row.begin() + impulse_at, old.begin() + 2) &&
+        std::equal(row.begin() + gap_at, row.begin() + reaction_at, old.begin() + gap_at);
+    // A contact at rest repeats itself, too; one that moves would be elsewhere by now.
+    return same && vector_at(row, velocity_at).norm() * steps_.length > 1e-5 * radius;
+  }
+
+  /// Where a row names one body twice, its partner is the static one that the second point lies on.
+  std::size_t second_body(const Points::Row& row, hsize_t number, double radius) const
+  {
+    const auto second = id_at(row, second_at);
+    if (id_at(row, first_at) != second) return body_of(second, "/data/cf", number);
+    const auto found = static_body_at(bodies_, vector_at(row, second_point_at), 0.1 * radius);
+    if (!found)
+      throw FormatError(fmt::format(
+          "{}: row {} of /data/cf touches a static body, but its second point lies on no static body "
+          "of /data/input",
+          path_, number));
+    return *found;
+  }
 
   std::string path_;
   File file_;
@@ -152,228 +353,6 @@ class SiconosArchive : public Archive {
   std::vector<std::ptrdiff_t> grain_of_;  // by body: entry of the moment's grains, or -1
   std::vector<Eigen::Quaterniond> turned_;
 };
-
-SiconosArchive::SiconosArchive(std::string path, File file)
-    : path_(std::move(path)),
-      file_(std::move(file)),
-      steps_(read_siconos_steps(file_, path_)),
-      bodies_(read_siconos_bodies(file_, path_)),
-      places_(file_, "/data/dynamic", path_, written_by),
-      velocities_(file_, "/data/velocities", path_, "make the run write it (output_velocities)"),
-      points_(file_, "/data/cf", path_, "make the run write it (output_contact_forces)")
-{
-  wall_.assign(bodies_.all.size(), -1);
-  std::int32_t next_wall = 0;
-  for (std::size_t b = bodies_.all.size(); b-- > 0;) {  // ids count downwards as bodies are added
-    const auto& body = bodies_.all[b];
-    if (body.radius == 0) wall_[b] = next_wall++;
-    if (body.mass > 0) static_mass_per_size_ = body.mass / size_of(body);
-  }
-  for (const auto& body : bodies_.all) previous_velocity_.push_back(body.velocity);
-  facts_.step = steps_.length;
-  facts_.discs = bodies_.discs;
-  facts_.tolerance = 1e-4;
-  facts_.lists_all = false;
-  facts_.tolerance_reason =
-      "Siconos writes single precision, and its solver stops at a tolerance of its own";
-}
-
-double SiconosArchive::size_of(const SiconosBody& body) const
-{
-  return bodies_.discs ? body.radius * body.radius : std::pow(body.radius, 3);
-}
-
-std::int64_t SiconosArchive::id_of(std::size_t body) const
-{
-  const auto id = bodies_.all[body].id;
-  return id > 0 ? id : bodies_.all.back().id - id;
-}
-
-std::size_t SiconosArchive::body_of(std::int64_t id, const char* table, hsize_t row) const
-{
-  const auto at = std::lower_bound(bodies_.all.begin(), bodies_.all.end(), id,
-                                   [](const SiconosBody& b, std::int64_t k) { return b.id < k; });
-  if (at == bodies_.all.end() || at->id != id || at->mass == 0)
-    throw FormatError(
-        fmt::format("{}: row {} of {} names body {}, which is not a mobile body of /data/input",
-                    path_, row, table, id));
-  return static_cast<std::size_t>(at - bodies_.all.begin());
-}
-
-bool SiconosArchive::follows_previous(double time) const
-{
-  return std::abs(time - previous_time_ - steps_.length) <
-         0.25 * steps_.length + 2.4e-7 * std::abs(time);
-}
-
-void SiconosArchive::add_grain(std::size_t body, const Vec3& position, ArchiveGrains& grains)
-{
-  const auto& of = bodies_.all[body];
-  grain_of_[body] = static_cast<std::ptrdiff_t>(grains.size());
-  grains.id.push_back(id_of(body));
-  grains.radius.push_back(of.radius);
-  grains.mass.push_back(of.mass > 0 ? of.mass : static_mass_per_size_ * size_of(of));
-  grains.fixed.push_back(of.mass == 0);
-  grains.position.push_back(position);
-  grains.velocity.emplace_back(0, 0, 0);
-  grains.angular_velocity.emplace_back(0, 0, 0);
-}
-
-void SiconosArchive::fill_places(hsize_t first_row, ArchiveGrains& grains)
-{
-  grain_of_.assign(bodies_.all.size(), -1);
-  turned_.assign(bodies_.all.size(), Eigen::Quaterniond::Identity());
-  for (std::size_t b = 0; b < bodies_.all.size(); ++b)
-    if (bodies_.all[b].mass == 0 && wall_[b] < 0) add_grain(b, bodies_.all[b].position, grains);
-  for (std::size_t k = 0; k < place_rows_.size(); ++k) {
-    const auto& row = place_rows_[k];
-    const auto b = body_of(id_at(row, 1), "/data/dynamic", first_row + k);
-    const Vec3 position = vector_at(row, 2);
-    if (grain_of_[b] >= 0) {  // a run that was continued says twice where it stood
-      if (grains.position[static_cast<std::size_t>(grain_of_[b])] == position) continue;
-      throw FormatError(
-          fmt::format("{}: row {} of /data/dynamic: single precision no longer "
-                      "separates the times of two steps; write fewer steps",
-                      path_, first_row + k));
-    }
-    add_grain(b, position, grains);
-    const auto q = [&row](std::size_t c) { return static_cast<double>(row[5 + c]); };
-    turned_[b] = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized();
-  }
-}
-
-void SiconosArchive::fill_velocities(double time, hsize_t first_row, ArchiveGrains& grains)
-{
-  std::vector<Vec3> velocity(bodies_.all.size(), Vec3::Zero());
-  for (std::size_t k = 0; k < velocity_rows_.size(); ++k) {
-    const auto& row = velocity_rows_[k];
-    const auto b = body_of(id_at(row, 1), "/data/velocities", first_row + k);
-    velocity[b] = vector_at(row, 2);
-    if (grain_of_[b] < 0) continue;
-    const auto g = static_cast<std::size_t>(grain_of_[b]);
-    grains.velocity[g] = velocity[b];
-    grains.angular_velocity[g] = turned_[b] * vector_at(row, 5);  // written in the body's own axes
-  }
-  if (steps_.every == 1 && follows_previous(time)) {
-    grains.force.assign(grains.size(), Vec3::Zero());
-    for (std::size_t b = 0; b < bodies_.all.size(); ++b)
-      if (grain_of_[b] >= 0)
-        grains.force[static_cast<std::size_t>(grain_of_[b])] =
-            bodies_.all[b].mass * (velocity[b] - previous_velocity_[b]) / steps_.length;
-  }
-  previous_velocity_ = std::move(velocity);
-}
-
-bool SiconosArchive::has_opened(const Points::Row& row, double radius) const
-{
-  const auto before = previous_points_.find(id_at(row, interaction_at));
-  if (before == previous_points_.end()) return false;
-  const auto& old = before->second;
-  const bool same =
-      std::equal(row.begin() + 2, row.begin() + impulse_at, old.begin() + 2) &&
-      std::equal(row.begin() + gap_at, row.begin() + reaction_at, old.begin() + gap_at);
-  // A contact at rest repeats itself, too; one that moves would be elsewhere by now.
-  return same && vector_at(row, velocity_at).norm() * steps_.length > 1e-5 * radius;
-}
-
-/// Where a row names one body twice, its partner is the static one that the second point lies on.
-std::size_t SiconosArchive::second_body(const Points::Row& row, hsize_t number, double radius) const
-{
-  const auto second = id_at(row, second_at);
-  if (id_at(row, first_at) != second) return body_of(second, "/data/cf", number);
-  const auto found = static_body_at(bodies_, vector_at(row, second_point_at), 0.1 * radius);
-  if (!found)
-    throw FormatError(fmt::format(
-        "{}: row {} of /data/cf touches a static body, but its second point lies on no static body "
-        "of /data/input",
-        path_, number));
-  return *found;
-}
-
-void SiconosArchive::fill_contacts(double time, hsize_t first_row, const ArchiveGrains& grains,
-                                   ArchiveContacts& contacts)
-{
-  const bool follows = follows_previous(time);
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // bodies: entry of contacts
-  for (std::size_t k = 0; k < point_rows_.size(); ++k) {
-    const auto& row = point_rows_[k];
-    const auto first = body_of(id_at(row, first_at), "/data/cf", first_row + k);
-    const double radius = bodies_.all[first].radius;
-    if (follows && has_opened(row, radius)) {
-      ++left_out_;
-      continue;
-    }
-    const auto second = second_body(row, first_row + k, radius);
-    if (grain_of_[first] < 0 || (wall_[second] < 0 && grain_of_[second] < 0))
-      throw FormatError(fmt::format(
-          "{}: row {} of /data/cf names a body that /data/dynamic does not have at t = {:.6g}",
-          path_, first_row + k, time));
-    const Vec3 force = vector_at(row, impulse_at) / steps_.length;
-    const auto [at, is_new] = known.try_emplace({first, second}, contacts.size());
-    if (!is_new) {
-      contacts.force[at->second] += force;
-      continue;
-    }
-    const Vec3 x = grains.position[static_cast<std::size_t>(grain_of_[first])];
-    const Vec3 normal = vector_at(row, normal_at).normalized();
-    const Vec3 branch = wall_[second] < 0
-                            ? Vec3(x - grains.position[static_cast<std::size_t>(grain_of_[second])])
-                            : Vec3(normal * normal.dot(x - vector_at(row, second_point_at)));
-    contacts.i.push_back(id_of(first));
-    contacts.j.push_back(id_of(second));
-    contacts.wall.push_back(wall_[second]);
-    contacts.force.push_back(force);
-    contacts.branch.push_back(branch);
-    contacts.overlap.push_back(radius + bodies_.all[second].radius - branch.norm());
-  }
-  previous_points_.clear();
-  for (const auto& row : point_rows_) previous_points_.emplace(id_at(row, interaction_at), row);
-}
-
-bool SiconosArchive::next(ArchiveMoment& moment)
-{
-  while (const auto time = places_.time()) {
-    const auto place = places_.rows_of(*time, place_rows_);
-    const auto velocity = velocities_.rows_of(*time, velocity_rows_);
-    const auto point = points_.rows_of(*time, point_rows_);
-    const bool whole = !velocity_rows_.empty();
-    const bool follows = knows_state_;
-    knows_state_ = follows || whole || steps_.has_start;
-    if (whole) {
-      moment = ArchiveMoment{};
-      moment.time = *time;
-      moment.step = std::llround(*time / steps_.length);
-      moment.place = fmt::format("{}, t = {:.6g}", path_, *time);
-      fill_places(place, moment.grains);
-      fill_velocities(*time, velocity, moment.grains);
-      fill_contacts(*time, point, moment.grains, moment.contacts);
-      enclose_grains(moment);
-    }
-    previous_time_ = *time;
-    if (whole && follows) return true;
-  }
-  return false;
-}
-
-std::vector<std::string> SiconosArchive::remarks() const
-{
-  std::vector<std::string> remarks;
-  if (!steps_.has_start)
-    remarks.push_back(fmt::format(
-        "{}: the file does not have the state before its first step, which is left out", path_));
-  if (steps_.every > 1)
-    remarks.push_back(fmt::format(
-        "{}: at most every {} steps were written (output_frequency), which does not tell contacts that "
-        "had opened in the step before: their rows, with an impulse that no body felt, are among the "
-        "others",
-        path_, steps_.every));
-  else if (left_out_ > 0)
-    remarks.push_back(
-        fmt::format("{}: {} rows of /data/cf repeat a contact that had opened a step before, with "
-                    "an impulse that no body felt; they are left out",
-                    path_, left_out_));
-  return remarks;
-}
 
 FileRole role_of(const FileStart& start)
 {

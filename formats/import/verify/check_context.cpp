@@ -3,12 +3,12 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
+#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <sstream>
@@ -25,9 +25,7 @@ Waivers::Waivers(const std::vector<std::string>& texts)
       throw UsageError(fmt::format("--accept-residual '{}': '{}' is not a check; they are {}",
                                    excerpt(text), excerpt(name), fmt::join(check_names, ", ")));
     double value = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(value) ||
-        !(value > 0))
+    if (!parse_finite(number, value) || !(value > 0))
       throw UsageError(fmt::format(
           "--accept-residual '{}' needs a positive number, as in balance=0.1", excerpt(text)));
     if (!largest_.emplace(name, value).second)

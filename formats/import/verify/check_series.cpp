@@ -55,82 +55,6 @@ void visit_numbers(Moment& moment, const Visit& visit)
   visit_sums("force", moment.force, "m2 s-4", "m4 s-8");
 }
 
-}  // namespace
-
-SlopeSums& SlopeSums::operator+=(const SlopeSums& other)
-{
-  grains += other.grains, xx += other.xx, xy += other.xy, yy += other.yy;
-  xx_xx += other.xx_xx, xx_xy += other.xx_xy, xy_xy += other.xy_xy;
-  return *this;
-}
-
-CheckMoment in_si(CheckMoment moment, const Units& units)
-{
-  const double acceleration = units.acceleration(), square = acceleration * acceleration;
-  moment.time *= units.time;
-  moment.acceleration *= acceleration;
-  for (auto* estimate : {&moment.all, &moment.smaller, &moment.larger}) {
-    estimate->gravity *= acceleration;
-    estimate->error *= acceleration;
-  }
-  auto& force = moment.force;
-  for (auto* sum : {&force.xx, &force.xy, &force.yy}) *sum *= square;
-  for (auto* sum : {&force.xx_xx, &force.xx_xy, &force.xy_xy}) *sum *= square * square;
-  return moment;
-}
-
-const std::vector<Observable>& check_observables()
-{
-  static const auto observables = [] {
-    std::vector<Observable> all;
-    const CheckMoment moment;
-    visit_numbers(moment, [&](const std::string& name, const char* unit, const double&) {
-      all.push_back({"check_" + name, unit});
-    });
-    return all;
-  }();
-  return observables;
-}
-
-std::vector<double> check_values(const CheckMoment& moment)
-{
-  std::vector<double> values;
-  visit_numbers(moment, [&](const std::string&, const char*, const double& value) {
-    values.push_back(value);
-  });
-  return values;
-}
-
-void set_check_values(CheckMoment& moment, const std::vector<double>& values)
-{
-  auto value = values.begin();
-  visit_numbers(moment, [&](const std::string&, const char*, double& place) { place = *value++; });
-}
-
-CheckSeries check_series(const TrajectoryReader& run)
-{
-  CheckSeries series(run.size());
-  for (std::size_t k = 0; k < run.size(); ++k) {
-    series[k].step = run.steps()[k];
-    series[k].time = run.times()[k];
-  }
-  std::vector<std::vector<double>> columns;
-  for (const auto& [name, unit] : check_observables()) {
-    if (!run.has_observable(name))
-      throw FormatError(fmt::format("{}: /observables/{} is missing: import the archive again",
-                                    run.path(), name));
-    columns.push_back(run.observable(name));
-  }
-  for (std::size_t k = 0; k < run.size(); ++k) {
-    auto column = columns.begin();
-    visit_numbers(series[k],
-                  [&](const std::string&, const char*, double& place) { place = (*column++)[k]; });
-  }
-  return series;
-}
-
-namespace {
-
 /// Text of six digits rounds contact forces by this fraction.
 constexpr double digits = 1e-6;
 /// Of the squares of y, what a line may leave over, and the fewest grains that it is drawn through.
@@ -185,6 +109,56 @@ Estimate from_medians(const std::vector<Weighted>& values, double squared_within
 }
 
 }  // namespace
+
+SlopeSums& SlopeSums::operator+=(const SlopeSums& other)
+{
+  grains += other.grains, xx += other.xx, xy += other.xy, yy += other.yy;
+  xx_xx += other.xx_xx, xx_xy += other.xx_xy, xy_xy += other.xy_xy;
+  return *this;
+}
+
+CheckMoment in_si(CheckMoment moment, const Units& units)
+{
+  const double acceleration = units.acceleration(), square = acceleration * acceleration;
+  moment.time *= units.time;
+  moment.acceleration *= acceleration;
+  for (auto* estimate : {&moment.all, &moment.smaller, &moment.larger}) {
+    estimate->gravity *= acceleration;
+    estimate->error *= acceleration;
+  }
+  auto& force = moment.force;
+  for (auto* sum : {&force.xx, &force.xy, &force.yy}) *sum *= square;
+  for (auto* sum : {&force.xx_xx, &force.xx_xy, &force.xy_xy}) *sum *= square * square;
+  return moment;
+}
+
+const std::vector<Observable>& check_observables()
+{
+  static const auto observables = [] {
+    std::vector<Observable> all;
+    const CheckMoment moment;
+    visit_numbers(moment, [&](const std::string& name, const char* unit, const double&) {
+      all.push_back({"check_" + name, unit});
+    });
+    return all;
+  }();
+  return observables;
+}
+
+std::vector<double> check_values(const CheckMoment& moment)
+{
+  std::vector<double> values;
+  visit_numbers(moment, [&](const std::string&, const char*, const double& value) {
+    values.push_back(value);
+  });
+  return values;
+}
+
+void set_check_values(CheckMoment& moment, const std::vector<double>& values)
+{
+  auto value = values.begin();
+  visit_numbers(moment, [&](const std::string&, const char*, double& place) { place = *value++; });
+}
 
 std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate CheckMoment::*which)
 {

@@ -4,7 +4,7 @@
 #include "formats/core/frame.hpp"
 #include "formats/core/parameters.hpp"
 #include "formats/import/facts/units.hpp"
-#include "formats/trajectory/reader.hpp"
+#include "formats/trajectory/run_description.hpp"
 
 #include <array>
 #include <cstddef>
@@ -86,9 +86,6 @@ using CheckSeries = std::vector<CheckMoment>;
 const std::vector<Observable>& check_observables();
 std::vector<double> check_values(const CheckMoment& moment);
 void set_check_values(CheckMoment& moment, const std::vector<double>& values);
-
-/// The moments of an imported run. FormatError where its file does not hold them.
-CheckSeries check_series(const TrajectoryReader& run);
 
 /// A vector and its standard error.
 struct Estimate {

@@ -143,36 +143,6 @@ std::size_t deeply_overlapping(const Grains& grains, const ContactList<3>& conta
                                                 [&](std::size_t g) { return is_deep[g]; }));
 }
 
-}  // namespace
-
-std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& frame,
-                         const Imbalance& imbalance, const std::array<AxisInArchive, 3>& axes)
-{
-  std::vector<std::size_t> unbalanced;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g) && imbalance.defect[g].norm() > imbalance.limit)
-      unbalanced.push_back(g);
-  if (unbalanced.empty()) return "";
-  if (is_pair(imbalance, unbalanced))
-    return fmt::format(
-        "; what is missing on grain {} is the opposite of that on grain {}: their contact is missing, "
-        "or has a row too many",
-        grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
-  const auto walls = missing_walls(grains, box, frame, imbalance, unbalanced, axes);
-  if (!walls.empty()) return "; " + walls;
-  if (all_along_normals(frame.contacts))
-    return "; all contact forces are along their normals: is the tangential part missing?";
-  const auto overlapping = deeply_overlapping(grains, frame.contacts, unbalanced);
-  if (static_cast<double>(overlapping) >= most * static_cast<double>(unbalanced.size()))
-    return fmt::format(
-        "; {} of the {} grains that do not balance overlap others by more than {} of a radius: a bed "
-        "that is still being filled; begin later with --begin",
-        overlapping, unbalanced.size(), deep);
-  return "";
-}
-
-namespace {
-
 /// Of the squares of what is missing, the part that a cause has to explain.
 constexpr double most_squares = 0.95;
 /// Grains that tell a drag from chance.
@@ -285,6 +255,32 @@ std::pair<double, double> drag_along(const std::vector<Vec3>& x, const Grains& g
 }
 
 }  // namespace
+
+std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& frame,
+                         const Imbalance& imbalance, const std::array<AxisInArchive, 3>& axes)
+{
+  std::vector<std::size_t> unbalanced;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (is_mobile(grains, g) && imbalance.defect[g].norm() > imbalance.limit)
+      unbalanced.push_back(g);
+  if (unbalanced.empty()) return "";
+  if (is_pair(imbalance, unbalanced))
+    return fmt::format(
+        "; what is missing on grain {} is the opposite of that on grain {}: their contact is missing, "
+        "or has a row too many",
+        grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
+  const auto walls = missing_walls(grains, box, frame, imbalance, unbalanced, axes);
+  if (!walls.empty()) return "; " + walls;
+  if (all_along_normals(frame.contacts))
+    return "; all contact forces are along their normals: is the tangential part missing?";
+  const auto overlapping = deeply_overlapping(grains, frame.contacts, unbalanced);
+  if (static_cast<double>(overlapping) >= most * static_cast<double>(unbalanced.size()))
+    return fmt::format(
+        "; {} of the {} grains that do not balance overlap others by more than {} of a radius: a bed "
+        "that is still being filled; begin later with --begin",
+        overlapping, unbalanced.size(), deep);
+  return "";
+}
 
 UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame<3>& frame,
                                const Imbalance& imbalance)

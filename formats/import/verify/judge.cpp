@@ -116,26 +116,6 @@ Finding judge_balance(const CheckSeries& series, const CheckContext& context)
                             measure, moments, moments == 1 ? "moment" : "moments"));
 }
 
-}  // namespace
-
-std::vector<Finding> judge(const CheckSeries& series, const CheckContext& context)
-{
-  const auto gravity = judge_gravity(series, context);
-  std::vector<Finding> findings{judge_contacts(series),
-                                judge_completeness(series),
-                                judge_overlap(series),
-                                judge_pull(series),
-                                judge_balance(series, context),
-                                gravity,
-                                judge_masses(series, context, gravity),
-                                judge_sizes(context),
-                                judge_time(series, context)};
-  for (auto& finding : findings) finding = context.waivers.applied_to(std::move(finding));
-  return findings;
-}
-
-namespace {
-
 /// By how much a nominal diameter may lie outside those of the grains.
 constexpr double largest_factor = 1.5;
 
@@ -156,7 +136,44 @@ std::string exchange(const SpeciesSizes& lower, const SpeciesSizes& upper)
   return fmt::format("exchange them, --small {} --large {}", upper.types, lower.types);
 }
 
+Finding undecided(const CheckContext& context, const std::string& why)
+{
+  if (!context.step_is_given)
+    return {"time", Verdict::passed, "the step is stated by the archive; " + why, 0};
+  return {"time", Verdict::undecided, why, 0};
+}
+
+/// Where an archive has both, the time between its moments over the number of steps.
+std::optional<Finding> by_own_times(const CheckSeries& series, const CheckContext& context)
+{
+  if (!context.times_are_own || !context.steps_are_own || series.size() < 2) return std::nullopt;
+  const auto steps = static_cast<double>(series.back().step - series.front().step);
+  const double step = (series.back().time - series.front().time) / steps;
+  if (!(steps > 0) || std::abs(step / context.step - 1) < 0.01) return std::nullopt;
+  return Finding{
+      "time", Verdict::failed,
+      fmt::format("the archive's own times suggest a step of {:.4g}; as given it is {:.4g}",
+                  step / context.units.time, context.step / context.units.time),
+      std::abs(step / context.step - 1)};
+}
+
 }  // namespace
+
+std::vector<Finding> judge(const CheckSeries& series, const CheckContext& context)
+{
+  const auto gravity = judge_gravity(series, context);
+  std::vector<Finding> findings{judge_contacts(series),
+                                judge_completeness(series),
+                                judge_overlap(series),
+                                judge_pull(series),
+                                judge_balance(series, context),
+                                gravity,
+                                judge_masses(series, context, gravity),
+                                judge_sizes(context),
+                                judge_time(series, context)};
+  for (auto& finding : findings) finding = context.waivers.applied_to(std::move(finding));
+  return findings;
+}
 
 Finding judge_sizes(const CheckContext& context)
 {
@@ -192,31 +209,6 @@ Finding judge_sizes(const CheckContext& context)
                             species.mean / length, species.name);
   return {"sizes", Verdict::passed, sentence, 0};
 }
-
-namespace {
-
-Finding undecided(const CheckContext& context, const std::string& why)
-{
-  if (!context.step_is_given)
-    return {"time", Verdict::passed, "the step is stated by the archive; " + why, 0};
-  return {"time", Verdict::undecided, why, 0};
-}
-
-/// Where an archive has both, the time between its moments over the number of steps.
-std::optional<Finding> by_own_times(const CheckSeries& series, const CheckContext& context)
-{
-  if (!context.times_are_own || !context.steps_are_own || series.size() < 2) return std::nullopt;
-  const auto steps = static_cast<double>(series.back().step - series.front().step);
-  const double step = (series.back().time - series.front().time) / steps;
-  if (!(steps > 0) || std::abs(step / context.step - 1) < 0.01) return std::nullopt;
-  return Finding{
-      "time", Verdict::failed,
-      fmt::format("the archive's own times suggest a step of {:.4g}; as given it is {:.4g}",
-                  step / context.units.time, context.step / context.units.time),
-      std::abs(step / context.step - 1)};
-}
-
-}  // namespace
 
 Finding judge_time(const CheckSeries& series, const CheckContext& context)
 {

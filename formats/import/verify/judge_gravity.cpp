@@ -116,50 +116,6 @@ Finding undecided(const CheckContext& context, const std::string& why)
   return {"gravity", Verdict::undecided, why, 0};
 }
 
-}  // namespace
-
-Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
-{
-  const auto found = gravity_from(series, &CheckMoment::all);
-  if (!found)
-    return undecided(
-        context, fmt::format("without forces on grains it takes {} pairs of moments, or moments "
-                             "close together, to tell gravity from the grains",
-                             fewest_pairs));
-  const double scale = std::max(
-      {context.gravity.norm(), found->value.norm(), negligible * median_acceleration(series)});
-  if (!(scale > 0))
-    return {"gravity", Verdict::passed, "there is none, and the grains feel none", 0};
-  if (const auto change = change_of_gravity(series, tolerance * scale))
-    return turning(series, context, *change, scale);
-  const double measure = (found->value - context.gravity).norm() / scale;
-  const double error = found->error / scale;
-  const auto suggestion =
-      fmt::format("the archive suggests gravity {}, with a standard error of {:.2g} of it, {}",
-                  text_of(context, found->value), error, source(*found));
-  if (measure > tolerance && measure > 5 * error)
-    return {"gravity", Verdict::failed,
-            fmt::format("{}; as given it is {}: {}", suggestion, text_of(context, context.gravity),
-                        remedy(context, *found)),
-            measure};
-  if (measure <= tolerance && error <= sharp && context.gravity.y() > 0)
-    return {"gravity", Verdict::failed,
-            suggestion + ", which points away from the base: name the axes of the flow with --axes",
-            1 + context.gravity.y() / context.gravity.norm()};
-  if (measure <= tolerance && error <= sharp) {
-    const bool differs = measure > 5 * error && measure > smallest_difference;
-    return {"gravity", Verdict::passed,
-            suggestion +
-                (differs ? "; as given it is " + text_of(context, context.gravity) : std::string()),
-            measure};
-  }
-  auto finding = undecided(context, suggestion + ": an error of 3 degrees would not be seen");
-  finding.measure = measure;
-  return finding;
-}
-
-namespace {
-
 /// Part of a judgement: no verdict where nothing can be told.
 struct Part {
   Verdict verdict = Verdict::undecided;
@@ -234,6 +190,46 @@ Part by_inertia(const CheckSeries& series, const CheckContext& context)
 }
 
 }  // namespace
+
+Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
+{
+  const auto found = gravity_from(series, &CheckMoment::all);
+  if (!found)
+    return undecided(
+        context, fmt::format("without forces on grains it takes {} pairs of moments, or moments "
+                             "close together, to tell gravity from the grains",
+                             fewest_pairs));
+  const double scale = std::max(
+      {context.gravity.norm(), found->value.norm(), negligible * median_acceleration(series)});
+  if (!(scale > 0))
+    return {"gravity", Verdict::passed, "there is none, and the grains feel none", 0};
+  if (const auto change = change_of_gravity(series, tolerance * scale))
+    return turning(series, context, *change, scale);
+  const double measure = (found->value - context.gravity).norm() / scale;
+  const double error = found->error / scale;
+  const auto suggestion =
+      fmt::format("the archive suggests gravity {}, with a standard error of {:.2g} of it, {}",
+                  text_of(context, found->value), error, source(*found));
+  if (measure > tolerance && measure > 5 * error)
+    return {"gravity", Verdict::failed,
+            fmt::format("{}; as given it is {}: {}", suggestion, text_of(context, context.gravity),
+                        remedy(context, *found)),
+            measure};
+  if (measure <= tolerance && error <= sharp && context.gravity.y() > 0)
+    return {"gravity", Verdict::failed,
+            suggestion + ", which points away from the base: name the axes of the flow with --axes",
+            1 + context.gravity.y() / context.gravity.norm()};
+  if (measure <= tolerance && error <= sharp) {
+    const bool differs = measure > 5 * error && measure > smallest_difference;
+    return {"gravity", Verdict::passed,
+            suggestion +
+                (differs ? "; as given it is " + text_of(context, context.gravity) : std::string()),
+            measure};
+  }
+  auto finding = undecided(context, suggestion + ": an error of 3 degrees would not be seen");
+  finding.measure = measure;
+  return finding;
+}
 
 Finding judge_masses(const CheckSeries& series, const CheckContext& context, const Finding& gravity)
 {

@@ -132,6 +132,61 @@ std::vector<Vec3> shifts(const Box& box)
   return all;
 }
 
+/// Surfaces of one rigid body may be this far apart, over the smaller radius.
+constexpr double widest = 0.05;
+/// Relative difference of two motions that are the same: six digits of velocities, of which the
+/// rotation is a hundredth.
+constexpr double same_motion = 1e-4;
+
+constexpr double errors = 3, part_of_median = 0.25;
+
+/// Whether two grains move as one body: with the same spin and with the velocities that it makes.
+/// Without any spin, if they are `joined`: whether they move, but not along their branch.
+bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, bool joined)
+{
+  const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+  const double spin = frame.angular_velocity[i].norm();
+  const Vec3 other = frame.angular_velocity[i] - frame.angular_velocity[j];
+  const double differing = other.norm();
+  if (differing > same_motion * spin) return false;
+  const Vec3 branch = minimum_image(box, frame.position[i] - frame.position[j]);
+  const Vec3 relative = frame.velocity[i] - frame.velocity[j];
+  if (spin == 0)
+    return joined && std::abs(relative.dot(branch)) < same_motion * relative.norm() * branch.norm();
+  const Vec3 turning = frame.angular_velocity[i].cross(branch);
+  return (relative - turning).norm() <= same_motion * spin * branch.norm();
+}
+
+/// Whether normal forces grow with overlaps, as a rank correlation. Per moment it was 0.79 to 1 in
+/// archives of soft grains (LAMMPS, LIGGGHTS, YADE) and 0.04 to 0.66 in runs of contact dynamics,
+/// where overlaps are what earlier steps have left; 100 contacts know it to 0.1.
+bool forces_grow_with_overlaps(const ContactList<3>& contacts)
+{
+  constexpr double soft = 0.75;
+  constexpr std::size_t fewest = 100;
+  std::vector<double> forces, overlaps;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const double normal = contacts.force[c].dot(contacts.branch[c].normalized());
+    if (contacts.j[c] < 0 || normal <= 0) continue;
+    forces.push_back(normal);
+    overlaps.push_back(-contacts.gap[c]);
+  }
+  if (forces.size() < fewest) return false;
+  std::vector<double> work(2 * forces.size());
+  return gsl_stats_spearman(forces.data(), 1, overlaps.data(), 1, forces.size(), work.data()) >
+         soft;
+}
+
+double part_of_mobile(const Grains& grains, const std::vector<NearPair>& pairs)
+{
+  if (pairs.empty()) return 0;
+  std::set<std::int32_t> members;
+  for (const auto& pair : pairs) members.insert({pair.i, pair.j});
+  double mobile = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) mobile += is_mobile(grains, g);
+  return mobile > 0 ? static_cast<double>(members.size()) / mobile : 0;
+}
+
 }  // namespace
 
 std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Frame<3>& frame,
@@ -211,65 +266,6 @@ std::optional<ListedPairs::Pair> ListedPairs::twice() const
   }
   return std::nullopt;
 }
-
-namespace {
-
-/// Surfaces of one rigid body may be this far apart, over the smaller radius.
-constexpr double widest = 0.05;
-/// Relative difference of two motions that are the same: six digits of velocities, of which the
-/// rotation is a hundredth.
-constexpr double same_motion = 1e-4;
-
-constexpr double errors = 3, part_of_median = 0.25;
-
-/// Whether two grains move as one body: with the same spin and with the velocities that it makes.
-/// Without any spin, if they are `joined`: whether they move, but not along their branch.
-bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, bool joined)
-{
-  const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-  const double spin = frame.angular_velocity[i].norm();
-  const Vec3 other = frame.angular_velocity[i] - frame.angular_velocity[j];
-  const double differing = other.norm();
-  if (differing > same_motion * spin) return false;
-  const Vec3 branch = minimum_image(box, frame.position[i] - frame.position[j]);
-  const Vec3 relative = frame.velocity[i] - frame.velocity[j];
-  if (spin == 0)
-    return joined && std::abs(relative.dot(branch)) < same_motion * relative.norm() * branch.norm();
-  const Vec3 turning = frame.angular_velocity[i].cross(branch);
-  return (relative - turning).norm() <= same_motion * spin * branch.norm();
-}
-
-/// Whether normal forces grow with overlaps, as a rank correlation. Per moment it was 0.79 to 1 in
-/// archives of soft grains (LAMMPS, LIGGGHTS, YADE) and 0.04 to 0.66 in runs of contact dynamics,
-/// where overlaps are what earlier steps have left; 100 contacts know it to 0.1.
-bool forces_grow_with_overlaps(const ContactList<3>& contacts)
-{
-  constexpr double soft = 0.75;
-  constexpr std::size_t fewest = 100;
-  std::vector<double> forces, overlaps;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const double normal = contacts.force[c].dot(contacts.branch[c].normalized());
-    if (contacts.j[c] < 0 || normal <= 0) continue;
-    forces.push_back(normal);
-    overlaps.push_back(-contacts.gap[c]);
-  }
-  if (forces.size() < fewest) return false;
-  std::vector<double> work(2 * forces.size());
-  return gsl_stats_spearman(forces.data(), 1, overlaps.data(), 1, forces.size(), work.data()) >
-         soft;
-}
-
-double part_of_mobile(const Grains& grains, const std::vector<NearPair>& pairs)
-{
-  if (pairs.empty()) return 0;
-  std::set<std::int32_t> members;
-  for (const auto& pair : pairs) members.insert({pair.i, pair.j});
-  double mobile = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) mobile += is_mobile(grains, g);
-  return mobile > 0 ? static_cast<double>(members.size()) / mobile : 0;
-}
-
-}  // namespace
 
 UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Frame<3>& frame,
                                 const ListedPairs& listed, double error)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/common/archive.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "tests/formats/import/archive_balance.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 #include "tests/formats/import/mercury/mercury_restart_files.hpp"
@@ -46,7 +46,9 @@ class MercuryRestarts : public testing::Test {
     for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
       const auto i = static_cast<std::size_t>(frame.contacts.i[c]);
       const auto j = static_cast<std::size_t>(frame.contacts.j[c]);
-      frame.contacts.branch[c] = minimum_image<2>(run.box(), frame.position[i] - frame.position[j]);
+      Vec3 between = Vec3::Zero();
+      between.head<2>() = frame.position[i] - frame.position[j];
+      frame.contacts.branch[c] = minimum_image(run.box(), between).head<2>();
       frame.contacts.gap[c] = frame.contacts.branch[c].norm() - radius[i] - radius[j];
     }
   }
