@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <type_traits>
 
@@ -21,61 +22,33 @@ using namespace hdf5;
 
 constexpr std::int32_t format_version = 1;
 
-/// How values of type T lie in the file and in memory; a Vec2 and a Wall are rows of `columns`
-/// numbers.
-template <class T>
-struct Layout;
-template <>
-struct Layout<double> {
-  static constexpr hsize_t columns = 1;
-  static constexpr H5T_class_t kind = H5T_FLOAT;
-  static hid_t file() { return H5T_IEEE_F64LE; }
-  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
-};
-template <>
-struct Layout<std::int32_t> {
-  static constexpr hsize_t columns = 1;
-  static constexpr H5T_class_t kind = H5T_INTEGER;
-  static hid_t file() { return H5T_STD_I32LE; }
-  static hid_t memory() { return H5T_NATIVE_INT32; }
-};
-template <>
-struct Layout<std::uint8_t> : Layout<std::int32_t> {
-  static hid_t file() { return H5T_STD_U8LE; }
-  static hid_t memory() { return H5T_NATIVE_UINT8; }
-};
-template <>
-struct Layout<bool> : Layout<std::uint8_t> {
-};
-template <>
-struct Layout<std::int64_t> : Layout<std::int32_t> {
-  static hid_t file() { return H5T_STD_I64LE; }
-  static hid_t memory() { return H5T_NATIVE_INT64; }
-};
-template <>
-struct Layout<std::uint64_t> : Layout<std::int32_t> {
-  static hid_t file() { return H5T_STD_U64LE; }
-  static hid_t memory() { return H5T_NATIVE_UINT64; }
-};
-template <>
-struct Layout<Species> : Layout<std::int32_t> {
-};
-template <>
-struct Layout<Vec2> : Layout<double> {
-  static constexpr hsize_t columns = 2;
-};
-template <>
-struct Layout<Wall> : Layout<double> {
-  static constexpr hsize_t columns = 4;
-};
-template <>
-struct Layout<std::uint32_t> : Layout<std::int32_t> {
-  static hid_t file() { return H5T_STD_U32LE; }
-  static hid_t memory() { return H5T_NATIVE_UINT32; }
-};
+static_assert(std::endian::native == std::endian::little, "memory and file hold the same bytes");
 
+/// A Vec2 and a Wall are rows of so many numbers.
 template <class T>
-constexpr int rank_of = Layout<T>::columns > 1 ? 2 : 1;
+constexpr hsize_t columns_of = std::is_same_v<T, Vec2>   ? 2
+                               : std::is_same_v<T, Wall> ? 4
+                                                         : 1;
+template <class T>
+constexpr int rank_of = columns_of<T> > 1 ? 2 : 1;
+template <class T>
+constexpr bool is_real = std::is_same_v<T, double> || columns_of<T> > 1;
+template <class T>
+constexpr H5T_class_t kind_of = is_real<T> ? H5T_FLOAT : H5T_INTEGER;
+
+/// Of a number, in file and memory.
+template <class T>
+hid_t type_of()
+{
+  if constexpr (is_real<T>)
+    return H5T_IEEE_F64LE;
+  else if constexpr (sizeof(T) == 1)
+    return H5T_STD_U8LE;
+  else if constexpr (sizeof(T) == 4)
+    return std::is_unsigned_v<T> ? H5T_STD_U32LE : H5T_STD_I32LE;
+  else
+    return std::is_unsigned_v<T> ? H5T_STD_U64LE : H5T_STD_I64LE;
+}
 
 class Writer {
  public:
@@ -90,13 +63,13 @@ class Writer {
   void operator()(const char* path, const std::vector<T>& values) const
   {
     std::vector<hsize_t> shape{values.size()};
-    if (rank_of<T> == 2) shape.push_back(Layout<T>::columns);
-    write_fixed(file_, path, Layout<T>::file(), Layout<T>::memory(), shape, values.data());
+    if (rank_of<T> == 2) shape.push_back(columns_of<T>);
+    write_fixed(file_, path, type_of<T>(), type_of<T>(), shape, values.data());
   }
   template <class T>
   void operator()(const char* path, const T& value) const
   {
-    write_fixed(file_, path, Layout<T>::file(), Layout<T>::memory(), {}, &value);
+    write_fixed(file_, path, type_of<T>(), type_of<T>(), {}, &value);
   }
 
  private:
@@ -122,17 +95,17 @@ class Reader {
   template <class T>
   void operator()(const char* path, std::vector<T>& values) const
   {
-    const CheckedDataset dataset(file_, path, Layout<T>::kind, rank_of<T>, name_);
-    if (rank_of<T> == 2) dataset.require(1, Layout<T>::columns);
+    const CheckedDataset dataset(file_, path, kind_of<T>, rank_of<T>, name_);
+    if (rank_of<T> == 2) dataset.require(1, columns_of<T>);
     const Type type(H5Dget_type(dataset.id()));
-    require_room(path, dataset.dims()[0], Layout<T>::columns * H5Tget_size(type));
+    require_room(path, dataset.dims()[0], columns_of<T> * H5Tget_size(type));
     values.resize(dataset.dims()[0]);
-    dataset.read_all(Layout<T>::memory(), values.data());
+    dataset.read_all(type_of<T>(), values.data());
   }
   template <class T>
   void operator()(const char* path, T& value) const
   {
-    CheckedDataset(file_, path, Layout<T>::kind, 0, name_).read_all(Layout<T>::memory(), &value);
+    CheckedDataset(file_, path, kind_of<T>, 0, name_).read_all(type_of<T>(), &value);
   }
   void operator()(const char* path, bool& value) const
   {
