@@ -32,11 +32,6 @@ std::size_t draw_below(std::size_t n, Rng& rng)
   return static_cast<std::size_t>(gsl_rng_uniform_int(rng.get(), n));
 }
 
-Eigen::Index index(std::size_t n)
-{
-  return static_cast<Eigen::Index>(n);
-}
-
 /// Sum of squared deviations over n - 1 of the finite replicates; NaN where one in twenty is not.
 double variance(const Eigen::VectorXd& replicates)
 {

@@ -9,11 +9,6 @@
 namespace grseg {
 namespace {
 
-Eigen::Index index(std::size_t n)
-{
-  return static_cast<Eigen::Index>(n);
-}
-
 /// Subtracts from each run its own mean.
 Eigen::VectorXd about_run_means(Eigen::VectorXd series, const RunLengths& runs)
 {

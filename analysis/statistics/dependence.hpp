@@ -11,6 +11,12 @@ namespace grseg {
 using RunLengths = std::vector<std::size_t>;
 std::size_t number_of_windows(const RunLengths& runs);
 
+/// Its place in a vector of Eigen.
+inline Eigen::Index index(std::size_t window)
+{
+  return static_cast<Eigen::Index>(window);
+}
+
 /// How far the windows of a series are from independent.
 struct Dependence {
   double time = 1;               // integrated autocorrelation time in windows, at least 1

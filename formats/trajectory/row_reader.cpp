@@ -18,7 +18,7 @@ using namespace hdf5;
 constexpr std::size_t most_kept = 2 << 20;
 
 // Deflate packs at most 1032 : 1.
-constexpr hsize_t most_packing = 1040;
+constexpr hsize_t most_deflated = 1040;
 
 /// Whether the filters are deflate, or shuffle and deflate; of shuffle, that it shuffles the bytes of
 /// one number.
@@ -111,7 +111,7 @@ std::shared_ptr<const Chunk> RowReader::chunk(std::size_t number) const
                                    layout_->dataset, number, start[0], how));
   };
   if (size > most_bytes_) throw damaged("claims to be larger than the file");
-  if (layout_->chunk_bytes() / most_packing > size)
+  if (layout_->chunk_bytes() / most_deflated > size)
     throw damaged("claims to hold more than its bytes can");
   auto bytes = std::make_unique_for_overwrite<std::uint8_t[]>(size);
   std::uint32_t left_out = 0;

@@ -159,11 +159,6 @@ void read_mercury_boundary(const MercuryLines& lines, MercuryRestart& restart)
 
 using Particle = MercuryRestart::Particle;
 
-Vec3 three(const std::vector<double>& numbers, std::size_t first)
-{
-  return {numbers[first], numbers[first + 1], numbers[first + 2]};
-}
-
 Particle named_particle(const MercuryLines& lines)
 {
   Particle particle;

@@ -10,6 +10,12 @@
 
 namespace grseg {
 
+/// A vector of the numbers from `first` on.
+inline Vec3 three(const std::vector<double>& numbers, std::size_t first)
+{
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
 /// What a .restart of MercuryDPM states. Three versions are in use:
 ///   MercuryDPM, with any version of the program (since 2018), and restart_version 1.0 (before):
 ///       words and values in turn, a line per object (DPMBase::write); the last block, Interactions, holds the contacts. Written at

@@ -26,11 +26,6 @@ namespace {
                   place, what));
 }
 
-Vec3 three(const std::vector<double>& numbers, std::size_t first)
-{
-  return {numbers[first], numbers[first + 1], numbers[first + 2]};
-}
-
 constexpr const char* removed =
     "MercuryDPM moves the last row to the place of a grain that it removes, so that rows no longer "
     "name grains; import the .restart files of the moments instead, which have ids "

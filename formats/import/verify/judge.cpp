@@ -136,7 +136,7 @@ std::string exchange(const SpeciesSizes& lower, const SpeciesSizes& upper)
   return fmt::format("exchange them, --small {} --large {}", upper.types, lower.types);
 }
 
-Finding undecided(const CheckContext& context, const std::string& why)
+Finding undecided_time(const CheckContext& context, const std::string& why)
 {
   if (!context.step_is_given)
     return {"time", Verdict::passed, "the step is stated by the archive; " + why, 0};
@@ -215,11 +215,13 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
   if (auto finding = by_own_times(series, context)) return *finding;
   const auto slope = slope_of(sums_of(series, &CheckMoment::motion));
   if (series.size() < 2)
-    return undecided(context, "a single moment has no displacements to compare velocities with");
+    return undecided_time(context,
+                          "a single moment has no displacements to compare velocities with");
   if (!slope)
-    return undecided(context,
-                     "too few grains keep their velocity from one moment to the next to compare "
-                     "displacements with velocities");
+    return undecided_time(
+        context,
+        "too few grains keep their velocity from one moment to the next to compare "
+        "displacements with velocities");
   if (const auto change = change_of_slope(series, &CheckMoment::motion))
     return {
         "time", Verdict::failed,
@@ -247,7 +249,7 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
                           context.step / context.units.time),
         off};
   if (off > slope_tolerance || unsure > sharp_slope) {
-    auto finding = undecided(context, sentence + ", which is too much to tell");
+    auto finding = undecided_time(context, sentence + ", which is too much to tell");
     finding.measure = off;
     return finding;
   }

@@ -109,7 +109,7 @@ Finding turning(const CheckSeries& series, const CheckContext& context,
       (halves.second.value - halves.first.value).norm() / scale};
 }
 
-Finding undecided(const CheckContext& context, const std::string& why)
+Finding undecided_gravity(const CheckContext& context, const std::string& why)
 {
   if (!context.gravity_is_given)
     return {"gravity", Verdict::passed, "it is stated by the archive; " + why, 0};
@@ -195,7 +195,7 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
 {
   const auto found = gravity_from(series, &CheckMoment::all);
   if (!found)
-    return undecided(
+    return undecided_gravity(
         context, fmt::format("without forces on grains it takes {} pairs of moments, or moments "
                              "close together, to tell gravity from the grains",
                              fewest_pairs));
@@ -226,7 +226,8 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
                 (differs ? "; as given it is " + text_of(context, context.gravity) : std::string()),
             measure};
   }
-  auto finding = undecided(context, suggestion + ": an error of 3 degrees would not be seen");
+  auto finding =
+      undecided_gravity(context, suggestion + ": an error of 3 degrees would not be seen");
   finding.measure = measure;
   return finding;
 }
