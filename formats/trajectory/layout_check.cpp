@@ -23,12 +23,12 @@ struct NumberType {
   std::size_t bytes;
   H5T_sign_t sign = H5T_SGN_ERROR;  // of integers
 };
-constexpr NumberType int32{"int32", H5T_INTEGER, 4, H5T_SGN_2};
-constexpr NumberType int64{"int64", H5T_INTEGER, 8, H5T_SGN_2};
-constexpr NumberType uint8{"uint8", H5T_INTEGER, 1, H5T_SGN_NONE};
-constexpr NumberType uint64{"uint64", H5T_INTEGER, 8, H5T_SGN_NONE};
-constexpr NumberType float32{"float32", H5T_FLOAT, 4};
-constexpr NumberType float64{"float64", H5T_FLOAT, 8};
+constexpr NumberType i32{"int32", H5T_INTEGER, 4, H5T_SGN_2};
+constexpr NumberType i64{"int64", H5T_INTEGER, 8, H5T_SGN_2};
+constexpr NumberType u8{"uint8", H5T_INTEGER, 1, H5T_SGN_NONE};
+constexpr NumberType u64{"uint64", H5T_INTEGER, 8, H5T_SGN_NONE};
+constexpr NumberType f32{"float32", H5T_FLOAT, 4};
+constexpr NumberType f64{"float64", H5T_FLOAT, 8};
 
 /// A row of the table of formats/README.md. A letter of `shape` is F frames, O = F+1, N grains, C
 /// contacts, K species, D digests of a frame, d dimensions, w those of a spin, or 4. `stored`: float32 where the run says so.
@@ -40,31 +40,31 @@ struct Row {
   const char* unit;
 };
 constexpr std::array table{
-    Row{"/particles/grains/box/edges", float64, false, "d", ""},
-    Row{"/particles/grains/id", int32, false, "N", ""},
-    Row{"/particles/grains/species", int32, false, "N", ""},
-    Row{"/particles/grains/radius", float64, false, "N", ""},
-    Row{"/particles/grains/mass", float64, false, "N", ""},
-    Row{"/particles/grains/fixed", uint8, false, "N", ""},
-    Row{"/particles/grains/position/value", float64, true, "FNd", "m"},
-    Row{"/particles/grains/position/step", int64, false, "F", ""},
-    Row{"/particles/grains/position/time", float64, false, "F", "s"},
-    Row{"/particles/grains/image/value", int32, false, "FNd", ""},
-    Row{"/particles/grains/velocity/value", float64, true, "FNd", "m s-1"},
-    Row{"/particles/grains/angular_velocity/value", float64, true, "FNw", "s-1"},
-    Row{"/particles/grains/force/value", float64, true, "FNd", "N"},
-    Row{"/grseg/contacts/offset", uint64, false, "O", ""},
-    Row{"/grseg/contacts/i", int32, false, "C", ""},
-    Row{"/grseg/contacts/j", int32, false, "C", ""},
-    Row{"/grseg/contacts/force", float64, true, "Cd", "N"},
-    Row{"/grseg/contacts/branch", float64, true, "Cd", "m"},
-    Row{"/grseg/contacts/gap", float64, true, "C", "m"},
-    Row{"/grseg/digest", uint64, false, "F", ""},
-    Row{"/grseg/field_digest", uint64, false, "FD", ""},
-    Row{"/grseg/static_digest", uint64, false, "", ""},
-    Row{"/grseg/seal", uint64, false, "4", ""},
-    Row{"/grseg/species/diameter", float64, false, "K", ""},
-    Row{"/grseg/species/mobile", uint8, false, "K", ""},
+    Row{"/particles/grains/box/edges", f64, false, "d", ""},
+    Row{"/particles/grains/id", i32, false, "N", ""},
+    Row{"/particles/grains/species", i32, false, "N", ""},
+    Row{"/particles/grains/radius", f64, false, "N", ""},
+    Row{"/particles/grains/mass", f64, false, "N", ""},
+    Row{"/particles/grains/fixed", u8, false, "N", ""},
+    Row{"/particles/grains/position/value", f64, true, "FNd", "m"},
+    Row{"/particles/grains/position/step", i64, false, "F", ""},
+    Row{"/particles/grains/position/time", f64, false, "F", "s"},
+    Row{"/particles/grains/image/value", i32, false, "FNd", ""},
+    Row{"/particles/grains/velocity/value", f64, true, "FNd", "m s-1"},
+    Row{"/particles/grains/angular_velocity/value", f64, true, "FNw", "s-1"},
+    Row{"/particles/grains/force/value", f64, true, "FNd", "N"},
+    Row{"/grseg/contacts/offset", u64, false, "O", ""},
+    Row{"/grseg/contacts/i", i32, false, "C", ""},
+    Row{"/grseg/contacts/j", i32, false, "C", ""},
+    Row{"/grseg/contacts/force", f64, true, "Cd", "N"},
+    Row{"/grseg/contacts/branch", f64, true, "Cd", "m"},
+    Row{"/grseg/contacts/gap", f64, true, "C", "m"},
+    Row{"/grseg/digest", u64, false, "F", ""},
+    Row{"/grseg/field_digest", u64, false, "FD", ""},
+    Row{"/grseg/static_digest", u64, false, "", ""},
+    Row{"/grseg/seal", u64, false, "4", ""},
+    Row{"/grseg/species/diameter", f64, false, "K", ""},
+    Row{"/grseg/species/mobile", u8, false, "K", ""},
 };
 
 bool is_of(const Type& type, const NumberType& wanted)
@@ -98,7 +98,7 @@ class LayoutCheck {
       if (run_.has_force() || std::string(element) != "force")
         check_times(std::string("/particles/grains/") + element);
     for (const auto& [name, unit] : run_.observables()) {
-      check_row({("/observables/" + name + "/value").c_str(), float64, false, "F", unit.c_str()});
+      check_row({("/observables/" + name + "/value").c_str(), f64, false, "F", unit.c_str()});
       check_times("/observables/" + name);
     }
     read_all_in("");
@@ -179,7 +179,7 @@ void LayoutCheck::check_row(const Row& row)
 {
   const Dataset dataset(H5Dopen2(file_, row.path, H5P_DEFAULT));
   if (!dataset.valid()) return add_departure(row.path, "is missing or not a dataset");
-  const auto& type = row.stored && run_.stores_float32() ? float32 : row.type;
+  const auto& type = row.stored && run_.stores_float32() ? f32 : row.type;
   if (!is_of(Type(H5Dget_type(dataset)), type))
     add_departure(row.path, fmt::format("should be of type {}", type.name));
   auto found = dims_of(dataset);
