@@ -132,7 +132,7 @@ void unpack(std::string_view bytes, T&... values)
 namespace grseg {
 
 /// The archive that `open` opens, of one `file` and of a format without --columns, read in a process
-/// of its own (apart.hpp).
+/// of its own.
 std::unique_ptr<Archive> open_apart(const std::string& file,
                                     const std::function<std::unique_ptr<Archive>()>& open);
 

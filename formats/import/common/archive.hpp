@@ -225,12 +225,12 @@ struct TruncatedArchive : FormatError {
 
 /// What the command line gives to a reader.
 struct ArchiveFiles {
-  std::vector<std::string> grains, contacts;  // may hold `*`; file_list.hpp
+  std::vector<std::string> grains, contacts;  // may hold `*`; archive_files.hpp
   std::string restart;                        // with what the other files lack
   std::string columns;                        // contact_columns.hpp
   std::vector<std::string> wall_contacts;     // files, likewise
   std::string wall_columns;                   // of the contacts with walls
-  std::vector<std::string> unnamed;           // named without an option: proposed_files.hpp
+  std::vector<std::string> unnamed;           // named without an option: scan.hpp
   std::vector<std::string> map;               // other names of columns; csv_map.hpp
 };
 

@@ -39,7 +39,7 @@ struct FileStart {
 };
 
 /// UsageError where the file is missing or is a trajectory of grseg, FormatError where it is of a kind
-/// that no format reads (file_kind.hpp).
+/// that no format reads.
 void refuse_other_kind(const std::string& path);
 
 /// The same, and FormatError where the file is damaged.

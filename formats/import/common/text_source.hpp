@@ -12,7 +12,7 @@ namespace grseg {
 /// Files packed by gzip, bzip2, xz or zstd (recognised by their first bytes) are unpacked on the way,
 /// and byte-order marks of UTF-8 are passed over. UsageError where a file is missing, FormatError
 /// naming file and line where packed data are damaged or end early, where a line is longer than a
-/// megabyte, or where a file is of another kind (file_kind.hpp); RunError where the disk fails.
+/// megabyte, or where a file is of another kind (archive_files.hpp); RunError where the disk fails.
 class TextSource {
  public:
   explicit TextSource(std::vector<std::string> files);

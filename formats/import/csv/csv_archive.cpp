@@ -397,9 +397,9 @@ FileRole role_of(const FileStart& start)
 ///   contacts  time|t i|id1 j|id2 fx fy fz: force ON i FROM j; overlap|delta|penetration; bx by bz:
 ///             branch x_i - x_j
 /// Instead of the time there may be step|timestep|iteration|cycle, or one file per moment (
-/// csv_files.hpp). j < 0 is straight wall -j-1, where a branch (x_i - contact point) is needed.
+/// csv_table.hpp). j < 0 is straight wall -j-1, where a branch (x_i - contact point) is needed.
 /// Moments are matched by time or step. Comments above the names of the grains' table may state
-/// facts of the run (csv_comments.hpp).
+/// facts of the run (CsvComments).
 std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
 {
   return std::make_unique<CsvArchive>(files);

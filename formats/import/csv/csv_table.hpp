@@ -22,7 +22,7 @@ struct CsvFile {
   std::optional<std::int64_t> step;
 };
 
-/// The files that `names` stand for (file_list.hpp), in natural order. In names without `*` (which a
+/// The files that `names` stand for (archive_files.hpp), in natural order. In names without `*` (which a
 /// shell may have replaced) the digits are the last ones before the ending.
 std::vector<CsvFile> csv_files(const std::vector<std::string>& names, const std::string& option);
 
@@ -34,7 +34,7 @@ char csv_separator(std::string_view names);
 /// around a field go. They are views into `line`.
 void split_csv(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
-/// Numbers as C or Fortran writes them (number_row.hpp), with a point or, where commas do not separate
+/// Numbers as C or Fortran writes them (text_values.hpp), with a point or, where commas do not separate
 /// columns, with a comma, the same in the whole table.
 class CsvNumbers {
  public:
@@ -57,14 +57,14 @@ struct CsvMoment {
 };
 
 /// A plain table in one file or many, each beginning with a line of column names (or, behind the
-/// first, going on without one), then rows: separated by commas, semicolons, tabs or blanks
-/// (csv_line.hpp), with a byte-order mark or none, lines ending as in Windows or not. Names may stand
+/// first, going on without one), then rows: separated by commas, semicolons, tabs or blanks,
+/// with a byte-order mark or none, lines ending as in Windows or not. Names may stand
 /// in the comment above the rows, and where there are none --map names columns by number. Empty lines
 /// and lines that begin with #, % or // are skipped; those above the first names are kept. Only columns
 /// that are asked for must be numbers.
 ///
 /// Rows are read in blocks of equal time, or of equal step; in a table that has neither column each
-/// file is a block, whose name says when it is (csv_files.hpp).
+/// file is a block, whose name says when it is.
 class CsvTable {
  public:
   /// The names of a column, "x|posx", in lower case.
@@ -74,7 +74,7 @@ class CsvTable {
     enum Holds {
       numbers,
       truth,  // "true" and "false" may stand for 1 and 0
-      words,  // words may stand for numbers (type_names.hpp)
+      words,  // words may stand for numbers (text_values.hpp)
       ids,    // --map may take the number of the row for it
     } holds = numbers;
   };

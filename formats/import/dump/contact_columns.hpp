@@ -76,7 +76,7 @@ class ContactColumns : public ColumnMap {
 /// What `fx fy fz` of contacts are where other columns hold the tangential force.
 enum class PlainForce { normal, whole };
 
-/// The mapping (contact_columns.hpp) of columns that are named by what they hold, by `dump_modify
+/// The mapping of columns that are named by what they hold, by `dump_modify
 /// colname` or a script: "id1 id2 dist fnx fny fnz ftx fty ftz". "" where two ids and a force are not
 /// among the names.
 std::string columns_by_name(const DumpHeader& header, PlainForce plain);

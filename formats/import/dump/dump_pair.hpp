@@ -26,7 +26,7 @@ struct DumpParts {
 DumpParts parts_of_dump(const std::vector<std::string>& files);
 
 /// Dumps in one file or many, in order of their first steps. Blocks of a step that several processors
-/// wrote to files of their own (dump_parts.hpp) are joined.
+/// wrote to files of their own are joined.
 class JoinedDumps {
  public:
   explicit JoinedDumps(const std::vector<std::string>& files);

@@ -43,14 +43,14 @@ struct ImportSettings {
   std::optional<double> slope;         // degrees
   std::optional<std::string> axes;     // "xy" where not given
   std::string origin = "top";          // or "centre", or a height in the archive
-  std::optional<int> dimension;        // dimension.hpp
+  std::optional<int> dimension;        // axes.hpp
   SpeciesSettings species;
-  std::vector<std::string> walls;  // wall_planes.hpp
-  std::vector<std::string> cells;  // told_cell.hpp
+  std::vector<std::string> walls;  // cell_and_walls.hpp
+  std::vector<std::string> cells;  // cell_and_walls.hpp
 
-  std::optional<std::string> begin, end;     // moment_range.hpp
-  std::optional<std::string> repeated;       // repeated_moments.hpp
-  std::vector<std::string> accept_residual;  // finding.hpp
+  std::optional<std::string> begin, end;     // moments.hpp
+  std::optional<std::string> repeated;       // moments.hpp
+  std::vector<std::string> accept_residual;  // check_context.hpp
   bool strict = false;                       // refuse what is undecided
   bool drop_incomplete = false;
   std::string output;

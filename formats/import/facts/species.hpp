@@ -15,7 +15,7 @@ namespace grseg {
 
 /// How the command line separates the species.
 struct SpeciesSettings {
-  std::vector<std::string> named;                     // named_species.hpp; else
+  std::vector<std::string> named;                     // NamedSpecies; else
   std::optional<std::string> small, large, boundary;  // types
   std::optional<std::string> boundary_ids;
   std::optional<double> split_diameter;
@@ -50,7 +50,7 @@ class NumberList {
   std::vector<std::pair<std::int64_t, std::int64_t>> ranges_;  // first and last
 };
 
-/// Types of grains as an option lists them: numbers and ranges (number_list.hpp) or, where the archive
+/// Types of grains as an option lists them: numbers and ranges or, where the archive
 /// has words for them, these words, separated by commas; or "none".
 class TypeList {
  public:
@@ -64,7 +64,7 @@ class TypeList {
 };
 
 /// Any number of species by type, each as --species gives it: NAME=TYPES or NAME=TYPES:DIAMETER,
-/// where TYPES are a list (type_list.hpp) or "all", and DIAMETER is nominal, in the archive's units.
+/// where TYPES are a list as above or "all", and DIAMETER is nominal, in the archive's units.
 struct NamedSpecies {
   SpeciesList list;              // in order of nominal diameters; 0 where it was not given
   std::vector<Species> species;  // of every grain

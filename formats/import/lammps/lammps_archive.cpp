@@ -54,7 +54,7 @@ bool is_of_lammps(const FileStart& start)
 /// fx fy fz are the NORMAL part of the force on patom1 alone, p1 p2 p3 the tangential part; the
 /// force is their sum. Names like c_pl[3] carry no meaning, so --columns gives it; without it the
 /// ten columns above are assumed, which the grains' balance verifies. Columns that are named by what
-/// they hold (named_columns.hpp) are recognised. dx dy dz, whose sign depended on tags until 12Jun2025,
+/// they hold (contact_columns.hpp) are recognised. dx dy dz, whose sign depended on tags until 12Jun2025,
 /// are never used: the branch is x_patom1 - x_patom2. Contacts of fix wall/gran are not in any dump
 /// local, but with its keyword `contacts` they may be columns of the dump of grains
 /// (wall_contacts.hpp).

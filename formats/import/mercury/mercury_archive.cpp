@@ -274,7 +274,7 @@ FileRole role_of(const FileStart& start)
   return FileRole::none;
 }
 
-/// Runs of MercuryDPM as its source writes them (mercury_blocks.hpp, mercury_restart.hpp), in one of
+/// Runs of MercuryDPM as its source writes them (mercury_tables.hpp, mercury_restart.hpp), in one of
 /// three sets of files:
 /// * .data (`files.grains`), .fstat (`files.contacts`), and .restart, which states masses, species,
 ///   fixed grains, gravity, step, discs or spheres and periodic boundaries. Without it the command

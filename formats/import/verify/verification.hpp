@@ -31,7 +31,7 @@ struct Residual {
 
 /// What is wrong with a frame, as a sentence about the reading of its archive.
 struct Complaint {
-  std::string check;  // finding.hpp
+  std::string check;  // check_context.hpp
   std::string sentence;
   bool of_columns = false;      // another --columns might help
   bool spoils_gravity = false;  // what the grains tell of gravity and masses is wrong by it
