@@ -11,20 +11,25 @@
 namespace grseg {
 namespace {
 
-/// The force of a contact along its normal, and its `turn`.
+/// The force of a contact along its normal, and n cross the force.
 struct Split {
   Vec3 n;
   double normal;
   Vec3 tangential;
 };
-Split split(const ContactList<3>& contacts, std::size_t c)
+std::vector<Split> split(const ContactList<3>& contacts)
 {
-  const Vec3 n = contacts.branch[c].normalized();
-  return {n, contacts.force[c].dot(n), n.cross(contacts.force[c])};
+  std::vector<Split> all;
+  all.reserve(contacts.size());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Vec3 n = contacts.branch[c].normalized();
+    all.push_back({n, contacts.force[c].dot(n), n.cross(contacts.force[c])});
+  }
+  return all;
 }
 
 std::vector<Vec3> angular_accelerations(const Grains& grains, const ContactList<3>& contacts,
-                                        double inertia)
+                                        const std::vector<Split>& forces, double inertia)
 {
   std::vector<Vec3> acceleration(grains.size(), Vec3::Zero());
   const auto add = [&](std::size_t g, const Vec3& tangential) {
@@ -32,21 +37,18 @@ std::vector<Vec3> angular_accelerations(const Grains& grains, const ContactList<
       acceleration[g] -= tangential / (inertia * grains.mass[g] * grains.radius[g]);
   };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const Vec3 tangential = split(contacts, c).tangential;
-    add(row(contacts.i[c]), tangential);
-    if (contacts.j[c] >= 0) add(row(contacts.j[c]), tangential);
+    add(row(contacts.i[c]), forces[c].tangential);
+    if (contacts.j[c] >= 0) add(row(contacts.j[c]), forces[c].tangential);
   }
   return acceleration;
 }
 
 /// Largest ratio of friction to normal force: where it is reached, contacts slide.
-double friction_of(const ContactList<3>& contacts)
+double friction_of(const std::vector<Split>& forces)
 {
   double largest = 0;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto force = split(contacts, c);
+  for (const auto& force : forces)
     if (force.normal > 0) largest = std::max(largest, force.tangential.norm() / force.normal);
-  }
   return largest;
 }
 
@@ -56,8 +58,9 @@ LateDamping subtract_late_damping(const Grains& grains, const Frame<3>& frame, d
                                   double inertia, std::vector<Vec3>& defect)
 {
   const auto& contacts = frame.contacts;
-  const auto spin_up = angular_accelerations(grains, contacts, inertia);
-  const double friction = friction_of(contacts);
+  const auto forces = split(contacts);
+  const auto spin_up = angular_accelerations(grains, contacts, forces, inertia);
+  const double friction = friction_of(forces);
   // The force that is missing on every grain per unit of c_n and of c_t.
   std::vector<Vec3> per_normal(grains.size(), Vec3::Zero()), per_tangential = per_normal;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -67,7 +70,7 @@ LateDamping subtract_late_damping(const Grains& grains, const Frame<3>& frame, d
     const bool pair = !wall && is_mobile(grains, j);
     const double m = grains.mass[i];
     const double mass = pair ? m * grains.mass[j] / (m + grains.mass[j]) : m;
-    const auto force = split(contacts, c);
+    const auto& force = forces[c];
     Vec3 a = frame.force[i] / m;
     Vec3 rims = grains.radius[i] * spin_up[i];
     if (pair) {

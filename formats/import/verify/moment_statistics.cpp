@@ -129,7 +129,7 @@ GravityEstimate MomentStatistics::by_median(Group group, const Vectors& weights)
   if (members.empty()) return estimate;
   double squares = 0;
   std::vector<double> values(members.size());
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < box_.dimension; ++k) {
     std::transform(members.begin(), members.end(), values.begin(),
                    [&](std::size_t g) { return weights[g][k]; });
     const double middle = median(values);

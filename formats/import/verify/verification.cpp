@@ -48,7 +48,7 @@ std::optional<Complaint> Verification::check(const Frame<3>& frame, bool has_ima
   moment_ = {};
   moment_.step = frame.step;
   moment_.time = frame.time;
-  auto sums = sums_as(frame, [](const Vec3& force, const Vec3&) { return force; });
+  auto sums = sums_as(frame, nullptr);
   residual_ = residual_with(frame, sums);
   auto complaint = distance_moved(frame);
   if (auto other = geometry(frame); !complaint) complaint = other;
@@ -213,9 +213,9 @@ auto Verification::sums_as(const Frame<3>& frame, const Reading& reading) const 
 {
   Sums sums;
   const auto of = [&](const ContactList<3>& contacts) {
-    Forces forces(contacts.size());
+    Forces forces = contacts.force;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      forces[c] = reading(contacts.force[c], contacts.branch[c].normalized());
+      if (reading) forces[c] = reading(forces[c], contacts.branch[c].normalized());
       sums.largest = std::max(sums.largest, forces[c].norm());
     }
     return contact_sums(grains_.size(), contacts, forces);
@@ -361,7 +361,7 @@ std::optional<Complaint> Verification::balance(const Frame<3>& frame)
 
 Complaint Verification::imbalance(const Frame<3>& frame) const
 {
-  const auto sums = sums_as(frame, [](const Vec3& force, const Vec3&) { return force; });
+  const auto sums = sums_as(frame, nullptr);
   const auto [defect, scale] = defect_of(frame, sums);
   const Imbalance missing{defect, tolerance() * scale};
   UnlistedForces cause{other_readings(frame), false};
