@@ -212,9 +212,10 @@ std::vector<PartitionRule> without_repeats(const std::vector<PartitionRule>& rul
 
 std::string names_of(const std::vector<PartitionRule>& rules)
 {
-  std::string names;
-  for (const auto& rule : rules) names += (names.empty() ? "" : ",") + rule.name();
-  return names;
+  std::vector<std::string> names;
+  names.reserve(rules.size());
+  for (const auto& rule : rules) names.push_back(rule.name());
+  return fmt::format("{}", fmt::join(names, ","));
 }
 
 template <int D>

@@ -98,7 +98,7 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
         loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
       auto row = composition.mean(layer);
-      auto sums = stress.mean(layer).sums;
+      auto sums = map ? stress.mean(layer).sums : ContactSums<D>(0);
       sums.content = row;
       sums.volume = loop.layers().volume(layer);
       append(row, stress.row(layer));
