@@ -90,7 +90,7 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
                        .instruments = choose(s.instruments, "--instruments", instrument_choices)};
   filter.range.begin = s.begin.value_or(filter.range.begin);
   filter.range.end = s.end.value_or(filter.range.end);
-  const auto tables = read_tables(info, values, s.quiet);
+  const auto tables = read_tables(values);
   if (tables.empty())
     throw UsageError(
         "no table given; name a table of grseg-segregation and one of grseg-stress of each run");

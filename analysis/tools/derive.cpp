@@ -41,7 +41,7 @@ void derive(Settings& s, const po::variables_map& values, const std::string& com
 {
   s.derivation.check();
   s.output.check(values);
-  const auto tables = read_tables(info, values, s.quiet);
+  const auto tables = read_tables(values);
   if (tables.empty())
     throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
   const auto table =

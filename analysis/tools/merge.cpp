@@ -34,7 +34,7 @@ void merge(Settings& s, const po::variables_map& values, const std::string& comm
 {
   s.output.check(values);
   const auto merged =
-      merge_tables(read_tables(info, values, s.quiet), s.all_windows, info, command);
+      merge_tables(read_tables(values), s.all_windows, info, command);
   write_table(s.output, s.json ? merged.to_json() : merged.to_text());
 }
 
