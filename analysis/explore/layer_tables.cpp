@@ -258,8 +258,8 @@ Json segregation_of(FrameLoop& loop, const RateFilter& filter)
 {
   const auto& species = loop.species();
   const double small = species[0].diameter, large = species[1].diameter;
-  SegregationRun<D> run(loop.layers(), small, large);
-  const auto columns = SegregationRun<D>::columns();
+  SegregationTable<D> run(loop.layers(), small, large);
+  const auto columns = SegregationTable<D>::columns();
   const auto first = static_cast<std::size_t>(
       std::find(columns.begin(), columns.end(), first_of_bed) - columns.begin());
   Json all{{"numbers", Json::array()},
