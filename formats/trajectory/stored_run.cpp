@@ -49,8 +49,7 @@ class HeadReader {
 
   StoredRun run() &&
   {
-    require_version("/h5md", {1, 1});
-    require_version("/h5md/modules/grseg", {1, 0});
+    require_versions();
     read_offset();
     read_box();
     read_parameters();
@@ -73,16 +72,25 @@ class HeadReader {
     return {file_, at, kind, rank, run_.path};
   }
 
-  void require_version(const char* module, const std::vector<int>& known) const
+  std::vector<int> version_of(const char* module) const
   {
-    const auto version = read_integers(Group(H5Gopen2(file_, module, H5P_DEFAULT)), "version");
-    if (version.empty())
+    auto version = read_integers(Group(H5Gopen2(file_, module, H5P_DEFAULT)), "version");
+    if (version.size() != 2)
       run_.fail(fmt::format("{} has no version: this is no run of grseg, or damaged", module));
-    if (version != known)
+    return version;
+  }
+
+  void require_versions() const
+  {
+    const auto h5md = version_of("/h5md"), file = version_of("/h5md/modules/grseg");
+    if (h5md[0] != 1)
+      run_.fail(fmt::format("/h5md has version {}, but this grseg reads versions 1.x",
+                            fmt::join(h5md, ".")));
+    if (file != std::vector{1, 0})
       run_.fail(
-          fmt::format("{} has version {}, but this grseg reads version {}: read the file with "
-                      "the grseg that wrote it",
-                      module, fmt::join(version, "."), fmt::join(known, ".")));
+          fmt::format("/h5md/modules/grseg has version {}, but this grseg reads version 1.0: read "
+                      "the file with the grseg that wrote it",
+                      fmt::join(file, ".")));
   }
 
   /// A property of the grains that is the same in all frames.

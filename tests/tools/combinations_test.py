@@ -42,7 +42,7 @@ def rows_of(contact, phi, of_slope=0.0):
 
 def write(path, rows):
     with open(path, "w") as out:
-        out.write("# program: none\n" + "\t".join(rows[0]) + "\n")
+        out.write("\t".join(rows[0]) + "\n")
         for row in rows:
             out.write("\t".join(repr(float(cell)) for cell in row.values()) + "\n")
 
