@@ -2,8 +2,8 @@
 #include "analysis/check/contact_violations.hpp"
 
 #include "analysis/frames/contacts.hpp"
-#include "formats/core/frame.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/trajectory/reader.hpp"
 
 #include <fmt/format.h>

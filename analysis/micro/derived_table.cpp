@@ -8,8 +8,8 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/core/frame.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>

@@ -33,8 +33,7 @@ po::options_description options_into(Settings& s)
 void merge(Settings& s, const po::variables_map& values, const std::string& command)
 {
   s.output.check(values);
-  const auto merged =
-      merge_tables(read_tables(values), s.all_windows, info, command);
+  const auto merged = merge_tables(read_tables(values), s.all_windows, info, command);
   write_table(s.output, s.json ? merged.to_json() : merged.to_text());
 }
 

@@ -2,12 +2,12 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/frames/table_writer.hpp"
 #include "analysis/segregation/segregation_table.hpp"
+#include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/length.hpp"
-#include "analysis/tools/tool_main.hpp"
 
 #include <fmt/format.h>
 

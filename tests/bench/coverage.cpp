@@ -202,7 +202,8 @@ double truth_of(Population over, const RunsOfFlows::Draw::Truth& truth)
 
 bool is_defined(Population over, std::size_t flows)
 {
-  return flows > 1 || over == Population::windows || over == Population::runs || over == Population::compositions;
+  return flows > 1 || over == Population::windows || over == Population::runs ||
+         over == Population::compositions;
 }
 
 void print_flows(const FlowDesign& design)

@@ -2,8 +2,8 @@
 // A text file of an archive, plain or compressed: its lines, words and numbers.
 #include "formats/core/text.hpp"
 
-#include "formats/import/common/text_values.hpp"
 #include "formats/import/common/text_source.hpp"
+#include "formats/import/common/text_values.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 #include <cmath>

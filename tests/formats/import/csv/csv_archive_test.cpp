@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/common/archive.hpp"
-
 #include "tests/formats/import/archive_balance.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/axes.hpp"
-
 #include "tests/formats/import/lammps_text.hpp"
 
 #include <gtest/gtest.h>

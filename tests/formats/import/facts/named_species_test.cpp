@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/facts/species.hpp"
-
 #include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/flow_in_space.hpp"
 

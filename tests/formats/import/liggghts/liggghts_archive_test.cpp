@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/common/archive.hpp"
-
 #include "formats/import/convert/importer.hpp"
 #include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/liggghts/liggghts_columns.hpp"
@@ -136,8 +135,8 @@ TEST_F(Liggghts, EverySelectionOfColumnsIsTheSameContacts)
   ASSERT_EQ(whole.size(), 4u);
   for (const char* name : {"default25", "forcechain12", "part"}) {
     const bool part = std::string(name) == "part";
-    const auto read =
-        all_of(*liggghts_format.open(files("contacts-" + std::string(name) + ".dump", part ? full : "")));
+    const auto read = all_of(
+        *liggghts_format.open(files("contacts-" + std::string(name) + ".dump", part ? full : "")));
     ASSERT_EQ(read.size(), whole.size()) << name;
     for (std::size_t k = 0; k < read.size(); ++k) {
       EXPECT_EQ(read[k].contacts.i, whole[k].contacts.i) << name;

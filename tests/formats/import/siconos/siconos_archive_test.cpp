@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/common/archive.hpp"
-
 #include "formats/import/siconos/siconos_bodies.hpp"
 #include "formats/trajectory/hdf5.hpp"
 #include "tests/formats/import/archive_balance.hpp"
