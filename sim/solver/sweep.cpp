@@ -34,12 +34,12 @@ struct alignas(64) LaneResults {
   template <Effects with>
   HWY_INLINE void add(std::size_t lane, const Relaxed<V>& r)
   {
-    const auto update = [&](typename BlockOf<Real>::Lanes& lanes, auto next, V normal, V tangential)
-                            HWY_ATTR {
-                              V found = next(load(lanes, lane), normal);
-                              if constexpr (with.friction) found = next(found, tangential);
-                              hn::Store(found, Tag(), &lanes[lane]);
-                            };
+    const auto update = [&](typename BlockOf<Real>::Lanes& lanes, auto next, V normal,
+                            [[maybe_unused]] V tangential) HWY_ATTR {
+      V found = next(load(lanes, lane), normal);
+      if constexpr (with.friction) found = next(found, tangential);
+      hn::Store(found, Tag(), &lanes[lane]);
+    };
     const auto add_square = [](V sum, V x) HWY_ATTR { return sum + x * x; };
     update(squares, add_square, r.change_n, r.change_t);
     if constexpr (measured == Measured::squares) return;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -32,7 +33,7 @@ class Cells {
   Cells(const Grains& grains, const Frame<3>& frame)
   {
     std::vector<double> radii;
-    high_ = Vec3::Constant(-INFINITY);
+    high_ = Vec3::Constant(-std::numeric_limits<double>::infinity());
     low_ = -high_;
     for (std::size_t g = 0; g < grains.size(); ++g) {
       if (!is_present(frame, g)) continue;
