@@ -27,7 +27,8 @@ runs=$((runs - 1))
 for kill in 1 2; do
   setsid bash -c "$(declare -f sweep); source='$source' build='$build' folder='$folder' keys='$keys'; sweep killed" >>killed.log 2>&1 &
   running=$!
-  until [ "$(find killed -name checksums 2>/dev/null | wc -l)" -ge $((kill * runs / 3)) ] && compgen -G 'killed/*/run.chk' >/dev/null; do
+  # Also until setsid has made the group that is killed.
+  until kill -0 -- "-$running" 2>/dev/null && [ "$(find killed -name checksums 2>/dev/null | wc -l)" -ge $((kill * runs / 3)) ] && compgen -G 'killed/*/run.chk' >/dev/null; do
     kill -0 "$running" 2>/dev/null || { cat killed.log; fail "the sweep ended before it could be killed"; }
     sleep 0.02
   done
