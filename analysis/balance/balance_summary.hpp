@@ -53,10 +53,10 @@ class BalanceSummary {
   std::vector<double> push_, push_kinetic_, drag_;  // by window, over the weight
 };
 
-/// What each partition rule says of the forces on large grains, beside what it cannot change. Forces
+/// The forces on large grains by each partition rule, beside what no rule changes. Forces are
 /// along y in units of the large grains' weight, upward positive, from the layers inside the bed
-/// (layers_inside); summed over layers before they are divided. Of other than two species only how
-/// far rules agree on N.
+/// (layers_inside); they are summed over layers before they are divided. Where species are not two,
+/// only the difference between rules in N is given.
 template <int D>
 class PartitionSummary {
  public:

@@ -26,10 +26,10 @@ struct CheckLine {
   std::string remark;  // where the largest value is, or why the check was skipped
 };
 
-/// What was measured against a tolerance, passed or failed.
+/// A line of the report for a measured value, which passes or fails by its tolerance.
 CheckLine judged(const std::string& quantity, double measured, double tolerance,
                  const std::string& remark = "");
-/// What was not measured, and why.
+/// A line of the report for a quantity that was not measured, with the reason.
 CheckLine skipped(const std::string& quantity, const std::string& why);
 
 /// The output of grseg-check.

@@ -26,7 +26,7 @@ struct ContactRules {
   double horizon = 0;    // steps in which a pair that is still apart may close its gap; 0: may not
 };
 
-/// Of runs that name no contact law it is that of pairs that touch at mid-step. FormatError where
+/// A run without the name of a law is one of pairs that touch at mid-step. FormatError where
 /// the law is not known. What a law means is decided in sim/contact/contact_law.hpp, which analysis
 /// must not include: a new law is named here, too.
 ContactRules read_contact_rules(const TrajectoryReader& run);

@@ -101,7 +101,7 @@ class MotionBalance {
   const WorstCase& momentum() const { return momentum_; }
 
   std::size_t frames() const { return frames_; }
-  /// Whether all frames had the same grains.
+  /// True where all frames had the same grains.
   bool same_grains() const { return same_grains_; }
   /// m: the distance moved along an axis less that by velocity, since the first frame.
   double stray(int axis) const
@@ -120,7 +120,7 @@ class MotionBalance {
   WorstCase momentum_;
 };
 
-/// Whether partial stresses add up: the sum of sigma^nu over the species nu is sigma in the whole
+/// Checks the sum of partial stresses: sigma^nu summed over the species nu is sigma in the whole
 /// bed (Staron & Phillips 2015, eq. 1), where
 ///   sigma^nu = (1/V) sum over contact ends on grains of nu of (force on the grain) (x) (x - c),
 /// c the contact point, from the positions x of the grains, and sigma is that of

@@ -250,7 +250,7 @@ Json layer_tables(FrameLoop& loop)
 
 namespace {
 
-/// Of the whole bed: the last columns of grseg-segregation, which those of layers come before.
+/// First column about the whole bed in the table of grseg-segregation, behind those of layers.
 constexpr const char* first_of_bed = "yL[m]";
 
 template <int D>
