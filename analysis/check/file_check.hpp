@@ -12,7 +12,7 @@
 
 namespace grseg {
 
-/// Checks a file against what its writer wrote: it was closed, has frames, and each frame and what is
+/// Checks a file against what was written: it was closed, has frames, and each frame and what is
 /// there once agree with their digests. TrajectoryReader refuses files that cannot be read at all.
 class ContentCheck {
  public:
