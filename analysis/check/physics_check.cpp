@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/physics_check.hpp"
 
+#include "analysis/check/file_check.hpp"
 #include "formats/cli/frame_range.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
@@ -363,5 +364,35 @@ void PhysicsCheck<D>::add_strays(const Check& check, const std::vector<double>& 
 
 template class PhysicsCheck<2>;
 template class PhysicsCheck<3>;
+
+template <int D>
+std::vector<CheckLine> check_run(const TrajectoryReader& run, const ChecksAsked& asked,
+                                 const std::function<void(std::size_t)>& shown)
+{
+  ContentCheck content(run);
+  std::optional<SpecificationCheck> specification;
+  if (asked.deep) specification.emplace(run);
+  std::optional<PhysicsCheck<D>> physics;
+  if (asked.physics) physics.emplace(run, *asked.physics);
+  Frame<D> frame;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
+    content.add(k, frame);
+    if (specification) specification->add(k, frame);
+    if (physics) physics->add(k, frame);
+    if (shown) shown(k + 1);
+  }
+  auto lines = content.lines();
+  const auto append = [&](const std::vector<CheckLine>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+  };
+  if (specification) append(specification->lines());
+  if (physics) append(physics->lines());
+  return lines;
+}
+template std::vector<CheckLine> check_run<2>(const TrajectoryReader&, const ChecksAsked&,
+                                             const std::function<void(std::size_t)>&);
+template std::vector<CheckLine> check_run<3>(const TrajectoryReader&, const ChecksAsked&,
+                                             const std::function<void(std::size_t)>&);
 
 }  // namespace grseg

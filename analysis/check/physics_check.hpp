@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,5 +105,17 @@ class PhysicsCheck {
   std::vector<WeightWindow<D>> weight_windows_;
   std::vector<RunningSums> window_starts_;
 };
+
+/// What is checked besides the file's digests.
+struct ChecksAsked {
+  bool deep = false;                       // the specification
+  std::optional<PhysicsSettings> physics;  // none: not checked
+};
+
+/// Reads all frames once and gives the lines of the checks; `shown` hears how many frames are done.
+/// Errors as TrajectoryReader, SpecificationCheck and PhysicsCheck.
+template <int D>
+std::vector<CheckLine> check_run(const TrajectoryReader& run, const ChecksAsked& asked,
+                                 const std::function<void(std::size_t)>& shown = {});
 
 }  // namespace grseg

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/run_of_page.hpp"
 
-#include "analysis/check/file_check.hpp"
 #include "analysis/check/physics_check.hpp"
 #include "analysis/explore/layer_tables.hpp"
 #include "analysis/explore/player_data.hpp"
@@ -223,22 +222,6 @@ Json observables_of(const TrajectoryReader& run)
   return all;
 }
 
-template <int D>
-std::vector<CheckLine> check_lines(const TrajectoryReader& run)
-{
-  ContentCheck content(run);
-  PhysicsCheck<D> physics(run, PhysicsSettings{});
-  Frame<D> frame;
-  for (std::size_t k = 0; k < run.size(); ++k) {
-    run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
-    content.add(k, frame);
-    physics.add(k, frame);
-  }
-  auto lines = content.lines();
-  for (auto& line : physics.lines()) lines.push_back(std::move(line));
-  return lines;
-}
-
 }  // namespace
 
 Json run_summary(const TrajectoryReader& run)
@@ -268,7 +251,9 @@ Json check_run(const std::string& path)
 {
   const TrajectoryReader run(path, Verify::no);
   CheckReport report;
-  with_dimension(run.dimension(), [&](auto d) { report.lines = check_lines<d>(run); });
+  with_dimension(run.dimension(), [&](auto d) {
+    report.lines = check_run<d>(run, {.deep = false, .physics = PhysicsSettings{}});
+  });
   Json all{{"command", "grseg-check --physics"},
            {"failures", report.failures()},
            {"undecided", report.undecided()},

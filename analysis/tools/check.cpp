@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/check/checks.hpp"
-#include "analysis/check/file_check.hpp"
 #include "analysis/check/physics_check.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"
@@ -15,10 +14,9 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstdio>
 #include <iostream>
-#include <optional>
-#include <vector>
 
 using namespace grseg;
 
@@ -85,40 +83,20 @@ Header header_of(const TrajectoryReader& run, const Settings& s, const std::stri
   return header;
 }
 
-template <int D>
-std::vector<CheckLine> check(const TrajectoryReader& run, const Settings& s)
-{
-  ContentCheck content(run);
-  std::optional<SpecificationCheck> specification;
-  if (s.deep) specification.emplace(run);
-  std::optional<PhysicsCheck<D>> physics;
-  if (s.with_physics) physics.emplace(run, s.physics);
-  ProgressBar progress(name, {.things = "frames", .total = static_cast<double>(run.size())},
-                       s.quiet);
-  Frame<D> frame;
-  for (std::size_t k = 0; k < run.size(); ++k) {
-    run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
-    content.add(k, frame);
-    if (specification) specification->add(k, frame);
-    if (physics) physics->add(k, frame);
-    progress.show(static_cast<double>(k + 1));
-  }
-  auto lines = content.lines();
-  const auto append = [&](const std::vector<CheckLine>& more) {
-    lines.insert(lines.end(), more.begin(), more.end());
-  };
-  if (specification) append(specification->lines());
-  if (physics) append(physics->lines());
-  return lines;
-}
-
 void check(Settings& s, const po::variables_map& values, const std::string& command)
 {
   s.output.check(values);
   const TrajectoryReader run(single_input(values, "check one at a time"), Verify::no);
+  ChecksAsked asked{.deep = s.deep, .physics = {}};
+  if (s.with_physics) asked.physics = s.physics;
+  ProgressBar progress(name, {.things = "frames", .total = static_cast<double>(run.size())},
+                       s.quiet);
   const CheckReport report{header_of(run, s, command), with_dimension(run.dimension(), [&](auto d) {
-                             return check<d>(run, s);
+                             return check_run<d>(run, asked, [&](std::size_t done) {
+                               progress.show(static_cast<double>(done));
+                             });
                            })};
+  progress.clear();
   write_table(s.output, s.json ? to_json(report) : to_tsv(report));
   std::cout.flush();
   if (const auto failures = report.failures(); !failures.empty())

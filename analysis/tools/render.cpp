@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_options.hpp"
-#include "analysis/frames/grouping.hpp"
-#include "analysis/frames/in_order.hpp"
-#include "analysis/render/film.hpp"
-#include "analysis/render/picture.hpp"
-#include "analysis/render/picture_options.hpp"
-#include "formats/cli/frame_range.hpp"
-#include "formats/cli/interruption.hpp"
-#include "formats/cli/output.hpp"
-#include "formats/cli/progress.hpp"
+#include "analysis/render/render_run.hpp"
+#include "analysis/tools/tool_main.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <mutex>
+#include <algorithm>
 #include <string>
 #include <thread>
-#include <vector>
 
 using namespace grseg;
 
@@ -35,15 +27,9 @@ constexpr ToolInfo info{
     "  grseg-render run.h5 --width 86mm -o column.pdf           for a column of a paper\n"
     "  grseg-render run.h5 --every 0.1 --fps 25 -o film.mp4     a film, by ffmpeg\n"};
 
-struct Settings {
-  PictureOptions picture;
-  FrameRange range;
-  double every = 0, fps = 25;
-  int threads = 1;
+struct Settings : RenderSettings {
   TrustOption trust;
   GroupingOptions grouping;
-  OutputOptions output;
-  bool quiet = false;
 };
 
 po::options_description options_into(Settings& s)
@@ -75,96 +61,6 @@ std::string history_of(const TrajectoryReader& run, const std::string& command)
   return text;
 }
 
-/// What all pictures of a run are made of.
-struct Source {
-  const TrajectoryReader& run;
-  const GroupedGrains& grains;
-  const Settings& settings;
-  PictureKind kind;
-  std::string history;
-};
-
-template <int D>
-void make_picture(const Source& source)
-{
-  const auto& options = source.settings.picture;
-  const auto frames = options.frames_at(source.run);
-  const Picture<D> picture(source.run, source.grains, frames, frames.size(),
-                           options.settings(source.run));
-  std::vector<Drawing> drawings;
-  drawings.reserve(frames.size());
-  Frame<D> frame;
-  for (const auto index : frames) {
-    source.run.read(index, frame, picture.needs());
-    drawings.push_back(picture.draw(frame));
-  }
-  write_whole(
-      source.settings.output,
-      picture_bytes(source.kind, picture.page().size, parse_width(options.width).points,
-                    source.history, [&](cairo_surface_t* page) { picture.paint(page, drawings); }));
-}
-
-/// Where frames are further apart than --every the film is faster than was asked for.
-void warn_if_sparse(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
-                    const Settings& s)
-{
-  if (s.quiet || s.every == 0 || frames.size() < 2) return;
-  const double length = run.times()[frames.back()] - run.times()[frames.front()];
-  const double apart = length / static_cast<double>(frames.size() - 1);
-  if (apart > s.every + run.step() / 2)
-    fmt::print(stderr,
-               "{}: the frames are {:.3g} s apart, so that --every {:g} takes all of them and the "
-               "film is {:.3g} times as fast as asked; --fps {:.3g} keeps the speed\n",
-               info.name, apart, s.every, apart / s.every, s.fps * s.every / apart);
-}
-
-std::vector<std::size_t> frames_of_film(const TrajectoryReader& run, const Settings& s)
-{
-  const auto all = s.range.frames_of(run);
-  if (!(s.every >= 0) || !std::isfinite(s.every)) throw UsageError("--every must be positive");
-  warn_if_sparse(run, all, s);
-  return film_frames(run.times(), all, s.every, run.step());
-}
-
-template <int D>
-void make_film(const Source& source)
-{
-  const auto& s = source.settings;
-  const auto ffmpeg = find_ffmpeg();
-  const auto frames = frames_of_film(source.run, s);
-  auto settings = s.picture.settings(source.run);
-  settings.is_film = true;
-  const Picture<D> picture(source.run, source.grains, frames, 1, settings);
-  listen_to_signals();
-  Output output(s.output.path, s.output.overwrite, {source.run.path()});
-  Film film(ffmpeg, output.temporary(), {source.kind, picture.page().size, s.fps, source.history});
-  ProgressBar progress(
-      info.name, {.things = "pictures", .total = static_cast<double>(frames.size())}, s.quiet);
-
-  std::mutex reading;
-  std::size_t done = 0;
-  const auto pixels_of = [&](std::size_t k) {
-    Frame<D> frame;
-    TrajectoryReader::Packed packed;
-    {
-      const std::lock_guard lock(reading);
-      packed = source.run.load(frames[k], frame, picture.needs());
-    }
-    source.run.unpack(packed, frame);
-    const std::vector<Drawing> drawings{picture.draw(frame)};
-    return Pixels(picture.page().size,
-                  [&](cairo_surface_t* page) { picture.paint(page, drawings); });
-  };
-  in_order(s.threads, frames.size(), pixels_of, [&](const Pixels& pixels) {
-    stop_if_interrupted();
-    film.add(pixels.bytes());
-    progress.show(static_cast<double>(++done));
-  });
-  progress.clear();
-  film.finish();
-  output.publish();
-}
-
 void check_film(const Settings& s)
 {
   if (!(s.fps > 0 && s.fps <= 240)) throw UsageError("--fps must be positive, and at most 240");
@@ -172,7 +68,7 @@ void check_film(const Settings& s)
     throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", s.threads));
 }
 
-void render(Settings s, const po::variables_map& values, const std::string& command)
+void render(Settings& s, const po::variables_map& values, const std::string& command)
 {
   if (s.output.path.empty()) throw UsageError("name what to write: -o NAME.png");
   const auto kind = picture_kind(s.output.path);
@@ -184,10 +80,11 @@ void render(Settings s, const po::variables_map& values, const std::string& comm
     refuse_options(values, {"begin", "end", "stride", "every", "fps", "threads"},
                    "concerns films; name one, as in -o film.mp4, or say --at");
   check_film(s);
+  s.program = info.name;
   if (s.threads == 0)
     s.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const auto grains = group_grains(run, s.grouping);
-  const Source source{run, grains, s, kind, history_of(run, command)};
+  const RenderSource source{run, grains, s, kind, history_of(run, command)};
   with_dimension(run.dimension(),
                  [&](auto d) { is_film(kind) ? make_film<d>(source) : make_picture<d>(source); });
 }
@@ -196,9 +93,5 @@ void render(Settings s, const po::variables_map& values, const std::string& comm
 
 int main(int argc, char** argv)
 {
-  Settings settings;
-  const auto options = options_into(settings);
-  return run_tool(argc, argv, info, options, [&](const po::variables_map& values) {
-    render(settings, values, command_line(argc, argv));
-  });
+  return tool_main(argc, argv, info, options_into, render);
 }

@@ -62,12 +62,6 @@ MapStress stress_of(Settings& s)
   return {rule, base, volume};
 }
 
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& more)
-{
-  to.insert(to.end(), more.begin(), more.end());
-}
-
 template <int D>
 void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chosen,
               const MapStress& how, const std::string& command)
@@ -88,9 +82,13 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
   const Composition<D> no_grains(loop.layers(), chosen.area, kernel, species.size());
   const PartialContactStress<D> no_contacts(loop.layers(), chosen.assignment, power, kernel,
                                             species.size());
+  const auto fields_of = [&](const ContactSums<D>& sums) {
+    return map ? stress_fields(sums, species, how) : std::vector<Cell>{};
+  };
   auto columns = content_columns(species, D);
-  append(columns, no_contacts.columns(species));
-  if (map) append(columns, columns_of(stress_fields(ContactSums<D>(species.size()), species, how)));
+  for (const auto& more :
+       {no_contacts.columns(species), columns_of(fields_of(ContactSums<D>(species.size())))})
+    columns.insert(columns.end(), more.begin(), more.end());
   TableWriter table(loop, command, settings, columns);
 
   for (const auto& window : loop.windows()) {
@@ -101,8 +99,8 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
       auto sums = map ? stress.mean(layer).sums : ContactSums<D>(0);
       sums.content = row;
       sums.volume = loop.layers().volume(layer);
-      append(row, stress.row(layer));
-      if (map) append(row, values_of(stress_fields(sums, species, how)));
+      for (const auto& more : {stress.row(layer), values_of(fields_of(sums))})
+        row.insert(row.end(), more.begin(), more.end());
       table.add(window, layer, row);
     }
   }
