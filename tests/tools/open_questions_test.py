@@ -377,8 +377,8 @@ class Answers(unittest.TestCase):
         def row_of(trapped, reach):
             row = {"flow": "phi0.30-s23", "runs": 4, **{name + end: 0.1 for name in ("B", "B_all", "K") for end in ("", "_low", "_high")},
                    **{name + end: 0.5 for name in ("yL_end", "f_ratio", "rate") for end in ("", "_reach")}, "trapped": trapped, "trapped_reach": reach}
-            return answers.beds([row], ".*").splitlines()[-1].split(" | ")
-        self.assertEqual(row_of(26.0, 27.0)[3:8], ["0.100 ¹", "0.100 [0.100, 0.100]", "0.500 ¹", "26.0 ¹", "0.50 ¹"])
+            return [cell.strip("| ") for cell in answers.beds([row], ".*").splitlines()[-1].split(" | ")]
+        self.assertEqual(row_of(26.0, 27.0)[3:7], ["0.100 ¹", "0.500 ¹", "26.0 ¹", "0.50 ¹"])
         for trapped, reach in ((35.0, 0.5), (0.8, 1.6)):
             self.assertEqual(row_of(trapped, reach)[3], "0.100 [0.100, 0.100]")
 
@@ -410,8 +410,8 @@ class Answers(unittest.TestCase):
         row = lambda of, what, value: {"of": of, "what": what, "value": value, "low": value - 0.01, "high": value + 0.01, "over": "4 blocks"}
         text = answers.stages([row("+q", "j", 0.2), row("a 5-20 s", "B", 0.05), row("b 5-20 s", "B", 0.03), row("a 5-20 s", "B over 3 classes", 0.04),
                                row("b 5-20 s", "B over 3 classes", 0.035)])
-        self.assertIn("| time | a, B | b, B | classes | a, over classes | b, over classes | 95 % over |", text)
-        self.assertIn("| 5-20 s | 0.050 [0.040, 0.060] | 0.030 [0.020, 0.040] | 3 | 0.040 [0.030, 0.050] | 0.035 [0.025, 0.045] | 4 blocks |", text)
+        self.assertIn("| time | a, B | b, B | 95 % over |", text)
+        self.assertIn("| 5-20 s | 0.050 [0.040, 0.060] | 0.030 [0.020, 0.040] | 4 blocks |", text)
         self.assertIn("| +q | j | 0.200 [0.190, 0.210] | 4 blocks |", text)
 
     def test_runs_without_a_place_in_the_document_are_refused(self):

@@ -28,28 +28,24 @@ def of_flows(rows, pattern):
 
 
 def strengths(rows, pattern):
-    """B, p* and B_kappa of these flows, and the differences from the paper's choice over the same time."""
-    heads = ["flow", "runs", "s", "B", "less that of the paper's choice", "p*", "B, half", "B_κ", "less that of the paper's choice"]
-    return markdown(heads, [[row["flow"], f"{row['runs']:.0f}", plain(row["end"], 0), interval(row, "B", 3), about(row, "less_B", 3),
-                             interval(row, "p_star", 4), interval(row, "B_half_rule", 3), interval(row, "K", 3), about(row, "less_K", 3)]
-                            for row in of_flows(rows, pattern)])
+    """B, p* and B_kappa of these flows, and how B differs from that of the paper's choice over the same time."""
+    return markdown(["flow", "B", "difference", "p*", "B_κ"], [[row["flow"], interval(row, "B", 3), about(row, "less_B", 3), interval(row, "p_star", 4),
+                                                                 interval(row, "K", 3)] for row in of_flows(rows, pattern)])
 
 
 def beds_of_densities(rows):
     """B and p* by the ratio of the densities of large and small grains."""
     found = [(float(re.search("density([0-9.]+)", row["flow"])[1]), row) for row in of_flows(rows, r".*-density[0-9.]+-t60")]
-    heads = ["ρ_L/ρ_S", "runs", "s", "B", "p*", "B, half"]
-    return markdown(heads, [[f"{ratio:g}", f"{row['runs']:.0f}", plain(row["end"], 0), interval(row, "B", 3), interval(row, "p_star", 4),
-                             interval(row, "B_half_rule", 3)] for ratio, row in sorted(found, key=lambda one: one[0])])
+    return markdown(["ρ_L/ρ_S", "runs", "s", "B", "p*"], [[f"{ratio:g}", f"{row['runs']:.0f}", plain(row["end"], 0), interval(row, "B", 3), interval(row, "p_star", 4)]
+                                                           for ratio, row in sorted(found, key=lambda one: one[0])])
 
 
 def fluctuations(rows, pattern):
     """B_kappa about the profile and about the mean of layer and frame, with the velocity after the step and in its middle."""
     names = ("K_sums", "K", "K_middle", "K_instant", "K_unbiased", "K_unbiased-middle")
     heads = ["flow", "runs", "B", "B_κ by sums", "B_κ about the profile", "... middle of the step", "about layer and frame", "... unbiased", "... unbiased, middle of the step"]
-    flows = {row["flow"] for row in rows}
     return markdown(heads, [[row["flow"], f"{row['runs']:.0f}", interval(row, "B", 3)] + [interval(row, name, 3) for name in names]
-                            for row in of_flows(rows, pattern) if row["flow"] + "-t150" not in flows])
+                            for row in of_flows(rows, pattern)])
 
 
 def with_and_without_a_row(row):
@@ -60,9 +56,9 @@ def with_and_without_a_row(row):
 def beds(rows, pattern):
     def number(row, text, name, digits):
         return f"{plain(row[name], digits)} ¹" if with_and_without_a_row(row) else text(row, name, digits)
-    heads = ["flow", "runs", "B", "B, all heights", "B_κ", "y_L/H at the end", "large grains in the lowest layer", "f_L/f_S, last 15 s", "γ̇/√(g/d_S)"]
-    return markdown(heads, [[row["flow"], f"{row['runs']:.0f}", interval(row, "B", 3), number(row, interval, "B_all", 3), interval(row, "K", 3),
-                             number(row, about, "yL_end", 3), number(row, about, "trapped", 1), number(row, about, "f_ratio", 2), about(row, "rate", 3)]
+    heads = ["flow", "runs", "B", "B, all heights", "y_L/H at the end", "large grains in the lowest layer", "f_L/f_S, last 15 s"]
+    return markdown(heads, [[row["flow"], f"{row['runs']:.0f}", interval(row, "B", 3), number(row, interval, "B_all", 3),
+                             number(row, about, "yL_end", 3), number(row, about, "trapped", 1), number(row, about, "f_ratio", 2)]
                             for row in of_flows(rows, pattern)])
 
 
@@ -76,46 +72,43 @@ def accuracies(rows, pattern):
 
 def limits(rows):
     names = {"B": "B", "p_star": "p*", "K": "B_κ"}
-    return markdown(["extrapolated", "power of the overlap", "limit of rigid discs", "χ²", "rows"],
-                    [[names[row["of"]], f"{row['power']:g}", interval(row, "limit", 4), plain(row["chi2"], 1), f"{row['rows']:.0f}"] for row in rows])
+    return markdown(["extrapolated", "power of the overlap", "limit of rigid discs", "χ²"],
+                    [[names[row["of"]], f"{row['power']:g}", interval(row, "limit", 4), plain(row["chi2"], 1)] for row in rows])
 
 
 def by_start(rows):
-    """B by time, a column for each start, as it is and over classes of composition and height."""
+    """B by time, a column for each start."""
     starts = list(dict.fromkeys(row["of"].split()[0] for row in rows))
     times = list(dict.fromkeys(row["of"].split(" ", 1)[1] for row in rows))
-    at = {(*row["of"].split(" ", 1), row["what"] == "B"): row for row in rows}
+    at = {tuple(row["of"].split(" ", 1)): row for row in rows}
     text = lambda row: Value(row["value"], row["low"], row["high"]).text(3) if row else ""
-    number = lambda time: next((row["what"].split()[2] for row in rows if row["of"].endswith(time) and row["what"] != "B"), "0")
-    heads = ["time"] + [f"{start}, B" for start in starts] + ["classes"] + [f"{start}, over classes" for start in starts] + ["95 % over"]
-    return markdown(heads, [[time] + [text(at.get((start, time, True))) for start in starts] + [number(time)] +
-                            [text(at.get((start, time, False))) for start in starts] +
-                            [", ".join(dict.fromkeys(at[start, time, True]["over"] for start in starts if (start, time, True) in at))]
-                            for time in times])
+    return markdown(["time", *(f"{start}, B" for start in starts), "95 % over"],
+                    [[time, *(text(at.get((start, time))) for start in starts),
+                      ", ".join(dict.fromkeys(at[start, time]["over"] for start in starts if (start, time) in at))] for time in times])
 
 
 def stages(rows):
-    timed = [row for row in rows if row["what"].split()[0] == "B"]
+    timed = [row for row in rows if row["what"] == "B"]
     fit = markdown(["model", "", "value", "95 % over"], [[row["of"], row["what"], Value(row["value"], row["low"], row["high"]).text(3), row["over"]]
-                                                         for row in rows if row not in timed])
+                                                         for row in rows if row["what"] in ("j", "k")])
     return "\n\n".join(([by_start(timed)] if timed else []) + [fit]) if rows else NONE
 
 
 def closures(rows):
     scaled = lambda row, name, factor, digits: Value(*(factor * row[name + end] for end in ("", "_low", "_high"))).text(digits)
-    return markdown(["Φ_L", "runs", "B/c, 10⁻⁴ s", "d/c, 10⁻⁴ m²/s", "c by size, 1/s", "c by half, 1/s"],
-                    [[f"{row['phi']:.2f}", f"{row['runs']:.0f}", scaled(row, "B_over_c", 1e4, 2), scaled(row, "d_over_c", 1e4, 2),
+    return markdown(["Φ_L", "B/c, 10⁻⁴ s", "d/c, 10⁻⁴ m²/s", "c by size, 1/s", "c by half, 1/s"],
+                    [[f"{row['phi']:.2f}", scaled(row, "B_over_c", 1e4, 2), scaled(row, "d_over_c", 1e4, 2),
                       scaled(row, "c_size", 1, 0), scaled(row, "c_half", 1, 0)] for row in rows])
 
 
 def denser(rows):
-    names = {"slope": ("slope −(1 − B Φ_L)/c, 10⁻⁴ s", 1e4, 2), "at_zero": ("level B/c, 10⁻⁴ s", 1e4, 2), "c": ("c, 1/s", 1, 0), "B": ("B", 1, 2),
-             "stops": ("ρ_L/ρ_S at which segregation stops", 1, 2), "share": ("the share p with this c", 1, 2)}
+    names = {"slope": ("slope, 10⁻⁴ s", 1e4, 2), "at_zero": ("level B/c, 10⁻⁴ s", 1e4, 2), "c": ("c, 1/s", 1, 0), "B": ("B", 1, 2),
+             "stops": ("ρ_L/ρ_S that stops segregation", 1, 2), "share": ("share p with this c", 1, 2)}
     text = lambda row, factor, digits: Value(*(factor * row["value" + end] for end in ("", "_low", "_high"))).text(digits)
-    ratios = [[f"ρ_L/ρ_S = {1 + float(row['of'][4:]):g}", f"{row['runs']:.0f}", text(row, 1e4, 2)] for row in rows if row["of"].startswith("D =")]
-    found = [[names[row["of"]][0], f"{row['runs']:.0f}", text(row, *names[row["of"]][1:])] for row in rows if row["of"] in names]
-    return markdown(["", "runs", "factor of the driving in the flux, 10⁻⁴ s"], ratios) + "\n\n" + \
-        markdown(["line over D = ρ_L/ρ_S − 1", "runs", ""], found) if ratios else NONE
+    ratios = {f"{1 + float(row['of'][4:]):g}": text(row, 1e4, 2) for row in rows if row["of"].startswith("D =")}
+    found = {names[row["of"]][0]: text(row, *names[row["of"]][1:]) for row in rows if row["of"] in names}
+    return markdown(["ρ_L/ρ_S", *ratios], [["factor of the driving, 10⁻⁴ s", *ratios.values()]]) + "\n\n" + \
+        markdown(list(found), [list(found.values())]) if ratios else NONE
 
 
 def read(folder, name):
@@ -127,11 +120,10 @@ def parts_of(folder):
     rows = read(folder, "questions")
     return {
         "control": strengths(rows, r".*-ratio1-t60"),
-        "restitution": fluctuations(rows, r"(phi.*-s23|mixtures)-e0\.(25|5)(-t150)?"),
-        "bases": beds(rows, r"phi0\.(06|15|30)-s23(-irregular|-spaced)?"),
+        "restitution": fluctuations(rows, r"mixtures-e0\.(25|5)"),
+        "beds": beds(rows, r"phi0\.30-s23(-irregular|-spaced)?|phi0.45-s\d+-t60"),
         "densities": beds_of_densities(rows),
         "grains": strengths(rows, r"phi0.45-s23-(ratio(?!1-)[1-9.]+|mu[0-9.]+|e[0-9.]+(-step[0-9.]+)?|cell.*)-t60"),
-        "slopes": beds(rows, r"phi0.45-s\d+-t60"),
         "accuracy": accuracies(rows, r"phi0.45-s23(-draft|-reference|-finer)?"),
         "second-program": strengths(rows, r"phi0.45-s23-lammps.*"),
         "starts": strengths(rows, r"phi0.45-s23-(mixed-|above-)?t600"),
