@@ -57,17 +57,17 @@ OPEN_PI = "open in the paper: step, averages; up to twice the printed error"
 ORDER = "the claim, for the window in which the ratio is least"
 
 FIGURE_1_END = above(
-    "\"segregation occurred\" (snapshot at 150 s)", 0.8, "no number in the paper; four fifths of the way from one order of separated species to the other")
+    "\"segregation occurred\"", 0.8, "no number in the paper; four fifths of the way from one order of separated species to the other")
 FIGURE_1_MIXED = below(
-    "\"segregation occurred\" (snapshot at 150 s)", 0.2, "no number in the paper; the same four fifths, from mixed (1) to separated (0)")
+    "\"segregation occurred\"", 0.2, "no number in the paper; the same four fifths, from mixed (1) to separated (0)")
 FIGURE_2A = number("ρ g cosθ, cos 23° = 0.9205", 0.9205, 0.046, "5 %: the line is that of σ_yy, and σ_xx/σ_yy is not given")
 SLOPE = number("0.9660 ± 0.003", 0.9660, 0.035, "0.93 to 1.00: that of B, as dB/ds is −1", error=FIT_ERROR)
 B = number("0.034 to 0.035", 0.0345, 0.03, OPEN_B, error=FIT_ERROR)
-SIGN = above("\"supports the plausibility of gravity-driven segregation\"", 0, "the claim, for the mixture in which B is least certain")
+SIGN = above("\"supports\" segregation by gravity", 0, "the claim, for the mixture in which B is least certain")
 CONTROL = number("0 by symmetry", 0, 0.005, "a seventh of the paper's B")
 MIXED_MOST = number("\"can reach locally 50 %\"", 0.5, 0.04, "a figure without numbers: 8 % of its maximum", unit=0.01)
-MIXED_MOST_AT = between("no number; neutral contacts 2/3", 0.55, 0.72, "a flat maximum: neutral contacts stay within 0.03 of it")
-MIXED_CURVE = number("figure 2c; neutral contacts 4 φ_L φ_S/(1 + φ_S)²", 0, 0.04, "a figure without numbers: 8 % of its maximum")
+MIXED_MOST_AT = between("neutral 2/3", 0.55, 0.72, "a flat maximum: neutral contacts stay within 0.03 of it")
+MIXED_CURVE = number("neutral 4 φ_L φ_S/(1 + φ_S)²", 0, 0.04, "a figure without numbers: 8 % of its maximum")
 B_PRESSURE = number("0.045 to 0.047", 0.046, 0.03, OPEN_B, error=FIT_ERROR)
 PRESSURE_LESS_YY = number("0.011", 0.011, 0.015, "half of the room of B: same fit, same layers", error=FIT_ERROR)
 RULES = {
@@ -97,12 +97,12 @@ FIGURE_5 = {
     "_L": (number("1.9", 1.9, 1.9, OPEN_PI, unit=0.1), number("5", 5, 5, OPEN_PI, unit=1)),
     "_S": (number("6.4", 6.4, 6.4, OPEN_PI, unit=0.1), below("\"less than 9 %\"", 9, "the claim")),
 }
-START = between("no number; large grains below 0.225", 0.22, 0.24, "geometry and packing")
-END = between("no number; 0.775 if separated", 0.65, 0.76, "77 to 97 % of the way")
+START = between("large below: 0.225", 0.22, 0.24, "geometry and packing")
+END = between("separated: 0.775", 0.65, 0.76, "77 to 97 % of the way")
 Z_ORDER = above("z_L > z_S always", 1, ORDER)
 Z_MOST = above("\"maximum when the mixing is maximum\"", 1, "the claim: largest ratio over that of the first and of the last windows")
 F_ORDER = above("f_L > f_S, also \"as segregation proceeds\"", 1, ORDER)
-F_DEPTH_ORDER = above("over the pressure at their depth: \"significantly larger\"", 1, ORDER)
+F_DEPTH_ORDER = above("\"significantly larger\"", 1, ORDER)
 
 
 def figure_4(rate):

@@ -33,8 +33,9 @@ class Target:
     def cells(self):
         met = allowed(self.point[1] if self.point and len(self.points) == 1 else self.statement)
         if self.verdict() == verdicts.NOT_YET:
-            return [self.name, self.statement.text, met, "–", "–", verdicts.NOT_YET, "its flows have not been run"]
-        return [self.name, self.statement.text, met, self.ours, signed(self.difference()), self.verdict(), self.why]
+            return [self.name, self.statement.text, met, "–", verdicts.NOT_YET]
+        pull = signed(self.difference())
+        return [self.name, self.statement.text, met, "<br>".join(filter(None, (self.ours, self.why))), self.verdict() + (f" ({pull})" if pull != "–" else "")]
 
 
 def allowed(statement):
@@ -77,18 +78,18 @@ def contact_stress(m):
     yield from pressure_profile(m)
     b = m.fit("mixtures", "paper_B")
     yield number("2b: slope of σ^S/σ^L over φ_S/φ_L", paper.SLOPE, m.fit("mixtures", "paper_s"), 3,
-                 f"with the lowest layer and the surface {m.fit('mixtures', 'paper_s', heights='all').text(3)}", "2b", ("slope",))
+                 f"all heights {m.fit('mixtures', 'paper_s', heights='all').text(3)}", "2b", ("slope",))
     yield number("2b: B by size", paper.B, b, 3,
-                 f"of the slope of these {m.row('mixtures')['seeds']:.0f} runs together; the ratio of sums is {m.fit('mixtures').text(3)}, {m.range_over_mixtures(3)} by "
-                 f"mixture; all heights {m.fit('mixtures', 'paper_B', heights='all').text(3)}; nominal 2/3 instead of actual radii "
+                 f"ratio of sums {m.fit('mixtures').text(3)}, by mixture {m.range_over_mixtures(3)}; "
+                 f"all heights {m.fit('mixtures', 'paper_B', heights='all').text(3)}; nominal 2/3 "
                  f"{m.fit('mixtures', 'paper_B', rule='uniform:0.66667').text(3)}", "2b", ("slope",))
     yield sign_of_b(m)
     yield number("Control, all grains alike: B", paper.CONTROL, m.fit("control"), 3,
-                 "size ratio 1, small and large labels assigned at random. Two runs do not decide; [eight of 60 s meet it](open-questions.md#the-control-equal-grains)")
+                 "two runs; [eight of 60 s meet it](open-questions.md#the-control-equal-grains)")
     yield from mixed_contacts(m)
-    yield number("B from pressures", paper.B_PRESSURE, m.fit("mixtures", "paper_B", component="pressure"), 3, "half the trace instead of σ_yy", "pressure", ("pressure",))
+    yield number("B from pressures", paper.B_PRESSURE, m.fit("mixtures", "paper_B", component="pressure"), 3, "", "pressure", ("pressure",))
     yield number("... minus B from σ_yy", paper.PRESSURE_LESS_YY, m.number("mixtures", "pressure_less_yy"), 3,
-                 "normal stresses differ; interval of the difference", "pressure", ("pressure", "slope"))
+                 "", "pressure", ("pressure", "slope"))
     yield from other_rules(m)
     yield slopes(m)
     yield from stages(m)
@@ -109,17 +110,17 @@ def separated(m):
     at = lambda name: of_flow("phi0.30-s23", name)
     others = [flow for flow in m.flows_with("way") if flow != "phi0.30-s23"]
     others = "".join(f"; {flow}: {of_flow(flow, 'way').text(2)}" for flow in others)
-    yield number("1: way of y_L/H from 0.15 (all large grains below) to 0.85 (above)", paper.FIGURE_1_END, at("way"), 2,
-                 f"{at('lowest_large').text(0)} large grains stay in the lowest layer, 35 or next to none in a run{others}", one_of="")
+    yield number("1: way of y_L/H from 0.15 (large below) to 0.85 (above)", paper.FIGURE_1_END, at("way"), 2,
+                 f"{at('lowest_large').text(0)} large grains stay in the lowest layer, 35 or none in a run{others}", one_of="")
     yield number("1: mean of φ_L φ_S over that of the mixed bed", paper.FIGURE_1_MIXED, at("mixed"), 2,
-                 "1 where the bed is mixed, 0 where species are separated; that a fifth is little enough is our reading", one_of="")
+                 "mixed 1, separated 0; the edge is our reading", one_of="")
 
 
 def pressure_profile(m):
     """Figure 2a, for both readings of V."""
     at = lambda name: m.number("phi0.30-s23", name)
     yield number("2a: P(z) falls by, over ρ g, per area of grains", paper.FIGURE_2A, at("P_solid_slope"), 3,
-                 f"V is open. σ_yy + σ^κ_yy is {at('weight').text(3)} of the weight above", one_of="2a")
+                 f"σ_yy + σ^κ_yy is {at('weight').text(3)} of the weight above", one_of="2a")
     yield number("2a: the same per area with voids", paper.FIGURE_2A, at("P_slope"), 3, f"smaller by ν = {at('nu').text(3)}", one_of="")
 
 
@@ -128,28 +129,27 @@ def sign_of_b(m):
     points = [(m.fit(row["flow"]), paper.SIGN) for row in m.mixtures()]
     least = min((value.low for value, _ in points), default=math.nan)
     return Target("2b: B > 0", paper.SIGN, f"{m.range_over_mixtures(3)} by mixture, lowest end of an interval {plain(least, 3)}", points,
-                  "by this rule for mixed contacts; B = 0 if the large grain is given "
-                  f"{m.of_scan('p_zero').text(3)} of each", "2b")
+                  f"B = 0 at p* = {m.of_scan('p_zero').text(3)}", "2b")
 
 
 def mixed_contacts(m):
     """Figure 2c."""
     at = lambda name: m.number("mixtures", name)
-    yield number("2c: largest share of mixed contacts", paper.MIXED_MOST, at("mixed_most"), 3, "neutral contacts: 0.500")
+    yield number("2c: largest share of mixed contacts", paper.MIXED_MOST, at("mixed_most"), 3, "neutral 0.500")
     yield number("2c: φ_L where it is largest", paper.MIXED_MOST_AT, at("mixed_most_at"), 2, "", one_of="")
     least, most = at("mixed_off_least"), at("mixed_off_most")
     yield Target("2c: share of mixed contacts minus that of neutral ones", paper.MIXED_CURVE,
                  f"{least.text(3)} to {most.text(3)}", [(least, paper.MIXED_CURVE), (most, paper.MIXED_CURVE)],
-                 "by composition, without contacts with the base", one_of="")
+                 "by composition, base excluded", one_of="")
 
 
 def other_rules(m):
     for rule, statement in paper.RULES.items():
         p = 0.5 if rule == "half" else float(rule.split(":")[1])
         row = m.row("mixtures", rule=rule) or {}
-        yield number(f"B, mixed contacts {p:g} to the large grain", statement, m.fit("mixtures", "paper_B", rule=rule), 3, f"of the slope; the ratio of sums is {m.fit('mixtures', rule=rule).text(3)}", f"rule {p:g}", (f"B {p:g}",))
+        yield number(f"B, p = {p:g}", statement, m.fit("mixtures", "paper_B", rule=rule), 3, f"ratio of sums {m.fit('mixtures', rule=rule).text(3)}", f"rule {p:g}", (f"B {p:g}",))
         yield number("... minus B by size", paper.RULES_LESS_SIZE[rule], m.fit("mixtures", "B_minus_size", rule=rule), 3,
-                     f"ratios of sums; neutral contacts: {plain(row.get('neutral', math.nan), 3)}", f"rule {p:g}", (f"B {p:g}", "slope"))
+                     f"neutral {plain(row.get('neutral', math.nan), 3)}", f"rule {p:g}", (f"B {p:g}", "slope"))
 
 
 def slopes(m):
@@ -158,7 +158,7 @@ def slopes(m):
     mean = sum(row["B"] for row in flows) / max(1, len(flows))
     off = max((abs(row["B"] - mean) for row in flows), default=math.nan)
     return Target("B does not depend on the slope: dB/dθ per degree", paper.TREND, trend.text(4), [(trend, paper.TREND)],
-                  f"line through {len(flows)} slopes; the farthest from their mean differs from it by {plain(off, 3)}")
+                  f"{len(flows)} slopes, at most {plain(off, 3)} from their mean")
 
 
 def stages(m):
@@ -168,7 +168,7 @@ def stages(m):
     each = [(row, m.number(row["flow"], "early_less_late")) for row in m.mixtures()]
     yield Target("... in every mixture", paper.STAGES,
                  ", ".join(f"{value.text(3)} at {row['phi']:g}" for row, value in each),
-                 [(value, paper.STAGES) for _, value in each], "later stages have other compositions at other heights", "stages")
+                 [(value, paper.STAGES) for _, value in each], "", "stages")
 
 
 def kinetic_stress(m):
@@ -176,17 +176,17 @@ def kinetic_stress(m):
     yield from kinetic_profile(m)
     kinetic = {"quantity": "kinetic"}
     yield number("3b: prefactor of σ^κS/σ^κL", paper.KINETIC_PREFACTOR, m.fit("mixtures", "paper_k", **kinetic), 3,
-                 f"logarithmic fit of exponent one {m.fit('mixtures', 'paper_s', **kinetic).text(3)}; "
-                 f"with all heights {m.fit('mixtures', 'paper_s', heights='all', **kinetic).text(3)}", "B_kappa", ("prefactor",))
-    yield number("3b: its exponent", paper.KINETIC_EXPONENT, m.fit("mixtures", "paper_a", **kinetic), 3, "a power law, as in the paper", numbers=("exponent",))
+                 f"exponent one: {m.fit('mixtures', 'paper_s', **kinetic).text(3)}; "
+                 f"all heights {m.fit('mixtures', 'paper_s', heights='all', **kinetic).text(3)}", "B_kappa", ("prefactor",))
+    yield number("3b: its exponent", paper.KINETIC_EXPONENT, m.fit("mixtures", "paper_a", **kinetic), 3, "", numbers=("exponent",))
     yield number("B_κ", paper.B_KAPPA, m.fit("mixtures", "paper_B", **kinetic), 3,
-                 f"half the sum of the end values; the ratio of sums is {m.fit('mixtures', **kinetic).text(3)}; all heights "
+                 f"ratio of sums {m.fit('mixtures', **kinetic).text(3)}; all heights "
                  f"{m.fit('mixtures', 'paper_B', heights='all', **kinetic).text(3)}", "B_kappa", ("prefactor",))
-    yield number("\\|B_κ\\| over B", paper.B_KAPPA_OVER_B, m.number("mixtures", "B_kappa/B"), 1, "both of the slope; follows from the two numbers", "")
+    yield number("\\|B_κ\\| over B", paper.B_KAPPA_OVER_B, m.number("mixtures", "B_kappa/B"), 1, "", "")
     points = [(m.number("phi0.30-s23", f"Kyy/syy_{end}"), paper.KINETIC_OVER_CONTACT) for end in ("least", "most")]
     yield Target("Kinetic over contact stress", paper.KINETIC_OVER_CONTACT,
                  " to ".join(value.text(4) for value, _ in points), points,
-                 "4 to 56 d_S; the paper contradicts itself: its figure 3a gives 0.98/55 = 0.018")
+                 "the paper's own figure 3a gives 0.98/55 = 0.018")
     yield from shear_rate(m)
 
 
@@ -195,9 +195,9 @@ def kinetic_profile(m):
     at = lambda name: m.number("phi0.30-s23", name)
     for volume, suffix in (("per area of grains", "_solid"), ("per area with voids", "")):
         yield number(f"3a: P^κ at the base over ρ g d_S, {volume}", paper.P_KAPPA, at(f"K{suffix}_prefactor"), 2,
-                     f"about the mean of the layer {at(f'K_layer{suffix}_prefactor').text(2)}", "" if suffix else "3a level", ("3a level",))
+                     f"about the layer's mean {at(f'K_layer{suffix}_prefactor').text(2)}", "" if suffix else "3a level", ("3a level",))
         yield number(f"3a: decay length of P^κ in d_L, {volume}", paper.P_KAPPA_DECAY, at(f"K{suffix}_decay"), 1,
-                     f"about the mean of the layer {at(f'K_layer{suffix}_decay').text(1)}", "" if suffix else "3a decay", ("3a decay",))
+                     f"about the layer's mean {at(f'K_layer{suffix}_decay').text(1)}", "" if suffix else "3a decay", ("3a decay",))
 
 
 def shear_rate(m):
@@ -215,8 +215,7 @@ def shear_rate(m):
     room = (line.high - line.low) / 2
     yield Target("4: −B_κ minus the paper's line, over x = γ̇/√(g/d_S)",
                  paper.number(line.text, 0, room, line.source), f"{off[0].text(3)} to {off[-1].text(3)}", points,
-                 "here (the line): " + ", ".join(f"{plain(value.value, 3)} ({plain(on.value, 3)}) at x = {plain(row['rate'], 2)}"
-                                                 for (row, value), (_, on) in zip(kinetic, points)), "4", ("4 level", "4 slope"))
+                 "x from " + " to ".join(plain(row["rate"], 2) for row, _ in kinetic[:1] + kinetic[-1:]), "4", ("4 level", "4 slope"))
     slope, level = line_fit([row["rate"] for row, _ in kinetic], [value.value for _, value in kinetic])
     yield Target("4: −B_κ grows with x: slope of the line", paper.FIGURE_4_RISES, slope.text(3), [(slope, paper.FIGURE_4_RISES)],
                  f"fitted line {level.text(3)} + {slope.text(3)} x", "4", ("4 slope",))
@@ -228,27 +227,25 @@ def micro_structure(m):
     for name, end in (("Π", ""), ("Π^L", "_L"), ("Π^S", "_S")):
         mean, most = paper.FIGURE_5[end]
         yield number(f"5: mean error of {name}, %", mean, at(f"contacts_error{end}_mean"), 1,
-                     f"with 1/(πd); as printed, 2/(πd), {at(f'contacts_error{end}_printed_mean').text(0)}; "
-                     f"over ends and with f_n {at(f'ends_error{end}_mean').text(2)}")
+                     f"over ends, with f_n: {at(f'ends_error{end}_mean').text(2)}")
         yield number(f"5: largest error of {name}, %", most, at(f"contacts_error{end}_most"), 1, "")
     first = lambda name: m.number("phi0.45-s23", name)
     yield number("6a: y_L/H at the start", paper.START, first("yL_first"), 3, "", one_of="")
     yield number("6a: y_L/H at the end", paper.END, first("yL_last"), 3,
-                 f"decreases from one window to the next {first('yL_falls').text(0)} times in {first('windows').text(0)}", one_of="")
+                 f"falls {first('yL_falls').text(0)} times in {first('windows').text(0)} windows", one_of="")
     yield from orderings(first)
 
 
 def orderings(first):
     yield number("6b: least z_L/z_S of all windows", paper.Z_ORDER, first("z_least"), 2,
-                 f"{first('z_first').text(2)} at the start, {first('z_last').text(2)} at the end")
+                 f"start {first('z_first').text(2)}, end {first('z_last').text(2)}")
     yield number("6b: largest z_L/z_S over that at the ends", paper.Z_MOST, first("z_most/ends"), 2,
-                 f"{first('z_most').text(2)}, at {first('z_most_at').text(0)} s; neutral contacts: up to 2")
+                 f"{first('z_most').text(2)}, at {first('z_most_at').text(0)} s; neutral: up to 2")
     yield number("6c: least f_L/f_S of all windows", paper.F_ORDER, first("f_least"), 2,
-                 f"{first('f_first').text(2)} at the start, {first('f_last').text(2)} at the end. Forces that ignore grain size would "
-                 f"give {first('neutral_last').text(2)} at the end; the measured ratio over that one is "
+                 f"start {first('f_first').text(2)}, end {first('f_last').text(2)}; neutral {first('neutral_last').text(2)} at the end; measured over neutral "
                  f"{first('f_over_neutral').text(2)} on average")
     yield number("6c, inset: the same over the pressure at their depth", paper.F_DEPTH_ORDER, first("hat_least"), 2,
-                 f"{first('hat_first').text(2)} at the start, {first('hat_last').text(2)} at the end; neutral contacts: r z_S/z_L")
+                 f"start {first('hat_first').text(2)}, end {first('hat_last').text(2)}; neutral r z_S/z_L")
 
 
 SECTIONS = (("Contact stress (section III)", contact_stress),

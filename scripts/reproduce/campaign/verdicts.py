@@ -1,6 +1,6 @@
 """The one rule by which measured numbers meet a statement of the paper.
 
-A statement is met by our choices where the whole 95 % interval lies in its range, not where it lies wholly outside,
+A statement is met where the whole 95 % interval lies in its range, not where it lies wholly outside,
 and undecided where it crosses an edge or does not exist. What our choices do not meet may be met by those that meet most of the paper's
 numbers (combined.py). Several points (a line, "always") are judged by the worst.
 Beside it stands the difference from the paper's value in standard errors, which asks for more: it knows no room
@@ -8,7 +8,7 @@ for what the paper leaves open.
 """
 import math
 
-AGREES, LIKELY, UNDECIDED, DIFFERS, NOT_YET = "met by our choices", "met by the likely choices", "undecided", "**met by neither**", "not measured yet"
+AGREES, LIKELY, UNDECIDED, DIFFERS, NOT_YET = "met", "met by the likely choices", "undecided", "**not met**", "not measured yet"
 FROM_BEST_TO_WORST = (AGREES, LIKELY, UNDECIDED, DIFFERS, NOT_YET)
 
 
