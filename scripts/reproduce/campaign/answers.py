@@ -36,14 +36,14 @@ def strengths(rows, pattern):
 def beds_of_densities(rows):
     """B and p* by the ratio of the densities of large and small grains."""
     found = [(float(re.search("density([0-9.]+)", row["flow"])[1]), row) for row in of_flows(rows, r".*-density[0-9.]+-t60")]
-    return markdown(["ρ_L/ρ_S", "runs", "s", "B", "p*"], [[f"{ratio:g}", f"{row['runs']:.0f}", plain(row["end"], 0), interval(row, "B", 3), interval(row, "p_star", 4)]
+    return markdown(["ρ_L/ρ_S", "B", "p*"], [[f"{ratio:g}", interval(row, "B", 3), interval(row, "p_star", 4)]
                                                            for ratio, row in sorted(found, key=lambda one: one[0])])
 
 
 def fluctuations(rows, pattern):
     """B_kappa about the profile and about the mean of layer and frame, with the velocity after the step and in its middle."""
-    names = ("K_sums", "K", "K_middle", "K_instant", "K_unbiased", "K_unbiased-middle")
-    heads = ["flow", "runs", "B", "B_κ by sums", "B_κ about the profile", "... middle of the step", "about layer and frame", "... unbiased", "... unbiased, middle of the step"]
+    names = ("K_sums", "K", "K_middle", "K_instant", "K_unbiased")
+    heads = ["flow", "runs", "B", "B_κ by sums", "B_κ about the profile", "... middle of the step", "about layer and frame", "... unbiased"]
     return markdown(heads, [[row["flow"], f"{row['runs']:.0f}", interval(row, "B", 3)] + [interval(row, name, 3) for name in names]
                             for row in of_flows(rows, pattern)])
 
@@ -56,9 +56,9 @@ def with_and_without_a_row(row):
 def beds(rows, pattern):
     def number(row, text, name, digits):
         return f"{plain(row[name], digits)} ¹" if with_and_without_a_row(row) else text(row, name, digits)
-    heads = ["flow", "runs", "B", "B, all heights", "y_L/H at the end", "large grains in the lowest layer", "f_L/f_S, last 15 s"]
+    heads = ["flow", "runs", "B", "B, all heights", "y_L/H at the end", "large grains in the lowest layer"]
     return markdown(heads, [[row["flow"], f"{row['runs']:.0f}", interval(row, "B", 3), number(row, interval, "B_all", 3),
-                             number(row, about, "yL_end", 3), number(row, about, "trapped", 1), number(row, about, "f_ratio", 2)]
+                             number(row, about, "yL_end", 3), number(row, about, "trapped", 1)]
                             for row in of_flows(rows, pattern)])
 
 
