@@ -39,13 +39,10 @@ def verdict_tables(m):
 
 
 def counts(m):
-    all_targets = [target for _, section in sections(m) for target in section]
-
-    def text(what, found):
-        each = [f"{found.count(verdict)} {'is' if found.count(verdict) == 1 else 'are'} {verdict.strip('*')}" for verdict in verdicts.FROM_BEST_TO_WORST
-                if found.count(verdict)]
-        return f"Of {len(found)} {what} {', '.join(each)}."
-    return "\n".join((text("independent statements", targets.independent(all_targets)), text("rows below", [target.verdict() for target in all_targets])))
+    found = targets.independent([target for _, section in sections(m) for target in section])
+    each = [f"{found.count(verdict)} {'is' if found.count(verdict) == 1 else 'are'} {verdict.strip('*')}" for verdict in verdicts.FROM_BEST_TO_WORST
+            if found.count(verdict)]
+    return f"Of {len(found)} independent statements {', '.join(each)}."
 
 
 def pictures(m):
@@ -122,7 +119,7 @@ def rise(m):
         ["Φ_L", "p_size − p*", "mixed", "geometry", "B with one p*"],
         [[f"{row['phi']:g}", of(row, "beyond", 4), of(row, "mixed", 3), of(row, "geometry", 3), one(row)] for row in flows])
     both = lambda name: [m.number("mixtures", f"rise_{prefix}{name}").text(3) for prefix in ("", "upper_")]
-    alike = {"phi": "at equal φ_L", "y": "at equal height", "phi_y_t": "at equal φ_L, height and stage"}
+    alike = {"phi": "at equal φ_L", "y": "at equal height"}
     trends = [["B, sums"] + both("trend_B"), ["B with one p*"] + both("trend_one")]
     trends += [[title] + both(f"alike_{name}") for name, title in alike.items()]
     return "\n\n".join((factors, markdown(["change per unit of Φ_L", "all six mixtures", "Φ_L from 0.30 on"], trends)))
