@@ -40,9 +40,8 @@ def verdict_tables(m):
 
 def counts(m):
     found = targets.independent([target for _, section in sections(m) for target in section])
-    each = [f"{found.count(verdict)} {'is' if found.count(verdict) == 1 else 'are'} {verdict.strip('*')}" for verdict in verdicts.FROM_BEST_TO_WORST
-            if found.count(verdict)]
-    return f"Of {len(found)} independent statements {', '.join(each)}."
+    each = [f"{found.count(verdict)} {verdict.strip('*')}" for verdict in verdicts.FROM_BEST_TO_WORST if found.count(verdict)]
+    return f"{len(found)} independent statements: {', '.join(each)}."
 
 
 def pictures(m):

@@ -112,7 +112,7 @@ def separated(m):
     others = "".join(f"; {flow}: {of_flow(flow, 'way').text(2)}" for flow in others)
     yield number("1: way of y_L/H from 0.15 (large below) to 0.85 (above)", paper.FIGURE_1_END, at("way"), 2,
                  f"{at('lowest_large').text(0)} large grains stay in the lowest layer, 35 or none in a run{others}", one_of="")
-    yield number("1: mean of φ_L φ_S over that of the mixed bed", paper.FIGURE_1_MIXED, at("mixed"), 2,
+    yield number("1: mean of φ_L φ_S over its value in a mixed bed", paper.FIGURE_1_MIXED, at("mixed"), 2,
                  "mixed 1, separated 0; the edge is our reading", one_of="")
 
 
@@ -138,7 +138,7 @@ def mixed_contacts(m):
     yield number("2c: largest share of mixed contacts", paper.MIXED_MOST, at("mixed_most"), 3, "neutral 0.500")
     yield number("2c: φ_L where it is largest", paper.MIXED_MOST_AT, at("mixed_most_at"), 2, "", one_of="")
     least, most = at("mixed_off_least"), at("mixed_off_most")
-    yield Target("2c: share of mixed contacts minus that of neutral ones", paper.MIXED_CURVE,
+    yield Target("2c: share of mixed contacts minus the neutral share", paper.MIXED_CURVE,
                  f"{least.text(3)} to {most.text(3)}", [(least, paper.MIXED_CURVE), (most, paper.MIXED_CURVE)],
                  "by composition, base excluded", one_of="")
 
