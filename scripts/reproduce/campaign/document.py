@@ -3,7 +3,7 @@ import math
 import os
 
 import errata
-from measured import Measured, Value, plain
+from measured import Measured, Value
 from tables import shared
 import targets
 import verdicts
