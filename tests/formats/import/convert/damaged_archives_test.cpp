@@ -23,8 +23,7 @@ class DamagedArchive : public testing::Test {
     ASSERT_NE(at, std::string::npos);
     text.replace(at, what.size(), by);
   }
-  /// The same sentence and exit code stand in the table of docs/studies/archives.md, behind
-  /// `damage`.
+  /// The sentence and its exit code stand in damaged_archives.tsv, beside `damage`.
   void expect_refusal(const std::string& damage, int code, const std::string& sentence)
   {
     auto refused = refusal(settings(folder, grains, contacts));
@@ -35,13 +34,14 @@ class DamagedArchive : public testing::Test {
     EXPECT_EQ(refused.code, code);
     EXPECT_TRUE(mentions(refused.sentence, sentence));
     EXPECT_EQ(folder.files(), 2u) << "something was written";
-    const auto row = fmt::format("| {} | {} | {} |\n", damage, refused.sentence, refused.code);
-    EXPECT_NE(manual.find(row), std::string::npos) << "docs/studies/archives.md lacks the row\n"
-                                                   << row;
+    const auto row = fmt::format("\n{}\t{}\t{}\n", damage, refused.sentence, refused.code);
+    EXPECT_NE(sentences.find(row), std::string::npos)
+        << "damaged_archives.tsv lacks the row" << row;
   }
 
  private:
-  const std::string manual = read(GRSEG_TEST_INPUTS "/../../docs/studies/archives.md");
+  const std::string sentences =
+      read(GRSEG_TEST_INPUTS "/../formats/import/convert/damaged_archives.tsv");
 };
 
 TEST_F(DamagedArchive, ThatIsWholeIsNotRefused)
