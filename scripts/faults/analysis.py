@@ -491,7 +491,6 @@ FAULTS = [
 ARGUED = {"component: the trace instead of its part per dimension"}
 LIBRARY = "grseg_analysis"
 FOLDER = "analysis"  # of the library
-OUTPUT = "docs/studies/fault-injection.md"
 # Whose tests are asked for a fault in a room: its own, then those of rooms that build on it.
 ASKED = {"frames": ["frames", "stress", "micro", "balance", "segregation", "fit", "check"],
          "statistics": ["statistics", "segregation", "fit"], "stress": ["stress", "micro", "fit", "check"],
@@ -562,6 +561,6 @@ def table(results):
     yield "|---|---|---|---|"
     for r in results:
         names = r["near"] or r["far"]
-        none = "none ([why](#what-no-test-can-see))" if r["what"] in ARGUED else "**none**"
+        none = "none (argued)" if r["what"] in ARGUED else "**none**"
         shown = ", ".join(f"`{name}`" for name in names[:2]) or none
         yield f"| {r['what']} | {os.path.basename(r['file'])} | {len(names)} | {shown} |"

@@ -81,7 +81,6 @@ FAULTS = [
 ARGUED = set()
 LIBRARY = "grseg_explore"
 FOLDER = "analysis/explore"  # of the library
-OUTPUT = "docs/studies/fault-injection-page.md"
 TOOLS = ["explore", "report", "stress", "kinetic", "micro", "balance", "segregation", "fit", "check", "sim", "import"]
 TARGETS = [f"grseg-{tool}" for tool in TOOLS] + ["analysis_explore_test"]
 OPTIONS = ["-DCMAKE_CXX_FLAGS_RELEASE=-O1"]

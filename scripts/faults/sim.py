@@ -183,7 +183,6 @@ FAULTS = [
 ARGUED = set()
 LIBRARY = "grseg_simulator"
 FOLDER = "sim"  # of the library
-OUTPUT = "docs/studies/hard-cases.md"
 HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",
         "invariances", "newcomer", "extremes", "slopes"]
 UNIT = ["contact_law", "sweep", "single_contacts", "solver", "wavefront", "detection", "pair_list", "simulation", "restart",

@@ -107,7 +107,7 @@ def created_energy(run):
 
     With impulses p and relative velocities u before and u' after a step, contacts do the work p.(u + u')/2. In an
     exact solution p_n (u'_n - rebound) = 0, rebound <= e times the approach, and p_t u'_t <= 0: so
-    sum p_n (u'_n - e approach) + p_t u'_t <= 0 in each step, whatever friction and e are (docs/studies/numerics.md).
+    sum p_n (u'_n - e approach) + p_t u'_t <= 0 in each step, whatever friction and e are (docs/studies/accuracy.md).
     What this sum makes over any span of steps is the solver's. It is measured in the energy that lifts all grains by
     d_S, plus the largest kinetic energy; 0.05 of the work of boundaries within the span is left out."""
     excess = run.sum_of_contacts(run.part[run.frame_of] * (
@@ -174,7 +174,7 @@ def held_back(run):
 
 def undriven(run):
     """Between standing boundaries, under gravity that does not turn, energy never rises, however far frames are apart.
-    Rebounds with friction may raise it (Kane's example; docs/studies/numerics.md); so may a solver that stops
+    Rebounds with friction may raise it (Kane's example; docs/studies/accuracy.md); so may a solver that stops
     early. The bound is that of created_energy."""
     if is_driven(run) or run.keys["geometry"] == "shear" or run.time[0] < 0:
         return

@@ -34,7 +34,7 @@
 ///             next step it rebounds with e times that.
 ///
 /// So the contacts of a step without friction take (1 - e)/(1 + e) p.W p/2 from the energy, p.W p
-/// summed over all (docs/studies/numerics.md). Without the return of parting pairs, a light grain
+/// summed over all (docs/studies/accuracy.md). Without the return of parting pairs, a light grain
 /// that rattles between heavy ones would drive them apart.
 ///
 /// A pair that bore an impulse p_n in the step before cannot approach if that step was solved
@@ -43,7 +43,7 @@
 /// heavy one lift it. So does a separation below `parting_error` W_nn p_n not return.
 ///
 /// Overlap is never pushed out, so that no energy enters that way.
-/// docs/studies/numerics.md compares the laws in flows and impacts.
+/// docs/studies/accuracy.md compares the laws in flows and impacts.
 namespace grseg {
 
 /// When a pair acts. Delays are those of an isolated impact, averaged over its phase in the step.
@@ -72,7 +72,7 @@ constexpr double least_margin = 1e-9;
 
 /// Approach of a pair that bore a load, over W_nn p_n of the step before, that the solver's error may
 /// make. Measured: from 0.003 on beds come to rest to round-off, up to 0.01 overlap in flows is
-/// the same (docs/studies/numerics.md).
+/// the same (docs/studies/accuracy.md).
 constexpr double solver_error = 0.01;
 
 /// Separation of such a pair, likewise. Measured: with 0 overlap in flows is 10 % larger, with 0.1 and

@@ -11,7 +11,7 @@ namespace grseg {
 
 /// What the simulator leaves out because nothing in the scene needs it, each with the reason:
 /// "gravity (none), moving boundaries (all stand still)"; empty where the scene needs everything.
-/// Results are bitwise the same with and without (docs/studies/effects.md).
+/// Results are bitwise the same with and without (docs/studies/performance.md).
 std::string effects_left_out(const Scene& scene);
 
 /// "grseg-sim 1.0.0 (1a2b3c4)".

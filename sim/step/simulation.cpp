@@ -25,14 +25,14 @@ constexpr double floor_of_reference = 1e-3;
 // The reference velocity of the solver is at most so many times what loads make of the mean grain; the
 // mean load is that of roots, so that a few heavy or squeezed grains do not make it. Chosen after
 // measuring: in the paper's flow the reference is 6.6 times that in the median and above 16 in less
-// than one step of a hundred (docs/studies/numerics.md).
+// than one step of a hundred (docs/studies/accuracy.md).
 constexpr double most_of_loads = 16;
 // In the first step, in which boundaries may jerk, it is the load and this part of the fastest approach:
 // otherwise an impact that few sweeps pass on gains or loses a quarter of its energy.
 constexpr double part_of_approach = 0.1;
 
 // In smallest diameters. The best lies between 0.5 and 0.9, whatever the scene and the accuracy
-// (docs/studies/numerics.md).
+// (docs/studies/performance.md).
 constexpr double fastest_skin = 0.7;
 
 double smallest_diameter(const Grains& grains)

@@ -451,7 +451,7 @@ TEST(Hopper, FlowsByBeverloosLawThroughWideOutlets)
   double squares = 0;
   for (const double margin : margins) squares += (margin - k) * (margin - k);
   Case("H35", "k of Beverloo's law").between(k, 1, 2);
-  Case("H35", "its standard error").at_most(std::sqrt(squares / (count - 1) / count), 0.25);
+  Case("H35", "standard error of k").at_most(std::sqrt(squares / (count - 1) / count), 0.25);
 }
 
 }  // namespace

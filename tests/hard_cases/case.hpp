@@ -10,13 +10,13 @@
 
 namespace grseg::hard_cases {
 
-/// One line of docs/studies/hard-cases.md: what is expected of a hard case and what was found. Each
-/// check is an expectation of the test, too; the one that came nearest to its bound is recorded as a
-/// property of the test, key "H13: what", value "expected<tab>measured<tab>bound", for
+/// One line of the table of scripts/hard-cases: expectation and result of a hard case. Each check is
+/// an expectation of the test, too. The check that came nearest to its bound is recorded as a
+/// property of the test, key "H13: what", value "expected<tab>measured<tab>bound<tab>used", for
 /// scripts/hard-cases to collect.
 class Case {
  public:
-  /// `name` as in docs/studies/hard-cases.md.
+  /// `name` is the number of the case in docs/studies/hard-cases.md, as H13.
   Case(const std::string& name, const std::string& what) : key_(name + ": " + what) {}
   Case(const Case&) = delete;
   Case& operator=(const Case&) = delete;

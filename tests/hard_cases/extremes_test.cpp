@@ -153,8 +153,8 @@ TEST(Cloud, OfRoughDiscsCoolsWithoutGravityUntilLoadsHaveFaded)
   for (const auto* c : {&inelastic, &rebounding}) {
     Case("G8", "energy left of a rough cloud after 1e5 steps, e = 0, 0.5")
         .between(c->energy, 1e-9, 0.02);
-    Case("G8", "steps of it that miss a tolerance of 1e-10").at_most(c->missed, 0);
-    Case("G8", "most sweeps of a step of it").at_most(c->sweeps, 499);
+    Case("G8", "steps of a cooling cloud that miss a tolerance of 1e-10").at_most(c->missed, 0);
+    Case("G8", "most sweeps of a step of a cooling cloud").at_most(c->sweeps, 499);
   }
 }
 

@@ -201,7 +201,7 @@ void check(const std::string& slope)
   // Above that a run stops.
   Case(name, case_of("mean overlap, d_S")).at_most(overlap.mean, 0.01);
   // B rises by 0.0043 from one overlap to one ten times as large (a line through the table of
-  // docs/studies/accuracy-cost.md), by 0.0002 for a tenth more, which no campaign resolves: its
+  // docs/studies/accuracy.md), by 0.0002 for a tenth more, which no campaign resolves: its
   // error of B is 0.002. (The bound was three of the slope's own standard errors, which the noisier
   // run passes more easily, and 0.02 for these; 0.070 and 0.016 were known.)
   Case(name, case_of("change of the mean overlap at equal speed in 1e6 steps, over the mean, "

@@ -62,7 +62,7 @@ std::set<std::pair<int, int>> touching(const World& world, const Frame<2>& frame
 TEST(SizeRatio, OfTenAndAHundredLosesNoPair)
 {
   Case missed("H36", "pairs of a brute-force search that are missing, ratios 10 and 100"),
-      invented("H36", "contacts that such a search does not find");
+      invented("H36", "contacts that a brute-force search does not find");
   for (const double ratio : {10.0, 100.0}) {
     const auto c = large_and_small(ratio);
     auto simulation = c.simulation();

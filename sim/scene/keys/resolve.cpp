@@ -28,11 +28,11 @@ constexpr double farthest_by_load = 0.1;
 // grains sink into light ones, or light ones lift them (docs/studies/hard-cases.md).
 constexpr double heaviest_large = 16;
 // The same of a plate, over each small grain that finds room under it. A bed that sweeps compress in
-// several steps throws a heavier one back (docs/studies/numerics.md).
+// several steps throws a heavier one back (docs/studies/accuracy.md).
 constexpr double heaviest_plate = 1;
 constexpr double most_sweeps_factor = 16;
 // Above this restitution pairs rebound in the step in which they meet: the speculative law changes
-// the energy of a gas (docs/studies/numerics.md).
+// the energy of a gas (docs/studies/accuracy.md).
 constexpr double most_speculative_restitution = 0.9;
 
 void read_keys(const po::variables_map& values, Scene& scene)
