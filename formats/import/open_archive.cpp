@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/open_archive.hpp"
-
 #include "formats/cli/words.hpp"
-#include "formats/core/errors.hpp"
-#include "formats/import/common/archive_files.hpp"
+#include "formats/import/common/archive.hpp"
 
 #include <fmt/format.h>
 
@@ -23,6 +20,13 @@ constexpr const ArchiveFormat* formats[] = {
     &csv_format,
 };
 
+}  // namespace
+
+std::span<const ArchiveFormat* const> archive_formats()
+{
+  return formats;
+}
+
 const ArchiveFormat& format_of(const std::string& name)
 {
   std::vector<std::string> known;
@@ -31,18 +35,6 @@ const ArchiveFormat& format_of(const std::string& name)
     known.emplace_back(format->name);
   }
   throw UsageError(unknown_word("--format", name, known));
-}
-
-}  // namespace
-
-std::span<const ArchiveFormat* const> archive_formats()
-{
-  return formats;
-}
-
-void require_format(const std::string& name)
-{
-  format_of(name);
 }
 
 std::unique_ptr<Archive> open_archive(const std::string& name, const ArchiveFiles& files)

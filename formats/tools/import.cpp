@@ -6,7 +6,6 @@
 #include "formats/core/errors.hpp"
 #include "formats/import/convert/importer.hpp"
 #include "formats/import/convert/scan.hpp"
-#include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,14 @@
 #include "formats/import/common/archive.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
 namespace grseg {
 namespace {
+
+constexpr std::size_t enough_moments = 3;  // for a sentence
 
 std::string sentence_of(const std::vector<Question>& questions)
 {
@@ -41,6 +44,14 @@ Vec3 ArchiveMoment::minimum_image(Vec3 between) const
   return between;
 }
 
+std::unordered_map<std::int64_t, std::size_t> rows_by_id(const ArchiveGrains& grains)
+{
+  std::unordered_map<std::int64_t, std::size_t> rows;
+  rows.reserve(grains.size());
+  for (std::size_t g = 0; g < grains.size(); ++g) rows[grains.id[g]] = g;
+  return rows;
+}
+
 void enclose_grains(ArchiveMoment& moment)
 {
   const auto& grains = moment.grains;
@@ -56,6 +67,58 @@ void enclose_grains(ArchiveMoment& moment)
     moment.high[axis] = high[axis];
     moment.cell[static_cast<std::size_t>(axis)] = CellSource::grains;
   }
+}
+
+void Unmatched::add(double moment)
+{
+  ++count;
+  if (first.size() < enough_moments) first.push_back(moment);
+}
+
+bool Matching::next(const Table& grains, const Table& contacts, const std::function<int()>& order,
+                    bool to_the_end)
+{
+  const auto pass = [](const Table& table, Unmatched& alone) {
+    alone.add(table.now());
+    return table.next();
+  };
+  bool more_grains = grains.next(), more_contacts = contacts.next();
+  while (more_grains && more_contacts) {
+    const int where = order();
+    if (where == 0) return any_of_both_ = true;
+    if (where < 0)
+      more_grains = pass(grains, grains_alone_);
+    else
+      more_contacts = pass(contacts, contacts_alone_);
+  }
+  const auto goes_on = [&](const Unmatched& alone) {
+    return to_the_end || (!any_of_both_ && alone.first.size() < enough_moments);
+  };
+  while (more_grains && goes_on(grains_alone_)) more_grains = pass(grains, grains_alone_);
+  while (more_contacts && goes_on(contacts_alone_)) more_contacts = pass(contacts, contacts_alone_);
+  if (!any_of_both_ && grains_alone_.count > 0 && contacts_alone_.count > 0)
+    throw FormatError(fmt::format(
+        "no moment is in both tables: those of the grains begin with {:.10g}, those of the contacts "
+        "with {:.10g}; write both at the same moments",
+        fmt::join(grains_alone_.first, ", "), fmt::join(contacts_alone_.first, ", ")));
+  return false;
+}
+
+void add_remark(std::vector<std::string>& remarks, const Unmatched& alone, const char* what,
+                const char* without, const char* unit)
+{
+  if (alone.count > 0)
+    remarks.push_back(
+        fmt::format("{} moments have {} but no {} and are left out, the first at {} {:.10g}",
+                    alone.count, what, without, unit, alone.first[0]));
+}
+
+std::vector<std::string> Matching::remarks(const char* unit) const
+{
+  std::vector<std::string> remarks;
+  add_remark(remarks, grains_alone_, "grains", "contacts", unit);
+  add_remark(remarks, contacts_alone_, "contacts", "grains", unit);
+  return remarks;
 }
 
 }  // namespace grseg

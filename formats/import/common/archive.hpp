@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -96,6 +99,9 @@ struct ArchiveGrains {
   }
 };
 
+/// The rows of grains by their ids.
+std::unordered_map<std::int64_t, std::size_t> rows_by_id(const ArchiveGrains& grains);
+
 /// Adds to `missing` the names of the components that an archive lacks of a vector of which it has
 /// another.
 inline void add_missing(const std::array<bool, 3>& has, const std::array<const char*, 3>& names,
@@ -120,6 +126,7 @@ struct ArchiveContacts {
   std::vector<std::string> missing;  // components, as of grains
 
   std::size_t size() const { return i.size(); }
+  bool at_wall(std::size_t c) const { return !wall.empty() && wall[c] >= 0; }
 };
 
 /// Where the cell along an axis comes from.
@@ -151,16 +158,37 @@ struct ArchiveMoment {
 /// For archives that state no cell; there must be grains.
 void enclose_grains(ArchiveMoment& moment);
 
-/// Moments that one of the tables of an archive lacks.
+/// Moments that one of the tables of an archive has and another lacks: times or steps.
 struct Unmatched {
   std::size_t count = 0;
-  double first = 0;  // its time or step
+  std::vector<double> first;  // three at most
 
-  void add(double moment)
-  {
-    if (count++ == 0) first = moment;
-  }
+  void add(double moment);
 };
+
+/// Matches the tables of grains and of contacts of an archive, each in order of time, by moment.
+class Matching {
+ public:
+  struct Table {
+    std::function<bool()> next;   // advances to its next moment; false at the end
+    std::function<double()> now;  // the time or the step of this moment
+  };
+  /// Advances both to the next moment that both have; false at the end. `order` is negative where the
+  /// grains are at an earlier moment, 0 where both are at one. Then the rest of a longer table is read
+  /// if `to_the_end`, for remarks(). FormatError where both have moments, but none in common.
+  bool next(const Table& grains, const Table& contacts, const std::function<int()>& order,
+            bool to_the_end = false);
+  /// What is left out, a sentence for each table; `unit` is "step" or "t =".
+  std::vector<std::string> remarks(const char* unit) const;
+
+ private:
+  Unmatched grains_alone_, contacts_alone_;
+  bool any_of_both_ = false;
+};
+
+/// "12 moments have grains but no contacts and are left out, ..."; nothing where there are none.
+void add_remark(std::vector<std::string>& remarks, const Unmatched& alone, const char* what,
+                const char* without, const char* unit);
 
 /// What an archive states once about its run. What it does not state stays empty and must come from
 /// the command line; nothing is guessed.
@@ -234,7 +262,7 @@ struct ArchiveFiles {
   std::vector<std::string> map;               // other names of columns; csv_map.hpp
 };
 
-/// All that is known of a format outside its own folder; open_archive.cpp lists the formats.
+/// All that is known of a format outside its own folder.
 struct ArchiveFormat {
   const char* name;  // as --format gives it
   std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
@@ -253,5 +281,15 @@ struct ArchiveFormat {
 /// Each stands in the folder of its program.
 extern const ArchiveFormat lammps_format, liggghts_format, mercury_format, siconos_format,
     csv_format;
+
+/// The known formats, in the order in which --help names them.
+std::span<const ArchiveFormat* const> archive_formats();
+
+/// UsageError where there is no such format.
+const ArchiveFormat& format_of(const std::string& name);
+
+/// UsageError where `format` is unknown, an option does not apply to it or a file is missing,
+/// FormatError where a file is damaged.
+std::unique_ptr<Archive> open_archive(const std::string& format, const ArchiveFiles& files);
 
 }  // namespace grseg

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 
 namespace grseg {
 namespace {
@@ -56,73 +57,66 @@ constexpr auto to_dumps =
 constexpr auto in_pandas = "make a table of it, in Python by pandas and to_csv (--format csv)";
 constexpr auto from_restart =
     "read it there, and write `dump custom` for grains and `dump local` for contacts by `run 0`";
-constexpr auto binary2txt = "turn it into text by binary2txt, which comes with LAMMPS";
 constexpr auto from_paraview =
     "write dumps as text instead, or save it as a table in ParaView (--format csv)";
 
-struct Signature {
-  std::string_view bytes;
-  std::size_t at;
+struct Kind {
   const char* what;
   const char* way_out;
+  std::initializer_list<std::string_view> bytes;  // one of these
+  std::size_t at = 0;                             // where they stand
 };
 
-constexpr Signature signatures[] = {
-    {"PK\x03\x04"sv, 0, "a zip archive, as xlsx, ods and npz are",
+constexpr Kind kinds[] = {
+    {"a zip archive, as xlsx, ods and npz are",
      "unpack it and name the files that were in it, or save its sheets or arrays as tables (--format "
-     "csv)"},
-    {"PK\x05\x06"sv, 0, "an empty zip archive", unpack_first},
-    {"ustar"sv, 257, "a tar archive", unpack_first},
-    {"7z\xbc\xaf\x27\x1c"sv, 0, "a 7z archive", unpack_first},
-    {"Rar!\x1a\x07"sv, 0, "a rar archive", unpack_first},
-    {"\x1f\x8b"sv, 0, "packed twice", "unpack it once"},
-    {"\x28\xb5\x2f\xfd"sv, 0, "packed twice", "unpack it once"},
-    {"\xfd\x37zXZ\0"sv, 0, "packed twice", "unpack it once"},
-    {"\x31\x41\x59\x26\x53\x59"sv, 4, "packed twice", "unpack it once"},  // bzip2
-    {"\x04\x22\x4d\x18"sv, 0, "packed by lz4", repack},
-    {"LZIP"sv, 0, "packed by lzip", repack},
-    {"\x1f\x9d"sv, 0, "packed by compress", repack},
-    {"\x5d\0\0"sv, 0, "packed by lzma", repack},
-    {"PAR1"sv, 0, "a table of Parquet", in_pandas},
-    {"ARROW1"sv, 0, "a table of Arrow", in_pandas},
-    {"FEA1"sv, 0, "a table of Feather", in_pandas},
-    {"\x80\x03"sv, 0, "a pickle of Python", in_pandas},
-    {"\x80\x04"sv, 0, "a pickle of Python", in_pandas},
-    {"\x80\x05"sv, 0, "a pickle of Python", in_pandas},
-    {"\x93NUMPY"sv, 0, "an array of numpy", in_pandas},
-    {"MATLAB 5.0"sv, 0, "a file of MATLAB", to_tables},
-    {"SQLite format 3"sv, 0, "a database of SQLite", to_tables},
-    {"\xd0\xcf\x11\xe0"sv, 0, "a spreadsheet of Excel", "save its sheets as tables (--format csv)"},
-    {"CDF\x01"sv, 0, "a netCDF file", to_dumps},
-    {"CDF\x02"sv, 0, "a netCDF file", to_dumps},
-    {"CDF\x05"sv, 0, "a netCDF file", to_dumps},
-    {"\x89HDF\r\n\x1a\n"sv, 0, "an HDF5 file",
+     "csv)",
+     {"PK\x03\x04"sv}},
+    {"an empty zip archive", unpack_first, {"PK\x05\x06"sv}},
+    {"a tar archive", unpack_first, {"ustar"sv}, 257},
+    {"a 7z archive", unpack_first, {"7z\xbc\xaf\x27\x1c"sv}},
+    {"a rar archive", unpack_first, {"Rar!\x1a\x07"sv}},
+    {"packed twice", "unpack it once", {"\x1f\x8b"sv, "\x28\xb5\x2f\xfd"sv, "\xfd\x37zXZ\0"sv}},
+    {"packed twice", "unpack it once", {"\x31\x41\x59\x26\x53\x59"sv}, 4},  // bzip2
+    {"packed by lz4", repack, {"\x04\x22\x4d\x18"sv}},
+    {"packed by lzip", repack, {"LZIP"sv}},
+    {"packed by compress", repack, {"\x1f\x9d"sv}},
+    {"packed by lzma", repack, {"\x5d\0\0"sv}},
+    {"a table of Parquet", in_pandas, {"PAR1"sv}},
+    {"a table of Arrow", in_pandas, {"ARROW1"sv}},
+    {"a table of Feather", in_pandas, {"FEA1"sv}},
+    {"a pickle of Python", in_pandas, {"\x80\x03"sv, "\x80\x04"sv, "\x80\x05"sv}},
+    {"an array of numpy", in_pandas, {"\x93NUMPY"sv}},
+    {"a file of MATLAB", to_tables, {"MATLAB 5.0"sv}},
+    {"a database of SQLite", to_tables, {"SQLite format 3"sv}},
+    {"a spreadsheet of Excel", "save its sheets as tables (--format csv)", {"\xd0\xcf\x11\xe0"sv}},
+    {"a netCDF file", to_dumps, {"CDF\x01"sv, "CDF\x02"sv, "CDF\x05"sv}},
+    {"an HDF5 file",
      "--format siconos reads those of Siconos; of others write grains and contacts as tables "
-     "(--format csv)"},
-    {"# vtk DataFile"sv, 0, "a VTK file", from_paraview},
-    {"<VTKFile"sv, 0, "a VTK file", from_paraview},
-    {"---\n"sv, 0, "a YAML file", to_dumps},
-    {"---\r\n"sv, 0, "a YAML file", to_dumps},
-    {"Number of particles ="sv, 0, "a file of AtomEye (cfg)", to_dumps},
-    {"LammpS RestartT"sv, 0, "a restart file of LAMMPS", from_restart},
-    {"Version LIGGGHTS"sv, 8, "a restart file of LIGGGHTS", from_restart},
-    {"LAMMPS data file"sv, 0, "a data file of LAMMPS", from_restart},
-    {"LAMMPS ("sv, 0, "a log of LAMMPS", "name its dumps"},
-    {"DUMPATOM"sv, 8, "a binary dump of LAMMPS", binary2txt},
-    {"DUMPCUSTOM"sv, 8, "a binary dump of LAMMPS", binary2txt},
-    {"serialization::archive"sv, 8, "a saved simulation of YADE",
-     "load it there and write tables by scripts/archives/yade_export.py"},
-    {"\xdf\x65\xdf\x65\xdf\x65\xdf\x65"sv, 0, "a GSD file of HOOMD", to_tables},
-    {"CORD"sv, 4, "a DCD file, which holds positions alone", to_dumps},
-    {"\0\0\x07\xc9"sv, 0, "a trajectory of GROMACS", to_dumps},
-    {"\0\0\x07\xcb"sv, 0, "a trajectory of GROMACS", to_dumps},
-    {"version https://git-lfs"sv, 0, "a pointer of Git LFS",
-     "fetch the file itself (git lfs pull)"},
-    {"<!DOCTYPE html"sv, 0, "a page of HTML", "download the file itself"},
-    {"<html"sv, 0, "a page of HTML", "download the file itself"},
-    {"%PDF"sv, 0, "a PDF", to_tables},
-    {"\xff\xfe"sv, 0, "text in UTF-16", "save it as UTF-8"},
-    {"\xfe\xff"sv, 0, "text in UTF-16", "save it as UTF-8"},
+     "(--format csv)",
+     {"\x89HDF\r\n\x1a\n"sv}},
+    {"a VTK file", from_paraview, {"# vtk DataFile"sv, "<VTKFile"sv}},
+    {"a YAML file", to_dumps, {"---\n"sv, "---\r\n"sv}},
+    {"a file of AtomEye (cfg)", to_dumps, {"Number of particles ="sv}},
+    {"a restart file of LAMMPS", from_restart, {"LammpS RestartT"sv}},
+    {"a restart file of LIGGGHTS", from_restart, {"Version LIGGGHTS"sv}, 8},
+    {"a data file of LAMMPS", from_restart, {"LAMMPS data file"sv}},
+    {"a log of LAMMPS", "name its dumps", {"LAMMPS ("sv}},
+    {"a binary dump of LAMMPS",
+     "turn it into text by binary2txt, which comes with LAMMPS",
+     {"DUMPATOM"sv, "DUMPCUSTOM"sv},
+     8},
+    {"a saved simulation of YADE",
+     "load it there and write tables by scripts/archives/yade_export.py",
+     {"serialization::archive"sv},
+     8},
+    {"a GSD file of HOOMD", to_tables, {"\xdf\x65\xdf\x65\xdf\x65\xdf\x65"sv}},
+    {"a DCD file, which holds positions alone", to_dumps, {"CORD"sv}, 4},
+    {"a trajectory of GROMACS", to_dumps, {"\0\0\x07\xc9"sv, "\0\0\x07\xcb"sv}},
+    {"a pointer of Git LFS", "fetch the file itself (git lfs pull)", {"version https://git-lfs"sv}},
+    {"a page of HTML", "download the file itself", {"<!DOCTYPE html"sv, "<html"sv}},
+    {"a PDF", to_tables, {"%PDF"sv}},
+    {"text in UTF-16", "save it as UTF-8", {"\xff\xfe"sv, "\xfe\xff"sv}},
 };
 
 std::string is_of(const char* what, const char* way_out)
@@ -239,8 +233,9 @@ std::vector<std::string> archive_files(const std::vector<std::string>& names,
 std::string other_kind(std::string_view start)
 {
   if (start.starts_with(byte_order_mark)) start.remove_prefix(byte_order_mark.size());
-  for (const auto& [bytes, at, what, way_out] : signatures)
-    if (start.size() >= at && start.substr(at).starts_with(bytes)) return is_of(what, way_out);
+  for (const auto& [what, way_out, all_bytes, at] : kinds)
+    for (const auto bytes : all_bytes)
+      if (start.size() >= at && start.substr(at).starts_with(bytes)) return is_of(what, way_out);
   if (start.starts_with("<?xml"))
     return start.find("<VTKFile") != start.npos ? is_of("a VTK file", from_paraview)
                                                 : is_of("an XML file", to_tables);

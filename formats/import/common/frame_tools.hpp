@@ -27,13 +27,32 @@ inline std::size_t row(std::int32_t index)
   return static_cast<std::size_t>(index);
 }
 
-/// The upper of two in the middle; 0 where there are none. Changes their order.
-inline double median(std::vector<double>& values)
+/// The smallest and the largest of some positive numbers.
+struct Range {
+  double low = INFINITY, high = 0;
+
+  void add(double value)
+  {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double middle() const { return (low + high) / 2; }
+};
+
+/// A `share` of the values is smaller; 0 where there are none. Changes their order.
+inline double quantile(std::vector<double>& values, double share)
 {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// The upper of two in the middle.
+inline double median(std::vector<double>& values)
+{
+  return quantile(values, 0.5);
 }
 
 }  // namespace grseg

@@ -5,7 +5,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "formats/core/text.hpp"
-#include "formats/import/common/archive_files.hpp"
+#include "formats/import/common/archive.hpp"
 
 #include <boost/iostreams/device/file.hpp>
 #include <boost/iostreams/filter/bzip2.hpp>
@@ -20,9 +20,9 @@
 #include <array>
 #include <cstring>
 #include <fstream>
-#include <memory>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 namespace grseg {
 
@@ -95,7 +95,7 @@ std::unique_ptr<Stream> open_unpacked(const std::string& file)
 }
 
 /// Fills `to` as far as the file goes. FormatError where its packed data are damaged or end early.
-std::size_t read_from(Stream& stream, std::span<char> to, const std::string& file,
+std::size_t read_from(std::streambuf& stream, std::span<char> to, const std::string& file,
                       std::size_t lines_before)
 {
   try {
@@ -109,121 +109,99 @@ std::size_t read_from(Stream& stream, std::span<char> to, const std::string& fil
 
 }  // namespace
 
-struct TextSource::Impl {
-  std::vector<std::string> files;
-  std::size_t opened = 0;  // files
-  std::unique_ptr<Stream> stream;
-  // Memory that a small file does not fill is never touched.
-  std::unique_ptr<char[]> buffer = std::make_unique_for_overwrite<char[]>(buffer_size);
-  std::size_t begin = 0, end = 0;  // of what is not yet handed out
-  std::string_view line;
-  std::size_t number = 0;
-  bool whole = true;
-
-  const std::string& file() const { return files[opened - 1]; }
-  void open_next();
-  void read_start();
-  std::size_t read_more();
-  bool take_line();
-};
-
-void TextSource::Impl::open_next()
+TextSource::TextSource(std::vector<std::string> files)
+    : files_(std::move(files)), buffer_(std::make_unique_for_overwrite<char[]>(buffer_size))
 {
-  ++opened;
-  number = 0;
-  stream = open_unpacked(file());
-  read_start();
 }
 
 /// A byte-order mark is passed over. FormatError where the file is of a kind that is no text archive.
-void TextSource::Impl::read_start()
+void TextSource::read_start()
 {
   constexpr std::size_t enough = 4096;
   read_more();
-  const std::string_view start(buffer.get(), std::min(end, enough));
-  if (start.starts_with(byte_order_mark)) begin = byte_order_mark.size();
+  const std::string_view start(buffer_.get(), std::min(end_, enough));
+  if (start.starts_with(byte_order_mark)) begin_ = byte_order_mark.size();
   if (const auto kind = other_kind(start); !kind.empty())
     throw FormatError(fmt::format("{} {}", file(), kind));
 }
 
 /// Fills the buffer behind what is left in it; 0 at the end of the file.
-std::size_t TextSource::Impl::read_more()
+std::size_t TextSource::read_more()
 {
   stop_if_interrupted();
-  std::memmove(buffer.get(), buffer.get() + begin, end - begin);
-  end -= begin;
-  begin = 0;
-  if (end == buffer_size)
+  std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  if (end_ == buffer_size)
     throw FormatError(fmt::format("{}, line {}: is longer than a megabyte; is this a text archive?",
-                                  file(), number + 1));
-  const auto count = read_from(*stream, {buffer.get() + end, buffer_size - end}, file(), number);
-  end += count;
+                                  file(), number_ + 1));
+  const auto count =
+      read_from(*stream_, {buffer_.get() + end_, buffer_size - end_}, file(), number_);
+  end_ += count;
   return count;
 }
 
 /// The next line of the file that is open; false where there is none.
-bool TextSource::Impl::take_line()
+bool TextSource::take_line()
 {
   std::size_t searched = 0;
   for (;;) {
-    const char* from = buffer.get() + begin;
+    const char* from = buffer_.get() + begin_;
     const auto* stop =
-        static_cast<const char*>(std::memchr(from + searched, '\n', end - begin - searched));
+        static_cast<const char*>(std::memchr(from + searched, '\n', end_ - begin_ - searched));
     if (stop != nullptr) {
-      line = {from, static_cast<std::size_t>(stop - from)};
-      begin += line.size() + 1;
-      whole = true;
+      line_ = {from, static_cast<std::size_t>(stop - from)};
+      begin_ += line_.size() + 1;
+      whole_ = true;
       break;
     }
-    searched = end - begin;
+    searched = end_ - begin_;
     if (read_more() > 0) continue;
-    if (begin == end) return false;
-    line = {buffer.get() + begin, end - begin};
-    begin = end;
-    whole = false;
+    if (begin_ == end_) return false;
+    line_ = {buffer_.get() + begin_, end_ - begin_};
+    begin_ = end_;
+    whole_ = false;
     break;
   }
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  ++number;
+  if (line_.ends_with('\r')) line_.remove_suffix(1);
+  ++number_;
   return true;
 }
-
-TextSource::TextSource(std::vector<std::string> files) : impl_(std::make_unique<Impl>())
-{
-  impl_->files = std::move(files);
-}
-
-TextSource::~TextSource() = default;
-TextSource::TextSource(TextSource&&) noexcept = default;
 
 bool TextSource::next()
 {
-  auto& my = *impl_;
-  while (my.stream == nullptr || !my.take_line()) {
-    if (my.opened == my.files.size()) return false;
-    my.open_next();
+  while (stream_ == nullptr || !take_line()) {
+    if (opened_ == files_.size()) return false;
+    ++opened_;
+    number_ = 0;
+    stream_ = open_unpacked(file());
+    read_start();
   }
   return true;
-}
-
-std::string_view TextSource::line() const
-{
-  return impl_->line;
-}
-
-bool TextSource::line_is_whole() const
-{
-  return impl_->whole;
-}
-
-const std::string& TextSource::file() const
-{
-  return impl_->file();
 }
 
 std::string TextSource::place() const
 {
-  return fmt::format("{}, line {}", impl_->file(), impl_->number);
+  return fmt::format("{}, line {}", file(), number_);
+}
+
+void TextSource::fail(const std::string& why) const
+{
+  throw FormatError(fmt::format("{}: {}", place(), why));
+}
+
+void TextSource::fail_at_end(const char* what)
+{
+  const auto end = place();
+  if (next())
+    throw FormatError(
+        fmt::format("{}: the file ends in {}, and {} goes on; copy it again, or cut the "
+                    "incomplete moment off",
+                    end, what, file()));
+  throw TruncatedArchive(
+      fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete "
+                  "moment with --drop-incomplete",
+                  end, what));
 }
 
 std::string unpacked_start(const std::string& file, std::size_t bytes)

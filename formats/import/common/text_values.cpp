@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
@@ -59,6 +57,14 @@ std::vector<std::string> parts_of(const std::string& text, char separator)
   return parts;
 }
 
+std::vector<double> finite_numbers(const std::string& text, char separator)
+{
+  std::vector<double> numbers;
+  for (const auto& part : parts_of(text, separator))
+    if (!parse_finite(part, numbers.emplace_back())) return {};
+  return numbers;
+}
+
 bool read_number(std::string_view word, double& number)
 {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
@@ -94,7 +100,7 @@ void read_numbers(const TextSource& source, std::vector<double>& numbers, char s
 
 bool TypeNames::is_type(double number)
 {
-  return std::abs(number) <= largest_type && std::trunc(number) == number;
+  return is_whole(number, largest_type);
 }
 
 std::int32_t TypeNames::place_of(std::string_view word)

@@ -30,8 +30,25 @@ inline bool parse_finite(std::string_view text, double& number)
   return parse_whole(text, number) && std::isfinite(number);
 }
 
+/// The whole number that the text is, such as that of a column; 0 for other text.
+inline std::size_t number_of(std::string_view text)
+{
+  std::size_t number = 0;
+  return parse_whole(text, number) ? number : 0;
+}
+
+/// Whether a number read as a double is a whole one, and of a size up to which a double can represent
+/// every one (2^53), or up to `most`.
+inline bool is_whole(double number, double most = 9e15)
+{
+  return std::abs(number) <= most && std::trunc(number) == number;
+}
+
 /// What stands between separators; nothing behind the last one.
 std::vector<std::string> parts_of(const std::string& text, char separator);
+
+/// The finite numbers between separators; empty where something else stands there.
+std::vector<double> finite_numbers(const std::string& text, char separator);
 
 /// A finite number as C or Fortran writes it: 1e-5, +.5, 1.0D-05, 1.0-105; one too small to be held is 0.
 /// False for other words.

@@ -30,47 +30,33 @@ std::string existing(const std::string& output, const OutputPart& part)
   return path;
 }
 
-std::vector<Observable> all_observables()
-{
-  auto all = import_observables();
-  const auto more = part_observables();
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
 }  // namespace
 
-std::vector<Observable> import_observables()
+std::vector<Observable> import_observables(bool of_part)
 {
   auto all = check_observables();
   all.insert(all.begin(), {"momentum_defect", ""});
+  if (of_part)
+    all.insert(all.end(), {{"part_residual_median", ""},
+                           {"part_residual_unexplained", ""},
+                           {"part_late_normal", ""},
+                           {"part_late_tangential", ""}});
   return all;
 }
 
-std::vector<double> import_values(const MomentRecord& record)
-{
-  auto values = check_values(record.moment);
-  values.insert(values.begin(), record.residual ? record.residual->largest : 0);
-  return values;
-}
-
-std::vector<Observable> part_observables()
-{
-  return {{"part_residual_median", ""},
-          {"part_residual_unexplained", ""},
-          {"part_late_normal", ""},
-          {"part_late_tangential", ""}};
-}
-
-/// NaN where there is no residual, or no late damping; observables may be NaN.
-void add_part_values(const MomentRecord& record, std::vector<double>& values)
+/// Of a part, NaN where there is no residual, or no late damping; observables may be NaN.
+std::vector<double> import_values(const MomentRecord& record, bool of_part)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto& residual = record.residual;
   const bool late = residual && residual->late;
-  values.insert(values.end(),
-                {residual ? residual->median : none, residual ? residual->unexplained : none,
-                 late ? residual->late->normal : none, late ? residual->late->tangential : none});
+  auto values = check_values(record.moment);
+  values.insert(values.begin(), residual ? residual->largest : 0);
+  if (of_part)
+    values.insert(values.end(),
+                  {residual ? residual->median : none, residual ? residual->unexplained : none,
+                   late ? residual->late->normal : none, late ? residual->late->tangential : none});
+  return values;
 }
 
 Parameters PartPlace::parameters(const ImportReport& report) const
@@ -79,8 +65,7 @@ Parameters PartPlace::parameters(const ImportReport& report) const
   const auto number = [](std::size_t n) { return static_cast<double>(n); };
   all.numbers[place_name] = {number(part.number), number(part.count), number(begin), number(end),
                              number(moments)};
-  all.texts["import_part_tolerance_reason"] = report.tolerance_reason;
-  all.texts["import_part_columns"] = report.columns;
+  all.texts["import_part_columns"] = report.parameters.text("import_columns");
   all.texts["import_part_remarks"] = fmt::format("{}", fmt::join(report.remarks, "\n"));
   return all;
 }
@@ -102,7 +87,7 @@ ImportPart::ImportPart(const std::string& output, const OutputPart& part)
     fail(fmt::format("is part {}, not {}", place_.part.text(), part.text()));
   if (!run_.closed() || place_.end < place_.begin || run_.size() != place_.end - place_.begin)
     fail("does not hold all its moments");
-  for (const auto& observable : all_observables()) {
+  for (const auto& observable : import_observables(true)) {
     if (!run_.has_observable(observable.name)) fail("is not a part of an import by this program");
     values_.push_back(run_.observable(observable.name));
   }
@@ -128,15 +113,14 @@ MomentRecord ImportPart::record(std::size_t frame) const
 void ImportPart::add_to(ImportReport& report) const
 {
   const auto& parameters = run_.parameters();
-  report.tolerance_reason = parameters.text("import_part_tolerance_reason");
-  report.columns = parameters.text("import_part_columns");
+  report.parameters.texts["import_columns"] = parameters.text("import_part_columns");
   report.remarks = parts_of(parameters.text("import_part_remarks"), '\n');
 }
 
 RunDescription ImportPart::description() const
 {
   RunDescription run{
-      run_.grains(),    run_.box(),     run_.parameters(),        import_observables(),
+      run_.grains(),    run_.box(),     run_.parameters(),        import_observables(false),
       run_.has_force(), run_.species(), run_.grains_come_and_go()};
   const auto is_of_part = [](const auto& parameter) {
     return parameter.first.starts_with(place_name) || parameter.first == "complete";

@@ -24,12 +24,9 @@ struct MomentRecord {
   CheckMoment moment;
 };
 
-/// The observables of an imported run, and their values.
-std::vector<Observable> import_observables();
-std::vector<double> import_values(const MomentRecord& record);
-/// Of a part there are more, which come after these.
-std::vector<Observable> part_observables();
-void add_part_values(const MomentRecord& record, std::vector<double>& values);
+/// The observables of an imported run, and their values. Those of a part are followed by a few more.
+std::vector<Observable> import_observables(bool of_part);
+std::vector<double> import_values(const MomentRecord& record, bool of_part);
 
 /// Where a part stands in its archive.
 struct PartPlace {
@@ -59,7 +56,7 @@ class ImportPart {
  private:
   TrajectoryReader run_;
   PartPlace place_;
-  std::vector<std::vector<double>> values_;  // of import_observables() and part_observables()
+  std::vector<std::vector<double>> values_;  // of import_observables()
 };
 
 }  // namespace grseg

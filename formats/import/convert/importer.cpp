@@ -9,6 +9,7 @@
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 #include "formats/import/common/archive_files.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/common/text_values.hpp"
 #include "formats/import/convert/import_part.hpp"
 #include "formats/import/convert/judgement.hpp"
@@ -33,13 +34,10 @@ constexpr const char* program = "grseg-import";
 /// Mean of the smallest and the largest diameter of a species; 0 where it has no grains.
 double mid_range(const Grains& grains, Species species)
 {
-  double low = INFINITY, high = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (grains.species[g] != species) continue;
-    low = std::min(low, 2 * grains.radius[g]);
-    high = std::max(high, 2 * grains.radius[g]);
-  }
-  return high > 0 ? (low + high) / 2 : 0;
+  Range diameters;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (grains.species[g] == species) diameters.add(2 * grains.radius[g]);
+  return diameters.high > 0 ? diameters.middle() : 0;
 }
 
 /// The species with nominal diameters in m. Of small and large, one without grains gets the
@@ -106,8 +104,6 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
     *length *= units.length;
   run.has_force = bed.has_force;
   run.grains_come_and_go = bed.grains_come_and_go;
-  run.observables = import_observables();
-  const double tolerance = frames.waivers().limit("balance", frames.archive().facts().tolerance);
   auto& numbers = run.parameters.numbers;
   const Vec3 gravity = bed.gravity * units.acceleration();
   numbers["gravity"] = {gravity.begin(), gravity.begin() + bed.box.dimension};
@@ -118,7 +114,8 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   run.species = with_diameters(bed.species.list, run.grains, units);
   numbers["small_diameter"] = {run.species.front().diameter};
   numbers["large_diameter"] = {run.species.back().diameter};
-  numbers["import_tolerance"] = {tolerance};
+  numbers["import_tolerance"] = {
+      frames.waivers().limit("balance", frames.archive().facts().tolerance)};
   numbers["import_origin"] = {bed.origin};
   numbers["import_units"] = {units.length, units.time, units.mass};
   if (bed.has_new_ids) numbers["import_ids"] = {bed.known.id.begin(), bed.known.id.end()};
@@ -201,20 +198,6 @@ std::vector<std::string> remarks_of(const VerifiedFrames& frames)
   return remarks;
 }
 
-/// What the report says of a run before its first moment.
-ImportReport report_of(const RunDescription& run)
-{
-  ImportReport report;
-  report.dimension = run.box.dimension;
-  report.grains = run.grains.size();
-  report.tolerance = run.parameters.numbers.at("import_tolerance")[0];
-  report.columns = run.parameters.text("import_columns");
-  report.base = run.parameters.text("import_base");
-  report.cell = run.parameters.text("import_cell");
-  report.sizes = run.parameters.text("import_sizes");
-  return report;
-}
-
 /// A frame in SI at this time.
 void count(ImportReport& report, double time, std::size_t contacts)
 {
@@ -255,13 +238,10 @@ ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
                      const std::string& path)
 {
   auto run = describe(frames, settings, command_line);
-  auto report = report_of(run);
+  ImportReport report{run.box.dimension, 0, run.grains.size(), 0, 0, 0, run.parameters, {}, {}};
   Judgement judgement(run);
-  if (part) {
-    const auto more = part_observables();
-    run.observables.insert(run.observables.end(), more.begin(), more.end());
-    frames.skip(part->begin);
-  }
+  run.observables = import_observables(part.has_value());
+  if (part) frames.skip(part->begin);
   const std::size_t moments = part ? part->end - part->begin : 0;
   TrajectoryWriter writer(path, run, settings.storage);
   ProgressBar progress(program, {.things = "moments", .total = static_cast<double>(moments)},
@@ -274,18 +254,14 @@ ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
     frames.facts().units.convert(frame);
     count(report, frame.time, frame.contacts.size());
     const MomentRecord record{frames.residual(), in_si(frames.moment(), frames.facts().units)};
-    auto values = import_values(record);
-    if (part)
-      add_part_values(record, values);
-    else
-      judgement.add(record, frames.place());
+    const auto values = import_values(record, part.has_value());
+    if (!part) judgement.add(record, frames.place());
     if (run.box.dimension == 2) flatten(frame, flat);
     run.box.dimension == 2 ? writer.append(flat, values) : writer.append(frame, values);
     progress.show(static_cast<double>(report.frames));
   }
-  report.columns = frames.archive().columns();
+  report.parameters.texts["import_columns"] = frames.archive().columns();
   report.remarks = remarks_of(frames);
-  report.tolerance_reason = frames.archive().facts().tolerance_reason;
   if (part) {
     if (report.frames != moments || (part->part.number == part->part.count && frames.next(frame)))
       throw RunError(fmt::format("{}: the archive changes while it is read", frames.place()));
@@ -338,7 +314,6 @@ ImportReport import_part(const ImportSettings& settings, const std::string& comm
       fmt::format("part {}: moments {} to {} of {}; checks of all moments are "
                   "made when parts are joined",
                   part.text(), begin + 1, end, roster->moments)};
-  report.tolerance_reason.clear();
   return report;
 }
 
@@ -365,7 +340,7 @@ void append_part(TrajectoryWriter& writer, const ImportPart& part, Judgement& ju
     count(report, frame.time, frame.contacts.size());
     const auto record = part.record(k);
     judgement.add(record, fmt::format("{}, frame {}", part.run().path(), k));
-    writer.append(frame, import_values(record));
+    writer.append(frame, import_values(record, false));
     progress.show(static_cast<double>(report.frames));
   }
 }
@@ -378,7 +353,7 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
   inputs.push_back(first.run().path());
   Output output(settings.output, settings.overwrite, inputs);
   const auto run = first.description();
-  auto report = report_of(run);
+  ImportReport report{run.box.dimension, 0, run.grains.size(), 0, 0, 0, run.parameters, {}, {}};
   TrajectoryWriter writer(output.temporary(), run, settings.storage);
   Judgement judgement(run);
   ProgressBar progress(program,
@@ -415,20 +390,29 @@ std::string to_text(const ImportReport& report)
       fmt::format("{} frames from {:g} to {:g} s, {} grains, {} contacts{}\n", report.frames,
                   report.first_time, report.last_time, report.grains, report.contacts,
                   report.dimension == 3 ? ", in three dimensions" : "");
-  if (!report.columns.empty()) text += fmt::format("columns: {}\n", report.columns);
-  text += fmt::format("base: {}; {}\n", report.base, report.sizes);
-  for (const auto& line : parts_of(report.cell, '\n')) text += fmt::format("cell: {}\n", line);
-  if (report.largest_residual)
+  const auto& parameters = report.parameters;
+  const auto number = [&](const char* name) { return parameters.find_number(name); };
+  const auto columns = parameters.text("import_columns");
+  if (!columns.empty()) text += fmt::format("columns: {}\n", columns);
+  text += fmt::format("base: {}; {}\n", parameters.text("import_base"),
+                      parameters.text("import_sizes"));
+  for (const auto& line : parts_of(parameters.text("import_cell"), '\n'))
+    text += fmt::format("cell: {}\n", line);
+  const auto largest = number("import_residual_largest");
+  if (largest)
     text +=
         fmt::format("grains balance: largest residual {:.3g}, median {:.3g} of the largest force\n",
-                    *report.largest_residual, *report.median_residual);
-  if (report.unexplained_residual)
+                    *largest, *number("import_residual_median"));
+  if (const auto unexplained = number("import_residual_unexplained")) {
+    const auto& late = parameters.numbers.at("import_late_damping");
     text += fmt::format(
         "of the largest, {:.3g} is not explained by damping of {:.4g} 1/s (normal) and {:.4g} 1/s "
         "(tangential) half a step late\n",
-        *report.unexplained_residual, report.late.normal, report.late.tangential);
-  if (report.largest_residual)
-    text += fmt::format("tolerance {:g}: {}\n", report.tolerance, report.tolerance_reason);
+        *unexplained, late[0], late[1]);
+  }
+  if (largest)
+    text += fmt::format("tolerance {:g}: {}\n", *number("import_tolerance"),
+                        parameters.text("import_tolerance_reason"));
   for (const auto& [check, verdict, sentence, measure] : report.findings)
     text += fmt::format("check {}: {} ({:.2g}): {}\n", check, to_text(verdict), measure, sentence);
   for (const auto& remark : report.remarks) text += remark + "\n";

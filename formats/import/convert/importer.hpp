@@ -6,7 +6,6 @@
 #include "formats/import/verify/late_damping.hpp"
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +16,12 @@ struct ImportReport {
   int dimension = 2;
   std::size_t frames = 0, grains = 0, contacts = 0;
   double first_time = 0, last_time = 0;  // s
-  /// Residuals of grains' balances (verification.hpp): the largest, and the median over the moments
-  /// of the median over grains. Empty where there was nothing to compare with.
-  std::optional<double> largest_residual, median_residual;
-  /// Where the program's forces are late (late_damping.hpp): the largest residual that late damping
-  /// does not explain, and this damping (1/s, medians over the moments).
-  std::optional<double> unexplained_residual;
-  LateDamping late;
-  double tolerance = 0;
-  std::string tolerance_reason, columns, base, sizes, cell;
+  /// Those of the file. Where there was something to compare with, import_residual_largest and _median
+  /// are the residuals of grains' balances (verification.hpp): the largest, and the median over the
+  /// moments of the median over grains; where the program's forces are late (late_damping.hpp),
+  /// import_residual_unexplained is the largest that late damping does not explain, and
+  /// import_late_damping this damping (1/s, medians over the moments).
+  Parameters parameters;
   std::vector<std::string> remarks;
   std::vector<Finding> findings;  // of all checks
 };

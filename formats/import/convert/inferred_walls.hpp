@@ -2,7 +2,6 @@
 #pragma once
 
 #include "formats/import/convert/imported_bed.hpp"
-#include "formats/import/facts/cell_and_walls.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -50,8 +50,7 @@ std::vector<Finding> Judgement::findings(bool strict) const
 {
   auto findings = judge(series_, context_);
   if (const auto text = failures(findings); !text.empty()) throw CheckError(text);
-  if (strict && any_with(findings, Verdict::undecided)) {
-    auto lines = lines_with(findings, Verdict::undecided);
+  if (auto lines = lines_with(findings, Verdict::undecided); strict && !lines.empty()) {
     for (auto end = lines.find('\n'); end != std::string::npos; end = lines.find('\n', end))
       lines.replace(end, 1, "; ");
     throw CheckError(fmt::format("undecided, and --strict is given: {}", lines));
@@ -59,7 +58,7 @@ std::vector<Finding> Judgement::findings(bool strict) const
   return findings;
 }
 
-void Judgement::add_residuals_to(ImportReport& report) const
+void Judgement::add_residuals_to(Parameters& parameters) const
 {
   if (residuals_.empty()) return;
   const double unit_of_time = run_.parameters.numbers.at("import_units")[1];
@@ -73,28 +72,23 @@ void Judgement::add_residuals_to(ImportReport& report) const
     normal.push_back(residual.late->normal);
     tangential.push_back(residual.late->tangential);
   }
-  report.largest_residual = largest;
-  report.median_residual = median(medians);
+  auto& numbers = parameters.numbers;
+  numbers["import_residual_largest"] = {largest};
+  numbers["import_residual_median"] = {median(medians)};
   if (normal.empty()) return;
-  report.unexplained_residual = unexplained;
-  report.late = {median(normal) / unit_of_time, median(tangential) / unit_of_time};
+  numbers["import_residual_unexplained"] = {unexplained};
+  numbers["import_late_damping"] = {median(normal) / unit_of_time,
+                                    median(tangential) / unit_of_time};
 }
 
 Parameters Judgement::close(ImportReport& report, bool strict) const
 {
-  add_residuals_to(report);
   report.findings = findings(strict);
   Parameters last;
   // The first moment may have had no contacts to tell.
-  if (run_.grains_come_and_go) last.texts["import_columns"] = report.columns;
-  if (report.largest_residual) {
-    last.numbers["import_residual_largest"] = {*report.largest_residual};
-    last.numbers["import_residual_median"] = {*report.median_residual};
-  }
-  if (report.unexplained_residual) {
-    last.numbers["import_residual_unexplained"] = {*report.unexplained_residual};
-    last.numbers["import_late_damping"] = {report.late.normal, report.late.tangential};
-  }
+  if (run_.grains_come_and_go)
+    last.texts["import_columns"] = report.parameters.text("import_columns");
+  add_residuals_to(last);
   if (report.frames > 1)
     last.numbers["frame_interval"] = {(report.last_time - report.first_time) /
                                       static_cast<double>(report.frames - 1)};
@@ -105,6 +99,7 @@ Parameters Judgement::close(ImportReport& report, bool strict) const
       last.texts[name] = std::move(lines);
   if (!report.remarks.empty())
     last.texts["import_remarks"] = fmt::format("{}", fmt::join(report.remarks, "; "));
+  report.parameters.numbers.insert(last.numbers.begin(), last.numbers.end());
   return last;
 }
 

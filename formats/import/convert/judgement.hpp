@@ -30,7 +30,7 @@ class Judgement {
 
  private:
   std::vector<Finding> findings(bool strict) const;
-  void add_residuals_to(ImportReport& report) const;
+  void add_residuals_to(Parameters& parameters) const;
 
   const RunDescription& run_;
   CheckContext context_;

@@ -4,7 +4,6 @@
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/import/common/text_values.hpp"
-#include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -71,7 +70,7 @@ void MomentRange::add(const char* option, const std::optional<std::string>& text
   auto& bound = bounds_.emplace_back(Bound{option, option == std::string_view("--end"), {}, 0});
   if (text->starts_with("step:")) {
     if (parse_whole(text->substr(5), bound.step)) return;
-  } else if (double time = 0; parse_whole(*text, time) && std::isfinite(time)) {
+  } else if (double time = 0; parse_finite(*text, time)) {
     bound.time = time;
     return;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/words.hpp"
 #include "formats/import/common/archive_files.hpp"
 #include "formats/import/common/text_source.hpp"
 #include "formats/import/convert/scan.hpp"
-#include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -56,21 +56,14 @@ std::string pattern_of(const std::vector<std::string>& names)
   return first.substr(0, head) + "*" + first.substr(first.size() - tail);
 }
 
-std::string in_shell(const std::string& name)
-{
-  const bool plain = name.find_first_of(" \t\n'\"\\$*?[]&;|<>()`!#~") == std::string::npos;
-  return plain ? name : "'" + name + "'";
-}
-
 /// As on a command line: the names, or, where there are many, a pattern.
 std::string listed(const std::vector<std::string>& names)
 {
   constexpr std::size_t many = 4;
-  if (names.size() >= many) return in_shell(pattern_of(names));
-  std::vector<std::string> quoted;
-  quoted.reserve(names.size());
-  for (const auto& name : names) quoted.push_back(in_shell(name));
-  return fmt::format("{}", fmt::join(quoted, " "));
+  if (names.size() >= many) return shell_word(pattern_of(names));
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : " ") + shell_word(name);
+  return text;
 }
 
 /// One of many files is enough to see what they are; first those without an option.
@@ -132,11 +125,8 @@ std::string known_formats()
 
 bool needs_contacts(const ImportSettings& settings)
 {
-  const auto formats = archive_formats();
-  const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto* known) {
-    return settings.format == known->name;
-  });
-  return format == formats.end() || ((*format)->takes_contacts && settings.files.restart.empty());
+  return settings.format.empty() ||
+         (format_of(settings.format).takes_contacts && settings.files.restart.empty());
 }
 
 bool names_all_files(const ImportSettings& settings)
@@ -190,7 +180,7 @@ void ask_for_the_rest(const ImportSettings& settings, Questions& questions)
 ImportSettings with_known_files(const ImportSettings& settings)
 {
   if (settings.format.empty() || settings.files.unnamed.empty()) return settings;
-  require_format(settings.format);
+  format_of(settings.format);
   auto known = settings;
   Roles roles;
   const auto* format = recognize(settings.format, settings.files, roles);
@@ -201,7 +191,7 @@ ImportSettings with_known_files(const ImportSettings& settings)
 ImportSettings with_proposed_files(const ImportSettings& settings, Questions& questions)
 {
   if (settings.output.empty()) questions.ask({"the trajectory to write", "-o run.h5", ""});
-  if (!settings.format.empty()) require_format(settings.format);
+  if (!settings.format.empty()) format_of(settings.format);
   auto proposed = with_known_files(settings);
   if (names_all_files(proposed)) return proposed;
 

@@ -3,7 +3,6 @@
 
 #include "formats/cli/interruption.hpp"
 #include "formats/import/convert/imported_bed.hpp"
-#include "formats/import/convert/moments.hpp"
 #include "formats/import/facts/cell_and_walls.hpp"
 #include "formats/import/facts/proposals.hpp"
 
@@ -11,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace grseg {
@@ -84,20 +84,19 @@ class Collector {
     all.id.push_back(now.id[g]);
     all.position.emplace_back(Vec3::Zero());
     seen_.emplace_back();
-    const auto require_all = [&](const auto& values, const char* what) {
-      if (!values.empty() && values.size() != all.size())
+    const auto add = [&](const auto& from, auto& to, const char* what, auto value) {
+      if (!from.empty()) to.push_back(value(from));
+      if (!to.empty() && to.size() != all.size())
         throw FormatError(fmt::format(
             "{}: some moments have {} of grains and some do not; import them separately, with "
             "--begin and --end",
             moment.place, what));
     };
     const auto copy = [&](const auto& from, auto& to, const char* what) {
-      if (!from.empty()) to.push_back(from[g]);
-      require_all(to, what);
+      add(from, to, what, [g](const auto& values) { return values[g]; });
     };
     const auto make_room = [&](const auto& from, auto& to, const char* what) {
-      if (!from.empty()) to.emplace_back(Vec3::Zero());
-      require_all(to, what);
+      add(from, to, what, [](const auto&) { return Vec3(Vec3::Zero()); });
     };
     copy(now.type, all.type, "types");
     copy(now.radius, all.radius, "radii");
@@ -116,29 +115,27 @@ class Collector {
   std::vector<Seen> seen_;
 };
 
-bool same_ids(const ArchiveGrains& a, const ArchiveGrains& b)
+/// The grains of the first moments.
+Roster read_roster(const ImportSettings& settings, std::size_t most)
 {
-  if (a.size() != b.size()) return false;
-  if (a.id == b.id) return true;  // programs often keep the order
-  auto first = a.id, second = b.id;
-  std::sort(first.begin(), first.end());
-  std::sort(second.begin(), second.end());
-  return first == second;
+  Moments moments(settings);
+  Collector collector;
+  std::size_t read = 0;
+  for (ArchiveMoment moment; read < most && moments.next_grains(moment); ++read) {
+    stop_if_interrupted();
+    collector.add(moment);
+  }
+  return collector.finish();
 }
 
-/// Whether the grains of the first few moments differ.
 bool grains_change_early(const ImportSettings& settings)
 {
-  constexpr int early = 20;
+  constexpr std::size_t early = 20;
   try {
-    Moments moments(settings);
-    ArchiveMoment first, moment;
-    if (!moments.next_grains(first)) return false;
-    for (int k = 1; k < early && moments.next_grains(moment); ++k)
-      if (!same_ids(first.grains, moment.grains)) return true;
+    return read_roster(settings, early).grains_change();
   } catch (const ToolError&) {  // to be reported when it is that moment's turn
+    return false;
   }
-  return false;
 }
 
 /// Where walls bound the flow there need not be one.
@@ -148,35 +145,11 @@ bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
   return grains.fixed.empty() && !species.boundary && !species.boundary_ids;
 }
 
-/// Settings as if the proposal were accepted: "--boundary 3" or "--boundary-ids 1-35".
-void propose_base(const Question& question, SpeciesSettings& settings)
-{
-  const auto blank = question.option.find(' ');
-  settings.boundary.reset();
-  (question.option.starts_with("--boundary-ids") ? settings.boundary_ids : settings.boundary) =
-      question.option.substr(blank + 1);
-}
-
-SpeciesSettings with_one_species(const SpeciesSettings& settings)
-{
-  SpeciesSettings one;
-  one.named = {"grains=all"};
-  one.boundary = settings.boundary;
-  one.boundary_ids = settings.boundary_ids;
-  return one;
-}
-
 }  // namespace
 
 Roster read_roster(const ImportSettings& settings)
 {
-  Moments moments(settings);
-  Collector collector;
-  for (ArchiveMoment moment; moments.next_grains(moment);) {
-    stop_if_interrupted();
-    collector.add(moment);
-  }
-  return collector.finish();
+  return read_roster(settings, std::numeric_limits<std::size_t>::max());
 }
 
 void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,
@@ -287,13 +260,19 @@ void ScannedArchive::ask_for_the_bed(const ImportSettings& settings,
       questions.ask(question);
       trial.origin = "0";
     } else {
-      propose_base(question, trial.species);
+      // As if the proposal were accepted: "--boundary 3" or "--boundary-ids 1-35".
+      trial.species.boundary.reset();
+      const auto answer = question.option.substr(question.option.find(' ') + 1);
+      (question.option.starts_with("--boundary-ids") ? trial.species.boundary_ids
+                                                     : trial.species.boundary) = answer;
     }
   }
   ask_for_the_cell(settings, questions);
   try {
     questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
-    trial.species = with_one_species(trial.species);  // else open species hide an open origin
+    // With one species, else open species hide an open origin.
+    const auto& species = trial.species;
+    trial.species = {{"grains=all"}, {}, {}, species.boundary, species.boundary_ids, {}, {}, {}};
     questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
   } catch (const ToolError&) {
     if (!questions.any()) throw;

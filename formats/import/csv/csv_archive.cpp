@@ -5,7 +5,6 @@
 #include "formats/import/csv/csv_table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,10 +39,16 @@ double next_number(std::istream& text)
   return text >> word && read_number(word, number) ? number : NAN;
 }
 
+std::string next_word(std::istream& text)
+{
+  std::string word;
+  text >> word;
+  return word;
+}
+
 bool read_period(std::istream& text, CsvComments& found)
 {
-  std::string axis;
-  text >> axis;
+  const auto axis = next_word(text);
   const double low = next_number(text), high = next_number(text);
   const auto k = std::string_view("xyz").find(axis);
   if (axis.size() != 1 || k == std::string_view::npos || !(low < high)) return false;
@@ -53,37 +58,6 @@ bool read_period(std::istream& text, CsvComments& found)
   return true;
 }
 
-bool read_gravity(std::istream& text, CsvComments& found)
-{
-  Vec3 gravity;
-  for (double& component : gravity) component = next_number(text);
-  found.facts.gravity = gravity;
-  return gravity.allFinite();
-}
-
-bool read_step(std::istream& text, CsvComments& found)
-{
-  const double step = next_number(text);
-  found.facts.step = step;
-  return step > 0;
-}
-
-bool read_units(std::istream& text, CsvComments& found)
-{
-  std::string units;
-  text >> units;
-  found.facts.units = units;
-  return units == "si" || units == "cgs" || units == "lj";
-}
-
-bool read_grains(std::istream& text, CsvComments& found)
-{
-  std::string grains;
-  text >> grains;
-  found.facts.discs = grains == "discs";
-  return grains == "discs" || grains == "spheres";
-}
-
 struct Line {
   std::string_view word;
   bool (*read)(std::istream&, CsvComments&);
@@ -91,10 +65,31 @@ struct Line {
 };
 
 constexpr Line lines[] = {{"# periodic:", read_period, "# periodic: x 0 0.35"},
-                          {"# gravity:", read_gravity, "# gravity: 3.83 -9.02 0"},
-                          {"# step:", read_step, "# step: 1e-5"},
-                          {"# units:", read_units, "# units: si"},
-                          {"# grains:", read_grains, "# grains: spheres"}};
+                          {"# gravity:",
+                           [](std::istream& text, CsvComments& found) {
+                             auto& gravity = found.facts.gravity.emplace();
+                             for (double& component : gravity) component = next_number(text);
+                             return gravity.allFinite();
+                           },
+                           "# gravity: 3.83 -9.02 0"},
+                          {"# step:",
+                           [](std::istream& text, CsvComments& found) {
+                             return found.facts.step.emplace(next_number(text)) > 0;
+                           },
+                           "# step: 1e-5"},
+                          {"# units:",
+                           [](std::istream& text, CsvComments& found) {
+                             const auto& units = found.facts.units.emplace(next_word(text));
+                             return units == "si" || units == "cgs" || units == "lj";
+                           },
+                           "# units: si"},
+                          {"# grains:",
+                           [](std::istream& text, CsvComments& found) {
+                             const auto grains = next_word(text);
+                             found.facts.discs = grains == "discs";
+                             return grains == "discs" || grains == "spheres";
+                           },
+                           "# grains: spheres"}};
 
 /// FormatError where one of these lines is not of its form.
 CsvComments read_csv_comments(const std::vector<std::string>& comments)
@@ -111,59 +106,40 @@ CsvComments read_csv_comments(const std::vector<std::string>& comments)
   return found;
 }
 
+using Column = CsvTable::Column;
+
 namespace of_grain {
-enum Column : std::size_t {
-  time,
-  step,
-  id,
-  x,
-  y,
-  z,
-  radius,
-  diameter,
-  vx,
-  vy,
-  vz,
-  wx,
-  wy,
-  wz,
-  mass,
-  type,
-  fixed,
-  fx,
-  fy,
-  fz
-};
-constexpr CsvTable::Column columns[] = {{"time|t", false},
-                                        {"step|timestep|iteration|cycle", false},
-                                        {"id", true, CsvTable::Column::ids},
-                                        {"x", true},
-                                        {"y", false},
-                                        {"z", false},
-                                        {"radius|r", false},
-                                        {"diameter|d", false},
-                                        {"vx", true},
-                                        {"vy", false},
-                                        {"vz", false},
-                                        {"wx|omegax", false},
-                                        {"wy|omegay", false},
-                                        {"omega|wz|omegaz", false},
-                                        {"mass|m", false},
-                                        {"type|species", false, CsvTable::Column::words},
-                                        {"fixed", false, CsvTable::Column::truth},
-                                        {"fx", false},
-                                        {"fy", false},
-                                        {"fz", false}};
+enum : std::size_t { id = 2, x, radius = 6, diameter, vx, wx = 11, mass = 14, type, fixed, fx };
+constexpr Column columns[] = {{"time|t"},
+                              {"step|timestep|iteration|cycle"},
+                              {"id", true, Column::ids},
+                              {"x", true},
+                              {"y"},
+                              {"z"},
+                              {"radius|r"},
+                              {"diameter|d"},
+                              {"vx", true},
+                              {"vy"},
+                              {"vz"},
+                              {"wx|omegax"},
+                              {"wy|omegay"},
+                              {"omega|wz|omegaz"},
+                              {"mass|m"},
+                              {"type|species", false, Column::words},
+                              {"fixed", false, Column::truth},
+                              {"fx"},
+                              {"fy"},
+                              {"fz"}};
 }  // namespace of_grain
 
 namespace of_contact {
-enum Column : std::size_t { time, step, i, j, fx, fy, fz, overlap, bx, by, bz };
-constexpr CsvTable::Column columns[] = {{"time|t", false}, {"step|timestep|iteration|cycle", false},
-                                        {"i|id1", true},   {"j|id2", true},
-                                        {"fx", true},      {"fy", false},
-                                        {"fz", false},     {"overlap|delta|penetration", false},
-                                        {"bx", false},     {"by", false},
-                                        {"bz", false}};
+enum : std::size_t { i = 2, j, fx, overlap = 7, bx };
+constexpr Column columns[] = {{"time|t"},      {"step|timestep|iteration|cycle"},
+                              {"i|id1", true}, {"j|id2", true},
+                              {"fx", true},    {"fy"},
+                              {"fz"},          {"overlap|delta|penetration"},
+                              {"bx"},          {"by"},
+                              {"bz"}};
 }  // namespace of_contact
 
 Vec3 vector_at(const CsvTable& table, std::size_t row, std::size_t x)
@@ -177,10 +153,12 @@ bool has_any(const CsvTable& table, std::size_t x)
   return table.has(x) || table.has(x + 1) || table.has(x + 2);
 }
 
-void add_missing(const CsvTable& table, std::size_t x, const std::array<const char*, 3>& names,
+/// `letters` stand before x, y and z.
+void add_missing(const CsvTable& table, std::size_t x, const std::string& letters,
                  std::vector<std::string>& missing)
 {
-  grseg::add_missing({table.has(x), table.has(x + 1), table.has(x + 2)}, names, missing);
+  for (std::size_t k = 0; has_any(table, x) && k < 3; ++k)
+    if (!table.has(x + k)) missing.push_back(letters + "xyz"[k]);
 }
 
 [[noreturn]] void fail_at(const CsvTable& table, std::size_t row, const std::string& why)
@@ -191,10 +169,8 @@ void add_missing(const CsvTable& table, std::size_t x, const std::array<const ch
 std::int64_t whole_number_at(const CsvTable& table, std::size_t row, std::size_t column,
                              const char* what)
 {
-  constexpr double most = 9e15;  // beyond 2^53 a double cannot represent every whole number
   const double value = table.value(row, column);
-  if (!(std::abs(value) < most) || std::trunc(value) != value)
-    fail_at(table, row, fmt::format("{:g} is not {}", value, what));
+  if (!is_whole(value)) fail_at(table, row, fmt::format("{:g} is not {}", value, what));
   return static_cast<std::int64_t>(value);
 }
 
@@ -250,7 +226,7 @@ class CsvArchive : public Archive {
     const auto [value, is_step] = grains_.moment();
     if (!is_step)
       moment.time = value;
-    else if (std::trunc(value) == value && std::abs(value) < 9e15)
+    else if (is_whole(value))
       moment.step = static_cast<std::int64_t>(value);
     else
       grains_.fail(fmt::format("{:g} is not a step", value));
@@ -267,58 +243,30 @@ class CsvArchive : public Archive {
 
   std::vector<std::string> remarks() const override
   {
-    std::vector<std::string> remarks;
-    if (grains_alone_ > 0)
-      remarks.push_back(
-          fmt::format("{} moments have grains but no contacts and are left out", grains_alone_));
-    if (contacts_alone_ > 0)
-      remarks.push_back(
-          fmt::format("{} moments have contacts but no grains and are left out", contacts_alone_));
-    return remarks;
+    return matching_.remarks(grains_.moment().is_step ? "step" : "t =");
   }
 
  private:
   /// Goes to the next moment that both tables have.
   bool next_of_both()
   {
-    bool more_grains = grains_.next(), more_contacts = contacts_.next();
-    while (more_grains && more_contacts) {
-      if (grains_.moment().is_step != contacts_.moment().is_step)
+    const auto table = [](CsvTable& of) {
+      return Matching::Table{[&of] { return of.next(); }, [&of] { return of.moment().value; }};
+    };
+    const auto order = [this] {
+      const auto grains = grains_.moment(), contacts = contacts_.moment();
+      if (grains.is_step != contacts.is_step)
         contacts_.fail(fmt::format(
             "the table of contacts has {}, but that of grains has {}: give both the same, as a column "
             "or in the names of files",
-            contacts_.moment().is_step ? "steps" : "times",
-            grains_.moment().is_step ? "steps" : "times"));
-      const double a = grains_.moment().value, b = contacts_.moment().value;
+            contacts.is_step ? "steps" : "times", grains.is_step ? "steps" : "times"));
+      const double a = grains.value, b = contacts.value;
       const double scale =
           std::max({std::abs(a), std::abs(b), grains_.interval(), contacts_.interval()});
-      if (std::abs(a - b) <= 1e-9 * scale) return any_of_both_ = true;
-      if (a < b) {
-        ++grains_alone_;
-        more_grains = grains_.next();
-      } else {
-        ++contacts_alone_;
-        more_contacts = contacts_.next();
-      }
-    }
-    if (!any_of_both_) require_no_moments();
-    return false;
-  }
-
-  /// Where both tables have moments, but none in common.
-  void require_no_moments()
-  {
-    constexpr std::size_t enough = 3;
-    for (auto* table : {&grains_, &contacts_})
-      while (table->first_moments().size() < enough && table->next()) {
-      }
-    const auto &of_grains = grains_.first_moments(), &of_contacts = contacts_.first_moments();
-    if (of_grains.empty() || of_contacts.empty()) return;
-    throw FormatError(fmt::format(
-        "no moment is in both tables: {0} of the grains begin with {1:.10g}, those of the contacts with "
-        "{2:.10g}; write the same {0} in both",
-        grains_.moment().is_step ? "steps" : "times", fmt::join(of_grains, ", "),
-        fmt::join(of_contacts, ", ")));
+      if (std::abs(a - b) <= 1e-9 * scale) return 0;
+      return a < b ? -1 : 1;
+    };
+    return matching_.next(table(grains_), table(contacts_), order);
   }
 
   void fill(ArchiveGrains& grains)
@@ -340,10 +288,10 @@ class CsvArchive : public Archive {
       if (has_any(table, fx)) grains.force.push_back(vector_at(table, k, fx));
     }
     table.words().fill(types, table.begin(), grains);
-    add_missing(table, x, {"x", "y", "z"}, grains.missing);
-    add_missing(table, vx, {"vx", "vy", "vz"}, grains.missing);
-    add_missing(table, wx, {"wx", "wy", "wz"}, grains.missing);
-    add_missing(table, fx, {"fx", "fy", "fz"}, grains.missing);
+    add_missing(table, x, "", grains.missing);
+    add_missing(table, vx, "v", grains.missing);
+    add_missing(table, wx, "w", grains.missing);
+    add_missing(table, fx, "f", grains.missing);
   }
 
   void fill(ArchiveContacts& contacts) const
@@ -361,16 +309,15 @@ class CsvArchive : public Archive {
       if (table.has(overlap)) contacts.overlap.push_back(table.value(k, overlap));
       if (has_any(table, bx)) contacts.branch.push_back(vector_at(table, k, bx));
     }
-    add_missing(table, fx, {"fx", "fy", "fz"}, contacts.missing);
-    add_missing(table, bx, {"bx", "by", "bz"}, contacts.missing);
+    add_missing(table, fx, "f", contacts.missing);
+    add_missing(table, bx, "b", contacts.missing);
   }
 
   CsvMap grains_map_, contacts_map_;
   CsvTable grains_, contacts_;
   CsvComments comments_;
   ArchiveFacts facts_;
-  std::size_t grains_alone_ = 0, contacts_alone_ = 0;
-  bool any_of_both_ = false;
+  Matching matching_;
 };
 
 /// Contacts name two grains in the line of names.

@@ -25,21 +25,6 @@ bool is_row(const std::string& name)
   return name == "row" || name == "row+1";
 }
 
-std::vector<std::string> of_both(std::vector<std::string> names,
-                                 const std::vector<std::string>& others)
-{
-  std::copy_if(others.begin(), others.end(), std::back_inserter(names),
-               [&](const std::string& other) { return !is_in(names, other); });
-  return names;
-}
-
-/// 0: the name is not a number.
-std::size_t column_number(const std::string& name)
-{
-  std::size_t number = 0;
-  return parse_whole(name, number) ? number : 0;
-}
-
 }  // namespace
 
 std::string bare_name(std::string_view text)
@@ -74,12 +59,15 @@ void CsvMap::add_list(const std::string& list)
           "--map '{}' is not NAME=COLUMN, such as particle1=i, or NAME= for a column to leave out",
           part));
     const auto column = bare_name(part.substr(sign + 1));
-    if (!column.empty() && !is_in(known_, column) && !is_in(elsewhere_, column))
+    if (!column.empty() && !is_in(known_, column) && !is_in(elsewhere_, column)) {
+      std::set<std::string> all(known_.begin(), known_.end());
+      all.insert(elsewhere_.begin(), elsewhere_.end());
       throw UsageError(
-          unknown_word("--map " + part.substr(0, sign + 1), column, of_both(known_, elsewhere_)));
+          unknown_word("--map " + part.substr(0, sign + 1), column, {all.begin(), all.end()}));
+    }
     if (is_row(name) && column != "id")
       throw UsageError(fmt::format("--map {}: the number of a row can be an id alone", part));
-    parts.push_back({name, column, part, column_number(name)});
+    parts.push_back({name, column, part, number_of(name)});
   }
   if (is_of_the_other_table(parts))
     std::erase_if(parts, [](const Part& part) { return part.number > 0; });
@@ -152,13 +140,13 @@ std::optional<std::int64_t> CsvMap::first_row()
 
 void CsvMap::require_all_used(const CsvMap& other) const
 {
-  const auto uses = [](const std::vector<Part>& parts, const std::string& as_given) {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const Part& part) { return part.used && part.as_given == as_given; });
-  };
+  std::set<std::string> used;
   for (const auto* parts : {&parts_, &other.parts_})
     for (const auto& part : *parts)
-      if (!uses(parts_, part.as_given) && !uses(other.parts_, part.as_given))
+      if (part.used) used.insert(part.as_given);
+  for (const auto* parts : {&parts_, &other.parts_})
+    for (const auto& part : *parts)
+      if (!used.contains(part.as_given))
         throw UsageError(
             fmt::format("--map {}: no table has a column of that name", part.as_given));
 }

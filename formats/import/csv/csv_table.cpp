@@ -3,16 +3,12 @@
 
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/archive_files.hpp"
-#include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
-#include <string_view>
 #include <utility>
 
 namespace grseg {
@@ -38,20 +34,17 @@ std::string moment_in(const std::string& path, const std::vector<std::string>& p
   return name;
 }
 
-void read_moment(const std::string& text, CsvFile& file)
+std::optional<CsvMoment> read_moment(const std::string& text)
 {
   double time = 0;
-  if (parse_finite(text, time) && text.find('.') != std::string::npos) {
-    file.time = time;
-    return;
-  }
+  if (parse_finite(text, time) && text.find('.') != std::string::npos)
+    return CsvMoment{time, false};
   const auto last = text.find_last_of(digits);
-  if (last == std::string::npos) return;
-  const auto before = text.find_last_not_of(digits, last);
-  const auto first = before == std::string::npos ? 0 : before + 1;
+  if (last == std::string::npos) return std::nullopt;
+  const auto first = text.find_last_not_of(digits, last) + 1;  // 0 where there is nothing before
   std::int64_t step = 0;
-  if (std::from_chars(text.data() + first, text.data() + last + 1, step).ec == std::errc())
-    file.step = step;
+  if (!parse_whole(text.substr(first, last + 1 - first), step)) return std::nullopt;
+  return CsvMoment{static_cast<double>(step), true};
 }
 
 constexpr std::string_view blanks = " \t";
@@ -101,10 +94,8 @@ bool is_comment(std::string_view line)
 std::vector<CsvFile> csv_files(const std::vector<std::string>& names, const std::string& option)
 {
   std::vector<CsvFile> files;
-  for (const auto& path : archive_files(names, option)) {
-    files.push_back({path, std::nullopt, std::nullopt});
-    read_moment(moment_in(path, names), files.back());
-  }
+  for (const auto& path : archive_files(names, option))
+    files.push_back({path, read_moment(moment_in(path, names))});
   return files;
 }
 
@@ -163,7 +154,7 @@ CsvTable::CsvTable(std::vector<CsvFile> files, std::span<const Column> columns, 
 
 void CsvTable::fail(const std::string& why) const
 {
-  throw FormatError(fmt::format("{}: {}", source_->place(), why));
+  source_->fail(why);
 }
 
 std::string CsvTable::names() const
@@ -280,8 +271,7 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
 
 void CsvTable::require_a_moment() const
 {
-  const auto& file = files_[opened_ - 1];
-  if (!has(0) && !has(1) && !file.time && !file.step)
+  if (!has(0) && !has(1) && !files_[opened_ - 1].moment)
     fail(fmt::format(
         "no column time or step among {}, and the name of the file holds neither; --map "
         "NAME=time tells which column it is",
@@ -375,9 +365,7 @@ CsvMoment CsvTable::moment_of_row() const
 {
   if (has(0)) return {row_[0], false};
   if (has(1)) return {row_[1], true};
-  const auto& file = files_[opened_ - 1];
-  return file.time ? CsvMoment{*file.time, false}
-                   : CsvMoment{static_cast<double>(*file.step), true};
+  return *files_[opened_ - 1].moment;
 }
 
 bool CsvTable::next()
@@ -386,7 +374,6 @@ bool CsvTable::next()
   if (!waiting_) return false;
   begin_ = waiting_place_;
   moment_ = moment_of_row();
-  if (first_moments_.size() < 3) first_moments_.push_back(moment_.value);
   values_ = row_;
   rows_ = 1;
   for (wait_for_next_row(); waiting_ && moment_of_row().value == moment_.value;

@@ -14,12 +14,17 @@
 
 namespace grseg {
 
+/// When the rows of a moment are: a time, or where the table has none, a step.
+struct CsvMoment {
+  double value = 0;
+  bool is_step = false;
+};
+
 /// One file of a table, and the moment that its name states: what stands for `*` is a time if it is
 /// a number with a decimal point, and otherwise ends in the digits of a step.
 struct CsvFile {
   std::string path;
-  std::optional<double> time;
-  std::optional<std::int64_t> step;
+  std::optional<CsvMoment> moment;
 };
 
 /// The files that `names` stand for (archive_files.hpp), in natural order. In names without `*` (which a
@@ -50,12 +55,6 @@ class CsvNumbers {
   char sign_ = 0;  // of decimals; 0: not known yet
 };
 
-/// When the rows of a moment are: a time, or where the table has none, a step.
-struct CsvMoment {
-  double value = 0;
-  bool is_step = false;
-};
-
 /// A plain table in one file or many, each beginning with a line of column names (or, behind the
 /// first, going on without one), then rows: separated by commas, semicolons, tabs or blanks,
 /// with a byte-order mark or none, lines ending as in Windows or not. Names may stand
@@ -70,7 +69,7 @@ class CsvTable {
   /// The names of a column, "x|posx", in lower case.
   struct Column {
     const char* names;
-    bool needed;
+    bool needed = false;
     enum Holds {
       numbers,
       truth,  // "true" and "false" may stand for 1 and 0
@@ -88,8 +87,6 @@ class CsvTable {
   /// What the words in a column of words mean.
   TypeNames& words() { return words_; }
   const std::vector<std::string>& comments() const { return comments_; }
-  /// For a sentence: its first moments, at most three, as far as they have been read.
-  const std::vector<double>& first_moments() const { return first_moments_; }
   /// For a sentence: the names at hand.
   std::string names() const;
   [[noreturn]] void fail(const std::string& why) const;
@@ -142,7 +139,6 @@ class CsvTable {
   std::size_t row_column_ = 0;             // this one
   std::vector<std::string_view> fields_;
   std::vector<double> row_, values_;  // of the columns asked for
-  std::vector<double> first_moments_;
   bool started_ = false;
   bool waiting_ = false;       // row_ is the first of the next moment
   bool ends_in_rows_ = false;  // files before this one have no line end behind their last row

@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
@@ -17,13 +16,6 @@
 
 namespace grseg {
 namespace {
-
-std::optional<std::size_t> column_number(const std::string& text)
-{
-  std::size_t number = 0;
-  if (!parse_whole(text, number) || number < 1) return std::nullopt;
-  return number;
-}
 
 const ColumnWords& contact_words()
 {
@@ -111,13 +103,13 @@ void ColumnMap::assign(const std::string& word, const std::string& column)
   const auto& words = words_.words;
   for (const auto& [triple, first] : words_.triples) {
     if (word != triple) continue;
-    const auto number = column_number(column);
-    if (!number)
+    const auto number = number_of(column);
+    if (number == 0)
       throw UsageError(fmt::format(
           "{}: {}={}: give the number of the first of three columns, or {} {} {} one "
           "by one",
           words_.option, word, column, words[first], words[first + 1], words[first + 2]));
-    for (std::size_t k = 0; k < 3; ++k) column_[first + k] = std::to_string(*number + k);
+    for (std::size_t k = 0; k < 3; ++k) column_[first + k] = std::to_string(number + k);
     return;
   }
   const auto found = std::find(words.begin(), words.end(), word);
@@ -135,12 +127,11 @@ void ColumnMap::look_up(const std::vector<std::string>& names, const std::string
   for (std::size_t w = 0; w < column_.size(); ++w) {
     place_[w] = -1;
     if (column_[w].empty()) continue;
-    std::size_t column = 0;
-    if (const auto number = column_number(column_[w]))
-      column = *number - 1;
-    else
-      column = static_cast<std::size_t>(std::find(names.begin(), names.end(), column_[w]) -
-                                        names.begin());
+    const auto number = number_of(column_[w]);
+    const auto column =
+        number > 0 ? number - 1
+                   : static_cast<std::size_t>(std::find(names.begin(), names.end(), column_[w]) -
+                                              names.begin());
     if (column >= names.size())
       throw UsageError(fmt::format("{}: {}={}, but {} has the columns {}", words_.option,
                                    words_.words[w], column_[w], place, fmt::join(names, " ")));
@@ -184,7 +175,7 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   const auto ids = [&](Meaning meaning, std::vector<std::int64_t>& out) {
     out.clear();
     for (const double id : of(meaning)) {
-      if (!(std::abs(id) < 9e15) || std::trunc(id) != id)
+      if (!is_whole(id))
         throw FormatError(
             fmt::format("{}: {:g} in the column of {} is not an id of a grain; say "
                         "what the columns mean with --columns",
@@ -216,7 +207,7 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   contacts.distance = of(dist);
   contacts.wall.clear();
   for (const double number : of(wall)) {
-    if (!(std::abs(number) < 1e9) || std::trunc(number) != number)
+    if (!is_whole(number, 1e9))
       throw FormatError(
           fmt::format("{}: {:g} in the column of wall is not a number of a wall", place, number));
     contacts.wall.push_back(number < 0 ? -1 : static_cast<std::int32_t>(number));

@@ -1,18 +1,156 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/dump_archive.hpp"
 
-#include "formats/import/common/archive_files.hpp"
+#include "formats/cli/interruption.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/dump/dump_grains.hpp"
 #include "formats/import/dump/dump_pair.hpp"
-#include "formats/import/dump/fitting_columns.hpp"
 #include "formats/import/dump/wall_contacts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
 namespace grseg {
 namespace {
+
+// For an acceleration that they share by chance to be unlikely.
+constexpr std::size_t enough_grains = 8;
+
+/// One moment, with all columns of its contacts.
+class ColumnTrial {
+ public:
+  ColumnTrial(DumpPair& dumps, const DumpDialect& dialect, const std::optional<Vec3>& gravity)
+      : dialect_(dialect), header_(dumps.contacts().header())
+  {
+    DumpGrains().read(dumps.grains(), grains_);
+    if (!grains_.mass.empty()) gravity_ = gravity;
+    row_of_ = rows_by_id(grains_);
+    none_moves_ = std::all_of(grains_.velocity.begin(), grains_.velocity.end(),
+                              [](const Vec3& velocity) { return velocity.isZero(0); });
+    std::vector<std::size_t> all(header_.columns.size());
+    std::iota(all.begin(), all.end(), 0);
+    dumps.contacts().read_rows(all, rows_);
+  }
+
+  /// See balance(). Nothing also where a column cannot have the meaning that `columns` gives it.
+  std::optional<double> residual(const std::string& columns)
+  {
+    try {
+      ContactColumns map(dialect_.mapping(columns, header_));
+      map.look_up(header_.columns, header_.place);
+      std::vector<std::vector<double>> values;
+      for (const auto column : map.wanted()) values.push_back(rows_[column]);
+      map.fill(values, header_.place, contacts_);
+    } catch (const Interruption&) {
+      throw;
+    } catch (const ToolError&) {
+      return std::nullopt;
+    }
+    return balance();
+  }
+  std::vector<std::string> others() const { return dialect_.others(header_); }
+
+ private:
+  /// | F - sum of contact forces - m g | relative to the median of the grains' largest contact force:
+  /// its median over the moving grains with contacts (over all where none moves), since some may touch
+  /// walls. A shared acceleration alone makes a half vanish: with it, the third quartile. Nothing where
+  /// there are no forces on grains, no contact force, a row that names no grain, or too few grains.
+  std::optional<double> balance() const
+  {
+    if (grains_.force.empty()) return std::nullopt;
+    auto left_over = grains_.force;
+    std::vector<double> largest(grains_.size(), 0), scale, missing;
+    const auto take_off = [&](std::int64_t id, const Vec3& force) {
+      const auto row = row_of_.find(id);
+      if (row == row_of_.end()) return false;
+      left_over[row->second] -= force;
+      largest[row->second] = std::max(largest[row->second], force.norm());
+      return true;
+    };
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (!take_off(contacts_.i[c], contacts_.force[c])) return std::nullopt;
+      if (!contacts_.at_wall(c) && !take_off(contacts_.j[c], -contacts_.force[c]))
+        return std::nullopt;
+    }
+    std::vector<std::size_t> touched;
+    for (std::size_t g = 0; g < grains_.size(); ++g)
+      if (largest[g] > 0 && moves(g)) touched.push_back(g), scale.push_back(largest[g]);
+    if (touched.size() < (gravity_ ? 1 : enough_grains)) return std::nullopt;
+    const Vec3 g = gravity_ ? *gravity_ : shared_acceleration(touched, left_over);
+    for (const auto grain : touched)
+      missing.push_back((left_over[grain] - weight(grain) * g).norm());
+    const double ratio = quantile(missing, gravity_ ? 0.5 : 0.75) / median(scale);
+    return std::isfinite(ratio) ? std::optional(ratio) : std::nullopt;
+  }
+
+  /// By components, of forces that contacts leave over.
+  Vec3 shared_acceleration(const std::vector<std::size_t>& touched,
+                           const std::vector<Vec3>& left_over) const
+  {
+    Vec3 shared;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      std::vector<double> accelerations;
+      for (const auto grain : touched)
+        accelerations.push_back(left_over[grain][axis] / weight(grain));
+      shared[axis] = median(accelerations);
+    }
+    return shared;
+  }
+
+  /// Grains of a base do not balance.
+  bool moves(std::size_t grain) const { return none_moves_ || !grains_.velocity[grain].isZero(0); }
+
+  /// The mass, or what grows like it.
+  double weight(std::size_t grain) const
+  {
+    if (!grains_.mass.empty()) return grains_.mass[grain];
+    return grains_.radius.empty() ? 1 : std::pow(grains_.radius[grain], 3);
+  }
+
+  const DumpDialect& dialect_;
+  DumpHeader header_;
+  ArchiveGrains grains_;
+  std::optional<Vec3> gravity_;
+  std::unordered_map<std::int64_t, std::size_t> row_of_;
+  bool none_moves_ = false;
+  std::vector<std::vector<double>> rows_;
+  ArchiveContacts contacts_;
+};
+
+/// The value of --columns with which the forces on grains add up best, within the tolerance of the
+/// format. Nothing where they do with `in_use` already, or with none. The first moments that tell are
+/// read, from the files opened again; `gravity` is in the archive's axes. Where it or masses are not
+/// known, it is the acceleration that most grains share once contacts are taken off.
+std::optional<ColumnFit> best_fit(const std::vector<std::string>& grain_files,
+                                  const std::vector<std::string>& contact_files,
+                                  const DumpDialect& dialect, const std::string& in_use,
+                                  const std::optional<Vec3>& gravity)
+{
+  constexpr double digits = 1e-6;                // of texts: by less, none is better than another
+  constexpr std::size_t rows_at_most = 100'000;  // a second or two
+  DumpPair dumps(grain_files, contact_files);
+  for (std::size_t rows = 0; rows < rows_at_most && dumps.next();) {
+    if (dumps.contacts().header().rows == 0) continue;
+    ColumnTrial trial(dumps, dialect, gravity);
+    rows += dumps.contacts().header().rows;
+    const double tolerance = dialect.facts.tolerance;
+    if (!in_use.empty() && trial.residual(in_use).value_or(INFINITY) <= tolerance) break;
+    std::optional<ColumnFit> best;
+    for (const auto& columns : trial.others()) {
+      const auto residual = trial.residual(columns);
+      if (residual && *residual < (best ? best->residual - digits : tolerance))
+        best = ColumnFit{columns, *residual};
+    }
+    if (best) return best;
+  }
+  return std::nullopt;
+}
 
 class DumpArchive : public Archive {
  public:
@@ -48,9 +186,12 @@ class DumpArchive : public Archive {
       dumps_.keep_grains();
       throw;
     }
-    if (dumps_.walls()) read_walls(*dumps_.walls(), moment);
-    wall_columns_.add_to(
-        moment, [&](std::size_t k) -> const auto& { return grains_.more(k); });
+    if (dumps_.walls() && moment.grains.size() > 0) {
+      auto& walls = *dumps_.walls();
+      if (!wall_rows_) wall_rows_.emplace(dialect_.wall_mapping(wall_text_, walls.header()));
+      wall_rows_->read(walls, moment);
+    }
+    wall_columns_.add_to(moment, grains_);
     return true;
   }
 
@@ -83,14 +224,6 @@ class DumpArchive : public Archive {
   }
 
  private:
-  void read_walls(JoinedDumps& dump, ArchiveMoment& moment)
-  {
-    if (moment.grains.size() == 0) return;
-    const auto& header = dump.header();
-    if (!wall_rows_) wall_rows_.emplace(dialect_.wall_mapping(wall_text_, header));
-    wall_rows_->read(dump, moment);
-  }
-
   void read_contacts(ArchiveMoment& moment)
   {
     const auto header = dumps_.contacts().header();
@@ -126,7 +259,11 @@ class DumpArchive : public Archive {
     columns_text_ = dialect_.assumed(header, moment.grains);
     const auto fit = fit_of_columns(columns_text_, std::nullopt);
     if (!fit && !columns_text_.empty()) return;
-    columns_text_ = fit ? fit->columns : proposed_columns(header);
+    const auto others = dialect_.others(header);
+    if (fit)
+      columns_text_ = fit->columns;
+    else if (others.size() == 1 && others[0].find('=') == std::string::npos)
+      columns_text_ = others[0];  // the only list of keywords that has as many columns
     const auto why =
         fit ? fmt::format(
                   "with these the forces on grains add up but for {:.2g} of a contact force",
@@ -143,18 +280,10 @@ class DumpArchive : public Archive {
   {
     if (!grains_have_forces_) return std::nullopt;
     try {
-      return grseg::fitting_columns(grain_files_, contact_files_, dialect_, in_use, gravity);
+      return best_fit(grain_files_, contact_files_, dialect_, in_use, gravity);
     } catch (const FormatError&) {  // a column of words, or damage
       return std::nullopt;
     }
-  }
-
-  /// The only list of keywords that has as many columns; "" where there is none.
-  std::string proposed_columns(const DumpHeader& header) const
-  {
-    const auto others = dialect_.others(header);
-    const bool lists = others.size() == 1 && others.front().find('=') == std::string::npos;
-    return lists ? others.front() : "";
   }
 
   const DumpDialect& dialect_;

@@ -4,25 +4,78 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
 
 namespace grseg {
 namespace {
 
-using Triple = std::array<int, 3>;
+using Components = std::array<const char*, 3>;
+using Triple = std::array<int, 3>;  // places of columns, -1: the column is missing
 
 bool any(const Triple& columns)
 {
   return std::any_of(columns.begin(), columns.end(), [](int column) { return column >= 0; });
 }
 
+struct Positions {
+  Components names;
+  bool scaled, unwrapped;
+};
+
+/// Where a dump has several, the first ones are taken.
+constexpr Positions all_positions[] = {{{"x", "y", "z"}, false, false},
+                                       {{"xs", "ys", "zs"}, true, false},
+                                       {{"xu", "yu", "zu"}, false, true},
+                                       {{"xsu", "ysu", "zsu"}, true, true}};
+
+const Positions& positions_in(const DumpHeader& header)
+{
+  for (const auto& positions : all_positions)
+    if (header.find(positions.names[0])) return positions;
+  throw FormatError(
+      fmt::format("{}: the grains have no positions; one of the columns x, xu, xs, xsu is needed",
+                  header.place));
+}
+
+/// The columns that are read of a block.
+struct Wanted {
+  const DumpHeader& header;
+  std::vector<std::size_t> columns;
+  std::vector<std::string> missing;  // components of vectors
+
+  /// The place in `columns` of the column of this name.
+  int add(std::string_view name)
+  {
+    const auto column = header.find(name);
+    if (!column) return -1;
+    columns.push_back(*column);
+    return static_cast<int>(columns.size()) - 1;
+  }
+  /// Of a vector, which needs those components that `needed` says.
+  Triple add(const Components& names, const std::array<bool, 3>& needed = {true, true, true})
+  {
+    const Triple found{add(names[0]), add(names[1]), add(names[2])};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (any(found) && found[k] < 0 && needed[k]) missing.emplace_back(names[k]);
+    return found;
+  }
+};
+
+void require_different(std::vector<std::size_t> columns, const DumpHeader& header)
+{
+  std::sort(columns.begin(), columns.end());
+  const auto twice = std::adjacent_find(columns.begin(), columns.end());
+  if (twice != columns.end())
+    throw UsageError(fmt::format("--wall-columns: column {} ({}) of {} would be two things at once",
+                                 *twice + 1, header.columns[*twice], header.place));
+}
+
 template <class Integer>
 Integer whole_number(double value, const char* name, const std::string& place)
 {
-  // Beyond 2^53 a double cannot represent every whole number.
   constexpr double most = std::min(9e15, static_cast<double>(std::numeric_limits<Integer>::max()));
-  if (!(std::abs(value) <= most) || std::trunc(value) != value)
+  if (!is_whole(value, most))
     throw FormatError(
         fmt::format("{}: {} {:g} is not a whole number, or is too large", place, name, value));
   return static_cast<Integer>(value);
@@ -30,131 +83,64 @@ Integer whole_number(double value, const char* name, const std::string& place)
 
 }  // namespace
 
-int DumpGrains::want(const DumpHeader& header, std::string_view name)
-{
-  const auto column = header.find(name);
-  if (!column) return -1;
-  wanted_.push_back(*column);
-  return static_cast<int>(wanted_.size()) - 1;
-}
-
-Triple DumpGrains::want(const DumpHeader& header, const std::array<const char*, 3>& names)
-{
-  const Triple columns{want(header, names[0]), want(header, names[1]), want(header, names[2])};
-  add_missing({columns[0] >= 0, columns[1] >= 0, columns[2] >= 0}, names, missing_);
-  return columns;
-}
-
-/// Where a dump has several, the plain ones are taken.
-void DumpGrains::want_positions(const DumpHeader& header)
-{
-  image_ = {-1, -1, -1};
-  positions_ = Positions::plain;
-  unwrapped_ = false;
-  if (header.find("x") || header.find("xs")) {
-    const bool plain = header.find("x").has_value();
-    positions_ = plain ? Positions::plain : Positions::scaled;
-    position_ = plain ? want(header, {"x", "y", "z"}) : want(header, {"xs", "ys", "zs"});
-    want_images(header);
-  } else if (header.find("xu")) {
-    unwrapped_ = true;
-    position_ = want(header, {"xu", "yu", "zu"});
-  } else if (header.find("xsu")) {
-    unwrapped_ = true;
-    positions_ = Positions::scaled;
-    position_ = want(header, {"xsu", "ysu", "zsu"});
-  } else {
-    throw FormatError(
-        fmt::format("{}: the grains have no positions; one of the columns x, xu, xs, xsu is needed",
-                    header.place));
-  }
-}
-
-/// Needed along periods alone.
-void DumpGrains::want_images(const DumpHeader& header)
-{
-  const std::array<const char*, 3> names{"ix", "iy", "iz"};
-  std::array<bool, 3> has{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    image_[k] = want(header, names[k]);
-    has[k] = image_[k] >= 0;
-  }
-  if (any(image_))
-    for (std::size_t k = 0; k < 3; ++k) has[k] = has[k] || !header.periodic[k];
-  add_missing(has, names, missing_);
-}
-
-void DumpGrains::look_up(const DumpHeader& header)
-{
-  if (header.columns == names_) return;
-  wanted_.clear();
-  missing_.clear();
-  id_ = want(header, "id");
-  if (id_ < 0)
-    throw FormatError(fmt::format(
-        "{}: the grains have no column id, by which contacts name them{}", header.place,
-        header.label == "ENTRIES" ? "; these are contacts (ITEM: ENTRIES), --contacts" : ""));
-  type_ = want(header, header.find("type") ? "type" : "typelabel");
-  mass_ = want(header, "mass");
-  radius_ = want(header, "radius");
-  diameter_ = radius_ < 0 ? want(header, "diameter") : -1;
-  want_positions(header);
-  velocity_ = want(header, {"vx", "vy", "vz"});
-  spin_ = want(header, {"omegax", "omegay", "omegaz"});
-  force_ = want(header, {"fx", "fy", "fz"});
-  names_ = header.columns;
-}
-
-void DumpGrains::take(const Triple& columns, std::vector<Vec3>& out) const
-{
-  out.assign(any(columns) ? values_.at(0).size() : 0, Vec3::Zero());
-  for (int axis = 0; axis < 3; ++axis) {
-    const int column = columns[static_cast<std::size_t>(axis)];
-    if (column < 0) continue;
-    const auto& values = values_[static_cast<std::size_t>(column)];
-    for (std::size_t g = 0; g < out.size(); ++g) out[g][axis] = values[g];
-  }
-}
-
 void DumpGrains::read(JoinedDumps& dump, ArchiveGrains& grains,
                       const std::vector<std::size_t>& more)
 {
   const auto header = dump.header();
-  look_up(header);
-  auto all = wanted_;
-  all.insert(all.end(), more.begin(), more.end());
-  auto sorted = all;
-  std::sort(sorted.begin(), sorted.end());
-  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
-    throw UsageError(fmt::format("--wall-columns: column {} ({}) of {} would be two things at once",
-                                 *twice + 1, header.columns[*twice], header.place));
-  dump.read_rows(all, values_, {type_, &types_});
+  Wanted wanted{header, {}, {}};
+  const int id = wanted.add("id");
+  if (id < 0)
+    throw FormatError(fmt::format(
+        "{}: the grains have no column id, by which contacts name them{}", header.place,
+        header.label == "ENTRIES" ? "; these are contacts (ITEM: ENTRIES), --contacts" : ""));
+  const int type = wanted.add(header.find("type") ? "type" : "typelabel");
+  const int mass = wanted.add("mass"), radius = wanted.add("radius");
+  const int diameter = radius < 0 ? wanted.add("diameter") : -1;
+  const auto& positions = positions_in(header);
+  const auto position = wanted.add(positions.names);
+  Triple image{-1, -1, -1};
+  if (!positions.unwrapped) image = wanted.add({"ix", "iy", "iz"}, header.periodic);
+  const auto velocity = wanted.add({"vx", "vy", "vz"});
+  const auto spin = wanted.add({"omegax", "omegay", "omegaz"});
+  const auto force = wanted.add({"fx", "fy", "fz"});
+  own_ = wanted.columns.size();
+  wanted.columns.insert(wanted.columns.end(), more.begin(), more.end());
+  require_different(wanted.columns, header);
+  dump.read_rows(wanted.columns, values_, {type, &types_});
+
   const auto column = [&](int k) -> const std::vector<double>& {
     static const std::vector<double> none;
     return k < 0 ? none : values_[static_cast<std::size_t>(k)];
   };
+  const auto take = [&](const Triple& columns, std::vector<Vec3>& out) {
+    out.assign(any(columns) ? column(id).size() : 0, Vec3::Zero());
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto& values = column(columns[static_cast<std::size_t>(axis)]);
+      for (std::size_t g = 0; g < values.size(); ++g) out[g][axis] = values[g];
+    }
+  };
   grains.id.clear();
-  for (const double id : column(id_))
-    grains.id.push_back(whole_number<std::int64_t>(id, "id", header.place));
-  types_.fill(column(type_), header.place, grains);
-  grains.mass = column(mass_);
-  grains.radius = column(radius_ >= 0 ? radius_ : diameter_);
-  if (diameter_ >= 0)
-    for (auto& radius : grains.radius) radius /= 2;
-
-  take(position_, grains.position);
-  if (positions_ == Positions::scaled)
+  for (const double number : column(id))
+    grains.id.push_back(whole_number<std::int64_t>(number, "id", header.place));
+  types_.fill(column(type), header.place, grains);
+  grains.mass = column(mass);
+  grains.radius = column(radius >= 0 ? radius : diameter);
+  if (diameter >= 0)
+    for (auto& r : grains.radius) r /= 2;
+  take(position, grains.position);
+  if (positions.scaled)
     for (auto& x : grains.position) x = header.low + x.cwiseProduct(header.high - header.low);
-  grains.image.assign(any(image_) ? grains.id.size() : 0, {});
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t g = 0; image_[axis] >= 0 && g < grains.image.size(); ++g)
-      grains.image[g][axis] =
-          whole_number<std::int32_t>(column(image_[axis])[g], "image", header.place);
-  take(velocity_, grains.velocity);
-  take(spin_, grains.angular_velocity);
-  take(force_, grains.force);
-  grains.missing = missing_;
-  grains.unwrapped = unwrapped_;
+  grains.image.assign(any(image) ? grains.id.size() : 0, {});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& periods = column(image[axis]);
+    for (std::size_t g = 0; g < periods.size(); ++g)
+      grains.image[g][axis] = whole_number<std::int32_t>(periods[g], "image", header.place);
+  }
+  take(velocity, grains.velocity);
+  take(spin, grains.angular_velocity);
+  take(force, grains.force);
+  grains.missing = std::move(wanted.missing);
+  grains.unwrapped = positions.unwrapped;
 }
 
 }  // namespace grseg

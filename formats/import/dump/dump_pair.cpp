@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/dump_pair.hpp"
 
-#include "formats/import/dump/dump_reader.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
-#include <optional>
 
 namespace grseg {
 namespace {
@@ -91,7 +87,39 @@ void require_same_rows(const DumpHeader& a, const DumpHeader& b)
                   in_words(a), in_words(b)));
 }
 
-constexpr std::size_t enough_steps = 3;  // for a sentence
+/// The files of a dump, by how they have to be read.
+struct DumpParts {
+  /// One list of files in order of their first steps or, where several processors wrote files that
+  /// begin with the same steps (with % in their names), one list for each of them.
+  std::vector<std::vector<std::string>> lists;
+  std::map<std::string, std::vector<std::string>> more_rows;  // as of JoinedDumps
+};
+
+/// FormatError where rows without a header may be of several steps.
+DumpParts parts_of_dump(const std::vector<std::string>& files)
+{
+  constexpr std::size_t enough = 1024;
+  if (files.size() < 2) return {{files}, {}};
+  FilesByStep by_step;
+  std::vector<std::string> without_header;
+  for (const auto& file : files) {
+    const auto start = unpacked_start(file, enough);
+    if (const auto step = first_step_in(start))
+      by_step.emplace(*step, file);
+    else if (!start.empty())
+      without_header.push_back(file);
+  }
+  DumpParts parts;
+  for (const auto& file : without_header) {
+    const auto owner = owner_of(file, by_step);
+    if (owner.empty()) return {{files}, {}};  // told when it is read
+    if (!parts.more_rows.contains(owner)) require_one_step(owner, file);
+    parts.more_rows[owner].push_back(file);
+  }
+  if (by_step.empty()) return {{files}, {}};
+  parts.lists = lists_of(by_step);
+  return parts;
+}
 
 /// From the first two blocks, read ahead of the import.
 std::optional<double> step_by_times(const std::vector<std::string>& files)
@@ -117,31 +145,6 @@ int jobs_of(const std::vector<std::string>& files)
 }
 
 }  // namespace
-
-DumpParts parts_of_dump(const std::vector<std::string>& files)
-{
-  constexpr std::size_t enough = 1024;
-  if (files.size() < 2) return {{files}, {}};
-  FilesByStep by_step;
-  std::vector<std::string> without_header;
-  for (const auto& file : files) {
-    const auto start = unpacked_start(file, enough);
-    if (const auto step = first_step_in(start))
-      by_step.emplace(*step, file);
-    else if (!start.empty())
-      without_header.push_back(file);
-  }
-  DumpParts parts;
-  for (const auto& file : without_header) {
-    const auto owner = owner_of(file, by_step);
-    if (owner.empty()) return {{files}, {}};  // told when it is read
-    if (!parts.more_rows.contains(owner)) require_one_step(owner, file);
-    parts.more_rows[owner].push_back(file);
-  }
-  if (by_step.empty()) return {{files}, {}};
-  parts.lists = lists_of(by_step);
-  return parts;
-}
 
 JoinedDumps::JoinedDumps(const std::vector<std::string>& files)
 {
@@ -189,11 +192,11 @@ void JoinedDumps::read_rows(std::span<const std::size_t> wanted,
 
 bool DumpOfJobs::next()
 {
+  const bool is_first = dump.header().columns.empty();
   if (!dump.next()) return false;
   const auto step = dump.header().step;
-  begins_job = !first_steps.empty() && step <= at.second;
+  begins_job = !is_first && step <= at.second;
   at.second = step;
-  if (first_steps.size() < enough_steps) first_steps.push_back(step);
   return true;
 }
 
@@ -214,26 +217,27 @@ DumpPair::DumpPair(const std::vector<std::string>& grain_files,
 
 bool DumpPair::next()
 {
-  while (next_pair()) {
+  const auto step_of = [](const DumpOfJobs& dump) {
+    return [&dump] { return static_cast<double>(dump.at.second); };
+  };
+  const auto next_grains = [this] {
+    grains_are_new_ = !grains_.waits;
+    return advance(grains_);
+  };
+  const auto order = [this] {
+    return grains_.at < contacts_.at ? -1 : grains_.at > contacts_.at ? 1 : 0;
+  };
+  while (matching_.next({next_grains, step_of(grains_)},
+                        {[this] { return advance(contacts_); }, step_of(contacts_)}, order, true)) {
     if (!walls_ || walls_have_it()) return any_ = true;
     without_walls_.add(static_cast<double>(grains_.at.second));
   }
-  if (!any_) require_no_steps();
+  if (!any_ && without_walls_.count > 0)
+    throw FormatError(fmt::format(
+        "no step is in all dumps: steps {} of grains and contacts are not in that of the contacts with "
+        "walls; write them at the same steps",
+        fmt::join(without_walls_.first, ", ")));
   return false;
-}
-
-/// Where all dumps have steps, but none in common.
-void DumpPair::require_no_steps()
-{
-  for (auto* dump : {&grains_, &contacts_})
-    while (dump->first_steps.size() < enough_steps && dump->next()) {
-    }
-  if (grains_.first_steps.empty() || contacts_.first_steps.empty()) return;
-  throw FormatError(fmt::format(
-      "no step is in all dumps: those of the grains begin with {}, those of the contacts with {}{}; "
-      "write them at the same steps",
-      fmt::join(grains_.first_steps, ", "), fmt::join(contacts_.first_steps, ", "),
-      without_walls_.count > 0 ? ", and those of the contacts with walls are others" : ""));
 }
 
 bool DumpPair::walls_have_it()
@@ -259,26 +263,6 @@ bool DumpPair::advance(DumpOfJobs& dump)
   return true;
 }
 
-bool DumpPair::next_pair()
-{
-  grains_are_new_ = !grains_.waits;
-  bool more_grains = advance(grains_);
-  bool more_contacts = advance(contacts_);
-  while (more_grains || more_contacts) {
-    const bool both = more_grains && more_contacts;
-    if (both && grains_.at == contacts_.at) return true;
-    if (!more_contacts || (both && grains_.at < contacts_.at)) {
-      grains_alone_.add(static_cast<double>(grains_.at.second));
-      more_grains = advance(grains_);
-      grains_are_new_ = true;
-    } else {
-      contacts_alone_.add(static_cast<double>(contacts_.at.second));
-      more_contacts = advance(contacts_);
-    }
-  }
-  return false;
-}
-
 std::optional<std::string> DumpPair::units() const
 {
   const auto &a = grains_.dump.units(), &b = contacts_.dump.units();
@@ -292,17 +276,8 @@ std::optional<std::string> DumpPair::units() const
 
 std::vector<std::string> DumpPair::remarks() const
 {
-  std::vector<std::string> remarks;
-  const auto add = [&](const Unmatched& alone, const char* what, const char* without) {
-    if (alone.count > 0)
-      remarks.push_back(
-          fmt::format("{} moments have {} but no {} and are left out, the first at "
-                      "step {:.0f}",
-                      alone.count, what, without, alone.first));
-  };
-  add(grains_alone_, "grains", "contacts");
-  add(contacts_alone_, "contacts", "grains");
-  add(without_walls_, "grains and contacts", "contacts with walls");
+  auto remarks = matching_.remarks("step");
+  add_remark(remarks, without_walls_, "grains and contacts", "contacts with walls", "step");
   return remarks;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/import/common/archive.hpp"
 #include "formats/import/dump/dump_reader.hpp"
 
 #include <cstdint>
@@ -11,19 +12,6 @@
 #include <vector>
 
 namespace grseg {
-
-/// The files of a dump, by how they have to be read.
-struct DumpParts {
-  /// One list of files in order of their first steps or, where several processors wrote files that
-  /// begin with the same steps (with % in their names), one list for each of them.
-  std::vector<std::vector<std::string>> lists;
-  /// By a file with a header, those with more rows of its step: of `dump local` LAMMPS writes the
-  /// header for the first processor alone.
-  std::map<std::string, std::vector<std::string>> more_rows;
-};
-
-/// FormatError where rows without a header may be of several steps.
-DumpParts parts_of_dump(const std::vector<std::string>& files);
 
 /// Dumps in one file or many, in order of their first steps. Blocks of a step that several processors
 /// wrote to files of their own are joined.
@@ -43,7 +31,9 @@ class JoinedDumps {
 
  private:
   std::vector<DumpReader> parts_;
-  std::map<std::string, std::vector<std::string>> more_rows_;  // as of DumpParts
+  /// By a file with a header, those with more rows of its step: of `dump local` LAMMPS writes the
+  /// header for the first processor alone.
+  std::map<std::string, std::vector<std::string>> more_rows_;
   DumpHeader header_;
 };
 
@@ -59,7 +49,6 @@ struct DumpOfJobs {
   JoinedDumps dump;
   std::pair<int, std::int64_t> at{0, 0};  // job, from 0, and step of the block; in this order
   bool waits = false;                     // the block belongs to the next pair, too
-  std::vector<std::int64_t> first_steps;  // three at most
 };
 
 /// The dumps of grains and of contacts, matched by time step, and by job where all dumps have as many;
@@ -92,8 +81,6 @@ class DumpPair {
   std::vector<std::string> remarks() const;
 
  private:
-  bool next_pair();
-  void require_no_steps();
   bool walls_have_it();
   bool advance(DumpOfJobs& dump);
 
@@ -103,7 +90,8 @@ class DumpPair {
   bool any_ = false;  // step that all have
   bool grains_are_new_ = true;
   std::optional<bool> by_jobs_;  // once a job has ended
-  Unmatched grains_alone_, contacts_alone_, without_walls_;
+  Matching matching_;
+  Unmatched without_walls_;
   std::optional<double> step_;
 };
 

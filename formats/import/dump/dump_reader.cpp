@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/dump/dump_reader.hpp"
 
-#include "formats/import/common/text_values.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,6 +19,15 @@ bool is_blank(char c)
   return c == ' ' || c == '\t';
 }
 
+/// Empty where one of the words is not a finite number.
+std::vector<double> numbers_in(std::string_view line)
+{
+  std::vector<double> numbers;
+  for (const auto word : words_of(line))
+    if (!read_number(word, numbers.emplace_back())) return {};
+  return numbers;
+}
+
 }  // namespace
 
 std::optional<std::size_t> DumpHeader::find(std::string_view name) const
@@ -30,14 +37,10 @@ std::optional<std::size_t> DumpHeader::find(std::string_view name) const
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-void DumpReader::fail(const std::string& why) const
-{
-  throw FormatError(fmt::format("{}: {}", source_.place(), why));
-}
-
-void DumpReader::next_line(const char* what)
+std::string_view DumpReader::next_line(const char* what)
 {
   require_line(source_.next(), what);
+  return source_.line();
 }
 
 /// A line without its end is the last of its file.
@@ -122,17 +125,18 @@ void DumpReader::read_header()
       return is_blank(c) || c == '\r' || static_cast<unsigned char>(c) >= ' ';
     });
     if (!is_text)
-      fail(
+      source_.fail(
           "this is not text: a binary dump? Turn it into text with binary2txt, which comes with LAMMPS");
     if (!line.starts_with(item_word))
-      fail(fmt::format("{} found where a text dump has a line 'ITEM: ...'", in_quotes(line)));
+      source_.fail(
+          fmt::format("{} found where a text dump has a line 'ITEM: ...'", in_quotes(line)));
     const auto item = line.substr(item_word.size());
     if (!label.empty() && item.starts_with(label) &&
         (item.size() == label.size() || is_blank(item[label.size()]))) {
       for (const auto name : words_of(item.substr(label.size())))
         header_.columns.emplace_back(name);
-      if (!has_step || !has_box) fail("TIMESTEP or BOX BOUNDS is missing above the rows");
-      if (header_.columns.empty()) fail("names no columns");
+      if (!has_step || !has_box) source_.fail("TIMESTEP or BOX BOUNDS is missing above the rows");
+      if (header_.columns.empty()) source_.fail("names no columns");
       header_.label = label;
       return;
     }
@@ -150,31 +154,25 @@ void DumpReader::read_item(std::string_view item, std::string& label)
   if (item.starts_with("BOX BOUNDS")) return read_box(item);
   if (item.starts_with(number_of)) {
     label = item.substr(number_of.size());
-    next_line("a header");
-    if (!parse_whole(source_.line(), header_.rows) || header_.rows > most_rows)
-      fail(fmt::format("{} is not a number of rows", in_quotes(source_.line())));
+    if (!parse_whole(next_line("a header"), header_.rows) || header_.rows > most_rows)
+      source_.fail(fmt::format("{} is not a number of rows", in_quotes(source_.line())));
   } else if (item == "TIMESTEP") {
-    next_line("a header");
-    if (!parse_whole(source_.line(), header_.step))
-      fail(fmt::format("{} is not a time step", in_quotes(source_.line())));
+    if (!parse_whole(next_line("a header"), header_.step))
+      source_.fail(fmt::format("{} is not a time step", in_quotes(source_.line())));
   } else if (item == "TIME") {
-    next_line("a header");
-    double time = 0;
-    if (!read_number(source_.line(), time))
-      fail(fmt::format("{} is not a time", in_quotes(source_.line())));
-    header_.time = time;
+    if (!read_number(next_line("a header"), header_.time.emplace()))
+      source_.fail(fmt::format("{} is not a time", in_quotes(source_.line())));
   } else {
-    fail(fmt::format("{} is not part of a dump", in_quotes(source_.line())));
+    source_.fail(fmt::format("{} is not part of a dump", in_quotes(source_.line())));
   }
 }
 
 void DumpReader::read_units()
 {
-  next_line("a header");
-  const std::string now(source_.line());
+  const std::string now(next_line("a header"));
   if (units_ && *units_ != now)
-    fail(fmt::format("units {} after units {}: import the parts of this archive separately",
-                     in_quotes(now), in_quotes(*units_)));
+    source_.fail(fmt::format("units {} after units {}: import the parts of this archive separately",
+                             in_quotes(now), in_quotes(*units_)));
   units_ = now;
 }
 
@@ -185,13 +183,10 @@ void DumpReader::read_general_box(std::string_view item)
   constexpr double round_off = 1e-12;  // of a turned cell
   const auto letters = words_of(item);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    next_line("a header");
-    const auto words = words_of(source_.line());
-    std::array<double, 4> value{};
-    bool good = words.size() == value.size();
-    for (std::size_t k = 0; good && k < value.size(); ++k) good = read_number(words[k], value[k]);
-    if (!good || value[axis] < 0)
-      fail(fmt::format("{} is not an edge of the cell and its origin", in_quotes(source_.line())));
+    const auto value = numbers_in(next_line("a header"));
+    if (value.size() != 4 || value[axis] < 0)
+      source_.fail(
+          fmt::format("{} is not an edge of the cell and its origin", in_quotes(source_.line())));
     for (std::size_t k = 0; k < 3; ++k)
       if (k != axis && std::abs(value[k]) > round_off * value[axis]) refuse_tilted_cell();
     header_.periodic[axis] = letters.size() > 4 + axis && letters[4 + axis] == "pp";
@@ -203,7 +198,7 @@ void DumpReader::read_general_box(std::string_view item)
 
 void DumpReader::refuse_tilted_cell() const
 {
-  fail(
+  source_.fail(
       "the cell is tilted; only rectangular cells are imported: write the run in one (`change_box all "
       "ortho`, where nothing tilts it)");
 }
@@ -220,16 +215,11 @@ void DumpReader::read_box(std::string_view item)
     header_.shrinks[axis] = words[letters + axis].find_first_of("sm") != std::string_view::npos;
   }
   for (int axis = 0; axis < 3; ++axis) {
-    next_line("a header");
-    const auto bounds = words_of(source_.line());
-    std::array<double, 3> value{};
-    bool good = bounds.size() == 2 || bounds.size() == 3;
-    for (std::size_t k = 0; good && k < bounds.size(); ++k) {
-      good = read_number(bounds[k], value[k]);
-    }
-    if (!good || value[0] > value[1])
-      fail(fmt::format("{} is not a pair of bounds of the cell", in_quotes(source_.line())));
-    if (value[2] != 0) refuse_tilted_cell();
+    const auto value = numbers_in(next_line("a header"));
+    if (value.size() < 2 || value.size() > 3 || value[0] > value[1])
+      source_.fail(
+          fmt::format("{} is not a pair of bounds of the cell", in_quotes(source_.line())));
+    if (value.size() == 3 && value[2] != 0) refuse_tilted_cell();
     header_.low[axis] = value[0];
     header_.high[axis] = value[1];
   }
@@ -260,9 +250,9 @@ double DumpReader::number_in(std::string_view word, std::size_t column, TypeName
     if (const auto type = names->read(word)) return *type;
   if (const auto begin = source_.line().find(item_word); begin != std::string_view::npos)
     fail_at_next_block(begin);
-  fail(fmt::format("{} in column {} ({}) is not {}", in_quotes(word), column + 1,
-                   header_.columns[column],
-                   names == nullptr ? "a finite number" : "a type, a whole number or a word"));
+  source_.fail(fmt::format(
+      "{} in column {} ({}) is not {}", in_quotes(word), column + 1, header_.columns[column],
+      names == nullptr ? "a finite number" : "a type, a whole number or a word"));
 }
 
 void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<double>>& values,
@@ -294,7 +284,7 @@ void DumpReader::read_row(std::span<const int> role, std::vector<std::vector<dou
   if (column == role.size()) return;
   if (const auto begin = line.find(item_word); begin != std::string_view::npos)
     fail_at_next_block(begin);
-  fail(fmt::format("a row of {} columns, but the header names {}", column, role.size()));
+  source_.fail(fmt::format("a row of {} columns, but the header names {}", column, role.size()));
 }
 
 }  // namespace grseg

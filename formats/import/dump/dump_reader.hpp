@@ -65,8 +65,7 @@ class DumpReader {
                  const TypeColumn& types = {});
 
  private:
-  [[noreturn]] void fail(const std::string& why) const;
-  void next_line(const char* what);
+  std::string_view next_line(const char* what);
   void skip_rows();
   [[noreturn]] void fail_at_next_block(std::size_t begin);
   void require_line(bool there, const char* what);

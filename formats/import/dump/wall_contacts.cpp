@@ -41,9 +41,8 @@ std::string wall_of(const std::string& column)
 std::size_t first_column(const std::string& word, const DumpHeader& header)
 {
   if (const auto named = header.find(word)) return *named;
-  std::size_t number = 0;
-  if (parse_whole(word, number) && number > 0 && number + 7 <= header.columns.size())
-    return number - 1;
+  const auto number = number_of(word);
+  if (number > 0 && number + 7 <= header.columns.size()) return number - 1;
   throw UsageError(
       fmt::format("--wall-columns: {} is not the first of eight columns of {}, which are {}",
                   in_quotes(word), header.place, fmt::join(header.columns, " ")));
@@ -64,8 +63,6 @@ enum Word { id, fx, px = 4, x = 7, mesh = 10, triangle = 11 };
 
 void WallColumns::look_up(const DumpHeader& grains)
 {
-  if (grains.columns == names_) return;
-  names_ = grains.columns;
   walls_.clear();
   wanted_.clear();
   const auto take = [&](const std::string& wall, std::size_t first) {
@@ -92,21 +89,25 @@ void WallColumns::look_up(const DumpHeader& grains)
   }
 }
 
-void WallColumns::add(ArchiveMoment& moment, std::size_t wall, std::size_t grain,
-                      const std::array<double, 8>& values) const
+void WallColumns::add_to(ArchiveMoment& moment, const DumpGrains& columns) const
 {
-  if (values[0] == 0) return;
   const auto& grains = moment.grains;
-  const Vec3 force{values[1], values[2], values[3]}, point{values[4], values[5], values[6]};
-  const Vec3 branch = moment.minimum_image(grains.position[grain] - point);
-  const double radius = grains.radius.empty() ? values[7] : grains.radius[grain];
-  if (values[0] != 1 || std::abs(values[7] - radius) > 1e-4 * radius || branch.norm() > 2 * radius)
-    throw FormatError(fmt::format(
-        "{}: the eight columns of wall {} hold {:g} for grain {}, which are not flag, force, contact "
-        "point and radius of `fix wall/gran ... contacts`; pass --wall-columns none if they are "
-        "something else",
-        moment.place, walls_[wall], fmt::join(values, " "), grains.id[grain]));
-  append(moment.contacts, grains.id[grain], static_cast<std::int32_t>(wall), force, branch);
+  for (std::size_t wall = 0; wall < walls_.size(); ++wall)
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      std::array<double, 8> v;
+      for (std::size_t k = 0; k < 8; ++k) v[k] = columns.more(8 * wall + k)[g];
+      if (v[0] == 0) continue;
+      const Vec3 force{v[1], v[2], v[3]}, point{v[4], v[5], v[6]};
+      const Vec3 branch = moment.minimum_image(grains.position[g] - point);
+      const double radius = grains.radius.empty() ? v[7] : grains.radius[g];
+      if (v[0] != 1 || std::abs(v[7] - radius) > 1e-4 * radius || branch.norm() > 2 * radius)
+        throw FormatError(fmt::format(
+            "{}: the eight columns of wall {} hold {:g} for grain {}, which are not flag, force, "
+            "contact point and radius of `fix wall/gran ... contacts`; pass --wall-columns none if "
+            "they are something else",
+            moment.place, walls_[wall], fmt::join(v, " "), grains.id[g]));
+      append(moment.contacts, grains.id[g], static_cast<std::int32_t>(wall), force, branch);
+    }
 }
 
 WallRows::WallRows(const std::string& mapping) : map_(row_words(), mapping)
@@ -120,8 +121,7 @@ WallRows::WallRows(const std::string& mapping) : map_(row_words(), mapping)
 void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
 {
   const auto header = dump.header();
-  if (header.columns != names_) map_.look_up(header.columns, header.place);
-  names_ = header.columns;
+  map_.look_up(header.columns, header.place);
   dump.read_rows(map_.wanted(), values_);
   const auto of = [&](std::size_t word) -> const std::vector<double>& {
     return map_.of(word, values_);
@@ -132,12 +132,10 @@ void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
       if (!of(first + k).empty()) values[static_cast<Eigen::Index>(k)] = of(first + k)[row];
     return values;
   };
-  std::unordered_map<std::int64_t, std::size_t> place;
-  for (std::size_t g = 0; g < moment.grains.size(); ++g) place[moment.grains.id[g]] = g;
+  const auto place = rows_by_id(moment.grains);
   std::unordered_map<std::int64_t, std::int32_t> rows_of;
   for (std::size_t row = 0; row < header.rows; ++row) {
-    const bool is_id = std::abs(of(id)[row]) < 9e15 && std::trunc(of(id)[row]) == of(id)[row];
-    const auto grain = is_id ? static_cast<std::int64_t>(of(id)[row]) : -1;
+    const auto grain = is_whole(of(id)[row]) ? static_cast<std::int64_t>(of(id)[row]) : -1;
     const auto found = place.find(grain);
     if (found == place.end())
       throw FormatError(fmt::format(

@@ -3,7 +3,7 @@
 
 #include "formats/import/common/archive.hpp"
 #include "formats/import/dump/contact_columns.hpp"
-#include "formats/import/dump/dump_pair.hpp"
+#include "formats/import/dump/dump_grains.hpp"
 
 #include <string>
 #include <vector>
@@ -25,25 +25,12 @@ class WallColumns {
   const std::vector<std::size_t>& wanted() const { return wanted_; }
   /// Names of the walls, by number.
   const std::vector<std::string>& walls() const { return walls_; }
-  /// Adds the contacts; `column(k)` has the values of `wanted()[k]`. FormatError where the columns do
-  /// not hold what they should.
-  template <class Column>
-  void add_to(ArchiveMoment& moment, const Column& column) const
-  {
-    for (std::size_t w = 0; w < walls_.size(); ++w)
-      for (std::size_t g = 0; g < moment.grains.size(); ++g) {
-        std::array<double, 8> values;
-        for (std::size_t k = 0; k < 8; ++k) values[k] = column(8 * w + k)[g];
-        add(moment, w, g, values);
-      }
-  }
+  /// Adds the contacts; `grains` has read these columns as `more`. FormatError where they do not hold
+  /// what they should.
+  void add_to(ArchiveMoment& moment, const DumpGrains& grains) const;
 
  private:
-  void add(ArchiveMoment& moment, std::size_t wall, std::size_t grain,
-           const std::array<double, 8>& values) const;
-
   std::string text_;
-  std::vector<std::string> names_;  // of the columns that the rest refers to
   std::vector<std::string> walls_;
   std::vector<std::size_t> wanted_;
 };
@@ -65,7 +52,6 @@ class WallRows {
 
  private:
   ColumnMap map_;
-  std::vector<std::string> names_;
   std::vector<std::vector<double>> values_;
 };
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 namespace grseg {
 namespace {
@@ -34,12 +33,9 @@ Vec3 down_a_slope(double gravity, double slope)
 /// How far apart the centres of the grains lie along each of the archive's axes.
 Vec3 extent_of(const ArchiveGrains& grains)
 {
-  Vec3 low = grains.position.front(), high = low;
-  for (const auto& x : grains.position) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return high - low;
+  Eigen::AlignedBox3d box;
+  for (const auto& x : grains.position) box.extend(x);
+  return box.sizes();
 }
 
 double thickness_of_a_plane(const ArchiveGrains& grains)
@@ -128,16 +124,9 @@ void require_open_normal(const ArchiveMoment& moment, int normal)
 
 GravityText parse_gravity(const std::string& text)
 {
-  std::vector<double> numbers;
-  std::istringstream parts(text);
-  bool good = !text.empty();
-  for (std::string part; std::getline(parts, part, ',');) {
-    double value = 0;
-    good = good && parse_finite(part, value);
-    numbers.push_back(value);
-  }
-  if (good && numbers.size() == 1 && numbers[0] >= 0) return {numbers[0], std::nullopt};
-  if (good && numbers.size() == 3) return {std::nullopt, Vec3(numbers[0], numbers[1], numbers[2])};
+  const auto numbers = finite_numbers(text, ',');
+  if (numbers.size() == 1 && numbers[0] >= 0) return {numbers[0], std::nullopt};
+  if (numbers.size() == 3) return {std::nullopt, Vec3(numbers[0], numbers[1], numbers[2])};
   throw UsageError(fmt::format(
       "--gravity '{}' is neither a magnitude nor three components, such as 9.8 or 3.8,-9.0,0",
       text));

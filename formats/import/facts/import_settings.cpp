@@ -2,9 +2,7 @@
 #include "formats/import/facts/import_settings.hpp"
 
 #include "formats/cli/output.hpp"
-#include "formats/cli/words.hpp"
 #include "formats/import/facts/units.hpp"
-#include "formats/import/open_archive.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <unordered_map>
 
 namespace grseg {
 namespace {
@@ -25,13 +24,12 @@ bool is_at_rest(const ArchiveGrains& grains, std::size_t g)
 /// The sum of the contact forces on every grain.
 std::vector<Vec3> contact_sums(const ArchiveMoment& moment)
 {
-  std::unordered_map<std::int64_t, std::size_t> row;
-  for (std::size_t g = 0; g < moment.grains.size(); ++g) row[moment.grains.id[g]] = g;
+  const auto row = rows_by_id(moment.grains);
   std::vector<Vec3> sum(moment.grains.size(), Vec3::Zero());
   const auto& contacts = moment.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (const auto i = row.find(contacts.i[c]); i != row.end()) sum[i->second] += contacts.force[c];
-    if (!contacts.wall.empty() && contacts.wall[c] >= 0) continue;
+    if (contacts.at_wall(c)) continue;
     if (const auto j = row.find(contacts.j[c]); j != row.end()) sum[j->second] -= contacts.force[c];
   }
   return sum;
@@ -40,7 +38,7 @@ std::vector<Vec3> contact_sums(const ArchiveMoment& moment)
 /// The grains of one type.
 struct OfType {
   std::size_t count = 0, resting = 0;
-  double low = INFINITY, high = 0;  // diameters
+  Range diameters;
 };
 
 std::map<std::int32_t, OfType> types_of(const ArchiveGrains& grains,
@@ -51,15 +49,14 @@ std::map<std::int32_t, OfType> types_of(const ArchiveGrains& grains,
     auto& of = types[grains.type[g]];
     ++of.count;
     of.resting += !resting.empty() && resting[g] ? 1 : 0;
-    of.low = std::min(of.low, 2 * grains.radius[g]);
-    of.high = std::max(of.high, 2 * grains.radius[g]);
+    of.diameters.add(2 * grains.radius[g]);
   }
   return types;
 }
 
-std::string range_in_words(double low, double high)
+std::string range_in_words(const Range& range)
 {
-  const auto first = fmt::format("{:.4g}", low), last = fmt::format("{:.4g}", high);
+  const auto first = fmt::format("{:.4g}", range.low), last = fmt::format("{:.4g}", range.high);
   return first == last ? first : first + " to " + last;
 }
 
@@ -71,7 +68,7 @@ std::string in_words(const ArchiveGrains& grains, const std::vector<bool>& resti
   std::vector<std::string> parts;
   for (const auto& [type, of] : types) {
     parts.push_back(fmt::format("type {}: {} grain{}, {} wide{}", grains.type_word(type), of.count,
-                                of.count == 1 ? "" : "s", range_in_words(of.low, of.high),
+                                of.count == 1 ? "" : "s", range_in_words(of.diameters),
                                 of.resting == of.count ? ", at rest" : ""));
     if (parts.size() < most || types.size() == most) continue;
     parts.push_back(fmt::format("{} types in all", types.size()));
@@ -103,8 +100,7 @@ std::string ids_at_rest(const ArchiveGrains& grains, const std::vector<bool>& re
 
 std::vector<bool> resting_grains(const ArchiveGrains& first, const ArchiveGrains* later)
 {
-  std::unordered_map<std::int64_t, std::size_t> row;
-  for (std::size_t g = 0; later != nullptr && g < later->size(); ++g) row[later->id[g]] = g;
+  const auto row = rows_by_id(later == nullptr ? ArchiveGrains{} : *later);
   std::vector<bool> resting(first.size());
   std::size_t count = 0;
   for (std::size_t g = 0; g < first.size(); ++g) {

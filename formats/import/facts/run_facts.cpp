@@ -2,12 +2,11 @@
 #include "formats/import/facts/run_facts.hpp"
 
 #include "formats/cli/words.hpp"
-#include "formats/import/facts/axes.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/facts/cell_and_walls.hpp"
 #include "formats/import/facts/proposals.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,14 +28,10 @@ double content(double radius, bool discs)
 /// Largest deviation of mass/content among the grains that have a mass, relative.
 double spread_of_density(const ArchiveGrains& grains, bool discs)
 {
-  double low = INFINITY, high = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!good_mass(grains, g)) continue;
-    const double density = grains.mass[g] / content(grains.radius[g], discs);
-    low = std::min(low, density);
-    high = std::max(high, density);
-  }
-  return high > 0 ? high / low - 1 : INFINITY;
+  Range density;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (good_mass(grains, g)) density.add(grains.mass[g] / content(grains.radius[g], discs));
+  return density.high > 0 ? density.high / density.low - 1 : INFINITY;
 }
 
 std::optional<bool> discs_by_mass(const ArchiveGrains& grains)
@@ -94,14 +89,6 @@ void require_density(const ArchiveGrains& grains, double density, bool discs)
   }
 }
 
-/// The largest diameter.
-double widest(const ArchiveGrains& grains)
-{
-  double radius = 0;
-  for (const double r : grains.radius) radius = std::max(radius, r);
-  return 2 * radius;
-}
-
 /// Facts by one, with questions for what is missing.
 class FactFinder {
  public:
@@ -140,7 +127,8 @@ class FactFinder {
           {"its units", "--units UNITS",
            fmt::format("si, cgs, or LENGTH:TIME:MASS in m, s, kg; grains are up to {:.4g} "
                        "wide",
-                       widest(look_.all.grains))});
+                       2 * *std::max_element(look_.all.grains.radius.begin(),
+                                             look_.all.grains.radius.end()))});
     facts_.units_as_given = units.value_or("si");
     facts_.units = parse_units(facts_.units_as_given);
   }

@@ -3,7 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
-#include "formats/import/common/text_source.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/common/text_values.hpp"
 #include "formats/import/facts/proposals.hpp"
 
@@ -12,8 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
-#include <sstream>
 
 namespace grseg {
 namespace {
@@ -27,33 +25,18 @@ std::optional<std::int64_t> whole(std::string_view text)
 
 /// A species on the command line, and the range of diameters of its grains.
 struct Named {
-  std::string name, types;
+  std::string option, name, types;
   TypeList list;
   double given = 0;  // nominal diameter; 0: not given
-  double low = INFINITY, high = 0;
+  Range diameters = {};
 
   bool holds_all() const { return types == "all"; }
   bool contains(const ArchiveGrains& grains, std::size_t g) const
   {
     return holds_all() || list.contains(grains.type[g]);
   }
-  double nominal() const { return given > 0 ? given : (low + high) / 2; }
+  double nominal() const { return given > 0 ? given : diameters.middle(); }
 };
-
-void require_a_name(const std::string& name, const std::string& text)
-{
-  if (!is_species_name(name))
-    throw UsageError(fmt::format("--species {}: {}", in_quotes(text), rule_of_species_names));
-}
-
-double diameter_in(const std::string& word, const std::string& text)
-{
-  double value = 0;
-  if (!parse_finite(word, value) || !(value > 0))
-    throw UsageError(
-        fmt::format("--species {}: {} is not a diameter", in_quotes(text), in_quotes(word)));
-  return value;
-}
 
 Named parse(const std::string& text, const ArchiveGrains& grains)
 {
@@ -64,10 +47,16 @@ Named parse(const std::string& text, const ArchiveGrains& grains)
         "SE=3:4e-6",
         in_quotes(text)));
   const auto name = text.substr(0, equals);
-  require_a_name(name, text);
+  if (!is_species_name(name))
+    throw UsageError(fmt::format("--species {}: {}", in_quotes(text), rule_of_species_names));
   const auto types = text.substr(equals + 1, colon - equals - 1);
-  return {name, types, TypeList(types == "all" ? "none" : types, "--species", grains),
-          colon == std::string::npos ? 0 : diameter_in(text.substr(colon + 1), text)};
+  double diameter = 0;
+  if (colon != std::string::npos &&
+      !(parse_finite(text.substr(colon + 1), diameter) && diameter > 0))
+    throw UsageError(fmt::format("--species {}: {} is not a diameter", in_quotes(text),
+                                 in_quotes(text.substr(colon + 1))));
+  return {"--species " + name, name, types,
+          TypeList(types == "all" ? "none" : types, "--species", grains), diameter};
 }
 
 std::vector<Named> parse_all(const std::vector<std::string>& texts, const ArchiveGrains& grains)
@@ -83,20 +72,21 @@ std::vector<Named> parse_all(const std::vector<std::string>& texts, const Archiv
   return all;
 }
 
-/// The place in `all` of the one species that the grain belongs to.
-std::size_t place_of(const ArchiveGrains& grains, std::size_t g, const std::vector<Named>& all)
+/// The place in `all` of the one species that the grain belongs to; `none` says that it is in none.
+std::size_t place_of(const ArchiveGrains& grains, std::size_t g, const std::vector<Named>& all,
+                     const char* none)
 {
   const auto is_it = [&](const Named& species) { return species.contains(grains, g); };
   const auto found = std::find_if(all.begin(), all.end(), is_it);
   if (found == all.end())
-    throw UsageError(fmt::format(
-        "type {} of grain {} is in no --species; every type of a mobile grain must be in one",
-        grains.type_word(grains.type[g]), grains.id[g]));
+    throw UsageError(
+        fmt::format("type {} of grain {} is {}; every type of a mobile grain must be in one",
+                    grains.type_word(grains.type[g]), grains.id[g], none));
   const auto other = std::find_if(found + 1, all.end(), is_it);
   if (other != all.end())
     throw UsageError(fmt::format(
-        "grain {} is in --species {} and in {}; every type of a mobile grain must be in one alone",
-        grains.id[g], found->name, other->name));
+        "grain {} is in {} and in {}; every type of a mobile grain must be in one alone",
+        grains.id[g], found->option, other->option));
   return static_cast<std::size_t>(found - all.begin());
 }
 
@@ -158,18 +148,6 @@ std::optional<double> gap_between_sizes(std::vector<double> diameter)
   const double above = diameter.back() / diameter[widest];
   if (std::max(below * below, above * above) >= factor) return std::nullopt;
   return (diameter[widest - 1] + diameter[widest]) / 2;
-}
-
-Species by_type(const ArchiveGrains& grains, std::size_t g, const TypeList& small,
-                const TypeList& large)
-{
-  const auto type = grains.type[g];
-  if (small.contains(type) == large.contains(type))
-    throw UsageError(fmt::format(
-        "type {} of grain {} is {}; every type of a mobile grain must be in exactly one of them",
-        grains.type_word(type), grains.id[g],
-        small.contains(type) ? "in --small and in --large" : "neither in --small nor in --large"));
-  return large.contains(type) ? Species::large : Species::small;
 }
 
 /// --species says all that the options of two sizes would say.
@@ -241,7 +219,7 @@ bool TypeList::contains(std::int32_t type) const
   return named_.empty() ? numbers_.contains(type) : named_[static_cast<std::size_t>(type)];
 }
 
-NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
+SpeciesFound assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
                                   const std::vector<std::string>& texts)
 {
   auto all = parse_all(texts, grains);
@@ -251,14 +229,12 @@ NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector
         "--species names types, but the grains of the archive have no types; --species NAME=all "
         "takes them as one species");
   std::vector<std::size_t> place(grains.size());
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (boundary[g]) continue;
-    auto& species = all[place[g] = place_of(grains, g, all)];
-    species.low = std::min(species.low, 2 * grains.radius[g]);
-    species.high = std::max(species.high, 2 * grains.radius[g]);
-  }
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (!boundary[g])
+      all[place[g] = place_of(grains, g, all, "in no --species")].diameters.add(2 *
+                                                                                grains.radius[g]);
   for (const auto& species : all)
-    if (species.given == 0 && species.high == 0)
+    if (species.given == 0 && species.diameters.high == 0)
       throw UsageError(
           fmt::format("--species {0}={1}: no mobile grain is of these types; leave it out, or give "
                       "its diameter, {0}={1}:DIAMETER",
@@ -269,15 +245,14 @@ NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return all[a].nominal() < all[b].nominal();
   });
-  NamedSpecies found;
+  SpeciesFound found;
   std::vector<Species> number(all.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
     const auto& species = all[order[k]];
     number[order[k]] = static_cast<Species>(k);
     found.list.push_back({species.name, species.given});
-    found.sizes += (k == 0 ? "" : ", ") + in_words(species);
+    found.sizes += (k == 0 ? "in order of size: " : ", ") + in_words(species);
   }
-  found.sizes = "in order of size: " + found.sizes;
   for (std::size_t g = 0; g < grains.size(); ++g)
     found.species.push_back(boundary[g] ? Species::boundary : number[place[g]]);
   return found;
@@ -286,37 +261,39 @@ NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector
 SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& settings)
 {
   SpeciesFound found;
-  const auto boundary = boundary_grains(grains, settings, found.base);
+  std::string base;
+  const auto boundary = boundary_grains(grains, settings, base);
+  const auto add_each = [&](const auto& species_of) {
+    found.list =
+        two_sizes(settings.small_diameter.value_or(0), settings.large_diameter.value_or(0));
+    for (std::size_t g = 0; g < grains.size(); ++g)
+      found.species.push_back(boundary[g] ? Species::boundary : species_of(g));
+  };
   if (!settings.named.empty()) {
     require_alone(settings);
-    auto named = assign_named_species(grains, boundary, settings.named);
-    found.species = std::move(named.species);
-    found.list = std::move(named.list);
-    found.sizes = std::move(named.sizes);
-    return found;
-  }
-  found.list = two_sizes(settings.small_diameter.value_or(0), settings.large_diameter.value_or(0));
-  if (settings.small || settings.large) {
+    found = assign_named_species(grains, boundary, settings.named);
+  } else if (settings.small || settings.large) {
     require_types(grains, settings.small ? "--small" : "--large");
     const auto small = settings.small.value_or("none"), large = settings.large.value_or("none");
-    const TypeList small_types(small, "--small", grains), large_types(large, "--large", grains);
-    for (std::size_t g = 0; g < grains.size(); ++g)
-      found.species.push_back(boundary[g] ? Species::boundary
-                                          : by_type(grains, g, small_types, large_types));
+    const std::vector<Named> both{{"--small", "", small, TypeList(small, "--small", grains)},
+                                  {"--large", "", large, TypeList(large, "--large", grains)}};
+    add_each([&](std::size_t g) {
+      return static_cast<Species>(place_of(grains, g, both, "neither in --small nor in --large"));
+    });
     found.sizes = fmt::format("small are types {}, large types {}", small, large);
-    return found;
+  } else {
+    std::vector<double> diameter;
+    for (std::size_t g = 0; g < grains.size(); ++g)
+      if (!boundary[g]) diameter.push_back(2 * grains.radius[g]);
+    const double split = diameter_that_splits(diameter, grains, boundary, settings);
+    add_each([&](std::size_t g) {
+      return 2 * grains.radius[g] < split ? Species::small : Species::large;
+    });
+    found.sizes =
+        fmt::format("small are diameters below {:g}{}", split,
+                    settings.split_diameter ? "" : ", half-way between two sizes far apart");
   }
-  std::vector<double> diameter;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (!boundary[g]) diameter.push_back(2 * grains.radius[g]);
-  const double split = diameter_that_splits(diameter, grains, boundary, settings);
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    found.species.push_back(boundary[g]                    ? Species::boundary
-                            : 2 * grains.radius[g] < split ? Species::small
-                                                           : Species::large);
-  found.sizes =
-      fmt::format("small are diameters below {:g}{}", split,
-                  settings.split_diameter ? "" : ", half-way between two sizes far apart");
+  found.base = base;
   return found;
 }
 

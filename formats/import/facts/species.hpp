@@ -15,7 +15,7 @@ namespace grseg {
 
 /// How the command line separates the species.
 struct SpeciesSettings {
-  std::vector<std::string> named;                     // NamedSpecies; else
+  std::vector<std::string> named;                     // assign_named_species(); else
   std::optional<std::string> small, large, boundary;  // types
   std::optional<std::string> boundary_ids;
   std::optional<double> split_diameter;
@@ -63,19 +63,13 @@ class TypeList {
   std::vector<bool> named_;  // by type
 };
 
-/// Any number of species by type, each as --species gives it: NAME=TYPES or NAME=TYPES:DIAMETER,
-/// where TYPES are a list as above or "all", and DIAMETER is nominal, in the archive's units.
-struct NamedSpecies {
-  SpeciesList list;              // in order of nominal diameters; 0 where it was not given
-  std::vector<Species> species;  // of every grain
-  std::string sizes;             // in words how they were found
-};
-
-/// Species of all grains that are not `boundary`. A diameter that is not given is the mean of the
+/// Species of all grains that are not `boundary`, any number by type, each as --species gives it:
+/// NAME=TYPES or NAME=TYPES:DIAMETER, where TYPES are a list as above or "all", and DIAMETER is nominal,
+/// in the archive's units. They are in order of nominal diameters. A diameter that is not given is the mean of the
 /// smallest and the largest of the species. UsageError where a text is not of the form above, a name
 /// does not fit files and tables, a species has neither grains nor a diameter, or the type of a
 /// mobile grain is in no species or in several.
-NamedSpecies assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
+SpeciesFound assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
                                   const std::vector<std::string>& texts);
 
 }  // namespace grseg

@@ -6,9 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
-#include <sstream>
+#include <algorithm>
 
 namespace grseg {
 namespace {
@@ -42,16 +40,8 @@ void Units::convert(Grains& grains) const
 Units parse_units(const std::string& text)
 {
   if (const auto known = find_choice(text, unit_words)) return *known;
-  std::array<double, 3> value{};
-  std::size_t count = 0;
-  bool good = true;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ':'); ++count) {
-    double number = 0;
-    good = good && count < 3 && parse_whole(part, number) && number > 0 && std::isfinite(number);
-    if (good) value[count] = number;
-  }
-  if (!good || count != 3)
+  const auto value = finite_numbers(text, ':');
+  if (value.size() != 3 || !(*std::min_element(value.begin(), value.end()) > 0))
     throw UsageError(fmt::format(
         "--units '{}' is not si, cgs, or LENGTH:TIME:MASS, what the archive's units are in m, s "
         "and kg, as in 0.005:0.02259:2.5e-5",

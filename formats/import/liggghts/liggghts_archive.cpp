@@ -77,13 +77,6 @@ struct Layout {
   }
 };
 
-/// 0: it is none.
-std::size_t number_of(const std::string& text)
-{
-  std::size_t number = 0;
-  return parse_whole(text, number) ? number : 0;
-}
-
 Layout layout_of(const std::string& columns)
 {
   std::array<std::size_t, std::size(blocks)> width{};

@@ -14,13 +14,13 @@
 namespace grseg {
 namespace {
 
-[[noreturn]] void fail_at(const MercuryForces& rows, const MercuryContact& row,
+[[noreturn]] void fail_at(const MercuryFStat& rows, const MercuryContact& row,
                           const std::string& why)
 {
   throw FormatError(fmt::format("{}, {} lines on: {}", rows.place, row.line - 1, why));
 }
 
-void add_row(const MercuryForces& rows, const MercuryContact& row, bool period_is_known,
+void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is_known,
              ArchiveMoment& moment)
 {
   const auto& grains = moment.grains;
@@ -101,7 +101,7 @@ void add_interaction(const MercuryRestart& restart, const MercuryRestart::Intera
 ///   wall's contact point is where it cuts its normal through the grain, at r_i - delta.
 /// FormatError naming the row where the two do not belong together. Unless `period_is_known`, a
 /// pair that is too far apart to touch is refused.
-void add_mercury_contacts(const MercuryForces& rows, bool period_is_known, ArchiveMoment& moment)
+void add_mercury_contacts(const MercuryFStat& rows, bool period_is_known, ArchiveMoment& moment)
 {
   std::set<std::pair<std::int64_t, std::int64_t>> known;
   const auto grains = static_cast<std::int64_t>(moment.grains.size());
@@ -117,145 +117,81 @@ void add_mercury_contacts(const MercuryForces& rows, bool period_is_known, Archi
 }
 
 /// The contacts of the block Interactions, between grains of `moment` by their ids. Overlap and
-/// branch of two grains are those of their positions. `path` is for sentences.
-void add_mercury_contacts(const MercuryRestart& restart, const std::string& path,
-                          ArchiveMoment& moment)
+/// branch of two grains are those of their positions.
+void add_mercury_contacts(const MercuryRestart& restart, ArchiveMoment& moment)
 {
-  std::unordered_map<std::int64_t, std::size_t> row_of;
-  for (std::size_t g = 0; g < moment.grains.size(); ++g) row_of.emplace(moment.grains.id[g], g);
+  const auto row_of = rows_by_id(moment.grains);
   for (std::size_t k = 0; k < restart.interactions.size(); ++k) {
     try {
       add_interaction(restart, restart.interactions[k], row_of, moment);
     } catch (const FormatError& error) {
-      throw FormatError(fmt::format("{}: interaction {} {}", path, k + 1, error.what()));
+      throw FormatError(fmt::format("{}: interaction {} {}", moment.place, k + 1, error.what()));
     }
   }
 }
 
 constexpr const char* info_is_species = "info=species";
 
-void require_later(const ArchiveMoment& moment, std::optional<double>& last)
-{
-  if (last && *moment.time <= *last)
-    throw FormatError(fmt::format(
-        "{}: time {:g} comes after time {:g}: times must increase; remove the duplicate moment "
-        "(from a restart), or name the files in order of time",
-        moment.place, *moment.time, *last));
-  last = moment.time;
-}
-
-ArchiveFacts facts_of(const MercuryRestart* restart)
-{
-  ArchiveFacts facts;
-  facts.tolerance = 1e-4;
-  facts.tolerance_reason = "MercuryDPM writes ten digits";
-  if (restart == nullptr) return facts;
-  facts.step = restart->step;
-  facts.gravity = restart->gravity;
-  facts.discs = restart->discs();
-  return facts;
-}
-
-/// Grains and forces of two tables.
-class MercuryTables : public Archive {
+class MercuryArchive : public Archive {
  public:
-  MercuryTables(std::unique_ptr<MercuryGrainsSource> grains, std::vector<std::string> fstat)
-      : grains_(std::move(grains)), fstat_(std::move(fstat)), facts_(facts_of(grains_->restart()))
+  /// The contacts are those of the .restart files that hold the grains where there is no .fstat.
+  MercuryArchive(std::unique_ptr<MercuryGrains> grains, std::vector<std::string> fstat)
+      : grains_(std::move(grains))
   {
+    if (!fstat.empty()) forces_.emplace(std::move(fstat));
+    facts_.tolerance = forces_ ? 1e-4 : 1e-9;
+    facts_.tolerance_reason =
+        forces_ ? "MercuryDPM writes ten digits" : "MercuryDPM writes fifteen digits into .restart";
+    const auto* restart = grains_->restart();
+    if (restart == nullptr) return;
+    facts_.step = restart->step;
+    facts_.gravity = restart->gravity;
+    facts_.discs = restart->discs();
   }
   const ArchiveFacts& facts() const override { return facts_; }
+  std::vector<std::string> remarks() const override { return matching_.remarks("t ="); }
 
   bool next(ArchiveMoment& moment) override
   {
-    if (!next_of_both(moment)) return false;
-    require_later(moment, last_time_);
-    add_mercury_contacts(forces_, grains_->restart() != nullptr, moment);
-    return true;
-  }
-
-  std::vector<std::string> remarks() const override
-  {
-    std::vector<std::string> remarks;
-    const auto add = [&](const Unmatched& alone, const char* has, const char* lacks) {
-      if (alone.count > 0)
-        remarks.push_back(fmt::format(
-            "{} moments are in {} but not in {} and are left out, the first at t = {:g}",
-            alone.count, has, lacks, alone.first));
-    };
-    add(grains_alone_, "the grains' files", ".fstat");
-    add(forces_alone_, ".fstat", "the grains' files");
-    return remarks;
-  }
-
- private:
-  /// Advances to the next time in both tables.
-  bool next_of_both(ArchiveMoment& moment)
-  {
-    bool more_grains = grains_->next(moment), more_forces = fstat_.next(forces_);
-    while (more_grains && more_forces) {
-      if (same_time(*moment.time, forces_.time)) return any_of_both_ = true;
-      if (*moment.time < forces_.time) {
-        grains_alone_.add(*moment.time);
-        more_grains = grains_->next(moment);
-      } else {
-        forces_alone_.add(forces_.time);
-        more_forces = fstat_.next(forces_);
-      }
-    }
-    if (any_of_both_) return false;
-    if (more_grains) grains_alone_.add(*moment.time);
-    if (more_forces) forces_alone_.add(forces_.time);
-    if (grains_alone_.count > 0 && forces_alone_.count > 0)
+    if (forces_ ? !next_of_both(moment) : !grains_->next(moment)) return false;
+    if (last_time_ && *moment.time <= *last_time_)
       throw FormatError(fmt::format(
-          "no time is in both tables: those of the grains begin with {:.10g}, those of .fstat with {:.10g}; "
-          "write both at the same times",
-          grains_alone_.first, forces_alone_.first));
-    return false;
-  }
-
-  /// Equal to the digits of the text, of which .data and .fstat have ten and old files eight or six.
-  bool same_time(double a, double b) const
-  {
-    return std::abs(a - b) <= 2e-6 * std::max(std::abs(a), std::abs(b));
-  }
-
-  std::unique_ptr<MercuryGrainsSource> grains_;
-  MercuryFStat fstat_;
-  ArchiveFacts facts_;
-  MercuryForces forces_;
-  std::optional<double> last_time_;
-  Unmatched grains_alone_, forces_alone_;
-  bool any_of_both_ = false;
-};
-
-/// .restart files, each with its contacts.
-class MercuryRestarts : public Archive {
- public:
-  explicit MercuryRestarts(std::vector<std::string> files)
-      : grains_(std::move(files)), facts_(facts_of(grains_.restart()))
-  {
-    facts_.tolerance = 1e-9;
-    facts_.tolerance_reason = "MercuryDPM writes fifteen digits into .restart";
-  }
-  const ArchiveFacts& facts() const override { return facts_; }
-
-  bool next(ArchiveMoment& moment) override
-  {
-    if (!grains_.next(moment)) return false;
-    require_later(moment, last_time_);
-    if (grains_.restart()->positional > 0)
+          "{}: time {:g} comes after time {:g}: times must increase; remove the duplicate moment "
+          "(from a restart), or name the files in order of time",
+          moment.place, *moment.time, *last_time_));
+    last_time_ = moment.time;
+    const auto* restart = grains_->restart();
+    if (forces_)
+      add_mercury_contacts(*forces_, restart != nullptr, moment);
+    else if (restart->positional > 0)
       throw UsageError(fmt::format(
           "{}: a .restart of version {} has no contact forces; give it as --grains and the .fstat of "
           "the run as --contacts",
-          grains_.path(), grains_.restart()->positional));
-    add_mercury_contacts(*grains_.restart(), grains_.path(), moment);
+          moment.place, restart->positional));
+    else
+      add_mercury_contacts(*restart, moment);
     return true;
   }
 
  private:
-  MercuryRestartGrains grains_;
+  /// Times are equal to the digits of the text, of which .data and .fstat have ten and old files eight
+  /// or six.
+  bool next_of_both(ArchiveMoment& moment)
+  {
+    const auto order = [&] {
+      const double a = *moment.time, b = forces_->time;
+      if (std::abs(a - b) <= 2e-6 * std::max(std::abs(a), std::abs(b))) return 0;
+      return a < b ? -1 : 1;
+    };
+    return matching_.next({[&] { return grains_->next(moment); }, [&] { return *moment.time; }},
+                          {[&] { return forces_->next(); }, [&] { return forces_->time; }}, order);
+  }
+
+  std::unique_ptr<MercuryGrains> grains_;
+  std::optional<MercuryFStat> forces_;
   ArchiveFacts facts_;
   std::optional<double> last_time_;
+  Matching matching_;
 };
 
 /// Files for each moment have numbers behind: run.data.0001.
@@ -291,23 +227,24 @@ std::unique_ptr<Archive> open_mercury(const ArchiveFiles& files)
     throw UsageError(
         fmt::format("--columns '{}': the columns of MercuryDPM are known; only {} is accepted",
                     files.columns, info_is_species));
-  const bool only_restart = files.grains.empty() && files.contacts.empty();
-  if (only_restart && !files.restart.empty())
-    return std::make_unique<MercuryRestarts>(archive_files({files.restart}, "--restart"));
+  const auto archive_of = [](std::unique_ptr<MercuryGrains> grains,
+                             std::vector<std::string> fstat) {
+    return std::make_unique<MercuryArchive>(std::move(grains), std::move(fstat));
+  };
+  if (files.grains.empty() && files.contacts.empty() && !files.restart.empty())
+    return archive_of(
+        std::make_unique<MercuryRestarts>(archive_files({files.restart}, "--restart")), {});
   const auto grains = archive_files(files.grains, "--grains");
   const bool of_restart = is_mercury_restart(grains[0]);
-  if (of_restart && files.contacts.empty()) return std::make_unique<MercuryRestarts>(grains);
-
-  const auto contacts = archive_files(files.contacts, "--contacts");
-  if (of_restart)
-    return std::make_unique<MercuryTables>(std::make_unique<MercuryRestartGrains>(grains),
-                                           contacts);
+  std::vector<std::string> contacts;
+  if (!of_restart || !files.contacts.empty())
+    contacts = archive_files(files.contacts, "--contacts");
+  if (of_restart) return archive_of(std::make_unique<MercuryRestarts>(grains), contacts);
   // Of many, the last lists all grains that were ever inserted.
   const auto restart =
       files.restart.empty() ? files.restart : archive_files({files.restart}, "--restart").back();
-  return std::make_unique<MercuryTables>(
-      std::make_unique<MercuryDataGrains>(grains, restart, files.columns == info_is_species),
-      contacts);
+  return archive_of(
+      std::make_unique<MercuryData>(grains, restart, files.columns == info_is_species), contacts);
 }
 
 }  // namespace

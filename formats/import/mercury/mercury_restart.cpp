@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/mercury/mercury_restart.hpp"
 
-#include "formats/import/common/archive.hpp"
 #include "formats/import/common/text_source.hpp"
 #include "formats/import/common/text_values.hpp"
 
@@ -9,10 +8,7 @@
 
 #include <cctype>
 #include <cmath>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace grseg {
 namespace {
@@ -58,7 +54,7 @@ class MercuryLines {
   std::int64_t whole_number(std::string_view key, std::size_t place = 0) const
   {
     const double number = value(key, place);
-    if (std::abs(number) > 2147483647 || std::trunc(number) != number)
+    if (!is_whole(number, 2147483647))
       fail(fmt::format("{:g} after '{}' is not a whole number", number, key));
     return static_cast<std::int64_t>(number);
   }
@@ -68,7 +64,7 @@ class MercuryLines {
   {
     if (kind() != key) return std::nullopt;
     const double number = value(key);
-    if (number < 0 || number > 1e9 || std::trunc(number) != number)
+    if (number < 0 || !is_whole(number, 1e9))
       fail(fmt::format("{} is not a number of {}", in_quotes(source_.line()), key));
     return static_cast<std::size_t>(number);
   }
@@ -82,10 +78,7 @@ class MercuryLines {
     return numbers;
   }
 
-  [[noreturn]] void fail(const std::string& why) const
-  {
-    throw FormatError(fmt::format("{}: {}", source_.place(), why));
-  }
+  [[noreturn]] void fail(const std::string& why) const { source_.fail(why); }
 
  private:
   std::size_t place_of(std::string_view key) const
@@ -134,7 +127,7 @@ std::array<double, 2> places_of(const MercuryLines& lines)
 
 /// Takes the period of the boundary in the line at hand into `restart`, if it is one. FormatError
 /// where the cell is periodic in a way that is not imported.
-void read_mercury_boundary(const MercuryLines& lines, MercuryRestart& restart)
+void read_boundary(MercuryLines& lines, MercuryRestart& restart)
 {
   const auto kind = lines.kind();
   for (const auto& [part, why] : refused)
@@ -201,8 +194,7 @@ std::int32_t species_in(const std::vector<double>& rest, const MercuryRestart& r
                   rest.size(), restart.positional));
 }
 
-Particle positional_particle(const MercuryLines& lines, const MercuryRestart& restart,
-                             std::size_t row)
+Particle positional_particle(const MercuryLines& lines, const MercuryRestart& restart)
 {
   std::size_t first = 0;
   while (first < lines.words().size() &&
@@ -215,7 +207,7 @@ Particle positional_particle(const MercuryLines& lines, const MercuryRestart& re
         "velocity, radius, angle, angular velocity, inverse mass and inertia, species or springs",
         numbers.size()));
   Particle particle;
-  particle.id = static_cast<std::int64_t>(row);
+  particle.id = std::ssize(restart.particles);
   particle.position = three(numbers, 0);
   particle.velocity = three(numbers, 3);
   particle.radius = numbers[6];
@@ -225,20 +217,18 @@ Particle positional_particle(const MercuryLines& lines, const MercuryRestart& re
   return particle;
 }
 
-/// The particle in the line at hand; `row` is its number. FormatError where it is not one sphere or
-/// belongs to no species.
-MercuryRestart::Particle read_mercury_particle(const MercuryLines& lines,
-                                               const MercuryRestart& restart, std::size_t row)
+/// FormatError where it is not one sphere or belongs to no species.
+void read_particle(MercuryLines& lines, MercuryRestart& restart)
 {
   if (lines.kind() == "Clump" || lines.kind() == "SuperQuadricParticle")
     lines.fail(fmt::format("a {} is not one sphere or disc, as grains are here", lines.kind()));
   auto particle =
-      restart.positional > 0 ? positional_particle(lines, restart, row) : named_particle(lines);
+      restart.positional > 0 ? positional_particle(lines, restart) : named_particle(lines);
   if (particle.species < 0 || particle.species >= std::ssize(restart.density))
     lines.fail("the particle belongs to none of the species above");
   if (!(particle.radius > 0) || particle.inverse_mass < 0)
     lines.fail("the radius of the particle is not positive, or its mass is negative");
-  return particle;
+  restart.particles.push_back(particle);
 }
 
 /// The first line: the version.
@@ -301,7 +291,7 @@ void read_species(MercuryLines& lines, MercuryRestart& restart)
     restart.particle_dimensions = static_cast<int>(lines.value("dim_particle"));
 }
 
-void read_wall(const MercuryLines& lines, MercuryRestart& restart)
+void read_wall(MercuryLines& lines, MercuryRestart& restart)
 {
   if (!lines.has("id")) return;
   MercuryRestart::Wall wall;
@@ -311,7 +301,7 @@ void read_wall(const MercuryLines& lines, MercuryRestart& restart)
   restart.walls[lines.whole_number("id")] = wall;
 }
 
-void read_interaction(const MercuryLines& lines, MercuryRestart& restart)
+void read_interaction(MercuryLines& lines, MercuryRestart& restart)
 {
   MercuryRestart::Interaction interaction;
   interaction.wall = lines.has("particleWallIds");
@@ -323,32 +313,28 @@ void read_interaction(const MercuryLines& lines, MercuryRestart& restart)
   restart.interactions.push_back(interaction);
 }
 
+struct Block {
+  const char* key;
+  void (*read)(MercuryLines& lines, MercuryRestart& restart);  // one line
+};
+
+constexpr Block blocks[] = {{"Species", read_species},        {"Walls", read_wall},
+                            {"WallsPeriodic", read_boundary}, {"Boundaries", read_boundary},
+                            {"Particles", read_particle},     {"Interactions", read_interaction}};
+
 /// The lines of the block that the line at hand begins, if it begins one.
 void read_block(MercuryLines& lines, MercuryRestart& restart)
 {
-  const auto each = [&](const char* where, std::size_t count, const auto& read) {
-    for (std::size_t k = 0; k < count; ++k) {
+  for (const auto& [key, read] : blocks) {
+    const auto count = lines.count(key);
+    if (!count) continue;
+    const auto where = fmt::format("in its {}", key);
+    for (std::size_t k = 0; k < *count; ++k) {
       lines.need_next(where);
-      read(k);
+      read(lines, restart);
     }
-  };
-  if (const auto species = lines.count("Species"))
-    each("in its species", *species, [&](std::size_t) { read_species(lines, restart); });
-  else if (const auto walls = lines.count("Walls"))
-    each("in its walls", *walls, [&](std::size_t) { read_wall(lines, restart); });
-  else if (const auto old_periods = lines.count("WallsPeriodic"))
-    each("in its periods", *old_periods,
-         [&](std::size_t) { read_mercury_boundary(lines, restart); });
-  else if (const auto boundaries = lines.count("Boundaries"))
-    each("in its boundaries", *boundaries,
-         [&](std::size_t) { read_mercury_boundary(lines, restart); });
-  else if (const auto particles = lines.count("Particles"))
-    each("in its particles", *particles, [&](std::size_t k) {
-      restart.particles.push_back(read_mercury_particle(lines, restart, k));
-    });
-  else if (const auto interactions = lines.count("Interactions"))
-    each("in its interactions", *interactions,
-         [&](std::size_t) { read_interaction(lines, restart); });
+    return;
+  }
 }
 
 }  // namespace

@@ -1,31 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/mercury/mercury_tables.hpp"
 
-#include "formats/import/common/text_source.hpp"
 #include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace grseg {
 namespace {
 
-/// Moments of the files behind this one must not be lost with --drop-incomplete.
-[[noreturn]] void fail_truncated(TextSource& source, const char* what)
-{
-  const auto place = source.place();
-  if (source.next())
-    throw FormatError(
-        fmt::format("{}: the file ends in {}, and {} goes on; copy it again, or cut the "
-                    "incomplete moment off",
-                    place, what, source.file()));
-  throw TruncatedArchive(
-      fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete "
-                  "moment with --drop-incomplete",
-                  place, what));
-}
-
+constexpr double most = std::numeric_limits<std::int32_t>::max();  // grains
 constexpr const char* removed =
     "MercuryDPM moves the last row to the place of a grain that it removes, so that rows no longer "
     "name grains; import the .restart files of the moments instead, which have ids "
@@ -43,124 +29,9 @@ void add_period(const MercuryRestart& restart, ArchiveMoment& moment)
 
 }  // namespace
 
-void MercuryData::fail(const std::string& why) const
-{
-  throw FormatError(fmt::format("{}: {}", source_.place(), why));
-}
-
-bool MercuryData::next(MercuryGrains& block)
-{
-  do {
-    if (!source_.next()) return false;
-  } while (words_of(source_.line()).empty());
-  block = {};
-  block.place = source_.place();
-  if (!source_.line_is_whole()) fail_truncated(source_, "a header");
-  read_numbers(source_, numbers_);
-  const auto& h = numbers_;
-  plane_ = h.size() == 6;
-  if (!plane_ && h.size() != 8)
-    fail(fmt::format("{} numbers, but a block of .data begins with 6 (2D) or 8 (3D)", h.size()));
-  if (h[0] < 0 || h[0] > 2147483647 || std::trunc(h[0]) != h[0])
-    fail(fmt::format("{:g} is not a number of grains", h[0]));
-  block.time = h[1];
-  block.low = plane_ ? Vec3(h[2], h[3], 0) : three(h, 2);
-  block.high = plane_ ? Vec3(h[4], h[5], 0) : three(h, 5);
-  for (auto rows = static_cast<std::size_t>(h[0]); rows > 0; --rows) {
-    if (!source_.next() || !source_.line_is_whole()) fail_truncated(source_, "a block of grains");
-    read_row(block);
-  }
-  return true;
-}
-
-void MercuryData::read_row(MercuryGrains& block)
-{
-  read_numbers(source_, numbers_);
-  const auto& row = numbers_;
-  const auto columns = row.size();
-  auto& grains = block.grains;
-  const Vec3 no_spin = Vec3::Zero();
-  const auto add = [&](const Vec3& x, const Vec3& v, double radius, const Vec3& spin, double info) {
-    grains.id.push_back(static_cast<std::int64_t>(grains.id.size()));
-    grains.position.push_back(x);
-    grains.velocity.push_back(v);
-    grains.angular_velocity.push_back(spin);
-    grains.radius.push_back(radius);
-    block.info.push_back(info);
-  };
-  if (plane_ && (columns == 8 || columns == 10))
-    add({row[0], row[1], 0}, {row[2], row[3], 0}, row[4], {0, 0, -row[6]}, row[7]);
-  else if (!plane_ && columns == 8)  // format 7: y and z change places
-    add({row[0], row[2], row[1]}, {row[3], row[5], row[4]}, row[6], no_spin, row[7]);
-  else if (!plane_ && (columns == 14 || columns == 16))
-    add(three(row, 0), three(row, 3), row[6], three(row, 10), row[13]);
-  else if (!plane_ && (columns == 15 || columns == 17))
-    add(three(row, 0), three(row, 3), row[6], three(row, 10), row[14]);
-  else
-    fail(fmt::format("a row of {} numbers below a header of {}; .data has {}", columns,
-                     plane_ ? 6 : 8, plane_ ? "8 or 10" : "8, or 14 to 17"));
-}
-
-void MercuryFStat::fail(const std::string& why) const
-{
-  throw FormatError(fmt::format("{}: {}", source_.place(), why));
-}
-
-bool MercuryFStat::next_line()
-{
-  while (source_.next())
-    if (!words_of(source_.line()).empty()) return true;
-  return false;
-}
-
-/// "# t 1" and two more comments; the second number says whether cx cy cz are the contact point (1)
-/// or, in old files, the middle of the two centres (0). Neither is needed for anything.
-double MercuryFStat::read_header()
-{
-  const auto words = words_of(source_.line());
-  const std::string text(words.size() > 1 ? words[1] : "");
-  char* end = nullptr;
-  const double time = std::strtod(text.c_str(), &end);
-  if (words.empty() || words[0] != "#" || text.empty() || *end != '\0' || !std::isfinite(time))
-    fail(
-        fmt::format("{}, but a block of .fstat begins with '# time 1'", in_quotes(source_.line())));
-  for (int k = 0; k < 2; ++k) {
-    if (!next_line() || !source_.line_is_whole()) fail_truncated(source_, "a header");
-    if (!source_.line().starts_with('#'))
-      fail("a row, but a block of .fstat begins with three lines of comments");
-  }
-  return time;
-}
-
-bool MercuryFStat::next(MercuryForces& block)
-{
-  if (!waiting_ && !next_line()) return false;
-  waiting_ = false;
-  block.contacts.clear();
-  block.place = source_.place();
-  if (!source_.line_is_whole()) fail_truncated(source_, "a header");
-  block.time = read_header();
-  for (std::size_t line = 4; next_line(); ++line) {
-    if (source_.line().starts_with('#')) {
-      waiting_ = true;
-      return true;
-    }
-    if (!source_.line_is_whole()) fail_truncated(source_, "a row of forces");
-    read_numbers(source_, numbers_);
-    const auto& r = numbers_;
-    if (r.size() != 16) fail(fmt::format("a row of {} numbers, but .fstat has 16", r.size()));
-    if (std::trunc(r[1]) != r[1] || std::trunc(r[2]) != r[2] || std::abs(r[1]) > 2147483647 ||
-        std::abs(r[2]) > 2147483647)
-      fail("columns 2 and 3 are not numbers of particles");
-    block.contacts.push_back({static_cast<std::int64_t>(r[1]), static_cast<std::int64_t>(r[2]),
-                              three(r, 3), r[6], r[8], r[9], three(r, 10), three(r, 13), line});
-  }
-  return true;
-}
-
-MercuryDataGrains::MercuryDataGrains(std::vector<std::string> files, std::string restart_path,
-                                     bool info_is_species)
-    : data_(std::move(files)),
+MercuryData::MercuryData(std::vector<std::string> files, std::string restart_path,
+                         bool info_is_species)
+    : source_(std::move(files)),
       restart_path_(std::move(restart_path)),
       info_is_species_(info_is_species)
 {
@@ -168,25 +39,82 @@ MercuryDataGrains::MercuryDataGrains(std::vector<std::string> files, std::string
     restart_ = read_mercury_restart(restart_path_, MercuryBlocks::up_to_particles);
 }
 
-void MercuryDataGrains::require_rows_that_name_grains(const MercuryGrains& block) const
+bool MercuryData::next(ArchiveMoment& moment)
 {
-  const auto now = block.grains.size(), before = last_radius_.size();
-  if (now < before)
-    throw FormatError(
-        fmt::format("{}: {} grains, but {} before: {}", block.place, now, before, removed));
+  do {
+    if (!source_.next()) return false;
+  } while (words_of(source_.line()).empty());
+  moment = ArchiveMoment{};
+  moment.place = source_.place();
+  if (!source_.line_is_whole()) source_.fail_at_end("a header");
+  read_numbers(source_, numbers_);
+  const auto h = numbers_;
+  plane_ = h.size() == 6;
+  if (!plane_ && h.size() != 8)
+    source_.fail(
+        fmt::format("{} numbers, but a block of .data begins with 6 (2D) or 8 (3D)", h.size()));
+  if (h[0] < 0 || !is_whole(h[0], most))
+    source_.fail(fmt::format("{:g} is not a number of grains", h[0]));
+  moment.time = h[1];
+  moment.low = plane_ ? Vec3(h[2], h[3], 0) : three(h, 2);
+  moment.high = plane_ ? Vec3(h[4], h[5], 0) : three(h, 5);
+  for (auto rows = static_cast<std::size_t>(h[0]); rows > 0; --rows) {
+    if (!source_.next() || !source_.line_is_whole()) source_.fail_at_end("a block of grains");
+    read_row(moment.grains);
+  }
+  require_rows_that_name_grains(moment);
+  last_radius_ = moment.grains.radius;
+  if (restart_) {
+    add_restart_facts(moment.place, moment.grains);
+    add_period(*restart_, moment);
+  }
+  return true;
+}
+
+void MercuryData::read_row(ArchiveGrains& grains)
+{
+  read_numbers(source_, numbers_);
+  const auto& row = numbers_;
+  const auto columns = row.size();
+  const Vec3 no_spin = Vec3::Zero();
+  const auto add = [&](const Vec3& x, const Vec3& v, double radius, const Vec3& spin, double info) {
+    grains.id.push_back(static_cast<std::int64_t>(grains.id.size()));
+    grains.position.push_back(x);
+    grains.velocity.push_back(v);
+    grains.angular_velocity.push_back(spin);
+    grains.radius.push_back(radius);
+    if (info_is_species_) grains.type.push_back(static_cast<std::int32_t>(std::lround(info)));
+  };
+  if (plane_ && (columns == 8 || columns == 10))
+    add({row[0], row[1], 0}, {row[2], row[3], 0}, row[4], {0, 0, -row[6]}, row[7]);
+  else if (!plane_ && columns == 8)  // format 7: y and z change places
+    add({row[0], row[2], row[1]}, {row[3], row[5], row[4]}, row[6], no_spin, row[7]);
+  else if (!plane_ && columns >= 14 && columns <= 17)
+    add(three(row, 0), three(row, 3), row[6], three(row, 10), row[columns % 2 == 0 ? 13 : 14]);
+  else
+    source_.fail(fmt::format("a row of {} numbers below a header of {}; .data has {}", columns,
+                             plane_ ? 6 : 8, plane_ ? "8 or 10" : "8, or 14 to 17"));
+}
+
+void MercuryData::require_rows_that_name_grains(const ArchiveMoment& moment) const
+{
+  const auto fail = [&](const std::string& why) {
+    throw FormatError(fmt::format("{}: {}: {}", moment.place, why, removed));
+  };
+  const auto& radius = moment.grains.radius;
+  const auto now = radius.size(), before = last_radius_.size();
+  if (now < before) fail(fmt::format("{} grains, but {} before", now, before));
   for (std::size_t g = 0; g < before; ++g)
-    if (std::abs(block.grains.radius[g] - last_radius_[g]) > 1e-5 * last_radius_[g])
-      throw FormatError(fmt::format("{}: row {} has the radius {:g}, but {:g} before: {}",
-                                    block.place, g, block.grains.radius[g], last_radius_[g],
-                                    removed));
+    if (std::abs(radius[g] - last_radius_[g]) > 1e-5 * last_radius_[g])
+      fail(fmt::format("row {} has the radius {:g}, but {:g} before", g, radius[g],
+                       last_radius_[g]));
   if (!restart_ || restart_->ids_are_rows()) return;
   if (restart_->removes_grains || now != restart_->particles.size() ||
       (before > 0 && now != before))
-    throw FormatError(fmt::format("{}: grains were removed, as the ids in {} show: {}", block.place,
-                                  restart_path_, removed));
+    fail(fmt::format("grains were removed, as the ids in {} show", restart_path_));
 }
 
-void MercuryDataGrains::add_restart_facts(const std::string& place, ArchiveGrains& grains) const
+void MercuryData::add_restart_facts(const std::string& place, ArchiveGrains& grains) const
 {
   if (restart_->particles.size() < grains.size())
     throw FormatError(
@@ -204,34 +132,63 @@ void MercuryDataGrains::add_restart_facts(const std::string& place, ArchiveGrain
   }
 }
 
-bool MercuryDataGrains::next(ArchiveMoment& moment)
+bool MercuryFStat::next_line()
 {
-  MercuryGrains block;
-  if (!data_.next(block)) return false;
-  require_rows_that_name_grains(block);
-  last_radius_ = block.grains.radius;
-  moment = ArchiveMoment{};
-  moment.time = block.time;
-  moment.place = block.place;
-  moment.low = block.low;
-  moment.high = block.high;
-  moment.grains = std::move(block.grains);
-  if (restart_) {
-    add_restart_facts(moment.place, moment.grains);
-    add_period(*restart_, moment);
+  while (source_.next())
+    if (!words_of(source_.line()).empty()) return true;
+  return false;
+}
+
+/// "# t 1" and two more comments; the second number says whether cx cy cz are the contact point (1)
+/// or, in old files, the middle of the two centres (0). Neither is needed for anything.
+void MercuryFStat::read_header()
+{
+  const auto words = words_of(source_.line());
+  const std::string text(words.size() > 1 ? words[1] : "");
+  char* end = nullptr;
+  time = std::strtod(text.c_str(), &end);
+  if (words.empty() || words[0] != "#" || text.empty() || *end != '\0' || !std::isfinite(time))
+    source_.fail(
+        fmt::format("{}, but a block of .fstat begins with '# time 1'", in_quotes(source_.line())));
+  for (int k = 0; k < 2; ++k) {
+    if (!next_line() || !source_.line_is_whole()) source_.fail_at_end("a header");
+    if (!source_.line().starts_with('#'))
+      source_.fail("a row, but a block of .fstat begins with three lines of comments");
   }
-  if (info_is_species_)
-    for (const double info : block.info)
-      moment.grains.type.push_back(static_cast<std::int32_t>(std::lround(info)));
+}
+
+bool MercuryFStat::next()
+{
+  if (!waiting_ && !next_line()) return false;
+  waiting_ = false;
+  contacts.clear();
+  place = source_.place();
+  if (!source_.line_is_whole()) source_.fail_at_end("a header");
+  read_header();
+  for (std::size_t line = 4; next_line(); ++line) {
+    if (source_.line().starts_with('#')) {
+      waiting_ = true;
+      return true;
+    }
+    if (!source_.line_is_whole()) source_.fail_at_end("a row of forces");
+    read_numbers(source_, numbers_);
+    const auto& r = numbers_;
+    if (r.size() != 16)
+      source_.fail(fmt::format("a row of {} numbers, but .fstat has 16", r.size()));
+    if (!is_whole(r[1], most) || !is_whole(r[2], most))
+      source_.fail("columns 2 and 3 are not numbers of particles");
+    contacts.push_back({static_cast<std::int64_t>(r[1]), static_cast<std::int64_t>(r[2]), r[6],
+                        r[8], r[9], three(r, 10), three(r, 13), line});
+  }
   return true;
 }
 
-MercuryRestartGrains::MercuryRestartGrains(std::vector<std::string> files)
+MercuryRestarts::MercuryRestarts(std::vector<std::string> files)
     : files_(std::move(files)), restart_(read_mercury_restart(files_[0], MercuryBlocks::all))
 {
 }
 
-bool MercuryRestartGrains::next(ArchiveMoment& moment)
+bool MercuryRestarts::next(ArchiveMoment& moment)
 {
   if (at_ == files_.size()) return false;
   const Vec3 gravity = restart_.gravity;
@@ -241,11 +198,11 @@ bool MercuryRestartGrains::next(ArchiveMoment& moment)
     throw FormatError(
         fmt::format("{}: gravity is ({:g} {:g} {:g}), but ({:g} {:g} {:g}) in the file before; "
                     "import the files of each gravity separately",
-                    path(), restart_.gravity.x(), restart_.gravity.y(), restart_.gravity.z(),
-                    gravity.x(), gravity.y(), gravity.z()));
+                    files_[at_ - 1], restart_.gravity.x(), restart_.gravity.y(),
+                    restart_.gravity.z(), gravity.x(), gravity.y(), gravity.z()));
   moment = ArchiveMoment{};
   moment.time = restart_.time;
-  moment.place = path();
+  moment.place = files_[at_ - 1];
   moment.low = restart_.domain_low;
   moment.high = restart_.domain_high;
   add_period(restart_, moment);

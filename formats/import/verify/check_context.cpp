@@ -3,6 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
+#include "formats/import/common/frame_tools.hpp"
 #include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
@@ -70,46 +71,19 @@ std::string lines_with(const std::vector<Finding>& findings, Verdict verdict)
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-bool any_with(const std::vector<Finding>& findings, Verdict verdict)
-{
-  return std::any_of(findings.begin(), findings.end(),
-                     [&](const Finding& finding) { return finding.verdict == verdict; });
-}
-
 namespace {
 
 /// Sizes that differ by less are one size.
 constexpr double one_size = 1.05;
 
-template <std::size_t N>
-std::array<double, N> numbers(const Parameters& parameters, const std::string& name,
-                              const std::string& file)
+const std::vector<double>& numbers(const Parameters& parameters, const std::string& name,
+                                   std::size_t size, const std::string& file)
 {
   const auto found = parameters.numbers.find(name);
-  if (found == parameters.numbers.end() || found->second.size() != N)
+  if (found == parameters.numbers.end() || found->second.size() != size)
     throw FormatError(fmt::format(
-        "{}: /parameters/{} does not hold {} numbers: import the archive again", file, name, N));
-  std::array<double, N> values;
-  std::copy(found->second.begin(), found->second.end(), values.begin());
-  return values;
-}
-
-Vec3 vector_of(const Parameters& parameters, const std::string& name)
-{
-  Vec3 vector = Vec3::Zero();
-  const auto found = parameters.numbers.find(name);
-  if (found == parameters.numbers.end()) return vector;
-  for (std::size_t k = 0; k < std::min<std::size_t>(3, found->second.size()); ++k)
-    vector[static_cast<Eigen::Index>(k)] = found->second[k];
-  return vector;
-}
-
-std::vector<std::string> words(const std::string& text)
-{
-  std::istringstream stream(text);
-  std::vector<std::string> all;
-  for (std::string word; stream >> word;) all.push_back(word);
-  return all;
+        "{}: /parameters/{} does not hold {} numbers: import the archive again", file, name, size));
+  return found->second;
 }
 
 /// `types` holds a line for each species.
@@ -153,13 +127,10 @@ double ratio_of_sizes(const Grains& grains)
 
 double split_of_sizes(const Grains& grains)
 {
-  double low = INFINITY, high = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!is_mobile(grains, g)) continue;
-    low = std::min(low, grains.radius[g]);
-    high = std::max(high, grains.radius[g]);
-  }
-  return high > one_size * low ? std::sqrt(low * high) : 0;
+  Range radius;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (is_mobile(grains, g)) radius.add(grains.radius[g]);
+  return radius.high > one_size * radius.low ? std::sqrt(radius.low * radius.high) : 0;
 }
 
 CheckContext check_context(const Grains& grains, const SpeciesList& species,
@@ -167,17 +138,16 @@ CheckContext check_context(const Grains& grains, const SpeciesList& species,
 {
   CheckContext context;
   context.has_force = has_force;
-  context.dimension = static_cast<int>(parameters.numbers.at("gravity").size());
-  context.gravity = vector_of(parameters, "gravity");
-  const auto axes = numbers<9>(parameters, "import_directions", file);
+  const auto& gravity = parameters.numbers.at("gravity");
+  context.dimension = static_cast<int>(gravity.size());
+  context.gravity = {gravity.at(0), gravity.at(1), gravity.size() > 2 ? gravity[2] : 0};
+  const auto& axes = numbers(parameters, "import_directions", 9, file);
   for (std::size_t k = 0; k < 3; ++k)
     context.axes[k] = {axes[3 * k], axes[3 * k + 1], axes[3 * k + 2]};
-  const auto [length, time, mass] = numbers<3>(parameters, "import_units", file);
-  context.units = {length, time, mass};
+  const auto& units = numbers(parameters, "import_units", 3, file);
+  context.units = {units[0], units[1], units[2]};
   context.step = parameters.number("step", file);
-  if (const auto found = parameters.numbers.find("import_frame_interval");
-      found != parameters.numbers.end())
-    context.frame_interval = found->second.at(0);
+  context.frame_interval = parameters.find_number("import_frame_interval").value_or(0);
   const auto is_own = [&](const char* name) { return parameters.text(name) == "archive"; };
   context.gravity_is_given = !is_own("import_gravity");
   context.masses_are_given = !is_own("import_masses");
@@ -190,7 +160,7 @@ CheckContext check_context(const Grains& grains, const SpeciesList& species,
   context.reason = parameters.text("import_tolerance_reason");
   context.species = sizes_of(grains, species, parameters.text("import_types"));
   context.size_ratio = ratio_of_sizes(grains);
-  context.waivers = Waivers(words(parameters.text("import_accepted")));
+  context.waivers = Waivers(parts_of(parameters.text("import_accepted"), ' '));
   return context;
 }
 

@@ -63,8 +63,6 @@ class Waivers {
 /// "check: sentence" of all findings with this verdict, one per line; "" where there are none.
 std::string lines_with(const std::vector<Finding>& findings, Verdict verdict);
 
-bool any_with(const std::vector<Finding>& findings, Verdict verdict);
-
 /// The diameters of the grains of a species, m.
 struct SpeciesSizes {
   std::string name, types;  // of the archive, as --small and --large named them; or ""

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/check_series.hpp"
 
-#include "formats/core/errors.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 namespace grseg {
 namespace {
@@ -106,6 +101,17 @@ Estimate from_medians(const std::vector<Weighted>& values, double squared_within
   estimate.error = std::max(within, between);
   estimate.grains /= static_cast<double>(values.size());
   return estimate;
+}
+
+/// What `find` finds of both halves of the series, where they `differ`.
+template <class Find, class Differ>
+auto differing_halves(const CheckSeries& series, const Find& find, const Differ& differ)
+{
+  const auto middle = series.begin() + static_cast<std::ptrdiff_t>(series.size() / 2);
+  const auto first = find(CheckSeries(series.begin(), middle));
+  const auto second = find(CheckSeries(middle, series.end()));
+  const bool change = first && second && differ(*first, *second);
+  return change ? std::optional(std::pair(*first, *second)) : std::nullopt;
 }
 
 }  // namespace
@@ -208,32 +214,25 @@ SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckMoment::*which)
   return sums;
 }
 
-CheckSeries half_of(const CheckSeries& series, bool second)
-{
-  const auto middle = series.begin() + static_cast<std::ptrdiff_t>(series.size() / 2);
-  return second ? CheckSeries(middle, series.end()) : CheckSeries(series.begin(), middle);
-}
-
 std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, double tolerance)
 {
-  const auto first = gravity_from(half_of(series, false), &CheckMoment::all);
-  const auto second = gravity_from(half_of(series, true), &CheckMoment::all);
-  if (!first || !second) return std::nullopt;
-  const double change = (second->value - first->value).norm();
-  if (change <= std::max(tolerance, 5 * std::hypot(first->error, second->error)))
-    return std::nullopt;
-  return Halves<Estimate>{*first, *second};
+  return differing_halves(
+      series, [](const CheckSeries& half) { return gravity_from(half, &CheckMoment::all); },
+      [&](const Estimate& first, const Estimate& second) {
+        return !((second.value - first.value).norm() <=
+                 std::max(tolerance, 5 * std::hypot(first.error, second.error)));
+      });
 }
 
 std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,
                                              SlopeSums CheckMoment::*which)
 {
-  const auto first = slope_of(sums_of(half_of(series, false), which));
-  const auto second = slope_of(sums_of(half_of(series, true), which));
-  if (!first || !second) return std::nullopt;
-  const double unsure = first->uncertainty() + second->uncertainty();
-  if (std::abs(second->value - first->value) <= slope_tolerance + unsure) return std::nullopt;
-  return Halves<Slope>{*first, *second};
+  return differing_halves(
+      series, [&](const CheckSeries& half) { return slope_of(sums_of(half, which)); },
+      [](const Slope& first, const Slope& second) {
+        return !(std::abs(second.value - first.value) <=
+                 slope_tolerance + (first.uncertainty() + second.uncertainty()));
+      });
 }
 
 }  // namespace grseg

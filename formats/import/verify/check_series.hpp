@@ -6,7 +6,6 @@
 #include "formats/import/facts/units.hpp"
 #include "formats/trajectory/run_description.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -108,10 +107,7 @@ std::optional<Estimate> gravity_from(const CheckSeries& series,
 
 /// What is true of the first half of the moments and of the second.
 template <class Value>
-struct Halves {
-  Value first, second;
-};
-CheckSeries half_of(const CheckSeries& series, bool second);
+using Halves = std::pair<Value, Value>;
 
 /// Where gravity differs between the halves: by more than five standard errors and more than
 /// `tolerance` (m/s^2).

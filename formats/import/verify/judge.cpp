@@ -2,7 +2,6 @@
 #include "formats/import/verify/judge.hpp"
 
 #include "formats/import/common/frame_tools.hpp"
-#include "formats/import/verify/check_series.hpp"
 
 #include <fmt/format.h>
 

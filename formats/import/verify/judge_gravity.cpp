@@ -116,23 +116,22 @@ Finding undecided_gravity(const CheckContext& context, const std::string& why)
   return {"gravity", Verdict::undecided, why, 0};
 }
 
-/// Part of a judgement: no verdict where nothing can be told.
-struct Part {
-  Verdict verdict = Verdict::undecided;
-  std::string sentence;
-  double measure = 0;
-};
+/// Part of a judgement on masses: undecided where nothing can be told.
+Finding part(Verdict verdict, const std::string& sentence, double measure = 0)
+{
+  return {"masses", verdict, sentence, measure};
+}
 
 /// The weight over the mass, of smaller grains over that of larger ones. Spheres for discs make it
 /// the ratio of their sizes: what is nearer to that than to 1 is called wrong.
-Part by_size(const CheckSeries& series, const CheckContext& context)
+Finding by_size(const CheckSeries& series, const CheckContext& context)
 {
-  if (!(context.size_ratio > 1)) return {Verdict::undecided, "all grains have one size", 0};
+  if (!(context.size_ratio > 1)) return part(Verdict::undecided, "all grains have one size");
   const auto all = gravity_from(series, &CheckMoment::all);
   const auto smaller = gravity_from(series, &CheckMoment::smaller);
   const auto larger = gravity_from(series, &CheckMoment::larger);
   if (!all || !smaller || !larger)
-    return {Verdict::undecided, "the weights of small and large grains are not known apart", 0};
+    return part(Verdict::undecided, "the weights of small and large grains are not known apart");
   const Vec3 down = all->value.normalized();
   const double light = smaller->value.dot(down), heavy = larger->value.dot(down);
   const double ratio = light / heavy;
@@ -143,50 +142,53 @@ Part by_size(const CheckSeries& series, const CheckContext& context)
       "with a standard error of {:.2g}",
       ratio, error);
   if (!std::isfinite(off) || !std::isfinite(error))
-    return {Verdict::undecided, "the weights of small and large grains are not known apart", 0};
+    return part(Verdict::undecided, "the weights of small and large grains are not known apart");
   if (off > wrong / 2 && off > 5 * error)
-    return {Verdict::failed,
-            sentence + (context.masses_are_given
-                            ? ": are they discs rather than spheres, or spheres rather than discs "
-                              "(--grains-are)? Or do their densities differ?"
-                            : ": the masses that the archive states are not those that its grains "
-                              "had"),
-            std::abs(ratio - 1)};
+    return part(
+        Verdict::failed,
+        sentence + (context.masses_are_given
+                        ? ": are they discs rather than spheres, or spheres rather than discs "
+                          "(--grains-are)? Or do their densities differ?"
+                        : ": the masses that the archive states are not those that its grains "
+                          "had"),
+        std::abs(ratio - 1));
   if (off <= wrong / 2 && 3 * error <= wrong / 2)
-    return {Verdict::passed, sentence, std::abs(ratio - 1)};
-  return {Verdict::undecided,
-          fmt::format("{}: discs could not be told from spheres (a factor of {:.3g})", sentence,
-                      context.size_ratio),
-          std::abs(ratio - 1)};
+    return part(Verdict::passed, sentence, std::abs(ratio - 1));
+  return part(Verdict::undecided,
+              fmt::format("{}: discs could not be told from spheres (a factor of {:.3g})", sentence,
+                          context.size_ratio),
+              std::abs(ratio - 1));
 }
 
 /// Forces over accelerations where both are known.
-Part by_inertia(const CheckSeries& series, const CheckContext& context)
+Finding by_inertia(const CheckSeries& series, const CheckContext& context)
 {
   const auto slope = slope_of(sums_of(series, &CheckMoment::force));
   if (const auto change = change_of_slope(series, &CheckMoment::force))
-    return {Verdict::failed,
-            fmt::format("force over acceleration is {:.4g} times the mass in the first half of the "
-                        "moments and {:.4g} times in the second: masses, or a unit, change within "
-                        "the archive",
-                        change->first.value, change->second.value),
-            std::max(std::abs(change->first.value - 1), std::abs(change->second.value - 1))};
-  if (!slope) return {Verdict::undecided, "force over acceleration cannot be formed", 0};
+    return part(
+        Verdict::failed,
+        fmt::format("force over acceleration is {:.4g} times the mass in the first half of the "
+                    "moments and {:.4g} times in the second: masses, or a unit, change within "
+                    "the archive",
+                    change->first.value, change->second.value),
+        std::max(std::abs(change->first.value - 1), std::abs(change->second.value - 1)));
+  if (!slope) return part(Verdict::undecided, "force over acceleration cannot be formed");
   const double off = std::abs(slope->value - 1), unsure = slope->uncertainty();
   const auto sentence = fmt::format(
       "force over acceleration is {:.4g} times the mass, with a standard error of {:.2g}",
       slope->value, slope->error);
   if (off > slope_tolerance + unsure)
-    return {Verdict::failed,
-            fmt::format("{}: either masses are {:.3g} times {}, or the time step is {:.3g} times "
-                        "as long",
-                        sentence, slope->value,
-                        context.masses_are_given ? "what --density makes them"
-                                                 : "those that the archive states",
-                        1 / slope->value),
-            off};
-  if (off <= slope_tolerance && unsure <= sharp_slope) return {Verdict::passed, sentence, off};
-  return {Verdict::undecided, sentence + ", which is too much to tell", off};
+    return part(
+        Verdict::failed,
+        fmt::format("{}: either masses are {:.3g} times {}, or the time step is {:.3g} times "
+                    "as long",
+                    sentence, slope->value,
+                    context.masses_are_given ? "what --density makes them"
+                                             : "those that the archive states",
+                    1 / slope->value),
+        off);
+  if (off <= slope_tolerance && unsure <= sharp_slope) return part(Verdict::passed, sentence, off);
+  return part(Verdict::undecided, sentence + ", which is too much to tell", off);
 }
 
 }  // namespace
@@ -236,25 +238,23 @@ Finding judge_masses(const CheckSeries& series, const CheckContext& context, con
 {
   const auto relative = by_size(series, context), absolute = by_inertia(series, context);
   const bool one_size = !(context.size_ratio > 1);
-  const auto& doubt = context.doubt_of_masses;
   const auto answer = [&](Verdict verdict, const std::string& sentence) {
-    const double measure = std::max(relative.measure, absolute.measure);
-    if (verdict == Verdict::passed && !doubt.empty())
-      return Finding{"masses", Verdict::undecided, doubt, measure};
-    return Finding{"masses", verdict, sentence, measure};
+    const bool doubt = verdict == Verdict::passed && !context.doubt_of_masses.empty();
+    return part(doubt ? Verdict::undecided : verdict, doubt ? context.doubt_of_masses : sentence,
+                std::max(relative.measure, absolute.measure));
   };
-  const bool relative_failed = relative.verdict == Verdict::failed;
-  if (relative_failed && absolute.verdict == Verdict::failed)
-    return answer(Verdict::failed, relative.sentence + "; " + absolute.sentence);
-  if (relative_failed) return answer(Verdict::failed, relative.sentence);
-  if (absolute.verdict == Verdict::failed) return answer(Verdict::failed, absolute.sentence);
-  const bool relative_passed = one_size || relative.verdict == Verdict::passed;
-  if (relative_passed && absolute.verdict == Verdict::passed)
-    return answer(Verdict::passed,
-                  one_size ? absolute.sentence : relative.sentence + "; " + absolute.sentence);
+  const auto both = relative.sentence + "; " + absolute.sentence;
+  const bool fails = relative.verdict == Verdict::failed;
+  if (fails || absolute.verdict == Verdict::failed)
+    return answer(Verdict::failed, !fails                                ? absolute.sentence
+                                   : absolute.verdict == Verdict::failed ? both
+                                                                         : relative.sentence);
+  const bool passes = one_size || relative.verdict == Verdict::passed;
+  if (passes && absolute.verdict == Verdict::passed)
+    return answer(Verdict::passed, one_size ? absolute.sentence : both);
   if (!context.masses_are_given)
     return answer(Verdict::passed, "they are stated by the archive; " + relative.sentence);
-  if (!relative_passed) return answer(Verdict::undecided, relative.sentence);
+  if (!passes) return answer(Verdict::undecided, relative.sentence);
   if (context.has_force && gravity.verdict == Verdict::passed)
     return answer(Verdict::passed,
                   relative.sentence + "; their weight agrees with gravity as given");

@@ -10,13 +10,8 @@
 namespace grseg {
 
 /// A moment as the next one remembers it.
-struct MomentBefore {
-  std::int64_t step = 0;
-  double time = 0;
-  std::vector<Vec3> position, velocity, force;
-  std::vector<std::array<std::int32_t, 3>> image;
+struct MomentBefore : Frame<3> {
   std::vector<Vec3> sums;  // contact forces on each grain
-  ContactList<3> contacts;
 };
 
 /// Sum of the contact forces on each grain if `forces` are those of the contacts.

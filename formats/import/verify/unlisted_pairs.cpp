@@ -12,7 +12,6 @@
 #include <limits>
 #include <set>
 #include <tuple>
-#include <utility>
 
 namespace grseg {
 namespace {

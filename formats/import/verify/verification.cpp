@@ -2,30 +2,28 @@
 #include "formats/import/verify/verification.hpp"
 
 #include "formats/import/common/frame_tools.hpp"
-#include "formats/import/verify/imbalance.hpp"
 #include "formats/import/verify/judge.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <utility>
 
 namespace grseg {
 namespace {
 
 Residual residual_of(const Grains& grains, const std::vector<Vec3>& defect, double scale)
 {
-  std::vector<std::pair<double, std::size_t>> sizes;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g) && !std::isnan(defect[g].y()))
-      sizes.emplace_back(defect[g].norm() / scale, g);
-  if (sizes.empty()) return {};
-  const auto largest = *std::max_element(sizes.begin(), sizes.end());
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return {largest.first, middle->first, largest.second, largest.first, 0, std::nullopt};
+  Residual residual;
+  std::vector<double> sizes;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, g) || std::isnan(defect[g].y())) continue;
+    sizes.push_back(defect[g].norm() / scale);
+    if (sizes.back() >= residual.largest) residual.largest = sizes.back(), residual.grain = g;
+  }
+  residual.median = median(sizes);
+  residual.unexplained = residual.largest;
+  return residual;
 }
 
 }  // namespace
@@ -51,19 +49,24 @@ std::optional<Complaint> Verification::check(const Frame<3>& frame, bool has_ima
   auto sums = sums_as(frame, nullptr);
   residual_ = residual_with(frame, sums);
   auto complaint = distance_moved(frame);
-  if (auto other = geometry(frame); !complaint) complaint = other;
+  const auto also = [&](std::optional<Complaint> other) {
+    if (!complaint) complaint = std::move(other);
+  };
+  also(geometry(frame));
   const auto listed = ListedPairs(frame.contacts);
-  if (!complaint) complaint = double_rows(listed);
-  if (auto other = completeness(frame, listed); !complaint) complaint = other;
-  if (auto other = pull(frame); !complaint) complaint = other;
-  if (auto other = balance(frame); !complaint) complaint = other;
+  if (const auto twice = listed.twice())
+    also(Complaint{"contacts",
+                   fmt::format("the contact of {} appears twice; each must be listed once",
+                               pair_of(twice->first, twice->second))});
+  also(completeness(frame, listed));
+  also(pull(frame));
+  also(balance(frame, sums));
   const auto distance = from_before(frame, sums);
   if (before_ && frame.force.empty() && distance != Distance::step)
     moment_.change = change_of_sums(grains_, frame, sums.before, sums.now);
   const bool close = distance == Distance::step || distance == Distance::close;
   statistics_.add_to(moment_, frame, sums.now, before_, close, has_images && !frame.image.empty());
-  before_ = {frame.step,  frame.time,  frame.position,      frame.velocity,
-             frame.force, frame.image, std::move(sums.now), frame.contacts};
+  before_ = {frame, std::move(sums.now)};
   return complaint;
 }
 
@@ -129,29 +132,15 @@ std::optional<Complaint> Verification::touching(const Frame<3>& frame, std::size
   return std::nullopt;
 }
 
-std::optional<Complaint> Verification::double_rows(const ListedPairs& listed) const
-{
-  const auto twice = listed.twice();
-  if (!twice) return std::nullopt;
-  return Complaint{"contacts",
-                   fmt::format("the contact of {} appears twice; each must be listed once",
-                               pair_of(twice->first, twice->second)),
-                   false};
-}
-
-/// Whether the forces on every grain are known to add up at this moment.
-bool Verification::all_balance() const
-{
-  return residual_ && std::max(residual_->worst, residual_->unexplained) <= tolerance();
-}
-
 std::optional<Complaint> Verification::completeness(const Frame<3>& frame,
                                                     const ListedPairs& listed)
 {
   const auto found =
       unlisted_pairs_of(grains_, box_, frame, listed, std::max(moment_.gap, moment_.distance));
   const bool is_soft = accuracy_.lists_all || found.forces_grow;
-  if (is_soft || !all_balance()) {
+  const bool all_balance =
+      residual_ && std::max(residual_->worst, residual_->unexplained) <= tolerance();
+  if (is_soft || !all_balance) {
     moment_.unlisted = found.deepest();
     moment_.unlisted_pairs = static_cast<double>(found.unlisted.size());
     moment_.unlisted_may_part = !is_soft && !residual_ && !found.unlisted.empty();
@@ -159,38 +148,35 @@ std::optional<Complaint> Verification::completeness(const Frame<3>& frame,
   moment_.rigid = found.rigid_grains;
   const double limit = waivers_.limit("completeness", 0);
   if (moment_.rigid > fewest_rigid && limit < rigid_bodies)
-    return Complaint{"completeness", rigid_bodies_of(found), false};
+    return Complaint{
+        "completeness",
+        fmt::format(
+            "{:.0f} % of the grains move as one body with a neighbour without a contact (the first: "
+            "{}): rigid bodies of several grains are not supported, since the forces inside them are "
+            "unknown",
+            100 * found.rigid_grains, pair_of(found.rigid.front().i, found.rigid.front().j))};
   if (moment_.unlisted > limit && moment_.unlisted_may_part == 0)
     return Complaint{"completeness", missing_rows_of(found), true};
   return std::nullopt;
 }
 
-std::string Verification::rigid_bodies_of(const UnlistedPairs& found) const
-{
-  return fmt::format(
-      "{:.0f} % of the grains move as one body with a neighbour without a contact (the first: {}): "
-      "rigid bodies of several grains are not supported, since the forces inside them are unknown",
-      100 * found.rigid_grains, pair_of(found.rigid.front().i, found.rigid.front().j));
-}
-
 std::string Verification::missing_rows_of(const UnlistedPairs& found) const
 {
   const auto& deepest = found.unlisted.front();
-  const auto pairs = found.unlisted.size();
+  const auto pairs = found.unlisted.size(), at_base = found.at_boundary;
   const auto first = pair_of(deepest.i, deepest.j);
   const auto what =
       pairs == 1 ? fmt::format("{} overlap by {:.2g} of the smaller radius", first, -deepest.gap)
                  : fmt::format("{} pairs overlap (the first: {}, by {:.2g} of the smaller radius)",
                                pairs, first, -deepest.gap);
-  const auto where =
-      found.at_boundary == 0 ? std::string()
-      : found.at_boundary == pairs
-          ? ": rows with the base are missing"
-          : fmt::format(": {} rows with the base are missing, too", found.at_boundary);
   return fmt::format(
       "{} and are not in the list of contacts{}; write all contacts, or leave these "
       "out by --accept-residual completeness={:.1g}",
-      what, where, std::ceil(-deepest.gap * 10) / 10);
+      what,
+      at_base == 0       ? ""
+      : at_base == pairs ? ": rows with the base are missing"
+                         : fmt::format(": {} rows with the base are missing, too", at_base),
+      std::ceil(-deepest.gap * 10) / 10);
 }
 
 std::optional<Complaint> Verification::pull(const Frame<3>& frame)
@@ -336,19 +322,12 @@ void Verification::judge_by_velocities(const Frame<3>& frame, const Sums& sums,
     const double change = (sums.now[g] - sums.before[g]).norm();
     const double size = std::max(0.0, defect[g].norm() - change / 2) / scale;
     residual.worst = std::max(residual.worst, size);
-    if (each || sums.now[g].norm() > 0) sizes.push_back(size);
+    if (sums.now[g].norm() > 0) sizes.push_back(size);
   }
-  if (sizes.empty()) {
-    residual.unexplained = 0;
-    return;
-  }
-  const auto place =
-      each ? sizes.end() - 1 : sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), place, sizes.end());
-  residual.unexplained = *place;
+  residual.unexplained = each ? residual.worst : median(sizes);
 }
 
-std::optional<Complaint> Verification::balance(const Frame<3>& frame)
+std::optional<Complaint> Verification::balance(const Frame<3>& frame, const Sums& sums)
 {
   if (!residual_) return std::nullopt;
   moment_.balance = residual_->unexplained;
@@ -356,18 +335,12 @@ std::optional<Complaint> Verification::balance(const Frame<3>& frame)
   for (std::size_t g = 0; g < grains_.size(); ++g)
     moment_.balance_grains += is_mobile(grains_, frame, g);
   if (residual_->unexplained <= tolerance()) return std::nullopt;
-  return imbalance(frame);
-}
-
-Complaint Verification::imbalance(const Frame<3>& frame) const
-{
-  const auto sums = sums_as(frame, nullptr);
   const auto [defect, scale] = defect_of(frame, sums);
   const Imbalance missing{defect, tolerance() * scale};
   UnlistedForces cause{other_readings(frame), false};
   if (cause.sentence.empty()) cause = unlisted_forces(grains_, box_, frame, missing);
   if (cause.sentence.empty()) cause.sentence = likely_cause(grains_, box_, frame, missing, axes_);
-  return {
+  return Complaint{
       "balance",
       fmt::format(
           "the forces on grain {} do not add up: {:.3g} of the largest force is missing "
@@ -387,15 +360,15 @@ Complaint Verification::imbalance(const Frame<3>& frame) const
 /// Another meaning of the rows with which the grains balance, if there is one.
 std::string Verification::other_readings(const Frame<3>& frame) const
 {
-  const auto normal = [](const Vec3& f, const Vec3& n) { return Vec3(f.dot(n) * n); };
   const std::pair<const char*, Reading> readings[] = {
       {"with the opposite sign, the force being that on j: exchange i and j",
        [](const Vec3& f, const Vec3&) { return Vec3(-f); }},
       {"with half of every force: is each contact in two rows?",
        [](const Vec3& f, const Vec3&) { return Vec3(f / 2); }},
-      {"with the normal part alone", [&](const Vec3& f, const Vec3& n) { return normal(f, n); }},
+      {"with the normal part alone",
+       [](const Vec3& f, const Vec3& n) { return Vec3(f.dot(n) * n); }},
       {"with the tangential part reversed",
-       [&](const Vec3& f, const Vec3& n) { return Vec3(2 * normal(f, n) - f); }},
+       [](const Vec3& f, const Vec3& n) { return Vec3(2 * f.dot(n) * n - f); }},
   };
   for (const auto& [what, reading] : readings) {
     const auto residual = residual_with(frame, sums_as(frame, reading));

@@ -75,13 +75,9 @@ class Verification {
 
   std::optional<Complaint> geometry(const Frame<3>& frame);
   std::optional<Complaint> touching(const Frame<3>& frame, std::size_t contact);
-  std::optional<Complaint> double_rows(const ListedPairs& listed) const;
   std::optional<Complaint> completeness(const Frame<3>& frame, const ListedPairs& listed);
-  std::string rigid_bodies_of(const UnlistedPairs& found) const;
   std::string missing_rows_of(const UnlistedPairs& found) const;
-  bool all_balance() const;
   std::optional<Complaint> pull(const Frame<3>& frame);
-  std::optional<Complaint> balance(const Frame<3>& frame);
 
   /// What a row's force means, given the unit vector along its branch.
   using Reading = std::function<Vec3(const Vec3& force, const Vec3& n)>;
@@ -105,7 +101,7 @@ class Verification {
   void judge_by_velocities(const Frame<3>& frame, const Sums& sums, const Forces& defect,
                            double scale, Residual& residual) const;
   std::string other_readings(const Frame<3>& frame) const;
-  Complaint imbalance(const Frame<3>& frame) const;
+  std::optional<Complaint> balance(const Frame<3>& frame, const Sums& sums);
   std::string pair_of(std::int32_t i, std::int32_t j) const;
   double tolerance() const { return waivers_.limit("balance", accuracy_.tolerance); }
 

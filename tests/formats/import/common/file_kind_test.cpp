@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/import/common/archive.hpp"
 #include "formats/import/common/archive_files.hpp"
-#include "formats/import/open_archive.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
 #include <boost/iostreams/copy.hpp>

@@ -80,7 +80,8 @@ TEST_F(ImportOfGrainsThatComeAndGo, HasARowForEachAndMarksWhoIsAbsent)
   EXPECT_FALSE(is_present(frame, 0));
   EXPECT_EQ(frame.contacts.i, std::vector<std::int32_t>{1});
   EXPECT_TRUE(frame.contacts.force[0].isApprox(large_mass * Vec2(-gx, -gy)));
-  EXPECT_LT(*report.largest_residual, 1e-14) << "absent grains balance nothing";
+  EXPECT_LT(report.parameters.number("import_residual_largest", ""), 1e-14)
+      << "absent grains balance nothing";
 }
 
 TEST_F(ImportOfGrainsThatComeAndGo, LeavesTheOthersAsTheyWouldBeAlone)
@@ -112,8 +113,9 @@ TEST_F(ImportOfGrainsThatComeAndGo, FindsItsFactsFromAllThatEverOccur)
   const auto s = pour();
   const auto report = import_archive(s, "");
   EXPECT_EQ(numbers_present(s), (std::vector<std::size_t>{0, 1, 2, 3}));
-  EXPECT_EQ(report.base, "types 3");
-  EXPECT_TRUE(mentions(report.sizes, "half-way between two sizes far apart"));
+  EXPECT_EQ(report.parameters.text("import_base"), "types 3");
+  EXPECT_TRUE(
+      mentions(report.parameters.text("import_sizes"), "half-way between two sizes far apart"));
   const TrajectoryReader run(s.output);
   EXPECT_EQ(run.parameters().text("import_grains"), "discs");
   EXPECT_EQ(run.grains().species, (std::vector{Species::small, Species::large, Species::boundary}));

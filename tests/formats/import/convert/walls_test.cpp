@@ -74,7 +74,7 @@ TEST_F(Walls, AFloorThatIsNamedCarriesTheWeightOfWhatLiesOnIt)
   auto s = two_discs();
   s.walls = {"floor=y:0"};
   const auto report = import_archive(s, "");
-  EXPECT_EQ(report.base, "walls floor (y = 0)");
+  EXPECT_EQ(report.parameters.text("import_base"), "walls floor (y = 0)");
   EXPECT_TRUE(mentions(to_text(report), "forces of floor (y = 0) are inferred from the balance"));
   const auto frame = frame_of<2>(s, 0);
   ASSERT_EQ(frame.contacts.size(), 2u);
@@ -137,7 +137,7 @@ TEST_F(Walls, ThoseInTheColumnsOfGrainsAreReadAndNotInferredOnceMore)
   for (int k = 1; k <= 8; ++k) columns += fmt::format(" f_floor[{}]", k);
   auto s = two_discs(0.05, "pp ff pp", columns, eight);
   s.origin = "0";
-  EXPECT_EQ(import_archive(s, "").base, "walls floor");
+  EXPECT_EQ(import_archive(s, "").parameters.text("import_base"), "walls floor");
   for (const bool named : {false, true}) {
     if (named) s.walls = {"ground=y:0"};
     s.overwrite = true;
@@ -239,8 +239,8 @@ TEST_F(WallsOfTrueArchives, OfSpheresAreReadFromTheColumnsThatLammpsWroteAndBala
   auto s = archive("lammps", "pour3d");
   s.origin = "0";
   const auto report = import_archive(s, "");
-  EXPECT_EQ(report.base, "walls floor, sides");
-  EXPECT_LT(*report.largest_residual, 1e-11);  // undamped: round-off
+  EXPECT_EQ(report.parameters.text("import_base"), "walls floor, sides");
+  EXPECT_LT(report.parameters.number("import_residual_largest", ""), 1e-11);  // undamped: round-off
   const TrajectoryReader run(s.output);
   for (std::size_t k = 1; k < run.size(); ++k) {
     const auto frame = frame_of<3>(s, k);

@@ -372,8 +372,8 @@ TEST_F(Csv, MomentsThatDoNotMatchAreNamed)
   const auto later = with(with(contact_table, "0.5,7", "0.500003,7"), "0.6,7", "0.600003,7");
   EXPECT_EQ(
       complaint(grain_table, later),
-      "no moment is in both tables: times of the grains begin with 0.5, 0.6, those of the contacts "
-      "with 0.500003, 0.600003; write the same times in both");
+      "no moment is in both tables: those of the grains begin with 0.5, 0.6, those of the contacts "
+      "with 0.500003, 0.600003; write both at the same moments");
   EXPECT_EQ(complaint(grain_table, "time,i,j,fx,fy\n"), "no complaint")
       << "there is nothing to match";
 }

@@ -165,7 +165,7 @@ TEST_F(Dump, StepsThatNoDumpSharesAreNamed)
   } catch (const FormatError& error) {
     EXPECT_TRUE(mentions(error.what(),
                          "those of the grains begin with 0, 100, 200, those of the "
-                         "contacts with 50, 150; write them at the same steps"));
+                         "contacts with 50, 150; write both at the same moments"));
   }
 }
 

@@ -96,9 +96,10 @@ TEST(NamedSpecies, EveryTypeBelongsToOneSpeciesAlone)
 {
   EXPECT_TRUE(mentions(complaint(named({"A=1-3", "B=5"})),
                        "type 4 of grain 15 is in no --species; every type of a mobile grain"));
-  EXPECT_TRUE(
-      mentions(complaint(named({"A=1-4", "B=4-5"})), "grain 15 is in --species A and in B"));
-  EXPECT_TRUE(mentions(complaint(named({"A=all", "B=5"})), "grain 10 is in --species A and in B"));
+  EXPECT_TRUE(mentions(complaint(named({"A=1-4", "B=4-5"})),
+                       "grain 15 is in --species A and in --species B"));
+  EXPECT_TRUE(mentions(complaint(named({"A=all", "B=5"})),
+                       "grain 10 is in --species A and in --species B"));
   EXPECT_TRUE(
       mentions(complaint(named({"A=1-5", "B=7"})),
                "--species B=7: no mobile grain is of these types; leave it out, or give its "

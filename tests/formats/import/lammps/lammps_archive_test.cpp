@@ -87,7 +87,7 @@ TEST_F(Lammps, NormalForcesAloneAreRefusedAndTheColumnsThatFitAreNamed)
 // Headers are c_pl[3]: thirteen columns may be the ten with others between them.
 TEST_F(Lammps, TheRecipeIsAcceptedOnlyWhereGrainsBalance)
 {
-  EXPECT_EQ(import_archive(at_rest(), "").columns, recipe);
+  EXPECT_EQ(import_archive(at_rest(), "").parameters.text("import_columns"), recipe);
   std::vector<std::string> rows;
   for (auto row : contact_rows()) rows.push_back(row.insert(row.find(" 0.0"), " 2 3"));
   auto s = settings(folder, grains_at(0),
@@ -123,7 +123,8 @@ TEST_F(Lammps, ColumnsNamedByTheirMeaningNeedNoMapping)
 {
   auto s = settings(folder, grains_at(0),
                     block("ENTRIES", 0, "index i j dist fx fy fz tx ty tz", contact_rows()));
-  EXPECT_EQ(import_archive(s, "").columns, "i=i,j=j,fx=fx,fy=fy,fz=fz,tx=tx,ty=ty,tz=tz,dist=dist");
+  EXPECT_EQ(import_archive(s, "").parameters.text("import_columns"),
+            "i=i,j=j,fx=fx,fy=fy,fz=fz,tx=tx,ty=ty,tz=tz,dist=dist");
 }
 
 TEST_F(Lammps, ForceOnTheOtherGrainIsDetected)
@@ -181,8 +182,10 @@ TEST_F(Lammps, ABalanceToFivePercentIsAcceptedAndMoreOnlyOnRequest)
     return settings(folder, grains_at(0), block("ENTRIES", 0, contact_columns, contacts));
   };
   const auto report = import_archive(missing(0.04), "");
-  EXPECT_NEAR(*report.largest_residual, 0.04 / (1 - 0.04), 1e-12);
-  EXPECT_EQ(report.median_residual, report.largest_residual) << "of two grains the upper";
+  EXPECT_NEAR(report.parameters.number("import_residual_largest", ""), 0.04 / (1 - 0.04), 1e-12);
+  EXPECT_EQ(report.parameters.number("import_residual_median", ""),
+            report.parameters.number("import_residual_largest", ""))
+      << "of two grains the upper";
   auto s = missing(0.06);
   s.overwrite = true;
   EXPECT_EQ(refusal(s).code, exit_check);
@@ -214,7 +217,8 @@ TEST_F(Lammps, AnArchiveWithoutForcesOnGrainsMakesATrajectoryWithoutThem)
   EXPECT_EQ(refusal(s).code, exit_usage) << "nothing to hold the ten columns against";
   s.files.columns = recipe;
   const auto report = import_archive(s, "");
-  EXPECT_LT(*report.largest_residual, 1e-15) << "grains stay at rest";
+  EXPECT_LT(report.parameters.number("import_residual_largest", ""), 1e-15)
+      << "grains stay at rest";
   EXPECT_FALSE(TrajectoryReader(s.output).has_force());
   s.overwrite = true;
   s.files.columns = "i=2,j=3,dist=4,force=5";
@@ -395,17 +399,18 @@ TEST_F(Lammps, TheMissingForceOfARealArchiveIsTheDampingOfItsInput)
   s.output = folder / "run.h5";
   const auto damped = import_archive(s, "");
   EXPECT_EQ(damped.frames, 7u);
-  EXPECT_LT(*damped.largest_residual, 2e-3);
-  EXPECT_LT(*damped.unexplained_residual, *damped.largest_residual / 3);
-  EXPECT_NEAR(damped.late.normal, 100, 1);
-  EXPECT_NEAR(damped.late.tangential, 50, 10);
+  EXPECT_LT(damped.parameters.number("import_residual_largest", ""), 2e-3);
+  EXPECT_LT(damped.parameters.number("import_residual_unexplained", ""),
+            damped.parameters.number("import_residual_largest", "") / 3);
+  EXPECT_NEAR(damped.parameters.numbers.at("import_late_damping")[0], 100, 1);
+  EXPECT_NEAR(damped.parameters.numbers.at("import_late_damping")[1], 50, 10);
 
   s.files.grains = {at + "elastic-atoms.dump.gz"};
   s.files.contacts = {at + "elastic-contacts.dump.zst"};
   s.overwrite = true;
   const auto elastic = import_archive(s, "");
   EXPECT_EQ(elastic.frames, 4u);
-  EXPECT_LT(*elastic.largest_residual, 1e-13);
+  EXPECT_LT(elastic.parameters.number("import_residual_largest", ""), 1e-13);
 }
 
 // `dump_modify colname`, or a script: fn and ft are the parts of the force, t1 and t2 something else.
@@ -422,7 +427,7 @@ TEST_F(Lammps, ColumnsMayBeNamedAsPeopleNameThem)
   auto s = settings(folder, grains_at(0),
                     block("ENTRIES", 0, "n id1 id2 dist fnx fny fnz ftx fty ftz", contact_rows()));
   s.overwrite = true;
-  EXPECT_EQ(import_archive(s, "").columns,
+  EXPECT_EQ(import_archive(s, "").parameters.text("import_columns"),
             "i=id1,j=id2,fx=fnx,fy=fny,fz=fnz,tx=ftx,ty=fty,tz=ftz,dist=dist");
 }
 

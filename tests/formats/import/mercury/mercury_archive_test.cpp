@@ -223,8 +223,7 @@ TEST_F(Mercury, BlocksAreMatchedByTimeNotByOrder)
   const auto archive = mercury_format.open(all);
   all_of(*archive);
   ASSERT_EQ(archive->remarks().size(), 1u);
-  EXPECT_NE(archive->remarks()[0].find("1 moments are in .fstat but not in the grains' files"),
-            std::string::npos);
+  EXPECT_NE(archive->remarks()[0].find("1 moments have contacts but no grains"), std::string::npos);
 }
 
 TEST_F(Mercury, TimesThatNoTableSharesAreNamed)
@@ -235,9 +234,9 @@ TEST_F(Mercury, TimesThatNoTableSharesAreNamed)
   all.contacts = {file("late.fstat", mercury_files::fstat(run.grains(), late, {}))};
   EXPECT_NE(
       complaint(all).find(fmt::format(
-          "no time is in both tables: those of the grains begin with {:.10g}, those of .fstat with "
-          "{:.10g}",
-          frames[0].time, late.time)),
+          "no moment is in both tables: those of the grains begin with {:.10g}, {:.10g}, {:.10g}, those "
+          "of the contacts with {:.10g}",
+          frames[0].time, frames[1].time, frames[2].time, late.time)),
       std::string::npos)
       << complaint(all);
 }

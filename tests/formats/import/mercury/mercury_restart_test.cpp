@@ -273,7 +273,7 @@ TEST_F(MercuryRestarts, AFileThatEndsEarlyIsTruncatedWhereverItIsCut)
   for (const std::size_t size : {last_row - 1, last_row - 300, whole.find("Interactions"),
                                  whole.find("Particles") + 500, whole.find("Walls") + 12})
     EXPECT_THROW(mercury_format.open(one(whole.substr(0, size))), TruncatedArchive) << size;
-  EXPECT_TRUE(mentions(complaint(one(whole.substr(0, last_row - 1))), "ends in its interactions"));
+  EXPECT_TRUE(mentions(complaint(one(whole.substr(0, last_row - 1))), "ends in its Interactions"));
   EXPECT_EQ(complaint(one(whole.substr(0, last_row))), "no complaint");
 }
 
