@@ -27,14 +27,18 @@ std::span<const ArchiveFormat* const> archive_formats()
   return formats;
 }
 
+std::vector<std::string> names_of_formats()
+{
+  std::vector<std::string> names;
+  for (const auto* format : formats) names.emplace_back(format->name);
+  return names;
+}
+
 const ArchiveFormat& format_of(const std::string& name)
 {
-  std::vector<std::string> known;
-  for (const auto* format : formats) {
+  for (const auto* format : formats)
     if (name == format->name) return *format;
-    known.emplace_back(format->name);
-  }
-  throw UsageError(unknown_word("--format", name, known));
+  throw UsageError(unknown_word("--format", name, names_of_formats()));
 }
 
 std::unique_ptr<Archive> open_archive(const std::string& name, const ArchiveFiles& files)

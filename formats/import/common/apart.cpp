@@ -16,7 +16,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -28,11 +27,6 @@ namespace {
 // files need a tenth of it.
 constexpr rlim_t patience = 1, bytes_per_second = 1 << 20;
 constexpr rlim_t memory = 128 << 20, memory_per_byte = 64;
-
-struct Header {
-  std::int32_t code = 0;  // 0: a message; otherwise the exit code of a ToolError
-  std::uint64_t bytes = 0;
-};
 
 /// Whether all bytes were passed; `pass` is read or write.
 template <class Pass, class Byte>
@@ -48,12 +42,12 @@ bool pass_all(Pass pass, int end, Byte* bytes, std::size_t count)
   return true;
 }
 
+/// `code` is 0 for a message, and otherwise the exit code of a ToolError.
 void write_message(int end, std::int32_t code, const std::string& text)
 {
-  const Header header{code, text.size()};
-  char bytes[sizeof header];
-  std::memcpy(bytes, &header, sizeof header);
-  if (!pass_all(write, end, static_cast<const char*>(bytes), sizeof header) ||
+  std::uint64_t size = text.size();
+  const auto header = packing::packed(code, size);
+  if (!pass_all(write, end, header.data(), header.size()) ||
       !pass_all(write, end, text.data(), text.size()))
     _exit(exit_trouble);  // nobody listens any more
 }
@@ -211,13 +205,14 @@ Apart::~Apart()
 
 const std::string& Apart::receive(const std::string& place)
 {
-  Header header;
-  char bytes[sizeof header];
-  if (!pass_all(read, end_, bytes, sizeof header)) explain_end(place);
-  std::memcpy(&header, bytes, sizeof header);
-  message_.resize(header.bytes);
+  std::int32_t code = 0;
+  std::uint64_t size = 0;
+  std::string header(sizeof code + sizeof size, '\0');
+  if (!pass_all(read, end_, header.data(), header.size())) explain_end(place);
+  packing::unpack(header, code, size);
+  message_.resize(size);
   if (!pass_all(read, end_, message_.data(), message_.size())) explain_end(place);
-  if (header.code != 0) rethrow(header.code, message_);
+  if (code != 0) rethrow(code, message_);
   return message_;
 }
 

@@ -102,16 +102,6 @@ struct ArchiveGrains {
 /// The rows of grains by their ids.
 std::unordered_map<std::int64_t, std::size_t> rows_by_id(const ArchiveGrains& grains);
 
-/// Adds to `missing` the names of the components that an archive lacks of a vector of which it has
-/// another.
-inline void add_missing(const std::array<bool, 3>& has, const std::array<const char*, 3>& names,
-                        std::vector<std::string>& missing)
-{
-  if (!has[0] && !has[1] && !has[2]) return;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!has[k]) missing.emplace_back(names[k]);
-}
-
 /// The contacts of one moment, each once, in any order.
 struct ArchiveContacts {
   std::vector<std::int64_t> i, j;  // ids of grains; j is not used at a wall
@@ -126,6 +116,17 @@ struct ArchiveContacts {
   std::vector<std::string> missing;  // components, as of grains
 
   std::size_t size() const { return i.size(); }
+  /// Adds one, in an archive that states overlaps and branches.
+  void add(std::int64_t first, std::int64_t second, std::int32_t number_of_wall,
+           const Vec3& on_first, const Vec3& between, double depth)
+  {
+    i.push_back(first);
+    j.push_back(second);
+    wall.push_back(number_of_wall);
+    force.push_back(on_first);
+    branch.push_back(between);
+    overlap.push_back(depth);
+  }
   bool at_wall(std::size_t c) const { return !wall.empty() && wall[c] >= 0; }
 };
 
@@ -200,7 +201,7 @@ struct ArchiveFacts {
   std::vector<std::string> walls;    // names of those whose contacts it has
   std::optional<std::string> units;  // the program's name for them: "si", "cgs", "lj"
   /// The contact forces in the archive were evaluated with velocities half a step later than those
-  /// that moved the grains (late_damping.hpp).
+  /// that moved the grains (imbalance.hpp).
   bool forces_are_late = false;
   /// Every pair that overlaps has a row, as soft grains have. Contact dynamics may list only those
   /// that bear a force.
@@ -284,6 +285,7 @@ extern const ArchiveFormat lammps_format, liggghts_format, mercury_format, sicon
 
 /// The known formats, in the order in which --help names them.
 std::span<const ArchiveFormat* const> archive_formats();
+std::vector<std::string> names_of_formats();
 
 /// UsageError where there is no such format.
 const ArchiveFormat& format_of(const std::string& name);

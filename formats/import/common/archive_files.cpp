@@ -181,6 +181,18 @@ Hdf5Start start_of_hdf5(const std::string& path)
   return start;
 }
 
+/// What an HDF5 file is that has these names in its root, as of other_kind().
+std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
+{
+  const auto has = [&](const char* name) {
+    return std::find(groups.begin(), groups.end(), name) != groups.end();
+  };
+  if (has("h5md")) return is_of("an H5MD file of another program, without contacts", to_tables);
+  if (has("VTKHDF")) return is_of("a VTK file", from_paraview);
+  if (has("frame") || has("coordinates")) return is_of("a netCDF file", to_dumps);
+  return "";
+}
+
 }  // namespace
 
 bool natural_less(const std::string& a, const std::string& b)
@@ -248,17 +260,6 @@ std::string other_kind(std::string_view start)
   const auto lines = words_by_line(start);
   if (is_xyz(lines)) return is_of("an xyz file", to_dumps);
   if (is_data_of_lammps(lines)) return is_of("a data file of LAMMPS", from_restart);
-  return "";
-}
-
-std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
-{
-  const auto has = [&](const char* name) {
-    return std::find(groups.begin(), groups.end(), name) != groups.end();
-  };
-  if (has("h5md")) return is_of("an H5MD file of another program, without contacts", to_tables);
-  if (has("VTKHDF")) return is_of("a VTK file", from_paraview);
-  if (has("frame") || has("coordinates")) return is_of("a netCDF file", to_dumps);
   return "";
 }
 

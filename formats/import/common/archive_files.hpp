@@ -25,9 +25,6 @@ bool natural_less(const std::string& a, const std::string& b);
 /// "is a tar archive: unpack it". "" where it may be the text of an archive.
 std::string other_kind(std::string_view start);
 
-/// The same of an HDF5 file that has these names in its root, but for one of grseg's own.
-std::string other_kind_of_hdf5(const std::vector<std::string>& groups);
-
 /// What a file of an archive holds.
 enum class FileRole { none, grains, contacts, restart };
 

@@ -37,8 +37,8 @@ inline std::size_t number_of(std::string_view text)
   return parse_whole(text, number) ? number : 0;
 }
 
-/// Whether a number read as a double is a whole one, and of a size up to which a double can represent
-/// every one (2^53), or up to `most`.
+/// True for a whole number of at most `most`; by default that is below 2^53, up to which a double can
+/// represent every whole number.
 inline bool is_whole(double number, double most = 9e15)
 {
   return std::abs(number) <= most && std::trunc(number) == number;

@@ -44,7 +44,7 @@ std::vector<Observable> import_observables(bool of_part)
   return all;
 }
 
-/// Of a part, NaN where there is no residual, or no late damping; observables may be NaN.
+/// The values of a part are NaN where there is no residual, or no late damping.
 std::vector<double> import_values(const MomentRecord& record, bool of_part)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

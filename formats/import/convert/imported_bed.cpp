@@ -14,27 +14,21 @@
 
 namespace grseg {
 
-RowsById::RowsById(const std::vector<std::int64_t>& ids)
+RowsById::RowsById(std::vector<std::int64_t> sorted_ids) : ids_(std::move(sorted_ids))
 {
-  first_ = ids.front();
-  const auto span = static_cast<std::uint64_t>(ids.back() - ids.front()) + 1;
-  if (span <= 8 * ids.size() + 1024) dense_.assign(span, -1);
-  for (std::size_t row = 0; row < ids.size(); ++row) {
-    if (dense_.empty())
-      sparse_[ids[row]] = static_cast<std::int32_t>(row);
-    else
-      dense_[static_cast<std::size_t>(ids[row] - first_)] = static_cast<std::int32_t>(row);
-  }
+  const auto span = static_cast<std::uint64_t>(ids_.back() - ids_.front()) + 1;
+  if (span > 8 * ids_.size() + 1024) return;
+  dense_.assign(span, -1);
+  for (std::size_t row = 0; row < ids_.size(); ++row)
+    dense_[static_cast<std::size_t>(ids_[row] - ids_.front())] = static_cast<std::int32_t>(row);
 }
 
 std::int32_t RowsById::find(std::int64_t id) const
 {
-  if (dense_.empty()) {
-    const auto found = sparse_.find(id);
-    return found == sparse_.end() ? -1 : found->second;
-  }
-  const auto place = static_cast<std::uint64_t>(id - first_);
-  return id < first_ || place >= dense_.size() ? -1 : dense_[place];
+  if (ids_.empty() || id < ids_.front() || id > ids_.back()) return -1;
+  if (!dense_.empty()) return dense_[static_cast<std::size_t>(id - ids_.front())];
+  const auto at = std::lower_bound(ids_.begin(), ids_.end(), id);
+  return *at == id ? static_cast<std::int32_t>(at - ids_.begin()) : -1;
 }
 
 namespace {
@@ -128,10 +122,10 @@ void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
     keep(from.type, known.type);
     keep(from.fixed, known.fixed);
   }
-  rows = RowsById(ids);
   has_new_ids = ids.back() > largest_id;
   for (const auto id : ids)
     grains.id.push_back(static_cast<std::int32_t>(has_new_ids ? grains.id.size() + 1 : id));
+  rows = RowsById(std::move(ids));
 }
 
 void ImportedBed::make_box(const ArchiveMoment& first)

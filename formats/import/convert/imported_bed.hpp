@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace grseg {
@@ -16,14 +15,13 @@ namespace grseg {
 class RowsById {
  public:
   RowsById() = default;
-  explicit RowsById(const std::vector<std::int64_t>& sorted_ids);
+  explicit RowsById(std::vector<std::int64_t> sorted_ids);
   /// -1 where no grain has this id.
   std::int32_t find(std::int64_t id) const;
 
  private:
-  std::int64_t first_ = 0;
-  std::vector<std::int32_t> dense_;  // used where ids are close together
-  std::unordered_map<std::int64_t, std::int32_t> sparse_;
+  std::vector<std::int64_t> ids_;
+  std::vector<std::int32_t> dense_;  // rows by id - first id, where ids are close together
 };
 
 /// Along x or z the cell is periodic.

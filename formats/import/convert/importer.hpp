@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/core/parameters.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "formats/import/verify/check_context.hpp"
-#include "formats/import/verify/late_damping.hpp"
 
 #include <cstddef>
 #include <string>
@@ -16,9 +16,9 @@ struct ImportReport {
   int dimension = 2;
   std::size_t frames = 0, grains = 0, contacts = 0;
   double first_time = 0, last_time = 0;  // s
-  /// Those of the file. Where there was something to compare with, import_residual_largest and _median
-  /// are the residuals of grains' balances (verification.hpp): the largest, and the median over the
-  /// moments of the median over grains; where the program's forces are late (late_damping.hpp),
+  /// The parameters of the file. Where there was something to compare with, import_residual_largest
+  /// and _median are the residuals of grains' balances (verification.hpp): the largest, and the median
+  /// over the moments of the median over grains. Where the program's forces are late (imbalance.hpp),
   /// import_residual_unexplained is the largest that late damping does not explain, and
   /// import_late_damping this damping (1/s, medians over the moments).
   Parameters parameters;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace grseg {
 namespace {
@@ -107,19 +108,6 @@ void InferredWalls::add(Frame<3>& frame, std::size_t grain, std::vector<Touch> t
     append(frame, grain, touch, push(touch) * touch.normal + push(touch) / pushes * rest);
 }
 
-/// Contacts with walls that the frame already has, by grain.
-auto InferredWalls::renumber(ContactList<3>& contacts) const -> std::vector<GrainAtWall>
-{
-  std::vector<GrainAtWall> rows;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (contacts.j[c] >= 0) continue;
-    contacts.j[c] -= static_cast<std::int32_t>(planes_.size());
-    rows.emplace_back(row(contacts.i[c]), c);
-  }
-  std::sort(rows.begin(), rows.end());
-  return rows;
-}
-
 /// Of contacts and weights.
 double InferredWalls::largest_force(const Frame<3>& frame) const
 {
@@ -137,13 +125,17 @@ void InferredWalls::add_to(Frame<3>& frame)
     throw UsageError(
         "--wall: the archive has no forces on grains, from which those of walls could be inferred; "
         "dump them (fx fy fz), or the contacts with walls themselves (--wall-contacts)");
-  const auto rows = renumber(frame.contacts);
+  auto& contacts = frame.contacts;
+  std::multimap<std::size_t, std::size_t> already;  // grains, and contacts that the frame has
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts.j[c] >= 0) continue;
+    contacts.j[c] -= static_cast<std::int32_t>(planes_.size());
+    already.emplace(row(contacts.i[c]), c);
+  }
   const auto already_there = [&](std::size_t grain, const Touch& touch) {
-    const auto [from, to] =
-        std::equal_range(rows.begin(), rows.end(), GrainAtWall{grain, 0},
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto [from, to] = already.equal_range(grain);
     return std::any_of(from, to, [&](const auto& grain_at_wall) {
-      return (frame.contacts.branch[grain_at_wall.second] - touch.branch).norm() <
+      return (contacts.branch[grain_at_wall.second] - touch.branch).norm() <
              same_branch * bed_.grains.radius[grain];
     });
   };

@@ -47,8 +47,6 @@ class InferredWalls {
     Vec3 branch;  // from the plane to the centre
     Vec3 normal;  // towards the grain
   };
-  using GrainAtWall = std::pair<std::size_t, std::size_t>;  // its row, and that of the contact
-  std::vector<GrainAtWall> renumber(ContactList<3>& contacts) const;
   double largest_force(const Frame<3>& frame) const;
   std::vector<Vec3> missing_forces(const Frame<3>& frame) const;
   std::vector<Touch> touches(const Frame<3>& frame, std::size_t grain, const Vec3& missing) const;

@@ -50,11 +50,8 @@ std::vector<Finding> Judgement::findings(bool strict) const
 {
   auto findings = judge(series_, context_);
   if (const auto text = failures(findings); !text.empty()) throw CheckError(text);
-  if (auto lines = lines_with(findings, Verdict::undecided); strict && !lines.empty()) {
-    for (auto end = lines.find('\n'); end != std::string::npos; end = lines.find('\n', end))
-      lines.replace(end, 1, "; ");
-    throw CheckError(fmt::format("undecided, and --strict is given: {}", lines));
-  }
+  if (const auto all = lines_with(findings, Verdict::undecided, "; "); strict && !all.empty())
+    throw CheckError(fmt::format("undecided, and --strict is given: {}", all));
   return findings;
 }
 

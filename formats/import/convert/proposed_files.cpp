@@ -116,13 +116,6 @@ const ArchiveFormat* recognize(const std::string& named, const ArchiveFiles& fil
   return nullptr;
 }
 
-std::string known_formats()
-{
-  std::vector<std::string> names;
-  for (const auto* format : archive_formats()) names.emplace_back(format->name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 bool needs_contacts(const ImportSettings& settings)
 {
   return settings.format.empty() ||
@@ -200,7 +193,8 @@ ImportSettings with_proposed_files(const ImportSettings& settings, Questions& qu
   if (settings.format.empty())
     questions.ask({"the program that wrote it",
                    fmt::format("--format {}", format == nullptr ? "NAME" : format->name),
-                   format == nullptr ? known_formats() : "by the look of its files"});
+                   format == nullptr ? fmt::format("{}", fmt::join(names_of_formats(), ", "))
+                                     : "by the look of its files"});
   if (format != nullptr) {
     proposed.format = format->name;
     take_all(roles, *format, proposed.files, &questions);

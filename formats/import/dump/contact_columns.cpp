@@ -10,9 +10,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <initializer_list>
-#include <optional>
 
 namespace grseg {
 namespace {
@@ -150,11 +148,6 @@ const std::vector<double>& ColumnMap::of(std::size_t word,
 
 ContactColumns::ContactColumns(const std::string& columns) : ColumnMap(contact_words(), columns)
 {
-  require_sense();
-}
-
-void ContactColumns::require_sense() const
-{
   const bool has_force = has(fx) || has(fy) || has(fz);
   if (!has(i) || !has(j) || !has_force)
     throw UsageError(fmt::format(
@@ -200,9 +193,9 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   add(bx, contacts.branch);
   contacts.missing.clear();
   const auto& words = contact_words().words;
-  for (const auto x : {fx, tx, bx})
-    add_missing({has(x), has(x + 1), has(x + 2)}, {words[x], words[x + 1], words[x + 2]},
-                contacts.missing);
+  for (const std::size_t x : {fx, tx, bx})
+    for (std::size_t k = x; k < x + 3; ++k)
+      if (!has(k) && (has(x) || has(x + 1) || has(x + 2))) contacts.missing.emplace_back(words[k]);
   contacts.overlap = of(overlap);
   contacts.distance = of(dist);
   contacts.wall.clear();

@@ -69,8 +69,6 @@ class ContactColumns : public ColumnMap {
 
  private:
   enum Meaning { i, j, fx, fy, fz, tx, ty, tz, bx, by, bz, dist, overlap, wall };
-
-  void require_sense() const;
 };
 
 /// What `fx fy fz` of contacts are where other columns hold the tangential force.

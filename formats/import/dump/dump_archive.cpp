@@ -38,7 +38,7 @@ class ColumnTrial {
     dumps.contacts().read_rows(all, rows_);
   }
 
-  /// See balance(). Nothing also where a column cannot have the meaning that `columns` gives it.
+  /// What balance() says with these columns; nothing where one cannot have the meaning given to it.
   std::optional<double> residual(const std::string& columns)
   {
     try {
@@ -89,7 +89,7 @@ class ColumnTrial {
     return std::isfinite(ratio) ? std::optional(ratio) : std::nullopt;
   }
 
-  /// By components, of forces that contacts leave over.
+  /// The median of each component, where contacts leave these forces over.
   Vec3 shared_acceleration(const std::vector<std::size_t>& touched,
                            const std::vector<Vec3>& left_over) const
   {

@@ -52,7 +52,7 @@ struct Wanted {
     columns.push_back(*column);
     return static_cast<int>(columns.size()) - 1;
   }
-  /// Of a vector, which needs those components that `needed` says.
+  /// The places of a vector, which needs the components that `needed` says.
   Triple add(const Components& names, const std::array<bool, 3>& needed = {true, true, true})
   {
     const Triple found{add(names[0]), add(names[1]), add(names[2])};

@@ -149,7 +149,6 @@ void DumpReader::read_header()
 void DumpReader::read_item(std::string_view item, std::string& label)
 {
   constexpr std::string_view number_of = "NUMBER OF ";
-  if (item == "UNITS") return read_units();
   if (item.starts_with("BOX BOUNDS abc origin")) return read_general_box(item);
   if (item.starts_with("BOX BOUNDS")) return read_box(item);
   if (item.starts_with(number_of)) {
@@ -159,21 +158,18 @@ void DumpReader::read_item(std::string_view item, std::string& label)
   } else if (item == "TIMESTEP") {
     if (!parse_whole(next_line("a header"), header_.step))
       source_.fail(fmt::format("{} is not a time step", in_quotes(source_.line())));
+  } else if (item == "UNITS") {
+    const auto before = std::exchange(units_, std::string(next_line("a header")));
+    if (before && *before != *units_)
+      source_.fail(
+          fmt::format("units {} after units {}: import the parts of this archive separately",
+                      in_quotes(*units_), in_quotes(*before)));
   } else if (item == "TIME") {
     if (!read_number(next_line("a header"), header_.time.emplace()))
       source_.fail(fmt::format("{} is not a time", in_quotes(source_.line())));
   } else {
     source_.fail(fmt::format("{} is not part of a dump", in_quotes(source_.line())));
   }
-}
-
-void DumpReader::read_units()
-{
-  const std::string now(next_line("a header"));
-  if (units_ && *units_ != now)
-    source_.fail(fmt::format("units {} after units {}: import the parts of this archive separately",
-                             in_quotes(now), in_quotes(*units_)));
-  units_ = now;
 }
 
 /// "BOX BOUNDS abc origin pp ff pp"; then a line per axis: an edge of the cell, and a coordinate of its

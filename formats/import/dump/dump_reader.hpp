@@ -71,7 +71,6 @@ class DumpReader {
   void require_line(bool there, const char* what);
   void read_header();
   void read_item(std::string_view item, std::string& label);
-  void read_units();
   void read_box(std::string_view item);
   void read_general_box(std::string_view item);
   [[noreturn]] void refuse_tilted_cell() const;

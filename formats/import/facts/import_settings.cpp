@@ -32,11 +32,10 @@ auto files(std::vector<std::string>& place)
 
 po::options_description archive_options(ImportSettings& s)
 {
-  std::vector<std::string> all_formats, with_restart;
-  for (const auto* format : archive_formats()) {
-    all_formats.emplace_back(format->name);
+  const auto all_formats = names_of_formats();
+  std::vector<std::string> with_restart;
+  for (const auto* format : archive_formats())
     if (format->takes_restart) with_restart.emplace_back(format->name);
-  }
   const auto formats = fmt::format("program: {}", fmt::join(all_formats, ", "));
   const auto restart = fmt::format("{} only: its restart file, which holds what its others lack",
                                    fmt::join(with_restart, ", "));

@@ -167,6 +167,24 @@ void require_alone(const SpeciesSettings& settings)
                       option));
 }
 
+/// "0.0048 to 0.0052: 120, ...": numbers of values in ten equal bins; empty bins are left out.
+std::string histogram(std::vector<double> values)
+{
+  if (values.empty()) return "no grains";
+  std::sort(values.begin(), values.end());
+  const double low = values.front(), width = (values.back() - low) / 10;
+  if (!(width > 0)) return fmt::format("{:g}: {}", low, values.size());
+  std::string text;
+  for (std::size_t k = 0; k < values.size();) {
+    const double bin = std::min(9.0, std::floor((values[k] - low) / width));
+    const auto begin = k;
+    while (k < values.size() && std::min(9.0, std::floor((values[k] - low) / width)) == bin) ++k;
+    text += fmt::format("{}{:.4g} to {:.4g}: {}", text.empty() ? "" : ", ", low + bin * width,
+                        low + (bin + 1) * width, k - begin);
+  }
+  return text;
+}
+
 double diameter_that_splits(const std::vector<double>& diameter, const ArchiveGrains& grains,
                             const std::vector<bool>& boundary, const SpeciesSettings& settings)
 {
@@ -295,23 +313,6 @@ SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& 
   }
   found.base = base;
   return found;
-}
-
-std::string histogram(std::vector<double> values)
-{
-  if (values.empty()) return "no grains";
-  std::sort(values.begin(), values.end());
-  const double low = values.front(), width = (values.back() - low) / 10;
-  if (!(width > 0)) return fmt::format("{:g}: {}", low, values.size());
-  std::string text;
-  for (std::size_t k = 0; k < values.size();) {
-    const double bin = std::min(9.0, std::floor((values[k] - low) / width));
-    const auto begin = k;
-    while (k < values.size() && std::min(9.0, std::floor((values[k] - low) / width)) == bin) ++k;
-    text += fmt::format("{}{:.4g} to {:.4g}: {}", text.empty() ? "" : ", ", low + bin * width,
-                        low + (bin + 1) * width, k - begin);
-  }
-  return text;
 }
 
 }  // namespace grseg

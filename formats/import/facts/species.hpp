@@ -36,9 +36,6 @@ struct SpeciesFound {
 /// OpenQuestions with a histogram of diameters where there are no such two sizes.
 SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& settings);
 
-/// "0.0048 to 0.0052: 120, ...": numbers of values in ten equal bins; empty bins are left out.
-std::string histogram(std::vector<double> values);
-
 /// Numbers and ranges such as "1,4-9", or "none".
 class NumberList {
  public:
@@ -64,11 +61,11 @@ class TypeList {
 };
 
 /// Species of all grains that are not `boundary`, any number by type, each as --species gives it:
-/// NAME=TYPES or NAME=TYPES:DIAMETER, where TYPES are a list as above or "all", and DIAMETER is nominal,
-/// in the archive's units. They are in order of nominal diameters. A diameter that is not given is the mean of the
-/// smallest and the largest of the species. UsageError where a text is not of the form above, a name
-/// does not fit files and tables, a species has neither grains nor a diameter, or the type of a
-/// mobile grain is in no species or in several.
+/// NAME=TYPES or NAME=TYPES:DIAMETER, where TYPES are a list as above or "all", and DIAMETER is
+/// nominal, in the archive's units. They are in order of nominal diameters. A diameter that is not given
+/// is the mean of the smallest and the largest of the species. UsageError where a text is not of the
+/// form above, a name does not fit files and tables, a species has neither grains nor a diameter, or
+/// the type of a mobile grain is in no species or in several.
 SpeciesFound assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
                                   const std::vector<std::string>& texts);
 

@@ -24,7 +24,6 @@ void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is
              ArchiveMoment& moment)
 {
   const auto& grains = moment.grains;
-  auto& contacts = moment.contacts;
   const auto i = static_cast<std::size_t>(row.i);
   const bool wall = row.j < 0;
   const auto j = wall ? i : static_cast<std::size_t>(row.j);
@@ -39,13 +38,9 @@ void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is
                           "run; give --restart, which says what is periodic",
                           row.i, row.j));
   }
-  contacts.i.push_back(grains.id[i]);
-  contacts.j.push_back(grains.id[j]);
-  contacts.wall.push_back(wall ? static_cast<std::int32_t>(-row.j - 1) : -1);
-  contacts.force.push_back(side *
-                           (row.normal_force * row.normal + row.tangential_force * row.tangent));
-  contacts.branch.push_back(side * reach * row.normal);
-  contacts.overlap.push_back(row.overlap);
+  moment.contacts.add(grains.id[i], grains.id[j], wall ? static_cast<std::int32_t>(-row.j - 1) : -1,
+                      side * (row.normal_force * row.normal + row.tangential_force * row.tangent),
+                      side * reach * row.normal, row.overlap);
 }
 
 /// x - contact point, at a distance of r - overlap.
@@ -84,13 +79,9 @@ void add_interaction(const MercuryRestart& restart, const MercuryRestart::Intera
   const auto i = find(row.i), j = row.wall ? i : find(row.j);
   const Vec3 branch = row.wall ? branch_to_wall(moment, restart, row, i)
                                : moment.minimum_image(grains.position[i] - grains.position[j]);
-  auto& contacts = moment.contacts;
-  contacts.i.push_back(row.i);
-  contacts.j.push_back(row.wall ? row.i : row.j);
-  contacts.wall.push_back(row.wall ? static_cast<std::int32_t>(row.j) : -1);
-  contacts.force.push_back(row.force);
-  contacts.branch.push_back(branch);
-  contacts.overlap.push_back(grains.radius[i] + (row.wall ? 0 : grains.radius[j]) - branch.norm());
+  moment.contacts.add(row.i, row.wall ? row.i : row.j,
+                      row.wall ? static_cast<std::int32_t>(row.j) : -1, row.force, branch,
+                      grains.radius[i] + (row.wall ? 0 : grains.radius[j]) - branch.norm());
 }
 
 /// The contacts of a block of .fstat, whose rows of grains are those of `moment`:

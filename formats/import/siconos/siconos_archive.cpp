@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -206,7 +207,7 @@ class SiconosArchive : public Archive {
   void add_grain(std::size_t body, const Vec3& position, ArchiveGrains& grains)
   {
     const auto& of = bodies_.all[body];
-    grain_of_[body] = static_cast<std::ptrdiff_t>(grains.size());
+    grain_of_[body] = grains.size();
     grains.id.push_back(id_of(body));
     grains.radius.push_back(of.radius);
     grains.mass.push_back(of.mass > 0 ? of.mass : static_mass_per_size_ * size_of(of));
@@ -218,7 +219,7 @@ class SiconosArchive : public Archive {
 
   void fill_places(hsize_t first_row, ArchiveGrains& grains)
   {
-    grain_of_.assign(bodies_.all.size(), -1);
+    grain_of_.assign(bodies_.all.size(), std::nullopt);
     turned_.assign(bodies_.all.size(), Eigen::Quaterniond::Identity());
     for (std::size_t b = 0; b < bodies_.all.size(); ++b)
       if (bodies_.all[b].mass == 0 && wall_[b] < 0) add_grain(b, bodies_.all[b].position, grains);
@@ -226,8 +227,8 @@ class SiconosArchive : public Archive {
       const auto& row = place_rows_[k];
       const auto b = body_of(id_at(row, 1), "/data/dynamic", first_row + k);
       const Vec3 position = vector_at(row, 2);
-      if (grain_of_[b] >= 0) {  // a run that was continued says twice where it stood
-        if (grains.position[static_cast<std::size_t>(grain_of_[b])] == position) continue;
+      if (grain_of_[b]) {  // a run that was continued says twice where it stood
+        if (grains.position[*grain_of_[b]] == position) continue;
         throw FormatError(
             fmt::format("{}: row {} of /data/dynamic: single precision no longer "
                         "separates the times of two steps; write fewer steps",
@@ -246,17 +247,16 @@ class SiconosArchive : public Archive {
       const auto& row = velocity_rows_[k];
       const auto b = body_of(id_at(row, 1), "/data/velocities", first_row + k);
       velocity[b] = vector_at(row, 2);
-      if (grain_of_[b] < 0) continue;
-      const auto g = static_cast<std::size_t>(grain_of_[b]);
-      grains.velocity[g] = velocity[b];
-      grains.angular_velocity[g] =
-          turned_[b] * vector_at(row, 5);  // written in the body's own axes
+      if (!grain_of_[b]) continue;
+      grains.velocity[*grain_of_[b]] = velocity[b];
+      // Written in the body's own axes.
+      grains.angular_velocity[*grain_of_[b]] = turned_[b] * vector_at(row, 5);
     }
     if (steps_.every == 1 && follows_previous(time)) {
       grains.force.assign(grains.size(), Vec3::Zero());
       for (std::size_t b = 0; b < bodies_.all.size(); ++b)
-        if (grain_of_[b] >= 0)
-          grains.force[static_cast<std::size_t>(grain_of_[b])] =
+        if (grain_of_[b])
+          grains.force[*grain_of_[b]] =
               bodies_.all[b].mass * (velocity[b] - previous_velocity_[b]) / steps_.length;
     }
     previous_velocity_ = std::move(velocity);
@@ -276,7 +276,7 @@ class SiconosArchive : public Archive {
         continue;
       }
       const auto second = second_body(row, first_row + k, radius);
-      if (grain_of_[first] < 0 || (wall_[second] < 0 && grain_of_[second] < 0))
+      if (!grain_of_[first] || (wall_[second] < 0 && !grain_of_[second]))
         throw FormatError(fmt::format(
             "{}: row {} of /data/cf names a body that /data/dynamic does not have at t = {:.6g}",
             path_, first_row + k, time));
@@ -286,17 +286,13 @@ class SiconosArchive : public Archive {
         contacts.force[at->second] += force;
         continue;
       }
-      const Vec3 x = grains.position[static_cast<std::size_t>(grain_of_[first])];
+      const Vec3 x = grains.position[*grain_of_[first]];
       const Vec3 normal = vector_at(row, normal_at).normalized();
-      const Vec3 branch =
-          wall_[second] < 0 ? Vec3(x - grains.position[static_cast<std::size_t>(grain_of_[second])])
-                            : Vec3(normal * normal.dot(x - vector_at(row, second_point_at)));
-      contacts.i.push_back(id_of(first));
-      contacts.j.push_back(id_of(second));
-      contacts.wall.push_back(wall_[second]);
-      contacts.force.push_back(force);
-      contacts.branch.push_back(branch);
-      contacts.overlap.push_back(radius + bodies_.all[second].radius - branch.norm());
+      const Vec3 branch = wall_[second] < 0
+                              ? Vec3(x - grains.position[*grain_of_[second]])
+                              : Vec3(normal * normal.dot(x - vector_at(row, second_point_at)));
+      contacts.add(id_of(first), id_of(second), wall_[second], force, branch,
+                   radius + bodies_.all[second].radius - branch.norm());
     }
     previous_points_.clear();
     for (const auto& row : point_rows_) previous_points_.emplace(id_at(row, interaction_at), row);
@@ -350,7 +346,7 @@ class SiconosArchive : public Archive {
   std::vector<Places::Row> place_rows_;
   std::vector<Velocities::Row> velocity_rows_;
   std::vector<Points::Row> point_rows_;
-  std::vector<std::ptrdiff_t> grain_of_;  // by body: entry of the moment's grains, or -1
+  std::vector<std::optional<std::size_t>> grain_of_;  // by body: entry of the moment's grains
   std::vector<Eigen::Quaterniond> turned_;
 };
 

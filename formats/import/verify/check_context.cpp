@@ -62,13 +62,13 @@ Finding Waivers::applied_to(Finding finding) const
   return finding;
 }
 
-std::string lines_with(const std::vector<Finding>& findings, Verdict verdict)
+std::string lines_with(const std::vector<Finding>& findings, Verdict verdict, const char* between)
 {
   std::vector<std::string> lines;
   for (const auto& finding : findings)
     if (finding.verdict == verdict)
       lines.push_back(fmt::format("{}: {}", finding.check, finding.sentence));
-  return fmt::format("{}", fmt::join(lines, "\n"));
+  return fmt::format("{}", fmt::join(lines, between));
 }
 
 namespace {

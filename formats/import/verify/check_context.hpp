@@ -60,8 +60,9 @@ class Waivers {
   std::map<std::string, double> largest_;
 };
 
-/// "check: sentence" of all findings with this verdict, one per line; "" where there are none.
-std::string lines_with(const std::vector<Finding>& findings, Verdict verdict);
+/// "check: sentence" of all findings with this verdict; "" where there are none.
+std::string lines_with(const std::vector<Finding>& findings, Verdict verdict,
+                       const char* between = "\n");
 
 /// The diameters of the grains of a species, m.
 struct SpeciesSizes {

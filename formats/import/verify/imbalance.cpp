@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/IterativeLinearSolvers>
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
@@ -107,14 +109,6 @@ std::string missing_walls(const Grains& grains, const Box& box, const Frame<3>& 
                         "bed and lack",
                         unbalanced.size(), explained),
       where);
-}
-
-/// Whether two grains alone do not balance, by opposite forces.
-bool is_pair(const Imbalance& imbalance, const std::vector<std::size_t>& unbalanced)
-{
-  if (unbalanced.size() != 2) return false;
-  const Vec3 &a = imbalance.defect[unbalanced[0]], &b = imbalance.defect[unbalanced[1]];
-  return (a + b).norm() < 0.1 * (a.norm() + b.norm());
 }
 
 bool all_along_normals(const ContactList<3>& contacts)
@@ -254,6 +248,47 @@ std::pair<double, double> drag_along(const std::vector<Vec3>& x, const Grains& g
   return {xy / xx, xy * xy / (xx * all)};
 }
 
+/// The force of a contact along its normal, and n cross the force.
+struct Split {
+  Vec3 n;
+  double normal;
+  Vec3 tangential;
+};
+std::vector<Split> split(const ContactList<3>& contacts)
+{
+  std::vector<Split> all;
+  all.reserve(contacts.size());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Vec3 n = contacts.branch[c].normalized();
+    all.push_back({n, contacts.force[c].dot(n), n.cross(contacts.force[c])});
+  }
+  return all;
+}
+
+std::vector<Vec3> angular_accelerations(const Grains& grains, const ContactList<3>& contacts,
+                                        const std::vector<Split>& forces, double inertia)
+{
+  std::vector<Vec3> acceleration(grains.size(), Vec3::Zero());
+  const auto add = [&](std::size_t g, const Vec3& tangential) {
+    if (is_mobile(grains, g))
+      acceleration[g] -= tangential / (inertia * grains.mass[g] * grains.radius[g]);
+  };
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    add(row(contacts.i[c]), forces[c].tangential);
+    if (contacts.j[c] >= 0) add(row(contacts.j[c]), forces[c].tangential);
+  }
+  return acceleration;
+}
+
+/// Largest ratio of friction to normal force: where it is reached, contacts slide.
+double friction_of(const std::vector<Split>& forces)
+{
+  double largest = 0;
+  for (const auto& force : forces)
+    if (force.normal > 0) largest = std::max(largest, force.tangential.norm() / force.normal);
+  return largest;
+}
+
 }  // namespace
 
 std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& frame,
@@ -261,14 +296,16 @@ std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& f
 {
   std::vector<std::size_t> unbalanced;
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_mobile(grains, g) && imbalance.defect[g].norm() > imbalance.limit)
-      unbalanced.push_back(g);
+    if (counts(grains, frame, imbalance, g)) unbalanced.push_back(g);
   if (unbalanced.empty()) return "";
-  if (is_pair(imbalance, unbalanced))
-    return fmt::format(
-        "; what is missing on grain {} is the opposite of that on grain {}: their contact is missing, "
-        "or has a row too many",
-        grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
+  if (unbalanced.size() == 2) {
+    const Vec3 &a = imbalance.defect[unbalanced[0]], &b = imbalance.defect[unbalanced[1]];
+    if ((a + b).norm() < 0.1 * (a.norm() + b.norm()))
+      return fmt::format(
+          "; what is missing on grain {} is the opposite of that on grain {}: their contact is missing, "
+          "or has a row too many",
+          grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
+  }
   const auto walls = missing_walls(grains, box, frame, imbalance, unbalanced, axes);
   if (!walls.empty()) return "; " + walls;
   if (all_along_normals(frame.contacts))
@@ -317,6 +354,57 @@ UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame
     if (explained >= most_squares && !forces.empty()) return {text_of(grains, forces), false};
   }
   return {};
+}
+
+LateDamping subtract_late_damping(const Grains& grains, const Frame<3>& frame, double step,
+                                  double inertia, std::vector<Vec3>& defect)
+{
+  const auto& contacts = frame.contacts;
+  const auto forces = split(contacts);
+  const auto spin_up = angular_accelerations(grains, contacts, forces, inertia);
+  const double friction = friction_of(forces);
+  // The force that is missing on every grain per unit of c_n and of c_t.
+  std::vector<Vec3> per_normal(grains.size(), Vec3::Zero()), per_tangential = per_normal;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = row(contacts.i[c]);
+    const bool wall = contacts.j[c] < 0;
+    const auto j = wall ? i : row(contacts.j[c]);
+    const bool pair = !wall && is_mobile(grains, j);
+    const double m = grains.mass[i];
+    const double mass = pair ? m * grains.mass[j] / (m + grains.mass[j]) : m;
+    const auto& force = forces[c];
+    Vec3 a = frame.force[i] / m;
+    Vec3 rims = grains.radius[i] * spin_up[i];
+    if (pair) {
+      a -= frame.force[j] / grains.mass[j];
+      rims += grains.radius[j] * spin_up[j];
+    }
+    const bool slides = force.tangential.norm() > 0.99 * friction * std::abs(force.normal);
+    const Vec3 along_n = -mass * step / 2 * a.dot(force.n) * force.n;
+    Vec3 along_t = Vec3::Zero();
+    if (!slides) along_t = (-mass * step / 2 * (force.n.cross(a) - rims)).cross(force.n);
+    per_normal[i] += along_n;
+    per_tangential[i] += along_t;
+    if (!pair) continue;
+    per_normal[j] -= along_n;
+    per_tangential[j] -= along_t;
+  }
+  Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
+  Vec2 projections = Vec2::Zero();
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (!is_mobile(grains, frame, g)) continue;
+    Eigen::Matrix<double, 3, 2> columns;
+    columns << per_normal[g], per_tangential[g];
+    products += columns.transpose() * columns;
+    projections += columns.transpose() * defect[g];
+  }
+  Vec2 c = products.fullPivLu().solve(projections);
+  if (!(c.y() >= 0)) c = {products(0, 0) > 0 ? projections.x() / products(0, 0) : 0, 0};
+  if (!(c.x() >= 0))
+    c = {0, products(1, 1) > 0 ? std::max(0.0, projections.y() / products(1, 1)) : 0};
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    defect[g] -= c.x() * per_normal[g] + c.y() * per_tangential[g];
+  return {c.x(), c.y()};
 }
 
 }  // namespace grseg

@@ -64,20 +64,6 @@ Finding judge_completeness(const CheckSeries& series)
           may_part};
 }
 
-Finding judge_overlap(const CheckSeries& series)
-{
-  const double overlap = largest(series, &CheckMoment::overlap);
-  return within("overlap", overlap, deepest_overlap,
-                fmt::format("grains overlap by up to {:.2g} of the smaller radius", overlap));
-}
-
-Finding judge_pull(const CheckSeries& series)
-{
-  const double pull = largest(series, &CheckMoment::pull);
-  return within("pull", pull, largest_pull,
-                fmt::format("up to {:.2g} of the normal force of a moment pulls", pull));
-}
-
 std::string why_balance_is_open(const CheckSeries& series)
 {
   if (series.size() < 2)
@@ -161,15 +147,20 @@ std::optional<Finding> by_own_times(const CheckSeries& series, const CheckContex
 std::vector<Finding> judge(const CheckSeries& series, const CheckContext& context)
 {
   const auto gravity = judge_gravity(series, context);
-  std::vector<Finding> findings{judge_contacts(series),
-                                judge_completeness(series),
-                                judge_overlap(series),
-                                judge_pull(series),
-                                judge_balance(series, context),
-                                gravity,
-                                judge_masses(series, context, gravity),
-                                judge_sizes(context),
-                                judge_time(series, context)};
+  const double overlap = largest(series, &CheckMoment::overlap);
+  const double pull = largest(series, &CheckMoment::pull);
+  std::vector<Finding> findings{
+      judge_contacts(series),
+      judge_completeness(series),
+      within("overlap", overlap, deepest_overlap,
+             fmt::format("grains overlap by up to {:.2g} of the smaller radius", overlap)),
+      within("pull", pull, largest_pull,
+             fmt::format("up to {:.2g} of the normal force of a moment pulls", pull)),
+      judge_balance(series, context),
+      gravity,
+      judge_masses(series, context, gravity),
+      judge_sizes(context),
+      judge_time(series, context)};
   for (auto& finding : findings) finding = context.waivers.applied_to(std::move(finding));
   return findings;
 }

@@ -28,11 +28,6 @@ constexpr double share_of_period = 0.25;
 /// that to the standard error of its median times the root of the number of values.
 constexpr double deviation_of_normal = 1.4826, error_of_median = 1.2533;
 
-bool is_there(const std::vector<Vec3>& position, std::size_t g)
-{
-  return !std::isnan(position[g].y());
-}
-
 bool is_steady(const Vec3& before, const Vec3& now)
 {
   const double mean = (before + now).norm() / 2;
@@ -112,7 +107,7 @@ auto MomentStatistics::weights(const Frame<3>& frame, const Vectors& sums,
     if (left_out_ && g < left_out_->size() && (*left_out_)[g] != 0) continue;
     if (has_force)
       weights[g] = (frame.force[g] - sums[g]) / grains_.mass[g];
-    else if (before && is_there(before->position, g))
+    else if (before && is_present(*before, g))
       weights[g] = (frame.velocity[g] - before->velocity[g]) / (frame.time - before->time) -
                    (sums[g] + before->sums[g]) / (2 * grains_.mass[g]);
   }
@@ -172,7 +167,7 @@ std::vector<bool> free_grains(const Frame<3>& frame, const std::vector<Vec3>& su
 {
   std::vector<bool> is_free(sums.size());
   for (std::size_t g = 0; g < sums.size(); ++g)
-    is_free[g] = is_present(frame, g) && is_there(before.position, g) && sums[g].isZero(0) &&
+    is_free[g] = is_present(frame, g) && is_present(before, g) && sums[g].isZero(0) &&
                  before.sums[g].isZero(0);
   return is_free;
 }
@@ -187,7 +182,7 @@ void MomentStatistics::add_motion(SlopeSums& all, const Frame<3>& frame, const M
   const double lengths[] = {box_.length_x, 0, box_.length_z};
   const bool periodic[] = {box_.periodic_x, false, box_.periodic_z};
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, frame, g) || !is_there(before.position, g)) continue;
+    if (!is_mobile(grains_, frame, g) || !is_present(before, g)) continue;
     const bool falls = is_free[g] && !frame.force.empty() &&
                        is_along(frame.velocity[g] - before.velocity[g], frame.force[g]);
     if (!falls && !is_steady(before.velocity[g], frame.velocity[g])) continue;
@@ -216,8 +211,8 @@ void MomentStatistics::add_inertia(SlopeSums& sums, const Frame<3>& frame,
   if (frame.force.empty()) return;
   const bool each_step = frame.step == before.step + 1;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, frame, g) || !is_there(before.position, g) ||
-        !(each_step || is_free[g]) || !is_steady(before.force[g], frame.force[g]))
+    if (!is_mobile(grains_, frame, g) || !is_present(before, g) || !(each_step || is_free[g]) ||
+        !is_steady(before.force[g], frame.force[g]))
       continue;
     sums.add((frame.velocity[g] - before.velocity[g]) / (frame.time - before.time),
              (before.force[g] + frame.force[g]) / (2 * grains_.mass[g]));

@@ -230,7 +230,7 @@ double Verification::too_far(const Frame<3>& frame) const
 {
   std::vector<double> moved, expected;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_mobile(grains_, frame, g) || std::isnan(before_->position[g].y())) continue;
+    if (!is_mobile(grains_, frame, g) || !is_present(*before_, g)) continue;
     const auto between = minimum_image(box_, frame.position[g] - before_->position[g]);
     const double speed = std::max(frame.velocity[g].norm(), before_->velocity[g].norm());
     moved.push_back(between.norm() / grains_.radius[g]);
@@ -279,7 +279,7 @@ auto Verification::defect_of(const Frame<3>& frame, const Sums& sums) const
     scale = std::max(scale, weight.norm());
     if (has_force)
       defect[g] = sums.now[g] + weight - frame.force[g];
-    else if (!std::isnan(before_->position[g].y()))
+    else if (is_present(*before_, g))
       defect[g] = (sums.now[g] + sums.before[g]) / 2 + weight -
                   grains_.mass[g] * (frame.velocity[g] - before_->velocity[g]) /
                       (frame.time - before_->time);

@@ -5,7 +5,6 @@
 #include "formats/import/verify/check_context.hpp"
 #include "formats/import/verify/check_series.hpp"
 #include "formats/import/verify/imbalance.hpp"
-#include "formats/import/verify/late_damping.hpp"
 #include "formats/import/verify/moment_statistics.hpp"
 #include "formats/import/verify/unlisted_pairs.hpp"
 
@@ -40,7 +39,7 @@ struct Complaint {
 /// By how much the correct output of a program may fail to balance.
 struct OutputAccuracy {
   double tolerance = 0;      // largest residual not explained by late damping
-  bool late_forces = false;  // late_damping.hpp
+  bool late_forces = false;  // imbalance.hpp
   double step = 0;           // of the integration; then needed
   double inertia = 0.5;      // I/(m r^2) of the grains, likewise
   bool lists_all = true;     // every pair that overlaps has a row, also one that bears no force
