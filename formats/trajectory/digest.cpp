@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #define XXH_STATIC_LINKING_ONLY  // the state on the stack
 #include <xxhash.h>
 #if __has_include(<xxh_x86dispatch.h>) && !defined(XXH_INLINE_ALL)
@@ -26,72 +28,27 @@ class Hasher {
   void add_reals(const double* values, std::size_t count)
   {
     if (!float32_) return add(values, count * sizeof(double));
-    rounded_.assign(values, values + count);
+    rounded_.resize(count);
+    std::transform(values, values + count, rounded_.begin(),
+                   [](double value) { return static_cast<float>(value); });
     add(rounded_.data(), count * sizeof(float));
   }
-  void add_reals(const std::vector<double>& values) { add_reals(values.data(), values.size()); }
-  template <int D>
-  void add_reals(const std::vector<Vector<D>>& values)
+  template <class T>
+  void add_array(Field field, const std::vector<T>& values)
   {
-    if (!values.empty()) add_reals(values.front().data(), D * values.size());
+    const auto bytes = values.size() * sizeof(T);
+    if (holds_reals(field))
+      add_reals(reinterpret_cast<const double*>(values.data()), bytes / sizeof(double));
+    else
+      add(values.data(), bytes);
   }
   std::uint64_t digest() const { return XXH3_64bits_digest(&state_); }
 
  private:
-  struct Rounded : std::vector<float> {
-    void assign(const double* first, const double* last)
-    {
-      resize(static_cast<std::size_t>(last - first));
-      for (auto& value : *this) value = static_cast<float>(*first++);
-    }
-  };
   XXH3_state_t state_;
-  Rounded rounded_;
+  std::vector<float> rounded_;
   bool float32_;
 };
-
-/// Those with an array in a frame, in the order of frame_digest.
-constexpr Field fields_in_order[] = {
-    Field::position,       Field::image,      Field::velocity,  Field::angular_velocity,
-    Field::force,          Field::contact_i,  Field::contact_j, Field::contact_force,
-    Field::contact_branch, Field::contact_gap};
-
-template <class T>
-void add_values(Hasher& hash, const std::vector<T>& values)
-{
-  hash.add(values.data(), values.size() * sizeof(T));
-}
-
-template <int D>
-void add_field(Hasher& hash, Field field, const Frame<D>& frame)
-{
-  const auto& contacts = frame.contacts;
-  switch (field) {
-    case Field::position:
-      return hash.add_reals(frame.position);
-    case Field::image:
-      return add_values(hash, frame.image);
-    case Field::velocity:
-      return hash.add_reals(frame.velocity);
-    case Field::angular_velocity:
-      return hash.add_reals(frame.angular_velocity);
-    case Field::force:
-      return hash.add_reals(frame.force);
-    case Field::contact_i:
-      return add_values(hash, contacts.i);
-    case Field::contact_j:
-      return add_values(hash, contacts.j);
-    case Field::contact_force:
-      return hash.add_reals(contacts.force);
-    case Field::contact_branch:
-      return hash.add_reals(contacts.branch);
-    case Field::contact_gap:
-      return hash.add_reals(contacts.gap);
-    case Field::place:
-    case Field::observables:
-      break;  // not arrays of a frame
-  }
-}
 
 std::uint64_t seed_of(Field field, std::uint64_t index)
 {
@@ -106,7 +63,7 @@ std::uint64_t frame_digest(const Frame<D>& frame, std::uint64_t before, bool flo
   Hasher hash(before, float32);
   hash.add(&frame.step, sizeof frame.step);
   hash.add(&frame.time, sizeof frame.time);
-  for (const auto field : fields_in_order) add_field(hash, field, frame);
+  for_each_array(frame, [&](Field field, const auto& values) { hash.add_array(field, values); });
   return hash.digest();
 }
 
@@ -114,7 +71,9 @@ template <int D>
 std::uint64_t field_digest(Field field, std::uint64_t index, const Frame<D>& frame, bool float32)
 {
   Hasher hash(seed_of(field, index), float32);
-  add_field(hash, field, frame);
+  for_each_array(frame, [&](Field known, const auto& values) {
+    if (known == field) hash.add_array(known, values);
+  });
   return hash.digest();
 }
 
@@ -135,7 +94,7 @@ std::uint64_t field_digest(std::uint64_t index, const FramePlace& place)
 std::uint64_t field_digest(std::uint64_t index, const std::vector<double>& observables)
 {
   Hasher hash(seed_of(Field::observables, index), false);
-  hash.add_reals(observables);
+  hash.add_reals(observables.data(), observables.size());
   return hash.digest();
 }
 

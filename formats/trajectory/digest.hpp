@@ -40,6 +40,32 @@ enum class Field {
 constexpr std::size_t number_of_fields = 12;
 using FieldDigests = std::array<std::uint64_t, number_of_fields>;
 
+/// use(field, array) for the arrays of a frame, in the order of frame_digest.
+template <class SomeFrame, class Use>
+void for_each_array(SomeFrame&& frame, const Use& use)
+{
+  auto& contacts = frame.contacts;
+  use(Field::position, frame.position);
+  use(Field::image, frame.image);
+  use(Field::velocity, frame.velocity);
+  use(Field::angular_velocity, frame.angular_velocity);
+  use(Field::force, frame.force);
+  use(Field::contact_i, contacts.i);
+  use(Field::contact_j, contacts.j);
+  use(Field::contact_force, contacts.force);
+  use(Field::contact_branch, contacts.branch);
+  use(Field::contact_gap, contacts.gap);
+}
+inline bool is_of_contacts(Field field)
+{
+  return Field::contact_i <= field && field <= Field::contact_gap;
+}
+/// True of arrays of floating-point numbers or of vectors, false of those of whole numbers.
+inline bool holds_reals(Field field)
+{
+  return field != Field::image && field != Field::contact_i && field != Field::contact_j;
+}
+
 /// Where a frame stands: Field::place.
 struct FramePlace {
   std::int64_t step = 0;

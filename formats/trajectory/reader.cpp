@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/trajectory/reader.hpp"
 
+#include "formats/trajectory/layout.hpp"
 #include "formats/trajectory/row_reader.hpp"
 #include "formats/trajectory/run_description.hpp"
 #include "formats/trajectory/stored_run.hpp"
@@ -8,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
+#include <array>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -25,85 +26,54 @@ struct TrajectoryReader::Datasets {
   {
     return {file, at, kind, rank, run.path};
   }
-  /// A property of the grains, and one of the contacts of all frames.
-  RowReader of_grains(const std::string& name, H5T_class_t kind, int rank) const;
-  RowReader of_contacts(const std::string& name, H5T_class_t kind, int rank) const;
-
-  /// The row of a frame with one vector, or one number, per grain. What is compressed is appended to
+  const RowReader& rows_of(Field field) const { return rows[static_cast<std::size_t>(field)]; }
+  /// What is stored of a frame, or of its contacts, in a field. What is compressed is appended to
   /// `packed`.
   template <class T>
-  void load_row(const RowReader& rows, std::size_t frame, std::vector<T>& out,
-                std::vector<PackedRows>& packed) const
-  {
-    out.resize(run.description.grains.size());
-    rows.load(frame, 1, out.data(), packed);
-  }
-  template <int D>
-  void load_contacts(std::size_t frame, ContactList<D>& contacts,
-                     std::vector<PackedRows>& packed) const;
+  void load(Field field, std::size_t frame, std::vector<T>& out,
+            std::vector<PackedRows>& packed) const;
   std::vector<double> observable(const std::string& name) const;
   std::string damage_of_observables() const;
 
   File file;
   const StoredRun& run;
-  RowReader position, image, velocity, angular_velocity, force;
-  RowReader contact_i, contact_j, contact_force, contact_branch, contact_gap;
+  std::array<RowReader, number_of_fields> rows;  // by Field
 };
 
 TrajectoryReader::Datasets::Datasets(File its_file, const StoredRun& of_run)
     : file(std::move(its_file)), run(of_run)
 {
-  position = of_grains("position", H5T_FLOAT, 3);
-  velocity = of_grains("velocity", H5T_FLOAT, 3);
-  angular_velocity =
-      of_grains("angular_velocity", H5T_FLOAT, run.description.box.dimension == 2 ? 2 : 3);
-  image = of_grains("image", H5T_INTEGER, 3);
-  if (run.description.has_force) force = of_grains("force", H5T_FLOAT, 3);
-  contact_i = of_contacts("i", H5T_INTEGER, 1);
-  contact_j = of_contacts("j", H5T_INTEGER, 1);
-  contact_force = of_contacts("force", H5T_FLOAT, 2);
-  contact_branch = of_contacts("branch", H5T_FLOAT, 2);
-  contact_gap = of_contacts("gap", H5T_FLOAT, 1);
+  const auto& description = run.description;
+  const LayoutSizes sizes{run.size(), run.offset.back(), description.grains.size(), 0,
+                          description.box.dimension};
+  for_each_array(Frame<2>(), [&](Field field, const auto&) {
+    if (field == Field::force && !description.has_force) return;
+    const auto& row = row_of(field);
+    const auto shape = shape_of(row.shape, sizes);
+    auto dataset = open(row.path, row.type == Number::real ? H5T_FLOAT : H5T_INTEGER,
+                        static_cast<int>(shape.size()));
+    for (std::size_t axis = 0; axis < shape.size(); ++axis)
+      dataset.require(axis, shape[axis], axis == 0);
+    rows[static_cast<std::size_t>(field)] = RowReader(std::move(dataset));
+  });
 }
 
-RowReader TrajectoryReader::Datasets::of_grains(const std::string& name, H5T_class_t kind,
-                                                int rank) const
+template <class T>
+void TrajectoryReader::Datasets::load(Field field, std::size_t frame, std::vector<T>& out,
+                                      std::vector<PackedRows>& packed) const
 {
-  auto dataset = open("/particles/grains/" + name + "/value", kind, rank);
-  dataset.require(0, run.size(), true);
-  dataset.require(1, run.description.grains.size());
-  if (rank == 3) dataset.require(2, static_cast<hsize_t>(run.description.box.dimension));
-  return RowReader(std::move(dataset));
-}
-
-RowReader TrajectoryReader::Datasets::of_contacts(const std::string& name, H5T_class_t kind,
-                                                  int rank) const
-{
-  auto dataset = open("/grseg/contacts/" + name, kind, rank);
-  dataset.require(0, run.offset.back(), true);
-  if (rank == 2) dataset.require(1, static_cast<hsize_t>(run.description.box.dimension));
-  return RowReader(std::move(dataset));
-}
-
-template <int D>
-void TrajectoryReader::Datasets::load_contacts(std::size_t index, ContactList<D>& contacts,
-                                               std::vector<PackedRows>& packed) const
-{
-  const hsize_t begin = run.offset[index], count = run.offset[index + 1] - begin;
   const auto grains = run.description.grains.size();
+  if (!is_of_contacts(field)) {
+    out.resize(grains);
+    return rows_of(field).load(frame, 1, out.data(), packed);
+  }
+  const hsize_t begin = run.offset[frame], count = run.offset[frame + 1] - begin;
   if (count > 64 * grains + 1024)
     run.fail(
         fmt::format("frame {} claims {} contacts for {} grains; /grseg/contacts/offset is damaged",
-                    index, count, grains));
-  const auto load = [&](const RowReader& rows, auto& values) {
-    values.resize(count);
-    if (count > 0) rows.load(begin, count, values.data(), packed);
-  };
-  load(contact_i, contacts.i);
-  load(contact_j, contacts.j);
-  load(contact_force, contacts.force);
-  load(contact_branch, contacts.branch);
-  load(contact_gap, contacts.gap);
+                    frame, count, grains));
+  out.resize(count);
+  if (count > 0) rows_of(field).load(begin, count, out.data(), packed);
 }
 
 std::vector<double> TrajectoryReader::Datasets::observable(const std::string& name) const
@@ -134,26 +104,29 @@ Properties small_index_cache()
   return access;
 }
 
-constexpr const char* names_of_fields[number_of_fields] = {
-    "/particles/grains/position/step, time or its rows of contacts",
-    "/particles/grains/position",
-    "/particles/grains/image",
-    "/particles/grains/velocity",
-    "/particles/grains/angular_velocity",
-    "/particles/grains/force",
-    "/grseg/contacts/i",
-    "/grseg/contacts/j",
-    "/grseg/contacts/force",
-    "/grseg/contacts/branch",
-    "/grseg/contacts/gap",
-    "/observables"};
+/// "/particles/grains/position" of "/particles/grains/position/value".
+std::string name_in_messages(Field field)
+{
+  if (field == Field::place) return "/particles/grains/position/step, time or its rows of contacts";
+  if (field == Field::observables) return "/observables";
+  const std::string path = row_of(field).path;
+  return path.substr(0, path.find("/value"));
+}
 
 std::string changed(Field field, std::size_t index)
 {
   return fmt::format(
       "{} of frame {} is not what was written: the file is damaged; take a copy that is whole, or "
       "leave the frame out with --begin or --end",
-      names_of_fields[static_cast<std::size_t>(field)], index);
+      name_in_messages(field), index);
+}
+
+/// Whether these fields hold an array.
+bool include(TrajectoryReader::Fields fields, Field array)
+{
+  if (is_of_contacts(array)) return fields.contacts;
+  if (array == Field::velocity || array == Field::angular_velocity) return fields.velocity;
+  return array == Field::position || fields.force;
 }
 
 bool matches(const StoredRun& run, std::size_t index, Field field, std::uint64_t digest)
@@ -190,18 +163,12 @@ template <int D>
 std::optional<Field> changed_field(const StoredRun& run, bool float32, std::size_t index,
                                    const Frame<D>& frame, TrajectoryReader::Fields fields)
 {
-  const auto find = [&](bool was_read, std::initializer_list<Field> these) -> std::optional<Field> {
-    if (was_read)
-      for (const auto field : these)
-        if (!matches(run, index, field, field_digest(field, index, frame, float32))) return field;
-    return {};
-  };
-  auto found = find(true, {Field::position});
-  if (!found) found = find(fields.velocity, {Field::velocity, Field::angular_velocity});
-  if (!found) found = find(fields.force, {Field::image, Field::force});
-  if (!found)
-    found = find(fields.contacts, {Field::contact_i, Field::contact_j, Field::contact_force,
-                                   Field::contact_branch, Field::contact_gap});
+  std::optional<Field> found;
+  for_each_array(frame, [&](Field field, const auto&) {
+    if (!found && include(fields, field) &&
+        !matches(run, index, field, field_digest(field, index, frame, float32)))
+      found = field;
+  });
   return found;
 }
 
@@ -255,31 +222,20 @@ TrajectoryReader::Packed TrajectoryReader::load(std::size_t index, Frame<D>& fra
   if (D != dimension())
     run_->fail(fmt::format("is a run in {} dimensions, which this program does not read",
                            dimension() == 2 ? "two" : "three"));
-  const auto& from = *datasets_;
   Packed packed{index, fields, {}};
-  auto& rows = packed.rows;
   frame.step = steps().at(index);
   frame.time = times()[index];
   frame.part = 0;
-  frame.velocity.clear();
-  frame.angular_velocity.clear();
-  frame.force.clear();
-  frame.image.clear();
-  frame.contacts.clear();
   if (fields.force && has_observable("frame_step")) {
     if (parts_.empty()) parts_ = observable("frame_step");
     frame.part = parts_.at(index);
   }
-  from.load_row(from.position, index, frame.position, rows);
-  if (fields.velocity) {
-    from.load_row(from.velocity, index, frame.velocity, rows);
-    from.load_row(from.angular_velocity, index, frame.angular_velocity, rows);
-  }
-  if (fields.force) {
-    if (has_force()) from.load_row(from.force, index, frame.force, rows);
-    from.load_row(from.image, index, frame.image, rows);
-  }
-  if (fields.contacts) from.load_contacts(index, frame.contacts, rows);
+  for_each_array(frame, [&](Field field, auto& values) {
+    if (include(fields, field) && (field != Field::force || has_force()))
+      datasets_->load(field, index, values, packed.rows);
+    else
+      values.clear();
+  });
   return packed;
 }
 
@@ -310,7 +266,7 @@ std::vector<double> TrajectoryReader::observable(const std::string& name) const
 
 bool TrajectoryReader::stores_float32() const
 {
-  return datasets_->position.stores_float32();
+  return datasets_->rows_of(Field::position).stores_float32();
 }
 
 std::string TrajectoryReader::damage_outside_frames() const

@@ -4,6 +4,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
+#include "formats/trajectory/layout.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -93,26 +94,26 @@ class HeadReader {
                       fmt::join(file, ".")));
   }
 
-  /// A property of the grains that is the same in all frames.
+  /// The first `count` numbers of a dataset, which must have so many, or at_least.
   template <class T>
-  std::vector<T> constant(const std::string& name, H5T_class_t kind, hid_t type,
-                          hsize_t count) const
+  std::vector<T> column(const std::string& at, hsize_t count, bool at_least = false) const
   {
-    const auto dataset = open("/particles/grains/" + name, kind, 1);
-    dataset.require(0, count);
+    const auto& row = row_at(at);
+    const auto kind = H5Tget_class(type_of(row.type));
+    const auto dataset = open(at, kind, static_cast<int>(row.shape.size()));
+    dataset.require(0, count, at_least);
+    if (row.shape == "FD") dataset.require(1, number_of_fields);
     std::vector<T> values(count);
-    dataset.read_all(type, values.data());
+    dataset.read_rows(type_of(row.type), 0, count, values.data());
     return values;
   }
 
   void read_offset()
   {
-    const auto dataset = open("/grseg/contacts/offset", H5T_INTEGER, 1);
-    if (dataset.dims()[0] < 1 || dataset.dims()[0] > most_frames)
+    const auto entries = open("/grseg/contacts/offset", H5T_INTEGER, 1).dims()[0];
+    if (entries < 1 || entries > most_frames)
       run_.fail("/grseg/contacts/offset has an impossible length");
-    dataset.require_possible(dataset.dims()[0]);
-    run_.offset.resize(dataset.dims()[0]);
-    dataset.read_all(H5T_NATIVE_UINT64, run_.offset.data());
+    run_.offset = column<std::uint64_t>("/grseg/contacts/offset", entries);
     for (std::size_t k = 0; k < run_.offset.size(); ++k) {
       if (k == 0 ? run_.offset[k] != 0 : run_.offset[k] < run_.offset[k - 1])
         run_.fail(fmt::format("/grseg/contacts/offset does not increase from 0 at entry {}", k));
@@ -125,16 +126,11 @@ class HeadReader {
     const auto dimension = read_integers(group, "dimension");
     const bool spatial = dimension == std::vector<int>{3};
     const std::size_t size = spatial ? 3 : 2;
-    const auto edges = open("/particles/grains/box/edges", H5T_FLOAT, 1);
-    edges.require(0, size);
-    double values[3] = {0, 0, 0};
-    edges.read_all(H5T_NATIVE_DOUBLE, values);
+    const auto edges = column<double>("/particles/grains/box/edges", size);
     const auto boundary = read_texts(group, "boundary");
-    const auto known = [&](std::size_t axis) {
-      return boundary[axis] == "none" || (axis != 1 && boundary[axis] == "periodic");
-    };
     bool good = boundary.size() == size;
-    for (std::size_t axis = 0; good && axis < size; ++axis) good = known(axis);
+    for (std::size_t axis = 0; good && axis < size; ++axis)
+      good = boundary[axis] == "none" || (axis != 1 && boundary[axis] == "periodic");
     if (!good)
       run_.fail(
           spatial
@@ -143,34 +139,26 @@ class HeadReader {
               : "/particles/grains/box: boundary should be (\"periodic\",\"none\") or "
                 "(\"none\",\"none\")");
     for (const std::size_t axis : {std::size_t{0}, std::size_t{2}})
-      if (axis < size && (!(values[axis] > 0) || !std::isfinite(values[axis])))
+      if (axis < size && (!(edges[axis] > 0) || !std::isfinite(edges[axis])))
         run_.fail(fmt::format("/particles/grains/box: edges[{}] <= 0", axis));
-    run_.description.box = {values[0], values[1], boundary[0] == "periodic"};
-    if (spatial) {
-      run_.description.box.dimension = 3;
-      run_.description.box.length_z = values[2];
-      run_.description.box.periodic_z = boundary[2] == "periodic";
-    }
+    run_.description.box = {edges[0], edges[1], boundary[0] == "periodic"};
+    if (spatial)
+      run_.description.box = {edges[0], edges[1], boundary[0] == "periodic",
+                              3,        edges[2], boundary[2] == "periodic"};
   }
 
   /// Mobile species in order of their diameters, then the boundary.
   void read_species()
   {
     const auto names = open("/grseg/species/name", H5T_STRING, 1);
-    const auto diameters = open("/grseg/species/diameter", H5T_FLOAT, 1);
-    const auto mobile = open("/grseg/species/mobile", H5T_INTEGER, 1);
     const auto count = names.dims()[0];
     const std::size_t length = H5Tget_size(Type(H5Dget_type(names.id())));
     if (count < 2 || count > most_species || length > 256)
       run_.fail("/grseg/species/name has an impossible length");
-    diameters.require(0, count);
-    mobile.require(0, count);
     std::string text(length * count, '\0');
-    std::vector<double> diameter(count);
-    std::vector<std::uint8_t> moves(count);
     names.read_all(Type(H5Dget_type(names.id())), text.data());
-    diameters.read_all(H5T_NATIVE_DOUBLE, diameter.data());
-    mobile.read_all(H5T_NATIVE_UINT8, moves.data());
+    const auto diameter = column<double>("/grseg/species/diameter", count);
+    const auto moves = column<std::uint8_t>("/grseg/species/mobile", count);
     bool good = moves.back() == 0 && diameter.back() == 0 &&
                 padded(text, (count - 1) * length, length) == name_of_boundary;
     for (std::size_t k = 0; good && k + 1 < count; ++k) {
@@ -201,16 +189,14 @@ class HeadReader {
   void read_grains()
   {
     auto& grains = run_.description.grains;
-    const auto radius = open("/particles/grains/radius", H5T_FLOAT, 1);
-    const hsize_t count = radius.dims()[0];
+    const hsize_t count = open("/particles/grains/radius", H5T_FLOAT, 1).dims()[0];
     if (count < 1 || count > most_grains)
       run_.fail("/particles/grains/radius has an impossible length");
-    radius.require_possible(count);
-    grains.radius = constant<double>("radius", H5T_FLOAT, H5T_NATIVE_DOUBLE, count);
-    grains.mass = constant<double>("mass", H5T_FLOAT, H5T_NATIVE_DOUBLE, count);
-    grains.id = constant<std::int32_t>("id", H5T_INTEGER, H5T_NATIVE_INT32, count);
-    grains.fixed = constant<std::uint8_t>("fixed", H5T_INTEGER, H5T_NATIVE_UINT8, count);
-    const auto species = constant<std::int32_t>("species", H5T_INTEGER, H5T_NATIVE_INT32, count);
+    grains.radius = column<double>("/particles/grains/radius", count);
+    grains.mass = column<double>("/particles/grains/mass", count);
+    grains.id = column<std::int32_t>("/particles/grains/id", count);
+    grains.fixed = column<std::uint8_t>("/particles/grains/fixed", count);
+    const auto species = column<std::int32_t>("/particles/grains/species", count);
     const auto& list = run_.description.species;
     for (std::size_t g = 0; g < count; ++g) {
       if (species[g] < 0 || static_cast<std::size_t>(species[g]) > list.size())
@@ -225,14 +211,8 @@ class HeadReader {
 
   void read_times()
   {
-    const auto step = open("/particles/grains/position/step", H5T_INTEGER, 1);
-    const auto time = open("/particles/grains/position/time", H5T_FLOAT, 1);
-    step.require(0, run_.size(), true);
-    time.require(0, run_.size(), true);
-    run_.steps.resize(run_.size());
-    run_.times.resize(run_.size());
-    step.read_rows(H5T_NATIVE_INT64, 0, run_.size(), run_.steps.data());
-    time.read_rows(H5T_NATIVE_DOUBLE, 0, run_.size(), run_.times.data());
+    run_.steps = column<std::int64_t>("/particles/grains/position/step", run_.size(), true);
+    run_.times = column<double>("/particles/grains/position/time", run_.size(), true);
     for (std::size_t k = 0; k < run_.size(); ++k) {
       if (!std::isfinite(run_.times[k]))
         run_.fail(fmt::format("time of frame {} is not a finite number; the frame is damaged", k));
@@ -243,19 +223,11 @@ class HeadReader {
 
   void read_digests()
   {
-    const auto digests = open("/grseg/digest", H5T_INTEGER, 1);
-    digests.require(0, run_.size(), true);
-    run_.chain.resize(run_.size());
-    digests.read_rows(H5T_NATIVE_UINT64, 0, run_.size(), run_.chain.data());
-    const auto of_fields = open("/grseg/field_digest", H5T_INTEGER, 2);
-    of_fields.require(0, run_.size(), true);
-    of_fields.require(1, number_of_fields);
-    run_.field_digests.resize(run_.size());
-    of_fields.read_rows(H5T_NATIVE_UINT64, 0, run_.size(), run_.field_digests.data());
+    run_.chain = column<std::uint64_t>("/grseg/digest", run_.size(), true);
+    run_.field_digests = column<FieldDigests>("/grseg/field_digest", run_.size(), true);
     open("/grseg/static_digest", H5T_INTEGER, 0).read_all(H5T_NATIVE_UINT64, &run_.static_digest);
-    const auto seal = open("/grseg/seal", H5T_INTEGER, 1);
-    seal.require(0, run_.seal.size());
-    seal.read_all(H5T_NATIVE_UINT64, run_.seal.data());
+    const auto seal = column<std::uint64_t>("/grseg/seal", run_.seal.size());
+    std::copy(seal.begin(), seal.end(), run_.seal.begin());
   }
 
   void read_parameters()
@@ -274,8 +246,7 @@ class HeadReader {
       if (H5Tget_size(type) > most_text) run_.fail(at + " is too long");
       std::string content(H5Tget_size(type), '\0');
       text.read_all(type, content.data());
-      content.erase(std::min(content.find('\0'), content.size()));  // padding
-      run_.description.parameters.texts[name] = content;
+      run_.description.parameters.texts[name] = padded(content, 0, content.size());
       return;
     }
     const int rank = H5Sget_simple_extent_ndims(Space(H5Dget_space(dataset)));

@@ -5,12 +5,14 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
+#include "formats/trajectory/layout.hpp"
 #include "formats/trajectory/new_file.hpp"
 #include "formats/trajectory/run_description.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <numeric>
 
@@ -31,12 +33,6 @@ struct Series {
   }
 };
 
-template <class T>
-const void* first(const std::vector<T>& values)
-{
-  return values.data();
-}
-
 /// Numbers of the observables in alphabetical order.
 std::vector<std::size_t> alphabetical(const std::vector<Observable>& observables)
 {
@@ -55,10 +51,8 @@ struct TrajectoryWriter::Impl {
   RunDescription run;
   StorageSettings storage;
   File file;
-  Series step, time;
-  Series position, image, velocity, angular_velocity, force;
-  Series offset, contact_i, contact_j, contact_force, contact_branch, contact_gap;
-  Series digest, field_digests;
+  std::array<Series, number_of_fields> arrays;  // by Field
+  Series step, time, offset, digest, field_digests;
   std::vector<Series> observables;
   std::vector<std::size_t> observables_in_order;
   std::size_t frames_so_far = 0;
@@ -66,115 +60,99 @@ struct TrajectoryWriter::Impl {
   std::uint64_t digest_so_far = 0;
   bool is_writing = false;  ///< still so after a write that failed
 
-  void open_file();
-  Series series(const std::string& at, hid_t memory_type) const;
-  void open_series();
+  /// A live file gets its name once it can be read, that is, before HDF5 marks it as being written
+  /// otherwise than in SWMR mode.
+  void open_file()
+  {
+    const RemoveAtEnd unfinished(storage.live ? temporary_path(path) : "");
+    create_trajectory(storage.live ? unfinished.path() : path, run, storage);
+    if (storage.live) rename_path(unfinished.path(), path);
+    const unsigned mode = H5F_ACC_RDWR | (storage.live ? H5F_ACC_SWMR_WRITE : 0U);
+    const Properties access = newest_format();
+    if (storage.live) keep_in_pages(access);
+    file = File(H5Fopen(path.c_str(), mode, access));
+    if (!file.valid()) throw RunError(fmt::format("cannot open {} for writing", path));
+  }
+
+  Series series(const std::string& at, Number number) const
+  {
+    Series result{Dataset(H5Dopen2(file, at.c_str(), H5P_DEFAULT)), type_of(number),
+                  path + ": " + at};
+    if (!result.dataset.valid()) throw RunError(fmt::format("cannot open {}", result.path));
+    return result;
+  }
+
+  Series series(const LayoutRow& row) const { return series(row.path, row.type); }
+
+  void open_series()
+  {
+    step = series(row_at("/particles/grains/position/step"));
+    time = series(row_at("/particles/grains/position/time"));
+    for_each_array(Frame<2>(), [&](Field field, const auto&) {
+      if (field != Field::force || run.has_force)
+        arrays[static_cast<std::size_t>(field)] = series(row_of(field));
+    });
+    for (const auto& [name, unit] : run.observables)
+      observables.push_back(series("/observables/" + name + "/value", Number::f64));
+    offset = series(row_at("/grseg/contacts/offset"));
+    digest = series(row_at("/grseg/digest"));
+    field_digests = series(row_at("/grseg/field_digest"));
+  }
+
   template <int D>
-  void require_presence(const Frame<D>& frame) const;
+  void require_presence(const Frame<D>& frame) const
+  {
+    if (run.grains_come_and_go) return;
+    for (std::size_t g = 0; g < frame.position.size(); ++g)
+      if (!is_present(frame, g))
+        throw RunError(fmt::format(
+            "{}: grain {} has no position in frame {}, in a run whose grains are always there",
+            path, run.grains.id[g], frames_so_far));
+  }
+
   template <int D>
-  void append_contacts(const ContactList<D>& contacts);
+  void append_arrays(const Frame<D>& frame, bool of_contacts) const
+  {
+    for_each_array(frame, [&](Field field, const auto& values) {
+      if (is_of_contacts(field) == of_contacts && !values.empty())
+        arrays[static_cast<std::size_t>(field)].append(of_contacts ? values.size() : 1,
+                                                       values.data());
+    });
+  }
+
   template <int D>
-  void append_digests(const Frame<D>& frame, std::span<const double> values);
-  void write_seal();
+  void append_digests(const Frame<D>& frame, std::span<const double> values)
+  {
+    digest_so_far = frame_digest(frame, digest_so_far, storage.float32);
+    digest.append(1, &digest_so_far);
+
+    std::vector<double> in_order;
+    in_order.reserve(values.size());
+    for (const auto k : observables_in_order) in_order.push_back(values[k]);
+    FieldDigests all;
+    for (std::size_t f = 0; f < all.size(); ++f)
+      all[f] = field_digest(static_cast<Field>(f), frames_so_far, frame, storage.float32);
+    all[static_cast<std::size_t>(Field::place)] = field_digest(
+        frames_so_far, FramePlace{frame.step, frame.time, contacts_so_far,
+                                  contacts_so_far + frame.contacts.size(), digest_so_far});
+    all[static_cast<std::size_t>(Field::observables)] = field_digest(frames_so_far, in_order);
+    field_digests.append(1, all.data());
+  }
+
+  void write_seal()
+  {
+    const auto seal =
+        make_seal(frames_so_far, contacts_so_far, digest_so_far, static_digest(run), run.parameters)
+            .numbers();
+    overwrite(file, "/grseg/seal", H5T_NATIVE_UINT64, seal.data());
+  }
+
   void flush()
   {
     if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0)
       throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
   }
 };
-
-/// A live file gets its name once it can be read, that is, before HDF5 marks it as being written
-/// otherwise than in SWMR mode.
-void TrajectoryWriter::Impl::open_file()
-{
-  const RemoveAtEnd unfinished(storage.live ? temporary_path(path) : "");
-  create_trajectory(storage.live ? unfinished.path() : path, run, storage);
-  if (storage.live) rename_path(unfinished.path(), path);
-  const unsigned mode = H5F_ACC_RDWR | (storage.live ? H5F_ACC_SWMR_WRITE : 0U);
-  const Properties access = newest_format();
-  if (storage.live) keep_in_pages(access);
-  file = File(H5Fopen(path.c_str(), mode, access));
-  if (!file.valid()) throw RunError(fmt::format("cannot open {} for writing", path));
-}
-
-Series TrajectoryWriter::Impl::series(const std::string& at, hid_t memory_type) const
-{
-  Series result{Dataset(H5Dopen2(file, at.c_str(), H5P_DEFAULT)), memory_type, path + ": " + at};
-  if (!result.dataset.valid()) throw RunError(fmt::format("cannot open {}", result.path));
-  return result;
-}
-
-void TrajectoryWriter::Impl::open_series()
-{
-  const std::string grains = "/particles/grains/", contacts = "/grseg/contacts/";
-  step = series(grains + "position/step", H5T_NATIVE_INT64);
-  time = series(grains + "position/time", H5T_NATIVE_DOUBLE);
-  position = series(grains + "position/value", H5T_NATIVE_DOUBLE);
-  image = series(grains + "image/value", H5T_NATIVE_INT32);
-  velocity = series(grains + "velocity/value", H5T_NATIVE_DOUBLE);
-  angular_velocity = series(grains + "angular_velocity/value", H5T_NATIVE_DOUBLE);
-  if (run.has_force) force = series(grains + "force/value", H5T_NATIVE_DOUBLE);
-  for (const auto& [name, unit] : run.observables)
-    observables.push_back(series("/observables/" + name + "/value", H5T_NATIVE_DOUBLE));
-  contact_i = series(contacts + "i", H5T_NATIVE_INT32);
-  contact_j = series(contacts + "j", H5T_NATIVE_INT32);
-  contact_force = series(contacts + "force", H5T_NATIVE_DOUBLE);
-  contact_branch = series(contacts + "branch", H5T_NATIVE_DOUBLE);
-  contact_gap = series(contacts + "gap", H5T_NATIVE_DOUBLE);
-  offset = series(contacts + "offset", H5T_NATIVE_UINT64);
-  digest = series("/grseg/digest", H5T_NATIVE_UINT64);
-  field_digests = series("/grseg/field_digest", H5T_NATIVE_UINT64);
-}
-
-template <int D>
-void TrajectoryWriter::Impl::require_presence(const Frame<D>& frame) const
-{
-  if (run.grains_come_and_go) return;
-  for (std::size_t g = 0; g < frame.position.size(); ++g)
-    if (!is_present(frame, g))
-      throw RunError(fmt::format(
-          "{}: grain {} has no position in frame {}, in a run whose grains are always there", path,
-          run.grains.id[g], frames_so_far));
-}
-
-template <int D>
-void TrajectoryWriter::Impl::append_contacts(const ContactList<D>& contacts)
-{
-  const hsize_t rows = contacts.size();
-  if (rows == 0) return;
-  contact_i.append(rows, contacts.i.data());
-  contact_j.append(rows, contacts.j.data());
-  contact_force.append(rows, first(contacts.force));
-  contact_branch.append(rows, first(contacts.branch));
-  contact_gap.append(rows, contacts.gap.data());
-}
-
-template <int D>
-void TrajectoryWriter::Impl::append_digests(const Frame<D>& frame, std::span<const double> values)
-{
-  digest_so_far = frame_digest(frame, digest_so_far, storage.float32);
-  digest.append(1, &digest_so_far);
-
-  std::vector<double> in_order;
-  in_order.reserve(values.size());
-  for (const auto k : observables_in_order) in_order.push_back(values[k]);
-  FieldDigests all;
-  for (std::size_t f = 0; f < all.size(); ++f)
-    all[f] = field_digest(static_cast<Field>(f), frames_so_far, frame, storage.float32);
-  all[static_cast<std::size_t>(Field::place)] = field_digest(
-      frames_so_far, FramePlace{frame.step, frame.time, contacts_so_far,
-                                contacts_so_far + frame.contacts.size(), digest_so_far});
-  all[static_cast<std::size_t>(Field::observables)] = field_digest(frames_so_far, in_order);
-  field_digests.append(1, all.data());
-}
-
-void TrajectoryWriter::Impl::write_seal()
-{
-  const auto seal =
-      make_seal(frames_so_far, contacts_so_far, digest_so_far, static_digest(run), run.parameters)
-          .numbers();
-  overwrite(file, "/grseg/seal", H5T_NATIVE_UINT64, seal.data());
-}
 
 TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription& run,
                                    const StorageSettings& storage)
@@ -212,12 +190,8 @@ void TrajectoryWriter::append(const Frame<D>& frame, std::span<const double> obs
   assert(observables.size() == my.observables.size());
   my.require_presence(frame);
   my.is_writing = true;
-  my.append_contacts(frame.contacts);
-  my.position.append(1, first(frame.position));
-  my.image.append(1, frame.image.data());
-  my.velocity.append(1, first(frame.velocity));
-  my.angular_velocity.append(1, frame.angular_velocity.data());
-  if (my.run.has_force) my.force.append(1, first(frame.force));
+  my.append_arrays(frame, true);
+  my.append_arrays(frame, false);
   for (std::size_t k = 0; k < observables.size(); ++k) my.observables[k].append(1, &observables[k]);
   my.step.append(1, &frame.step);
   my.time.append(1, &frame.time);
