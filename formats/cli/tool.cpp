@@ -5,6 +5,8 @@
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 
+#include "citation.hpp"
+
 #include <fmt/format.h>
 
 #include <csignal>
@@ -141,7 +143,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
     if (values.count("help") > 0) {
       print_help(info, all);
     } else if (values.count("cite") > 0) {
-      std::cout << citations();
+      std::cout << bibtex;
     } else if (values.count("completion") > 0) {
       std::cout << completion_script(values["completion"].as<std::string>(), info.name, all);
     } else if (values.count("version") > 0) {

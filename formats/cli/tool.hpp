@@ -52,10 +52,6 @@ std::string single_input(const po::variables_map& values, const char* remedy);
 /// An option of a time in s; `place` stays empty where it is not given.
 po::typed_value<double>* time_option(std::optional<double>& place);
 
-/// What --cite prints: BibTeX of this version of grseg, of the paper whose method it follows, and of
-/// the sources of the rules that share out a mixed contact, each under a line on what it is for.
-std::string citations();
-
 /// Those that complete options.
 std::vector<std::string> shells();
 
