@@ -32,7 +32,7 @@ double bytes_of_frame(const Scene& scene, double grains)
 Scene small_bed(const Scene& scene)
 {
   auto small = scene;
-  small.geometry = &bed_geometry();
+  small.geometry = &bed_geometry;
   small.lateral = Scene::Lateral::periodic;
   small.base = Scene::Base::wall;
   small.large_grains = std::nullopt;

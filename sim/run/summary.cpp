@@ -39,7 +39,7 @@ std::string flow_in_words(const RunSummary& s, const Scene& scene)
     slope += fmt::format(" at t = 0, {:g} per second steeper, {:.4g} at t = {:g} s",
                          scene.slope_rate, scene.slope + scene.slope_rate * s.end, s.end);
   return fmt::format("{}: deposited {:.1f} d_S high; {}, friction {:g}, restitution {:g}{}",
-                     scene.geometry->name(), s.deposited_height / scene.small_diameter, slope,
+                     scene.geometry->name, s.deposited_height / scene.small_diameter, slope,
                      scene.friction, scene.restitution,
                      scene.law == ContactLaw::centred ? " (contact law centred)" : "");
 }
@@ -121,8 +121,10 @@ NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals)
   in.step = scene.step;
   in.mass = scene.density * std::numbers::pi / 4 * d * d;
   in.diameter = d;
-  in.base_pressure = scene.geometry->base_pressure(
-      scene, totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length));
+  const auto base_pressure = scene.geometry->base_pressure;
+  in.base_pressure = base_pressure
+                         ? base_pressure(scene)
+                         : totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length);
   in.layers = scene.depth / d;
   in.gravity = scene.gravity * std::cos(scene.slope * std::numbers::pi / 180);
   return numerical_stiffness(in);

@@ -97,7 +97,7 @@ double smallest_grain(const Scene& scene)
 void resolve_base_row(Scene& scene, const KeyGiven& given)
 {
   if (!given("base-spacing")) scene.base_spacing = scene.base_diameter;
-  const bool free_to_choose = scene.geometry->can_shape_base(scene);
+  const bool free_to_choose = scene.geometry->shapes_base && scene.base == Scene::Base::grains;
   if (free_to_choose) check_room(scene);
   scene.base_spacing = mean_spacing(scene, scene.base_spacing);
   const char* key = key_of_other_base(scene);

@@ -95,8 +95,7 @@ void add_rows(Shower& shower, const Scene& scene, const std::vector<Cell>& cells
   const double row_height = loose * widest;
   auto& y = shower.top;
   for (auto cell = cells.begin(); cell != cells.end(); y += row_height) {
-    const auto below = scene.geometry->room_at(scene, y),
-               above = scene.geometry->room_at(scene, y + row_height);
+    const auto below = room_at(scene, y), above = room_at(scene, y + row_height);
     const auto room = overlap_of(below, above);
     const double width = width_of(room);
     const long per_row = static_cast<long>(width / row_height);
@@ -104,7 +103,7 @@ void add_rows(Shower& shower, const Scene& scene, const std::vector<Cell>& cells
       throw UsageError(
           fmt::format("the falling grains do not fit: the {} has no room for one at a height of "
                       "{:.4g} m; choose a wider one or fewer grains",
-                      scene.geometry->name(), y));
+                      scene.geometry->name, y));
     const Row row{room.left, y, width / static_cast<double>(per_row), row_height};
     for (long place = 0; place < per_row && cell != cells.end(); ++place, ++cell)
       fill_cell(shower, scene, row, place, *cell, random);
@@ -183,7 +182,7 @@ Numbers numbers_of(const Scene& scene, double area)
 /// m^2, of the first guess.
 double usual_area(const Scene& scene)
 {
-  return usual_solid_fraction * scene.geometry->bed_area(scene);
+  return usual_solid_fraction * bed_area(scene);
 }
 
 /// The grains of a bed whose mobile grains cover `area` (m^2), in the air above their base.
@@ -353,7 +352,7 @@ Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
     const auto start = simulation;
     const auto steps = settle(simulation, scene, hooks);
     const double height = bed_height(simulation);
-    if (!scene.geometry->checks_height() ||
+    if (!scene.geometry->checks_height ||
         std::abs(height - scene.depth) <= depth_tolerance * scene.depth) {
       if (hooks.record) {
         simulation = start;

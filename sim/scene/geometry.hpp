@@ -29,55 +29,47 @@ using KeyGiven = std::function<bool(const char* key)>;
 
 /// What bounds the grains of a scene, how it moves, and what changes at t = 0. There is one object
 /// for each value of the key `geometry`, in sim/scene/geometry. y = 0 is where Scene::origin puts
-/// it; in a drum, at its lowest point.
-class Geometry {
- public:
-  /// `name`: value of the key. `help`: what moves or opens, in a few words.
-  Geometry(const char* name, const char* help) : name_(name), help_(help) {}
-  Geometry(const Geometry&) = delete;
-  Geometry& operator=(const Geometry&) = delete;
-  virtual ~Geometry() = default;
-
-  const char* name() const { return name_; }
-  const char* help() const { return help_; }
+/// it; in a drum, at its lowest point. Functions that may be null have no effect then.
+struct Geometry {
+  const char* name;  ///< value of the key
+  const char* help;  ///< what moves or opens, in a few words
 
   /// Checks what this geometry requires of other keys (SceneError), and sets the members of `scene`
   /// that follow from its own keys.
-  virtual void resolve(Scene& scene, const KeyGiven& given) const = 0;
-  /// Whether the base can be shaken.
-  virtual bool can_shake(const Scene&) const { return false; }
+  void (*resolve)(Scene& scene, const KeyGiven& given) = nullptr;
+  /// Whether grains of the base can be shaken, and the keys base-... may ask for another row of beads
+  /// than the regular one; in all others there is neither.
+  bool shapes_base = false;
 
-  /// Whether the keys base-... may ask for another row of beads than the regular one.
-  virtual bool can_shape_base(const Scene&) const { return false; }
-
-  virtual Boundaries boundaries(const Scene& scene) const = 0;
-  /// At height y, m, of the cell.
-  virtual Room room_at(const Scene& scene, double y) const;
-  /// m^2, under the surface of the settled bed, voids included.
-  virtual double bed_area(const Scene& scene) const;
+  Boundaries (*boundaries)(const Scene& scene);
+  /// At height y, m, of the cell; null: over its whole length.
+  Room (*room_at)(const Scene& scene, double y) = nullptr;
+  /// m^2, under the surface of the settled bed, voids included; null: depth times width at y = 0.
+  double (*bed_area)(const Scene& scene) = nullptr;
   /// Whether the deposition is repeated until the bed is as high as Scene::depth.
-  virtual bool checks_height() const { return true; }
+  bool checks_height = true;
 
   /// The deposited grains at t = 0, after what held them is gone or what presses them has come.
-  virtual Simulation release(const Simulation& deposited, const Scene& scene) const;
+  Simulation (*release)(const Simulation& deposited, const Scene& scene) = nullptr;
   /// Whether `release` neither adds nor removes grains, so that frames before and after t = 0 can
   /// be in one file.
-  virtual bool keeps_grains() const { return true; }
+  bool keeps_grains = true;
   /// Whether one of `bodies` moves freely.
-  virtual bool has_free_body() const { return false; }
+  bool has_free_body = false;
   /// Boundary grains that move from t = 0 on; they are the last rows of `grains`.
-  virtual std::vector<BoundaryBody> bodies(const Scene& scene, const Grains& grains) const;
-  /// From t = 0 on.
-  virtual Gravity<2> gravity(const Scene& scene) const;
-  /// N/m, of the flow on its base, of which its weight makes `weight`.
-  virtual double base_pressure(const Scene& scene, double weight) const;
+  std::vector<BoundaryBody> (*bodies)(const Scene& scene, const Grains& grains) = nullptr;
+  /// From t = 0 on; false: none.
+  bool has_gravity = true;
+  /// N/m, of the flow on its base; null: what its weight makes.
+  double (*base_pressure)(const Scene& scene) = nullptr;
 
   /// Adds what /parameters holds of this geometry beside the keys.
-  virtual void describe(const Scene& scene, Parameters& parameters) const;
-
- private:
-  const char *name_, *help_;
+  void (*describe)(const Scene& scene, Parameters& parameters) = nullptr;
 };
+
+/// Geometry::room_at and Geometry::bed_area of Scene::geometry.
+Room room_at(const Scene& scene, double y);
+double bed_area(const Scene& scene);
 
 /// Scene::geometry's boundary grains that move; they are the last rows of `grains`.
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
@@ -86,11 +78,7 @@ std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
 bool moves_boundaries(const Scene& scene);
 
 // Each in the file of its name.
-const Geometry& bed_geometry();
-const Geometry& drum_geometry();
-const Geometry& shear_geometry();
-const Geometry& column_geometry();
-const Geometry& hopper_geometry();
+extern const Geometry bed_geometry, drum_geometry, shear_geometry, column_geometry, hopper_geometry;
 
 /// All of them, in the order of --help.
 const std::vector<const Geometry*>& geometries();

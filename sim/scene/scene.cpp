@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace grseg {
 
@@ -21,7 +22,10 @@ std::int64_t Scene::steps_in_all() const
 
 Gravity<2> gravity_of(const Scene& scene)
 {
-  return scene.geometry->gravity(scene);
+  if (!scene.geometry->has_gravity) return {};
+  const double slope = scene.slope * std::numbers::pi / 180;
+  return {{scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)},
+          scene.slope_rate * std::numbers::pi / 180};
 }
 
 LawParameters law_parameters(const Scene& scene)

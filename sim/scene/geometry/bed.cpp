@@ -8,43 +8,29 @@
 namespace grseg {
 namespace {
 
-class Bed : public Geometry {
- public:
-  using Geometry::Geometry;
+Boundaries bed_boundaries(const Scene& scene)
+{
+  Boundaries all;
+  add_base(all, scene);
+  add_side_walls(all, scene);
+  return all;
+}
 
-  void resolve(Scene&, const KeyGiven&) const override {}
-
-  bool can_shake(const Scene& scene) const override { return scene.base == Scene::Base::grains; }
-
-  bool can_shape_base(const Scene& scene) const override
-  {
-    return scene.base == Scene::Base::grains;
-  }
-
-  Boundaries boundaries(const Scene& scene) const override
-  {
-    Boundaries all;
-    add_base(all, scene);
-    add_side_walls(all, scene);
-    return all;
-  }
-
-  std::vector<BoundaryBody> bodies(const Scene& scene, const Grains& grains) const override
-  {
-    if (scene.shake_amplitude == 0) return {};
-    auto base = body_of_beads(grains);
-    base.amplitude = {0, scene.shake_amplitude};
-    base.angular_frequency = 2 * std::numbers::pi * scene.shake_frequency;
-    return {base};
-  }
-};
+std::vector<BoundaryBody> shaken_base(const Scene& scene, const Grains& grains)
+{
+  if (scene.shake_amplitude == 0) return {};
+  auto base = body_of_beads(grains);
+  base.amplitude = {0, scene.shake_amplitude};
+  base.angular_frequency = 2 * std::numbers::pi * scene.shake_frequency;
+  return {base};
+}
 
 }  // namespace
 
-const Geometry& bed_geometry()
-{
-  static const Bed bed("bed", "on its base");
-  return bed;
-}
+const Geometry bed_geometry{.name = "bed",
+                            .help = "on its base",
+                            .shapes_base = true,
+                            .boundaries = bed_boundaries,
+                            .bodies = shaken_base};
 
 }  // namespace grseg

@@ -6,45 +6,44 @@
 namespace grseg {
 namespace {
 
-class Column : public Geometry {
- public:
-  using Geometry::Geometry;
+void resolve_column(Scene& scene, const KeyGiven&)
+{
+  require(scene.lateral == Scene::Lateral::walls, "lateral",
+          "lateral is periodic: a column stands between walls; set lateral = walls");
+  require(scene.column_width >= scene.large_diameter, "column-width",
+          "column-width is below 1 d_L: a large grain does not fit in; choose a wider one");
+  require(scene.column_width < scene.length, "column-width",
+          "column-width is not below length: the column needs room to fall into");
+}
 
-  void resolve(Scene& scene, const KeyGiven&) const override
-  {
-    require(scene.lateral == Scene::Lateral::walls, "lateral",
-            "lateral is periodic: a column stands between walls; set lateral = walls");
-    require(scene.column_width >= scene.large_diameter, "column-width",
-            "column-width is below 1 d_L: a large grain does not fit in; choose a wider one");
-    require(scene.column_width < scene.length, "column-width",
-            "column-width is not below length: the column needs room to fall into");
-  }
+Boundaries column_boundaries(const Scene& scene)
+{
+  Boundaries all;
+  add_base(all, scene);
+  add_side_walls(all, scene);
+  all.walls.push_back({{scene.column_width, 0}, {-1, 0}});  // the gate
+  return all;
+}
 
-  Boundaries boundaries(const Scene& scene) const override
-  {
-    Boundaries all;
-    add_base(all, scene);
-    add_side_walls(all, scene);
-    all.walls.push_back({{scene.column_width, 0}, {-1, 0}});  // the gate
-    return all;
-  }
+Room room_of_column(const Scene& scene, double)
+{
+  return {0, scene.column_width};
+}
 
-  Room room_at(const Scene& scene, double) const override { return {0, scene.column_width}; }
-
-  Simulation release(const Simulation& deposited, const Scene&) const override
-  {
-    auto packing = packing_of(deposited);
-    packing.world.walls.pop_back();
-    return set_in_motion(packing, deposited);
-  }
-};
+Simulation open_gate(const Simulation& deposited, const Scene&)
+{
+  auto packing = packing_of(deposited);
+  packing.world.walls.pop_back();
+  return set_in_motion(packing, deposited);
+}
 
 }  // namespace
 
-const Geometry& column_geometry()
-{
-  static const Column column("column", "its gate opens at t = 0");
-  return column;
-}
+const Geometry column_geometry{.name = "column",
+                               .help = "its gate opens at t = 0",
+                               .resolve = resolve_column,
+                               .boundaries = column_boundaries,
+                               .room_at = room_of_column,
+                               .release = open_gate};
 
 }  // namespace grseg

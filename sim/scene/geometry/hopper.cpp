@@ -31,46 +31,40 @@ std::vector<double> plug(const Scene& scene)
   return x;
 }
 
-class Hopper : public Geometry {
- public:
-  using Geometry::Geometry;
+void resolve_hopper(Scene& scene, const KeyGiven&)
+{
+  require(scene.lateral == Scene::Lateral::walls, "lateral",
+          "lateral is periodic: a hopper stands between walls; set lateral = walls");
+  require(scene.base == Scene::Base::grains, "base",
+          "base is wall: the outlet of a hopper lies between grains; set base = grains");
+  require(scene.outlet < scene.length, "outlet",
+          "outlet is not below length: nothing would hold the bed");
+}
 
-  void resolve(Scene& scene, const KeyGiven&) const override
-  {
-    require(scene.lateral == Scene::Lateral::walls, "lateral",
-            "lateral is periodic: a hopper stands between walls; set lateral = walls");
-    require(scene.base == Scene::Base::grains, "base",
-            "base is wall: the outlet of a hopper lies between grains; set base = grains");
-    require(scene.outlet < scene.length, "outlet",
-            "outlet is not below length: nothing would hold the bed");
-  }
+Boundaries hopper_boundaries(const Scene& scene)
+{
+  Boundaries all;
+  add_bead_base(all, scene, row_with_outlet(scene));
+  add_side_walls(all, scene);
+  all.walls.push_back({{0, -1.3 * scene.depth}, {0, 1}});  // catches what has left
+  for (const double x : plug(scene)) add_bead(all, scene, {x, height_of_base_centres(scene)});
+  return all;
+}
 
-  Boundaries boundaries(const Scene& scene) const override
-  {
-    Boundaries all;
-    add_bead_base(all, scene, row_with_outlet(scene));
-    add_side_walls(all, scene);
-    all.walls.push_back({{0, -1.3 * scene.depth}, {0, 1}});  // catches what has left
-    for (const double x : plug(scene)) add_bead(all, scene, {x, height_of_base_centres(scene)});
-    return all;
-  }
-
-  Simulation release(const Simulation& deposited, const Scene& scene) const override
-  {
-    auto packing = packing_of(deposited);
-    remove_last_grains(packing, plug(scene).size());
-    return set_in_motion(packing, deposited);
-  }
-
-  bool keeps_grains() const override { return false; }
-};
+Simulation open_outlet(const Simulation& deposited, const Scene& scene)
+{
+  auto packing = packing_of(deposited);
+  remove_last_grains(packing, plug(scene).size());
+  return set_in_motion(packing, deposited);
+}
 
 }  // namespace
 
-const Geometry& hopper_geometry()
-{
-  static const Hopper hopper("hopper", "its outlet opens at t = 0");
-  return hopper;
-}
+const Geometry hopper_geometry{.name = "hopper",
+                               .help = "its outlet opens at t = 0",
+                               .resolve = resolve_hopper,
+                               .boundaries = hopper_boundaries,
+                               .release = open_outlet,
+                               .keeps_grains = false};
 
 }  // namespace grseg

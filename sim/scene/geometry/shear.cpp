@@ -34,62 +34,60 @@ void add_shear_flow(Simulation& simulation, const Scene& scene)
   }
 }
 
-class ShearCell : public Geometry {
- public:
-  using Geometry::Geometry;
+void resolve_shear_cell(Scene& scene, const KeyGiven& given)
+{
+  require(scene.lateral == Scene::Lateral::periodic, "lateral",
+          "lateral is walls: a shear cell has no ends; set lateral = periodic");
+  require(scene.base == Scene::Base::grains, "base",
+          "base is wall: the plates of a shear cell are rough; set base = grains");
+  require(scene.slope_rate == 0, "slope-rate",
+          "slope-rate turns gravity, and a shear cell has none");
+  // The bed then presses on its base about as the plate is going to.
+  if (!given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
+}
 
-  void resolve(Scene& scene, const KeyGiven& given) const override
-  {
-    require(scene.lateral == Scene::Lateral::periodic, "lateral",
-            "lateral is walls: a shear cell has no ends; set lateral = periodic");
-    require(scene.base == Scene::Base::grains, "base",
-            "base is wall: the plates of a shear cell are rough; set base = grains");
-    require(scene.slope_rate == 0, "slope-rate",
-            "slope-rate turns gravity, and a shear cell has none");
-    // The bed then presses on its base about as the plate is going to.
-    if (!given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
-  }
+Boundaries lower_plate(const Scene& scene)
+{
+  Boundaries all;
+  add_base(all, scene);
+  return all;
+}
 
-  Boundaries boundaries(const Scene& scene) const override
-  {
-    Boundaries all;
-    add_base(all, scene);
-    return all;
-  }
+Simulation begin_to_shear(const Simulation& deposited, const Scene& scene)
+{
+  auto packing = packing_of(deposited);
+  add_plate(packing, scene);
+  auto simulation = set_in_motion(packing, deposited);
+  add_shear_flow(simulation, scene);
+  return simulation;
+}
 
-  Simulation release(const Simulation& deposited, const Scene& scene) const override
-  {
-    auto packing = packing_of(deposited);
-    add_plate(packing, scene);
-    auto simulation = set_in_motion(packing, deposited);
-    add_shear_flow(simulation, scene);
-    return simulation;
-  }
+std::vector<BoundaryBody> upper_plate(const Scene& scene, const Grains& grains)
+{
+  auto plate = body_of_beads(grains);
+  plate.begin += (plate.end - plate.begin) / 2;  // the base has as many beads
+  plate.velocity = {scene.plate_speed, 0};
+  plate.mass = scene.plate_mass;
+  plate.load = -scene.plate_pressure * scene.length;
+  return {plate};
+}
 
-  bool keeps_grains() const override { return false; }
-  bool has_free_body() const override { return true; }
-
-  std::vector<BoundaryBody> bodies(const Scene& scene, const Grains& grains) const override
-  {
-    auto plate = body_of_beads(grains);
-    plate.begin += (plate.end - plate.begin) / 2;  // the base has as many beads
-    plate.velocity = {scene.plate_speed, 0};
-    plate.mass = scene.plate_mass;
-    plate.load = -scene.plate_pressure * scene.length;
-    return {plate};
-  }
-
-  Gravity<2> gravity(const Scene&) const override { return {}; }
-
-  double base_pressure(const Scene& scene, double) const override { return scene.plate_pressure; }
-};
+double pressure_of_plate(const Scene& scene)
+{
+  return scene.plate_pressure;
+}
 
 }  // namespace
 
-const Geometry& shear_geometry()
-{
-  static const ShearCell cell("shear", "under a plate, without gravity");
-  return cell;
-}
+const Geometry shear_geometry{.name = "shear",
+                              .help = "under a plate, without gravity",
+                              .resolve = resolve_shear_cell,
+                              .boundaries = lower_plate,
+                              .release = begin_to_shear,
+                              .keeps_grains = false,
+                              .has_free_body = true,
+                              .bodies = upper_plate,
+                              .has_gravity = false,
+                              .base_pressure = pressure_of_plate};
 
 }  // namespace grseg

@@ -16,7 +16,7 @@ using namespace kinds;
 Words<const Geometry*> geometry_words()
 {
   Words<const Geometry*> words;
-  for (const auto* geometry : geometries()) words.emplace_back(geometry->name(), geometry);
+  for (const auto* geometry : geometries()) words.emplace_back(geometry->name, geometry);
   return words;
 }
 
@@ -24,7 +24,7 @@ std::string geometry_help()
 {
   std::vector<std::string> all;
   for (const auto* geometry : geometries())
-    all.push_back(fmt::format("{} ({})", geometry->name(), geometry->help()));
+    all.push_back(fmt::format("{} ({})", geometry->name, geometry->help));
   return fmt::format("{}", fmt::join(all, ", "));
 }
 

@@ -57,7 +57,7 @@ double mass_of_plate(const Scene& scene)
 void check_shaking(const Scene& scene)
 {
   if (scene.shake_amplitude == 0) return;
-  require(scene.geometry->can_shake(scene), "shake-amplitude",
+  require(scene.geometry->shapes_base && scene.base == Scene::Base::grains, "shake-amplitude",
           "shake-amplitude moves the grains under a bed; set geometry = bed and base = grains");
   require(scene.shake_frequency > 0, "shake-frequency",
           "shake-frequency is 0 but shake-amplitude is not; give both");
@@ -96,7 +96,7 @@ int more_sweeps(const Scene& scene)
       scene.large_grains ? *scene.large_grains > 0 : scene.phi_large > 0 && scene.phi_large < 1;
   const double masses = scene.density_ratio * scene.size_ratio * scene.size_ratio;
   if (two_species) contrast = std::max(masses / heaviest_large, 1 / masses);
-  if (scene.geometry->has_free_body()) {
+  if (scene.geometry->has_free_body) {
     const double small = scene.density * std::numbers::pi / 4 * std::pow(scene.small_diameter, 2);
     const double under_it = scene.length / scene.small_diameter;
     contrast = std::max(contrast, scene.plate_mass / (under_it * small) / heaviest_plate);
@@ -119,12 +119,12 @@ void resolve_accuracy(Scene& scene, const KeyGiven& given)
   require(solver.min_sweeps <= solver.max_sweeps, "min-sweeps",
           fmt::format("min-sweeps is {}, above max-sweeps, {}; give both", solver.min_sweeps,
                       solver.max_sweeps));
-  const bool free_body = scene.geometry->has_free_body();
+  const bool free_body = scene.geometry->has_free_body;
   if (!given("precision")) solver.precision = free_body ? Precision::doubles : accuracy.precision;
   require(!free_body || solver.precision == Precision::doubles, "precision",
           fmt::format("precision is mixed, but a body that moves freely, as in geometry {}, is "
                       "solved in double precision; leave it out",
-                      scene.geometry->name()));
+                      scene.geometry->name));
 }
 
 void check_frames(const Scene& scene)
@@ -141,15 +141,15 @@ void check_frames(const Scene& scene)
                       scene.duration, scene.step));
   require_within(static_cast<double>(scene.burst), "burst", 1,
                  static_cast<double>(scene.steps_per_frame()));
-  require(!scene.keep_deposition || scene.geometry->keeps_grains(), "keep-deposition",
+  require(!scene.keep_deposition || scene.geometry->keeps_grains, "keep-deposition",
           fmt::format("keep-deposition: in geometry {} other grains are there from t = 0 on, and "
                       "one file cannot hold both; leave it out",
-                      scene.geometry->name()));
+                      scene.geometry->name));
 }
 
 void check_plate(const Scene& scene)
 {
-  if (!scene.geometry->has_free_body()) return;
+  if (!scene.geometry->has_free_body) return;
   const double load = scene.plate_pressure * scene.length;
   const double way = load / scene.plate_mass * scene.step * scene.step / scene.small_diameter;
   require(way <= farthest_by_load, "plate-mass",
@@ -177,7 +177,7 @@ Scene resolve_scene(const po::variables_map& values)
   };
   Scene scene;
   read_keys(values, scene);
-  scene.geometry->resolve(scene, given);
+  if (scene.geometry->resolve) scene.geometry->resolve(scene, given);
   resolve_base_row(scene, given);
   if (!given("plate-mass")) scene.plate_mass = mass_of_plate(scene);
   if (!given("contact-law") && scene.restitution > most_speculative_restitution)

@@ -139,7 +139,7 @@ Parameters to_parameters(const Scene& scene)
   parameters.numbers["large_diameter"] = {scene.large_diameter};
   parameters.numbers["contact_margin"] = {law_parameters(scene).margin};
   parameters.texts["scene"] = to_text(scene);
-  scene.geometry->describe(scene, parameters);
+  if (scene.geometry->describe) scene.geometry->describe(scene, parameters);
   return parameters;
 }
 
