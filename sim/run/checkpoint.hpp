@@ -41,7 +41,7 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
 /// UsageError where `path` is missing, FormatError where it is not a checkpoint, is damaged (its
 /// digest detects any changed bit), is of another version, or holds what no run can continue from
-/// (checkpoint_check.hpp). The sentence names the previous checkpoint where there is one.
+/// (checkpoint_entries.hpp). The sentence names the previous checkpoint where there is one.
 Checkpoint read_checkpoint(const std::string& path);
 
 }  // namespace grseg

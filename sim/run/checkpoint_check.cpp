@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/run/checkpoint_check.hpp"
-
 #include "formats/core/errors.hpp"
+#include "sim/run/checkpoint_entries.hpp"
 #include "sim/run/restart.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -27,10 +28,6 @@ bool finite(const Vec2& x)
 {
   return x.allFinite();
 }
-bool positive(double x)
-{
-  return std::isfinite(x) && x > 0;
-}
 
 class Check {
  public:
@@ -38,13 +35,36 @@ class Check {
 
   void all() const
   {
-    sizes();
+    require(c_.grains.size() > 0, "there are no grains");
+    visit_all(*this, c_);
     grains();
     surroundings();
     state();
     pairs();
     trajectory();
     in_scene(scene());
+  }
+
+  /// What holds of every entry: as many values as there are grains or pairs, and finite numbers.
+  template <class T>
+  void operator()(const std::string& path, const T& value) const
+  {
+    if constexpr (std::is_same_v<T, double>)
+      require(finite(value), path + " is not a finite number");
+  }
+  template <class T>
+  void operator()(const std::string& path, const std::vector<T>& values) const
+  {
+    const bool made_at = path == "/state/pairs/made_at";
+    const bool of_pairs = path.starts_with("/state/pairs/") && !made_at;
+    const auto grains = c_.grains.size(), pairs = c_.state.pairs.i.size();
+    const auto size = of_pairs ? pairs : !made_at ? grains : pairs == 0 ? 0 : grains + 1;
+    require(values.size() == size || path == "/walls",
+            fmt::format("{} has {} entries for {} {}", path, values.size(),
+                        of_pairs ? pairs : grains, of_pairs ? "pairs" : "grains"));
+    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec2>)
+      each(
+          path, values, [](const T& x) { return finite(x); }, "is not a finite number");
   }
 
  private:
@@ -59,16 +79,11 @@ class Check {
     if (!valid) fail(what);
   }
   template <class Values, class Valid>
-  void each(const char* path, const Values& values, const Valid& valid, const char* what) const
+  void each(const std::string& path, const Values& values, const Valid& valid,
+            const char* what) const
   {
     for (std::size_t k = 0; k < values.size(); ++k)
       if (!valid(values[k])) fail(fmt::format("{}, entry {}, {}", path, k, what));
-  }
-  template <class Values>
-  void all_finite(const char* path, const Values& values) const
-  {
-    each(
-        path, values, [](const auto& x) { return finite(x); }, "is not a finite number");
   }
   /// Each of 0, 1, 2 ... or whatever number once.
   void each_once(const char* path, std::vector<std::int32_t> values) const
@@ -78,31 +93,6 @@ class Check {
     if (twice != values.end()) fail(fmt::format("{} has {} twice", path, *twice));
   }
 
-  void sizes() const
-  {
-    const auto n = c_.grains.size(), pairs = c_.state.pairs.i.size();
-    require(n > 0, "there are no grains");
-    for (const auto& [path, size] : {std::pair{"/grains/id", c_.grains.id.size()},
-                                     {"/grains/species", c_.grains.species.size()},
-                                     {"/grains/mass", c_.grains.mass.size()},
-                                     {"/grains/fixed", c_.grains.fixed.size()},
-                                     {"/state/position", c_.state.position.size()},
-                                     {"/state/image", c_.state.image.size()},
-                                     {"/state/velocity", c_.state.velocity.size()},
-                                     {"/state/rim_speed", c_.state.rim_speed.size()},
-                                     {"/state/row", c_.state.row.size()}})
-      require(size == n, fmt::format("{} has {} entries for {} grains", path, size, n));
-    for (const auto& [path, size] : {std::pair{"j", c_.state.pairs.j.size()},
-                                     {"impulse_n", c_.state.pairs.impulse_n.size()},
-                                     {"impulse_t", c_.state.pairs.impulse_t.size()},
-                                     {"approach", c_.state.pairs.approach.size()}})
-      require(size == pairs,
-              fmt::format("/state/pairs/{} has {} entries for {} pairs", path, size, pairs));
-    const auto made_at = c_.state.pairs.made_at.size();
-    require(made_at == (pairs == 0 ? 0 : n + 1),
-            fmt::format("/state/pairs/made_at has {} entries for {} grains", made_at, n));
-  }
-
   void grains() const
   {
     each_once("/grains/id", c_.grains.id);
@@ -110,6 +100,7 @@ class Check {
         "/grains/species", c_.grains.species,
         [](Species species) { return Species::boundary <= species && species <= Species::large; },
         "is not -1, 0 or 1");
+    const auto positive = [](double x) { return x > 0; };
     each("/grains/radius", c_.grains.radius, positive, "is not a positive number");
     each("/grains/mass", c_.grains.mass, positive, "is not a positive number");
     each(
@@ -126,17 +117,13 @@ class Check {
         },
         "is not a point and a normal of length 1");
     const auto& box = c_.box;
-    require(finite(box.length_x) && box.length_x >= (box.periodic_x ? 1e-300 : 0),
+    require(box.length_x >= (box.periodic_x ? 1e-300 : 0),
             "/box/length_x is not a positive number");
-    require(finite(box.length_y) && box.length_y >= 0, "/box/length_y is not a positive number");
-    require(finite(c_.deposited_height), "/deposited_height is not a finite number");
+    require(box.length_y >= 0, "/box/length_y is not a positive number");
   }
 
   void state() const
   {
-    all_finite("/state/position", c_.state.position);
-    all_finite("/state/velocity", c_.state.velocity);
-    all_finite("/state/rim_speed", c_.state.rim_speed);
     each(
         "/state/image", c_.state.image,
         [](std::int32_t image) { return image >= -most_periods && image <= most_periods; },
@@ -156,11 +143,7 @@ class Check {
     const auto a_body = [bodies](std::uint32_t i) { return i % 2 == 0 && i / 2 < bodies; };
     each("/state/pairs/i", pairs.i, a_body, "is not a grain");
     each("/state/pairs/j", pairs.j, a_body, "is not a grain");
-    all_finite("/state/pairs/made_at", pairs.made_at);
-    all_finite("/state/pairs/impulse_n", pairs.impulse_n);
-    all_finite("/state/pairs/impulse_t", pairs.impulse_t);
-    all_finite("/state/pairs/approach", pairs.approach);
-    require(positive(pairs.skin), "/state/pairs/skin is not a positive length");
+    require(pairs.skin > 0, "/state/pairs/skin is not a positive length");
     require(pairs.renewals <= largest_count, "/state/pairs/renewals is not a number of lists");
   }
 
@@ -168,21 +151,13 @@ class Check {
   {
     require(totals.steps >= 0 && totals.missed >= 0 && totals.divided >= 0,
             fmt::format("{} has a negative number of steps", group));
-    for (const double sum :
-         {totals.sweeps, totals.residual_rms, totals.touching, totals.force_bearing,
-          totals.sum_overlap, totals.sum_gap_bearing, totals.largest_residual,
-          totals.largest_overlap, totals.fastest_approach, totals.farthest_approach,
-          totals.base_impulse.x(), totals.base_impulse.y()})
-      require(finite(sum), fmt::format("{} has a number that is not finite", group));
   }
 
   void trajectory() const
   {
     const auto& trajectory = c_.trajectory;
     require(trajectory.frames <= largest_count, "/trajectory/frames is not a number of frames");
-    require(finite(trajectory.begin), "/trajectory/begin is not a finite number");
-    require(finite(trajectory.wall) && trajectory.wall >= 0,
-            "/trajectory/wall is not a duration in s");
+    require(trajectory.wall >= 0, "/trajectory/wall is not a duration in s");
     totals("/trajectory/since_frame", trajectory.recorder.since_frame);
     totals("/trajectory/totals", trajectory.recorder.totals);
   }

@@ -285,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Checkpoint& c) {
                   c.box = {0, 1, true};
                 }},
-        Forgery{"/box/length_y is not a positive number",
+        Forgery{"/box/length_y is not a finite number",
                 [](Checkpoint& c) { c.box.length_y = no_number; }},
         Forgery{"/deposited_height is not a finite number",
                 [](Checkpoint& c) { c.deposited_height = infinite; }},
@@ -319,7 +319,7 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Checkpoint& c) { c.trajectory.wall = -1; }},
         Forgery{"/trajectory/totals has a negative number of steps",
                 [](Checkpoint& c) { c.trajectory.recorder.totals.steps = -1; }},
-        Forgery{"/trajectory/since_frame has a number that is not finite",
+        Forgery{"/trajectory/since_frame/sweeps is not a finite number",
                 [](Checkpoint& c) { c.trajectory.recorder.since_frame.sweeps = no_number; }}));
 
 TEST_F(CheckpointFile, ASceneThatIsNoneIsRefused)
