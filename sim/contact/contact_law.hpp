@@ -158,6 +158,19 @@ struct Effects {
   bool restitution = true;
 };
 
+/// use<flags...>() of flags that are known when the program runs: all combinations are compiled.
+template <bool... known, class Use>
+auto with_flags(const Use& use)
+{
+  return use.template operator()<known...>();
+}
+template <bool... known, class Use, class... Others>
+auto with_flags(const Use& use, bool flag, Others... others)
+{
+  return flag ? with_flags<known..., true>(use, others...)
+              : with_flags<known..., false>(use, others...);
+}
+
 struct Material {
   double friction = 0.5;      // Coulomb's mu
   double restitution = 0.25;  // Newton's e: separation over approach velocity

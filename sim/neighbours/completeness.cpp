@@ -13,43 +13,23 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int32_t columns_per_group = 3;
 
-void add(Extent& extent, const Extent& other)
-{
-  extent.low = extent.low.cwiseMin(other.low);
-  extent.high = extent.high.cwiseMax(other.high);
-}
-
-Extent nothing()
-{
-  return {Vec2::Constant(infinity), Vec2::Constant(-infinity)};
-}
-
-bool empty(const Extent& extent)
-{
-  return extent.low.x() > extent.high.x();
-}
-
 double squared_size(const Extent& extent)
 {
-  return empty(extent) ? 0 : (extent.high - extent.low).squaredNorm();
+  return extent.isEmpty() ? 0 : extent.diagonal().squaredNorm();
 }
 
 Extent velocities_of(const Range& bodies, const std::vector<Motion>& motion)
 {
-  auto extent = nothing();
-  for (auto b = bodies.begin; b < bodies.end; ++b) {
-    const Vec2 v(motion[b].vx, motion[b].vy);
-    add(extent, {v, v});
-  }
+  Extent extent;
+  for (auto b = bodies.begin; b < bodies.end; ++b) extent.extend(Vec2(motion[b].vx, motion[b].vy));
   return extent;
 }
 
 /// The least that any displacement within `extent` leads along `direction`; infinity for none.
 double least_along(const Extent& extent, const Vec2& direction)
 {
-  if (empty(extent)) return infinity;
-  return std::min(extent.low.x() * direction.x(), extent.high.x() * direction.x()) +
-         std::min(extent.low.y() * direction.y(), extent.high.y() * direction.y());
+  if (extent.isEmpty()) return infinity;
+  return extent.min().cwiseProduct(direction).cwiseMin(extent.max().cwiseProduct(direction)).sum();
 }
 
 }  // namespace
@@ -136,8 +116,8 @@ double Completeness::fastest_unlisted(const std::vector<Motion>& motion) const
       if (squared_size(square_at(moved_, band, g)) > allowed_ * allowed_)
         squared = std::max(squared, squared_size(square_at(velocity, band, g)));
   if (!bands_stay_apart()) {
-    auto all = nothing();
-    for (const auto& group : velocity) add(all, group);
+    Extent all;
+    for (const auto& group : velocity) all.extend(group);
     squared = squared_size(all);
   }
   return std::sqrt(squared);
@@ -151,17 +131,17 @@ Extent Completeness::square_at(const std::vector<Extent>& groups, std::size_t ba
   const auto* above = band + 1 < bands_ ? here + across : here;
   const std::size_t next = g + 1 < across ? g + 1 : periodic_ ? 0 : g;
   auto square = here[g];
-  for (const auto& other : {here[next], above[g], above[next]}) add(square, other);
+  for (const auto& other : {here[next], above[g], above[next]}) square.extend(other);
   return square;
 }
 
 void Completeness::measure_neighbours(std::size_t band)
 {
   const std::size_t across = first_group_.back();
-  band_moved_[band] = nothing();
+  band_moved_[band].setEmpty();
   double squared = 0;
   for (std::size_t g = 0; g < across; ++g) {
-    add(band_moved_[band], moved_[band * across + g]);
+    band_moved_[band].extend(moved_[band * across + g]);
     squared = std::max(squared, squared_size(square_at(moved_, band, g)));
   }
   moved_in_band_[band] = std::sqrt(squared);
@@ -172,18 +152,16 @@ bool Completeness::bands_stay_apart() const
 {
   const double group_width = least_columns_ * column_width_;
   const bool all_are_neighbours = first_group_.back() <= (periodic_ ? 3 : 2);
-  auto below = nothing(), here = nothing();
+  Extent below, here;
   double highest = -infinity;  // of bands two or more below, less the height in between
   for (const auto& band : band_moved_) {
-    highest = std::max(highest - cell_, below.high.y());
+    highest = std::max(highest - cell_, below.max().y());
     below = here;
     here = band;
-    if (empty(here)) continue;
-    if (!(highest - here.low.y() <= allowed_)) return false;
-    auto both = here;
-    add(both, below);
-    if (!all_are_neighbours && !(both.high.x() - both.low.x() <= group_width - cell_ + allowed_))
-      return false;
+    if (here.isEmpty()) continue;
+    if (!(highest - here.min().y() <= allowed_)) return false;
+    const auto both = here.merged(below);
+    if (!all_are_neighbours && !(both.sizes().x() <= group_width - cell_ + allowed_)) return false;
   }
   return true;
 }

@@ -266,20 +266,12 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
 void find_for(const Pairs& pairs, std::size_t strip, const DetectionRule& rule,
               StripContacts& contacts, DetectionSums& total)
 {
-  using Find =
-      void (*)(const Pairs&, std::size_t, const DetectionRule&, StripContacts&, DetectionSums&);
-  // [periodic][rotation][restitution][horizon]
-  static constexpr Find table[2][2][2][2] = {
-      {{{find<Variant{false, false, false, false}>, find<Variant{false, false, false, true}>},
-        {find<Variant{false, false, true, false}>, find<Variant{false, false, true, true}>}},
-       {{find<Variant{false, true, false, false}>, find<Variant{false, true, false, true}>},
-        {find<Variant{false, true, true, false}>, find<Variant{false, true, true, true}>}}},
-      {{{find<Variant{true, false, false, false}>, find<Variant{true, false, false, true}>},
-        {find<Variant{true, false, true, false}>, find<Variant{true, false, true, true}>}},
-       {{find<Variant{true, true, false, false}>, find<Variant{true, true, false, true}>},
-        {find<Variant{true, true, true, false}>, find<Variant{true, true, true, true}>}}}};
-  table[rule.periodic][rule.effects.rotation][rule.effects.restitution][rule.horizon > 0](
-      pairs, strip, rule, contacts, total);
+  const auto find_it = with_flags(
+      []<bool periodic, bool rotation, bool restitution, bool horizon>() {
+        return &find<Variant{periodic, rotation, restitution, horizon}>;
+      },
+      rule.periodic, rule.effects.rotation, rule.effects.restitution, rule.horizon > 0);
+  find_it(pairs, strip, rule, contacts, total);
 }
 
 void keep(const StripContacts& contacts, Pairs::Memory* memories, ImpulseSums& total)

@@ -49,7 +49,7 @@ HWY_INLINE Extent measure_group(const double* from, const double* to, Range grou
   }
   const auto least = [&](std::size_t c) { return std::min({l[c], l[c + 2], l[c + 4], l[c + 6]}); };
   const auto most = [&](std::size_t c) { return std::max({h[c], h[c + 2], h[c + 4], h[c + 6]}); };
-  return {{least(0), least(1)}, {most(0), most(1)}};
+  return {Vec2(least(0), least(1)), Vec2(most(0), most(1))};
 }
 
 void measure(const double* from, const double* to, std::span<const Range> groups, Extent* moved)
@@ -60,12 +60,9 @@ void measure(const double* from, const double* to, std::span<const Range> groups
       extent = measure_group(from, to, group);
       continue;
     }
-    extent = {Vec2::Constant(infinity), Vec2::Constant(-infinity)};
-    for (std::size_t b = group.begin; b < group.end; ++b) {
-      const Vec2 displacement{to[2 * b] - from[2 * b], to[2 * b + 1] - from[2 * b + 1]};
-      extent.low = extent.low.cwiseMin(displacement);
-      extent.high = extent.high.cwiseMax(displacement);
-    }
+    extent.setEmpty();
+    for (std::size_t b = group.begin; b < group.end; ++b)
+      extent.extend(Vec2(to[2 * b] - from[2 * b], to[2 * b + 1] - from[2 * b + 1]));
   }
   leave_vectors();
 }

@@ -4,6 +4,7 @@
 #include "formats/core/frame.hpp"
 #include "sim/contact/contact_blocks.hpp"
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,13 +13,10 @@
 /// instruction sets give the same bytes.
 namespace grseg {
 
-/// Bounding box of a set of displacements, m.
-struct Extent {
-  Vec2 low, high;
-};
+/// Bounding box of a set of displacements, m, or of velocities, m/s; empty for none.
+using Extent = Eigen::AlignedBox2d;
 
-/// Extents of the displacements of each group's bodies from `from` to `to`, m; low is above high in
-/// a group without bodies.
+/// Extents of the displacements of each group's bodies from `from` to `to`, m.
 void measure_displacements(std::span<const Vec2> from, std::span<const Vec2> to,
                            std::span<const Range> groups, std::span<Extent> moved);
 

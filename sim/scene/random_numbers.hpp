@@ -16,11 +16,37 @@ namespace grseg {
 /// The random numbers of a seed (Mersenne twister), always the same.
 class RandomNumbers {
  public:
-  explicit RandomNumbers(std::uint64_t seed);
+  explicit RandomNumbers(std::uint64_t seed) { gsl_rng_set(generator_.get(), seed); }
 
-  double uniform();                   ///< in [0, 1)
-  double gaussian(double deviation);  ///< of mean 0
-  Vec2 direction();                   ///< a unit vector
+  /// In [0, 1).
+  double uniform() { return gsl_rng_uniform(generator_.get()); }
+
+  // Gaussian numbers and directions follow gsl_ran_gaussian and gsl_ran_dir_2d operation by operation.
+  // They are compiled here, without contraction, because GSL on Arm rounds them differently.
+
+  /// Of mean 0.
+  double gaussian(double deviation)
+  {
+    double y = 0, squared = 0;
+    do {
+      const double x = -1 + 2 * gsl_rng_uniform_pos(generator_.get());
+      y = -1 + 2 * gsl_rng_uniform_pos(generator_.get());
+      squared = x * x + y * y;
+    } while (squared > 1 || squared == 0);
+    return deviation * y * std::sqrt(-2 * std::log(squared) / squared);
+  }
+
+  /// A unit vector.
+  Vec2 direction()
+  {
+    double x = 0, y = 0, squared = 0;
+    do {
+      x = -1 + 2 * uniform();
+      y = -1 + 2 * uniform();
+      squared = x * x + y * y;
+    } while (squared > 1 || squared == 0);
+    return {(x * x - y * y) / squared, 2 * x * y / squared};
+  }
 
   /// Puts `items` into random order.
   template <class T>
@@ -32,43 +58,8 @@ class RandomNumbers {
   }
 
  private:
-  std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> generator_;
+  std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> generator_{gsl_rng_alloc(gsl_rng_mt19937),
+                                                               gsl_rng_free};
 };
-
-inline RandomNumbers::RandomNumbers(std::uint64_t seed)
-    : generator_(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free)
-{
-  gsl_rng_set(generator_.get(), seed);
-}
-
-inline double RandomNumbers::uniform()
-{
-  return gsl_rng_uniform(generator_.get());
-}
-
-// Gaussian numbers and directions follow gsl_ran_gaussian and gsl_ran_dir_2d operation by operation.
-// They are compiled here, without contraction, because GSL on Arm rounds them differently.
-
-inline double RandomNumbers::gaussian(double deviation)
-{
-  double y = 0, squared = 0;
-  do {
-    const double x = -1 + 2 * gsl_rng_uniform_pos(generator_.get());
-    y = -1 + 2 * gsl_rng_uniform_pos(generator_.get());
-    squared = x * x + y * y;
-  } while (squared > 1 || squared == 0);
-  return deviation * y * std::sqrt(-2 * std::log(squared) / squared);
-}
-
-inline Vec2 RandomNumbers::direction()
-{
-  double x = 0, y = 0, squared = 0;
-  do {
-    x = -1 + 2 * uniform();
-    y = -1 + 2 * uniform();
-    squared = x * x + y * y;
-  } while (squared > 1 || squared == 0);
-  return {(x * x - y * y) / squared, 2 * x * y / squared};
-}
 
 }  // namespace grseg

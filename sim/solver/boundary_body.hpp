@@ -3,6 +3,7 @@
 
 #include "formats/core/frame.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 namespace grseg {
@@ -23,11 +24,26 @@ struct BoundaryBody {
 };
 
 /// Displacement of a body at `time`, s, since t = 0, m.
-Vec2 displacement(const BoundaryBody& body, double time);
+inline Vec2 displacement(const BoundaryBody& body, double time)
+{
+  if (time <= 0) return Vec2::Zero();
+  return body.velocity * time + body.amplitude * std::sin(body.angular_frequency * time);
+}
 
 /// The velocity, m/s, that takes the point of the body at `position` to where it is prescribed to
 /// be at `time` + `step`: along the chord, so that distances from the axis stay the same. Of a free
 /// body, only x counts.
-Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time, double step);
+inline Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time, double step)
+{
+  const Vec2 now = displacement(body, time);
+  Vec2 velocity = (displacement(body, time + step) - now) / step;
+  if (body.spin != 0 && time + step > 0) {
+    const double angle = body.spin * step, half = std::sin(angle / 2);
+    const Vec2 arm = position - body.centre - now;
+    const Vec2 across{-arm.y(), arm.x()};
+    velocity += (std::sin(angle) * across - 2 * half * half * arm) / step;
+  }
+  return velocity;
+}
 
 }  // namespace grseg

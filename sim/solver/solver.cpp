@@ -117,14 +117,105 @@ class Sweeping {
   {
   }
 
-  SolverReport until_settled();
+  SolverReport until_settled()
+  {
+    const auto& settings = task_.settings;
+    if (settings.acceleration) extrapolation_.begin(strips_, motion_, task_.threads);
+    while (true) {
+      const bool several = strips_.size() > 1 && !task_.apart.any();
+      const auto result = several && sweeps_ == 0 ? first_of_several() : sweep_all();
+      if (sweeps_ >= least_ || (result.sum_squares == 0 && result.largest == 0)) {
+        const auto report = report_on(result);
+        if (report.converged || sweeps_ >= settings.max_sweeps) return report;
+        if (!task_.apart.any()) work_.choose(results_, settings.tolerance * reference(result));
+      }
+      if (settings.acceleration && !work_.local())
+        extrapolation_.extrapolate(strips_, motion_, result.sum_squares, task_.threads);
+    }
+  }
 
  private:
-  SweepResult first_of_several();
-  SweepResult sweep_all();
-  double solve_apart();
-  void sweep_strip(std::size_t strip, Measured measured);
-  SolverReport report_on(const SweepResult& result);
+  /// The first sweeps over several strips, whose changes nobody waits for: the least number, but not more
+  /// than may go without a restart of the extrapolation.
+  SweepResult first_of_several()
+  {
+    const int rounds = (std::min(least_, most_without_restart) + at_a_time_ - 1) / at_a_time_;
+    const auto last = static_cast<std::size_t>(rounds - 1);
+    std::vector<double> factors;  // between two rounds
+    for (std::size_t round = 0; round < last; ++round)
+      factors.push_back(extrapolation_.next_factor());
+    std::vector<SweepResult> before(strips_.size());  // of the last round but one
+    Wavefront(strips_.size(), rounds)
+        .run(
+            task_.threads,
+            [&](std::size_t s, std::size_t round) {
+              before[s] = results_[s];
+              sweep_strip(s, round < last ? Measured::squares : Measured::all);
+            },
+            [&](std::size_t s, std::size_t round) {
+              if (task_.settings.acceleration && round < last)
+                extrapolation_.extrapolate_strip(strips_, s, motion_, factors[round]);
+            });
+    sweeps_ = rounds * at_a_time_;
+    for (int round = 0; round < rounds; ++round) work_.count();
+    if (last > 0) extrapolation_.set_last_change(total(before).sum_squares);
+    return total(results_);
+  }
+
+  SweepResult sweep_all()
+  {
+    const bool may_be_last = sweeps_ + at_a_time_ >= least_;
+    for_alternate_strips(task_.threads, strips_.size(), [&](std::size_t s) {
+      if (work_.swept(s)) sweep_strip(s, may_be_last ? Measured::all : Measured::squares);
+    });
+    sweeps_ += at_a_time_;
+    work_.count();
+    auto result = total(results_);
+    result.largest = std::max(result.largest, solve_apart());
+    return result;
+  }
+
+  /// m/s, the largest change.
+  double solve_apart()
+  {
+    double largest = 0;
+    if constexpr (std::is_same_v<Real, double>) {
+      const auto& [free, wedged] = task_.apart;
+      if (free != nullptr) largest = free->balance(motion_, task_.friction, task_.effects);
+      if (wedged != nullptr)
+        largest = std::max(largest, wedged->settle(motion_, task_.friction, task_.effects));
+    }
+    return largest;
+  }
+
+  void sweep_strip(std::size_t strip, Measured measured)
+  {
+    const auto quick = choose_sweep<Real>(task_.effects, Measured::squares),
+               last = choose_sweep<Real>(task_.effects, measured);
+    const auto friction = static_cast<Real>(task_.friction);
+    if (at_a_time_ > 1) quick(strips_[strip], motion_.data(), friction);
+    results_[strip] = last(strips_[strip], motion_.data(), friction);
+  }
+
+  SolverReport report_on(const SweepResult& result)
+  {
+    // Without gravity the sweep that lets the last contact go leaves a reference of 0.
+    const auto relative = [&](double change) {
+      return change == 0 ? 0 : change / reference(result);
+    };
+    SolverReport report;
+    report.sweeps = at_a_time_ * work_.rounds();
+    report.residual = relative(result.largest);
+    report.residual_rms =
+        relative(std::sqrt(result.sum_squares / static_cast<double>(task_.count)));
+    report.converged = report.residual <= task_.settings.tolerance;
+    if (!report.converged && sweeps_ >= sweeps_before_round_off) {
+      if (round_off_ == 0) round_off_ = last_digits<Real> * fastest<Real>(motion_);
+      report.converged = result.largest <= round_off_;
+    }
+    return report;
+  }
+
   /// m/s, the mean of W p, within its range.
   double reference(const SweepResult& result) const
   {
@@ -144,108 +235,6 @@ class Sweeping {
   LocalWork<Real> work_;
   double round_off_ = 0;  // m/s, once it is needed
 };
-
-template <class Real>
-void Sweeping<Real>::sweep_strip(std::size_t strip, Measured measured)
-{
-  const auto quick = choose_sweep<Real>(task_.effects, Measured::squares),
-             last = choose_sweep<Real>(task_.effects, measured);
-  const auto friction = static_cast<Real>(task_.friction);
-  if (at_a_time_ > 1) quick(strips_[strip], motion_.data(), friction);
-  results_[strip] = last(strips_[strip], motion_.data(), friction);
-}
-
-/// The first sweeps over several strips, whose changes nobody waits for: the least number, but not more
-/// than may go without a restart of the extrapolation.
-template <class Real>
-SweepResult Sweeping<Real>::first_of_several()
-{
-  const int rounds = (std::min(least_, most_without_restart) + at_a_time_ - 1) / at_a_time_;
-  const auto last = static_cast<std::size_t>(rounds - 1);
-  std::vector<double> factors;  // between two rounds
-  for (std::size_t round = 0; round < last; ++round)
-    factors.push_back(extrapolation_.next_factor());
-  std::vector<SweepResult> before(strips_.size());  // of the last round but one
-  Wavefront(strips_.size(), rounds)
-      .run(
-          task_.threads,
-          [&](std::size_t s, std::size_t round) {
-            before[s] = results_[s];
-            sweep_strip(s, round < last ? Measured::squares : Measured::all);
-          },
-          [&](std::size_t s, std::size_t round) {
-            if (task_.settings.acceleration && round < last)
-              extrapolation_.extrapolate_strip(strips_, s, motion_, factors[round]);
-          });
-  sweeps_ = rounds * at_a_time_;
-  for (int round = 0; round < rounds; ++round) work_.count();
-  if (last > 0) extrapolation_.set_last_change(total(before).sum_squares);
-  return total(results_);
-}
-
-/// m/s, the largest change.
-template <class Real>
-double Sweeping<Real>::solve_apart()
-{
-  double largest = 0;
-  if constexpr (std::is_same_v<Real, double>) {
-    const auto& [free, wedged] = task_.apart;
-    if (free != nullptr) largest = free->balance(motion_, task_.friction, task_.effects);
-    if (wedged != nullptr)
-      largest = std::max(largest, wedged->settle(motion_, task_.friction, task_.effects));
-  }
-  return largest;
-}
-
-template <class Real>
-SweepResult Sweeping<Real>::sweep_all()
-{
-  const bool may_be_last = sweeps_ + at_a_time_ >= least_;
-  for_alternate_strips(task_.threads, strips_.size(), [&](std::size_t s) {
-    if (work_.swept(s)) sweep_strip(s, may_be_last ? Measured::all : Measured::squares);
-  });
-  sweeps_ += at_a_time_;
-  work_.count();
-  auto result = total(results_);
-  result.largest = std::max(result.largest, solve_apart());
-  return result;
-}
-
-template <class Real>
-SolverReport Sweeping<Real>::report_on(const SweepResult& result)
-{
-  // Without gravity the sweep that lets the last contact go leaves a reference of 0.
-  const auto relative = [&](double change) { return change == 0 ? 0 : change / reference(result); };
-  SolverReport report;
-  report.sweeps = at_a_time_ * work_.rounds();
-  report.residual = relative(result.largest);
-  report.residual_rms = relative(std::sqrt(result.sum_squares / static_cast<double>(task_.count)));
-  report.converged = report.residual <= task_.settings.tolerance;
-  if (!report.converged && sweeps_ >= sweeps_before_round_off) {
-    if (round_off_ == 0) round_off_ = last_digits<Real> * fastest<Real>(motion_);
-    report.converged = result.largest <= round_off_;
-  }
-  return report;
-}
-
-template <class Real>
-SolverReport Sweeping<Real>::until_settled()
-{
-  const auto& settings = task_.settings;
-  if (settings.acceleration) extrapolation_.begin(strips_, motion_, task_.threads);
-  while (true) {
-    const bool several = strips_.size() > 1 && !task_.apart.any();
-    const auto result = several && sweeps_ == 0 ? first_of_several() : sweep_all();
-    if (sweeps_ >= least_ || (result.sum_squares == 0 && result.largest == 0)) {
-      const auto report = report_on(result);
-      if (report.converged || sweeps_ >= settings.max_sweeps) return report;
-      if (!task_.apart.any()) work_.choose(results_, settings.tolerance * reference(result));
-    }
-    if (settings.acceleration && !work_.local())
-      extrapolation_.extrapolate(strips_, motion_, result.sum_squares, task_.threads);
-  }
-}
-
 SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> motion,
                          const Task& task, SolverMemory& memory)
 {

@@ -111,26 +111,15 @@ void apply(std::span<const ContactBlock> blocks, Motion* motion)
 }
 
 /// The only place where a scene's effects become a compile-time choice.
-template <class Real, Measured measured>
-SweepOf<Real> sweep_for(Effects e)
-{
-  // [friction][rotation][restitution]
-  static constexpr SweepOf<Real> table[2][2][2] = {
-      {{sweep<Effects{false, false, false}, Real, measured>,
-        sweep<Effects{false, false, true}, Real, measured>},
-       {sweep<Effects{false, true, false}, Real, measured>,
-        sweep<Effects{false, true, true}, Real, measured>}},
-      {{sweep<Effects{true, false, false}, Real, measured>,
-        sweep<Effects{true, false, true}, Real, measured>},
-       {sweep<Effects{true, true, false}, Real, measured>,
-        sweep<Effects{true, true, true}, Real, measured>}}};
-  return table[e.friction][e.rotation][e.restitution];
-}
 template <class Real>
 SweepOf<Real> sweep_for(Effects e, Measured measured)
 {
-  return measured == Measured::all ? sweep_for<Real, Measured::all>(e)
-                                   : sweep_for<Real, Measured::squares>(e);
+  return with_flags(
+      []<bool friction, bool rotation, bool restitution, bool all>() -> SweepOf<Real> {
+        constexpr auto what = all ? Measured::all : Measured::squares;
+        return sweep<Effects{friction, rotation, restitution}, Real, what>;
+      },
+      e.friction, e.rotation, e.restitution, measured == Measured::all);
 }
 // Dispatch takes no templates.
 SweepOf<double> double_sweep_for(Effects e, Measured measured)
@@ -196,14 +185,11 @@ void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effect
 Relax choose_relax(Effects e)
 {
   // Of the set that every processor has: with others g++ 12 fuses products and sums of single numbers.
-  // [friction][rotation]
-  using namespace HWY_NAMESPACE;
-  static constexpr Relax table[2][2] = {
-      {relax<Effects{false, false, true}, Contact, Motion, double>,
-       relax<Effects{false, true, true}, Contact, Motion, double>},
-      {relax<Effects{true, false, true}, Contact, Motion, double>,
-       relax<Effects{true, true, true}, Contact, Motion, double>}};
-  return table[e.friction][e.rotation];
+  return with_flags(
+      []<bool friction, bool rotation>() -> Relax {
+        return HWY_NAMESPACE::relax<Effects{friction, rotation, true}, Contact, Motion, double>;
+      },
+      e.friction, e.rotation);
 }
 
 std::vector<std::string> instruction_sets()

@@ -6,19 +6,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 
 namespace grseg {
-namespace {
-
-/// m/s, between which velocities lie; the body that never moves is one of them.
-struct Velocities {
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-};
-
-}  // namespace
 
 // Plain pointers, captured by value, or the compiler fetches them anew for every grain.
 
@@ -36,15 +29,15 @@ double move_bodies(double duration, double onward, GrainState& grains, std::vect
                    int threads)
 {
   ahead.resize(grains.position.size());
+  using Velocities = Eigen::AlignedBox2d;  // m/s
   std::vector<Velocities> found(range_count(grains.position.size()));
   auto *position = grains.position.data(), *then = ahead.data();
   const auto* motion = grains.motion.data();
   for_ranges(threads, grains.position.size(), [=, &found](std::size_t begin, std::size_t end) {
-    Velocities here;
+    Velocities here(Vec2(0, 0));  // the body that never moves is one of all
     for (std::size_t b = begin; b < end; ++b) {
       const Vec2 velocity(motion[b].vx, motion[b].vy);
-      here.low = here.low.cwiseMin(velocity);
-      here.high = here.high.cwiseMax(velocity);
+      here.extend(velocity);
       const Vec2 moved = position[b] + duration * velocity;
       position[b] = moved;
       then[b] = moved + onward * velocity;
@@ -52,11 +45,8 @@ double move_bodies(double duration, double onward, GrainState& grains, std::vect
     found[begin / range_size] = here;
   });
   Velocities all;
-  for (const auto& range : found) {
-    all.low = all.low.cwiseMin(range.low);
-    all.high = all.high.cwiseMax(range.high);
-  }
-  return (all.high - all.low).norm();
+  for (const auto& range : found) all.extend(range);
+  return all.diagonal().norm();
 }
 
 void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,

@@ -49,6 +49,12 @@ World with_defaults(World world)
   return world;
 }
 
+World with_skin(World world, double skin)
+{
+  world.skin = skin;
+  return world;
+}
+
 /// Effects whose coefficient is 0 are left out.
 Effects effects_of(const World& world)
 {
@@ -150,14 +156,39 @@ Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
   std::iota(body_of_.begin(), body_of_.end(), 0);
 }
 
-StepReport Simulation::advance()
+Simulation::Simulation(const World& world, const State& state)
+    : Simulation(with_skin(world, state.pairs.skin), state.position)
 {
-  return step(nullptr);
+  for (std::size_t b = 0; b < state.row.size(); ++b) {
+    const auto g = static_cast<std::size_t>(state.row[b]);
+    state_.row[b] = state.row[b];
+    state_.position[b] = state.position[g];
+    state_.image[b] = state.image[g];
+    state_.radius[b] = world_.grains.radius[g];
+    const double inverse_mass = world_.grains.fixed[g] ? 0 : 1 / world_.grains.mass[g];
+    state_.motion[b] = {state.velocity[g].x(), state.velocity[g].y(), state.rim_speed[g],
+                        inverse_mass};
+    body_of_[g] = static_cast<std::uint32_t>(b);
+  }
+  pairs_.restore(state_, state.pairs);
+  restored_ = true;
+  steps_done_ = state.steps_done;
 }
 
-StepReport Simulation::advance(Frame<2>& frame)
+Simulation::State Simulation::state() const
 {
-  return step(&frame);
+  State state;
+  for (std::size_t g = 0; g < body_of_.size(); ++g) {
+    const auto b = body_of_[g];
+    state.position.push_back(state_.position[b]);
+    state.image.push_back(state_.image[b]);
+    state.velocity.push_back(velocity(g));
+    state.rim_speed.push_back(state_.motion[b].rim_speed);
+  }
+  state.row = state_.row;
+  state.pairs = pairs_.state();
+  state.steps_done = steps_done_;
+  return state;
 }
 
 StepReport Simulation::step(Frame<2>* frame)

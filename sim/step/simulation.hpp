@@ -65,9 +65,9 @@ class Simulation {
   /// skin is the one of `state`. FormatError as in PairList::restore.
   Simulation(const World& world, const State& state);
 
-  StepReport advance();
+  StepReport advance() { return step(nullptr); }
   /// The same, and writes the step to `frame` (snapshot.hpp).
-  StepReport advance(Frame<2>& frame);
+  StepReport advance(Frame<2>& frame) { return step(&frame); }
 
   State state() const;
 

@@ -26,13 +26,6 @@ long read_whole_number(const std::string& key, const std::string& text)
   return number;
 }
 
-bool read_switch(const std::string& key, const std::string& text)
-{
-  require(text == "on" || text == "off", key,
-          fmt::format("{} is '{}': it must be on or off", key, text));
-  return text == "on";
-}
-
 double read_length(const std::string& key, const std::string& text, const Scene& scene)
 {
   try {

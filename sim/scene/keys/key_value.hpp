@@ -19,7 +19,6 @@ namespace grseg::kinds {
 
 double read_number(const std::string& key, const std::string& text);
 long read_whole_number(const std::string& key, const std::string& text);
-bool read_switch(const std::string& key, const std::string& text);
 /// m, not below 0.
 double read_length(const std::string& key, const std::string& text, const Scene& scene);
 
@@ -79,31 +78,6 @@ KeyValue whole_number(Member member, long low, long high)
 /// One that a scene may be without.
 KeyValue whole_number(std::optional<long> Scene::*member, long low, long high);
 
-/// on or off.
-template <class Member>
-KeyValue on_or_off(Member member)
-{
-  KeyValue value;
-  value.kind = "switch";
-  value.allowed = "on or off";
-  value.words = {"on", "off"};
-  value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
-    std::invoke(member, scene) = read_switch(key, text);
-  };
-  value.number = [=](const Scene& scene) { return std::invoke(member, scene) ? 1.0 : 0.0; };
-  value.text = [=](const Scene& scene) { return std::invoke(member, scene) ? "on" : "off"; };
-  return value;
-}
-
-/// The same, and as an option it stands alone and means on.
-template <class Member>
-KeyValue flag(Member member)
-{
-  auto value = on_or_off(member);
-  value.is_flag = true;
-  return value;
-}
-
 /// One of several words; each stands for a value.
 template <class T>
 using Words = std::vector<std::pair<std::string, T>>;
@@ -130,6 +104,26 @@ KeyValue choice(Member member, const Words<T>& words)
       if (std::invoke(member, scene) == meaning) return word;
     return std::string();
   };
+  return value;
+}
+
+/// on or off.
+template <class Member>
+KeyValue on_or_off(Member member)
+{
+  auto value = choice(member, Words<bool>{{"on", true}, {"off", false}});
+  value.kind = "switch";
+  value.allowed = "on or off";
+  value.number = [=](const Scene& scene) { return std::invoke(member, scene) ? 1.0 : 0.0; };
+  return value;
+}
+
+/// The same, and as an option it stands alone and means on.
+template <class Member>
+KeyValue flag(Member member)
+{
+  auto value = on_or_off(member);
+  value.is_flag = true;
   return value;
 }
 
