@@ -73,18 +73,6 @@ std::vector<std::string> read_texts(hid_t object, const std::string& name)
   return texts;
 }
 
-std::vector<int> read_integers(hid_t object, const std::string& name)
-{
-  const Attribute attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
-  if (!attribute.valid()) return {};
-  const auto count = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute)));
-  if (H5Tget_class(Type(H5Aget_type(attribute))) != H5T_INTEGER || count < 1 || count > 3)
-    return {};
-  std::vector<int> values(static_cast<std::size_t>(count));
-  if (H5Aread(attribute, H5T_NATIVE_INT, values.data()) < 0) return {};
-  return values;
-}
-
 std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
                                          const std::string& name, const std::string& file)
 {

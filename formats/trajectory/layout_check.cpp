@@ -85,8 +85,9 @@ class LayoutCheck {
     check_text("/h5md/creator", "name", "");
     check_text("/h5md/creator", "version", "");
     check_text("/h5md/modules/units", "system", "SI");
-    const auto numbers = [&](const char* path, const char* name, const std::vector<int>& wanted) {
-      const auto found = read_integers(Object(H5Oopen(file_, path, H5P_DEFAULT)), name);
+    const auto numbers = [&](const char* path, const char* name,
+                             const std::vector<double>& wanted) {
+      const auto found = numbers_in_attribute(file_, path, name, run_.path());
       if (found != wanted)
         add_departure(path, fmt::format("should have the {} {}, but has {}", name, wanted, found));
     };
@@ -94,7 +95,7 @@ class LayoutCheck {
     numbers("/h5md/modules/units", "version", {1, 0});
     numbers("/h5md/modules/grseg", "version", {1, 0});
     if (run_.grains_come_and_go()) numbers("/particles/grains", "come_and_go", {1});
-    numbers("/particles/grains/box", "dimension", {run_.dimension()});
+    numbers("/particles/grains/box", "dimension", {static_cast<double>(run_.dimension())});
   }
 
   /// Datasets of a run that was not closed may hold more: what it wrote after its last committed

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/trajectory/new_file.hpp"
-
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/h5md.hpp"
 #include "formats/trajectory/hdf5.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/trajectory/stored_run.hpp"
-
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
@@ -61,9 +59,7 @@ class HeadReader {
     read_observables();
     auto& description = run_.description;
     description.has_force = exists(file_, "/particles/grains/force/value");
-    description.grains_come_and_go =
-        !read_integers(Group(H5Gopen2(file_, "/particles/grains", H5P_DEFAULT)), "come_and_go")
-             .empty();
+    description.grains_come_and_go = !attribute("/particles/grains", "come_and_go").empty();
     return std::move(run_);
   }
 
@@ -73,9 +69,14 @@ class HeadReader {
     return {file_, at, kind, rank, run_.path};
   }
 
-  std::vector<int> version_of(const char* module) const
+  std::vector<double> attribute(const char* path, const char* name) const
   {
-    auto version = read_integers(Group(H5Gopen2(file_, module, H5P_DEFAULT)), "version");
+    return numbers_in_attribute(file_, path, name, run_.path);
+  }
+
+  std::vector<double> version_of(const char* module) const
+  {
+    auto version = attribute(module, "version");
     if (version.size() != 2)
       run_.fail(fmt::format("{} has no version: this is no run of grseg, or damaged", module));
     return version;
@@ -87,7 +88,7 @@ class HeadReader {
     if (h5md[0] != 1)
       run_.fail(fmt::format("/h5md has version {}, but this grseg reads versions 1.x",
                             fmt::join(h5md, ".")));
-    if (file != std::vector{1, 0})
+    if (file != std::vector{1.0, 0.0})
       run_.fail(
           fmt::format("/h5md/modules/grseg has version {}, but this grseg reads version 1.0: read "
                       "the file with the grseg that wrote it",
@@ -122,12 +123,11 @@ class HeadReader {
 
   void read_box()
   {
-    const Group group(H5Gopen2(file_, "/particles/grains/box", H5P_DEFAULT));
-    const auto dimension = read_integers(group, "dimension");
-    const bool spatial = dimension == std::vector<int>{3};
+    const char* box = "/particles/grains/box";
+    const bool spatial = attribute(box, "dimension") == std::vector{3.0};
     const std::size_t size = spatial ? 3 : 2;
     const auto edges = column<double>("/particles/grains/box/edges", size);
-    const auto boundary = read_texts(group, "boundary");
+    const auto boundary = read_texts(Group(H5Gopen2(file_, box, H5P_DEFAULT)), "boundary");
     bool good = boundary.size() == size;
     for (std::size_t axis = 0; good && axis < size; ++axis)
       good = boundary[axis] == "none" || (axis != 1 && boundary[axis] == "periodic");

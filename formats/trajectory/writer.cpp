@@ -6,7 +6,7 @@
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/layout.hpp"
-#include "formats/trajectory/new_file.hpp"
+#include "formats/trajectory/reader.hpp"
 #include "formats/trajectory/run_description.hpp"
 
 #include <fmt/format.h>
@@ -252,6 +252,37 @@ void TrajectoryWriter::close()
   impl_ = std::make_unique<Impl>();  // closes every dataset before the file
   if (close_file(file.release()) < 0)
     throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
+}
+
+TrajectoryWriter copy_frames(const TrajectoryReader& run, std::size_t frames, const std::string& to,
+                             const Parameters& parameters,
+                             const std::vector<Observable>& observables,
+                             const StorageSettings& storage)
+{
+  std::vector<std::vector<double>> series;
+  series.reserve(observables.size());
+  for (const auto& observable : observables) series.push_back(run.observable(observable.name));
+
+  TrajectoryWriter writer(to,
+                          {run.grains(), run.box(), parameters, observables, run.has_force(),
+                           run.species(), run.grains_come_and_go()},
+                          storage);
+  std::vector<double> values(observables.size());
+  with_dimension(run.dimension(), [&](auto d) {
+    Frame<d> frame;
+    for (std::size_t k = 0; k < frames; ++k) {
+      run.read(k, frame, {.velocity = true, .contacts = true, .force = true});
+      for (std::size_t q = 0; q < values.size(); ++q) values[q] = series[q][k];
+      writer.append(frame, values);
+    }
+  });
+  return writer;
+}
+
+void repack(const std::string& from, const std::string& to, const StorageSettings& storage)
+{
+  const TrajectoryReader run(from);
+  copy_frames(run, run.size(), to, run.parameters(), run.observables(), storage).close();
 }
 
 }  // namespace grseg

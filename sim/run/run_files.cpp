@@ -3,7 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
-#include "formats/trajectory/repack.hpp"
+#include "formats/trajectory/reader.hpp"
 #include "sim/run/summary.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grains that come and go: NaN for what is absent, in files that say so, and nothing in between.
-#include "formats/trajectory/repack.hpp"
+#include "formats/trajectory/writer.hpp"
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compressed runs, which threads decompress outside HDF5: whatever the chunks, the same numbers.
-#include "formats/trajectory/repack.hpp"
+#include "formats/trajectory/writer.hpp"
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "tests/spheres.hpp"
 
 #include "formats/trajectory/digest.hpp"
-#include "formats/trajectory/repack.hpp"
+#include "formats/trajectory/writer.hpp"
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
 #include <cmath>

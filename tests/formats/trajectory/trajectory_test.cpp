@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is written is read back, also after a kill and while the run goes on.
 #include "formats/trajectory/digest.hpp"
-#include "formats/trajectory/repack.hpp"
+#include "formats/trajectory/writer.hpp"
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
 #include <fcntl.h>
