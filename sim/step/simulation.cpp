@@ -4,7 +4,6 @@
 #include "formats/core/errors.hpp"
 #include "sim/contact/parallel.hpp"
 #include "sim/step/free_flight.hpp"
-#include "sim/step/snapshot.hpp"
 
 #include <fmt/format.h>
 
@@ -238,9 +237,7 @@ bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& repo
   apply_loads(world_, h, body_of_, state_);
   solve(report);
   keep_impulses(report);
-  if (frame != nullptr)
-    write_frame({world_, state_, pairs_.pairs(), contacts_, body_of_, before_, steps_done_, middle},
-                *frame);
+  if (frame != nullptr) write_frame(middle, *frame);
   move_bodies(h / 2, state_, threads_);
   return true;
 }

@@ -66,7 +66,8 @@ class Simulation {
   Simulation(const World& world, const State& state);
 
   StepReport advance() { return step(nullptr); }
-  /// The same, and writes the step to `frame` (snapshot.hpp).
+  /// The same, and writes the step as a frame of a trajectory (formats/README.md): positions and
+  /// contacts at mid-step, velocities at its end, forces as means over it, in the order of Grains.
   StepReport advance(Frame<2>& frame) { return step(&frame); }
 
   State state() const;
@@ -137,6 +138,11 @@ class Simulation {
   ReferenceRange reference_range(std::size_t contacts) const;
   void solve(StepReport& report);
   void keep_impulses(StepReport& report);
+  // A solved step before the grains leave its middle, which is at `middle`, s (snapshot.cpp).
+  void write_frame(double middle, Frame<2>& frame) const;
+  void write_positions(Frame<2>& frame) const;
+  void write_contacts(ContactList<2>& list) const;
+  void write_motion(Frame<2>& frame) const;
 
   World world_;
   Gravity<2> gravity_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/step/snapshot.hpp"
+#include "sim/step/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,19 +28,19 @@ std::int32_t name_of_wall(const Pairs& pairs, std::size_t pair)
   return -1;
 }
 
-void write_positions(const SolvedStep& s, Frame<2>& frame)
+}  // namespace
+
+void Simulation::write_positions(Frame<2>& frame) const
 {
-  const std::size_t count = s.grains.size();
-  frame.step = s.steps_done;
+  const std::size_t count = state_.size();
   frame.position.resize(count);
   frame.image.resize(count);
-  frame.time = s.middle;
   for (std::size_t g = 0; g < count; ++g) {
-    frame.position[g] = s.grains.position[s.body_of[g]];
-    frame.image[g] = {s.grains.image[s.body_of[g]], 0};
+    frame.position[g] = state_.position[body_of_[g]];
+    frame.image[g] = {state_.image[body_of_[g]], 0};
   }
-  if (!s.world.box.periodic_x) return;
-  const double length = s.world.box.length_x;
+  if (!world_.box.periodic_x) return;
+  const double length = world_.box.length_x;
   for (std::size_t g = 0; g < count; ++g) {
     double& x = frame.position[g].x();
     double periods = std::floor(x / length);
@@ -53,22 +53,22 @@ void write_positions(const SolvedStep& s, Frame<2>& frame)
   }
 }
 
-void write_contacts(const SolvedStep& s, ContactList<2>& list)
+void Simulation::write_contacts(ContactList<2>& list) const
 {
-  const auto& pairs = s.pairs;
-  const auto row_of = [&](std::uint32_t twice) { return s.grains.row[twice / 2]; };
+  const auto& pairs = pairs_.pairs();
+  const auto row_of = [&](std::uint32_t twice) { return state_.row[twice / 2]; };
   std::vector<NamedContact> names;
-  for (const auto& strip : s.contacts) {
+  for (const auto& strip : contacts_) {
     for (std::size_t slot = 0; slot < strip.size * block_lanes; ++slot) {
       const auto& block = strip.blocks[slot / block_lanes];
       const auto& origin = strip.origins[slot / block_lanes];
       const std::size_t lane = slot % block_lanes;
       const std::size_t k = origin.entry(lane);
       if (k == pairs.size()) continue;
-      const bool at_wall = pairs.j[k] / 2 == s.grains.immobile();
+      const bool at_wall = pairs.j[k] / 2 == state_.immobile();
       const std::int32_t i = row_of(pairs.i[k]),
                          j = at_wall ? name_of_wall(pairs, k) : row_of(pairs.j[k]);
-      const bool turned = !at_wall && j < i && !s.world.grains.fixed[static_cast<std::size_t>(j)];
+      const bool turned = !at_wall && j < i && !world_.grains.fixed[static_cast<std::size_t>(j)];
       names.push_back({turned ? j : i, turned ? i : j, turned, &block, &origin, lane});
     }
   }
@@ -82,35 +82,35 @@ void write_contacts(const SolvedStep& s, ContactList<2>& list)
     list.i.push_back(i);
     list.j.push_back(j);
     list.force.push_back((block->impulse_n[lane] * normal + block->impulse_t[lane] * tangent) /
-                         s.world.step);
+                         world_.step);
     list.branch.push_back((pairs.geometry[origin->entry(lane)].reach + gap) * normal);
     list.gap.push_back(gap);
   }
 }
 
-void write_motion(const SolvedStep& s, Frame<2>& frame)
+void Simulation::write_motion(Frame<2>& frame) const
 {
-  const std::size_t count = s.grains.size();
+  const std::size_t count = state_.size();
   frame.velocity.resize(count);
   frame.angular_velocity.resize(count);
   frame.force.resize(count);
   for (std::size_t g = 0; g < count; ++g) {
-    const auto& motion = s.grains.motion[s.body_of[g]];
+    const auto& motion = state_.motion[body_of_[g]];
     const Vec2 velocity(motion.vx, motion.vy);
     frame.velocity[g] = velocity;
-    frame.angular_velocity[g] = motion.rim_speed / s.world.grains.radius[g];
-    const Vec2 change = velocity - Vec2(s.before[g].vx, s.before[g].vy);
-    frame.force[g] = s.world.grains.mass[g] * change / s.world.step;
+    frame.angular_velocity[g] = motion.rim_speed / world_.grains.radius[g];
+    const Vec2 change = velocity - Vec2(before_[g].vx, before_[g].vy);
+    frame.force[g] = world_.grains.mass[g] * change / world_.step;
   }
 }
 
-}  // namespace
-
-void write_frame(const SolvedStep& step, Frame<2>& frame)
+void Simulation::write_frame(double middle, Frame<2>& frame) const
 {
-  write_positions(step, frame);
-  write_contacts(step, frame.contacts);
-  write_motion(step, frame);
+  frame.step = steps_done_;
+  frame.time = middle;
+  write_positions(frame);
+  write_contacts(frame.contacts);
+  write_motion(frame);
 }
 
 }  // namespace grseg
