@@ -5,7 +5,6 @@
 #include "sim/run/run.hpp"
 #include "sim/run/run_files.hpp"
 #include "sim/scene/keys/keys.hpp"
-#include "sim/scene/keys/scene_text.hpp"
 #include "sim/solver/sweep.hpp"
 
 #include <fmt/format.h>

@@ -155,20 +155,19 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Ma
 {
   const D d;
   const auto add = [&](Lanes& to, Vector what)
-                       HWY_ATTR { hn::Store(hn::Add(hn::Load(d, &to[lane]), what), d, &to[lane]); };
-  const auto keep_most = [&](Lanes& of, Vector what) HWY_ATTR {
-    hn::Store(larger(hn::Load(d, &of[lane]), what), d, &of[lane]);
-  };
-  const auto touching = hn::And(used, hn::Le(gap, hn::Zero(d)));
-  const auto overlap = hn::IfThenElseZero(touching, hn::Neg(gap));
+                       HWY_ATTR { hn::Store(load(to, lane) + what, d, &to[lane]); };
+  const auto keep_most = [&](Lanes& of, Vector what)
+                             HWY_ATTR { hn::Store(larger(load(of, lane), what), d, &of[lane]); };
+  const auto touching = both(used, gap <= hn::Zero(d));
+  const auto overlap = choose(touching, minus(gap));
   sums.touching += hn::CountTrue(d, touching);
   add(sums.overlap, overlap);
   keep_most(sums.largest_overlap, overlap);
   keep_most(sums.fastest_approach, approach);
   add(sums.load, impulse_n);
-  add(sums.root_loads, hn::Sqrt(impulse_n));
-  const auto fresh = hn::IfThenElseZero(hn::Eq(impulse_n, hn::Zero(d)), approach);
-  add(sums.approaches, hn::Mul(fresh, fresh));
+  add(sums.root_loads, root(impulse_n));
+  const auto fresh = choose(impulse_n == hn::Zero(d), approach);
+  add(sums.approaches, fresh * fresh);
 }
 
 /// Eight pairs of a class from `first` of `near` on, with the first guess of their impulses.
@@ -283,19 +282,18 @@ void keep(const StripContacts& contacts, Pairs::Memory* memories, ImpulseSums& t
     const auto& block = contacts.blocks[b];
     const auto& origin = contacts.origins[b];
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-      const auto n = hn::Load(d, &block.impulse_n[lane]), t = hn::Load(d, &block.impulse_t[lane]);
-      const auto bearing = hn::Gt(n, hn::Zero(d));
-      const auto approach = hn::IfThenElseZero(bearing, hn::Load(d, &origin.approach[lane]));
+      const auto add = [&](Lanes& to, Vector what)
+                           HWY_ATTR { hn::Store(load(to, lane) + what, d, &to[lane]); };
+      const auto n = load(block.impulse_n, lane), t = load(block.impulse_t, lane);
+      const auto bearing = n > hn::Zero(d);
+      const auto approach = choose(bearing, load(origin.approach, lane));
       store_bodies(d, Bodies<D>{n, t, approach, hn::Zero(d)}, memory, &origin.pair[lane]);
-      const auto gap = hn::Abs(hn::Load(d, &origin.gap[lane]));
-      const auto sum_gap = hn::Add(hn::Load(d, &gaps[lane]), hn::IfThenElseZero(bearing, gap));
-      hn::Store(sum_gap, d, &gaps[lane]);
+      add(gaps, choose(bearing, magnitude(load(origin.gap, lane))));
       total.force_bearing += hn::CountTrue(d, bearing);
       if (b < contacts.on_base) continue;
-      const auto nx = hn::Load(d, &block.nx[lane]), ny = hn::Load(d, &block.ny[lane]);
-      const auto px = n * nx - t * ny, py = n * ny + t * nx;
-      hn::Store(hn::Add(hn::Load(d, &base_x[lane]), px), d, &base_x[lane]);
-      hn::Store(hn::Add(hn::Load(d, &base_y[lane]), py), d, &base_y[lane]);
+      const auto nx = load(block.nx, lane), ny = load(block.ny, lane);
+      add(base_x, n * nx - t * ny);
+      add(base_y, n * ny + t * nx);
     }
   }
   total.gap_bearing = sum(gaps);

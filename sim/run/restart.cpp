@@ -4,7 +4,6 @@
 #include "formats/core/errors.hpp"
 #include "sim/scene/deposition.hpp"
 #include "sim/scene/keys/keys.hpp"
-#include "sim/scene/keys/scene_text.hpp"
 #include "sim/scene/random_numbers.hpp"
 
 #include <fmt/format.h>
@@ -73,10 +72,7 @@ Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
   if (!given["accuracy"].defaulted())
     set_again.assign(keys_of_accuracy.begin(), keys_of_accuracy.end());
   auto values = given;
-  auto text = checkpoint.scene;
-  // Before there was this key all was computed in double precision.
-  if (text.find("\nprecision = ") == std::string::npos) text += "precision = double\n";
-  read_scene_text(text, name, set_again, values);
+  read_scene_text(checkpoint.scene, name, set_again, values);
   return resolve_scene(values);
 }
 

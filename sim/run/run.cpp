@@ -7,13 +7,12 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/reader.hpp"
 #include "sim/run/expected_cost.hpp"
-#include "sim/run/provenance.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/run/run_files.hpp"
 #include "sim/run/summary.hpp"
 #include "sim/scene/deposition.hpp"
 #include "sim/scene/geometry.hpp"
-#include "sim/scene/keys/scene_text.hpp"
+#include "sim/scene/keys/keys.hpp"
 
 #include <fmt/format.h>
 
@@ -58,44 +57,38 @@ TrajectoryWriter new_trajectory(const Scene& scene, const Simulation& simulation
 }
 
 /// Writes checkpoints of `run` when they are due.
-class Checkpoints {
- public:
-  Checkpoints(const Scene& scene, const RunOptions& options, Run& run, const Recorder& recorder)
-      : scene_(scene), options_(options), run_(run), recorder_(recorder)
-  {
-  }
+struct Checkpoints {
+  const Scene& scene;
+  const RunOptions& options;
+  Run& run;
+  const Recorder& recorder;
+  double begin = seconds_now();
+  double last = -std::numeric_limits<double>::infinity();
+
   void write_if_due()
   {
-    if (seconds_now() - last_ >= options_.checkpoint_every) write();
+    if (seconds_now() - last >= options.checkpoint_every) write();
   }
   void write()
   {
-    if (options_.checkpoint.empty()) return;
-    last_ = seconds_now();
+    if (options.checkpoint.empty()) return;
+    last = seconds_now();
     // The trajectory is on the disk before the checkpoint that counts its frames.
-    run_.writer.flush();
-    flush_to_disk(part_of(options_.output));
-    const auto& world = run_.simulation.world();
-    write_checkpoint(options_.checkpoint,
-                     {to_text(scene_),
+    run.writer.flush();
+    flush_to_disk(part_of(options.output));
+    const auto& world = run.simulation.world();
+    write_checkpoint(options.checkpoint,
+                     {to_text(scene),
                       program_of_run(),
-                      run_.history,
+                      run.history,
                       world.grains,
                       world.walls,
                       world.box,
-                      run_.deposited_height,
-                      run_.simulation.state(),
-                      {run_.writer.frames(), run_.writer.digest(), recorder_.state(),
-                       run_.progress.begin, run_.progress.wall + last_ - begin_}});
+                      run.deposited_height,
+                      run.simulation.state(),
+                      {run.writer.frames(), run.writer.digest(), recorder.state(),
+                       run.progress.begin, run.progress.wall + last - begin}});
   }
-
- private:
-  const Scene& scene_;
-  const RunOptions& options_;
-  Run& run_;
-  const Recorder& recorder_;
-  double begin_ = seconds_now();
-  double last_ = -std::numeric_limits<double>::infinity();
 };
 
 /// Writes frames and checkpoints until the end or a signal. Checkpoints lie just before a frame, so
@@ -145,7 +138,7 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
 {
   auto& simulation = run.simulation;
   Recorder recorder(run.writer, scene.small_diameter, run.progress.recorder);
-  Checkpoints checkpoints(scene, options, run, recorder);
+  Checkpoints checkpoints{scene, options, run, recorder};
   ProgressBar progress(
       program,
       {.things = "s of flow", .total = scene.duration, .from = simulation.time(), .digits = 2},

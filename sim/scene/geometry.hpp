@@ -71,6 +71,9 @@ struct Geometry {
 Room room_at(const Scene& scene, double y);
 double bed_area(const Scene& scene);
 
+/// Gravity of the flow, slope included. Of a shear cell: none, its plate presses instead.
+Gravity<2> gravity_of(const Scene& scene);
+
 /// Scene::geometry's boundary grains that move; they are the last rows of `grains`.
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
 

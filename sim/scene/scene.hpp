@@ -6,6 +6,7 @@
 #include "sim/contact/contact_law.hpp"
 #include "sim/solver/solver.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -72,15 +73,15 @@ struct Scene {
   int compression = 0;
   bool float32 = false;
 
-  std::int64_t steps_per_frame() const;
-  std::int64_t steps_in_all() const;
+  std::int64_t steps_per_frame() const { return std::llround(frame_interval / step); }
+  std::int64_t steps_in_all() const { return std::llround(duration / step); }
 };
 
-/// Gravity of the flow, slope included. Of a shear cell: none, its plate presses instead.
-Gravity<2> gravity_of(const Scene& scene);
-
 /// What the contact law of a scene amounts to.
-LawParameters law_parameters(const Scene& scene);
+inline LawParameters law_parameters(const Scene& scene)
+{
+  return law_parameters(scene.law, scene.horizon, scene.step, scene.gravity, scene.small_diameter);
+}
 
 /// A key has a value that it cannot have.
 struct SceneError : UsageError {
@@ -89,7 +90,10 @@ struct SceneError : UsageError {
 };
 
 /// SceneError unless `valid`.
-void require(bool valid, const std::string& key, const std::string& sentence);
+inline void require(bool valid, const std::string& key, const std::string& sentence)
+{
+  if (!valid) throw SceneError(key, sentence);
+}
 /// SceneError unless low <= value <= high.
 void require_within(double value, const std::string& key, double low, double high);
 

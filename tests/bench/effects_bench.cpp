@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/run/provenance.hpp"
 #include "sim/run/recorder.hpp"
+#include "sim/run/summary.hpp"
 #include "tests/bench/flow.hpp"
 
 #include <benchmark/benchmark.h>

@@ -4,7 +4,6 @@
 #include "sim/scene/deposition.hpp"
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
-#include "sim/scene/keys/scene_text.hpp"
 
 #include <cmath>
 #include <map>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scene files.
-#include "sim/scene/keys/scene_text.hpp"
+#include "sim/scene/keys/keys.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 namespace {

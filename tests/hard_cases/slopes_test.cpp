@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/scene/geometry.hpp"
 #include "sim/step/energies.hpp"
 #include "tests/hard_cases/case.hpp"
 #include "tests/hard_cases/flows.hpp"

@@ -4,7 +4,6 @@
 #include "sim/run/checkpoint.hpp"
 #include "sim/scene/deposition.hpp"
 #include "sim/scene/keys/keys.hpp"
-#include "sim/scene/keys/scene_text.hpp"
 
 #include <cmath>
 #include <numbers>

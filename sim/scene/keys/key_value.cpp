@@ -35,22 +35,4 @@ double read_length(const std::string& key, const std::string& text, const Scene&
   }
 }
 
-KeyValue whole_number(std::optional<long> Scene::*member, long low, long high)
-{
-  const auto given = [=](auto& scene) -> auto&
-  {
-    return *(scene.*member);
-  };
-  auto value = whole_number(given, low, high);
-  const auto read = value.read;
-  value.read = [=](const std::string& key, const std::string& text, Scene& scene) {
-    scene.*member = 0;
-    read(key, text, scene);
-  };
-  value.text = [=](const Scene& scene) {
-    return scene.*member ? fmt::format("{}", *(scene.*member)) : std::string();
-  };
-  return value;
-}
-
 }  // namespace grseg::kinds

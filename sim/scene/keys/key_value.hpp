@@ -54,6 +54,7 @@ KeyValue length(Member member, const char* low, const char* high)
   return value;
 }
 
+/// One that a scene may be without is a std::optional.
 template <class Member>
 KeyValue whole_number(Member member, long low, long high)
 {
@@ -68,15 +69,19 @@ KeyValue whole_number(Member member, long low, long high)
                    static_cast<double>(high));
     std::invoke(member, scene) = static_cast<T>(given);
   };
-  value.number = [=](const Scene& scene) {
-    return static_cast<double>(std::invoke(member, scene));
-  };
-  value.text = [=](const Scene& scene) { return fmt::format("{}", std::invoke(member, scene)); };
+  if constexpr (std::is_same_v<T, std::optional<long>>) {
+    value.text = [=](const Scene& scene) {
+      const auto& given = std::invoke(member, scene);
+      return given ? fmt::format("{}", *given) : std::string();
+    };
+  } else {
+    value.number = [=](const Scene& scene) {
+      return static_cast<double>(std::invoke(member, scene));
+    };
+    value.text = [=](const Scene& scene) { return fmt::format("{}", std::invoke(member, scene)); };
+  }
   return value;
 }
-
-/// One that a scene may be without.
-KeyValue whole_number(std::optional<long> Scene::*member, long low, long high);
 
 /// One of several words; each stands for a value.
 template <class T>

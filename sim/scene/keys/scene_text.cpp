@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/scene/keys/scene_text.hpp"
 
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"

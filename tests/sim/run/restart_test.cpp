@@ -264,19 +264,6 @@ TEST(Restart, AGivenAccuracySetsStepToleranceAndSweepsAnew)
   EXPECT_EQ(now.solver.min_sweeps, fresh.solver.min_sweeps);
 }
 
-TEST(Restart, OfACheckpointThatDoesNotSayItsPrecisionIsInDoublePrecision)
-{
-  auto text = to_text(scene());
-  const std::string line = "precision = mixed\n";
-  ASSERT_NE(text.find(line), std::string::npos);
-  text.erase(text.find(line), line.size());
-  Checkpoint checkpoint;
-  checkpoint.scene = text;
-  EXPECT_EQ(with_words(checkpoint, {}).solver.precision, Precision::doubles);
-  EXPECT_EQ(with_words(checkpoint, {"--precision", "mixed"}).solver.precision, Precision::mixed);
-  EXPECT_EQ(with_words(checkpoint, {"--accuracy", "draft"}).solver.precision, Precision::mixed);
-}
-
 TEST(Restart, KeysOfTheBedCannotChange)
 {
   const auto chute = scene();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/geometry.hpp"
 
-#include "sim/run/provenance.hpp"
+#include "sim/run/summary.hpp"
 #include "sim/scene/deposition.hpp"
 #include "tests/sim/small_chute.hpp"
 

@@ -2,8 +2,8 @@
 #include "formats/cli/bed.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
+#include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
-#include "sim/scene/keys/scene_text.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
