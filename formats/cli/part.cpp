@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 
 namespace grseg {
@@ -12,22 +13,15 @@ namespace {
 
 constexpr std::size_t most_parts = 9999;
 
-std::optional<std::size_t> count_in(const std::string& text)
-{
-  if (text.empty() || text.size() > 4 || text.find_first_not_of("0123456789") != std::string::npos)
-    return {};
-  return std::stoul(text);
-}
-
 OutputPart parse_part(const std::string& text)
 {
-  const auto slash = text.find('/');
-  const auto number = count_in(text.substr(0, slash));
-  const auto count = slash == std::string::npos ? std::nullopt : count_in(text.substr(slash + 1));
-  if (!number || !count || *number < 1 || *number > *count)
+  OutputPart part;
+  char more = 0;
+  if (std::sscanf(text.c_str(), "%zu/%zu%c", &part.number, &part.count, &more) != 2 ||
+      part.number < 1 || part.number > part.count || part.count > most_parts)
     throw UsageError(fmt::format(
         "--part '{}': give the number of the part and how many there are, as in 3/16", text));
-  return {*number, *count};
+  return part;
 }
 
 }  // namespace

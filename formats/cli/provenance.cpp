@@ -15,6 +15,16 @@
 #include <string>
 
 namespace grseg {
+namespace {
+
+/// A header line for each line of a parameter.
+void add_lines(Header& header, const char* key, const TrajectoryReader& run, const char* parameter)
+{
+  std::istringstream lines(run.parameters().text(parameter));
+  for (std::string line; std::getline(lines, line);) header.emplace_back(key, printable(line));
+}
+
+}  // namespace
 
 HeaderLine program_line(const ToolInfo& info)
 {
@@ -26,9 +36,7 @@ Header provenance(const ToolInfo& info, const std::string& preset, const Traject
 {
   Header header{program_line(info)};
   if (!info.presets.empty()) header.emplace_back("preset", preset);
-  std::istringstream history(run.parameters().text("history"));
-  for (std::string line; std::getline(history, line);)
-    header.emplace_back("history", printable(line));
+  add_lines(header, "history", run, "history");
   header.emplace_back("history", command);
   header.emplace_back("input", fmt::format("xxh3 {}", format_digest(run.digest())));
   header.emplace_back("bed", bed_of(run).text());
@@ -116,17 +124,6 @@ Header trust_of(const std::vector<Table>& tables)
     for (auto& value : header_values(tables, key)) lines.emplace_back(key, std::move(value));
   return lines;
 }
-
-namespace {
-
-/// A header line for each line of a parameter.
-void add_lines(Header& header, const char* key, const TrajectoryReader& run, const char* parameter)
-{
-  std::istringstream lines(run.parameters().text(parameter));
-  for (std::string line; std::getline(lines, line);) header.emplace_back(key, printable(line));
-}
-
-}  // namespace
 
 void TrustOption::add_to(po::options_description& options)
 {

@@ -12,6 +12,20 @@
 #include <cmath>
 
 namespace grseg {
+namespace {
+
+/// Adds cells with tabs between them, each as `text_of` writes it.
+template <class Cells, class Text>
+void add_line(std::string& text, const Cells& cells, const Text& text_of)
+{
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (c > 0) text += '\t';
+    text += text_of(cells[c]);
+  }
+  text += '\n';
+}
+
+}  // namespace
 
 std::string without_unit(const std::string& column)
 {
@@ -86,25 +100,12 @@ std::string Table::to_json() const
   return all.dump() + '\n';
 }
 
-namespace {
-
-void add_line(std::string& text, const std::vector<std::string>& cells)
-{
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (c > 0) text += '\t';
-    text += printable(cells[c]);
-  }
-  text += '\n';
-}
-
-}  // namespace
-
 std::string table_text(const std::vector<std::pair<std::string, std::string>>& header,
                        const std::vector<std::string>& columns,
                        const std::vector<std::vector<std::string>>& rows)
 {
   auto text = table_head(header, columns);
-  for (const auto& row : rows) add_line(text, row);
+  for (const auto& row : rows) add_line(text, row, printable);
   return text + end_line(text, rows.size()) + '\n';
 }
 
@@ -114,19 +115,13 @@ std::string table_head(const std::vector<std::pair<std::string, std::string>>& h
   std::string text;
   for (const auto& [key, value] : header)
     text += fmt::format("# {}: {}\n", printable(key), printable(value));
-  add_line(text, columns);
+  add_line(text, columns, printable);
   return text;
 }
 
 void add_rows(std::string& text, const std::vector<std::vector<double>>& rows)
 {
-  for (const auto& row : rows) {
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      if (c > 0) text += '\t';
-      text += format_number(row[c]);
-    }
-    text += '\n';
-  }
+  for (const auto& row : rows) add_line(text, row, format_number);
 }
 
 std::string end_line(std::string_view before, std::size_t rows)
@@ -142,14 +137,6 @@ std::string end_line(std::size_t rows, std::uint64_t digest_before)
 std::string format_number(double value)
 {
   return std::isnan(value) ? "nan" : fmt::format("{:.17g}", value);
-}
-
-std::vector<std::string> format_numbers(const std::vector<double>& values)
-{
-  std::vector<std::string> texts;
-  texts.reserve(values.size());
-  for (const double value : values) texts.push_back(format_number(value));
-  return texts;
 }
 
 }  // namespace grseg

@@ -76,6 +76,5 @@ std::string end_line(std::size_t rows, std::uint64_t digest_before);
 
 /// 17 significant digits, shortest of %g; "nan" for any NaN.
 std::string format_number(double value);
-std::vector<std::string> format_numbers(const std::vector<double>& values);
 
 }  // namespace grseg

@@ -15,19 +15,8 @@ enum class Verdict {
 /// The word for it in reports.
 constexpr const char* to_text(Verdict verdict)
 {
-  switch (verdict) {
-    case Verdict::passed:
-      return "passed";
-    case Verdict::failed:
-      return "failed";
-    case Verdict::undecided:
-      return "undecided";
-    case Verdict::waived:
-      return "waived";
-    case Verdict::skipped:
-      break;
-  }
-  return "skipped";
+  constexpr const char* words[] = {"passed", "failed", "undecided", "waived", "skipped"};
+  return words[static_cast<int>(verdict)];
 }
 
 }  // namespace grseg
