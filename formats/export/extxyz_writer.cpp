@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/export/output_file.hpp"
 #include "formats/export/run_writers.hpp"
 #include "formats/export/view_cell.hpp"
 
@@ -18,41 +19,58 @@ std::string keys_of(const ViewCell& cell, bool has_force)
                      has_force ? ":force:R:3" : "");
 }
 
+class ExtxyzWriter : public RunWriter {
+ public:
+  ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell, const std::string& path,
+               bool overwrite)
+      : grains_(run.grains()),
+        species_(species_numbers(run.grains().species, run.species().size())),
+        has_force_(run.has_force()),
+        keys_(keys_of(cell, run.has_force())),
+        file_(path, overwrite, {run.path()})
+  {
+  }
+
+  void add(const Frame<2>& frame) override { add_frame(frame); }
+  void add(const Frame<3>& frame) override { add_frame(frame); }
+  void publish() override { file_.publish(); }
+
+ private:
+  template <int D>
+  void add_frame(const Frame<D>& frame)
+  {
+    fmt::memory_buffer text;
+    const auto end = std::back_inserter(text);
+    fmt::format_to(end, "{}\n{} Time={}\n", number_present(frame), keys_, frame.time);
+    for (std::size_t g = 0; g < grains_.size(); ++g) {
+      if (!is_present(frame, g)) continue;
+      const Vec3 x = in_space<D>(frame.position[g]), v = in_space<D>(frame.velocity[g]);
+      const Vec3 spin = spin_in_space(frame.angular_velocity[g]);
+      fmt::format_to(end, "{} {} {} {} {} {} {} {} {} {} {} {} {}", grains_.id[g], species_[g] + 1,
+                     x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), grains_.radius[g], grains_.mass[g],
+                     spin.x(), spin.y(), spin.z());
+      if (has_force_) {
+        const Vec3 force = in_space<D>(frame.force[g]);
+        fmt::format_to(end, " {} {} {}", force.x(), force.y(), force.z());
+      }
+      text.push_back('\n');
+    }
+    file_.write({text.data(), text.size()});
+  }
+
+  const Grains& grains_;
+  std::vector<std::int32_t> species_;
+  bool has_force_;
+  std::string keys_;
+  OutputFile file_;
+};
+
 }  // namespace
 
-ExtxyzWriter::ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell,
-                           const std::string& path, bool overwrite)
-    : grains_(run.grains()),
-      species_(species_numbers(run.grains().species, run.species().size())),
-      has_force_(run.has_force()),
-      keys_(keys_of(cell, run.has_force())),
-      file_(path, overwrite, {run.path()})
+std::unique_ptr<RunWriter> extxyz_writer(const TrajectoryReader& run, const ViewCell& cell,
+                                         const std::string& path, bool overwrite)
 {
+  return std::make_unique<ExtxyzWriter>(run, cell, path, overwrite);
 }
-
-template <int D>
-void ExtxyzWriter::add(const Frame<D>& frame)
-{
-  fmt::memory_buffer text;
-  const auto end = std::back_inserter(text);
-  fmt::format_to(end, "{}\n{} Time={}\n", number_present(frame), keys_, frame.time);
-  for (std::size_t g = 0; g < grains_.size(); ++g) {
-    if (!is_present(frame, g)) continue;
-    const Vec3 x = in_space<D>(frame.position[g]), v = in_space<D>(frame.velocity[g]);
-    const Vec3 spin = spin_in_space(frame.angular_velocity[g]);
-    fmt::format_to(end, "{} {} {} {} {} {} {} {} {} {} {} {} {}", grains_.id[g], species_[g] + 1,
-                   x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), grains_.radius[g], grains_.mass[g],
-                   spin.x(), spin.y(), spin.z());
-    if (has_force_) {
-      const Vec3 force = in_space<D>(frame.force[g]);
-      fmt::format_to(end, " {} {} {}", force.x(), force.y(), force.z());
-    }
-    text.push_back('\n');
-  }
-  file_.write({text.data(), text.size()});
-}
-
-template void ExtxyzWriter::add(const Frame<2>&);
-template void ExtxyzWriter::add(const Frame<3>&);
 
 }  // namespace grseg

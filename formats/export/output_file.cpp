@@ -4,16 +4,15 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 
-#include <boost/iostreams/categories.hpp>
 #include <boost/iostreams/filter/zlib.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <ios>
+#include <sstream>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -22,89 +21,44 @@ namespace io = boost::iostreams;
 
 constexpr std::streamsize buffer_size = 1 << 16;
 
-/// Remembers how it failed and from then on swallows what comes: Boost reports no error that
-/// happens while a chain of filters is closed.
-struct Descriptor {
-  using char_type = char;
-  using category = io::sink_tag;
-
-  int file;
-  int* error;
-
-  std::streamsize write(const char* bytes, std::streamsize count) const
-  {
-    for (std::streamsize done = 0; done < count && *error == 0;) {
-      const auto n = ::write(file, bytes + done, static_cast<std::size_t>(count - done));
-      if (n > 0)
-        done += n;
-      else if (n == 0 || errno != EINTR)
-        *error = n == 0 ? ENOSPC : errno;
-    }
-    return count;
-  }
-};
-
-struct OpenFile {
-  int number = -1;
-
-  ~OpenFile() { close(); }
-  /// 0 or an errno.
-  int close()
-  {
-    const bool closed = number < 0 || ::close(number) == 0;
-    number = -1;
-    return closed ? 0 : errno;
-  }
-};
-
 }  // namespace
 
-struct OutputFile::Stream {
-  std::string name;
-  OpenFile file;
-  int error = 0;                // an errno
-  io::filtering_ostream bytes;  // last: its destructor writes to the file
-
-  [[noreturn]] void fail() const
-  {
-    throw RunError(fmt::format("cannot write {}: {}", name, reason(error)));
-  }
+/// What is packed, and what of it is not yet written.
+struct OutputFile::Packer {
+  std::ostringstream packed;
+  io::filtering_ostream bytes;  // last: its destructor writes to `packed`
 };
 
 OutputFile::OutputFile(const std::string& path, bool overwrite,
                        const std::vector<std::string>& inputs)
-    : output_(path, overwrite, inputs), stream_(std::make_unique<Stream>())
+    : name_(path), output_(path, overwrite, inputs)
 {
-  auto& my = *stream_;
-  my.name = path;
-  my.file.number =
-      open(output_.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (my.file.number < 0) throw RunError(fmt::format("cannot create {}: {}", path, reason(errno)));
-  if (path.ends_with(".gz")) {
-    io::zlib_params gzip(io::zlib::best_speed);  // digits of reals hardly pack better, only slower
-    gzip.window_bits = 16 + 15;  // zlib's deflateInit2: 16 more ask for the frame of gzip
-    my.bytes.push(io::zlib_compressor(gzip), buffer_size);
-  }
-  my.bytes.push(Descriptor{my.file.number, &my.error}, buffer_size);
-  my.bytes.exceptions(std::ios_base::badbit | std::ios_base::failbit);
+  write_file(output_.temporary(), "", name_);
+  if (!path.ends_with(".gz")) return;
+  packer_ = std::make_unique<Packer>();
+  io::zlib_params gzip(io::zlib::best_speed);  // digits of reals hardly pack better, only slower
+  gzip.window_bits = 16 + 15;  // zlib's deflateInit2: 16 more ask for the frame of gzip
+  packer_->bytes.push(io::zlib_compressor(gzip), buffer_size);
+  packer_->bytes.push(packer_->packed);
 }
 
 OutputFile::~OutputFile() = default;
 
 void OutputFile::write(std::string_view bytes)
 {
-  stream_->bytes.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (stream_->error != 0) stream_->fail();
+  if (!packer_) return append_to_file(output_.temporary(), bytes, name_);
+  auto& [packed, stream] = *packer_;
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  append_to_file(output_.temporary(), packed.str(), name_);
+  packed.str("");
 }
 
 void OutputFile::close()
 {
-  auto& my = *stream_;
-  if (my.file.number < 0) return;
-  my.bytes.reset();
-  const int error = my.file.close();
-  if (my.error == 0) my.error = error;
-  if (my.error != 0) my.fail();
+  if (!packer_) return;
+  packer_->bytes.reset();
+  append_to_file(output_.temporary(), packer_->packed.str(), name_);
+  packer_.reset();
 }
 
 void OutputFile::publish()

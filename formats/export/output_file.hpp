@@ -27,9 +27,10 @@ class OutputFile {
   void publish();
 
  private:
-  struct Stream;
+  struct Packer;
+  std::string name_;
   Output output_;
-  std::unique_ptr<Stream> stream_;
+  std::unique_ptr<Packer> packer_;  // of a file that is compressed
 };
 
 /// A folder of files that appears whole or not at all.

@@ -1,17 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/cli/output.hpp"
-#include "formats/export/output_file.hpp"
 #include "formats/export/view_cell.hpp"
 #include "formats/trajectory/reader.hpp"
 
-#include <cstddef>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace grseg {
+
+/// Writes frames of a run for other programs. What is written appears whole when it is published, or
+/// not at all.
+class RunWriter {
+ public:
+  RunWriter() = default;
+  RunWriter(const RunWriter&) = delete;
+  RunWriter& operator=(const RunWriter&) = delete;
+  virtual ~RunWriter() = default;
+
+  /// Needs velocities, images, contacts, and forces where the run has them.
+  virtual void add(const Frame<2>& frame) = 0;
+  virtual void add(const Frame<3>& frame) = 0;
+  virtual void publish() = 0;
+  /// The command that turns what was written back into a run, with options for what it cannot hold;
+  /// "" where there is none. Valid when all frames have been added.
+  virtual std::string import_command() const { return ""; }
+};
+
+// Each writes to `path`, which may not be of the run and is replaced with `overwrite` alone. `cell` is the
+// same for all frames.
 
 /// A pair of dumps as LAMMPS writes them (doc/src/dump.rst), blocks with ITEM: TIME and the frame's
 /// step as TIMESTEP:
@@ -26,56 +43,16 @@ namespace grseg {
 /// A contact with a straight wall names its grain twice, since OVITO stops at a partner that is not
 /// a grain, and has the number of the wall in `wall`, which is -1 otherwise. Reals have the fewest
 /// digits that read back exactly.
-class LammpsWriter {
- public:
-  LammpsWriter(const TrajectoryReader& run, const ViewCell& cell, const std::string& path,
-               bool overwrite);
-
-  /// Needs velocities, images, contacts, and forces where the run has them.
-  template <int D>
-  void add(const Frame<D>& frame);
-  void publish();
-
-  /// The command that turns the dumps back into a run, with options for what dumps cannot hold.
-  /// Valid when all frames have been added.
-  std::string import_command() const;
-
- private:
-  template <int D>
-  std::string head(const Frame<D>& frame, const char* label, std::size_t rows) const;
-  template <int D>
-  void add_grains(const Frame<D>& frame);
-  template <int D>
-  void add_contacts(const Frame<D>& frame);
-
-  const TrajectoryReader& run_;
-  std::string bounds_, import_options_, grains_path_, contacts_path_;
-  bool has_walls_ = false;
-  OutputFile grains_file_, contacts_file_;
-};
+std::unique_ptr<RunWriter> lammps_writer(const TrajectoryReader& run, const ViewCell& cell,
+                                         const std::string& path, bool overwrite);
 
 /// Extended XYZ as OVITO and ASE read it: per frame the number of grains that are present, a line
 /// of keys, a row for each. Types are numbers (1 the smallest species, the
 /// last one the boundary), since ASE refuses species that are not
 /// chemical symbols. Reals have the fewest digits that read back exactly; discs have z = 0;
 /// contacts cannot be stored.
-class ExtxyzWriter {
- public:
-  ExtxyzWriter(const TrajectoryReader& run, const ViewCell& cell, const std::string& path,
-               bool overwrite);
-
-  /// Needs velocities, and forces where the run has them.
-  template <int D>
-  void add(const Frame<D>& frame);
-  void publish() { file_.publish(); }
-
- private:
-  const Grains& grains_;
-  std::vector<std::int32_t> species_;
-  bool has_force_;
-  std::string keys_;
-  OutputFile file_;
-};
+std::unique_ptr<RunWriter> extxyz_writer(const TrajectoryReader& run, const ViewCell& cell,
+                                         const std::string& path, bool overwrite);
 
 /// H5MD 1.1 for MDAnalysis' H5MDReader, which refuses two dimensions: vectors of discs padded by
 /// z = 0, the group /particles/trajectory, box/edges with one matrix per frame. The elements of
@@ -85,22 +62,8 @@ class ExtxyzWriter {
 /// has it), image, angular_velocity (of discs about z, [F][N]), and per grain id, species, radius, mass;
 /// Grains that are absent in a frame are NaN in it, as H5MD has a fixed number of particles.
 /// /observables are those of the run. Contacts cannot be stored.
-class H5md3dWriter {
- public:
-  H5md3dWriter(const TrajectoryReader& run, const ViewCell& cell, const std::string& path,
-               bool overwrite);
-  ~H5md3dWriter();
-  H5md3dWriter(H5md3dWriter&&) noexcept;
-
-  /// Needs velocities, images, and forces where the run has them.
-  template <int D>
-  void add(const Frame<D>& frame);
-  void publish();
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+std::unique_ptr<RunWriter> h5md3d_writer(const TrajectoryReader& run, const ViewCell& cell,
+                                         const std::string& path, bool overwrite);
 
 /// A folder for ParaView: grains.pvd and contacts.pvd, each a list of times and files.
 ///   grains/      a vertex per grain that is present, with radius and diameter (to scale glyphs), mass,
@@ -114,25 +77,7 @@ class H5md3dWriter {
 ///                species_j, walls being of the boundary) and the ids i and j, -1 for wall 0, -2 for
 ///                wall 1
 /// Reals are single precision.
-class VtpWriter {
- public:
-  VtpWriter(const TrajectoryReader& run, const std::string& folder, bool overwrite);
-
-  /// Needs velocities, contacts, and forces where the run has them.
-  template <int D>
-  void add(const Frame<D>& frame);
-  void publish();
-
- private:
-  template <int D>
-  std::string grains_text(const Frame<D>& frame) const;
-  template <int D>
-  std::string contacts_text(const Frame<D>& frame) const;
-
-  const TrajectoryReader& run_;
-  OutputFolder folder_;
-  std::size_t frames_ = 0;
-  std::string grains_list_, contacts_list_;
-};
+std::unique_ptr<RunWriter> vtp_writer(const TrajectoryReader& run, const ViewCell& cell,
+                                      const std::string& path, bool overwrite);
 
 }  // namespace grseg

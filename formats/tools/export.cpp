@@ -25,7 +25,10 @@ constexpr ToolInfo info{
     "  grseg-export run.h5 --to lammps -o run.dump.gz     OVITO; run.contacts.dump.gz beside it\n"
     "  grseg-export run.h5 --to h5md3d --begin 20 --end 40 -o view.h5md       MDAnalysis\n"};
 
-const std::vector<std::string> formats{"vtp", "extxyz", "lammps", "h5md3d"};
+constexpr Choice<decltype(&vtp_writer)> formats[] = {{"vtp", vtp_writer},
+                                                     {"extxyz", extxyz_writer},
+                                                     {"lammps", lammps_writer},
+                                                     {"h5md3d", h5md3d_writer}};
 
 struct Settings {
   FrameRange range;
@@ -38,7 +41,7 @@ po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
   auto add = options.add_options();
-  add("to", word_option(&s.format, formats),
+  add("to", word_option(&s.format, words_of(formats)),
       "vtp: PolyData with times, grains as points and contacts as lines; extxyz: extended XYZ; "
       "lammps: dump custom and dump local; h5md3d: H5MD in three dimensions");
   s.range.add_to(options);
@@ -51,9 +54,9 @@ po::options_description options_into(Settings& s)
 }
 
 /// All frames, or nothing: what `writer` has begun goes with it when a frame cannot be read.
-template <int D, class Writer>
+template <int D>
 void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
-                  const Settings& s, Writer& writer)
+                  const Settings& s, RunWriter& writer)
 {
   ProgressBar progress(info.name, {.things = "frames", .total = static_cast<double>(frames.size())},
                        s.quiet);
@@ -78,32 +81,18 @@ void export_run(const Settings& s, const po::variables_map& values)
   const TrajectoryReader run(single_input(values, "export one at a time"), s.trust.verify());
   if (s.output.empty()) throw UsageError("name what to write: -o NAME");
   const auto frames = s.range.frames_of(run);
-  const auto cell = view_cell(run, frames.front());
+  const auto make = choose(s.format, "--to", formats);
+  const auto writer = make(run, view_cell(run, frames.front()), s.output, s.overwrite);
   listen_to_signals();
-  const auto write = [&](auto&& writer) {
-    with_dimension(run.dimension(), [&](auto d) { write_frames<d>(run, frames, s, writer); });
-  };
-  if (s.format == "vtp") {
-    write(VtpWriter(run, s.output, s.overwrite));
-  } else if (s.format == "extxyz") {
-    write(ExtxyzWriter(run, cell, s.output, s.overwrite));
-  } else if (s.format == "lammps") {
-    LammpsWriter writer(run, cell, s.output, s.overwrite);
-    write(writer);
-    if (s.quiet) return;
-    if (slope_turns(run))
-      fmt::print(
-          stderr,
-          "{}: the slope changes with time, which an archive cannot pass on to grseg-import\n",
-          info.name);
-    else
-      fmt::print(stderr, "{}: to turn it back into a run: {}\n", info.name,
-                 writer.import_command());
-  } else if (s.format == "h5md3d") {
-    write(H5md3dWriter(run, cell, s.output, s.overwrite));
-  } else {
-    throw UsageError(unknown_word("--to", s.format, formats));
-  }
+  with_dimension(run.dimension(), [&](auto d) { write_frames<d>(run, frames, s, *writer); });
+  const auto again = writer->import_command();
+  if (s.quiet || again.empty()) return;
+  if (slope_turns(run))
+    fmt::print(stderr,
+               "{}: the slope changes with time, which an archive cannot pass on to grseg-import\n",
+               info.name);
+  else
+    fmt::print(stderr, "{}: to turn it back into a run: {}\n", info.name, again);
 }
 
 }  // namespace

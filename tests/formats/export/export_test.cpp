@@ -51,8 +51,7 @@ class Export : public testing::Test {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
   }
-  template <class Writer>
-  void write(Writer&& writer, const TrajectoryReader& run, std::size_t count)
+  void write(RunWriter& writer, const TrajectoryReader& run, std::size_t count)
   {
     Frame<2> frame;
     for (std::size_t k = 0; k < count; ++k) {
@@ -66,7 +65,7 @@ class Export : public testing::Test {
 TEST_F(Export, AContactAcrossThePeriodicEdgeLeavesTheCellRatherThanCrossThePicture)
 {
   const TrajectoryReader run(run_path);
-  write(VtpWriter(run, at("view"), false), run, 1);
+  write(*vtp_writer(run, view_cell(run, 0), at("view"), false), run, 1);
   const auto vtp = content(folder / "view/contacts/000000.vtp");
   const auto points = array_in<float>(vtp, "Points");
   ASSERT_EQ(points.size(), 12U);  // two lines of two points
@@ -96,22 +95,22 @@ TEST_F(Export, AGrainThatIsAbsentIsLeftOutWhereTheFormatAllowsIt)
   const auto cell = view_cell(run, 1);
   EXPECT_TRUE(std::isfinite(cell.low[1]) && std::isfinite(cell.high[1]));
 
-  write(VtpWriter(run, at("view"), false), run, 2);
+  write(*vtp_writer(run, view_cell(run, 0), at("view"), false), run, 2);
   const auto vtp = content(folder / "view/grains/000001.vtp");
   EXPECT_EQ(array_in<std::int32_t>(vtp, "id"), (std::vector<std::int32_t>{7, 9}));
   EXPECT_EQ(array_in<float>(vtp, "radius"), (std::vector<float>{0.005F, 0.005F}));
   EXPECT_EQ(array_in<float>(vtp, "velocity"), (std::vector<float>{0.1F, 0.2F, 0, 0, 0, 0}));
   EXPECT_EQ(array_in<std::int32_t>(content(folder / "view/grains/000000.vtp"), "id").size(), 3U);
 
-  write(ExtxyzWriter(run, cell, at("run.xyz"), false), run, 2);
+  write(*extxyz_writer(run, cell, at("run.xyz"), false), run, 2);
   const auto xyz = lines_of(content(folder / "run.xyz"));
   ASSERT_EQ(xyz.size(), 5U + 4U);
   EXPECT_EQ(xyz[5], "2");
   EXPECT_EQ(xyz[7].substr(0, 2), "7 ");
   EXPECT_EQ(xyz[8].substr(0, 2), "9 ");
 
-  LammpsWriter dump(run, cell, at("run.dump"), false);
-  write(dump, run, 2);
+  const auto dump = lammps_writer(run, cell, at("run.dump"), false);
+  write(*dump, run, 2);
   const auto text = content(folder / "run.dump");
   EXPECT_NE(text.find("NUMBER OF ATOMS\n2\n"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
@@ -120,7 +119,7 @@ TEST_F(Export, AGrainThatIsAbsentIsLeftOutWhereTheFormatAllowsIt)
 TEST_F(Export, AContactWithAWallEndsWhereTheGrainTouches)
 {
   const TrajectoryReader run(run_path);
-  write(VtpWriter(run, at("view"), false), run, 1);
+  write(*vtp_writer(run, view_cell(run, 0), at("view"), false), run, 1);
   const auto vtp = content(folder / "view/contacts/000000.vtp");
   const auto points = array_in<float>(vtp, "Points");
   EXPECT_FLOAT_EQ(points[0], 0.001F);
@@ -133,7 +132,7 @@ TEST_F(Export, AContactWithAWallEndsWhereTheGrainTouches)
 TEST_F(Export, TheNormalForcePushesApartAndTheTangentialOneIsAcross)
 {
   const TrajectoryReader run(run_path);
-  write(VtpWriter(run, at("view"), false), run, 1);
+  write(*vtp_writer(run, view_cell(run, 0), at("view"), false), run, 1);
   const auto vtp = content(folder / "view/contacts/000000.vtp");
   const auto at_points = array_in<float>(vtp, "normal_force");
   ASSERT_EQ(at_points.size(), 4U);
@@ -147,7 +146,7 @@ TEST_F(Export, TheNormalForcePushesApartAndTheTangentialOneIsAcross)
 TEST_F(Export, TheListOfTimesNamesEveryFile)
 {
   const TrajectoryReader run(run_path);
-  write(VtpWriter(run, at("view"), false), run, 2);
+  write(*vtp_writer(run, view_cell(run, 0), at("view"), false), run, 2);
   const auto list = content(folder / "view/grains.pvd");
   EXPECT_NE(list.find("timestep=\"5e-05\" part=\"0\" file=\"grains/000000.vtp\""), list.npos);
   const auto second = list.find("timestep=\"", list.find("grains/000000.vtp")) + 10;
@@ -160,7 +159,7 @@ TEST_F(Export, TheListOfTimesNamesEveryFile)
 TEST_F(Export, NormalAndTangentialForceOfALammpsRowAddUp)
 {
   const TrajectoryReader run(run_path);
-  write(LammpsWriter(run, view_cell(run, 0), at("run.dump"), false), run, 1);
+  write(*lammps_writer(run, view_cell(run, 0), at("run.dump"), false), run, 1);
   const auto lines = lines_of(content(folder / "run.contacts.dump"));
   ASSERT_EQ(lines.size(), 15U);
   EXPECT_EQ(lines[2], "ITEM: TIME");
@@ -190,9 +189,9 @@ TEST_F(Export, NormalAndTangentialForceOfALammpsRowAddUp)
 TEST_F(Export, TheFileOfContactsKeepsTheEndingOfTheDump)
 {
   const TrajectoryReader run(run_path);
-  write(LammpsWriter(run, view_cell(run, 0), at("a.dump.gz"), false), run, 1);
+  write(*lammps_writer(run, view_cell(run, 0), at("a.dump.gz"), false), run, 1);
   EXPECT_TRUE(fs::exists(folder / "a.contacts.dump.gz"));
-  write(LammpsWriter(run, view_cell(run, 0), at("b"), false), run, 1);
+  write(*lammps_writer(run, view_cell(run, 0), at("b"), false), run, 1);
   EXPECT_TRUE(fs::exists(folder / "b.contacts"));
   EXPECT_EQ(content(folder / "a.dump.gz").substr(0, 2), "\x1f\x8b");
 }
@@ -204,7 +203,7 @@ TEST_F(Export, TheCellHoldsEveryGrainAndKeepsItsPeriod)
   const auto cell = view_cell(run, 0);
   EXPECT_EQ(cell.low, (std::array<double, 3>{0, -0.01, -0.005}));
   EXPECT_EQ(cell.high, (std::array<double, 3>{0.35, 0.5, 0.005}));
-  write(ExtxyzWriter(run, cell, at("run.xyz"), false), run, 1);
+  write(*extxyz_writer(run, cell, at("run.xyz"), false), run, 1);
   const auto lines = lines_of(content(folder / "run.xyz"));
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[0], "3");
@@ -221,14 +220,14 @@ TEST_F(Export, AnUnfinishedExportLeavesNothingBehind)
   Frame<2> frame;
   run.read(0, frame, {.velocity = true, .contacts = true, .force = true});
   {
-    VtpWriter vtp(run, at("view"), false);
-    ExtxyzWriter xyz(run, cell, at("run.xyz.gz"), false);
-    LammpsWriter lammps(run, cell, at("run.dump"), false);
-    H5md3dWriter h5md(run, cell, at("view.h5md"), false);
-    vtp.add(frame);
-    xyz.add(frame);
-    lammps.add(frame);
-    h5md.add(frame);
+    const auto vtp = vtp_writer(run, view_cell(run, 0), at("view"), false);
+    const auto xyz = extxyz_writer(run, cell, at("run.xyz.gz"), false);
+    const auto lammps = lammps_writer(run, cell, at("run.dump"), false);
+    const auto h5md = h5md3d_writer(run, cell, at("view.h5md"), false);
+    vtp->add(frame);
+    xyz->add(frame);
+    lammps->add(frame);
+    h5md->add(frame);
     EXPECT_EQ(files(), 1U + 5U);
   }
   EXPECT_EQ(files(), 1U);  // the run
@@ -237,14 +236,14 @@ TEST_F(Export, AnUnfinishedExportLeavesNothingBehind)
 TEST_F(Export, OverwritingReplacesAnExportAndNoOtherFolder)
 {
   const TrajectoryReader run(run_path);
-  write(VtpWriter(run, at("view"), false), run, 3);
-  EXPECT_THROW(VtpWriter(run, at("view"), false), UsageError);
-  write(VtpWriter(run, at("view"), true), run, 1);
+  write(*vtp_writer(run, view_cell(run, 0), at("view"), false), run, 3);
+  EXPECT_THROW(vtp_writer(run, view_cell(run, 0), at("view"), false), UsageError);
+  write(*vtp_writer(run, view_cell(run, 0), at("view"), true), run, 1);
   EXPECT_TRUE(fs::exists(folder / "view/grains/000000.vtp"));
   EXPECT_FALSE(fs::exists(folder / "view/grains/000002.vtp"));
   EXPECT_FALSE(fs::exists(folder / "view.old"));
   fs::create_directory(folder / "letters");
-  EXPECT_THROW(VtpWriter(run, at("letters"), true), UsageError);
+  EXPECT_THROW(vtp_writer(run, view_cell(run, 0), at("letters"), true), UsageError);
 }
 
 TEST_F(Export, FramesAreChosenByWholeSteps)

@@ -29,8 +29,7 @@ class ExportOfSpheres : public testing::Test {
   void TearDown() override { fs::remove_all(folder); }
 
   std::string at(const char* name) const { return (folder / name).string(); }
-  template <class Writer>
-  static void write(Writer&& writer, const TrajectoryReader& run)
+  static void write(RunWriter& writer, const TrajectoryReader& run)
   {
     Frame<3> frame;
     for (std::size_t k = 0; k < run.size(); ++k) {
@@ -58,10 +57,10 @@ TEST_F(ExportOfSpheres, HasACellThatIsPeriodicAlongXAndZ)
   const auto cell = view_cell(run, 0);
   EXPECT_EQ(cell.low, (std::array<double, 3>{0, -0.007, 0}));
   EXPECT_EQ(cell.high, (std::array<double, 3>{0.1, 0.05, 0.06}));
-  write(ExtxyzWriter(run, cell, at("run.xyz"), false), run);
+  write(*extxyz_writer(run, cell, at("run.xyz"), false), run);
   const auto lines = lines_of(content(folder / "run.xyz"));
   EXPECT_NE(lines[1].find(R"(Origin="0 -0.007 0" pbc="T F T")"), std::string::npos);
-  write(LammpsWriter(run, cell, at("run.dump"), false), run);
+  write(*lammps_writer(run, cell, at("run.dump"), false), run);
   EXPECT_EQ(lines_of(content(folder / "run.dump"))[8], "ITEM: BOX BOUNDS pp ff pp");
 }
 
@@ -71,9 +70,9 @@ TEST_F(ExportOfSpheres, HasACellWithWallsAcrossWhereTheRunHas)
   description.box.periodic_z = false;
   spheres::write(at("run.h5"), 1, {}, description);
   const TrajectoryReader run(at("run.h5"));
-  write(ExtxyzWriter(run, view_cell(run, 0), at("run.xyz"), false), run);
+  write(*extxyz_writer(run, view_cell(run, 0), at("run.xyz"), false), run);
   EXPECT_NE(lines_of(content(folder / "run.xyz"))[1].find(R"(pbc="T F F")"), std::string::npos);
-  write(LammpsWriter(run, view_cell(run, 0), at("run.dump"), false), run);
+  write(*lammps_writer(run, view_cell(run, 0), at("run.dump"), false), run);
   EXPECT_EQ(lines_of(content(folder / "run.dump"))[8], "ITEM: BOX BOUNDS pp ff ff");
 }
 
@@ -81,7 +80,7 @@ TEST_F(ExportOfSpheres, HasACellWithWallsAcrossWhereTheRunHas)
 TEST_F(ExportOfSpheres, HasEveryComponentInExtendedXyz)
 {
   const TrajectoryReader run(at("run.h5"));
-  write(ExtxyzWriter(run, view_cell(run, 0), at("run.xyz"), false), run);
+  write(*extxyz_writer(run, view_cell(run, 0), at("run.xyz"), false), run);
   const auto lines = lines_of(content(folder / "run.xyz"));
   EXPECT_EQ(lines[2], fmt::format("11 3 0.002 0.008 0.01 0.11 0.12 0.13 0.006 {} 1 2 3 1e-06 2e-06 "
                                   "3e-06",
@@ -92,7 +91,7 @@ TEST_F(ExportOfSpheres, HasEveryComponentInExtendedXyz)
 TEST_F(ExportOfSpheres, HasEveryComponentInADump)
 {
   const TrajectoryReader run(at("run.h5"));
-  write(LammpsWriter(run, view_cell(run, 0), at("run.dump"), false), run);
+  write(*lammps_writer(run, view_cell(run, 0), at("run.dump"), false), run);
   const auto grains = lines_of(content(folder / "run.dump"));
   auto value = row(grains[12], grains[14]);
   const auto frame = spheres::frame(0);
@@ -119,9 +118,9 @@ TEST_F(ExportOfSpheres, HasEveryComponentInADump)
 TEST_F(ExportOfSpheres, SaysHowADumpBecomesARunAgain)
 {
   const TrajectoryReader run(at("run.h5"));
-  LammpsWriter writer(run, view_cell(run, 0), at("run.dump"), false);
-  write(writer, run);
-  const auto command = writer.import_command();
+  const auto writer = lammps_writer(run, view_cell(run, 0), at("run.dump"), false);
+  write(*writer, run);
+  const auto command = writer->import_command();
   EXPECT_NE(command.find(" --gravity 3.8,-9,0.2 --grains-are spheres --dimension 3 "),
             std::string::npos);
   EXPECT_NE(command.find(" --species fine=1:0.005 --species middle=2:0.008 --species "
@@ -136,7 +135,7 @@ TEST_F(ExportOfSpheres, SaysHowADumpBecomesARunAgain)
 TEST_F(ExportOfSpheres, HasNormalForceAndModulusOfTheTangentialOneInVtk)
 {
   const TrajectoryReader run(at("run.h5"));
-  write(VtpWriter(run, at("view"), false), run);
+  write(*vtp_writer(run, view_cell(run, 0), at("view"), false), run);
   const auto contacts = content(folder / "view/contacts/000000.vtp");
   const double normal = (7 * 0.017 + 6 * 0.013 + 4 * 0.011) / std::sqrt(101.0);
   const double squared = 0.017 * 0.017 + 0.013 * 0.013 + 0.011 * 0.011;
@@ -162,7 +161,7 @@ TEST_F(ExportOfSpheres, HasNormalForceAndModulusOfTheTangentialOneInVtk)
 TEST_F(ExportOfSpheres, HasEveryComponentInH5md)
 {
   const TrajectoryReader run(at("run.h5"));
-  write(H5md3dWriter(run, view_cell(run, 0), at("view.h5md"), false), run);
+  write(*h5md3d_writer(run, view_cell(run, 0), at("view.h5md"), false), run);
   const hid_t file = H5Fopen(at("view.h5md").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
   const auto values = [&](const char* name) {
