@@ -84,16 +84,23 @@ struct TrajectoryWriter::Impl {
 
   Series series(const LayoutRow& row) const { return series(row.path, row.type); }
 
+  void open_arrays(bool of_contacts)
+  {
+    for_each_array(Frame<2>(), [&](Field field, const auto&) {
+      if (is_of_contacts(field) == of_contacts && (field != Field::force || run.has_force))
+        arrays[static_cast<std::size_t>(field)] = series(row_of(field));
+    });
+  }
+
+  /// In an order that never changes: HDF5 writes datasets in the order in which they were opened.
   void open_series()
   {
     step = series(row_at("/particles/grains/position/step"));
     time = series(row_at("/particles/grains/position/time"));
-    for_each_array(Frame<2>(), [&](Field field, const auto&) {
-      if (field != Field::force || run.has_force)
-        arrays[static_cast<std::size_t>(field)] = series(row_of(field));
-    });
+    open_arrays(false);
     for (const auto& [name, unit] : run.observables)
       observables.push_back(series("/observables/" + name + "/value", Number::f64));
+    open_arrays(true);
     offset = series(row_at("/grseg/contacts/offset"));
     digest = series(row_at("/grseg/digest"));
     field_digests = series(row_at("/grseg/field_digest"));
