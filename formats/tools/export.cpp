@@ -82,8 +82,8 @@ void export_run(const Settings& s, const po::variables_map& values)
   if (s.output.empty()) throw UsageError("name what to write: -o NAME");
   const auto frames = s.range.frames_of(run);
   const auto make = choose(s.format, "--to", formats);
-  const auto writer = make(run, view_cell(run, frames.front()), s.output, s.overwrite);
   listen_to_signals();
+  const auto writer = make(run, view_cell(run, frames.front()), s.output, s.overwrite);
   with_dimension(run.dimension(), [&](auto d) { write_frames<d>(run, frames, s, *writer); });
   const auto again = writer->import_command();
   if (s.quiet || again.empty()) return;
